@@ -29,7 +29,7 @@ if TYPE_CHECKING:
     from swashfilm.runs.film.result import FilmRun
     from swashfilm.runs.film.revolution.result import RevolutionRun
     from swashfilm.runs.film.series.result import StudyRun
-    from swashfilm.runs.map.result import Comparison, DutyRun, MapRun
+    from swashfilm.runs.map.result import CompareRun, DutyRun, MapRun
     from swashfilm.runs.pump.result import PumpRun
     from swashfilm.runs.reference.result import ReferenceRun
     from swashfilm.runs.reproduce.result import Reproduction
@@ -61,7 +61,7 @@ _RESULTS = (
     "swashfilm.runs.film.series.result.StudyRun",
     "swashfilm.runs.map.result.MapRun",
     "swashfilm.runs.map.result.DutyRun",
-    "swashfilm.runs.map.result.Comparison",
+    "swashfilm.runs.map.result.CompareRun",
     "swashfilm.runs.table.result.TableRun",
     "swashfilm.runs.transient.result.TransientRun",
     "swashfilm.runs.reference.result.ReferenceRun",
@@ -220,13 +220,13 @@ def compare(
     one: MapRun | str | Path | PumpDescription,
     other: MapRun | str | Path | PumpDescription,
     cycle: str | Path | None = None,
-) -> Comparison:
+) -> CompareRun:
     """Two maps or pumps side by side, over a duty cycle too, as `swashfilm compare`; raises InputFaults."""
     with _door("compare"), _map_or_pump(one) as first, _map_or_pump(other) as second:
         from swashfilm.runs.map.compare_command import compare_case
-        from swashfilm.runs.map.result import Comparison
+        from swashfilm.runs.map.result import CompareRun
 
-        return Comparison.ran(compare_case(_words("compare", [first, second], {"cycle": cycle})).run)
+        return CompareRun.ran(compare_case(_words("compare", [first, second], {"cycle": cycle})).run)
 
 
 def transient(case: Case) -> TransientRun:

@@ -1,4 +1,4 @@
-"""The command `swashfilm map`: what it takes, and what it prints."""
+"""Command `swashfilm map`: its options, its faults, its output."""
 
 from __future__ import annotations
 
@@ -15,14 +15,14 @@ from swashfilm.console.terminal import show, show_result
 from system.inputs.faults import Fault, InputFaults, nearest_choice
 
 if TYPE_CHECKING:
-    from swashfilm.runs.map.run import MapAsked
+    from swashfilm.runs.map.run import MapCase
     from system.maps.plan import MapAxis, MapPlan
     from system.work.tasks import Executor
 
 LEVELS = {
     "--speeds": ("SPEED", "1000,1300,1700,2100rpm", "shaft speeds"),
     "--pressures": ("PRESSURE", "5..35MPa:7", "delivery pressures, gauge"),
-    "--displacements": ("RATIO", "0.28,0.51,0.77,1.0", "shares of the full displacement"),
+    "--displacements": ("RATIO", "0.28,0.51,0.77,1.0", "fractions of the full displacement"),
     "--temperatures": ("TEMPERATURE", "30,50,70degC", "temperatures of the oil in the case"),
     "--inlet-pressures": ("INLET_PRESSURE", "25bar", "inlet pressures, gauge"),
 }
@@ -32,29 +32,29 @@ PLANS = ("paper", "point")
 
 
 def add_map_options(command: argparse.ArgumentParser) -> None:
-    """Give the command what it takes."""
+    """Add the arguments of the command to its parser."""
     command.add_argument("pump", nargs="?", default="ref90", metavar="PUMP", help="built-in name or pump file")
     for option, (_, example, what) in LEVELS.items():
-        command.add_argument(option, metavar=example, help=f"{what}; a..b:n are n of them; one value holds it")
+        command.add_argument(option, metavar=example, help=f"{what}; a..b:n: n levels; one value: constant")
     command.add_argument(
         "--plan", metavar=f"{{{','.join(PLANS)}}}", default="paper",
-        help="where an axis is left out: the paper's 112 points (paper), or the pump's own point (point)",
+        help="levels of axes that are not stated: the paper's 112 points (paper), or the pump's own point (point)",
     )  # fmt: skip
     command.add_argument(
         "--fidelity", metavar=f"{{{','.join(one.value for one in FIDELITIES)}}}", default=Fidelity.FILMS.value,
-        help="films of given thickness, solved at given positions by a table that is built first (films), or by "
-        "a table that is there",
+        help="films of given thickness (lumped), solved at given positions by a table built first (films), or by "
+        "an existing table (table)",
     )  # fmt: skip
-    command.add_argument("--table", type=Path, metavar="FILE.json", help="of --fidelity table: this one")
-    command.add_argument("--direct", action="store_true", help="of --fidelity films: solve each point, no table")
-    command.add_argument("--check", metavar="N", help="fresh points that show the error between levels (40)")
+    command.add_argument("--table", type=Path, metavar="FILE.json", help="--fidelity table: file of the table")
+    command.add_argument("--direct", action="store_true", help="--fidelity films: solve each point, no table")
+    command.add_argument("--check", metavar="N", help="fresh points that measure the error between levels (40)")
     command.add_argument("--workers", metavar="N", help="processes that solve points side by side (all cores)")
-    command.add_argument("--cluster", metavar="ADDRESS", help="of a Dask scheduler, whose workers solve points")
-    command.add_argument("--resume", type=Path, metavar="DIR", help="take points that this run has from there")
+    command.add_argument("--cluster", metavar="ADDRESS", help="Dask scheduler; its workers solve points")
+    command.add_argument("--resume", type=Path, metavar="DIR", help="run folder with points of this run")
 
 
 def run_map_command(options: argparse.Namespace) -> int:
-    """Run `swashfilm map` and return its exit code; raises InputFaults with what is wrong in words and file."""
+    """Run `swashfilm map` and return its exit code; raise InputFaults with every fault of options and file."""
     from swashfilm.console.points import ended
     from swashfilm.console.progress import progress
     from swashfilm.output.run_folder import run_folder
@@ -78,8 +78,8 @@ def run_map_command(options: argparse.Namespace) -> int:
 
 
 @contextmanager
-def map_executor(options: argparse.Namespace, asked: MapAsked) -> Iterator[Executor]:
-    """Who does the points: processes of this machine, as many as are worth their start, or a cluster's workers."""
+def map_executor(options: argparse.Namespace, asked: MapCase) -> Iterator[Executor]:
+    """Yield the workers that solve points: processes of this machine, or workers of a cluster."""
     from swashfilm.runs.map.run import worth_starting
     from system.work.processes import cores, process_pool
 
@@ -94,9 +94,9 @@ def map_executor(options: argparse.Namespace, asked: MapAsked) -> Iterator[Execu
         yield executor
 
 
-def map_case(options: argparse.Namespace) -> MapAsked:
-    """What a command line means; raises InputFaults with every fault at once."""
-    from swashfilm.runs.map.run import MapAsked
+def map_case(options: argparse.Namespace) -> MapCase:
+    """Return the map of a command line; raise InputFaults with every fault."""
+    from swashfilm.runs.map.run import MapCase
     from system.maps.plan import map_plan
     from system.pump_file.file import load_pump
 
@@ -114,11 +114,11 @@ def map_case(options: argparse.Namespace) -> MapAsked:
     checks = None if options.check is None else int(options.check)
     fidelity = Fidelity(options.fidelity)
     given = given_text(options.pump, {})
-    return MapAsked(plan, fidelity, given, options.table, options.direct, checks, options.resume)
+    return MapCase(plan, fidelity, given, options.table, options.direct, checks, options.resume)
 
 
 def _axes(options: argparse.Namespace, faults: list[Fault]) -> list[MapAxis]:
-    """The stated axes over those of --plan; what is wrong with any goes to `faults`."""
+    """Return the axes of --plan, replaced by the stated ones; add faults to `faults`."""
     from swashfilm.console.levels import map_axis
     from system.maps.plan import MapInput, paper_axes
 
@@ -136,7 +136,7 @@ def _axes(options: argparse.Namespace, faults: list[Fault]) -> list[MapAxis]:
 
 
 def _word_faults(options: argparse.Namespace) -> Iterator[Fault]:
-    """What is wrong with words and numbers of the command line, whatever the pump."""
+    """Yield the faults of words and numbers of the command line that do not depend on the pump."""
     names = [fidelity.value for fidelity in FIDELITIES]
     for option, known in (("--plan", PLANS), ("--fidelity", names)):
         word = getattr(options, option[2:])
@@ -166,7 +166,7 @@ def _resume_faults(folder: Path) -> Iterator[Fault]:
 
 
 def _solver_faults(options: argparse.Namespace, plan: MapPlan) -> Iterator[Fault]:
-    """What a fidelity does not solve, told before the work begins."""
+    """Yield the faults of a plan that the fidelity does not solve."""
     from swashfilm.console.floating_options import alike_faults
     from system.maps.plan import MapInput
 
@@ -180,8 +180,10 @@ def _solver_faults(options: argparse.Namespace, plan: MapPlan) -> Iterator[Fault
     if not options.direct and levels[MapInput.INLET_PRESSURE] > 1:
         found = f"{levels[MapInput.INLET_PRESSURE]} levels; a response table holds one"
         seconds = 2.0 * len(plan.points)
-        expected = "one inlet pressure a map, --fidelity lumped, or --direct"
-        yield Fault("--inlet-pressures", found, expected, f"--direct takes some {seconds:.0f} s of processor time")
+        expected = "one inlet pressure per map, --fidelity lumped, or --direct"
+        yield Fault(
+            "--inlet-pressures", found, expected, f"--direct needs about {seconds:.0f} s of processor time"
+        )
 
 
 COMMAND = Command(

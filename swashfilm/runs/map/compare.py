@@ -1,4 +1,4 @@
-"""Two maps compared: differences, duty, the page."""
+"""Comparison of two maps: differences, duty cycle, page."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 PICTURES = "compare"
-DIFFERENCE_HEAD = ("", "A, mean", "B, mean", "largest difference, B - A", "at", "interpolation may miss there")
+DIFFERENCE_HEAD = ("", "A, mean", "B, mean", "largest difference, B - A", "at", "error of interpolation there")
 DUTY_HEAD = ("", "A", "B", "B - A", "error of both")
 _SCALES = {"W": (1e-3, "kW"), "m3/s": (6e4, "L/min"), "1": (100.0, "%"), "N m": (1.0, "N m")}
 
@@ -87,32 +87,32 @@ def run_compare(
 
 
 def _warnings(both: tuple[Known, Known]) -> Iterator[str]:
-    """What a reader of the differences must know."""
+    """Yield warnings on the differences."""
     one, other = (data.words for data, _ in both)
     if one != other:
-        yield f"A is {one}, B is {other}: part of every difference is that of the fidelities, not of the pumps"
+        yield f"A is {one}, B is {other}: differences contain those between the fidelities, not only the pumps"
 
 
 def _duty(data: MapData, error: MapError | None, cycle: Cycle) -> dict[str, Any]:
     known = error or left_out_error(data)
     if known is None:
-        raise ValueError("a map without three levels of any input is of no use to a cycle")
+        raise ValueError("a duty cycle needs a map with three levels of at least one input")
     return duty_summary(data, duty(MapInterpolant(data), cycle, known))
 
 
 def difference_rows(summary: Mapping[str, Any]) -> Iterator[tuple[str, ...]]:
-    """(number, mean of either, largest difference, where, what interpolation misses at most)."""
+    """Yield (number, mean of A, mean of B, largest difference, point, largest error of interpolation)."""
     varied = {box["words"] for box in summary["box"] if box["from"] != box["to"]}
     for row in summary["differences"]:
         scale, unit = _SCALES[row["unit"]]
         at = ", ".join(f"{given.text(row['at'][given.value])}" for given in MapInput if given.words in varied)
         means = (f"{row[which] * scale:.5g} {unit}" for which in ("one", "other"))
-        error = f"{row['error'] * scale:.2g} {unit}" if row["error"] else "nothing: same levels"
+        error = f"{row['error'] * scale:.2g} {unit}" if row["error"] else "none: same levels"
         yield row["words"], *means, f"{row['largest'] * scale:+.4g} {unit}", at, error
 
 
 def duty_rows(summary: Mapping[str, Any]) -> Iterator[tuple[str, ...]]:
-    """(energy, of either, difference, error of both)."""
+    """Yield (energy, of A, of B, difference, error of both)."""
     one, other = (side["energy_J"] for side in summary["duty"])
     for words in dict.fromkeys([*one, *other]):
         nothing = {"value": 0.0, "error": 0.0}
@@ -154,7 +154,7 @@ def write_compare_page(folder: Path) -> Path:
 
 
 def compare_plots(found: Comparison) -> dict[str, Figure]:
-    """Captions and PNGs of a comparison."""
+    """Return the pictures of a comparison by caption."""
     pictures = {}
     for up in (MapInput.RATIO, MapInput.SPEED):
         piece = slice_of(found.one, MapInput.PRESSURE, up)

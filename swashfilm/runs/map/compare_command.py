@@ -1,4 +1,4 @@
-"""The command `swashfilm compare`: what it takes, and what it prints."""
+"""Command `swashfilm compare`: its options, its faults, its output."""
 
 from __future__ import annotations
 
@@ -19,30 +19,30 @@ if TYPE_CHECKING:
 
 
 def add_compare_options(command: argparse.ArgumentParser) -> None:
-    """Give the command what it takes."""
+    """Add the arguments of the command to its parser."""
     for name, words in (("one", "A"), ("other", "B")):
         command.add_argument(
-            name, metavar=words, help="run folder of a map or its map.nc; or a pump, whose lumped map is made"
+            name, metavar=words, help="run folder of a map or its map.nc; or a pump, whose lumped map is computed"
         )
-    command.add_argument("--cycle", type=Path, metavar="CYCLE.csv", help="compare over this duty cycle too")
+    command.add_argument("--cycle", type=Path, metavar="CYCLE.csv", help="duty cycle, to compare over it too")
 
 
 def run_compare_command(options: argparse.Namespace) -> int:
-    """Run `swashfilm compare` and return its exit code; raises InputFaults with what is wrong in either."""
+    """Run `swashfilm compare` and return its exit code; raise InputFaults with every fault of both."""
     from swashfilm.output.run_folder import run_folder
-    from swashfilm.runs.map.result import Comparison
+    from swashfilm.runs.map.result import CompareRun
 
     asked = compare_case(options)
     with run_folder(asked.name, options.output) as folder:
         asked.run(folder)
-        found = Comparison.opened(folder)
+        found = CompareRun.opened(folder)
     show_result(found, folder)
     return 0
 
 
 @dataclass(frozen=True)
 class CompareCase:
-    """Two maps to compare, their names as given, and a duty cycle or None."""
+    """Two maps to compare, their names on the command line, and a duty cycle or None."""
 
     names: tuple[str, str]
     both: tuple[Known, Known]
@@ -54,7 +54,7 @@ class CompareCase:
         return f"compare-{self.both[0][0].name}-{self.both[1][0].name}"
 
     def run(self, folder: Path) -> None:
-        """Compare, and fill a run folder."""
+        """Compare the maps and write the files of the run folder."""
         from swashfilm.runs.map.compare import run_compare
         from system.maps.compare import compare
 
@@ -63,7 +63,7 @@ class CompareCase:
 
 
 def compare_case(options: argparse.Namespace) -> CompareCase:
-    """The case of a command line; raises InputFaults with what is wrong in maps, pumps and cycle."""
+    """Return the case of a command line; raise InputFaults with every fault of maps, pumps and cycle."""
     from swashfilm.runs.map.cycle_file import read_cycle
     from system.maps.compare import common_axes
 
@@ -73,9 +73,9 @@ def compare_case(options: argparse.Namespace) -> CompareCase:
 
 
 def _both(one: str, other: str) -> tuple[Known, Known]:
-    """Both maps; a pump's is made over the axes of the other, or of the paper's plan.
+    """Return both maps; that of a pump is computed over the axes of the other map, or of the paper's plan.
 
-    Raises InputFaults with what is wrong with either.
+    Raises InputFaults with every fault of both.
     """
     from system.maps.plan import paper_axes
 
@@ -89,12 +89,12 @@ def _both(one: str, other: str) -> tuple[Known, Known]:
     if len(wrong) == 1:
         raise wrong[0]
     if wrong:
-        told = [
+        faults = [
             replace(fault, path=f"{letter}: {fault.path}")
             for letter, reason in zip("AB", wrong, strict=True)
             for fault in reason.faults
         ]
-        raise InputFaults(f"{one} and {other}", told)
+        raise InputFaults(f"{one} and {other}", faults)
     axes = next((known[0].axes for known in loaded if isinstance(known, tuple)), paper_axes())
     maps = [known if isinstance(known, tuple) else _lumped_map(known, axes) for known in loaded]
     return maps[0], maps[1]
@@ -126,7 +126,7 @@ def _map_of(name: str) -> Known:
 
 
 def _lumped_map(pump: PumpDescription, axes: tuple[MapAxis, ...]) -> Known:
-    """A pump's map, solved here; raises InputFaults where a point cannot be."""
+    """Return the lumped map of a pump; raise InputFaults where a point cannot be solved."""
     from system.maps.data import map_data
     from system.maps.plan import map_plan
     from system.maps.point import LumpedSolver, MapWork
@@ -140,5 +140,5 @@ def _lumped_map(pump: PumpDescription, axes: tuple[MapAxis, ...]) -> Known:
 
 
 COMMAND = Command(
-    "compare", "two maps or pumps side by side, over a cycle too", add_compare_options, run_compare_command
+    "compare", "two maps or pumps side by side, also over a cycle", add_compare_options, run_compare_command
 )

@@ -1,4 +1,4 @@
-"""A duty cycle from a CSV file: time and what the pump does, a column each, its unit in the head."""
+"""Duty cycle of a CSV file: time and operating point of the pump, one column each, units in the head."""
 
 from __future__ import annotations
 
@@ -33,16 +33,16 @@ UNITS = {
     "temperature": "degC",
     "inlet pressure": "bar",
 }
-"""A unit of each column, for messages."""
+"""Example unit of each column, for messages."""
 EXAMPLE = "time [s], speed [rpm], pressure [bar], displacement ratio [1]"
 _HEAD = re.compile(r"\s*(.+?)\s*\[(.+)\]\s*")
 _RATIO_UNITS = {"1": 1.0, "-": 1.0, "%": 0.01}
 
 
 def read_cycle(path: Path, axes: tuple[MapAxis, ...]) -> Cycle:
-    """The cycle of a file for a map of these axes: columns in any order and fitting unit, `#` begins a remark.
+    """Return the cycle of a file for a map of these axes: columns in any order and unit, `#` begins a comment.
 
-    What the map holds at one level may be left out. Raises InputFaults with everything that is wrong.
+    Inputs with one level in the map may be left out. Raises InputFaults with every fault.
     """
     try:
         lines = path.read_text("utf-8-sig").splitlines()
@@ -54,7 +54,7 @@ def read_cycle(path: Path, axes: tuple[MapAxis, ...]) -> Cycle:
         fault = Fault("head", f"'{','.join(rows[0][1])}'", f"commas between columns: {EXAMPLE}", "decimals as 1.5")
         raise InputFaults(str(path), [fault])
     if len(rows) < 3:
-        raise InputFaults(str(path), [Fault("rows", str(max(0, len(rows) - 1)), f"two at least, under {EXAMPLE}")])
+        raise InputFaults(str(path), [Fault("rows", str(max(0, len(rows) - 1)), f"at least two, under {EXAMPLE}")])
     faults: list[Fault] = []
     columns = dict(_columns(rows[0][1], faults))
     needed = [TIME, *(head for head, given in HEADS.items() if _levels(axes, given) > 1)]
@@ -62,7 +62,7 @@ def read_cycle(path: Path, axes: tuple[MapAxis, ...]) -> Cycle:
     if lacking and not faults:
         found = ", ".join(columns)
         heads = ", ".join(f"{name} [{UNITS[name]}]" for name in lacking)
-        faults.append(Fault("head", found, f"columns {heads} too: a cycle has a time, and what its map is over"))
+        faults.append(Fault("head", found, f"columns {heads} too: a cycle has a time, and the inputs of its map"))
     if faults:
         raise InputFaults(str(path), faults)
     values = dict(_values(rows[1:], len(rows[0][1]), columns, faults))
@@ -83,7 +83,7 @@ def _levels(axes: tuple[MapAxis, ...], given: MapInput) -> int:
 
 
 def _columns(head: list[str], faults: list[Fault]) -> Iterator[tuple[str, tuple[int, float, float]]]:
-    """Name of each column, its place, and factor and offset to SI."""
+    """Yield the name of each column, its index, and factor and offset to SI."""
     known, named = [TIME, *HEADS], set[str]()
     for place, cell in enumerate(head):
         match = _HEAD.fullmatch(cell)
@@ -117,12 +117,12 @@ def _values(
     columns: Mapping[str, tuple[int, float, float]],
     faults: list[Fault],
 ) -> Iterator[tuple[str, Array]]:
-    """Each column in SI; every row has as many cells as the head has columns."""
+    """Return each column in SI; list a fault for rows with another number of cells than the head."""
     uneven = [(number, len(cells)) for number, cells in rows if len(cells) != width]
     if uneven:
         found = f"{uneven[0][1]} cells, so in {len(uneven)} rows" if len(uneven) > 1 else f"{uneven[0][1]} cells"
         remedy = "decimals with a point: 1.5"
-        faults.append(Fault(f"line {uneven[0][0]}", found, f"{width}, as many as the head has columns", remedy))
+        faults.append(Fault(f"line {uneven[0][0]}", found, f"{width}, the number of columns in the head", remedy))
         return
     for name, (place, factor, offset) in columns.items():
         numbers = []
@@ -136,7 +136,7 @@ def _values(
 
 
 def _finite(text: str) -> float:
-    """The number of a text; raises ValueError for one that is none, nan and inf too."""
+    """Return the number of a text; raise ValueError for any other text, nan and inf."""
     if not math.isfinite(number := float(text)):
         raise ValueError
     return number

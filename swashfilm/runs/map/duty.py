@@ -1,4 +1,4 @@
-"""A duty cycle by a map: energies, losses, mean efficiency, the page."""
+"""Duty cycle by a map: energies, losses, mean efficiency, page."""
 
 from __future__ import annotations
 
@@ -27,10 +27,10 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 COURSE = "course.csv"
-ENERGY_HEAD = ("", "energy", "error", "mean power", "of the loss")
+ENERGY_HEAD = ("", "energy", "error", "mean power", "share of the loss")
 EFFICIENCY_HEAD = ("definition", "mean efficiency", "error", "overall, volumetric")
 FINE = 400
-"""Places over time of the course that is written and drawn."""
+"""Number of instants in the written and drawn time series."""
 
 
 _INPUTS = {
@@ -43,14 +43,14 @@ _INPUTS = {
 def run_duty(data: MapData, error: MapError | None, cycle: Cycle, given: Path, folder: Path) -> dict[str, Any]:
     """Run a cycle, of the file `given`, by a map; write cycle.csv, course.csv, summary.json, report.html.
 
-    Returns the summary. The error is that of the map's file; without one, that of inner levels left out. Raises
-    InputFaults for a cycle that leaves the map, and for a map that is not whole.
+    Returns the summary. The error is that of the map's file; without it, the error at inner levels left out.
+    Raises InputFaults for a cycle beyond the map, and for an incomplete map.
     """
     interpolant = MapInterpolant(data)
     known = error or left_out_error(data)
     if known is None:
         expected = "a map with three levels of an input, or checked at fresh points (--check N)"
-        raise InputFaults(data.name, [Fault("map", "nothing that shows what it misses between levels", expected)])
+        raise InputFaults(data.name, [Fault("map", "no measure of its error between levels", expected)])
     found = duty(interpolant, cycle, known)
     shutil.copy(given, folder / "cycle.csv")
     _write_course(folder / COURSE, interpolant, cycle)
@@ -61,7 +61,7 @@ def run_duty(data: MapData, error: MapError | None, cycle: Cycle, given: Path, f
 
 
 def duty_summary(data: MapData, found: Duty) -> dict[str, Any]:
-    """What a cycle takes, SI."""
+    """Return the summary of a cycle, SI."""
     return {
         "format": 1,
         "kind": "duty",
@@ -84,7 +84,7 @@ def _energy(energy: Energy) -> dict[str, float]:
 
 
 def energy_rows(summary: Mapping[str, Any]) -> Iterator[tuple[str, ...]]:
-    """(what, energy, error, mean power, share of the loss)."""
+    """Yield (name, energy, error, mean power, share of the loss)."""
     duration, loss = summary["duration_s"], summary["energy_J"]["loss"]["value"]
     for words, energy in summary["energy_J"].items():
         share = "" if words in ("shaft", "hydraulic", "loss") else f"{100.0 * energy['value'] / loss:.2f} %"
@@ -100,19 +100,19 @@ def energy_rows(summary: Mapping[str, Any]) -> Iterator[tuple[str, ...]]:
 
 
 def efficiency_rows(summary: Mapping[str, Any]) -> Iterator[tuple[str, ...]]:
-    """(definition, mean efficiency, error, formula): energies, not the mean of ratios."""
+    """Yield (definition, mean efficiency, error, formula): ratios of energies, not means of ratios."""
     for one in summary["efficiency"].values():
         yield one["label"], f"{100.0 * one['value']:.3f} %", f"{100.0 * one['error']:.2g} %", one["formula"]
 
 
 def marked_rows(summary: Mapping[str, Any]) -> Iterator[tuple[str, str]]:
-    """(warning, part of the time next to points that have it)."""
+    """Yield (warning, fraction of the time next to points with it)."""
     for name, part in summary["marked"].items():
         yield name, f"{100.0 * part:.1f} % of the time"
 
 
 def _write_course(path: Path, interpolant: MapInterpolant, cycle: Cycle) -> None:
-    """Inputs, loss and efficiency over time, evenly and at every row of the cycle: of a step both."""
+    """Write inputs, loss and efficiency over time, evenly and at every row of the cycle (both sides of a step)."""
     even = np.setdiff1d(np.linspace(cycle.time[0], cycle.time[-1], FINE), cycle.time)
     before = np.searchsorted(cycle.time, even)
     time = np.insert(cycle.time, before, even)
@@ -120,14 +120,14 @@ def _write_course(path: Path, interpolant: MapInterpolant, cycle: Cycle) -> None
         given: np.insert(values, before, np.interp(even, cycle.time, values))
         for given, values in cycle.inputs.items()
     }
-    told = interpolant.at(inputs)
+    numbers = interpolant.at(inputs)
     shown = {"time [s]": time}
     for given, values in inputs.items():
         shown[f"{given.words} [{given.unit}]"] = values
-    power = {"shaft power [W]": told["shaft_power"], "hydraulic power [W]": told["hydraulic_power"]}
-    power["loss [W]"] = told["shaft_power"] - told["hydraulic_power"]
-    power["sum p Q / shaft power [1]"] = told["hydraulic_power"] / told["shaft_power"]
-    power["delivery flow [m3/s]"] = told["delivery_flow"]
+    power = {"shaft power [W]": numbers["shaft_power"], "hydraulic power [W]": numbers["hydraulic_power"]}
+    power["loss [W]"] = numbers["shaft_power"] - numbers["hydraulic_power"]
+    power["sum p Q / shaft power [1]"] = numbers["hydraulic_power"] / numbers["shaft_power"]
+    power["delivery flow [m3/s]"] = numbers["delivery_flow"]
     with path.open("w", newline="", encoding="utf-8") as file:
         table = csv.writer(file)
         table.writerow([*shown, *power])
@@ -156,26 +156,26 @@ def write_duty_page(folder: Path) -> Path:
 
 
 def held_inputs(data: MapData) -> str:
-    """What the map holds at one level, in words."""
+    """Return the inputs with one level in the map, in words."""
     held = [axis for axis in data.axes if len(axis.values) == 1 and axis.input is not MapInput.RATIO]
     return ", ".join(f"{axis.input.words} {axis.input.text(axis.values[0])}" for axis in held)
 
 
 def duty_plots(course: Mapping[str, Array], summary: Mapping[str, Any]) -> dict[str, Figure]:
-    """Captions and PNGs of a cycle."""
+    """Return the pictures of a cycle by caption."""
     return {
-        "The cycle: what is asked of the pump, its loss, and sum p Q over shaft power": course_plot(course),
-        "Energy lost over the cycle, by what takes it; bars: the error of interpolation": _sinks(summary),
+        "Operating point, loss, and sum p Q over shaft power during the cycle": course_plot(course),
+        "Energy lost over the cycle, by kind of loss; bars: the error of interpolation": _sinks(summary),
     }
 
 
 def course_of(data: xarray.Dataset) -> dict[str, Array]:
-    """Columns of course.csv by head, `name [unit]`."""
+    """Return the columns of course.csv by head, `name [unit]`."""
     return {f"{name} [{column.attrs['units']}]": column.values for name, column in data.data_vars.items()}
 
 
 def course_plot(course: Mapping[str, Array]) -> Figure:
-    """The cycle over time: inputs, loss, and sum p Q over shaft power."""
+    """Draw the cycle over time: inputs, loss, and sum p Q over shaft power."""
     shown = {head: row for head, row in _INPUTS.items() if head in course}
     figure = figure_of(10.0, 1.7 * (len(shown) + 2))
     panels = figure.subplots(len(shown) + 2, 1, sharex=True)

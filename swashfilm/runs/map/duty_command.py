@@ -1,4 +1,4 @@
-"""The command `swashfilm duty`: what it takes, and what it prints."""
+"""Command `swashfilm duty`: its options, its faults, its output."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from swashfilm.console.terminal import show, show_result
 
 
 def add_duty_options(command: argparse.ArgumentParser) -> None:
-    """Give the command what it takes."""
+    """Add the arguments of the command to its parser."""
     command.add_argument("map", type=Path, metavar="MAP", help="run folder of a map, or its map.nc")
     command.add_argument(
         "cycle",
@@ -21,7 +21,7 @@ def add_duty_options(command: argparse.ArgumentParser) -> None:
 
 
 def run_duty_command(options: argparse.Namespace) -> int:
-    """Run `swashfilm duty` and return its exit code; raises InputFaults with what is wrong in map and cycle."""
+    """Run `swashfilm duty` and return its exit code; raise InputFaults with every fault of map and cycle."""
     from swashfilm.output.run_folder import run_folder
     from swashfilm.runs.map.cycle_file import read_cycle
     from swashfilm.runs.map.duty import held_inputs, run_duty
@@ -34,11 +34,11 @@ def run_duty_command(options: argparse.Namespace) -> int:
         run_duty(data, error, cycle, options.cycle, folder)
         found = DutyRun.opened(folder)
     if held := held_inputs(data):
-        show(f"held by the map: {held}")
+        show(f"constant in the map: {held}")
     show_result(found, folder)
     return 0
 
 
 COMMAND = Command(
-    "duty", "what a pump takes and loses over a cycle, by a map of it", add_duty_options, run_duty_command
+    "duty", "energies and losses of a pump over a cycle, by its map", add_duty_options, run_duty_command
 )

@@ -1,4 +1,4 @@
-"""An operating map as files: one NetCDF file with units and provenance, and tables cut from it."""
+"""Files of an operating map: one NetCDF file with units and provenance, and tables derived from it."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ PARTS = ("overall", "volumetric", "hydromechanical")
 ERRORS = ("rms", "largest")
 _DIMENSIONS = {Members.PAIR: "pair", Members.GAP: "gap"}
 _IN_FILES = {"m3/rev": "m^3", "m3/s": "m^3/s"}
-"""Units as UDUNITS and pint both read them; a revolution is none."""
+"""Units that both UDUNITS and pint read; a revolution is not a unit."""
 
 
 def write_map(path: Path, data: MapData, error: MapError | None, summary: Mapping[str, Any]) -> None:
@@ -52,7 +52,7 @@ def write_map(path: Path, data: MapData, error: MapError | None, summary: Mappin
 
 
 def map_dataset(data: MapData, error: MapError | None) -> xarray.Dataset:
-    """The map as labelled arrays, SI."""
+    """Return the map as labelled arrays, SI."""
     import xarray
 
     dims = [axis.input.value for axis in data.axes]
@@ -68,8 +68,8 @@ def map_dataset(data: MapData, error: MapError | None) -> xarray.Dataset:
     )  # fmt: skip
     variables["status"] = (dims, _texts(data.status), {"long_name": "what became of the point"})
     variables["reason"] = (dims, _texts(data.reason), {"long_name": "why there is no result"})
-    told = objects([json.dumps([list(one) for one in remarks]) for remarks in data.warnings.flat], data.shape)
-    variables["warnings"] = (dims, told, {"long_name": "warnings of the point: names and texts, JSON"})
+    texts = objects([json.dumps([list(one) for one in remarks]) for remarks in data.warnings.flat], data.shape)
+    variables["warnings"] = (dims, texts, {"long_name": "warnings of the point: names and texts, JSON"})
     return xarray.Dataset(variables | _error_variables(error), coords=coordinates)
 
 
@@ -84,7 +84,7 @@ def _numbers(data: MapData, dims: Sequence[str]) -> dict[str, Any]:
 
 
 def _efficiencies(data: MapData, dims: Sequence[str]) -> dict[str, Any]:
-    """The three efficiencies over the definitions; the formulas stand in the attributes."""
+    """Return the three efficiencies over the definitions, with the formulas in the attributes."""
     found = [data.efficiency(definition) for definition in EfficiencyDefinition]
     formulas = "; ".join(f"{one.value}: {one.formula}" for one in EfficiencyDefinition)
     return {
@@ -105,7 +105,7 @@ def _toet(data: MapData) -> np.ndarray:
 
 
 def _error_variables(error: MapError | None) -> dict[str, Any]:
-    """What the map misses between its levels, rms and largest of each number; none where it is not known."""
+    """Return rms and largest error of each number between levels; nothing where it is not known."""
     if error is None:
         return {}
     found: dict[str, Any] = {}
@@ -118,7 +118,7 @@ def _error_variables(error: MapError | None) -> dict[str, Any]:
 
 
 def map_file(place: Path) -> Path:
-    """The file of a map, by itself or by the run folder it lies in; raises InputFaults where there is none."""
+    """Return the file of a map, given by itself or by its run folder; raise InputFaults where there is none."""
     if place.suffix == MAP_SUFFIX and place.is_file():
         return place
     if (place / MAP).is_file():
@@ -131,15 +131,15 @@ def map_file(place: Path) -> Path:
 
 
 def _makes_a_map(place: Path) -> str:
-    """How a map comes of what is there: points of a run that was broken off, another kind of run, a pump file."""
+    """Return the command that makes a map of an interrupted run or a pump file; empty for anything else."""
     if (place / POINTS).is_dir():
-        return f"swashfilm map .. --resume {place} ends it"
+        return f"swashfilm map .. --resume {place} completes it"
     pump = place if place.suffix == ".toml" else place / "resolved.toml"
-    return f"swashfilm map {pump} makes one" if pump.is_file() else ""
+    return f"swashfilm map {pump} computes one" if pump.is_file() else ""
 
 
 def read_map(path: Path) -> tuple[MapData, MapError | None]:
-    """A map from the file that `write_map` wrote, with its error; raises InputFaults where it is none."""
+    """Return the map of a file of `write_map`, with its error; raise InputFaults for any other file."""
     import xarray
 
     try:
@@ -147,15 +147,15 @@ def read_map(path: Path) -> tuple[MapData, MapError | None]:
             dataset.load()
         return map_of(dataset), _error(dataset)
     except (OSError, KeyError, ValueError, TypeError) as reason:
-        found = f"what is no map of ours ({type(reason).__name__}: {reason})"
+        found = f"not a map of swashfilm ({type(reason).__name__}: {reason})"
         raise InputFaults(str(path), [Fault("map", found, f"the {MAP} of a run of `swashfilm map`")]) from None
 
 
 def map_of(dataset: xarray.Dataset) -> MapData:
-    """The map of a data set that `map_dataset` made."""
+    """Return the map of a data set of `map_dataset`."""
     axes = tuple(MapAxis(given, tuple(map(float, dataset[given.value].values))) for given in MapInput)
     shape = tuple(len(axis.values) for axis in axes)
-    told = [tuple(tuple(one) for one in json.loads(str(text))) for text in dataset["warnings"].values.flat]
+    warnings = [tuple(tuple(one) for one in json.loads(str(text))) for text in dataset["warnings"].values.flat]
     return MapData(
         name=dataset.attrs["pump"],
         words=dataset.attrs["solver"],
@@ -164,7 +164,7 @@ def map_of(dataset: xarray.Dataset) -> MapData:
         values=dict(_columns(dataset, "")),
         status=objects([str(text) for text in dataset["status"].values.flat], shape),
         reason=objects([str(text) for text in dataset["reason"].values.flat], shape),
-        warnings=objects(told, shape),
+        warnings=objects(warnings, shape),
     )
 
 
@@ -178,7 +178,7 @@ def _error(dataset: xarray.Dataset) -> MapError | None:
 
 
 def _columns(dataset: xarray.Dataset, before: str) -> Any:
-    """(column, values) of every number of the map."""
+    """Yield (column, values) of every number of the map."""
     for quantity in QUANTITIES:
         values = dataset[before + quantity.name].values
         several = quantity.members in _DIMENSIONS
@@ -186,7 +186,7 @@ def _columns(dataset: xarray.Dataset, before: str) -> Any:
 
 
 def write_tables(folder: Path, data: MapData) -> None:
-    """Write map.csv (a line a point), shares.csv (of each loss) and best.csv, units in the heads."""
+    """Write map.csv (one line per point), shares.csv (of each loss) and best.csv, units in the heads."""
     inputs = _input_columns(data)
     numbers = {
         f"{column} [{quantity.unit}]": data.values[column]
@@ -210,7 +210,7 @@ def write_tables(folder: Path, data: MapData) -> None:
 
 
 def _input_columns(data: MapData) -> dict[str, np.ndarray]:
-    """The inputs at every point in the units that people read them in, by their head."""
+    """Return the inputs at every point in customary units, by their head."""
     found = {}
     for k, axis in enumerate(data.axes):
         levels, unit = reading_levels(axis)
@@ -229,7 +229,7 @@ def _write(path: Path, columns: Mapping[str, np.ndarray]) -> None:
 
 
 def _cell(value: object) -> str:
-    """A number to eight digits, empty where there is none; a text as it is."""
+    """Return a number with eight digits, empty where there is none; a text unchanged."""
     if isinstance(value, str):
         return value
     number = float(value)  # type: ignore[arg-type]  # columns are of numbers or of texts

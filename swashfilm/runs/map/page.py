@@ -1,4 +1,4 @@
-"""The page of an operating map: report.html made from the run folder's own files."""
+"""Page of an operating map: report.html from the files of the run folder."""
 
 from __future__ import annotations
 
@@ -15,12 +15,12 @@ FILES = ("summary.json", "resolved.toml", MAP)
 CM3 = 1e6
 BEST_HEAD = ("definition", "overall efficiency", "at", "overall, volumetric")
 DISPLACEMENT_HEAD = ("displacement ratio", "geometric", "swept", "by Toet (ISO 8426-1)")
-ERROR_HEAD = ("number", "rms", "largest", "of the map's largest")
+ERROR_HEAD = ("number", "rms", "largest", "relative to the map's largest")
 _SHOWN = {"W": (1e-3, "kW"), "Nm": (1.0, "N m"), "m3_per_s": (6e4, "L/min")}
 
 
 def write_map_page(folder: Path) -> Path:
-    """Write report.html and plots/ of a map's folder; raises InputFaults where one of its files is missing."""
+    """Write report.html and plots/ of a map's folder; raise InputFaults where one of its files is missing."""
     expect_files(folder, FILES, "a map's run folder")
     summary = json.loads((folder / "summary.json").read_text("utf-8"))
     pictures = map_plots(read_map(folder / MAP)[0]) if summary["solved"] else {}
@@ -43,41 +43,41 @@ def write_map_page(folder: Path) -> Path:
 
 
 def axis_rows(summary: Mapping[str, Any]) -> Iterator[tuple[str, str]]:
-    """(what, value): the axes, how many points were solved, kept and failed, and what they cost."""
+    """Yield (name, value): axes, numbers of solved, kept and failed points, and computing time."""
     for axis in summary["axes"]:
         yield axis["words"], axis["levels"]
     failed = len(summary["failed"])
-    told = f"{summary['solved']} of {summary['points']} solved" + (f", {failed} failed" if failed else "")
-    yield "points", told + (f", {summary['kept']} taken from what was kept" if summary["kept"] else "")
+    counts = f"{summary['solved']} of {summary['points']} solved" + (f", {failed} failed" if failed else "")
+    yield "points", counts + (f", {summary['kept']} of them kept from before" if summary["kept"] else "")
     if summary["loss"]:
         loss = summary["loss"]
-        yield "shaft power less p Q", f"{loss['least_W'] * 1e-3:.3g} .. {loss['largest_W'] * 1e-3:.4g} kW"
+        yield "loss (shaft power minus p Q)", f"{loss['least_W'] * 1e-3:.3g} .. {loss['largest_W'] * 1e-3:.4g} kW"
     yield "largest energy balance error", f"{100.0 * summary['energy_balance_error_max']:.2g} % of the shaft power"
     if summary["seconds_a_point"] is not None:
-        one = f"{summary['seconds_a_point']:.2g} s of processor time a point"
-        yield "cost", f"{one}, {summary['wall_s']:.3g} s in all by {summary['workers']} at a time"
+        one = f"{summary['seconds_a_point']:.2g} s of processor time per point"
+        yield "computing time", f"{one}, {summary['wall_s']:.3g} s in total with {summary['workers']} at a time"
 
 
 def best_rows(summary: Mapping[str, Any]) -> Iterator[tuple[str, ...]]:
-    """(definition, efficiency, where, formula) of each best point."""
+    """Yield (definition, efficiency, point, formula) of each best point."""
     for best in summary["best"]:
         yield best["label"], f"{100.0 * best['overall']:.2f} %", best["at"], best["formula"]
 
 
 def displacement_rows(summary: Mapping[str, Any]) -> Iterator[tuple[str, ...]]:
-    """(setting, geometric, swept, by Toet) in cm3 a revolution."""
+    """Yield (setting, geometric, swept, by Toet) in cm3 per revolution."""
     for row in summary["displacement"]:
         toet, sigma = row["toet_m3_per_rev"], row["toet_sigma_m3_per_rev"]
-        told = "void" if toet is None else f"{toet * CM3:.3f}" + (f" +- {sigma * CM3:.2g}" if sigma else "")
+        by_toet = "void" if toet is None else f"{toet * CM3:.3f}" + (f" +- {sigma * CM3:.2g}" if sigma else "")
         yield (
             row["at"],
             *(f"{row[name] * CM3:.3f} cm3/rev" for name in ("geometric_m3_per_rev", "swept_m3_per_rev")),
-            f"{told} cm3/rev" if toet is not None else told,
+            f"{by_toet} cm3/rev" if toet is not None else by_toet,
         )
 
 
 def error_rows(summary: Mapping[str, Any]) -> Iterator[tuple[str, ...]]:
-    """(number, rms, largest, of the map's largest) of what the map misses between its levels."""
+    """Yield (number, rms, largest, relative to the map's largest) of the error between levels."""
     found = summary["interpolation"]
     for key, row in (found["numbers"] if found else {}).items():
         name, unit = next((key.removesuffix(f"_{end}"), end) for end in _SHOWN if key.endswith(f"_{end}"))
@@ -87,6 +87,6 @@ def error_rows(summary: Mapping[str, Any]) -> Iterator[tuple[str, ...]]:
 
 
 def failed_rows(summary: Mapping[str, Any]) -> Iterator[tuple[str, ...]]:
-    """(where, what became of it, why) of every point without a result."""
+    """Yield (point, state, reason) of every point without a result."""
     for point in summary["failed"]:
         yield point["at"], point["status"], point["reason"]

@@ -1,4 +1,4 @@
-"""Pictures of an operating map: efficiency by definition, where the loss goes, and how large it is."""
+"""Pictures of an operating map: efficiency by definition, loss, and its parts."""
 
 from __future__ import annotations
 
@@ -22,13 +22,13 @@ if TYPE_CHECKING:
 
 LINES = 12
 DOWNWARDS = (1, 1, 1, 1, 2, 2, 5, 5, 10, 10, 20)
-"""Steps between contours of an efficiency from the best down, in units; the last goes on."""
+"""Steps between contours of an efficiency from the best down, in units; the last step repeats."""
 UNITS = tuple(digit * 10.0**power for power in (-3, -2, -1, 0) for digit in (1, 2, 5))
-"""Units of these steps, percent: the first is taken that needs no more than LINES and two contours."""
+"""Units of these steps, percent; the first that needs at most LINES and two contours is used."""
 FINE = 61
-"""Places along an axis between which contours are drawn."""
+"""Number of points along an axis for drawing contours."""
 SHOWN_SHARES = 6
-"""Losses that have a panel of their own: the largest."""
+"""Number of the largest losses, which have separate panels."""
 COLOURS = (
     "#3c7a8c", "#8c5a3c", "#5b9a5b", "#b8862b", "#7a5a8c", "#a9bcc4", "#d0a98f", "#55616a", "#c8d7a0", "#d98b8b",
     "#6fa8b8", "#b59a74", "#8fb58f", "#e0c27a",
@@ -37,14 +37,14 @@ COLOURS = (
 
 @dataclass(frozen=True)
 class Slice:
-    """Two axes of a map by their place, and the level at which each other one is held."""
+    """Two axes of a map by their index, and the constant level of each other axis."""
 
     across: int
     up: int
     held: tuple[int, ...]
 
     def of(self, values: Array) -> Array:
-        """The values on the slice, (levels up, levels across)."""
+        """Return the values on the slice, (levels up, levels across)."""
         index: list[Any] = list(self.held)
         index[self.across] = index[self.up] = slice(None)
         found = np.asarray(values[tuple(index)])
@@ -52,7 +52,7 @@ class Slice:
 
 
 def map_plots(data: MapData) -> dict[str, Figure]:
-    """Captions and PNGs of what a map has enough levels to show."""
+    """Return the pictures of a map by caption, as far as it has enough levels."""
     found = {}
     for across, up in ((MapInput.PRESSURE, MapInput.RATIO), (MapInput.PRESSURE, MapInput.SPEED)):
         piece = slice_of(data, across, up)
@@ -64,21 +64,19 @@ def map_plots(data: MapData) -> dict[str, Figure]:
                     found[
                         f"{words} efficiency in % by definition {where}; dots: solved points, star: the best"
                     ] = png
-            found[f"Loss, and the shares of its largest sinks {where}"] = loss_plot(data, piece)
+            found[f"Loss, and the shares of its largest parts {where}"] = loss_plot(data, piece)
     pressure = _place(data, MapInput.PRESSURE)
     if data.shape[pressure] > 1:
         held = _held(data)
         words = held_words(data, Slice(pressure, pressure, held))
         below = [name for name, loss in data.losses.items() if np.any(loss[_over_pressure(held, pressure)] < 0.0)]
-        left = f"; gains somewhere, and left out there: {', '.join(below)}" if below else ""
-        found[f"Where the shaft power goes beside the oil delivered, over pressure {words}{left}"] = share_plot(
-            data
-        )
+        left = f"; negative somewhere, and left out there: {', '.join(below)}" if below else ""
+        found[f"Losses by kind over pressure {words}{left}"] = share_plot(data)
     return found
 
 
 def slice_of(data: MapData, across: MapInput, up: MapInput) -> Slice | None:
-    """The slice over two inputs, the others at their last level, temperature and inlet pressure at their first.
+    """Return the slice over two inputs, others at the last level, temperature and inlet pressure at the first.
 
     None where one of the two has a single level.
     """
@@ -89,13 +87,13 @@ def slice_of(data: MapData, across: MapInput, up: MapInput) -> Slice | None:
 
 
 def held_words(data: MapData, piece: Slice) -> str:
-    """`at shaft speed 2100 rpm, ..`: what is held on a slice."""
-    told = [
+    """Return the constant inputs of a slice, `at shaft speed 2100 rpm, ..`."""
+    levels = [
         f"{axis.input.words} {axis.input.text(axis.values[level])}"
         for k, (axis, level) in enumerate(zip(data.axes, piece.held, strict=True))
         if k not in (piece.across, piece.up)
     ]
-    return f"at {', '.join(told)}"
+    return f"at {', '.join(levels)}"
 
 
 def _held(data: MapData) -> tuple[int, ...]:
@@ -113,7 +111,7 @@ def efficiency_plot(
     parts: Sequence[str],
     chosen: Sequence[EfficiencyDefinition] = tuple(EfficiencyDefinition),
 ) -> Figure | None:
-    """A row for each part on a scale of its own, a panel for each definition; those that are one share a panel."""
+    """Draw a row for each part with its own scale, a panel for each definition; equal ones share a panel."""
     found = {part: fields for part in parts if (fields := _by_definition(data, piece, part, chosen))}
     if not found:
         return None
@@ -134,7 +132,7 @@ def efficiency_plot(
 def _by_definition(
     data: MapData, piece: Slice, part: str, chosen: Sequence[EfficiencyDefinition]
 ) -> dict[str, Array]:
-    """A part of the efficiency on a slice by the definitions' names; those that are one have one entry."""
+    """Return a part of the efficiency on a slice by definition; equal ones share an entry."""
     fields: list[tuple[str, Array]] = []
     for one in chosen:
         field = piece.of(getattr(data.efficiency(one), part))
@@ -151,7 +149,7 @@ def _same(one: Array, other: Array) -> bool:
 
 
 def loss_plot(data: MapData, piece: Slice) -> Figure:
-    """The loss in kW, then the share of each of the largest sinks."""
+    """Draw the loss in kW and the share of each of its largest parts."""
     whole = piece.of(data.loss)
     sinks = {words: piece.of(loss) for words, loss in data.losses.items()}
     largest = sorted(sinks, key=lambda words: -float(np.nansum(sinks[words])))[: SHOWN_SHARES - 1]
@@ -159,7 +157,7 @@ def loss_plot(data: MapData, piece: Slice) -> Figure:
     panels = _panels(figure, len(largest) + 1)
     axes = next(panels)
     contours(axes, data, piece, whole * 1e-3, levels_of(shown(data, piece, whole * 1e-3)))
-    axes.set_title("shaft power less p Q / kW", fontsize=9)
+    axes.set_title("loss (shaft power minus p Q) / kW", fontsize=9)
     for axes, words in zip(panels, largest, strict=True):
         share = 100.0 * sinks[words] / whole
         contours(axes, data, piece, share, levels_of(shown(data, piece, share)))
@@ -168,7 +166,7 @@ def loss_plot(data: MapData, piece: Slice) -> Figure:
 
 
 def share_plot(data: MapData) -> Figure:
-    """Losses stacked over the pressure: in kW, and as shares of the sum."""
+    """Draw losses stacked over the pressure: in kW, and as shares of the sum."""
     place = _place(data, MapInput.PRESSURE)
     index = _over_pressure(_held(data), place)
     losses = {words: np.maximum(loss[index], 0.0) for words, loss in data.losses.items()}
@@ -193,7 +191,7 @@ def _over_pressure(held: tuple[int, ...], place: int) -> tuple[Any, ...]:
 
 
 def _panels(figure: Any, count: int) -> Iterator[Any]:
-    """Axes in rows of three, none left empty."""
+    """Yield axes in rows of three, none left empty."""
     rows = -(-count // 3)
     for k in range(count):
         yield figure.add_subplot(rows, min(3, count), k + 1)
@@ -208,7 +206,7 @@ def contours(
     colours: str = "viridis",
     ink: str = "white",
 ) -> None:
-    """Draw a field of a slice with its solved points, interpolated as the map is: lines in `ink`, a colour bar."""
+    """Draw a field of a slice with the map's interpolation: solved points, lines in `ink`, a colour bar."""
     from matplotlib.colors import BoundaryNorm
 
     x, y = _grids(data, piece)
@@ -228,7 +226,7 @@ def contours(
 
 
 def mark(axes: Any, x: Array, y: Array, sign: str, colour: str, size: float) -> None:
-    """Draw marks whole, those on the frame too, without making room for them."""
+    """Draw marks unclipped, also on the frame, without changing the limits."""
     (drawn,) = axes.plot(x, y, sign, color=colour, markersize=size, clip_on=False)
     drawn.set_in_layout(False)
 
@@ -240,7 +238,7 @@ def _grids(data: MapData, piece: Slice) -> tuple[Array, Array]:
 
 
 def shown(data: MapData, piece: Slice, field: Array) -> Array:
-    """A field of a slice at FINE places along either axis; at its own levels where a point has no result."""
+    """Return a field of a slice at FINE points along each axis; at its own levels where a result is missing."""
     if not np.all(np.isfinite(field)):
         return np.ma.masked_invalid(field)
     across, up = (
@@ -257,7 +255,7 @@ def _label(data: MapData, place: int) -> str:
 
 
 def efficiency_levels(*fields: Array) -> Array:
-    """Contours of efficiencies in percent, round, close by the best and wider apart below it."""
+    """Return round contour levels of efficiencies in percent, dense near the best and sparser below."""
     least, most = _ends(*fields)
     for unit in UNITS:
         levels = _downwards(least / unit, most / unit)
@@ -267,7 +265,7 @@ def efficiency_levels(*fields: Array) -> Array:
 
 
 def _downwards(least: float, most: float) -> list[int]:
-    """Whole numbers from above the most down to below the least, multiples of ever larger steps."""
+    """Return whole numbers from above the largest down to below the least, multiples of growing steps."""
     found = [math.ceil(most)]
     while found[-1] > least or len(found) == 1:
         step = DOWNWARDS[min(len(found), len(DOWNWARDS)) - 1]
@@ -276,13 +274,13 @@ def _downwards(least: float, most: float) -> list[int]:
 
 
 def levels_of(*fields: Array) -> Array:
-    """Round contour levels, evenly, from below the least of all fields to above their most."""
+    """Return equidistant round contour levels from below the least of all fields to above their largest."""
     least, most = _ends(*fields)
     return _even(least, most)
 
 
 def difference_levels(field: Array) -> Array:
-    """Round contour levels, evenly, as far below zero as above it."""
+    """Return equidistant round contour levels, symmetric about zero."""
     most = max(map(abs, _ends(field)))
     return _even(-most, most)
 

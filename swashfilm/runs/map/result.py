@@ -1,4 +1,4 @@
-"""Operating maps, duty cycles and comparisons as results."""
+"""Results of operating maps, duty cycles and comparisons."""
 
 from __future__ import annotations
 
@@ -40,7 +40,7 @@ class MapRun(Result):
 
     @staticmethod
     def read_data(folder: Path) -> xarray.Dataset:
-        """map.nc of a run folder."""
+        """Return map.nc of a run folder."""
         return read_netcdf(folder / MAP)
 
     @property
@@ -49,7 +49,7 @@ class MapRun(Result):
         return map_of(self.to_xarray())
 
     def tables(self) -> list[Table]:
-        """Axes and effort, best points, displacement, points without a result."""
+        """Axes and computing time, best points, displacement, points without a result."""
         summary = self.summary
         tables: list[Table] = [(f"Map of {self.name}, {summary['solver']}", list(axis_rows(summary)))]
         if summary["best"]:
@@ -60,7 +60,7 @@ class MapRun(Result):
         return tables
 
     def to_pandas(self) -> pandas.DataFrame:
-        """A row a point, the five axes as columns; units in the heads."""
+        """Return one row per point, the five axes as columns; units in the heads."""
         data = self.to_xarray()
         axes = [one.value for one in MapInput]
         own = [name for name in data.data_vars if list(data[name].dims) == axes]
@@ -69,11 +69,10 @@ class MapRun(Result):
         return frame
 
     def plot_efficiency(self, part: str = "overall", definition: str = "") -> list[Axes]:
-        """Contours of an efficiency over pressure and displacement, a panel for each definition or for one.
+        """Draw contours of an efficiency over pressure and displacement, a panel for each definition or for one.
 
         part: overall, volumetric, hydromechanical; definition: empty for all, "iso_4409" for both readings of that
-        standard. Raises InputFaults for another name
-        and for a map of one pressure or displacement.
+        standard. Raises InputFaults for another name, and for a map of one pressure or displacement.
         """
         names = [*(one.value for one in EfficiencyDefinition), "iso_4409"]
         faults = [
@@ -91,13 +90,13 @@ class MapRun(Result):
         return plotted(lambda: efficiency_plot(data, piece, (part,), chosen))
 
     def plot_losses(self) -> list[Axes]:
-        """Contours of the loss and of the shares of its largest sinks over pressure and displacement."""
+        """Draw contours of the loss and of the shares of its largest parts over pressure and displacement."""
         data = self.data
         piece = slice_of(data, MapInput.PRESSURE, MapInput.RATIO)
         return plotted(lambda: None if piece is None else loss_plot(data, piece))
 
     def plot_shares(self) -> list[Axes]:
-        """Losses stacked over pressure, in kW and as shares."""
+        """Draw losses stacked over pressure, in kW and as shares."""
         data = self.data
         return plotted(lambda: share_plot(data))
 
@@ -110,26 +109,26 @@ class DutyRun(Result):
 
     @staticmethod
     def read_data(folder: Path) -> xarray.Dataset:
-        """course.csv of a run folder."""
+        """Return course.csv of a run folder."""
         return read_table(folder / COURSE)
 
     def tables(self) -> list[Table]:
-        """Energies, mean efficiencies, and the time between points that carry a warning."""
+        """Energies, mean efficiencies, and the time between points with a warning."""
         summary = self.summary
         tables: list[Table] = [
             (f"Duty of {self.name}, {summary['duration_s']:.6g} s", [ENERGY_HEAD, *energy_rows(summary)]),
             ("Mean efficiency", [EFFICIENCY_HEAD, *efficiency_rows(summary)]),
         ]
         if summary["marked"]:
-            tables.append(("Time between points that carry a warning", list(marked_rows(summary))))
+            tables.append(("Time between points with a warning", list(marked_rows(summary))))
         return tables
 
     def plot_course(self) -> list[Axes]:
-        """Speed, pressure, displacement, power and efficiency over time."""
+        """Draw speed, pressure, displacement, power and efficiency over time."""
         return plotted(lambda: course_plot(course_of(self.to_xarray())))
 
 
-class Comparison(Result):
+class CompareRun(Result):
     """Two maps side by side: means and largest differences."""
 
     kinds: ClassVar[tuple[str, ...]] = ("comparison",)
@@ -142,7 +141,7 @@ class Comparison(Result):
 
     @staticmethod
     def read_data(folder: Path) -> xarray.Dataset:
-        """differences.csv of a run folder."""
+        """Return differences.csv of a run folder."""
         return read_table(folder / "differences.csv")
 
     def tables(self) -> list[Table]:

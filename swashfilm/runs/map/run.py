@@ -1,4 +1,4 @@
-"""An operating map as a run: points solved and kept as they are done, then its tables, pictures and page."""
+"""Run of an operating map: points solved and stored one by one, then tables, pictures and page."""
 
 from __future__ import annotations
 
@@ -48,18 +48,18 @@ from system.work.sampled_points import usual_counts
 from system.work.tasks import Executor, PartOutcome, PartStatus
 
 FILMS_COST = 2.0
-"""Seconds of processor time that a point of the films fidelity takes, about (benchmarks/map.py)."""
+"""Approximate processor time of a point of the films fidelity, s (benchmarks/map.py)."""
 CHEAP = 0.1
-"""Seconds a point up to which fresh points are checked without being asked for."""
+"""Seconds per point up to which fresh points are checked by default."""
 START = 4.0
-"""Seconds that another process takes to start: each must have more to do."""
+"""Seconds to start another process: each one must have more work."""
 PART = 0.2
-"""Seconds that a part should take, for what is sent with it to be nothing."""
+"""Least seconds of work in a batch, for which the data sent with it are negligible."""
 
 
 @dataclass(frozen=True)
-class MapAsked:
-    """A map to solve: plan, fidelity, pump file as given, fresh points to check (None: the usual), earlier run."""
+class MapCase:
+    """A map to solve: plan, fidelity, pump file as text, number of fresh points (None: default), earlier run."""
 
     plan: MapPlan
     fidelity: Fidelity
@@ -71,7 +71,7 @@ class MapAsked:
 
     @property
     def cost(self) -> float:
-        """Seconds of processor time, about."""
+        """Approximate processor time, s."""
         points = len(self.plan.points)
         if self.fidelity is not Fidelity.FILMS:
             return points * (LumpedSolver.cost if self.fidelity is Fidelity.LUMPED else TableSolver.cost)
@@ -84,12 +84,12 @@ class MapAsked:
         return frozenset(axis.input for axis in self.plan.axes if len(axis.values) > 1)
 
 
-def worth_starting(asked: MapAsked, wanted: int) -> int:
-    """As many of the wanted processes as have enough to do to be worth their start."""
+def worth_starting(asked: MapCase, wanted: int) -> int:
+    """Return the number of processes, at most `wanted`, that have enough work to be worth their start."""
     return max(1, min(wanted, math.floor(asked.cost / START)))
 
 
-def run_map(asked: MapAsked, folder: Path, executor: Executor, report: Report) -> dict[str, Any]:
+def run_map(asked: MapCase, folder: Path, executor: Executor, report: Report) -> dict[str, Any]:
     """Solve a map's points and write points/, map.nc, map.csv, shares.csv, best.csv, summary.json and the page.
 
     Returns the summary. A point that fails carries its reason. Raises InputFaults where the earlier run has no
@@ -126,20 +126,20 @@ def _solved(
     executor: Executor,
     report: Report,
 ) -> KeptOutcomes:
-    """What becomes of all points; each is in points/ as soon as it is done."""
+    """Return the outcomes of all points; each one is written to points/ as soon as it is solved."""
     store, earlier = KeptPoints(folder / POINTS), points_of_run(resume) if resume else None
     batch = max(1, round(PART / work.solver.cost))
     return run_kept(
-        work, points, store, executor, earlier=earlier, batch=batch, described=_described, report=report
+        work, points, store, executor, earlier=earlier, batch=batch, described=_progress_text, report=report
     )
 
 
-def _described(point: OperatingPoint, outcome: PartOutcome) -> str:
+def _progress_text(point: OperatingPoint, outcome: PartOutcome) -> str:
     return f"{point_words(point)}: {outcome.status.value}"
 
 
-def _solver(asked: MapAsked, executor: Executor, report: Report) -> MapSolver:
-    """What solves the points; a table of films is built first, over the plan's own box."""
+def _solver(asked: MapCase, executor: Executor, report: Report) -> MapSolver:
+    """Return the solver of the points; a table of films is built first, over the box of the plan."""
     match asked.fidelity:
         case Fidelity.LUMPED:
             return LumpedSolver()
@@ -153,7 +153,7 @@ def _solver(asked: MapAsked, executor: Executor, report: Report) -> MapSolver:
 
 
 def _table_case(plan: MapPlan) -> TableCase:
-    """The response table over a plan's box; what has one level is held there."""
+    """Return the response table over a plan's box; inputs with one level are constant."""
     pump, ends = at_levels(plan), {axis.input: (axis.values[0], axis.values[-1]) for axis in plan.axes}
     names = {
         MapInput.SPEED: SPEED,
@@ -170,7 +170,7 @@ def _table_case(plan: MapPlan) -> TableCase:
 
 
 def at_levels(plan: MapPlan) -> PumpDescription:
-    """The pump with the plan's first level of every input as its own operating point."""
+    """Return the pump with the plan's first level of every input as its operating point."""
     first = plan.points[0]
     own = replace(
         plan.pump.operating,
@@ -183,20 +183,20 @@ def at_levels(plan: MapPlan) -> PumpDescription:
     return replace(plan.pump, operating=own)
 
 
-def _kept_table(asked: MapAsked) -> ResponseTable:
-    """The table of a file, or a kept one that holds a point; raises InputFaults where it does not hold all."""
+def _kept_table(asked: MapCase) -> ResponseTable:
+    """Return the table of a file, or a stored one; raise InputFaults where it does not contain all points."""
     plan, pump = asked.plan, at_levels(asked.plan)
     middle = plan.points[len(plan.points) // 2]
     table = own_table(asked.table, pump) if asked.table else find_table(pump, middle)
     out = [point for point in plan.points if not table.holds(point)]
     if out:
         found = f"{len(out)} of {len(plan.points)} points outside its box, the first: {point_text(out[0])}"
-        raise InputFaults("response table", [Fault("--table", found, "a table that holds the whole map")])
+        raise InputFaults("response table", [Fault("--table", found, "a table whose box contains the whole map")])
     return table
 
 
 def _error(data: MapData, fresh: tuple[OperatingPoint, ...], found: tuple[PartOutcome, ...]) -> MapError | None:
-    """What the map misses between its levels, by fresh points or, without them, by its own levels."""
+    """Return the error of the map between its levels, by fresh points or, without them, by its own levels."""
     if not np.all(data.solved):
         return None
     good = [k for k, outcome in enumerate(found) if outcome.status is PartStatus.SOLVED]

@@ -1,4 +1,4 @@
-"""summary.json of an operating map: what was asked, what is solved, best points, displacement, errors."""
+"""Summary of an operating map, summary.json: plan, solved points, best points, displacement, errors."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ from system.work.tasks import PartStatus
 def map_summary(
     plan: MapPlan, work: MapWork, data: MapData, kept: KeptOutcomes, error: MapError | None
 ) -> dict[str, Any]:
-    """The summary of a map whose points' outcomes come first in `kept`, those of fresh points after them."""
+    """Return the summary of a map; `kept` holds the outcomes of its points, then those of fresh points."""
     outcomes = kept.outcomes[: len(plan.points)]
     solved = [outcome for outcome in outcomes if outcome.status is PartStatus.SOLVED]
     return {
@@ -71,28 +71,28 @@ def _axis(axis: MapAxis) -> dict[str, Any]:
 
 def _best(data: MapData, best: Best) -> dict[str, Any]:
     definition = best.definition
-    told = [axis.input for axis in data.axes if len(axis.values) > 1]
+    varied = [axis.input for axis in data.axes if len(axis.values) > 1]
     return {
         "definition": definition.value,
         "label": definition.label,
         "formula": definition.formula,
         "overall": best.overall,
-        "at": ", ".join(f"{given.words} {given.text(best.inputs[given])}" for given in told) or "the one point",
+        "at": ", ".join(f"{given.words} {given.text(best.inputs[given])}" for given in varied) or "the one point",
         "inputs": {given.value: value for given, value in best.inputs.items()},
     }
 
 
 def _displacements(data: MapData) -> Iterator[dict[str, Any]]:
-    """Geometric, swept and by Toet at each displacement ratio, temperature and inlet pressure, m3/rev."""
+    """Yield displacements, geometric, swept and by Toet, at each ratio, temperature and inlet pressure, m3/rev."""
     for index in np.ndindex(*data.shape[2:]):
         here = data.solved[:, :, *index]
         if not np.any(here):
             continue
         derived = data.toet.get(index)
         levels = zip(data.axes[2:], index, strict=True)
-        told = [axis.input.text(axis.values[k]) for axis, k in levels if _is_told(axis)]
+        levels_in_words = [axis.input.text(axis.values[k]) for axis, k in levels if _varies_here(axis)]
         yield {
-            "at": ", ".join(told),
+            "at": ", ".join(levels_in_words),
             "geometric_m3_per_rev": float(np.mean(data.values["geometric_displacement"][:, :, *index][here])),
             "swept_m3_per_rev": float(np.mean(data.values["swept_displacement"][:, :, *index][here])),
             "toet_m3_per_rev": derived.value if derived else None,
@@ -100,12 +100,12 @@ def _displacements(data: MapData) -> Iterator[dict[str, Any]]:
         }
 
 
-def _is_told(axis: MapAxis) -> bool:
+def _varies_here(axis: MapAxis) -> bool:
     return axis.input is MapInput.RATIO or len(axis.values) > 1
 
 
 def _interpolation(error: MapError | None, data: MapData) -> dict[str, Any] | None:
-    """What the map misses between its levels of the headline numbers, SI, with their largest size."""
+    """Return the errors of the headline numbers between levels, SI, with their largest magnitude."""
     if error is None:
         return None
     names = {"shaft_power": "W", "hydraulic_power": "W", "shaft_torque": "Nm", "delivery_flow": "m3_per_s"}
@@ -124,7 +124,7 @@ def _interpolation(error: MapError | None, data: MapData) -> dict[str, Any] | No
 
 
 def _table_error(work: MapWork) -> Mapping[str, float] | None:
-    """What runs by the table miss at its held-out points; None where no table is between."""
+    """Return the errors of runs by the table at its held-out points; None without a table."""
     numbers = work.solver.table.numbers if isinstance(work.solver, TableSolver) else None
     return numbers.largest() if numbers is not None else None
 
@@ -144,7 +144,7 @@ def _assumptions(work: MapWork) -> list[str]:
 
 
 def _warnings(pump: PumpDescription, plan: MapPlan, data: MapData) -> Iterator[str]:
-    """Those of the plan, of the pump, and of the points with how many they stand at."""
+    """Yield warnings of the plan, of the pump, and of the points with their number of points."""
     own = plan.checked().warnings
     yield from own.values()
     for warning in check_pump(pump).warnings:

@@ -126,7 +126,7 @@ def _spread(unit: str, values: Array) -> dict[str, float]:
 
 
 def _sizes(joints: JointForces) -> dict[str, tuple[str, Array]]:
-    """Return unit and series over the turn of each joint: magnitude, or signed value of a one-directional force."""
+    """Return unit and series over the turn of each joint: magnitude, or signed value along a fixed direction."""
     one = joints.sets[0]
     forces = {
         "piston_on_slipper": one.ball,

@@ -1,4 +1,4 @@
-"""The command `swashfilm table`: what it takes, and what it prints."""
+"""Command `swashfilm table`: its options, its faults, its output."""
 
 from __future__ import annotations
 
@@ -28,16 +28,20 @@ RANGES = {
     "--pressure": (
         "operating.pressure",
         "5MPa..40MPa",
-        "delivery pressures, gauge (0.05 beyond inlet and case .. 1.15 of the rated one)",
+        "delivery pressures, gauge (0.05 above inlet and case .. 1.15 of the rated one)",
     ),
-    "--displacement": ("operating.displacement_ratio", "0.1..1.0", "shares of the full displacement (0.1 .. 1)"),
+    "--displacement": (
+        "operating.displacement_ratio",
+        "0.1..1.0",
+        "fractions of the full displacement (0.1 .. 1)",
+    ),
     "--temperature": (
         "operating.temperature",
         "20degC..100degC",
         "temperatures, for the oil's viscosity (20 .. 100 degC)",
     ),
 }
-"""Path of a pump's key, example and meaning of what a table ranges over; a single value holds it."""
+"""Key of the pump file, example and meaning of each input of a table; a single value keeps it constant."""
 HELD = {
     "--inlet-pressure": ("operating.inlet_pressure", "25bar", "pressure at the inlet, gauge"),
     "--case-pressure": ("operating.case_pressure", "1.5bar", "pressure in the case, gauge"),
@@ -45,29 +49,29 @@ HELD = {
 
 
 def add_table_options(command: argparse.ArgumentParser) -> None:
-    """Give the command what it takes."""
+    """Add the arguments of the command to its parser."""
     command.add_argument(
         "pump", metavar="PUMP", help="built-in name (ref90) or pump file; or a gap's case with a table [table]"
     )
     for option, (_, example, what) in RANGES.items():
-        command.add_argument(option, metavar=example, help=f"{what}; one value holds it")
+        command.add_argument(option, metavar=example, help=f"{what}; one value: constant")
     for option, (_, example, what) in HELD.items():
-        command.add_argument(option, metavar=example, help=f"{what}; the pump's own where left out")
+        command.add_argument(option, metavar=example, help=f"{what}; default: that of the pump file")
     command.add_argument(
         "--source", metavar="{films,floating}", default=_SOURCE, help="fidelity to condense (films)"
     )
-    command.add_argument("--steps", metavar="N", help="of floating gaps: steps a turn (360)")
-    command.add_argument("--finer", metavar="X", help="of floating gaps: times the usual cells (.5; --rigid: 1)")
+    command.add_argument("--steps", metavar="N", help="floating gaps: steps per turn (360)")
+    command.add_argument("--finer", metavar="X", help="floating gaps: factor on the cells (.5; --rigid: 1)")
     add_switches(command)
     command.add_argument(
-        "--points", metavar="N", help="points to learn from, corners of the box among them (120 of four inputs)"
+        "--points", metavar="N", help="points to fit, with the corners of the box (120 for four inputs)"
     )
-    command.add_argument("--held-out", metavar="N", help="points to take the error from (a quarter of these)")
+    command.add_argument("--held-out", metavar="N", help="points that determine the error (a quarter of these)")
     command.add_argument("--workers", metavar="N", help="processes that solve points side by side (1)")
 
 
 def run_table_command(options: argparse.Namespace) -> int:
-    """Run `swashfilm table` and return its exit code; raises InputFaults with what is wrong in words and file."""
+    """Run `swashfilm table` and return its exit code; raise InputFaults with every fault of options and file."""
     asked = table_case(options)
     from swashfilm.console.progress import progress
     from swashfilm.output.run_folder import Interrupted, run_folder
@@ -80,7 +84,7 @@ def run_table_command(options: argparse.Namespace) -> int:
         try:
             asked.run(folder, report)
         except KeyboardInterrupt:
-            raise Interrupted(None, "points solved are kept; the same command goes on with them") from None
+            raise Interrupted(None, "solved points are kept; the same command continues from them") from None
         found = TableRun.opened(folder)
     show_result(found, folder)
     return 0
@@ -96,7 +100,7 @@ class NamedTable:
 
 
 def table_case(options: argparse.Namespace) -> NamedTable:
-    """The table of a command line, of a pump or of a gap's case; raises InputFaults with every fault."""
+    """Return the table of a command line, of a pump or of a gap's case; raise InputFaults with every fault."""
     from swashfilm.runs.table.run import run_table
 
     if is_film_case(options.pump):
@@ -110,14 +114,14 @@ def table_case(options: argparse.Namespace) -> NamedTable:
 
 
 def is_film_case(path: str) -> bool:
-    """Whether a file there is a film case and no pump."""
+    """Return whether the path is a film case, not a pump file."""
     from system.inputs.toml_table import read_toml
 
     return Path(path).is_file() and bool({"film", "gap"} & set(read_toml(Path(path))[1]))
 
 
 def _gap_case(options: argparse.Namespace) -> tuple[GapTableCase, int]:
-    """The gap's table that a command line means, and how many workers; raises InputFaults with every fault."""
+    """Return the gap's table of a command line, and the number of workers; raise InputFaults with every fault."""
     from swashfilm.runs.table.gap_case import load_gap_table
 
     given = {option: _given(options, option) for option in [*RANGES, *HELD, "--steps", "--finer"]}
@@ -132,7 +136,7 @@ def _gap_case(options: argparse.Namespace) -> tuple[GapTableCase, int]:
 
 
 def _case(options: argparse.Namespace) -> tuple[TableCase, int]:
-    """The case that a command line means, and how many workers; raises InputFaults with every fault at once."""
+    """Return the case of a command line, and the number of workers; raise InputFaults with every fault."""
     from swashfilm.console.floating_options import alike_faults, floating_faults, floating_options
     from system.points.table import sources as table_sources
     from system.points.table.build import TableCase, table_axes
@@ -148,7 +152,7 @@ def _case(options: argparse.Namespace) -> tuple[TableCase, int]:
         nearest = nearest_choice(options.source, sources)
         faults.append(Fault("--source", repr(options.source), f"one of {', '.join(sources)}", nearest))
     if len(single) == len(RANGES):
-        faults.append(Fault(", ".join(RANGES), "single values alone", "at least one range to learn over"))
+        faults.append(Fault(", ".join(RANGES), "single values only", "at least one range"))
     pump = _pump(options, faults, single)
     if faults := [*floating_faults(options, pump, options.source, "--source"), *alike_faults(pump)]:
         raise InputFaults(COMMAND_LINE, faults)
@@ -160,7 +164,7 @@ def _case(options: argparse.Namespace) -> tuple[TableCase, int]:
 
 
 def _counts(options: argparse.Namespace, faults: list[Fault], inputs: int) -> tuple[int, int, int]:
-    """Points to learn from and to hold out, and workers."""
+    """Return the numbers of fitted and held-out points and of workers."""
     from system.work.sampled_points import FEWEST_HELD_OUT, usual_counts
 
     learnt, held_out = usual_counts(inputs)
@@ -172,7 +176,7 @@ def _counts(options: argparse.Namespace, faults: list[Fault], inputs: int) -> tu
 
 
 def _pump(options: argparse.Namespace, faults: list[Fault], single: Collection[str]) -> PumpDescription:
-    """The pump, with what a table holds; raises InputFaults where it or `faults` has any."""
+    """Return the pump with the constant inputs of a table; raise InputFaults where it or `faults` has any."""
     from system.pump_file.file import load_pump
 
     keys = HELD | {option: RANGES[option] for option in single}
@@ -210,7 +214,7 @@ def _ranges(options: argparse.Namespace, faults: list[Fault], single: Collection
 
 
 def _range(faults: list[Fault], option: str, text: str, dimension: object, example: str) -> Range | None:
-    """MIN..MAX in SI; None after a fault."""
+    """Return MIN..MAX in SI; None after a fault."""
     from system.inputs.units import Dimension, QuantityError, parse_quantity
 
     ends = text.split("..")

@@ -1,4 +1,4 @@
-"""A gap's case with a table [table]: the ranges of its keys over which the gap's numbers are condensed."""
+"""Case of a gap with a table [table]: ranges of its keys for the response table."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ from system.work.sampled_points import usual_counts
 
 TABLE = "table"
 FORMAT = 1
-"""Raised when the same case gives other numbers in a table."""
+"""Number of the format, raised when the same case yields other numbers in a table."""
 MOST_INPUTS = 8
 OF_A_TURN = (
     "leakage_flow_m3_per_s", "friction_power_W", "rubbing_power_W", "film_thickness_mean_m",
@@ -44,12 +44,12 @@ OF_AN_INSTANT = (
     "leakage_flow_m3_per_s", "friction_power_W", "film_thickness_mean_m", "film_thickness_min_m", "carried_load_N",
     "contact_load_N", "pressure_max_Pa",
 )  # fmt: skip
-"""Keys of a gap's summary that are learnt: over the turn (means, largest, least), or of an instant."""
+"""Keys of a gap's summary in its table: over the turn (means, largest, least), or at an instant."""
 
 
 @dataclass(frozen=True)
 class GapTableCase:
-    """What to condense: a gap's case, the ranges of keys of it, how many points to learn from and to hold out.
+    """Response table to build: a gap's case, ranges of its keys, numbers of fitted and held-out points.
 
     study: the case at the corners of the box; dimensions: of each axis, None for bare numbers; outputs: keys of
     the gap's summary. A `SamplingTask`.
@@ -64,38 +64,38 @@ class GapTableCase:
 
     @property
     def name(self) -> str:
-        """That of the case."""
+        """Name of the case."""
         return self.study.name
 
     def values(self, x: Array) -> dict[str, Any]:
-        """The keys at a place (d,), SI, and their values as a case writes them."""
+        """Return the keys at a point (d,), SI, and their values as written in a case."""
         return {
             axis.name: float(value) if dimension is None else format_quantity(float(value), dimension)
             for axis, dimension, value in zip(self.axes, self.dimensions, x, strict=True)
         }
 
     def case(self, x: Array) -> Case:
-        """The gap's case at a place (d,); raises InputFaults with what is wrong with it."""
+        """Return the gap's case at a point (d,); raise InputFaults with its faults."""
         return self.study.case_with(self.values(x))
 
     def key(self, x: Array) -> str:
-        """Name of a point's content: the case there, and the format; of no case what is wrong with it."""
+        """Return the name of a point's content: its case and the format; for an invalid case its faults."""
         try:
             return content_key("gap of a response table", FORMAT, self.outputs, digest(self.case(x)))
         except InputFaults as reason:
             return content_key("no case", str(reason))
 
     def solve(self, x: Array) -> Array:
-        """The `outputs` of the gap there, SI."""
+        """Return the `outputs` of the gap at a point, SI."""
         numbers = headline_numbers(solved_summary(self.case(x)))
         return np.array([numbers[key] for key in self.outputs])
 
 
 def load_gap_table(path: Path, switched: Mapping[str, str] | None = None) -> GapTableCase:
-    """The gap's case of a file with a table [table], as many points as `usual_counts` has.
+    """Return the response table of a file with a table [table], by default with the points of `usual_counts`.
 
-    `switched`: values of [revolution], by key, in place of the file's. Raises InputFaults with every fault: of the
-    ranges, of keys that no case has, of a film that is no pump's gap, and where no corner of the box is a case.
+    `switched`: values of [revolution], by key, that replace those of the file. Raises InputFaults with every
+    fault: ranges, unknown keys, a film that is not a gap of a pump, or no corner of the box with a valid case.
     """
     text, tables = read_switched(path, switched or {})
     given = tables.get(TABLE)
@@ -134,7 +134,7 @@ def _ends(ranges: Table, key: str) -> Ends | None:
         return None
     own = Table(f'{TABLE}."{key}"', raw if isinstance(raw, dict) else {}, ranges.faults)
     if not own.values:
-        ranges.faults.append(Fault(own.path, repr(raw), "a range { from, to }, with spacing if wanted"))
+        ranges.faults.append(Fault(own.path, repr(raw), "a range { from, to }, optionally with spacing"))
         return None
     found = read_ends(own)
     own.close()
@@ -150,7 +150,7 @@ def _axis(key: str, ends: Ends) -> Axis:
 
 
 def _first_case(study: StudyCase) -> Case:
-    """The case of the first corner that is one."""
+    """Return the case of the first corner with a valid case."""
     for point in study.points:
         try:
             return study.case(point)

@@ -1,4 +1,4 @@
-"""The response table of one gap: its numbers over ranges of any keys of its case, built, kept and asked."""
+"""Response table of one gap: its numbers over ranges of keys of its case; built, stored and evaluated."""
 
 from __future__ import annotations
 
@@ -24,46 +24,46 @@ from system.points.table.response_table import PRESSURE, RATIO, SPEED, axis_valu
 from system.points.table.store import read_response, response_record, write_response
 from system.work.processes import process_pool
 from system.work.progress import Report
-from system.work.sampled_points import SampledPoint, points_of, samples_of, solved_points
+from system.work.sampled_points import points_of, samples_of, solved_points
 
 POSITIVE = (
     "leakage_flow_m3_per_s", "friction_power_W", "film_thickness_mean_m", "film_thickness_min_m",
     "pressure_max_Pa",
 )  # fmt: skip
-"""Learnt by logarithm, their error relative, where they are positive at all points."""
+"""Outputs fitted as logarithms, with relative error, where they are positive at all points."""
 NOTHING = {
     "leakage_flow_m3_per_s": 1e-9, "friction_power_W": 0.1, "rubbing_power_W": 0.1, "least_gap_m": 1e-8,
     "tilt_max_rad": 1e-6, "contact_load_mean_N": 1.0, "contact_load_N": 1.0, "carried_load_N": 1.0,
 }  # fmt: skip
-"""Of others: where there is no more than this anywhere, the error is a share of this."""
+"""Reference of the error of other outputs, where their largest magnitude is below it."""
 MEANINGS = {
-    "leakage_flow_m3_per_s": "out of the film into the case",
-    "friction_power_W": "what the parts spend on shearing the film and rubbing",
-    "rubbing_power_W": "of it contact",
+    "leakage_flow_m3_per_s": "flow out of the film into the case",
+    "friction_power_W": "power of viscous friction and contact friction",
+    "rubbing_power_W": "power of contact friction",
     "film_thickness_mean_m": "film, mean over its area",
     "film_thickness_min_m": "least film anywhere",
-    "least_gap_m": "least distance of the mean planes, below 0 where rough walls overlap",
+    "least_gap_m": "least distance of the mean planes, negative where rough walls overlap",
     "tilt_max_rad": "largest tilt",
     "contact_load_mean_N": "force of the asperities",
     "contact_load_N": "force of the asperities",
-    "carried_load_N": "what film, pocket and contact hold",
+    "carried_load_N": "load supported by film, pocket and contact",
     "pressure_max_Pa": "largest film pressure",
 }
 
 
 @dataclass(frozen=True)
 class GapTable:
-    """A gap's response, what its axes measure (None: bare numbers), and the record of where it comes from."""
+    """A gap's response, the dimensions of its axes (None: bare numbers), and the record of its origin."""
 
     response: Response
     dimensions: tuple[Dimension | None, ...]
     record: Mapping[str, Any]
 
     def at(self, values: Mapping[str, Any]) -> dict[str, float]:
-        """The numbers by key, SI, where the keys of the box have these values, written as a case writes them.
+        """Return the numbers by key, SI, at these values of the box's keys, written as in a case.
 
-        Raises FilmInputError outside the box, QuantityError for a value that is no such quantity, KeyError where a
-        key of the box is missing.
+        Raises FilmInputError outside the box, QuantityError for a value of another dimension, KeyError where a key
+        of the box is missing.
         """
         x = [
             float(values[axis.name]) if dimension is None else parse_quantity(values[axis.name], dimension)
@@ -76,8 +76,8 @@ class GapTable:
 def run_gap_table(asked: GapTableCase, folder: Path, report: Report, *, workers: int = 1) -> dict[str, Any]:
     """Build a gap's table and write table.npz, table.json, points.csv, the case, summary.json and report.html.
 
-    The points are kept in the cache, as those of a pump's table are. Returns the summary. Raises NotConverged
-    where too few points have a result.
+    The cache stores the points, like those of a pump's table. Returns the summary. Raises NotConverged where too
+    few points have a result.
     """
     with process_pool(workers) as executor:
         found = solved_points(asked, executor=executor, report=report)
@@ -106,7 +106,7 @@ def run_gap_table(asked: GapTableCase, folder: Path, report: Report, *, workers:
 
 
 def read_gap_table(path: Path) -> GapTable:
-    """The table that `swashfilm table CASE` wrote, by its .json or .npz; raises InputFaults where it is none."""
+    """Return the table that `swashfilm table CASE` wrote, by its .json or .npz; raise InputFaults for others."""
     return read_response(path, FORMAT, _of_record)
 
 
@@ -116,7 +116,7 @@ def _of_record(record: Mapping[str, Any], response: Response) -> GapTable:
 
 
 def _record(asked: GapTableCase, found: Sequence[SampledPoint], response: Response) -> dict[str, Any]:
-    """What table.json says."""
+    """Return the content of table.json."""
     points = points_of(asked)
     of_axes = zip(asked.axes, asked.dimensions, strict=True)
     dimensions = {axis.name: dimension for axis, dimension in of_axes if dimension is not None}
@@ -135,7 +135,7 @@ def _record(asked: GapTableCase, found: Sequence[SampledPoint], response: Respon
 
 
 def _measured(keys: Sequence[str], values: Array) -> tuple[Output, ...]:
-    """The outputs with their measure, given values (n, m) at all points."""
+    """Return the outputs with their error measure, by their values (n, m) at all points."""
     return tuple(
         Output(key, Measure.RELATIVE)
         if key in POSITIVE and np.all(column > 0.0)
@@ -145,7 +145,7 @@ def _measured(keys: Sequence[str], values: Array) -> tuple[Output, ...]:
 
 
 def _case(asked: GapTableCase, found: Sequence[SampledPoint]) -> GapCase | RevolutionCase:
-    """The case at the first point that has a result: what all points have in common stands in it."""
+    """Return the case at the first point with a result, for the data common to all points."""
     first = next(one.index for one in found if one.outputs is not None)
     case = asked.case(points_of(asked)[first])
     assert isinstance(case, GapCase | RevolutionCase)
@@ -153,7 +153,7 @@ def _case(asked: GapTableCase, found: Sequence[SampledPoint]) -> GapCase | Revol
 
 
 def _condensed(case: GapCase | RevolutionCase, axes: Sequence[Axis]) -> dict[str, str]:
-    """Where the table comes from, and the operating point as far as no axis of the same name varies it."""
+    """Return the origin of the table, and the operating point without quantities that an axis varies."""
     varied, point = {axis.name for axis in axes}, case.rotor.point
     if isinstance(case, RevolutionCase):
         physics, when = case.options.physics, "over the revolution"

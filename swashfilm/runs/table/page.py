@@ -1,4 +1,4 @@
-"""The page of a response table: report.html made from the run folder's own files."""
+"""Page of a response table: report.html from the files of the run folder."""
 
 from __future__ import annotations
 
@@ -15,12 +15,12 @@ from system.inputs.units import Dimension, format_quantity
 from system.points.table.store import read_response
 
 KINDS = NUMBERS, OUTPUTS = "numbers", "outputs"
-"""Of the rows of a summary: what a run of a pump's table tells, and what its response is learnt of."""
+"""Kinds of rows in a summary: numbers of runs by the table, and outputs of its response."""
 FILES = ("summary.json", "resolved.toml", "table.json", "table.npz")
 
 
 def write_table_page(folder: Path) -> Path:
-    """Write report.html of a table's run folder; raises InputFaults where one of its files is not there."""
+    """Write report.html of a table's run folder; raise InputFaults where one of its files is missing."""
     expect_files(folder, FILES, "a table's run folder")
     summary = json.loads((folder / "summary.json").read_text("utf-8"))
     response = read_response(folder / "table.json", summary["table_format"], lambda _, response: response)
@@ -40,7 +40,7 @@ def write_table_page(folder: Path) -> Path:
 
 
 def held_rows(summary: Mapping[str, Any]) -> Iterator[tuple[str, str]]:
-    """(what, value with its unit): where a table comes from, what it is held at, and its box."""
+    """Yield (name, value with its unit): origin of the table, its constant inputs, and its box."""
     yield from summary["condensed"].items()
     for axis in summary["axes"]:
         yield (
@@ -50,16 +50,16 @@ def held_rows(summary: Mapping[str, Any]) -> Iterator[tuple[str, str]]:
     points = summary["points"]
     failed = f", {len(summary['failed'])} failed" if summary["failed"] else ""
     yield "points", f"{points['learnt']} learnt, {points['held_out']} held out{failed}"
-    yield "computing, a point", f"{summary['seconds']:.3g} s"
+    yield "computing time per point", f"{summary['seconds']:.3g} s"
 
 
 def error_rows(summary: Mapping[str, Any]) -> Iterator[tuple[str, ...]]:
-    """(output, rms, largest error of held-out points, where the largest is)."""
+    """Yield (output, rms, largest error of held-out points, point of the largest)."""
     yield from _rows_of(summary, OUTPUTS)
 
 
 def number_rows(summary: Mapping[str, Any]) -> Iterator[tuple[str, ...]]:
-    """The same of the pump's numbers by runs of the table; none of a gap's table."""
+    """Yield the same for the pump's numbers by runs with the table; nothing for a gap's table."""
     yield from _rows_of(summary, NUMBERS)
 
 
@@ -84,14 +84,14 @@ def _error_text(measure: str, error: float) -> str:
 
 
 def input_text(axis: Mapping[str, Any], value: float) -> str:
-    """A value of an axis (a row of the record's) as people read it."""
+    """Return a value of an axis (a row of the record) with its unit."""
     if axis["dimension"] is None:
         return f"{value:.4g}"
     return format_quantity(float(value), Dimension[axis["dimension"]], digits=4)
 
 
 def place_text(axes: Sequence[Mapping[str, Any]], at: Sequence[float]) -> str:
-    """A place in the box as people read it."""
+    """Return a point in the box in words."""
     return ", ".join(
         f"{axis['name'].replace('_', ' ')} {input_text(axis, value)}" for axis, value in zip(axes, at, strict=True)
     )

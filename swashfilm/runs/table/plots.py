@@ -1,4 +1,4 @@
-"""Pictures of a response table: its error by output, held-out points, and its course over each input."""
+"""Pictures of a response table: error of each output, held-out points, and outputs over each input."""
 
 from __future__ import annotations
 
@@ -24,23 +24,23 @@ COURSE = 80
 COLUMNS = 5
 """Pictures side by side."""
 Groups = Mapping[str, Sequence[tuple[str, int]]]
-"""What is drawn together: outputs of one kind, each by whose it is ("" for a gap alone) and its column."""
+"""Outputs in one picture: outputs of one kind, each with its gap ("" for a gap alone) and its column."""
 
 
 def table_plots(response: Response, record: Mapping[str, Any]) -> dict[str, Figure]:
-    """Captions and PNGs of a table's pictures; `record` tells the axes' dimensions and the outputs' units."""
+    """Return a table's pictures by caption; `record` holds dimensions of the axes and units of the outputs."""
     return {
-        "Error of held-out points, rms and largest; dashed: the limit from which an output is warned of": _errors(
+        "Error of held-out points, rms and largest; dashed: the limit above which a warning is given": _errors(
             response
         ),
         "Held-out points, solved and by the table": _parity(response, record),
-        "Course over each input through the middle of the box; dots: held-out points, wherever the other inputs "
-        "stand": _courses(response, record),
+        "Outputs over each input through the middle of the box; dots: held-out points at any values of the other "
+        "inputs": _courses(response, record),
     }
 
 
 def _groups(response: Response) -> Groups:
-    """`piston.leakage` and `slipper.leakage` together, `leakage_flow_m3_per_s` by itself; not what is nothing."""
+    """Return the groups: `piston.leakage` and `slipper.leakage` together; outputs that vanish are left out."""
     found: dict[str, list[tuple[str, int]]] = {}
     for column, output in enumerate(response.outputs):
         whose, _, what = output.name.rpartition(".")
@@ -123,7 +123,7 @@ def _courses(response: Response, record: Mapping[str, Any]) -> Figure:
 
 
 def _shown(what: str, members: Sequence[tuple[str, int]], record: Mapping[str, Any]) -> tuple[str, float]:
-    """Title of outputs that are drawn together, with the unit that they are shown in, and its factor on SI."""
+    """Return the title of outputs in one picture, with their unit, and its factor on SI."""
     how = SHOWN[record["outputs"][members[0][1]]["unit"]]
     return (_words(what) if how.unit == "-" else f"{_words(what)} / {how.unit}"), how.factor
 
@@ -138,7 +138,7 @@ def _unit(row: Mapping[str, Any]) -> str:
 
 
 def _places(row: Mapping[str, Any], values: Array) -> Array:
-    """Values of an input in the unit that its axis is drawn in."""
+    """Return values of an input in the unit of its axis."""
     if row["dimension"] is None:
         return values
     unit, dimension = _unit(row), Dimension[row["dimension"]]
@@ -146,7 +146,7 @@ def _places(row: Mapping[str, Any], values: Array) -> Array:
 
 
 def _legend(figure: Any) -> None:
-    """One legend of whose the curves are, where there is more than one."""
+    """Draw one legend of the gaps, where there is more than one."""
     pairs = [axes.get_legend_handles_labels() for axes in figure.axes]
     curves = {label: handle for handles, labels in pairs for handle, label in zip(handles, labels, strict=True)}
     if len(curves) > 1:
@@ -154,7 +154,7 @@ def _legend(figure: Any) -> None:
 
 
 def _logarithmic(axes: Any) -> None:
-    """Logarithms along x, plain numbers at 1, 2, 5, 10, .."""
+    """Scale x logarithmically, with plain numbers at 1, 2, 5, 10, .."""
     from matplotlib.ticker import LogLocator, NullFormatter, ScalarFormatter
 
     axes.set_xscale("log")

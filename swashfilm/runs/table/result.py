@@ -1,4 +1,4 @@
-"""Response tables as results."""
+"""Result of a response table."""
 
 from __future__ import annotations
 
@@ -14,14 +14,14 @@ if TYPE_CHECKING:
 
 
 class TableRun(Result):
-    """A response table of a pump's gaps, or of one gap: its box, and its error at points held out."""
+    """A response table of a pump's gaps, or of one gap: its box, and its error at held-out points."""
 
     kinds: ClassVar[tuple[str, ...]] = ("response_table", "gap_table")
     files: ClassVar[tuple[str, ...]] = (*FILES, "points.csv")
 
     @staticmethod
     def read_data(folder: Path) -> xarray.Dataset:
-        """points.csv of a run folder."""
+        """Return points.csv of a run folder."""
         return read_table(folder / "points.csv")
 
     def tables(self) -> list[Table]:
@@ -29,6 +29,6 @@ class TableRun(Result):
         tables: list[Table] = [(f"Table of {self.name}", list(held_rows(self.summary)))]
         if numbers := [*number_rows(self.summary)]:
             head = ("number", "rms", "largest", "at")
-            tables.append(("What runs by the table miss at held-out points", [head, *numbers]))
+            tables.append(("Error of runs by the table at held-out points", [head, *numbers]))
         head = ("output", "rms", "largest", "at")
         return [*tables, ("Error of held-out points", [head, *error_rows(self.summary)])]

@@ -1,4 +1,4 @@
-"""A response table as a run: built or completed, and left in a run folder with what it is worth."""
+"""Run of a response table: built or completed, and written to a run folder with its error."""
 
 from __future__ import annotations
 
@@ -24,13 +24,13 @@ from system.work.progress import Report
 
 TABLE = "table"
 NARROW = 0.7
-"""Part of an axis within which a region of large error must lie for the axis to be named."""
+"""Largest fraction of an axis that a region of large error may cover for the axis to be named."""
 
 
 def run_table(case: TableCase, folder: Path, report: Report, *, workers: int = 1) -> dict[str, Any]:
     """Build a table and write table.npz, table.json, points.csv, resolved.toml, summary.json and report.html.
 
-    The table itself is kept in the cache, point by point. Returns the summary. Raises as `build_table`.
+    The cache stores the table point by point. Returns the summary. Raises as `build_table`.
     """
     with process_pool(workers) as executor:
         table = build_table(case, executor=executor, report=report)
@@ -51,7 +51,7 @@ def write_table_files(folder: Path, response: Response, summary: Mapping[str, An
 
 
 def table_summary(table: ResponseTable) -> dict[str, Any]:
-    """What a table is worth: its origin and box, the error of each output, and warnings."""
+    """Return the summary of a table: origin, box, error of each output, and warnings."""
     record, origin = table_record(table), table.origin
     held = dict(origin.held) | {"inlet_pressure": origin.inlet_pressure, "case_pressure": origin.case_pressure}
     rows = [row | {"unit": "1", "meaning": MEANINGS[row["name"]]} for row in record["outputs"]]
@@ -71,7 +71,7 @@ def table_summary(table: ResponseTable) -> dict[str, Any]:
 
 
 def table_warnings(response: Response, record: Mapping[str, Any]) -> list[str]:
-    """Outputs that are learnt badly, with the region in which they are; points without a result."""
+    """Return warnings of outputs with large errors, with their region, and of points without a result."""
     return [*_large_errors(response, record["axes"]), *_failures(record)]
 
 
@@ -82,10 +82,10 @@ def _large_errors(response: Response, axes: Sequence[Mapping[str, Any]]) -> Iter
             continue
         error = response.held_out_error
         yield (
-            f"large_error: {output.name}: held-out points err by {error.largest[column]:.3g} at most, "
-            f"{error.rms[column]:.3g} rms ({output.measure.value}, limit {LARGE_ERROR:g}); above the limit "
-            f"{region.count} of {len(response.held_out.points)}, {region_text(response, region, axes)}; a smaller "
-            "box or more points"
+            f"large_error: {output.name}: the error of held-out points is {error.largest[column]:.3g} at most, "
+            f"{error.rms[column]:.3g} rms ({output.measure.value}, limit {LARGE_ERROR:g}); above the limit are "
+            f"{region.count} of {len(response.held_out.points)}, {region_text(response, region, axes)}; choose a "
+            "smaller box or more points"
         )
 
 
@@ -93,15 +93,15 @@ def _far_off(record: Mapping[str, Any]) -> Iterator[str]:
     for row in record["numbers"]:
         if row["held_out_largest"] > LARGE_ERROR:
             yield (
-                f"large_error: runs by this table miss {row['name']} of held-out points by "
+                f"large_error: the error of {row['name']} by this table at held-out points is "
                 f"{row['held_out_largest']:.3g} at most, {row['held_out_rms']:.3g} rms ({row['measure']}, limit "
-                f"{LARGE_ERROR:g}), the most at {place_text(record['axes'], row['held_out_worst_at'])}; a smaller "
-                "box or more points"
+                f"{LARGE_ERROR:g}), largest at {place_text(record['axes'], row['held_out_worst_at'])}; choose a "
+                "smaller box or more points"
             )
 
 
 def region_text(response: Response, region: Region, axes: Sequence[Mapping[str, Any]]) -> str:
-    """Where a region lies, by the axes along which it is narrow."""
+    """Return the position of a region in words, by the axes along which it is narrow."""
     ends = []
     for axis, row, low, high in zip(response.axes, axes, region.lower, region.upper, strict=True):
         if np.ptp(axis.to_unit(np.array([low, high]))) < NARROW:
@@ -114,22 +114,22 @@ def _failures(record: Mapping[str, Any]) -> Iterator[str]:
     failed = record["failed"]
     if failed:
         yield (
-            f"points_failed: {len(failed)} points have no result and are not learnt from, such as "
+            f"points_failed: {len(failed)} points have no result and are not fitted, such as "
             f"{place_text(record['axes'], failed[0]['at'])}: {failed[0]['reason']}"
         )
 
 
 def write_points(path: Path, response: Response, summary: Mapping[str, Any]) -> None:
-    """Write every point: learnt or held out, inputs with their units, outputs as solved and as the table says."""
+    """Write every point: fitted or held out, inputs with units, outputs as solved and by the table."""
     inputs = [
         f"{axis['name']} [{Dimension[axis['dimension']].si_unit if axis['dimension'] else '1'}]"
         for axis in summary["axes"]
     ]
     outputs = [(row["name"], row["unit"]) for row in summary["outputs"]]
-    told = [f"{name} by table [{unit}]" for name, unit in outputs]
-    rows = [",".join(["set", *inputs, *(f"{name} [{unit}]" for name, unit in outputs), *told])]
+    by_table = [f"{name} by table [{unit}]" for name, unit in outputs]
+    rows = [",".join(["set", *inputs, *(f"{name} [{unit}]" for name, unit in outputs), *by_table])]
     for kind, samples in (("learnt", response.learnt), ("held out", response.held_out)):
-        by_table = response.at(samples.points)
-        for numbers in np.hstack([samples.points, samples.values, by_table]):
+        predicted = response.at(samples.points)
+        for numbers in np.hstack([samples.points, samples.values, predicted]):
             rows.append(",".join([kind, *(f"{value:.8g}" for value in numbers)]))
     path.write_text("\n".join(rows) + "\n", encoding="utf-8")

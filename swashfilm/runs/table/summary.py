@@ -1,4 +1,4 @@
-"""A pump's point by a response table: which table, what it says of the gaps, and how far to trust it."""
+"""Summary of a pump's point by a response table: its origin, the films of the gaps, and its error."""
 
 from __future__ import annotations
 
@@ -16,16 +16,16 @@ from system.points.table.response_table import LARGE_ERROR, axis_value
 from system.points.table.store import find_table, own_table
 from system.pump.operating import OperatingPoint
 
-TABLE_POINT_HEAD = ("", "mean film", "least film", "share of contact", "missed at held-out points, at most")
+TABLE_POINT_HEAD = ("", "mean film", "least film", "share of contact", "largest error at held-out points")
 
 
 def point_by_table(pump: PumpDescription, point: OperatingPoint, path: Path | None) -> TablePoint:
-    """The point by the table in a file, or by the kept one that fits; raises InputFaults where there is none."""
+    """Return the point by the table of a file, or by a stored one that fits; raise InputFaults without one."""
     return table_point(pump, point, own_table(path, pump) if path else find_table(pump, point))
 
 
 def table_point_summary(pump: PumpDescription, found: TablePoint) -> dict[str, Any]:
-    """Fidelity, the table's origin with the error of each output, the films that it tells, and what was taken."""
+    """Return fidelity, origin of the table with the error of each output, films of the gaps, and assumptions."""
     origin, response = found.table.origin, found.table.response
     error = response.held_out_error
     return {
@@ -48,7 +48,7 @@ def table_point_summary(pump: PumpDescription, found: TablePoint) -> dict[str, A
 
 
 def table_point_warnings(found: TablePoint) -> Iterator[str]:
-    """Outputs that held-out points found more than LARGE_ERROR off, and a failed point next to this one."""
+    """Yield warnings of outputs with errors above LARGE_ERROR, and of a failed point next to this one."""
     response, point = found.table.response, found.pump_point.point
     largest = response.held_out_error.largest
     errors = {output.name: float(largest[k]) for k, output in enumerate(response.outputs)}
@@ -56,7 +56,7 @@ def table_point_warnings(found: TablePoint) -> Iterator[str]:
     off = [f"{name} by up to {error:.2g}" for name, error in missed.items() if error > LARGE_ERROR]
     if off:
         yield (
-            f"table_error: held-out points of the table err beyond {LARGE_ERROR:g}: {', '.join(off)}; solve the "
+            f"table_error: errors at held-out points exceed {LARGE_ERROR:g}: {', '.join(off)}; solve the "
             f"point by the {found.table.origin.source.value} fidelity to be sure"
         )
     failed = found.table.beside_failed(point)
@@ -67,13 +67,13 @@ def table_point_warnings(found: TablePoint) -> Iterator[str]:
 
 
 def _numbers_largest(found: TablePoint) -> dict[str, float]:
-    """Largest error of runs by the table at its held-out points, by number."""
+    """Return the largest error of runs by the table at its held-out points, by number."""
     numbers = found.table.numbers
     return {} if numbers is None else numbers.largest()
 
 
 def table_point_rows(summary: Mapping[str, Any]) -> Iterator[tuple[str, ...]]:
-    """(gap, mean film, least film, share of contact in its friction, what runs by the table miss at most)."""
+    """Yield (gap, mean film, least film, share of contact in its friction, largest error at held-out points)."""
     table = summary["table"]
     for gap in GAP_PAIRS:
         errors = table["numbers_largest_error"]

@@ -1,4 +1,4 @@
-"""A transient case: the pump, its control pressure over time, and how long; from a TOML file, validated."""
+"""Transient case of a TOML file: pump, control pressure over time, and duration, validated."""
 
 from __future__ import annotations
 
@@ -45,7 +45,7 @@ class TransientSection:
 
 @dataclass(frozen=True)
 class StatedTransient:
-    """A transient as its file states it: name, text, the same resolved, and what is asked (SI)."""
+    """A transient case: name, text of the file, resolved text, and the case in SI."""
 
     name: str
     text: str
@@ -54,7 +54,7 @@ class StatedTransient:
 
 
 def load_transient(path: Path) -> StatedTransient:
-    """The transient of a file; raises InputFaults with every fault of it at once."""
+    """Return the transient of a file; raise InputFaults with every fault."""
     text, tables = read_toml(path)
     top = Table("", tables, [])
     if top.get("format") != FORMAT:
@@ -124,7 +124,7 @@ def _hold_pump(table: Table, pump: CasePump, section: TransientSection) -> None:
     """Note what of pump and point no transient can have."""
     whole, point = pump.rotor.pump, pump.rotor.point
     if not kinds(whole).alike:
-        table.fault("pump", "chambers that differ", "chambers that are alike")
+        table.fault("pump", "chambers that differ", "identical chambers")
     stop = whole.swash_plate.angle_min or 0.0
     start = swash_angle(drive_at_ratio(full_drive(whole), point.displacement_ratio))
     if start < stop:

@@ -1,4 +1,4 @@
-"""The command `swashfilm transient`: displacement in time."""
+"""Command `swashfilm transient`: displacement in time."""
 
 from __future__ import annotations
 
@@ -10,12 +10,12 @@ from swashfilm.console.terminal import show_result
 
 
 def add_transient_options(command: argparse.ArgumentParser) -> None:
-    """Give the command what it takes."""
+    """Add the arguments of the command to its parser."""
     command.add_argument("case", type=Path, metavar="CASE.toml", help="the transient case")
 
 
 def run_transient_command(options: argparse.Namespace) -> int:
-    """Run `swashfilm transient` and return its exit code; raises InputFaults with what is wrong in the file."""
+    """Run `swashfilm transient` and return its exit code; raise InputFaults with every fault of the file."""
     from swashfilm.output.run_folder import run_folder
     from swashfilm.runs.transient.case import load_transient
     from swashfilm.runs.transient.run import solve_transient

@@ -1,4 +1,4 @@
-"""A transient as labelled arrays (results.nc), as a table (course.csv) and as its summary tells it."""
+"""Data of a transient: labelled arrays (results.nc), table (course.csv) and summary."""
 
 from __future__ import annotations
 
@@ -31,11 +31,11 @@ MOMENTS = {
     "drag_moment": kernel.MOMENT_DRAG,
     "stop_moment": kernel.MOMENT_STOP,
 }
-"""Moments on the plate by cause, positive where they tilt it further."""
+"""Moments on the swash plate by cause, positive where they increase the swash angle."""
 
 
 def displacement_ratio(found: Transient) -> Array:
-    """Stroke over the full one (N,), negative over centre."""
+    """Return the stroke over the full stroke (N,), negative over centre."""
     full = full_drive(found.case.pump)
     whole = np.hypot(np.tan(found.swash_angle), np.tan(found.case.pump.pump.cross_angle or 0.0))
     drive = SwashDrive(full.pitch_radius, full.bore_cone_angle, np.arctan(whole))
@@ -43,9 +43,9 @@ def displacement_ratio(found: Transient) -> Array:
 
 
 def transient_dataset(found: Transient, name: str) -> xarray.Dataset:
-    """The course over `time` (s), units in the attributes; chambers' pressures over `chamber` besides.
+    """Return series over `time` (s), units in the attributes; chamber pressures also over `chamber`.
 
-    Flows are means of the step that ends there, at the pressure of their port, drain at the case's.
+    Flows are means over the step that ends at the time, at the pressure of their port, the drain at case pressure.
     """
     import xarray
 
@@ -86,7 +86,7 @@ def write_course(folder: Path, data: xarray.Dataset) -> None:
 
 
 def transient_summary(found: Transient, name: str, data: xarray.Dataset) -> dict[str, Any]:
-    """What is told of a transient: where the plate begins and ends, how fast, what chambers and stops bear."""
+    """Return the summary: swash angle at start and end, its speed, pressures of chambers, impacts on stops."""
     angle, ratio = found.swash_angle, data["displacement_ratio"].values
     turn = 2.0 * np.pi / found.case.point.shaft_speed
     return {
@@ -122,7 +122,7 @@ def transient_summary(found: Transient, name: str, data: xarray.Dataset) -> dict
 
 
 def _travel(time: Array, angle: Array) -> float | None:
-    """From 10 to 90 % of the way between the angles at begin and end, s; None where they are the same."""
+    """Return the time from 10 to 90 % of the way between start and end angle, s; None where they are equal."""
     way = angle[-1] - angle[0]
     if abs(way) < 1e-9:
         return None
@@ -132,7 +132,7 @@ def _travel(time: Array, angle: Array) -> float | None:
 
 
 def _turn(data: xarray.Dataset, within: NDArray[np.bool_]) -> Mapping[str, float]:
-    """Means over the instants of a turn; the first one's flows belong to the turn before."""
+    """Return means over the instants of a turn; flows of the first instant belong to the previous turn."""
     part = data.isel(time=np.flatnonzero(within)[1:])
     return {
         "delivery_flow_m3_per_s": float(part["delivery_flow"].mean()),
@@ -148,11 +148,11 @@ def _warnings(found: Transient) -> list[str]:
         first = float(found.time[np.argmax(low)])
         told.append(
             f"chamber_cavitates: a cavity opens in a chamber at {np.count_nonzero(low)} of {low.size} instants, "
-            f"first at {first * 1e3:.4g} ms; raise the inlet pressure, or let the ports change over sooner"
+            f"first at {first * 1e3:.4g} ms; raise the inlet pressure, or open the ports earlier"
         )
     if found.rows[:, kernel.ACTUATOR].min() <= CAVITY_PRESSURE:
         told.append(
-            "actuator_cavitates: the plate draws the actuator's piston faster than its orifice fills it; a larger "
-            "orifice, or a higher control pressure"
+            "actuator_cavitates: the swash plate moves the actuator's piston faster than its orifice fills it; "
+            "choose a larger orifice, or a higher control pressure"
         )
     return told

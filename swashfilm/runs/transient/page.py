@@ -1,4 +1,4 @@
-"""The page of a transient: report.html made from the run folder's own files."""
+"""Page of a transient: report.html from the files of the run folder."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ FILES = ("summary.json", "resolved.toml", "results.nc")
 
 
 def write_transient_page(folder: Path) -> Path:
-    """Write report.html of a transient's run folder; raises InputFaults where one of its files is not there."""
+    """Write report.html of a transient's run folder; raise InputFaults where one of its files is missing."""
     import xarray
 
     expect_files(folder, FILES, "a transient's run folder")
@@ -25,10 +25,10 @@ def write_transient_page(folder: Path) -> Path:
     with xarray.open_dataset(folder / "results.nc", engine="h5netcdf") as data:
         data.load()
     pictures = {
-        "Swash angle, and the pressures that move it": transient_plots.plate_plot(data),
-        "Moments on the plate by cause; positive tilts it further; thick, means over a piston pitch":
+        "Swash angle, control pressure and actuator pressure": transient_plots.plate_plot(data),
+        "Moments on the swash plate by cause; positive: increase the angle; thick: means over a piston pitch":
             transient_plots.moment_plot(data),
-        "What the pump gives and takes; thick, means over a piston pitch": transient_plots.pump_plot(data),
+        "Flows and drive torque of the pump; thick: means over a piston pitch": transient_plots.pump_plot(data),
         "Pressure of the chambers": transient_plots.chamber_plot(data),
     }  # fmt: skip
     return write_page(
@@ -44,7 +44,7 @@ def write_transient_page(folder: Path) -> Path:
 
 
 def transient_rows(summary: Mapping[str, Any]) -> list[tuple[str, str]]:
-    """(what, value with its unit): what the plate did."""
+    """Return (name, value with its unit) of the motion of the swash plate."""
     angle, stops, travel = summary["swash_angle"], summary["stops"], summary["travel_10_to_90_s"]
     return [
         ("swash angle at the start", f"{np.degrees(angle['start_rad']):.3f} deg"),
@@ -52,17 +52,17 @@ def transient_rows(summary: Mapping[str, Any]) -> list[tuple[str, str]]:
         ("least, largest", f"{np.degrees(angle['least_rad']):.3f}, {np.degrees(angle['largest_rad']):.3f} deg"),
         ("displacement ratio, start", f"{summary['displacement_ratio_start']:.4f}"),
         ("displacement ratio, end", f"{summary['displacement_ratio_end']:.4f}"),
-        ("10 to 90 % of the way", "the plate stays" if travel is None else f"{travel * 1e3:.1f} ms"),
-        ("fastest", f"{np.degrees(angle['fastest_rad_per_s']):.1f} deg/s"),
+        ("time from 10 to 90 % of the way", "no motion" if travel is None else f"{travel * 1e3:.1f} ms"),
+        ("largest speed of the swash angle", f"{np.degrees(angle['fastest_rad_per_s']):.1f} deg/s"),
         ("largest chamber pressure (gauge)", f"{summary['chamber_pressure_largest_Pa'] * 1e-6:.2f} MPa"),
         ("largest actuator pressure (gauge)", f"{summary['actuator_pressure_largest_Pa'] * 1e-6:.2f} MPa"),
-        ("strikes of a stop", f"{stops['strikes']}, the hardest {stops['largest_impulse_Nms']:.3g} N m s"),
+        ("impacts on a stop", f"{stops['strikes']}, the largest {stops['largest_impulse_Nms']:.3g} N m s"),
         ("natural frequency of the plate on its oil", f"{summary['plate_frequency_Hz']:.0f} Hz"),
     ]
 
 
 def turn_rows(summary: Mapping[str, Any]) -> list[tuple[str, ...]]:
-    """(what, mean over the first turn, over the last)."""
+    """Return (name, mean over the first turn, over the last)."""
     first, last = summary["first_turn"], summary["last_turn"]
     shown = (
         ("delivery flow", "delivery_flow_m3_per_s", LPM, "L/min"),
@@ -75,6 +75,6 @@ def turn_rows(summary: Mapping[str, Any]) -> list[tuple[str, ...]]:
 
 
 def check_rows(summary: Mapping[str, Any]) -> list[tuple[str, str]]:
-    """(check, value)."""
+    """Return (check, value)."""
     rows = [(name.replace("_", " "), f"{value:.2g}") for name, value in summary["checks"].items()]
     return [*rows, ("steps", f"{summary['steps']} of {summary['step_s'] * 1e6:.2f} us")]

@@ -1,4 +1,4 @@
-"""Pictures of a transient, drawn from results.nc alone."""
+"""Pictures of a transient, drawn from results.nc."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ PALE = 0.25
 
 
 def over_a_pitch(data: xarray.Dataset, values: Array) -> Array:
-    """Running means over a piston pitch; nan within half a pitch of the ends."""
+    """Return running means over a piston pitch; nan within half a pitch of the ends."""
     pitch = 2.0 * np.pi / data.sizes["chamber"]
     count = max(1, round(pitch / float(data["shaft_angle"][1] - data["shaft_angle"][0])))
     mean = np.full(values.shape, np.nan)
@@ -39,7 +39,7 @@ def over_a_pitch(data: xarray.Dataset, values: Array) -> Array:
 
 
 def plate_plot(data: xarray.Dataset) -> Figure:
-    """Swash angle (deg) and displacement ratio; control and actuator pressure (MPa), over time (ms)."""
+    """Draw swash angle (deg) and displacement ratio, control and actuator pressure (MPa), over time (ms)."""
     figure = figure_of(10.0, 3.4)
     left, right = figure.subplots(1, 2)
     time = data["time"].values * 1e3
@@ -57,7 +57,7 @@ def plate_plot(data: xarray.Dataset) -> Figure:
 
 
 def moment_plot(data: xarray.Dataset) -> Figure:
-    """Moments on the plate by cause (N m) over time (ms); those that are nothing throughout are left out."""
+    """Draw moments on the swash plate by cause (N m) over time (ms), without those that are always zero."""
     figure = figure_of(10.0, 3.8)
     axes = figure.subplots()
     time = data["time"].values * 1e3
@@ -72,7 +72,7 @@ def moment_plot(data: xarray.Dataset) -> Figure:
 
 
 def pump_plot(data: xarray.Dataset) -> Figure:
-    """Flows at the ports (L/min) and drive torque (N m) over time (ms)."""
+    """Draw flows at the ports (L/min) and drive torque (N m) over time (ms)."""
     figure = figure_of(10.0, 3.4)
     left, right = figure.subplots(1, 2)
     time = data["time"].values * 1e3
@@ -93,7 +93,7 @@ def pump_plot(data: xarray.Dataset) -> Figure:
 
 
 def chamber_plot(data: xarray.Dataset) -> Figure:
-    """Pressure of chamber 1 and the span of all (MPa) over time (ms)."""
+    """Draw the pressure of chamber 1 and the range of all chambers (MPa) over time (ms)."""
     figure = figure_of(10.0, 3.0)
     axes = figure.subplots()
     time, pressure = data["time"].values * 1e3, data["chamber_pressure"].values * 1e-6

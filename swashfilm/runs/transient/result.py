@@ -1,4 +1,4 @@
-"""A transient of displacement as a result: numbers, tables, plots."""
+"""Result of a transient of displacement: numbers, tables, plots."""
 
 from __future__ import annotations
 
@@ -30,13 +30,13 @@ class TransientRun(Result):
         return tables
 
     def plot_plate(self) -> list[Axes]:
-        """Swash angle and control pressure over time."""
+        """Draw swash angle and control pressure over time."""
         return plotted(lambda: plots.plate_plot(self.to_xarray()))
 
     def plot_moments(self) -> list[Axes]:
-        """Moments on the swash plate by cause over time."""
+        """Draw moments on the swash plate by cause over time."""
         return plotted(lambda: plots.moment_plot(self.to_xarray()))
 
     def plot_pump(self) -> list[Axes]:
-        """Flow and drive torque over time."""
+        """Draw flow and drive torque over time."""
         return plotted(lambda: plots.pump_plot(self.to_xarray()))

@@ -13,7 +13,7 @@ from system.multibody.transient.solver import run_transient
 
 
 def solve_transient(stated: StatedTransient) -> TransientRun:
-    """Solve a transient; raises as `run_transient`.
+    """Solve a transient; raise as `run_transient`.
 
     Its run folder holds input.toml, resolved.toml, course.csv, results.nc, summary.json, report.html.
     """

@@ -165,7 +165,7 @@ def test_a_point_that_fails_stops_no_other(tmp_path, monkeypatch, capsys):
         (["--speeds", "1000", "--plan", "papr", "--workers", "0"], ["--speeds", "--plan", "--workers"]),
         (["--pressures", "10bar", "--fidelity", "lumped"], ["operating.pressure", "inlet_pressure"]),
         (["--displacements", "1.2", "--fidelity", "lumped"], ["operating.displacement_ratio"]),
-        (["--inlet-pressures", "10,25bar"], ["--inlet-pressures", "--direct takes some 448 s"]),
+        (["--inlet-pressures", "10,25bar"], ["--inlet-pressures", "--direct needs about 448 s"]),
         (["--fidelity", "lumped", "--direct"], ["--direct"]),
         (["--fidelity", "table", "--table", "no.json"], ["no.json"]),
         (["--workers", "2", "--cluster", "tcp://nowhere:1"], ["--workers"]),
@@ -194,7 +194,7 @@ def test_pump_and_axes_are_told_of_together(tmp_path, capsys):
         (lambda place: place.write_text('name = "pump"'), "swashfilm map"),
         (lambda place: place.mkdir(), "a folder without map.nc"),
         (lambda place: (place / "points").mkdir(parents=True), "--resume"),
-        (lambda place: (place.mkdir(), (place / "map.nc").write_text("x")), "what is no map of ours"),
+        (lambda place: (place.mkdir(), (place / "map.nc").write_text("x")), "not a map of swashfilm"),
     ],
 )
 def test_what_is_no_map_is_told(build, told, tmp_path, capsys):
@@ -246,7 +246,7 @@ def test_duty_and_compare_leave_their_pages(run, tmp_path, capsys):
     assert main(["duty", str(run), str(cycle), "-o", str(tmp_path / "duty")]) == 0
     out = capsys.readouterr().out
     assert "Mean efficiency" in out
-    assert "held by the map: oil temperature in the case 50 degC" in out
+    assert "constant in the map: oil temperature in the case 50 degC" in out
     summary = json.loads((tmp_path / "duty" / "summary.json").read_text())
     assert summary["duration_s"] == 20.0
     course = list(csv.DictReader((tmp_path / "duty" / "course.csv").open()))
