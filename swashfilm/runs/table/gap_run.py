@@ -24,7 +24,7 @@ from system.points.table.response_table import PRESSURE, RATIO, SPEED, axis_valu
 from system.points.table.store import read_response, response_record, write_response
 from system.work.processes import process_pool
 from system.work.progress import Report
-from system.work.sampled_points import points_of, samples_of, solved_points
+from system.work.sampled_points import SampledPoint, points_of, samples_of, solved_points
 
 POSITIVE = (
     "leakage_flow_m3_per_s", "friction_power_W", "film_thickness_mean_m", "film_thickness_min_m",
