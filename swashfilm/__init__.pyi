@@ -5,7 +5,13 @@ from .api import (
     NotConverged as NotConverged,
 )
 from .api import (
+    calibrate as calibrate,
+)
+from .api import (
     compare as compare,
+)
+from .api import (
+    diagnose as diagnose,
 )
 from .api import (
     duty as duty,

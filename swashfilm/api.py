@@ -26,6 +26,8 @@ from system.work.progress import Report, silent
 
 if TYPE_CHECKING:
     from swashfilm.output.result import Result
+    from swashfilm.runs.calibrate.result import CalibrationRun
+    from swashfilm.runs.diagnose.result import DiagnosisRun
     from swashfilm.runs.film.result import FilmRun
     from swashfilm.runs.film.revolution.result import RevolutionRun
     from swashfilm.runs.film.series.result import StudyRun
@@ -66,6 +68,8 @@ _RESULTS = (
     "swashfilm.runs.transient.result.TransientRun",
     "swashfilm.runs.reference.result.ReferenceRun",
     "swashfilm.runs.reproduce.result.Reproduction",
+    "swashfilm.runs.diagnose.result.DiagnosisRun",
+    "swashfilm.runs.calibrate.result.CalibrationRun",
 )
 
 
@@ -247,6 +251,57 @@ def reference(case: Case, *, report: Report = silent) -> ReferenceRun:
 
         found = load_reference(path)
         return ReferenceRun.ran(lambda folder: run_reference(found, folder, report))
+
+
+def diagnose(
+    pump: str | Path | PumpDescription, recording: str | Path, *, report: Report = silent, **options: object
+) -> DiagnosisRun:
+    """A recording against the simulation of its pump, as `swashfilm diagnose`.
+
+    pump: name, file (which may know little) or description; recording: folder, or table beside a recording.toml.
+    options: workers, film_tables. Raises InputFaults and NotConverged.
+    """
+    with _door("diagnose"), _pump_file(pump) as name:
+        from diagnosis.finding import diagnose as found_by
+        from diagnosis.study.acceptance import checked_recording
+        from diagnosis.study.scaled_pump import load_known_pump
+        from swashfilm.runs.diagnose.command import workers_and_file
+        from swashfilm.runs.diagnose.result import DiagnosisRun
+        from swashfilm.runs.diagnose.run import write_finding
+        from system.effects.catalogue.entries import CATALOGUE, with_films_solved
+
+        words = _words("diagnose", [name, recording], options)
+        workers, _ = workers_and_file(words)
+        known = load_known_pump(name)
+        readings = checked_recording(words.recording, known)
+        catalogue = with_films_solved(known.pump, report) if words.film_tables else CATALOGUE
+        finding = found_by(known, readings, report, workers, catalogue)
+        return DiagnosisRun.ran(lambda folder: write_finding(folder, finding))
+
+
+def calibrate(
+    pump: str | Path | PumpDescription, recording: str | Path, *, report: Report = silent, **options: object
+) -> CalibrationRun:
+    """Coefficients of a pump by a recording, as `swashfilm calibrate`.
+
+    options: laws ("mixed_friction" or "none"), models ("all", "none" or names). Raises InputFaults and
+    NotConverged.
+    """
+    with _door("calibrate"), _pump_file(pump) as name:
+        from diagnosis.calibration import calibrate as found_by
+        from diagnosis.study.acceptance import checked_recording
+        from diagnosis.study.scaled_pump import load_known_pump
+        from swashfilm.runs.calibrate.command import LAWS, loss_models
+        from swashfilm.runs.calibrate.files import write_calibration_files
+        from swashfilm.runs.calibrate.result import CalibrationRun
+
+        words = _words("calibrate", [name, recording], options)
+        models = loss_models(words)
+        known = load_known_pump(name)
+        readings = checked_recording(words.recording, known)
+        found = found_by(known, readings, report, models, words.laws == LAWS[0])
+        title = readings.title or words.recording.stem
+        return CalibrationRun.ran(lambda folder: write_calibration_files(folder, found, title))
 
 
 def reproduce(figure: str = "all", *, report: Report = silent, **options: object) -> Reproduction:

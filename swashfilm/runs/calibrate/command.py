@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from swashfilm.console.command import Command
+from swashfilm.console.inputs import COMMAND_LINE
 from swashfilm.console.terminal import show, show_table
 from system.inputs.faults import Fault, InputFaults, nearest_choice
 
@@ -39,7 +40,12 @@ def add_calibrate_options(command: argparse.ArgumentParser) -> None:
 
 
 def run_calibrate_command(options: argparse.Namespace) -> int:
-    """Run `swashfilm calibrate` and return its exit code."""
+    """Run `swashfilm calibrate` and return its exit code; raises InputFaults with every fault of the options."""
+    return _calibrate(options, loss_models(options))
+
+
+def loss_models(options: argparse.Namespace) -> list[LossModelName]:
+    """The loss models of a command line; raises InputFaults for other names and laws."""
     from system.bench.loss_models.model import LossModelName
 
     faults: list[Fault] = []
@@ -53,8 +59,8 @@ def run_calibrate_command(options: argparse.Namespace) -> int:
             expected = f"{ALL}, {NONE}, or of {', '.join(known)}"
             faults.append(Fault("--models", repr(name), expected, nearest_choice(name, known)))
     if faults:
-        raise InputFaults("command line", faults)
-    return _calibrate(options, [LossModelName(name) for name in asked])
+        raise InputFaults(COMMAND_LINE, faults)
+    return [LossModelName(name) for name in asked]
 
 
 def _calibrate(options: argparse.Namespace, models: Sequence[LossModelName]) -> int:
@@ -65,7 +71,7 @@ def _calibrate(options: argparse.Namespace, models: Sequence[LossModelName]) -> 
     from swashfilm.console.progress import progress
     from swashfilm.output.run_folder import final_folder, run_folder
     from swashfilm.runs.calibrate.files import CALIBRATED, write_calibration_files
-    from swashfilm.runs.calibrate.page import headline, held_out_table, pair_table
+    from swashfilm.runs.calibrate.result import CalibrationRun
 
     known = load_known_pump(options.pump)
     recording = checked_recording(options.recording, known)
@@ -76,12 +82,11 @@ def _calibrate(options: argparse.Namespace, models: Sequence[LossModelName]) -> 
     ):
         found = calibrate(known, recording, report, models, options.laws == LAWS[0])
         write_calibration_files(folder, found, title)
-        told, pairs, compared = headline(folder), pair_table(folder), held_out_table(folder)
-    for text in (*(note.text for note in other_pump(recording, known)), *told):
+        run = CalibrationRun.opened(folder)
+    for text in (*(note.text for note in other_pump(recording, known)), *run.paragraphs):
         show(text)
-    show_table("Friction coefficients: prior, fitted, sigma over the prior's", pairs)
-    if len(compared) > 1:
-        show_table("What models get wrong at levels left out", compared)
+    for heading, rows in run.tables():
+        show_table(heading, rows)
     for note in found.notes:
         if note.startswith(NoteKind.REMOVED.value):
             show(note)

@@ -2,16 +2,18 @@
 
 from __future__ import annotations
 
-import base64
 import json
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
+from swashfilm.output.page import expect_files, inlined, write_page
 from swashfilm.runs.calibrate import plots as calibrate_plots
 from swashfilm.runs.diagnose.files import read_rows
 from system.bench.calibration.held_out import PHYSICS
-from system.inputs.faults import Fault, InputFaults
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 TABLES = ("parameters", "undetermined", "equation_21", "hersey", "heldout", "residuals")
 FILES = ("summary.json", *(f"{name}.csv" for name in TABLES))
@@ -20,18 +22,12 @@ Row = Mapping[str, str]
 
 def write_calibrate_page(folder: Path) -> Path:
     """Write report.html of a calibration; raises InputFaults where one of its files is not there."""
-    from jinja2 import Environment, PackageLoader
-
-    missing = [name for name in FILES if not (folder / name).is_file()]
-    if missing:
-        faults = [Fault(name, "no such file", "a calibration's run folder") for name in missing]
-        raise InputFaults(str(folder), faults)
+    expect_files(folder, FILES, "a calibration's run folder")
     tables = {name: read_rows(folder / f"{name}.csv") for name in TABLES}
-    template = Environment(loader=PackageLoader("swashfilm.output"), autoescape=True).get_template(
-        "calibrate.html.jinja"
-    )
-    pictures = {name: base64.b64encode(png).decode("ascii") for name, png in _pictures(tables).items()}
-    page = template.render(
+    pictures = {name: inlined(png) for name, png in _pictures(tables).items()}
+    return write_page(
+        folder,
+        "calibrate",
         summary=_summary(folder),
         told=headline(folder),
         pairs=pair_table(folder),
@@ -41,9 +37,6 @@ def write_calibrate_page(folder: Path) -> Path:
         parameters=[_parameter(row) for row in tables["parameters"]],
         pictures=pictures,
     )
-    path = folder / "report.html"
-    path.write_text(page, encoding="utf-8")
-    return path
 
 
 def headline(folder: Path) -> tuple[str, ...]:
@@ -137,7 +130,7 @@ def _summary(folder: Path) -> dict[str, Any]:
     return found
 
 
-def _pictures(tables: Mapping[str, Sequence[Row]]) -> dict[str, bytes]:
+def _pictures(tables: Mapping[str, Sequence[Row]]) -> dict[str, Figure]:
     """PNGs by name."""
     pictures = {"hersey": calibrate_plots.friction_curves(tables["hersey"])}
     if tables["equation_21"]:

@@ -3,11 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING
 
 import numpy as np
 
-from swashfilm.output.figures import figure_of, png_of
+from swashfilm.output.figures import figure_of
 from system.bench.calibration.held_out import PHYSICS
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 Row = Mapping[str, str]
 COLOURS = ("#b55a00", "#3c7a8c", "#6d5a9c", "#4f7a3a")
@@ -16,7 +20,7 @@ TICKS = tuple(float(f"{digit}e{power}") for power in range(-1, 9) for digit in (
 OWN, OTHERS, NOISE = "#b55a00", "#3c7a8c", "#9aa4ab"
 
 
-def coefficients_over_displacement(rows: Sequence[Row]) -> bytes:
+def coefficients_over_displacement(rows: Sequence[Row]) -> Figure:
     """Eq. (21)'s coefficients over displacement with one sigma, the whole map's and the prior as bands.
 
     A panel for each pair; a coefficient without influence on the readings has the prior's width.
@@ -46,10 +50,10 @@ def coefficients_over_displacement(rows: Sequence[Row]) -> bytes:
         axes.tick_params(labelsize=7)
         axes.grid(visible=True, alpha=0.3)
     figure.legend(*grid[0, 0].get_legend_handles_labels(), loc="lower right", fontsize=9)
-    return png_of(figure)
+    return figure
 
 
-def friction_curves(rows: Sequence[Row]) -> bytes:
+def friction_curves(rows: Sequence[Row]) -> Figure:
     """Coefficient of each film over the Hersey numbers met under load, one sigma as a band."""
     figure = figure_of(7.5, 4.0)
     axes = figure.subplots()
@@ -66,10 +70,10 @@ def friction_curves(rows: Sequence[Row]) -> bytes:
     axes.set_ylim(bottom=0.0)
     axes.legend(fontsize=8)
     axes.grid(visible=True, alpha=0.3, which="both")
-    return png_of(figure)
+    return figure
 
 
-def held_out_models(rows: Sequence[Row]) -> bytes:
+def held_out_models(rows: Sequence[Row]) -> Figure:
     """RMS in units of the noise by model and split, a panel for each channel, on a logarithmic scale."""
     from matplotlib.ticker import FormatStrFormatter, NullFormatter
 
@@ -100,4 +104,4 @@ def held_out_models(rows: Sequence[Row]) -> bytes:
     grid[0, 0].set_yticks(np.arange(len(models)), labels)
     grid[0, 0].invert_yaxis()
     grid[0, -1].legend(fontsize=8)
-    return png_of(figure)
+    return figure

@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from swashfilm.console.command import Command
+from swashfilm.console.inputs import COMMAND_LINE
 from swashfilm.console.terminal import show, show_table
 from system.inputs.faults import Fault, InputFaults
 
@@ -48,19 +49,14 @@ def add_diagnose_options(command: argparse.ArgumentParser) -> None:
 
 def run_diagnose_command(options: argparse.Namespace) -> int:
     """Run `swashfilm diagnose` and return its exit code, 0 whatever the verdict."""
-    faults: list[Fault] = []
-    workers, apply = _workers(options, faults), _apply(options, faults)
-    if faults:
-        raise InputFaults("command line", faults)
+    workers, apply = workers_and_file(options)
     from diagnosis.finding import diagnose
     from diagnosis.recording.model import NoteKind
-    from diagnosis.report.json_file import read_diagnosis
-    from diagnosis.report.text import paragraphs
     from diagnosis.study.acceptance import checked_recording, other_pump
     from diagnosis.study.scaled_pump import load_known_pump
     from swashfilm.console.progress import progress
     from swashfilm.output.run_folder import final_folder, run_folder
-    from swashfilm.runs.diagnose.page import CHANNEL_HEAD, channel_rows, read_summary, remarks
+    from swashfilm.runs.diagnose.result import DiagnosisRun
     from swashfilm.runs.diagnose.run import EXTENDED, write_finding
     from system.effects.catalogue.entries import CATALOGUE, with_films_solved
     from system.effects.effect import Kind
@@ -72,21 +68,31 @@ def run_diagnose_command(options: argparse.Namespace) -> int:
         catalogue = with_films_solved(known.pump, report) if options.film_tables else CATALOGUE
         finding = diagnose(known, recording, report, workers, catalogue)
         write_finding(folder, finding)
-        record, summary = read_diagnosis(folder / "diagnosis.json"), read_summary(folder)
-    found = finding.diagnosis
-    for text in (*(note.text for note in other_pump(recording, known)), *paragraphs(found)):
+        found = DiagnosisRun.opened(folder)
+    for text in (*(note.text for note in other_pump(recording, known)), *found.paragraphs):
         show(text)
-    show_table("Channels", [CHANNEL_HEAD, *channel_rows(record)])
-    for note in (*remarks(record, summary), *(n for n in found.notes if n.startswith(NoteKind.REMOVED.value))):
+    for title, rows in found.tables():
+        show_table(title, rows)
+    removed = (note for note in finding.diagnosis.notes if note.startswith(NoteKind.REMOVED.value))
+    for note in (*found.notes, *removed):
         show(note)
     if apply is not None and found.effects:
         shutil.copyfile(final_folder(folder) / EXTENDED, apply)
-        what = "without the sensor's fault" if found.kind is Kind.SENSOR_FAULT else "with it"
+        what = "without the sensor's fault" if finding.diagnosis.kind is Kind.SENSOR_FAULT else "with it"
         show(f"the pump as fitted, {what}, is {apply}: swashfilm run {apply} --fidelity lumped")
     elif apply is not None:
         show(f"nothing is claimed: {apply} is not written")
     show(f"results in {final_folder(folder)}")
     return 0
+
+
+def workers_and_file(options: argparse.Namespace) -> tuple[int, Path | None]:
+    """Number of processes and file of the fitted pump; raises InputFaults with the faults of both."""
+    faults: list[Fault] = []
+    workers, apply = _workers(options, faults), _apply(options, faults)
+    if faults:
+        raise InputFaults(COMMAND_LINE, faults)
+    return workers, apply
 
 
 def is_recording(path: Path, tables: Sequence[str]) -> bool:

@@ -10,7 +10,7 @@ import numpy as np
 
 from diagnosis.procedure.pump_comparison import OF_FILMS
 from swashfilm.output.field_maps import MapField, draw_map
-from swashfilm.output.figures import figure_of, png_of
+from swashfilm.output.figures import figure_of
 from swashfilm.runs.pump.data import GAPS, films_dataset
 from swashfilm.runs.pump.fields import write_fields
 from swashfilm.runs.pump.plots import GAP_FIELDS, gap_place, pictured
@@ -19,6 +19,7 @@ from system.points.films import FilmsPoint
 
 if TYPE_CHECKING:
     import xarray
+    from matplotlib.figure import Figure
 
 FIELDS_FILE = "films.nc"
 _FIELD_OF = {
@@ -37,7 +38,7 @@ def write_film_fields(folder: Path, films: FilmsPoint) -> None:
     data.to_netcdf(folder / FIELDS_FILE, engine="h5netcdf")
 
 
-def film_pictures(folder: Path, names: tuple[str, str], found: Mapping[str, Any]) -> dict[str, bytes]:
+def film_pictures(folder: Path, names: tuple[str, str], found: Mapping[str, Any]) -> dict[str, Figure]:
     """Fields of the gaps that a finding is about, without beside with it on one scale, by caption."""
     import xarray
 
@@ -57,7 +58,7 @@ def _caption(data: xarray.Dataset, gap: str) -> str:
     return f"Film of the {gap.replace('_', ' ')} at {angle:.0f} deg of the shaft, without and with the finding"
 
 
-def _beside(data: list[xarray.Dataset], names: tuple[str, str], gap: str, shown: list[MapField]) -> bytes:
+def _beside(data: list[xarray.Dataset], names: tuple[str, str], gap: str, shown: list[MapField]) -> Figure:
     figure = figure_of(10.0, 3.7 * len(shown))
     for line, field in zip(figure.subplots(len(shown), 2, squeeze=False), shown, strict=True):
         values = [field.in_unit(_field(one, gap, field.name)) for one in data]
@@ -66,7 +67,7 @@ def _beside(data: list[xarray.Dataset], names: tuple[str, str], gap: str, shown:
             place, labels = gap_place(one, gap, pictured(one, gap))
             cells = one[f"{gap}_cells"].values
             draw_map(axes, place, cells, own, f"{field.title}, {name}", labels, field.colours, limits)
-    return png_of(figure)
+    return figure
 
 
 def _field(data: xarray.Dataset, gap: str, name: str) -> np.ndarray:

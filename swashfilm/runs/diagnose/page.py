@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-import base64
 import json
 from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -15,12 +14,15 @@ from diagnosis.procedure.pump_comparison import HYDRAULIC, SHAFT, WITH, WITHOUT
 from diagnosis.report.format import chance
 from diagnosis.report.json_file import read_diagnosis
 from reynolds.numerics.arrays import Array
+from swashfilm.output.page import expect_files, inlined, write_page
 from swashfilm.runs.diagnose import plots as diagnose_plots
 from swashfilm.runs.diagnose.fields import film_pictures
 from swashfilm.runs.diagnose.files import TRACES, read_rows
 from swashfilm.runs.diagnose.trace_plots import trace_residuals
-from system.inputs.faults import Fault, InputFaults
 from system.inputs.units import Dimension, in_unit, reading_unit
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 FILES = (
     "summary.json", "diagnosis.json", "residuals.csv", "hypotheses.csv", "parameters.csv", "next_points.csv",
@@ -35,21 +37,15 @@ MOST_COURSES = 2
 
 def write_diagnose_page(folder: Path) -> Path:
     """Write report.html of a diagnosis; raises InputFaults where one of its files is not there."""
-    from jinja2 import Environment, PackageLoader
-
-    missing = [name for name in FILES if not (folder / name).is_file()]
-    if missing:
-        faults = [Fault(name, "no such file", "a diagnosis's run folder") for name in missing]
-        raise InputFaults(str(folder), faults)
+    expect_files(folder, FILES, "a diagnosis's run folder")
     found = read_diagnosis(folder / "diagnosis.json")
     tables = {name: read_rows(folder / f"{name}.csv") for name in TABLES}
     if (folder / TRACES).is_file():
         tables["traces"] = read_rows(folder / TRACES)
-    template = Environment(loader=PackageLoader("swashfilm.output"), autoescape=True).get_template(
-        "diagnose.html.jinja"
-    )
     summary = read_summary(folder)
-    page = template.render(
+    return write_page(
+        folder,
+        "diagnose",
         summary=summary,
         found=found,
         channels=list(channel_rows(found)),
@@ -61,14 +57,11 @@ def write_diagnose_page(folder: Path) -> Path:
         next_head=tuple(next(iter(tables["next_points"]), {})),
         changes=list(change_rows(tables["changes"])),
         films=list(film_rows(tables["films"])),
-        film_pictures={name: _inline(png) for name, png in film_pictures(folder, (WITHOUT, WITH), found).items()},
+        film_pictures={name: inlined(png) for name, png in film_pictures(folder, (WITHOUT, WITH), found).items()},
         remarks=remarks(found, summary),
         next_point=next_point_words(found),
-        pictures={name: _inline(png) for name, png in _pictures(found, tables).items()},
+        pictures={name: inlined(png) for name, png in _pictures(found, tables).items()},
     )
-    path = folder / "report.html"
-    path.write_text(page, encoding="utf-8")
-    return path
 
 
 def read_summary(folder: Path) -> dict[str, Any]:
@@ -183,10 +176,6 @@ def next_point_words(found: Mapping[str, Any]) -> str:
     return f"{reason[0].upper()}{reason[1:].rstrip('.')}."
 
 
-def _inline(png: bytes) -> str:
-    return base64.b64encode(png).decode("ascii")
-
-
 def _told(unit: str, value: float, sigma: float | None = None) -> str:
     """A value in SI, with its sigma, in the unit that people read it in; of temperatures it is a difference."""
     dimension = next((one for one in Dimension if one.si_unit == unit), None)
@@ -202,7 +191,7 @@ def _plain(value: float, digits: int) -> str:
     return f"{value:.{digits}g}" if abs(value) < 10.0**digits else f"{value:.0f}"
 
 
-def _pictures(found: Mapping[str, Any], tables: Mapping[str, Sequence[Mapping[str, str]]]) -> dict[str, bytes]:
+def _pictures(found: Mapping[str, Any], tables: Mapping[str, Sequence[Mapping[str, str]]]) -> dict[str, Figure]:
     """Captions and PNGs."""
     residuals = tables["residuals"]
     held_out = {name: row for name, row in found["fit"]["heldout"].items() if all(row[key] for key in _HELD_OUT)}

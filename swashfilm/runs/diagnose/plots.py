@@ -8,10 +8,11 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from reynolds.numerics.arrays import Array
-from swashfilm.output.figures import figure_of, png_of
+from swashfilm.output.figures import figure_of
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
 
 Row = Mapping[str, str]
 BEFORE, AFTER, NOISE = "#b55a00", "#3c7a8c", "#9aa4ab"
@@ -23,7 +24,7 @@ RATIO_STEP = 0.1
 """Points whose displacement ratios differ by less are drawn together."""
 
 
-def residual_maps(rows: Sequence[Row]) -> bytes:
+def residual_maps(rows: Sequence[Row]) -> Figure:
     """Pulls over speed and pressure by channel and displacement, before beside after on one scale.
 
     For more than two displacements, before is above after, so that each panel stays legible.
@@ -51,10 +52,10 @@ def residual_maps(rows: Sequence[Row]) -> bytes:
         drawn, ax=grid.ravel().tolist(), shrink=min(0.8, 6.0 / (1.5 * len(lines))), extend="both"
     )
     bar.set_label("(measured - simulated) / sigma", fontsize=8)
-    return png_of(figure)
+    return figure
 
 
-def held_out_bars(held_out: Mapping[str, Mapping[str, Any]]) -> bytes:
+def held_out_bars(held_out: Mapping[str, Mapping[str, Any]]) -> Figure:
     """RMS of held-out residuals before and after, in units of each channel's noise."""
     names = list(held_out)
     figure = figure_of(WIDTH, 1.2 + 0.5 * len(names))
@@ -68,10 +69,10 @@ def held_out_bars(held_out: Mapping[str, Mapping[str, Any]]) -> bytes:
     axes.invert_yaxis()
     _legend_above(axes)
     axes.grid(visible=True, axis="x", alpha=0.3)
-    return png_of(figure)
+    return figure
 
 
-def hypothesis_bars(rows: Sequence[Row]) -> bytes:
+def hypothesis_bars(rows: Sequence[Row]) -> Figure:
     """The likeliest hypotheses: probability, and how far behind the best each lies."""
     ranked = sorted(rows, key=lambda row: -float(row["probability"]))[:MOST_BARS]
     figure = figure_of(WIDTH, 1.0 + 0.34 * len(ranked))
@@ -84,10 +85,10 @@ def hypothesis_bars(rows: Sequence[Row]) -> bytes:
     axes.set_yticks(places, [row["hypothesis"].replace("_", " ") for row in ranked], fontsize=8)
     axes.set(xlim=(0.0, 1.35), xlabel="probability", xticks=np.linspace(0, 1, 6))
     axes.invert_yaxis()
-    return png_of(figure)
+    return figure
 
 
-def pull_changes(rows: Sequence[Row]) -> bytes:
+def pull_changes(rows: Sequence[Row]) -> Figure:
     """Pulls of the parameters that either fit drags the most, from before to after, of those that both hold."""
     common = [row for row in rows if row["pull_before"] and row["pull_after"]]
     ranked = sorted(common, key=lambda row: -max(abs(float(row[key])) for key in ("pull_before", "pull_after")))
@@ -103,10 +104,10 @@ def pull_changes(rows: Sequence[Row]) -> bytes:
     axes.set_xlabel("pull; grey: within two, as of most values that are stated rightly")
     axes.invert_yaxis()
     _legend_above(axes)
-    return png_of(figure)
+    return figure
 
 
-def effect_courses(rows: Sequence[Row], courses: Sequence[tuple[str, str]]) -> bytes:
+def effect_courses(rows: Sequence[Row], courses: Sequence[tuple[str, str]]) -> Figure:
     """Additions of the claim to channels, each over an axis, beside the residual without it."""
     figure = figure_of(WIDTH, 4.0)
     for axes, (channel, axis) in zip(figure.subplots(1, len(courses), squeeze=False)[0], courses, strict=True):
@@ -124,10 +125,10 @@ def effect_courses(rows: Sequence[Row], courses: Sequence[tuple[str, str]]) -> b
         axes.set_ylabel(f"{channel} / {own[0]['unit'].replace('degC', 'K')}")
         axes.grid(visible=True, alpha=0.3)
     _legend_above(axes)
-    return png_of(figure)
+    return figure
 
 
-def loss_bars(rows: Sequence[Row], whole: Mapping[str, float]) -> bytes:
+def loss_bars(rows: Sequence[Row], whole: Mapping[str, float]) -> Figure:
     """Parts of the shaft power, without and with the finding, in % of each one's shaft power; `whole` in W."""
     runs = tuple(whole)
     shares = {row["quantity"]: [100.0 * float(row[run]) / whole[run] for run in runs] for row in rows}
@@ -141,7 +142,7 @@ def loss_bars(rows: Sequence[Row], whole: Mapping[str, float]) -> bytes:
     axes.invert_yaxis()
     _legend_above(axes)
     axes.grid(visible=True, axis="x", alpha=0.3)
-    return png_of(figure)
+    return figure
 
 
 def _legend_above(axes: Axes) -> None:

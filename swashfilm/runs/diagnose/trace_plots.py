@@ -3,11 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from reynolds.numerics.arrays import Array
-from swashfilm.output.figures import figure_of, png_of
+from swashfilm.output.figures import figure_of
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 Row = Mapping[str, str]
 FITS = {
@@ -20,7 +24,7 @@ MOST_TRACES = 4
 QUARTERS = np.arange(0, 361, 90)
 
 
-def trace_residuals(rows: Sequence[Row], window: Sequence[float] | None, settings: Mapping[str, str]) -> bytes:
+def trace_residuals(rows: Sequence[Row], window: Sequence[float] | None, settings: Mapping[str, str]) -> Figure:
     """The traces that differ most before: recorded pressure, and recorded less simulated, on one scale.
 
     window: shaft angles in deg between which they stand out; settings: by point, the text above it.
@@ -50,7 +54,7 @@ def trace_residuals(rows: Sequence[Row], window: Sequence[float] | None, setting
     grid[0, 1].legend(fontsize=8, ncols=4, loc="lower right", bbox_to_anchor=(1.0, 1.0), frameon=False)
     for axes in grid[-1]:
         axes.set_xlabel("shaft angle from the inner dead centre / deg", fontsize=8)
-    return png_of(figure)
+    return figure
 
 
 def _residual(rows: Sequence[Row], key: str) -> Array:

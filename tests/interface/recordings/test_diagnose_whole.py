@@ -214,3 +214,16 @@ def test_walls_as_the_film_solver_has_them_are_found_by_two_processes(tmp_path: 
     assert opening.slipper is not None
     assert opening.slipper.compliance == pytest.approx(parameter["value"], rel=1e-12)
     assert main(["run", str(out / "pump_extended.toml"), "--fidelity", "lumped", "-o", str(tmp_path / "run")]) == 0
+
+
+@pytest.mark.slow
+def test_the_front_door_diagnoses_and_opens_the_same(tmp_path):
+    import swashfilm as sf
+
+    found = sf.diagnose("ref90", EXAMPLES / "open-06", workers=1)
+    assert found.effects[0]["id"] == "port_short_circuit"
+    assert found.statement in repr(found)
+    assert found.plot_evidence()
+    assert found.plot_effect()
+    again = sf.open(found.save(tmp_path / "run"))
+    assert again.paragraphs == found.paragraphs

@@ -1,0 +1,92 @@
+"""A diagnosis as a result: verdict in sentences, tables, plots."""
+
+from __future__ import annotations
+
+from functools import cached_property
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, ClassVar
+
+from diagnosis.report.json_file import read_diagnosis
+from swashfilm.output.result import Result, plotted, read_table
+from swashfilm.output.tables import Table
+from swashfilm.runs.diagnose import plots
+from swashfilm.runs.diagnose.files import read_rows
+from swashfilm.runs.diagnose.page import CHANNEL_HEAD, FILES, channel_rows, remarks, strongest_courses
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    import xarray
+    from matplotlib.axes import Axes
+
+
+class DiagnosisRun(Result):
+    """A recording against the simulation of its pump: verdict, place, missing physics with probabilities."""
+
+    kinds: ClassVar[tuple[str, ...]] = ("diagnosis",)
+    files: ClassVar[tuple[str, ...]] = FILES
+    record: Mapping[str, Any]
+    _rows: Mapping[str, list[dict[str, str]]]
+
+    @classmethod
+    def opened(cls, folder: Path) -> DiagnosisRun:
+        """The diagnosis of a run folder; raises InputFaults where one of its files is missing."""
+        found = super().opened(folder)
+        found.record = read_diagnosis(folder / "diagnosis.json")
+        found._rows = {
+            name: read_rows(folder / f"{name}.csv") for name in ("residuals", "hypotheses", "parameters")
+        }
+        return found
+
+    @staticmethod
+    def read_data(folder: Path) -> xarray.Dataset:
+        """residuals.csv of a run folder."""
+        return read_table(folder / "residuals.csv")
+
+    @property
+    def statement(self) -> str:
+        """The verdict in sentences."""
+        return str(self.record["statement"])
+
+    @property
+    def paragraphs(self) -> tuple[str, ...]:
+        """The verdict, residuals of held-out points, rivals, and the next point."""
+        return (self.statement, *self.record["details"])
+
+    @property
+    def effects(self) -> list[dict[str, Any]]:
+        """What is claimed: id, pair, probability, parameters with sigmas in SI."""
+        return list(self.record["effects"])
+
+    @cached_property
+    def notes(self) -> list[str]:
+        """Notes on the verdict."""
+        return remarks(self.record, self.summary)
+
+    def tables(self) -> list[Table]:
+        """The channels with their residuals."""
+        return [("Channels", [CHANNEL_HEAD, *channel_rows(self.record)])]
+
+    def __repr__(self) -> str:
+        return "\n".join([*self.paragraphs, super().__repr__()])
+
+    def _repr_html_(self) -> str:
+        from html import escape
+
+        return "".join(f"<p>{escape(text)}</p>" for text in self.paragraphs) + super()._repr_html_()
+
+    def plot_residuals(self) -> list[Axes]:
+        """Maps of the residuals in multiples of their sigma, without and with the finding."""
+        return plotted(lambda: plots.residual_maps(self._rows["residuals"]))
+
+    def plot_evidence(self) -> list[Axes]:
+        """Probabilities of the hypotheses."""
+        return plotted(
+            lambda: plots.hypothesis_bars(self._rows["hypotheses"]) if self._rows["hypotheses"] else None
+        )
+
+    def plot_effect(self) -> list[Axes]:
+        """Contribution of the finding beside the residuals without it; nothing where nothing is claimed."""
+        rows = self._rows["residuals"]
+        courses = strongest_courses(rows) if self.effects else []
+        return plotted(lambda: plots.effect_courses(rows, courses) if courses else None)
