@@ -27,7 +27,7 @@ from system.effects.extension import Entry
 from system.inputs.errors import NotConverged
 from system.work.progress import Report, silent
 
-NO_NEXT_POINT = "no next point is foretold"
+NO_NEXT_POINT = "no next point can be proposed"
 """First words of the note that gives the reason."""
 
 

@@ -152,13 +152,13 @@ def candidates_of(study: Study, member: Hypothesis) -> tuple[Candidate, ...]:
 
 def _of_candidates(study: Study) -> Iterator[Hypothesis]:
     """One for each law at each place and for each parameter, in the order of the candidates."""
-    seen: set[tuple[EffectId, Gap | None, str]] = set()
+    known: set[tuple[EffectId, Gap | None, str]] = set()
     for each in study.candidates:
         law = next((one for one in each.entry.extensions if each.extension in one.members), None)
         key = (each.entry.id, law.pair if law else None, "" if law else each.parameter)
-        if key in seen:
+        if key in known:
             continue
-        seen.add(key)
+        known.add(key)
         if law:
             yield Hypothesis((each.entry.id,), law.pair, each.entry.verdict, law.parameters, (), 0.0, (law,))
         else:

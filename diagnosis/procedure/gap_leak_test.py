@@ -54,9 +54,9 @@ class GapLeakTest:
         }
         where = ", ".join(f"{each.value} {reading(each, v[0]):.4g} {channel_unit(each)}" for each, v in at.items())
         return (
-            f"The leak of {PLACES[self.gap]} by itself would, by a drain of its own or a gauge of the film: at "
-            f"{where} it is {one} {unit} by the one and {other} {unit} by the other, to be known to "
-            f"{difference(drain, self.sigma):.2g} {unit}."
+            f"Measure the leakage of {PLACES[self.gap]} by itself, by its own drain or a gauge of the film: at "
+            f"{where} it is {one} {unit} by the first and {other} {unit} by the second; the reading must be "
+            f"accurate to {difference(drain, self.sigma):.2g} {unit}."
         )
 
 

@@ -140,9 +140,9 @@ def compare_films(
     films have no solution.
     """
     if not any(effect in OF_FILMS for effect in found):
-        return FilmComparison(text="What is found acts beside the films: their fields stay as they are.")
+        return FilmComparison(text="The finding does not act on the films: their fields are unchanged.")
     if not kinds(next(iter(pumps.values()))).alike:
-        return FilmComparison(text="Chambers differ: films at given positions are solved for alike ones alone.")
+        return FilmComparison(text="Chambers differ: films at given positions are solved for equal chambers only.")
     solved = {}
     try:
         for name, pump in pumps.items():
@@ -228,7 +228,7 @@ def _accuracy(solved: Mapping[str, FilmsPoint]) -> str:
     angles, change = len(films[0].gaps.shaft_angle), max(one.pressure_change for one in films)
     sampled = max(one.sampling_error for one in films)
     return (
-        f"Films solved where the pump file puts the parts, on {FINER:g} of the usual cells each way, at {angles} "
+        f"Films at the positions of the pump file, {FINER:g} of the usual cells in each direction, {angles} "
         f"shaft angles; chamber pressure changes by {change * 1e-6:.2g} MPa in a further round, leakage by "
         f"{100.0 * sampled:.2g} % with half the angles."
     )

@@ -117,13 +117,13 @@ def _points(section: str, form: RecordingForm, columns: TableColumns, reader: Co
 def _hold_units(channels: Sequence[ChannelForm], columns: TableColumns, reader: ColumnReader) -> None:
     """Note each channel of which the table itself says another unit than is stated."""
     for channel in channels:
-        told, dimension = columns.units.get(channel.column, ""), channel.name.dimension
+        in_table, dimension = columns.units.get(channel.column, ""), channel.name.dimension
         try:
-            own = unit_scale(told, dimension) if told and dimension else None
+            own = unit_scale(in_table, dimension) if in_table and dimension else None
         except QuantityError:
             continue
         if own is not None and dimension and not math.isclose(own[0], unit_scale(channel.unit, dimension)[0]):
-            reader.note(f"{channel.name.value}: read in {channel.unit} as stated; the table says {told}")
+            reader.note(f"{channel.name.value}: read in {channel.unit} as stated; the table says {in_table}")
 
 
 def _steady_points(

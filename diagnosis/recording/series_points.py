@@ -53,18 +53,18 @@ def series_points(form: SeriesForm, time: Array, readings: Array, channels: Sequ
     steady = [s for s in steady if s.stop - s.start >= rule.samples // 2]
     if not steady:
         names = ", ".join(channels[k].name.value for k in inputs)
-        found = f"no stretch of {form.window:g} s in which {names} stand still"
+        found = f"no stretch of {form.window:g} s in which {names} are steady"
         raise TableFault(found, "steady stretches", "a shorter steady.window or a larger steady.slope")
     means = np.array([np.nanmean(readings[s], axis=0) for s in steady])
     worth = np.array([[_worth(column) for column in readings[s].T] for s in steady])
     spread = np.array([np.nanstd(readings[s], axis=0, ddof=1) for s in steady])
     middle = np.array([0.5 * (time[s.start] + time[s.stop - 1]) for s in steady])
     share = sum(s.stop - s.start for s in steady) / len(time)
-    told = (
+    note = (
         f"{len(steady)} steady points from {share:.0%} of the series: windows of {form.window:g} s in which slope "
         f"and bow of every input stay below {form.slope:g} standard errors or below its repeatability"
     )
-    return SeriesPoints(means, spread / np.sqrt(worth), np.min(worth, axis=1), (middle - middle[0]) / 3600.0, told)
+    return SeriesPoints(means, spread / np.sqrt(worth), np.min(worth, axis=1), (middle - middle[0]) / 3600.0, note)
 
 
 def on_raster(time: Array, readings: Array, raster: float) -> tuple[Array, Array, float]:

@@ -31,10 +31,10 @@ def steady_rows(recording: Recording) -> Iterator[Row]:
     """The steady points as understood: row, from 1, and every channel that was measured, in its reading unit."""
     table = recording.steady
     names = list(ChannelName)
-    seen = [name for name in names if np.any(np.isfinite(table.values[:, names.index(name)]))]
+    recorded = [name for name in names if np.any(np.isfinite(table.values[:, names.index(name)]))]
     for number, values in zip(table_rows(recording), table.values, strict=True):
         row = {"point": str(number)}
-        for name in seen:
+        for name in recorded:
             row[f"{name.value} [{channel_unit(name)}]"] = _reading(name, float(values[names.index(name)]))
         yield row
 

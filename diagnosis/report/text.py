@@ -89,7 +89,7 @@ def next_point_text(found: NextPoint) -> str:
         beyond = ", outside the range recorded," if found.beyond else ""
         sure = f"1:20 or better with a chance of {chance(found.chance)}"
         return (
-            f"To separate {pair}, record{beyond} {times}: odds of {_odds(found.after)} are foretold, {sure}, "
+            f"To separate {pair}, record{beyond} {times}: the expected odds are {_odds(found.after)}, {sure}, "
             f"whichever is true; {found.why}."
         )
     factor = f"multiplies the odds for the true one by {exp(found.gain):.2g} on average"
@@ -133,7 +133,7 @@ def _where(diagnosis: Diagnosis) -> str:
         return place
     side = "higher" if scaling.above else "lower"
     grows = _course(scaling, diagnosis.thresholds.form.flat)
-    return f"{place}: {scaling.channel.value} reads {side} than simulated, by what {grows}"
+    return f"{place}: {scaling.channel.value} reads {side} than simulated; the difference {grows}"
 
 
 def _places(location: Location) -> Iterator[str]:
@@ -195,7 +195,7 @@ def _class(diagnosis: Diagnosis) -> str:
         for claim in diagnosis.effects
         if claim.pair and claim.elsewhere
     ]
-    return f"This recording cannot tell {listed(alike)}." if alike else ""
+    return f"This recording cannot separate {listed(alike)}." if alike else ""
 
 
 def _incomplete(diagnosis: Diagnosis) -> str:
@@ -219,8 +219,8 @@ def _striking(diagnosis: Diagnosis) -> str:
     """The strongest candidate, and how often one is as strong where nothing is there."""
     found = diagnosis.detection
     return "".join(
-        f"; {effect_words([candidate.entry.id])} stands out by {abs(score.z):.1f} sigma, as some effect does in a "
-        f"recording of none with a chance of {chance(found.chance)}"
+        f"; {effect_words([candidate.entry.id])} stands out by {abs(score.z):.1f} sigma, which without "
+        f"any effect has a chance of {chance(found.chance)}"
         for candidate, score in found.strongest[:1]
     )
 
@@ -247,7 +247,7 @@ def _course(scaling: Scaling, flat: float) -> str:
     alike = (
         [f"{'' if powers else 'is the same '}at every {listed(same)}{' alike' if powers else ''}"] if same else []
     )
-    return ", ".join([*grows, *alike]) or "follows no power law that can be told"
+    return ", ".join([*grows, *alike]) or "follows no clear power law"
 
 
 def _misfit(diagnosis: Diagnosis) -> str:

@@ -42,7 +42,7 @@ def checked_recording(path: Path, known: KnownPump | None = None) -> Recording:
 def other_pump(recording: Recording, known: KnownPump | None) -> Iterator[DataNote]:
     """A note if the recording names another pump than the one that it is compared with."""
     if known is not None and recording.pump not in ("", known.pump.name):
-        text = f"the recording is of {recording.pump}; it is held against {known.pump.name}"
+        text = f"the recording is of {recording.pump}; it is compared with {known.pump.name}"
         yield DataNote(NoteKind.NOTED, None, (), text)
 
 

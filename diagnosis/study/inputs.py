@@ -37,9 +37,10 @@ class AssumedInput:
         name = self.channel
         sigma = f"+- {difference(name, self.sigma):.2g}"
         if isinstance(self.value, ChannelName):
-            return f"{name.value} is not measured: taken as {self.value.value} {sigma} {difference_unit(name)}"
+            other = f"{self.value.value} {sigma} {difference_unit(name)}"
+            return f"{name.value} is not measured: assumed equal to {other}"
         unit = "" if channel_unit(name) == "1" else f" {channel_unit(name)}"
-        return f"{name.value} is not measured: taken {reading(name, self.value):.4g} {sigma}{unit}"
+        return f"{name.value} is not measured: assumed {reading(name, self.value):.4g} {sigma}{unit}"
 
 
 def measured(recording: Recording, names: Iterable[ChannelName]) -> tuple[ChannelName, ...]:

@@ -161,7 +161,7 @@ def _objections(
     if probability < limits.probability:
         found.append(f"a probability of {probability:.2f} only")
     if ahead < limits.odds:
-        found.append(f"{rival.hypothesis.text} stands {ahead:.1f} nats behind")
+        found.append(f"{rival.hypothesis.text} is only {ahead:.1f} nats behind")
     if best.posterior is None:
         found.append("it could not be refitted")
     elif not _sure(best.posterior, best.hypothesis, thresholds):
@@ -179,7 +179,7 @@ def _objections(
 def _sure(posterior: Posterior, hypothesis: Hypothesis, thresholds: Thresholds) -> bool:
     """Each law with sizes more than some sigma from nothing; each wrong parameter beyond its stated tolerance.
 
-    Several sizes of one law together: none may be sure alone where readings tell their sum.
+    Several sizes of one law together: none may be sure alone if the readings determine their sum.
     """
     for law in hypothesis.laws:
         if _chance_of(posterior, [one.name for one in law.parameters]) > 2.0 * norm.sf(thresholds.name.sure):

@@ -45,17 +45,17 @@ def columns_of(rows: Iterable[Sequence[object]], decimal: str) -> TableColumns:
     head = [str(cell).strip() for cell in table[start]]
     if twice := [name for name, count in Counter(head).items() if count > 1 and name]:
         raise TableFault(f"the column {twice[0]!r} twice", "every column name once")
-    body, told = table[start + 1 :], []
+    body, notes = table[start + 1 :], []
     units = {name: found[1] for name in head if (found := _IN_BRACKETS.search(name))}
     if start:
-        told.append(f"{start} rows above the head left out")
+        notes.append(f"{start} rows above the head left out")
     if body and all(_number(cell, decimal) is None for cell in body[0]) and any(str(c).strip() for c in body[0]):
-        told.append(f"the row below the head holds no number and is left out: {', '.join(map(str, body[0]))}")
+        notes.append(f"the row below the head holds no number and is left out: {', '.join(map(str, body[0]))}")
         units |= {name: str(cell).strip("[]() ") for name, cell in zip(head, body[0], strict=False) if cell}
         body = body[1:]
     if below := _summaries(body):
         names = ", ".join(str(next(filter(None, row))) for row in body[-below:])
-        told.append(f"{below} rows below the readings left out: {names}")
+        notes.append(f"{below} rows below the readings left out: {names}")
         body = body[:-below]
     if ragged := [k for k, row in enumerate(body, start=1) if len(row) != width]:
         raise TableFault(f"row {ragged[0]} below the head with {len(body[ragged[0] - 1])} cells", f"{width} cells")
@@ -63,8 +63,8 @@ def columns_of(rows: Iterable[Sequence[object]], decimal: str) -> TableColumns:
     for place, name in enumerate(head):
         if name:
             values[name], words = _column([row[place] for row in body], decimal)
-            told += [f"column {name!r}: {words}"] if words else []
-    return TableColumns(values, tuple(told), units)
+            notes += [f"column {name!r}: {words}"] if words else []
+    return TableColumns(values, tuple(notes), units)
 
 
 def _summaries(body: Sequence[Sequence[object]]) -> int:

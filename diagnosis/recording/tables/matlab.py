@@ -40,8 +40,8 @@ def read_matlab(source: TableSource) -> TableColumns:
     lengths = [len(column) for column in found.values()]
     rows = max(set(lengths), key=lengths.count)
     short = [name for name, column in found.items() if len(column) != rows]
-    told = (f"left out, since not of {rows} rows as most are: {', '.join(short)}",) if short else ()
-    return TableColumns({name: column for name, column in found.items() if len(column) == rows}, told)
+    notes = (f"left out, since not of {rows} rows as most are: {', '.join(short)}",) if short else ()
+    return TableColumns({name: column for name, column in found.items() if len(column) == rows}, notes)
 
 
 def _from_mat5(source: TableSource) -> Mapping[str, Any]:

@@ -52,18 +52,18 @@ def read_parquet(source: TableSource) -> TableColumns:
         table = parquet.read_table(source.path)
     except pyarrow.ArrowException as reason:
         raise TableFault(f"'{source.path.name}', unreadable: {reason}", "a Parquet file") from reason
-    values, told = {}, []
+    values, notes = {}, []
     for name, column in zip(table.column_names, table.columns, strict=True):
         kind = column.type
         if pyarrow.types.is_timestamp(kind):
             nanoseconds = column.cast(pyarrow.timestamp("ns")).to_numpy()
             values[name] = (nanoseconds - nanoseconds[0]) / np.timedelta64(1, "s")
-            told.append(f"column {name!r}: times, taken as seconds from the first")
+            notes.append(f"column {name!r}: times, taken as seconds from the first")
         elif pyarrow.types.is_integer(kind) or pyarrow.types.is_floating(kind) or pyarrow.types.is_decimal(kind):
             values[name] = column.cast(pyarrow.float64()).to_numpy().astype(float)
         else:
-            told.append(f"column {name!r} holds no numbers ({kind}) and is left out")
-    return TableColumns(values, tuple(told))
+            notes.append(f"column {name!r} holds no numbers ({kind}) and is left out")
+    return TableColumns(values, tuple(notes))
 
 
 def missing(library: str, what: str) -> TableFault:

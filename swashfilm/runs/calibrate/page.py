@@ -29,7 +29,7 @@ def write_calibrate_page(folder: Path) -> Path:
         folder,
         "calibrate",
         summary=_summary(folder),
-        told=headline(folder),
+        sentences=headline(folder),
         pairs=pair_table(folder),
         undetermined=[tuple(row.values()) for row in tables["undetermined"]],
         equation=equation_table(tables["equation_21"]),
@@ -42,7 +42,7 @@ def write_calibrate_page(folder: Path) -> Path:
 def headline(folder: Path) -> tuple[str, ...]:
     """The result in sentences."""
     own = _summary(folder)
-    told = [
+    sentences = [
         f"{own['parameters']} parameters fitted to {own['readings']} readings at {own['points']} points: "
         f"chi-square per reading {own['chi2_per_reading']:.3f}.",
         f"combinations of parameters left to their priors: {own['undetermined']} (undetermined.csv).",
@@ -51,16 +51,16 @@ def headline(folder: Path) -> tuple[str, ...]:
     if law is not None:
         odds = f"{law['evidence_nats']:+.1f} nats for it"
         words = "the data carry" if law["carried"] else "the data do not carry"
-        told.append(f"{words} a friction that hangs on the Hersey number: {odds}.")
+        sentences.append(f"{words} a friction that depends on the Hersey number: {odds}.")
         if law["carried"]:
             constant = f"{own['chi2_constant_friction']:.3f}"
-            told.append(f"with constant coefficients chi-square per reading is {constant}.")
+            sentences.append(f"with constant coefficients chi-square per reading is {constant}.")
     for row in read_rows(folder / "parameters.csv"):
         if row["at_bound"] == "yes" and float(row["mean"]) != 0.0:  # what may only add is often 0
-            told.append(
+            sentences.append(
                 f"at its bound is held {row['name']}, {row['mean']} {row['unit']}".removesuffix(" 1") + "."
             )
-    return tuple(text[0].upper() + text[1:] for text in told)
+    return tuple(text[0].upper() + text[1:] for text in sentences)
 
 
 def pair_table(folder: Path) -> list[tuple[str, ...]]:

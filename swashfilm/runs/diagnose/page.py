@@ -103,7 +103,7 @@ def claim_rows(found: Mapping[str, Any]) -> Iterator[tuple[str, ...]]:
     """(effect, pair, probability, ids and gaps that cannot be separated from it with their shares, parameters)."""
     for claim in found["effects"]:
         sizes = (
-            f"{one['name'].replace('_', ' ')} {_told(one['unit'], one['value'], one['sigma'])}"
+            f"{one['name'].replace('_', ' ')} {_quantity(one['unit'], one['value'], one['sigma'])}"
             for one in claim["parameters"]
         )
         yield (
@@ -127,9 +127,9 @@ def parameter_rows(rows: Sequence[Mapping[str, str]]) -> Iterator[tuple[str, ...
         unit, pull = row["unit"], f"{float(row['pull_after']):.2f}" if row["pull_after"] else "set free"
         yield (
             row["name"],
-            _told(unit, float(row["prior"]), float(row["prior_sigma"])),
-            _told(unit, float(row["before"])) if row["before"] else "not there",
-            _told(unit, float(row["after"]), float(row["sigma"])),
+            _quantity(unit, float(row["prior"]), float(row["prior_sigma"])),
+            _quantity(unit, float(row["before"])) if row["before"] else "not there",
+            _quantity(unit, float(row["after"]), float(row["sigma"])),
             f"{float(row['pull_before']):.2f} -> {pull}" if row["pull_before"] else f"- -> {pull}",
         )
 
@@ -138,21 +138,21 @@ def change_rows(rows: Sequence[Mapping[str, str]]) -> Iterator[tuple[str, ...]]:
     """(quantity, without, with, change, share of the shaft power of both) of a point run without and with it."""
     shaft = shaft_power(rows)
     for row in rows:
-        told = (f"{_plain(float(row[key]), 4)} {row['unit']}" for key in (WITHOUT, WITH))
+        both = (f"{_plain(float(row[key]), 4)} {row['unit']}" for key in (WITHOUT, WITH))
         moved = f"{_plain(float(row['change']), 3)} {'points' if row['unit'] == '%' else row['unit']}"
         shares = (f"{100.0 * float(row[key]) / whole:.2f} %" for key, whole in shaft.items() if row["unit"] == "W")
-        yield row["quantity"], *told, moved, " -> ".join(shares)
+        yield row["quantity"], *both, moved, " -> ".join(shares)
 
 
 def film_rows(rows: Sequence[Mapping[str, str]]) -> Iterator[tuple[str, ...]]:
     """(quantity, by closed laws, by films): without -> with the finding, and the factor."""
     for row in rows:
-        told = []
+        films = []
         for kind in ("lumped", "films"):
             one, other = (float(row[f"{kind}_{name}"]) for name in (WITHOUT, WITH))
             times = f" (x {other / one:.3g})" if one else ""
-            told.append(f"{_plain(one, 4)} -> {_plain(other, 4)} {row['unit']}{times}")
-        yield row["quantity"], *told
+            films.append(f"{_plain(one, 4)} -> {_plain(other, 4)} {row['unit']}{times}")
+        yield row["quantity"], *films
 
 
 def shaft_power(rows: Sequence[Mapping[str, str]]) -> dict[str, float]:
@@ -162,7 +162,7 @@ def shaft_power(rows: Sequence[Mapping[str, str]]) -> dict[str, float]:
 
 def remarks(found: Mapping[str, Any], summary: Mapping[str, Any]) -> list[str]:
     """Notes of the verdict that are not on the data."""
-    return [note for note in found["notes"] if not any(told.endswith(note) for told in summary["data_notes"])]
+    return [note for note in found["notes"] if not any(line.endswith(note) for line in summary["data_notes"])]
 
 
 def next_point_words(found: Mapping[str, Any]) -> str:
@@ -176,7 +176,7 @@ def next_point_words(found: Mapping[str, Any]) -> str:
     return f"{reason[0].upper()}{reason[1:].rstrip('.')}."
 
 
-def _told(unit: str, value: float, sigma: float | None = None) -> str:
+def _quantity(unit: str, value: float, sigma: float | None = None) -> str:
     """A value in SI, with its sigma, in the unit that people read it in; of temperatures it is a difference."""
     dimension = next((one for one in Dimension if one.si_unit == unit), None)
     if dimension is not None and dimension is not Dimension.TEMPERATURE:
@@ -217,12 +217,12 @@ def _pictures(found: Mapping[str, Any], tables: Mapping[str, Sequence[Mapping[st
 
 def _settings(residuals: Sequence[Mapping[str, str]]) -> dict[str, str]:
     """Each point with its settings: "point 7: 1000 rpm, 374 bar, displacement ratio 0.28"."""
-    told = {}
+    texts = {}
     for row in residuals:
         known = [(row[f"{name} [{unit}]"], words) for name, unit, words in _SET if row[f"{name} [{unit}]"]]
         values = ", ".join(words.format(float(value)) for value, words in known)
-        told[row["point"]] = f"point {row['point']}: {values}"
-    return told
+        texts[row["point"]] = f"point {row['point']}: {values}"
+    return texts
 
 
 _SET = (

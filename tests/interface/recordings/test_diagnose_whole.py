@@ -83,7 +83,7 @@ def _record(folder: Path, churning: float, noise: float = 1.0) -> Path:
 def test_nothing_left_out_is_no_mismatch(
     tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """Said so, though no next point can be foretold, which is told; and that the recording names another pump."""
+    """Said so, though no next point can be proposed, with a note; and that the recording names another pump."""
     folder, out, pump = _record(tmp_path, 0.0), tmp_path / "out", tmp_path / "found.toml"
     form = folder / "recording.toml"
     form.write_text(form.read_text("utf-8").replace('"ref90"', '"A10VSO 45"'), encoding="utf-8")
@@ -97,8 +97,8 @@ def test_nothing_left_out_is_no_mismatch(
     found = json.loads((out / "diagnosis.json").read_text("utf-8"))
     assert (found["verdict"], found["status"], found["effects"]) == ("no_mismatch", "named", [])
     assert not pump.exists()
-    assert "no next point is foretold: the pump at 400 bar" in found["notes"]
-    assert "the recording is of A10VSO 45; it is held against ref90" in found["notes"]
+    assert "no next point can be proposed: the pump at 400 bar" in found["notes"]
+    assert "the recording is of A10VSO 45; it is compared with ref90" in found["notes"]
     told = capsys.readouterr().out
     assert "agree within noise and tolerance" in told
     assert "nothing is claimed" in told

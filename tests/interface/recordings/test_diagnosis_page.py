@@ -203,7 +203,9 @@ def test_a_page_says_why_no_point_is_asked_for(named: Diagnosis) -> None:
     """That none could be foretold, or that no rival stands; nothing where nothing is claimed."""
     alone = replace(named, next_point=None)
     assert next_point_words(diagnosis_record(alone)).startswith("No rival that could be fitted stands")
-    failed = replace(alone, notes=("no next point is foretold: fit of the leak: it stalled",))
-    assert next_point_words(diagnosis_record(failed)) == "No next point is foretold: fit of the leak: it stalled."
+    failed = replace(alone, notes=("no next point can be proposed: fit of the leak: it stalled",))
+    assert (
+        next_point_words(diagnosis_record(failed)) == "No next point can be proposed: fit of the leak: it stalled."
+    )
     assert next_point_words(diagnosis_record(agreeing(named))) == ""
     assert next_point_words(diagnosis_record(named)).startswith("To separate")

@@ -74,8 +74,8 @@ def test_what_is_not_measured_is_taken_and_told(pump: PumpDescription) -> None:
     assert np.all(points.T_case == 320.0)
     assert np.all(points.displacement_ratio == pump.operating.displacement_ratio)
     told = {note.text for note in notes}
-    assert "T_case is not measured: taken as T_in +- 5 K" in told
-    assert "p_in is not measured: taken 25 +- 2.5 bar" in told
+    assert "T_case is not measured: assumed equal to T_in +- 5 K" in told
+    assert "p_in is not measured: assumed 25 +- 2.5 bar" in told
     opened, _ = bench_points(complete(_recording(Circuit.OPEN)), pump)
     assert np.all(opened.p_in == 0.0)
 

@@ -53,7 +53,7 @@ def test_the_next_point_is_told_with_what_it_promises(named: Diagnosis) -> None:
     text = next_point_text(found)
     for part in (
         "To separate elastic opening at the valve plate from film heating (odds now 1:16), record speed",
-        "3 times: odds of 1:74 are foretold, 1:20 or better with a chance of 0.87",
+        "3 times: the expected odds are 1:74, 1:20 or better with a chance of 0.87",
     ):
         assert part in text
     assert "outside the range recorded" in next_point_text(replace(found, beyond=True))
@@ -82,7 +82,7 @@ def test_every_kind_and_status_has_a_sentence(named: Diagnosis, kind: Kind, stat
     if status is VerdictStatus.SUSPICION:
         assert "nothing is claimed" in text
     elif claims and status in (VerdictStatus.CLASS, VerdictStatus.INCOMPLETE):
-        assert "cannot tell elastic_opening from film_heating" in text
+        assert "cannot separate elastic_opening from film_heating" in text
         assert ("A part of the mismatch remains besides" in text) == (status is VerdictStatus.INCOMPLETE)
         assert "is sure" not in text
 
@@ -137,7 +137,7 @@ def test_a_gap_that_cannot_be_told_is_told_with_its_rivals(named: Diagnosis) -> 
     found = replace(named, status=VerdictStatus.CLASS, effects=(claim,))
     text = statement(found)
     assert "most likely at the valve plate" in text
-    assert "cannot tell the valve plate (0.78) from the slippers (0.22)" in text
+    assert "cannot separate the valve plate (0.78) from the slippers (0.22)" in text
     assert diagnosis_record(found)["effects"][0]["other_pairs"] == {"slipper": 0.22}
 
 
