@@ -6,7 +6,8 @@ from time import process_time
 import numpy as np
 import pytest
 
-from reynolds.errors import FilmInputError
+from reynolds import FilmInputError
+from system import NotConverged, load_pump, lumped_point, operating_point, resolved_toml
 from system.bench.outputs import SIMULATED
 from system.bench.parameters import base_parameters, pump_with
 from system.bench.points import BenchPoints
@@ -15,12 +16,8 @@ from system.bench.simulator import INPUT_STEPS, LumpedBench
 from system.description.tolerances import tolerances
 from system.effects.components import Component
 from system.inputs.channels import INPUTS, ChannelName
-from system.inputs.errors import NotConverged
-from system.points.lumped import lumped_point
 from system.pump import lumped
 from system.pump.laws.kinematics import stroke
-from system.pump.operating import operating_point
-from system.pump_file.file import load_pump, resolved_toml
 
 REF90 = load_pump("ref90")
 CROSSED = load_pump("ref90", {"pump.cross_angle": "3 deg", "pump.displacement": "91.31 cm3/rev"})

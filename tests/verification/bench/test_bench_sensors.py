@@ -5,6 +5,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 import pytest
 
+from system import load_pump
 from system.bench.parameters import BASE_NAMES, base_parameters, groove_parameters
 from system.bench.points import BenchPoints
 from system.bench.sensors import (
@@ -19,7 +20,6 @@ from system.bench.sensors import (
 from system.description.tolerances import tolerances
 from system.estimation.parameters import Role, Scale
 from system.inputs.channels import ChannelName
-from system.pump_file.file import load_pump
 
 CHANNELS = (ChannelName.Q_CASE, ChannelName.TORQUE)
 TRUTH = np.array([[1e-5, 100.0], [2e-5, 300.0], [4e-5, 200.0]])

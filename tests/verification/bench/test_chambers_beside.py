@@ -5,10 +5,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from system import load_pump
 from system.bench.chamber_map import Courses, MapProblem, beside, solve_map
 from system.bench.points import BenchPoints
 from system.bench.setting import setting
-from system.pump_file.file import load_pump
 
 PUMP = load_pump("ref90")
 TOLERANCE = 1e-5

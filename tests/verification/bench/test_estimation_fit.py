@@ -9,13 +9,13 @@ import numpy as np
 import pytest
 from scipy.optimize import least_squares
 
-from reynolds.errors import FilmInputError
+from reynolds import FilmInputError
 from reynolds.numerics.arrays import Array
+from system import NotConverged
 from system.estimation.fit import FitLimits, best_posterior, maximum_posterior
 from system.estimation.observations import Channel, Observations
 from system.estimation.parameters import Parameter, Role, Scale
 from system.estimation.posterior import Posterior
-from system.inputs.errors import NotConverged
 
 OPEN = (-np.inf, np.inf)
 

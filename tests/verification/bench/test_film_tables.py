@@ -6,19 +6,20 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from gaps import Axis, Response
 from gaps.films.slipper import floating_slipper
-from gaps.response import Axis, Response, Samples
+from gaps.response import Samples
 from gaps.revolution.film_heat import Sink
 from gaps.standing.heat import warm_turn
+from reynolds import FilmSolver
 from reynolds.floating.rest import held_at
 from reynolds.laws.oil import dynamic_viscosity
 from reynolds.solve.loads import boundary_flows
-from reynolds.solve.solver import FilmSolver
+from system import Gap, InputFaults, load_pump, lumped_point, operating_point, resolved_toml
 from system.bench.calibration.extended_pump import extended_pump
 from system.bench.outputs import SIMULATED
 from system.bench.points import BenchPoints
 from system.bench.simulator import LumpedBench
-from system.description.gap import Gap
 from system.effects import switched
 from system.effects.catalogue import entries as catalogue
 from system.effects.effect import BenchState, EffectId, GapCourse
@@ -36,11 +37,7 @@ from system.films.parts import floating_parts
 from system.films.problems import slipper_film
 from system.films.rotor import rotor
 from system.films.standing_gaps import instant_drives
-from system.inputs.faults import InputFaults
-from system.points.lumped import lumped_point
 from system.pump.lumped import SAMPLES_PER_PITCH
-from system.pump.operating import operating_point
-from system.pump_file.file import load_pump, resolved_toml
 
 REF90 = load_pump("ref90")
 STEEPEST = 1.5 * np.pi

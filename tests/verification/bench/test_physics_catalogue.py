@@ -4,10 +4,9 @@ import numpy as np
 import pytest
 
 from reynolds.laws.oil import dynamic_viscosity
-from system.description.gap import Gap
+from system import Gap, load_pump
 from system.effects.catalogue.entries import CATALOGUE, EXTENSIONS, entry_of
 from system.effects.effect import BenchState, EffectId, GapCourse, Kind, both, neutral
-from system.pump_file.file import load_pump
 
 REF90 = load_pump("ref90")
 POINTS, ANGLES = 3, 6

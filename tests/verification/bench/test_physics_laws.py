@@ -8,7 +8,7 @@ from scipy.integrate import quad
 
 from reynolds.laws.contact import gaussian_moment
 from reynolds.laws.oil import dynamic_viscosity
-from system.description.gap import Gap
+from system import Gap, load_pump
 from system.effects.catalogue.entries import CATALOGUE
 from system.effects.effect import BenchState, GapCourse, neutral
 from system.effects.laws import (
@@ -35,7 +35,6 @@ from system.pump.bench import NOTHING_OUTSIDE
 from system.pump.ports.areas import PortOpening
 from system.pump.ports.relief_grooves import ReliefGroove
 from system.pump.ports.wear import PortWear, eroded
-from system.pump_file.file import load_pump
 
 RPM = np.pi / 30
 REF90 = load_pump("ref90")

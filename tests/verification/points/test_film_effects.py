@@ -5,14 +5,14 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from gaps.films.physics import Effect
+from gaps import Effect
 from gaps.walls.pair import BoreWalls, PlateWalls
 from gaps.walls.pose import Stand
 from gaps.walls.springs import SpringBore, SpringPlates
-from reynolds.errors import FilmInputError
+from reynolds import FilmInputError
 from swashfilm.runs.pump.oil_fields import oil_state
+from system import Gap, NotConverged, films_point, load_pump, lumped_point, operating_point
 from system.description.effects import PhysicsSection
-from system.description.gap import Gap
 from system.effects.catalogue.entries import EXTENSIONS
 from system.effects.effect import EffectId
 from system.effects.friction import OF_GAP
@@ -23,11 +23,8 @@ from system.films.rotor import rotor
 from system.inputs.errors import NotConverged
 from system.inputs.sections.reader import section_of
 from system.points.film_effects import SOLVED, effects_in_films, even_rise, film_effects, resisting
-from system.points.films import films_point, leak_table
-from system.points.lumped import lumped_point
+from system.points.films import leak_table
 from system.pump.film_thickness import at_temperature, moved_to, unpressed
-from system.pump.operating import operating_point
-from system.pump_file.file import load_pump
 
 REF90 = load_pump("ref90")
 COARSE = {"positions_per_pitch": 2, "finer": 0.5}

@@ -7,18 +7,16 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from gaps import Accuracy, Effect, Physics, PistonDrive, PistonFilm, PistonShape, run_revolution, warm_revolution
 from gaps.films.over_turn import constant
-from gaps.films.physics import Effect, Physics
-from gaps.films.piston import PistonDrive, PistonFilm, PistonShape, floating_piston
-from gaps.revolution.film_heat import GapHeat, Sink, warm_revolution
-from gaps.revolution.march import GapRevolution, run_revolution
+from gaps.films.piston import floating_piston
+from gaps.revolution.film_heat import GapHeat, Sink
+from gaps.revolution.march import GapRevolution
 from gaps.revolution.reports import PistonSeen, piston_seen
-from gaps.revolution.schedule import Accuracy, evenly
+from gaps.revolution.schedule import evenly
 from gaps.revolution.warmth import ThinnedOver
 from gaps.walls.parts import PistonPart
-from reynolds.bodies.elasticity import Elastic
-from reynolds.errors import FilmInputError, FilmNotConverged
-from reynolds.solve.solver import FilmSolver
+from reynolds import Elastic, FilmInputError, FilmNotConverged, FilmSolver
 from system.films.heat import rod, slab, tube
 
 DIAMETER, CLEARANCE, LENGTH, VISCOSITY = 22e-3, 15e-6, 40e-3, 0.03

@@ -15,17 +15,14 @@ import numpy as np
 import pytest
 
 from gaps.standing.gap_film import GapFilm
-from system.description.pump import PumpDescription
+from system import PumpDescription, films_point, load_pump, lumped_point, operating_point
 from system.films.cycle import gap_cycle
 from system.films.drives import drives, no_rubbing
 from system.films.given_positions import given_slipper
 from system.films.rotor import rotor
-from system.points.films import TOLERANCE, FilmsPoint, film_shear, films_point, leak_table
-from system.points.lumped import lumped_point
+from system.points.films import TOLERANCE, FilmsPoint, film_shear, leak_table
 from system.pump.laws.directions import plate_axes
 from system.pump.laws.kinematics import slipper_sliding_velocity
-from system.pump.operating import operating_point
-from system.pump_file.file import load_pump
 
 RPM = np.pi / 30.0
 EXAMPLES = Path(__file__).resolve().parents[3] / "examples" / "pumps"

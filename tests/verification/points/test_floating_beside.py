@@ -5,17 +5,15 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from gaps.revolution.schedule import Accuracy
-from reynolds.errors import FilmInputError, FilmNotConverged
+from gaps import Accuracy
+from reynolds import FilmInputError, FilmNotConverged
+from system import load_pump, lumped_point, operating_point
 from system.films.drives import drives, no_rubbing
 from system.films.parts import floating_parts
 from system.films.problems import RIGID
 from system.films.rotor import rotor
 from system.points.floating_gaps import FloatingOptions, piston_revolution
-from system.points.lumped import lumped_point
 from system.points.piston_process import Driven, piston_beside
-from system.pump.operating import operating_point
-from system.pump_file.file import load_pump
 
 ROUGHLY = FloatingOptions(RIGID, steps=36, finer=0.25, accuracy=Accuracy(step=0.1, floor=1e-7, closed=0.5), keep=6)
 

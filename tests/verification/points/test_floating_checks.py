@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from system.pump_file.file import load_pump
+from system import load_pump
 from system.pump_file.floating import check_floating
 
 

@@ -8,6 +8,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
+from system import load_pump, operating_point
 from system.films.parts import floating_parts
 from system.films.rotor import rotor, valve_plate_geometry
 from system.points.floating_exchange import (
@@ -21,8 +22,6 @@ from system.points.floating_exchange import (
 )
 from system.pump.laws.directions import plate_axes
 from system.pump.lumped import piston_area
-from system.pump.operating import operating_point
-from system.pump_file.file import load_pump
 
 PUMP = load_pump("ref90_floating")
 ROTOR, PARTS = rotor(PUMP, operating_point(PUMP)), floating_parts(PUMP)

@@ -5,19 +5,11 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from system.description.pump import PumpDescription
+from system import NotConverged, PumpDescription, floating_point, load_pump, operating_point
 from system.films.problems import RIGID
-from system.inputs.errors import NotConverged
-from system.points.floating import (
-    FRICTION_TOLERANCE,
-    PRESSURE_TOLERANCE,
-    FloatingPoint,
-    floating_point,
-)
+from system.points.floating import FRICTION_TOLERANCE, PRESSURE_TOLERANCE, FloatingPoint
 from system.points.floating_exchange import leak_table, leakage_heat
 from system.points.floating_gaps import FloatingOptions
-from system.pump.operating import operating_point
-from system.pump_file.file import load_pump
 
 STEPS = 72
 pytestmark = pytest.mark.slow

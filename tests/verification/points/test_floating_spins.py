@@ -9,13 +9,12 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from gaps.revolution.schedule import Accuracy
+from gaps import Accuracy
+from system import floating_point, load_pump, operating_point, resolved_toml
 from system.films.problems import RIGID
-from system.points.floating import SPIN_TOLERANCE, FloatingPoint, floating_point
+from system.points.floating import SPIN_TOLERANCE, FloatingPoint
 from system.points.floating_exchange import spin_torques
 from system.points.floating_gaps import FloatingOptions
-from system.pump.operating import operating_point
-from system.pump_file.file import load_pump, resolved_toml
 
 ROUGHLY = FloatingOptions(
     RIGID, steps=36, finer=0.25, accuracy=Accuracy(step=0.05, floor=1e-8, closed=0.1, reach=1.0), keep=6

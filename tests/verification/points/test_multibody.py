@@ -11,7 +11,7 @@ import pytest
 
 from gaps.loads.ball_joint import DrivenBody, ball_forces, swept_acceleration
 from swashfilm.runs.pump.forces import force_warnings
-from system.description.pump import PumpDescription
+from system import PumpDescription, joint_forces, load_pump, lumped_point, operating_point
 from system.multibody.closure import closure
 from system.multibody.joints import wrench
 from system.multibody.kinematics import (
@@ -25,8 +25,7 @@ from system.multibody.kinematics import (
     swash_angle,
 )
 from system.multibody.retainer import guide_contact, guide_loss
-from system.multibody.rotating_group import JointForces, joint_forces
-from system.points.lumped import lumped_point
+from system.multibody.rotating_group import JointForces
 from system.pump.laws.directions import bore_axis, plate_axes
 from system.pump.laws.kinematics import (
     SwashDrive,
@@ -38,8 +37,6 @@ from system.pump.laws.kinematics import (
 )
 from system.pump.laws.retainer import BallGuide, mean_sliding_speed
 from system.pump.lumped import piston_area
-from system.pump.operating import operating_point
-from system.pump_file.file import load_pump
 
 DEGREES = np.pi / 180.0
 ANGLE = 2 * np.pi * np.arange(72) / 72

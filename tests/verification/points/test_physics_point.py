@@ -5,15 +5,23 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from reynolds.errors import FilmInputError
+from reynolds import FilmInputError
 from reynolds.numerics.arrays import Array
+from system import (
+    PumpDescription,
+    check_pump,
+    floating_point,
+    load_pump,
+    lumped_point,
+    operating_point,
+    resolved_toml,
+)
 from system.bench.calibration.extended_pump import extended_pump
 from system.bench.outputs import SIMULATED
 from system.bench.parameters import base_parameters
 from system.bench.points import BenchPoints
 from system.bench.simulator import LumpedBench
 from system.description.effects import PhysicsSection
-from system.description.pump import PumpDescription
 from system.description.tolerances import tolerances
 from system.effects.catalogue.entries import EXTENSIONS
 from system.effects.effect import EffectId
@@ -23,8 +31,6 @@ from system.inputs.sections.reader import section_of
 from system.points.floating import floating_point
 from system.points.lumped import lumped_point
 from system.pump.lumped import SAMPLES_PER_PITCH
-from system.pump.operating import operating_point
-from system.pump_file.file import check_pump, load_pump, resolved_toml
 
 REF90 = load_pump("ref90")
 BY_NAME = [pytest.param(one, id=one.parameters[0].name) for one in EXTENSIONS]

@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 
 from gaps.shapes.slipper_lands import slipper_mesh
-from reynolds.fem.space import film_space
+from reynolds import film_space
 from reynolds.fem.sphere import PLANE
-from system.description.gap import Gap
+from system import Gap, load_pump, operating_point
 from system.films.frames import Frame
 from system.films.parts import floating_parts
 from system.films.places import face_frame, guide_frame, place_of
@@ -18,8 +18,6 @@ from system.films.problems import RIGID, piston_film
 from system.films.rotor import Rotor, rotor, travel
 from system.films.standing_gaps import instant_drives
 from system.pump.laws.kinematics import piston_displacement, slipper_sliding_velocity, stroke
-from system.pump.operating import operating_point
-from system.pump_file.file import load_pump
 
 ANGLES = np.radians([0.0, 35.0, 90.0, 180.0, 250.0, 345.0])
 PUMPS = ["ref90", str(Path(__file__).resolve().parents[3] / "examples/pumps/cylindrical_block.toml")]

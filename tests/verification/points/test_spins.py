@@ -6,12 +6,11 @@ import numpy as np
 import pytest
 
 from gaps.loads.ball_joint import Spins
+from system import load_pump, operating_point, resolved_toml
 from system.films.drives import drives, no_rubbing
 from system.films.parts import floating_parts
 from system.films.rotor import rotor
 from system.films.spins import SpinTorques, spins, torques_of_films
-from system.pump.operating import operating_point
-from system.pump_file.file import load_pump, resolved_toml
 
 
 @pytest.fixture

@@ -10,8 +10,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from reynolds.errors import FilmInputError
-from system.multibody.rotating_group import joint_forces
+from reynolds import FilmInputError
+from system import joint_forces, load_pump, lumped_point, operating_point
 from system.multibody.transient import kernels as kernel
 from system.multibody.transient.solver import (
     ControlPressure,
@@ -20,10 +20,7 @@ from system.multibody.transient.solver import (
     Transition,
     run_transient,
 )
-from system.points.lumped import lumped_point
-from system.pump.operating import operating_point
 from system.pump.ports.areas import orifice_flow
-from system.pump_file.file import load_pump
 
 DEGREES = np.pi / 180.0
 PUMPS = Path(__file__).parents[3] / "examples" / "pumps"

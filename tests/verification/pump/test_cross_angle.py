@@ -5,9 +5,8 @@ import pytest
 
 from gaps.shapes.bearing_pads import EDGE
 from gaps.shapes.valve_plate_ring import Ring
+from system import InputFaults, load_pump, lumped_point, operating_point
 from system.films.rotor import rotor, valve_plate_geometry
-from system.inputs.faults import InputFaults
-from system.points.lumped import lumped_point
 from system.pump.laws import kinematics as kin
 from system.pump.lumped import (
     chamber_problem,
@@ -16,9 +15,7 @@ from system.pump.lumped import (
     piston_motion,
     swept_displacement,
 )
-from system.pump.operating import operating_point
 from system.pump.ports.areas import break_angles
-from system.pump_file.file import load_pump
 
 RADIUS, CONE, SWASH, CROSS = 45e-3, np.radians(5.0), np.radians(16.2), np.radians(3.0)
 

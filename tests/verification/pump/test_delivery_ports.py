@@ -3,13 +3,10 @@
 import numpy as np
 import pytest
 
+from system import InputFaults, load_pump, lumped_point, operating_point, resolved_toml
 from system.films.rotor import valve_plate_geometry
-from system.inputs.faults import InputFaults
-from system.points.lumped import lumped_point
 from system.pump.lumped import port_openings
-from system.pump.operating import operating_point
 from system.pump.ports.areas import opening_area
-from system.pump_file.file import load_pump, resolved_toml
 
 PUMP = load_pump("ref90")
 ARC = PUMP.valve_plate.kidney_arc

@@ -7,7 +7,8 @@ import pytest
 
 from gaps.films.slipper import Orifice, hagen_poiseuille_conductance, supply
 from gaps.shapes.orifice_table import OrificeTable
-from reynolds.errors import FilmInputError
+from reynolds import FilmInputError
+from system import load_pump, lumped_point, operating_point
 from system.inputs.coefficients.edge_losses import (
     KINETIC,
     Edge,
@@ -15,11 +16,8 @@ from system.inputs.coefficients.edge_losses import (
     LossCourse,
     secant_conductance,
 )
-from system.points.lumped import lumped_point
 from system.pump.land_losses import creeping_film_leaks, land_losses, orifice_table, with_inertia
 from system.pump.lumped import lumped_leaks, piston_motion
-from system.pump.operating import operating_point
-from system.pump_file.file import load_pump
 
 DENSITY, VISCOSITY = 860.0, 0.02
 NU = VISCOSITY / DENSITY

@@ -7,10 +7,10 @@ from math import isnan, pi
 import numpy as np
 import pytest
 
-from reynolds.errors import FilmInputError
+from reynolds import FilmInputError
+from system import load_pump
 from system.pump.bench import BenchReading
 from system.pump.efficiency import EfficiencyBasis, EfficiencyDefinition, efficiency
-from system.pump_file.file import load_pump
 
 READING = BenchReading(100 * pi, 200.0, 20e6, 1e6, 0.0, 2.5e-3, 2.6e-3, 0.05e-3)
 BASIS = EfficiencyBasis(READING, 1.6e9, swept=52e-6, toet=51e-6)

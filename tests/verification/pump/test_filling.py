@@ -5,14 +5,11 @@ from math import pi, sqrt
 import numpy as np
 import pytest
 
-from system.description.pump import PumpDescription
-from system.points.lumped import lumped_point
+from system import PumpDescription, load_pump, lumped_point, operating_point
 from system.pump.assembly import PumpPoint
 from system.pump.chamber.layout import CAVITY_PRESSURE
 from system.pump.lumped import port_openings
-from system.pump.operating import operating_point
 from system.pump.ports.areas import opening_area
-from system.pump_file.file import load_pump
 
 RPM = pi / 30
 LOST = {1000.0: 10e3, 2100.0: 46e3, 3000.0: 94e3, 3600.0: 135e3}

@@ -9,9 +9,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from system import load_pump, lumped_point, operating_point, resolved_toml
 from system.inputs.coefficients.flow_files import FlowCoefficients
-from system.points.lumped import lumped_point
-from system.pump.operating import operating_point
 from system.pump.ports.areas import FLOW_FROM, PORT_SIZE, as_array, orifice, orifice_coefficients
 from system.pump.ports.flow_coefficients import (
     MOST_OPENINGS,
@@ -22,7 +21,7 @@ from system.pump.ports.flow_coefficients import (
     port_table,
     with_factor,
 )
-from system.pump_file.file import load_pump, pump_of_tables, resolved_toml
+from system.pump_file.file import pump_of_tables
 
 LAW = PlainLaw(0.7, 12.0)
 OIL = 860.0, 30e-6  # kg/m3, m2/s

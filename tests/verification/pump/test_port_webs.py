@@ -6,14 +6,11 @@ import numpy as np
 import pytest
 
 from gaps.shapes.valve_plate_ring import Ring
+from system import InputFaults, load_pump, lumped_point, operating_point, resolved_toml
 from system.films.rotor import valve_plate_geometry
-from system.inputs.faults import InputFaults
-from system.points.lumped import lumped_point
 from system.pump.lumped import port_openings
-from system.pump.operating import operating_point
 from system.pump.ports.areas import PortOpening, break_angles, opening_area
 from system.pump.ports.webs import PortWebs
-from system.pump_file.file import load_pump, resolved_toml
 
 DEGREES = np.pi / 180.0
 ARC = 30.0 * DEGREES

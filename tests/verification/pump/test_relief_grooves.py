@@ -3,13 +3,10 @@
 import numpy as np
 import pytest
 
-from system.inputs.faults import InputFaults
-from system.points.lumped import lumped_point
+from system import InputFaults, load_pump, lumped_point, operating_point, resolved_toml
 from system.pump.lumped import full_drive, port_openings, swept_displacement
-from system.pump.operating import operating_point
 from system.pump.ports.areas import PortOpening, break_angles, opening_area
 from system.pump.ports.relief_grooves import ReliefGroove, round_groove, segment_area, v_groove
-from system.pump_file.file import load_pump, resolved_toml
 
 DEGREES = np.pi / 180.0
 RADIUS, DEPTH = 44e-3, 2e-3

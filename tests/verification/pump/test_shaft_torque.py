@@ -11,8 +11,8 @@ import numpy as np
 import pytest
 
 from gaps.loads.ball_joint import DrivenBody, ball_forces, swept_acceleration
+from system import load_pump, lumped_point, operating_point
 from system.description.lines import LineKind, LineSection
-from system.points.lumped import lumped_point
 from system.pump.assembly import PumpPoint
 from system.pump.laws.directions import bore_axis, plate_axes
 from system.pump.laws.friction_pairs import over_chambers
@@ -25,9 +25,7 @@ from system.pump.laws.kinematics import (
     slipper_sliding_velocity,
 )
 from system.pump.lumped import chamber_problem, group_masses, lumped_leaks, piston_motion
-from system.pump.operating import operating_point
 from system.pump.shaft_torque import ChamberForces, GroupMasses, chamber_torque, shaft_torque
-from system.pump_file.file import load_pump
 
 DEGREES = np.pi / 180.0
 SPEED = 220.0

@@ -7,13 +7,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from system.description.pump import PumpDescription
-from system.points.films import films_point
-from system.points.lumped import lumped_point
+from system import PumpDescription, films_point, load_pump, lumped_point, operating_point
 from system.pump.chamber_kinds import kinds
 from system.pump.laws.friction_pairs import over_chambers
-from system.pump.operating import operating_point
-from system.pump_file.file import load_pump
 
 CLEARANCE = load_pump("ref90").piston.radial_clearance
 PISTONS = 9
