@@ -29,7 +29,7 @@ OF_GAPS = ("case_pressure", "kinematic_viscosity")
 class Courses:
     """Periodic revolutions at N points: pressure (N, M) Pa gauge at M equidistant shaft angles from 0, and totals.
 
-    totals: of one chamber. Where they were solved for themselves, trail: the steps of all points end to end, those
+    totals: of one chamber. Where they were solved by themselves, trail: the steps of all points end to end, those
     of point i from begins[i] to begins[i + 1].
     """
 
@@ -59,28 +59,28 @@ class MapProblem:
 
     @property
     def ports(self) -> Array:
-        """What tells the ports of points apart, one row a quantity, (4, N)."""
+        """Quantities by which the ports of points differ, one a row, (4, N)."""
         return np.stack([self.shift, *vars(self.wear).values()])
 
     @property
     def key(self) -> bytes:
-        """All that the courses hang on."""
+        """Bytes of all that the courses depend on."""
         arrays = (self.records, self.leaks.conductance, self.leaks.carried_flow, self.ports)
         return b"".join(array.tobytes() for array in arrays)
 
     def differs_in_gaps_alone(self, other: MapProblem) -> bool:
-        """Whether the other's chambers differ, if at all, by what leaks out of their gaps."""
+        """Whether the other's chambers differ, if at all, by the leakage of their gaps alone."""
         own, others = self.records, other.records
         names = [name for name in CHAMBER.names or () if name not in OF_GAPS]
         return all(np.array_equal(own[name], others[name]) for name in names) and self.has_ports_of(other)
 
     def has_ports_of(self, other: MapProblem) -> bool:
-        """Whether the other's ports open just as these, so that its chambers can go along these's steps."""
+        """Whether the other's ports open as these do, so that its chambers can take the same steps."""
         return np.array_equal(self.ports, other.ports)
 
 
 def solve_map(pump: PumpDescription, problem: MapProblem, tolerance: float) -> Courses:
-    """The periodic revolution at every point, as `chamber.solve_cycle` has it for one, ports held at their means.
+    """The periodic revolution at every point, as `cycle.solve_cycle` solves one, ports held at their means.
 
     Periodic to a tenth of the tolerance (PERIODICITY at least), both of the ports' pressure difference. Raises
     NotConverged with the first point that does not become periodic.
@@ -93,8 +93,8 @@ def solve_map(pump: PumpDescription, problem: MapProblem, tolerance: float) -> C
 def beside(pump: PumpDescription, courses: Courses, problem: MapProblem, tolerance: float) -> Courses:
     """`solve_map` of chambers that differ a little, in all but their ports' areas, from those of solved courses.
 
-    They go along the steps of these, so that differences are smoother than those of two maps solved apart, at
-    six tenths of the price. Points that those steps do not lead well are solved for themselves.
+    They take the same steps, so that differences are smoother than those of two maps solved apart, at six tenths
+    of the cost. Points that do not converge on these steps are solved by themselves.
     """
     given, filled = _run(pump, problem, tolerance)
     beside_map(*given, courses.trail, courses.begins, *filled)

@@ -1,4 +1,4 @@
-"""What each part of a pump's balance adds to a bench's readings: what a mismatch can be laid at."""
+"""Contribution of each part of a pump's balance to a bench's readings: possible places of a mismatch."""
 
 from __future__ import annotations
 
@@ -40,7 +40,7 @@ _OUT, _IN, _CASE, _TORQUE = range(len(SIMULATED))
 
 
 def components(solved: Solved, warmer: Solved, channels: tuple[ChannelName, ...]) -> Mapping[Component, Array]:
-    """What each component adds to the readings (N, C) of a solved map, SI: a share of it more is a mismatch.
+    """Contribution of each component to the readings (N, C) of a solved map, SI: a share more of it is a mismatch.
 
     Leakage by gap, friction by pair, displacement, compression and commutation as the model has them; a sensor's
     is its reading. What the model has none of stands with a size of UNIT_SHARE: cross flow (delivery to inlet) and

@@ -43,7 +43,7 @@ BASE_NAMES = frozenset(
 
 
 def base_parameters(pump: PumpDescription, tolerances: Tolerances) -> tuple[Parameter, ...]:
-    """What is uncertain about a pump before anything is found missing, each with its prior about the stated value.
+    """Uncertain parameters of a pump without missing physics, each with its prior about the stated value.
 
     film_thickness.GAP in m, eccentricity_ratio, friction.PAIR, dead_volume in m3, flow_coefficient, bulk_modulus
     in Pa; factors on viscosity and displacement; viscosity_slope in 1/K; stand_out_share about 0.5 where not
@@ -62,7 +62,7 @@ def base_parameters(pump: PumpDescription, tolerances: Tolerances) -> tuple[Para
 
 
 def groove_parameters() -> tuple[Parameter, ...]:
-    """How the relief grooves ahead of the kidneys are cut: groove_advance in rad sooner, groove_area a factor.
+    """Cut of the relief grooves ahead of the kidneys: groove_advance in rad sooner, groove_area a factor.
 
     Steady readings hardly show it: for what has traces.
     """

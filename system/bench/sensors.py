@@ -1,4 +1,4 @@
-"""What sensors make of the truth: a gain, a zero, a drift, a lag; and the settings that a bench believes in."""
+"""Errors of sensors: gain, zero, drift and lag of outputs, zeros of inputs."""
 
 from __future__ import annotations
 

@@ -90,7 +90,7 @@ class LumpedBench:
         self._stated = stated_laws(pump)
 
     def __getstate__(self) -> dict[str, object]:
-        """What another process needs: all but the courses that are remembered."""
+        """State for another process: all but the courses that are remembered."""
         return {**vars(self), "_kept": {}}
 
     @property
@@ -174,7 +174,7 @@ class LumpedBench:
         return self._complete(plain, self._solve(plain), values, self._solve)
 
     def components(self, values: Array) -> Mapping[Component, Array]:
-        """What each component of the pump's balance adds to the readings (N, C), SI (`bench_components`)."""
+        """Contribution of each component of the pump's balance to the readings (N, C), SI (`components`)."""
         solved = self.solved(values)
         warm = replace(self.points, T_case=self.points.T_case + WARMER)
         return components(solved, self._near(solved, values, warm), self.channels)

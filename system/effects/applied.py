@@ -23,7 +23,7 @@ from system.pump.ports.wear import PortWear
 
 @dataclass(frozen=True)
 class Affected:
-    """What laws change at N points, and the state they see."""
+    """Effects of laws at N points, and the state that the laws see."""
 
     effects: Effects
     state: BenchState
@@ -37,7 +37,7 @@ def effects_at(
     laws: Sequence[tuple[Law, Values]],
     hours: Array,
 ) -> Affected:
-    """What laws with their values change at N points, columns (N, 1), at chamber pressures without any effect."""
+    """Effects of laws with their values at N points, columns (N, 1), at chamber pressures without any effect."""
     courses = gap_courses(pump, point, motion, cycle, lumped_pairs(pump, point, motion, cycle))
     state = bench_state(pump, point, hours)
     return Affected(stated_effects(laws, courses, state), state)

@@ -46,7 +46,7 @@ SOLVED = (
     EffectId.ELASTIC_OPENING,
     EffectId.THERMAL_CLEARANCE,
 )
-"""What films solve; a table of any other effect acts by its closed law."""
+"""Effects that films solve; any other effect acts by its closed law."""
 _SOLVED_SHARES = (0.0, 1.0, 0.0)
 """carried_share, throttled_share and carry_over by which the closed law comes nearest to films that solve them."""
 _PART = {Gap.PISTON: "piston", Gap.SLIPPER: "slipper", Gap.VALVE_PLATE: "block"}

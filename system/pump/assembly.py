@@ -34,7 +34,7 @@ from system.work.means import mean_of
 
 
 class PointWarning(Enum):
-    """What a reader of the numbers must know; none of them makes a number void."""
+    """Warnings of an operating point; none of them makes a number void."""
 
     CHAMBER_CAVITATES = "chamber_cavitates"
     CHAMBER_OVERPRESSURE = "chamber_overpressure"

@@ -46,7 +46,7 @@ class BenchReading(Generic[Number]):
 
 @dataclass(frozen=True)
 class Outside(Generic[Number]):
-    """What passes a pump's chambers by; Outside[Array]: at N points, arrays (N,).
+    """Flows, torque and power past a pump's chambers; Outside[Array]: at N points, arrays (N,).
 
     Added to delivery, inlet and drain flow in m3/s and to the shaft's torque in N m; carried_off in W: where the
     power of flows and torque goes; delivery_reading: factor on the flow that the delivery's meter reads.
@@ -87,7 +87,7 @@ class LossSplit:
 
 @dataclass(frozen=True)
 class EnergySplit:
-    """Where the shaft power goes, in W: these four add up to it exactly.
+    """Split of the shaft power in W: the four fields add up to it exactly.
 
     `hydraulic` is p Q summed over the ports; `elastic` the energy stored in the oil they pass, which a machine
     downstream can take back; `leakage` what the drained oil gave up on its way; `hydromechanical` the rest.

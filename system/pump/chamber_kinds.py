@@ -41,7 +41,7 @@ class Kinds:
         return tuple(k for k, of in enumerate(self.of_chamber) if of == kind)
 
     def by_chamber(self, by_kind: Sequence[Of]) -> tuple[Of, ...]:
-        """What belongs to kinds, for each chamber."""
+        """Values of the kinds, one for each chamber."""
         return tuple(by_kind[of] for of in self.of_chamber)
 
 

@@ -39,7 +39,7 @@ class EfficiencyDefinition(Enum):
 
 @dataclass(frozen=True)
 class EfficiencyBasis:
-    """What definitions are made of: a reading, the oil's bulk modulus (Pa), and derived displacements (m3/rev).
+    """Input of every definition: a reading, the oil's bulk modulus (Pa), and derived displacements (m3/rev).
 
     swept: by the geometry of pistons and ports (`lumped.swept_displacement`); toet: by readings, None where there
     are none.

@@ -80,7 +80,7 @@ class Pressures:
 
 
 def port_lines(pump: PumpDescription, point: OperatingPoint) -> Lines:
-    """What hangs on the ports by [delivery_line] and [suction_line].
+    """Lines on the ports by [delivery_line] and [suction_line].
 
     A tank pressure left out is the inlet's: the low-pressure side of a circuit, or what the pump draws from.
     """
@@ -121,7 +121,7 @@ def swept_displacement(pump: PumpDescription, drive: SwashDrive) -> float:
 
 
 def piston_stand_out(pump: PumpDescription, drive: SwashDrive[Number]) -> Number:
-    """How far the piston stands out of its bore at inner dead centre beyond full displacement, in m.
+    """Length in m by which the piston is further out of its bore at inner dead centre than at full displacement.
 
     [piston] stand_out_share of (H_max - H)/2 (`kinematics.stand_out`): all of it where the plate pivots on the
     shaft axis, none where the inner dead centre stays; all of it where nothing is stated.

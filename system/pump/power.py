@@ -1,4 +1,4 @@
-"""Where the shaft power goes: one sink for each thing that takes it, computed on its own."""
+"""Power balance of the shaft: each sink computed on its own."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from system.pump.laws.kinematics import Number
 
 @dataclass(frozen=True)
 class GapExchange(Generic[Number]):
-    """What the gaps exchange beside one chamber's leakage, mean over the revolution.
+    """Exchange of the gaps besides the leakage of one chamber, mean over the revolution.
 
     carried: power in W that oil dragged along by moving walls gives them back, all chambers; delivery_draw,
     suction_draw: flow in m3/s (at port pressure) that the valve plate's film takes from the ports themselves.
@@ -36,7 +36,7 @@ def chamber_exchange(totals: TurnTotals[Number], rate: Number) -> GapExchange[Nu
 
 @dataclass(frozen=True)
 class PowerBalance:
-    """Where the shaft power goes, mean over a revolution, in W: the fields but `shaft` add up to it.
+    """Sinks of the shaft power, mean over a revolution, in W: the fields but `shaft` add up to it.
 
     hydraulic: p Q summed over delivery, inlet (negative) and case; elastic: stored in the oil that leaves, less
     that which enters (compression: a machine downstream can take it back); ripple: what both ports' lines take
@@ -68,7 +68,7 @@ class PowerBalance:
 
 
 def port_draw(chamber: Chamber[Number], exchange: GapExchange[Number]) -> tuple[Number, Number]:
-    """What the valve plate's film takes from delivery and suction port, m3/s at zero gauge pressure."""
+    """Flow of the valve plate's film from delivery and suction port, m3/s at zero gauge pressure."""
     return (
         exchange.delivery_draw / specific_volume(chamber.delivery_pressure, chamber.bulk_modulus),
         exchange.suction_draw / specific_volume(chamber.inlet_pressure, chamber.bulk_modulus),
@@ -93,7 +93,7 @@ def bench_reading(
     exchange: GapExchange[Number],
     outside: Outside[Number] | Outside[float],
 ) -> BenchReading[Number]:
-    """Flows and torque of a pump by its chambers' totals, the friction (W) of its pairs and what passes by.
+    """Flows and torque of a pump by its chambers' totals, the friction (W) of its pairs and the flows past them.
 
     The torque is that of `shaft_work`, good to the chambers' integration. The delivery's flow is the pump's own,
     before the factor of its meter (`metered`).
@@ -116,7 +116,7 @@ def bench_reading(
 
 
 def metered(reading: BenchReading[Number], outside: Outside[Number] | Outside[float]) -> BenchReading[Number]:
-    """The reading with what the delivery's meter reads."""
+    """The reading with the delivery flow that its meter shows."""
     return replace(reading, delivery_flow=reading.delivery_flow * outside.delivery_reading)
 
 
@@ -132,7 +132,7 @@ def shaft_work(
 
 
 def leakage_by_flow(ported: PortedCycle, rate: float, exchange: GapExchange) -> Gaps:
-    """What pressure turns into heat in each gap (W), from what flows and what that gives the walls it meets."""
+    """Heat of the pressure flow in each gap (W): energy that the flow loses less its work on the walls."""
     problem, energy, carried = ported.problem, ported.cycle.path_energy, exchange.carried
     modulus = problem.bulk_modulus
     pressures = (problem.delivery_pressure, problem.inlet_pressure)

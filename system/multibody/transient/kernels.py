@@ -105,7 +105,7 @@ def tilt_at(plate, tilt, time):
 
 @numba.njit(cache=True, error_model="numpy")
 def piston_at(chamber, plate, shaft_angle, angle, rate, ways):
-    """Content (m3) of a chamber and its growth (m3/rad); fills ways as `chamber_kernel.openings` does."""
+    """Content (m3) of a chamber and its growth (m3/rad); fills ways as `openings` of the chamber does."""
     c, p = chamber[0], plate[0]
     place, by_phi, by_g, _, _, _ = axial(shaft_angle, angle, p.pitch_radius, p.cone, p.cross, p.pivot_offset)
     out = place - p.inner_place
@@ -160,7 +160,7 @@ def advance(chamber, plate, which, shaft_angle, tilt, control, state, stages, to
     """One step of a compartment's oil: state (2,) mass m3 and pressure Pa; False where a stage finds no pressure.
 
     control: pressure before the actuator's orifice at begin and end of the step (Pa), and the step (s). stages as
-    `chamber_kernel.step` has them; totals (INTEGRALS,) gains what `integral_rates` counts.
+    `step` of the chamber has them; totals (INTEGRALS,) gains what `integral_rates` counts.
     """
     bulk, length = chamber[0].bulk_modulus, control[2] * chamber[0].shaft_speed
     ways, flows = np.empty(WAYS), np.empty(PATHS)

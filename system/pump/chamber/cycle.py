@@ -36,7 +36,7 @@ REVOLUTION_LIMIT = 60
 
 @dataclass(frozen=True)
 class ChamberChecks:
-    """How well one periodic revolution was solved.
+    """Errors of one periodic revolution.
 
     mass_balance_error: net outflow plus change of content, of the swept volume; energy_balance_error: indicated
     work minus all it went into (not imposed, so a measure of the whole integration) and work_error: the embedded
@@ -52,7 +52,7 @@ class ChamberChecks:
 
 @dataclass(frozen=True)
 class Effort:
-    """What the solution took: revolutions until periodic, steps taken and refused in the last of them."""
+    """Effort of the solution: revolutions until periodic, steps taken and refused in the last of them."""
 
     revolutions: int
     steps: int

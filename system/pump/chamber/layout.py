@@ -1,6 +1,6 @@
 """Columns of the arrays of the compiled chamber by name, and the pressure at which a cavity opens.
 
-A quantity of several paths, ports or gaps stands under the column of the first; the others follow in their order.
+The column of a quantity of several paths, ports or gaps is that of the first; the others follow in their order.
 """
 
 from __future__ import annotations

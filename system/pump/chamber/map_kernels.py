@@ -44,7 +44,7 @@ def chamber_map(constants, tables, ports, nodes, firsts, control, pressures, tot
 
 @numba.njit(cache=True, error_model="numpy")
 def room(count, totals):
-    """What `revolution` fills besides a trail, over so many nodes."""
+    """Arrays that `revolution` fills over so many nodes, but for the trail."""
     return np.empty(count), np.empty((count, PATHS)), np.empty((count, PATHS)), totals
 
 

@@ -124,7 +124,7 @@ class _Solved:
 
     @property
     def oil(self) -> ChamberProblem:
-        """What all chambers share."""
+        """The problem of the first chamber: ports and oil are the same for all."""
         return self.problems[0]
 
 
@@ -166,7 +166,7 @@ class _Side:
     repeats: int
 
     def supply(self, solved: _Solved) -> Supply:
-        """What all chambers bring to this port until it repeats."""
+        """Oil from all chambers into this port until it repeats."""
         angle, speed = solved.cycles[0].shaft_angle, solved.oil.shaft_speed
         is_open = opening_area(self.opening, angle) > 0.0
         out = [(cycle.outflow.delivery, cycle.outflow.suction)[self.index] for cycle in solved.cycles]
@@ -223,7 +223,7 @@ class _Side:
             )
 
     def _through(self, pressure: float, solved: _Solved) -> Array:
-        """What all chambers push through the port, m3/s at its pressure, less what films draw."""
+        """Flow of all chambers through the port, m3/s at its pressure, less the draw of the films."""
         modulus = solved.oil.bulk_modulus
         mass_flow = [
             (cycle.flow.delivery, cycle.flow.suction)[self.index]

@@ -30,7 +30,7 @@ AREA_TOLERANCE = 1e-13
 
 @dataclass(frozen=True)
 class Supply:
-    """What the chambers do to a port over one period (s), oil at zero gauge pressure.
+    """Inflow of a port from the chambers over one period (s), oil at zero gauge pressure.
 
     mean inflow in m3/s, negative at a suction port; surge (M,) m3, what has come in since shaft angle 0 beyond the
     mean; draw (M,) m3/s, taken from the port by films; open_volume m3 of the chambers that stand open to it, mean.
@@ -45,7 +45,7 @@ class Supply:
 
 @dataclass(frozen=True)
 class LineFlow:
-    """What a line takes out of its port: flow (M,) m3/s at port pressure; area m2 of its orifice, if it has one.
+    """Flow of a line out of its port: flow (M,) m3/s at port pressure; area m2 of its orifice, if it has one.
 
     slope: d flow/d pressure in m3/(s Pa) of the harmonics 0 .. M/2.
     """
@@ -72,7 +72,7 @@ class PortBalance:
 def port_balance(
     line: OrificeLine | ImpedanceLine, pressure: Array, wanted: float, supply: Supply, oil: ChamberProblem
 ) -> PortBalance:
-    """How well a pressure (M,) keeps the oil of a port, and a better one.
+    """Oil balance of a port at a pressure (M,), and a better pressure.
 
     `wanted` Pa: the mean that an orifice of free area, and the throttle of an impedance line, hold. The better
     pressure is Newton's, each harmonic k by itself: the rest over (V + open chambers) exp(p/K)/K + slope/(i k w).
@@ -105,7 +105,7 @@ def port_balance(
 
 
 def line_flow(line: OrificeLine | ImpedanceLine, pressure: Array, supply: Supply, oil: ChamberProblem) -> LineFlow:
-    """What a line takes out of its port at a pressure (M,) Pa; raises NotConverged where no orifice can."""
+    """Flow of a line out of its port at a pressure (M,) Pa; raises NotConverged where no orifice passes it."""
     match line:
         case OrificeLine():
             return _orifice_flow(line, pressure, supply, oil)

@@ -1,4 +1,4 @@
-"""What one displacement chamber is and meets over a turn: geometry, oil, ports, leaking gaps, at one point."""
+"""One displacement chamber at an operating point: geometry, oil, ports, leaking gaps."""
 
 from __future__ import annotations
 

@@ -47,7 +47,7 @@ def turn_nodes(suction: PortOpening, delivery: PortOpening, samples: int) -> tup
 
 @dataclass(frozen=True)
 class Course:
-    """What `kernels.revolution` fills: pressures, path rates, oil passed at nodes[1:], and the totals."""
+    """Results of `kernels.revolution`: pressures, path rates, oil passed at nodes[1:], and the totals."""
 
     pressures: Array
     rates: Array
