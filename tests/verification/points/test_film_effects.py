@@ -20,7 +20,6 @@ from system.effects.laws.film import barus_flow, opening_flow
 from system.films.cycle import PLAIN, SMOOTH, GapPhysics, gap_cycle
 from system.films.parts import floating_parts
 from system.films.rotor import rotor
-from system.inputs.errors import NotConverged
 from system.inputs.sections.reader import section_of
 from system.points.film_effects import SOLVED, effects_in_films, even_rise, film_effects, resisting
 from system.points.films import leak_table

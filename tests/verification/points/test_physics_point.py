@@ -28,8 +28,6 @@ from system.effects.effect import EffectId
 from system.effects.extension import Extension
 from system.effects.switched import switched_on
 from system.inputs.sections.reader import section_of
-from system.points.floating import floating_point
-from system.points.lumped import lumped_point
 from system.pump.lumped import SAMPLES_PER_PITCH
 
 REF90 = load_pump("ref90")
