@@ -43,7 +43,7 @@ def test_ref90s_own_size_gives_ref90(tmp_path):
     model = load_pump("ref90")
     pump = _load(tmp_path, SCANT.format("89.86 cm3/rev", 9)).pump
     for section in ("pump", "piston", "slipper", "valve_plate", "ports", "block", "bearings", "friction", "oil"):
-        for key, value in dict(getattr(model, section)).items():
+        for key, value in vars(getattr(model, section)).items():
             if isinstance(value, float):
                 assert getattr(getattr(pump, section), key) == pytest.approx(value, rel=2e-3), f"{section}.{key}"
 
