@@ -6,15 +6,15 @@ from dataclasses import dataclass
 from functools import lru_cache
 
 import numpy as np
+from numba import njit
 from numpy.polynomial import chebyshev
 from numpy.typing import ArrayLike
 from scipy.special import ndtr
 
 from reynolds.errors import FilmInputError
-from reynolds.laws import contact_kernels
 from reynolds.laws.law import Tangent, require_positive, within
 from reynolds.numerics.arrays import Array
-from reynolds.numerics.lanes import WIDTH
+from reynolds.numerics.lanes import WIDTH, all_lanes, lanes, put_lanes
 
 # Walls pressed together by more than six standard deviations beyond the mean planes of their summits: solid.
 LOWEST_RATIO = -6.0
@@ -154,7 +154,7 @@ def _moments(h: Array, *orders: float) -> list[Array]:
     twice = np.zeros(-(-h.size // WIDTH) * WIDTH)
     twice[: h.size] = (2.0 - 4.0 * _MIDDLE / far).ravel()
     smooth = np.empty((len(orders), len(twice)))
-    contact_kernels.chebyshev_sums(np.array([_series(order) for order in orders]), twice, smooth)
+    _chebyshev_sums(np.array([_series(order) for order in orders]), twice, smooth)
     square, logarithm = 0.5 * h * h, np.log(far)
     return [
         np.exp(part[: h.size].reshape(h.shape) - square - (order + 1.0) * logarithm)
@@ -178,3 +178,15 @@ def _series(order: float) -> Array:
     total = np.sum(weight * integrand, axis=1, keepdims=True) * end / np.sqrt(2.0 * np.pi)
     smooth = np.log(total) + (order + 1.0) * np.log(h - LOWEST_RATIO + _MIDDLE)
     return np.asarray(chebyshev.chebfit(mapped, smooth[:, 0], _TERMS - 1))
+
+
+@njit(cache=True, error_model="numpy", fastmath={"contract"})
+def _chebyshev_sums(series: Array, twice: Array, out: Array) -> None:
+    """out[s, i] = sum_k series[s, k] T_k(x_i) by Clenshaw's recurrence, `twice` = 2 x a whole number of eights."""
+    for s in range(series.shape[0]):
+        for i in range(0, len(twice), WIDTH):
+            x = lanes(twice, i)
+            one, two = all_lanes(twice, 0.0), all_lanes(twice, 0.0)
+            for k in range(series.shape[1] - 1, 0, -1):
+                one, two = all_lanes(twice, series[s, k]) + x * one - two, one
+            put_lanes(out[s], i, all_lanes(twice, series[s, 0]) + all_lanes(twice, 0.5) * x * one - two)

@@ -15,7 +15,7 @@ from reynolds.laws.fluid import CONSTANT
 from reynolds.numerics.array_kernels import all_finite, largest_share
 from reynolds.numerics.arrays import Array
 from reynolds.problem import Cavitation, FilmProblem
-from reynolds.solve.setting import Setting
+from reynolds.solve.boundary import Setting
 
 MOST_HALVINGS = 10
 LEAST_GAIN = 1e-4  # of the balance, by a full step

@@ -16,8 +16,8 @@ from reynolds.linear.elastic import Answer, Balance, NearFactor, compliant_answe
 from reynolds.numerics.array_kernels import scaled_free
 from reynolds.numerics.arrays import Array
 from reynolds.problem import Cavitation, FilmProblem
+from reynolds.solve.boundary import Setting
 from reynolds.solve.iterate import Iterate, fixed_in, with_pockets
-from reynolds.solve.setting import Setting
 
 TIE = 1e-9  # of the flows that meet at an unknown
 

@@ -23,6 +23,7 @@ from reynolds.linear.factor import ITERATIVE_TOLERANCE, Factor, GeneralFactor, S
 from reynolds.linear.multigrid.grid import grid_of
 from reynolds.numerics.arrays import Array
 from reynolds.problem import LEAST_FRACTION, Cavitation, FilmProblem, FilmSolution
+from reynolds.solve.boundary import Setting, pressure_sending, spread
 from reynolds.solve.cavity_guess import COARSEST, Cascade, Obstacle, active_set
 from reynolds.solve.iterate import (
     Iterate,
@@ -35,8 +36,6 @@ from reynolds.solve.iterate import (
     with_pockets,
 )
 from reynolds.solve.newton import compliant, general_step, signed_after, symmetric_step
-from reynolds.solve.setting import Setting, spread
-from reynolds.solve.supply import pressure_sending
 
 MAX_ITERATIONS = 100
 FULL_STEPS = 15  # then, or as soon as a cavity comes back, each step must bring the balance nearer to zero

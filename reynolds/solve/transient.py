@@ -16,7 +16,7 @@ from reynolds.equation.deformation import opening
 from reynolds.errors import FilmInputError, FilmNotConverged
 from reynolds.numerics.arrays import Array
 from reynolds.problem import ZERO, FilmProblem, FilmSolution, Storage
-from reynolds.solve.setting import spread
+from reynolds.solve.boundary import spread
 from reynolds.solve.solver import FilmSolver
 
 MOST_HALVINGS = 12  # of a step on which the cavity does not settle

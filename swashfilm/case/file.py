@@ -10,7 +10,7 @@ from typing import Any
 from reynolds.errors import FilmInputError
 from reynolds.fem.space import film_space
 from reynolds.problem import Cavitation, FilmProblem
-from reynolds.solve.setting import check_pressures
+from reynolds.solve.boundary import check_pressures
 from swashfilm.case.fields.expressions import IN_TIME, PLACE
 from swashfilm.case.fields.field import Field, Uniform
 from swashfilm.case.fields.mesh import read_mesh

@@ -10,8 +10,8 @@ from reynolds.errors import FilmInputError
 from reynolds.fem.mesh import Cell, FilmMesh, rectangle
 from reynolds.fem.space import film_space
 from reynolds.problem import ZERO, Cavitation, Film, FilmProblem, Held, film
+from reynolds.solve.boundary import check_pressures
 from reynolds.solve.loads import loads
-from reynolds.solve.setting import check_pressures
 from reynolds.solve.solver import FilmSolver
 
 SPACE = film_space(rectangle((0.01, 0.01), (6, 6)))

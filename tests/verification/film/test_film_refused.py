@@ -11,8 +11,8 @@ from reynolds.errors import FilmInputError, FilmNotConverged
 from reynolds.fem.mesh import annulus, rectangle
 from reynolds.fem.space import film_space
 from reynolds.problem import ZERO, Cavitation, FilmProblem, Held, Pocket, Storage, film
+from reynolds.solve.boundary import check_pressures
 from reynolds.solve.loads import loads
-from reynolds.solve.setting import check_pressures
 from reynolds.solve.solver import FilmSolver
 from reynolds.solve.transient import march, oil_held
 

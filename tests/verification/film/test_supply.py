@@ -8,8 +8,8 @@ import pytest
 from reynolds.fem.mesh import ring
 from reynolds.fem.space import film_space
 from reynolds.problem import FilmProblem, Held, Pocket, film
+from reynolds.solve.boundary import Feed, pressure_sending
 from reynolds.solve.solver import FilmSolver
-from reynolds.solve.supply import Feed, pressure_sending
 
 FLOW = 1e-9  # m3/s by the root of a Pa
 

@@ -1,7 +1,8 @@
-"""Boundary conditions of a film problem, spread over its unknowns and checked."""
+"""Boundary conditions of a film problem at its unknowns, checked, and a first pressure for fed pockets."""
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -11,6 +12,12 @@ from reynolds.errors import FilmInputError
 from reynolds.numerics.array_kernels import all_finite
 from reynolds.numerics.arrays import Array
 from reynolds.problem import Cavitation, FilmProblem, Held, Pocket
+
+Feed = Callable[[float], tuple[float, float]]
+NARROW = 1e3  # Pa: of the first interval searched
+MOST_DOUBLINGS = 60
+NEAR = 1e-8  # of the interval
+BENT = 0.1  # change of the slope on the way: of less, a straight step makes nothing
 
 
 @dataclass(frozen=True)
@@ -109,3 +116,28 @@ def _check_level(
     if dry := pattern.pieces_without(fed):
         where = f"in {dry} of {pattern.pieces[0]} separate pieces of the film" if fed.any() else "anywhere"
         raise FilmInputError("boundary", f"no pressure given {where}", "a boundary with a pressure at each piece")
+
+
+def pressure_sending(feed: Feed, flow: float, start: float) -> float:
+    """A pressure (Pa) at which a feed sends about a flow (m3/s); `start` where none does or the law is straight.
+
+    `feed` as `problem.Pocket` has it: (m3/s, its slope by pressure), never rising. Behind an orifice,
+    q ~ sqrt(p_supply - p), Newton's method oscillates between a pressure far from the supply's and its mirror
+    image; from a pressure that sends the flow of the iteration before it converges.
+    """
+    from scipy.optimize import brentq
+
+    def lacks(pressure: float) -> float:
+        return feed(pressure)[0] - flow
+
+    first = lacks(start)
+    if first == 0.0 or feed(start)[1] == 0.0:
+        return start
+    last, width = start, NARROW if first > 0.0 else -NARROW
+    for _ in range(MOST_DOUBLINGS):
+        other = last + width
+        if lacks(other) * first <= 0.0:
+            found = float(brentq(lacks, last, other, xtol=NEAR * abs(width)))
+            return start if abs(feed(found)[1] / feed(start)[1] - 1.0) < BENT else found
+        last, width = other, 2.0 * width
+    return start
