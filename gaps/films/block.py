@@ -33,7 +33,7 @@ from gaps.films.physics import FilmLaws, Physics, laws_left
 from gaps.shapes.profiles import PLAIN, Profile
 from gaps.shapes.valve_plate_ring import SEALED, Ring, ValvePlateGeometry
 from gaps.walls.pair import while_turning
-from gaps.walls.pose import Stand
+from gaps.walls.parts import Stand
 from reynolds.bodies.compliance import Walls
 from reynolds.errors import FilmInputError
 from reynolds.fem.space import FilmSpace

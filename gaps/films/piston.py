@@ -24,10 +24,9 @@ from gaps.films.friction import Rubbed, rubbed
 from gaps.films.over_turn import OverTurn
 from gaps.films.physics import FilmLaws, Physics, laws_left
 from gaps.films.piston_deformation import Yielding, yielding
-from gaps.shapes.bore_rows import closer_at_both
 from gaps.shapes.profiles import PLAIN, Profile, Relief
 from gaps.walls.pair import BoreWalls
-from gaps.walls.pose import Stand
+from gaps.walls.parts import Stand, closer_at_both
 from reynolds.equation.rough_overlap import vertex_thickness
 from reynolds.errors import FilmInputError
 from reynolds.fem.mesh import Cell, rectangle, rename
@@ -67,7 +66,7 @@ class PistonDrive:
     shaft_speed rad/s; viscosity Pa s and pressures Pa; spins rad/s of piston and bore about the bore's axis in the
     frame that does not turn. Over the shaft angle: chamber_pressure Pa; reach m, how far inside the case edge the
     piston's end stands; velocity m/s of the piston out of the block, -d reach/dt; outer (4,) N, the generalised
-    forces of all but the film (`gaps.loads.piston_forces`).
+    forces of all but the film (`gaps.loads.ball_joint`).
     """
 
     shaft_speed: float

@@ -16,7 +16,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from gaps.walls.pair import BoreWalls
-from gaps.walls.pose import Stand
+from gaps.walls.parts import Stand
 from reynolds.bodies.compliance import full
 from reynolds.floating.step import Stage
 from reynolds.numerics.arrays import Array

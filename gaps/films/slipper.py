@@ -23,7 +23,7 @@ from gaps.shapes.orifice_table import OrificeTable
 from gaps.shapes.profiles import PLAIN, Profile
 from gaps.shapes.slipper_lands import SlipperLands, slipper_mesh
 from gaps.walls.pair import while_turning
-from gaps.walls.pose import Stand
+from gaps.walls.parts import Stand
 from reynolds.bodies.compliance import Walls
 from reynolds.fem.space import FilmSpace, film_space
 from reynolds.floating.problem import Floating, Outer

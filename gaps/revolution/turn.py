@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 from collections import deque
-from collections.abc import Callable, Iterator
-from dataclasses import dataclass, field
-from typing import Generic, TypeVar
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass, field, fields, is_dataclass, replace
+from typing import Generic, TypeVar, cast
 
 import numpy as np
 
 from gaps.revolution.schedule import Accuracy, Schedule
-from gaps.revolution.step_means import Passed
 from reynolds.equation.rough_overlap import vertex_thickness
 from reynolds.errors import FilmNotConverged
 from reynolds.fem.space import FilmSpace
@@ -28,6 +27,7 @@ SHORT = 1e-2  # of the first way to a node: a step in which elastic walls give w
 FARTHEST = 2e-2  # of the film's length, by which a wall may leave its shape: then nothing is thin, no tilt small
 
 Seen = TypeVar("Seen")
+Told = TypeVar("Told")
 
 
 @dataclass(frozen=True)
@@ -291,3 +291,46 @@ def _instant(angle: float, stage: Stage, rate: Array, seen: Seen, since: Passed[
         passed=since.mean,
         pushed=since.mean_pushed,
     )
+
+
+def mean_of(told: Sequence[Told], weights: Array) -> Told:
+    """Weighted mean of what several stages tell, of the same unit.
+
+    Numbers and arrays are averaged, dataclasses field by field; what is neither is as the last one tells it.
+    A flow averaged over stages by the weights of their method is what the step has passed, to round-off.
+    """
+    last = told[-1]
+    if is_dataclass(last) and not isinstance(last, type):
+        names = (field.name for field in fields(last))
+        means = {name: mean_of([getattr(one, name) for one in told], weights) for name in names}
+        return cast(Told, replace(last, **means))
+    if isinstance(last, float):
+        return cast(Told, float(np.average(np.array(told), weights=weights)))
+    if isinstance(last, np.ndarray):
+        return cast(Told, np.average(np.array(told), axis=0, weights=weights))
+    return last
+
+
+class Passed(Generic[Told]):
+    """What the stages of some steps have told, each with the time (s) for which it stands."""
+
+    def __init__(self) -> None:
+        self._told: list[Told] = []
+        self._pushed: list[float] = []
+        self._times: list[float] = []
+
+    def add(self, time: float, told: Told, pushed: float) -> None:
+        """One more stage; pushed: power (W) by which its film moves what presses on it."""
+        self._told.append(told)
+        self._pushed.append(pushed)
+        self._times.append(time)
+
+    @property
+    def mean(self) -> Told:
+        """What they tell in the mean."""
+        return mean_of(self._told, np.array(self._times))
+
+    @property
+    def mean_pushed(self) -> float:
+        """Their power (W) in the mean."""
+        return mean_of(self._pushed, np.array(self._times))

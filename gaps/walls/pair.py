@@ -9,20 +9,21 @@ from typing import Protocol
 
 import numpy as np
 
-from gaps.shapes.bore_rows import closer_at_end, closer_at_start
 from gaps.walls.parts import (
     BushingPart,
     PistonPart,
     PlatePart,
     SlipperPart,
+    Stand,
     bushing_body,
+    closer_at_end,
+    closer_at_start,
     part_wall,
     piston_body,
     plate_body,
     slipper_body,
 )
 from gaps.walls.piston import ByChamber, PistonWalls, face_grid
-from gaps.walls.pose import Stand
 from reynolds.bodies.compliance import Walls, full
 from reynolds.bodies.foundation import Compliance, both
 from reynolds.bodies.wall import Body

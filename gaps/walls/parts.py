@@ -19,7 +19,6 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from gaps.shapes.bore_rows import closer_at_end, closer_at_start
 from gaps.shapes.slipper_lands import Land
 from gaps.walls.user_mesh import CHAMBER, FILM, HELD, POCKET, OwnMesh, own_body, with_faces
 from reynolds.bodies.chart import Cylinder, OnSphere, Plane, Side
@@ -40,6 +39,7 @@ PINHOLE = 0.05  # of a pocket's radius
 NEAR = 1e-6  # of a radius: on a mesh line or not
 Cells = tuple[int, int, int]
 Grooves = tuple[tuple[str, Land], ...]
+EDGES = 0.8  # of a row's length is taken off at an edge, and put on where rows are widest
 
 
 @dataclass(frozen=True)
@@ -282,3 +282,30 @@ def _facets(body: BodyMesh, face: str, *, up_to: float = np.inf, from_cell_over:
     facets = np.asarray(mesh.boundaries[face])
     outer = np.hypot(*mesh.p[:2])[mesh.facets[:, facets]].max(axis=0)
     return facets[(outer < up_to * (1.0 + NEAR)) & (outer > from_cell_over * (1.0 - NEAR))]
+
+
+@dataclass(frozen=True)
+class Stand:
+    """Reach (m) of a piston's chamber end inside the guide's case edge; turned parts.
+
+    Angles (rad) in the film's axes: moving part (piston, slipper, block) and fixed one (bushing, plate).
+    """
+
+    reach: float = 0.0
+    moving: float = 0.0
+    fixed: float = 0.0
+
+
+def closer_at_both(share: Array) -> Array:
+    """Even shares drawn to both edges, widest in the middle."""
+    return np.asarray(share - EDGES / (2.0 * np.pi) * np.sin(2.0 * np.pi * share))
+
+
+def closer_at_start(share: Array) -> Array:
+    """Even shares drawn to the first edge, as they were in the middle and widest at the last."""
+    return np.asarray(share - EDGES / np.pi * np.sin(np.pi * share))
+
+
+def closer_at_end(share: Array) -> Array:
+    """The mirror image of `closer_at_start`."""
+    return 1.0 - closer_at_start(1.0 - share)

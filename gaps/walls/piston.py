@@ -19,7 +19,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from gaps.walls.pose import Stand
+from gaps.walls.parts import Stand
 from gaps.walls.user_mesh import CHAMBER
 from reynolds.bodies.foundation import Compliance
 from reynolds.bodies.wall import Body, FacePressure, body_wall, load_opening

@@ -11,8 +11,8 @@ import numpy as np
 from scipy.sparse import csr_array
 
 from gaps.walls.pair import BoreWalls, PlateWalls
+from gaps.walls.parts import Stand
 from gaps.walls.piston import ByChamber
-from gaps.walls.pose import Stand
 from reynolds.bodies.foundation import Compliance, winkler
 from reynolds.fem.space import FilmSpace
 

@@ -28,9 +28,9 @@ from reynolds.laws.fluid import isoviscous
 from reynolds.numerics.arrays import Array
 from reynolds.solve.solver import FilmSolver
 from system.films.drives import drives, no_rubbing
-from system.films.given_positions import given_block, given_piston, given_slipper
 from system.films.heat import block_heat, piston_heat, slipper_heat
 from system.films.parts import FloatingParts
+from system.films.positions import given_block, given_piston, given_slipper
 from system.films.problems import RIGID, Cells, block_film, piston_film, slipper_film
 from system.films.rotor import Rotor
 from system.work.progress import Report, silent

@@ -29,10 +29,11 @@ from gaps.loads.ball_joint import (
     DrivenBody,
     ball_forces,
     ball_friction,
+    lateral_force,
+    lateral_moment,
     relative_spin,
     swept_acceleration,
 )
-from gaps.loads.piston_forces import lateral_force, lateral_moment
 from reynolds.numerics.arrays import Array
 from system.description.parts import RetainerKind
 from system.films.parts import FloatingParts

@@ -21,11 +21,10 @@ from reynolds.numerics.arrays import Array
 from reynolds.solve.solver import FilmSolver
 from system.description.gap import Gap
 from system.films.cycle import PISTON_CELLS, RING_CELLS, SLIPPER_CELLS
-from system.films.given_positions import given_block, given_piston, given_slipper
 from system.films.parts import FloatingParts
+from system.films.positions import given_block, given_piston, given_slipper, instant_drives
 from system.films.problems import Cells, block_film, piston_film, slipper_film
 from system.films.rotor import Rotor
-from system.films.standing_gaps import instant_drives
 
 
 @dataclass(frozen=True)

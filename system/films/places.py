@@ -1,4 +1,4 @@
-"""Where each film stands in the pump, for VTU files and pictures.
+"""Place of each film in the pump, for VTU files and pictures.
 
 Pump frame: z along the shaft from valve plate to swash plate with z = 0 on the valve plate, x to the inner dead
 centre. The description gives no axial position of the block; it follows from the dead volume, taken as a
@@ -8,6 +8,7 @@ straight prolongation of the bore between valve plate and piston.
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import dataclass
 from functools import partial
 from typing import assert_never
 
@@ -15,7 +16,6 @@ import numpy as np
 
 from reynolds.numerics.arrays import Array
 from system.description.gap import Gap
-from system.films.frames import Frame
 from system.films.parts import FloatingParts
 from system.films.rotor import Rotor, travel
 from system.pump.laws.directions import bore_axis, bore_sides, plate_axes
@@ -66,3 +66,26 @@ def _ball_height(rotor: Rotor, shaft_angle: float) -> float:
     dead = pump.pump.dead_volume / piston_area(pump)
     reach = dead + pump.piston.engaged_length + pump.piston.overhang + travel(rotor, shaft_angle)
     return float(reach * np.cos(pump.pump.bore_cone_angle))
+
+
+@dataclass(frozen=True)
+class Frame:
+    """Origin (m) and three orthonormal directions of a gap in the pump's frame, (3,) each.
+
+    Pump frame: z is the shaft axis from valve plate to swash plate, the valve plate's face lies at z = 0 and x
+    points to the inner dead centre.
+    """
+
+    origin: Array
+    x: Array
+    y: Array
+    z: Array
+
+    def plane(self, points: Array) -> Array:
+        """Points (n, 2) m of a plane film -> (n, 3) m in the pump."""
+        return self.origin + points[:, :1] * self.x + points[:, 1:] * self.y
+
+    def cylinder(self, points: Array, radius: float) -> Array:
+        """Points (n, 2) m of an unwrapped film (arc, axial) -> (n, 3) m on the cylinder about z in the pump."""
+        angle = points[:, :1] / radius
+        return self.origin + radius * (np.cos(angle) * self.x + np.sin(angle) * self.y) + points[:, 1:] * self.z

@@ -10,9 +10,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from gaps.walls.parts import BushingPart, PistonPart, bushing_body, piston_body
+from gaps.walls.parts import BushingPart, PistonPart, Stand, bushing_body, piston_body
 from gaps.walls.piston import PistonWalls, face_grid
-from gaps.walls.pose import Stand
 from reynolds.bodies.elasticity import Elastic
 from reynolds.bodies.foundation import Compliance
 from reynolds.fem.mesh import Cell, rectangle

@@ -23,13 +23,12 @@ from system.effects.effect import BenchState, GapCourse
 from system.effects.laws.film import ISENTROPIC_RISE, HeatShares, film_rise
 from system.effects.state import warmed
 from system.films.cycle import SMOOTH
-from system.films.given_positions import given_block, given_slipper
 from system.films.heat import block_heat, slipper_heat
 from system.films.instant import chambers_at
 from system.films.parts import floating_parts
+from system.films.positions import given_block, given_slipper, instant_drives
 from system.films.problems import block_film, slipper_film
 from system.films.rotor import Rotor, rotor
-from system.films.standing_gaps import instant_drives
 from system.pump.operating import operating_point
 from system.pump_file.file import load_pump
 

@@ -10,10 +10,9 @@ import numpy as np
 from reynolds.floating.pose import THINNEST
 from reynolds.numerics.arrays import Array
 from system.description.gap import Gap
-from system.films.given_positions import eccentric
 from system.films.parts import FloatingParts
+from system.films.positions import eccentric, instant_drives
 from system.films.rotor import Rotor, travel
-from system.films.standing_gaps import instant_drives
 from system.inputs.toml_table import Table, quoted
 from system.inputs.units import Dimension, format_quantity
 

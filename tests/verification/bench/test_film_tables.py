@@ -31,12 +31,11 @@ from system.effects.opening_tables import (
     SolvedOpening,
 )
 from system.films.cycle import SMOOTH
-from system.films.given_positions import given_slipper
 from system.films.heat import slipper_heat
 from system.films.parts import floating_parts
+from system.films.positions import given_slipper, instant_drives
 from system.films.problems import slipper_film
 from system.films.rotor import rotor
-from system.films.standing_gaps import instant_drives
 from system.pump.lumped import SAMPLES_PER_PITCH
 
 REF90 = load_pump("ref90")

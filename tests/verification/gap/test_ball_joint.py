@@ -17,10 +17,11 @@ from gaps.loads.ball_joint import (
     bore_drag,
     free_spins,
     land_drag,
+    lateral_force,
+    lateral_moment,
     relative_spin,
     swept_acceleration,
 )
-from gaps.loads.piston_forces import lateral_force, lateral_moment
 from reynolds.errors import FilmInputError
 from system.pump.laws.directions import bore_axis, bore_sides, plate_axes
 from system.pump.laws.kinematics import (

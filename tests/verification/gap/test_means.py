@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 import pytest
 
-from gaps.revolution.step_means import mean_of
+from gaps.revolution.turn import mean_of
 
 
 @dataclass(frozen=True)

@@ -23,6 +23,7 @@ from gaps.walls.parts import (
     PistonPart,
     PlatePart,
     SlipperPart,
+    Stand,
     bushing_body,
     part_wall,
     piston_body,
@@ -30,7 +31,6 @@ from gaps.walls.parts import (
     slipper_body,
 )
 from gaps.walls.piston import FaceGrid, PistonWalls, face_grid
-from gaps.walls.pose import Stand
 from gaps.walls.user_mesh import OwnMesh
 from reynolds.bodies.elasticity import Elastic
 from reynolds.bodies.mesh import BodyMesh, ring

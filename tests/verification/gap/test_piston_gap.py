@@ -12,7 +12,7 @@ import pytest
 
 from gaps.films.over_turn import constant
 from gaps.films.piston import PistonDrive, PistonFilm, PistonShape, standing_piston
-from gaps.loads.piston_forces import lateral_force
+from gaps.loads.ball_joint import lateral_force
 from gaps.shapes.profiles import Barrel, Profile
 from gaps.standing.conductances import piston_conductance
 from gaps.standing.gap_film import GapFilm
@@ -22,7 +22,7 @@ from reynolds.floating.rest import held_at
 from reynolds.floating.step import Stage
 from reynolds.numerics.arrays import Array
 from reynolds.solve.solver import FilmSolver
-from system.films.given_positions import eccentric
+from system.films.positions import eccentric
 
 RADIUS, CLEARANCE = 11e-3, 15e-6
 LENGTH, VISCOSITY, PRESSURE = 40e-3, 0.0258, 35e6

@@ -10,13 +10,15 @@ import numpy as np
 import pytest
 from scipy.special import ive
 
-from gaps.shapes.bore_rows import closer_at_end, closer_at_start
 from gaps.walls.parts import (
     BushingPart,
     PistonPart,
     PlatePart,
     SlipperPart,
+    Stand,
     bushing_body,
+    closer_at_end,
+    closer_at_start,
     part_wall,
     piston_body,
     plate_body,
@@ -24,7 +26,6 @@ from gaps.walls.parts import (
     slipper_walls,
 )
 from gaps.walls.piston import FaceGrid, PistonWalls, face_grid
-from gaps.walls.pose import Stand
 from gaps.walls.user_mesh import CHAMBER, FILM
 from reynolds.bodies.elasticity import Elastic, pressure_forces, structure
 from reynolds.bodies.space import body_space

@@ -30,8 +30,8 @@ from reynolds.floating.step import Stage
 from reynolds.numerics.arrays import Array
 from reynolds.solve.solver import FilmSolver
 from system.films.parts import floating_parts
+from system.films.positions import instant_drives
 from system.films.rotor import rotor
-from system.films.standing_gaps import instant_drives
 from system.pump.laws.leakage import slipper_conductance
 from system.pump.operating import operating_point
 from system.pump_file.file import load_pump

@@ -7,7 +7,7 @@ import pytest
 
 from gaps import Effect
 from gaps.walls.pair import BoreWalls, PlateWalls
-from gaps.walls.pose import Stand
+from gaps.walls.parts import Stand
 from gaps.walls.springs import SpringBore, SpringPlates
 from reynolds import FilmInputError
 from swashfilm.runs.pump.oil_fields import oil_state

@@ -18,7 +18,7 @@ from gaps.standing.gap_film import GapFilm
 from system import PumpDescription, films_point, load_pump, lumped_point, operating_point
 from system.films.cycle import gap_cycle
 from system.films.drives import drives, no_rubbing
-from system.films.given_positions import given_slipper
+from system.films.positions import given_slipper
 from system.films.rotor import rotor
 from system.points.films import TOLERANCE, FilmsPoint, film_shear, leak_table
 from system.pump.laws.directions import plate_axes

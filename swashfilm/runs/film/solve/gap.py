@@ -13,7 +13,7 @@ from gaps.films.block import BlockDrive, standing_block
 from gaps.films.over_turn import constant
 from gaps.films.piston import PistonDrive, standing_piston
 from gaps.films.slipper import SlipperDrive, face_force, floating_slipper
-from gaps.loads.piston_forces import lateral_force
+from gaps.loads.ball_joint import lateral_force
 from gaps.standing.gap_film import GapFilm
 from gaps.standing.reports import block_told, piston_told, rest_from, slipper_told
 from reynolds.fem.space import FilmSpace
@@ -27,8 +27,8 @@ from swashfilm.case.gap.position import FaceLoad, PistonLoad, rim
 from system.description.gap import Gap
 from system.films.cycle import PISTON_CELLS, RING_CELLS, SLIPPER_CELLS
 from system.films.places import place_of
+from system.films.positions import NO_RUBBING, instant_drives
 from system.films.problems import Cells, block_film, piston_film, slipper_film
-from system.films.standing_gaps import NO_RUBBING, instant_drives
 from system.points.floating_gaps import BLOCK_START, SLIPPER_START
 
 START = {

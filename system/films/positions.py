@@ -1,4 +1,4 @@
-"""Where the pump's description puts the parts in their gaps: eccentricity, film thicknesses and tilts."""
+"""Positions of the parts by the pump file: eccentricity, film thicknesses, tilts; and the drives at one angle."""
 
 from __future__ import annotations
 
@@ -6,8 +6,12 @@ import numpy as np
 
 from reynolds.numerics.arrays import Array
 from system.description.pump import PumpDescription
+from system.films.drives import Drives, drives, no_rubbing
+from system.films.parts import FloatingParts
 from system.films.rotor import Rotor
 from system.pump.laws.kinematics import slipper_sliding_velocity
+
+NO_RUBBING = "friction of the films on the parts: left out of the forces between them (one gap alone)"
 
 
 def eccentric(clearance: float, ratio: float, outer: Array) -> Array:
@@ -36,3 +40,15 @@ def given_block(pump: PumpDescription) -> Array:
     part = pump.valve_plate
     rim = part.land_radius_4
     return np.array([part.film_thickness, rim * np.tan(part.tilt_x), rim * np.tan(part.tilt_y)])
+
+
+def instant_drives(rotor: Rotor, parts: FloatingParts, shaft_angle: float, pressure: Array) -> Drives:
+    """Drives that hold at one shaft angle (rad) of chamber 1, without friction of the films.
+
+    pressure (z,) Pa of the chambers, chamber k at shaft angle + (k - 1) pitch; or (1,), of them all.
+    """
+    pistons = rotor.pump.pump.pistons
+    # Twice as many angles as chambers: a course over a turn has four at least.
+    angles = np.asarray(shaft_angle + np.pi / pistons * np.arange(2 * pistons), dtype=float)
+    chambers = np.broadcast_to(pressure, pistons)[np.arange(2 * pistons) // 2]
+    return drives(rotor, parts, angles, chambers, no_rubbing(2 * pistons))
