@@ -14,6 +14,7 @@ import time
 from collections import Counter
 from collections.abc import Callable
 from dataclasses import replace
+from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -23,12 +24,12 @@ from rich.table import Table
 from gaps.films.block import BlockFilm, floating_block
 from gaps.films.physics import Physics
 from gaps.films.piston import PistonFilm, floating_piston
+from gaps.films.reports import GapReport, block_report, piston_report, slipper_report
 from gaps.films.slipper import SlipperFilm, floating_slipper
 from gaps.revolution.march import GapRevolution, run_revolution
-from gaps.revolution.reports import GapSeen, block_seen, piston_seen, slipper_seen
 from gaps.revolution.schedule import evenly
 from reynolds.floating.problem import Floating
-from reynolds.floating.step import Stage
+from reynolds.floating.step import FloatingStage
 from reynolds.numerics.arrays import Array
 from reynolds.solve.solver import FilmSolver
 from system.films.drives import drives, no_rubbing, piston_shape, slipper_shape
@@ -55,11 +56,11 @@ PARTS = {
 }
 
 
-Look = Callable[[Stage], GapSeen]
+Look = Callable[[FloatingStage], GapReport]
 
 
 def floating_gap(gap: str, cells: tuple[int, int]) -> tuple[Floating, Look, Array, float]:
-    """A gap of the pump, what is told of it, where its search starts (k,) m, and the shaft's speed rad/s."""
+    """A gap of the pump, its report, the start (k,) m of its search, and the shaft's speed rad/s."""
     pump = load_pump(PUMP, {"operating.pressure": PRESSURE})
     point = operating_point(pump)
     parts, shaft = floating_parts(pump), rotor(pump, point)
@@ -68,16 +69,17 @@ def floating_gap(gap: str, cells: tuple[int, int]) -> tuple[Floating, Look, Arra
     physics = Physics(elastic_walls=False, pressure_viscosity=False)
     if gap == "slipper":
         slipper = SlipperFilm(slipper_shape(shaft, parts), drive.slipper, parts.slipper.laws, physics, cells=cells)
-        return floating_slipper(slipper), slipper_seen(slipper), np.array([10e-6, 0.0, 0.0]), point.shaft_speed
+        start = np.array([10e-6, 0.0, 0.0])
+        return floating_slipper(slipper), partial(slipper_report, slipper), start, point.shaft_speed
     if gap == "piston":
         piston = PistonFilm(piston_shape(shaft, parts), drive.piston, parts.piston.laws, physics, cells=cells)
-        return floating_piston(piston), piston_seen(piston), np.zeros(4), point.shaft_speed
+        return floating_piston(piston), partial(piston_report, piston), np.zeros(4), point.shaft_speed
     plate = parts.block
     block = BlockFilm(valve_plate_geometry(pump), drive.block, plate.plate, plate.laws, physics, cells=cells)
-    return floating_block(block), block_seen(block), np.array([8e-6, 0.0, 0.0]), point.shaft_speed
+    return floating_block(block), partial(block_report, block), np.array([8e-6, 0.0, 0.0]), point.shaft_speed
 
 
-def turned(gap: str, cells: tuple[int, int], angles: int, step: float) -> Callable[[], GapRevolution[GapSeen]]:
+def turned(gap: str, cells: tuple[int, int], angles: int, step: float) -> Callable[[], GapRevolution[GapReport]]:
     """The search of the gap's periodic turn, ready to run."""
     floating, look, start, speed = floating_gap(gap, cells)
     solver = FilmSolver(floating.shape_at(0.0).space)
@@ -91,7 +93,7 @@ def turned(gap: str, cells: tuple[int, int], angles: int, step: float) -> Callab
     )
 
 
-def timed(work: Callable[[], GapRevolution[GapSeen]]) -> tuple[GapRevolution[GapSeen], float]:
+def timed(work: Callable[[], GapRevolution[GapReport]]) -> tuple[GapRevolution[GapReport], float]:
     """The result and the process time it took, s."""
     began = time.process_time()
     found = work()
@@ -118,7 +120,7 @@ def part_of(place: str) -> str | None:
     return next((part for part, marks in PARTS.items() if any(mark in place for mark in marks)), None)
 
 
-def row_of(gap: str, cells: tuple[int, int], found: GapRevolution[GapSeen], seconds: float) -> list[str]:
+def row_of(gap: str, cells: tuple[int, int], found: GapRevolution[GapReport], seconds: float) -> list[str]:
     """One line of the table of costs."""
     unknowns = len(found.turn.last.held)
     steps, turns = len(found.turn.times), found.closing.turns
@@ -127,7 +129,7 @@ def row_of(gap: str, cells: tuple[int, int], found: GapRevolution[GapSeen], seco
     return [gap, f"{cells[0]} x {cells[1]}", *map(str, numbers), f"{each:.2f}", f"{seconds:.1f}"]
 
 
-def save(found: GapRevolution[GapSeen], file: Path) -> None:
+def save(found: GapRevolution[GapReport], file: Path) -> None:
     """The periodic turn: angles rad, positions m, forces N, least film m, pressure Pa, leakage m3/s, heat W."""
     instants = found.turn.instants
     np.savez(
@@ -138,8 +140,8 @@ def save(found: GapRevolution[GapSeen], file: Path) -> None:
         contact_force=np.array([at.contact_force for at in instants]),
         least_film=np.array([at.film_thickness_min for at in instants]),
         pressure_max=np.array([at.pressure_max for at in instants]),
-        leakage=np.array([at.seen.leakage for at in instants]),
-        heat=np.array([at.seen.heat.total for at in instants]),
+        leakage=np.array([at.report.leakage for at in instants]),
+        heat=np.array([at.report.heat.total for at in instants]),
     )
 
 

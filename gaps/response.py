@@ -23,14 +23,14 @@ ROUND_OFF = 1e-9
 
 
 class Spacing(Enum):
-    """How an axis is scaled to the unit box."""
+    """Scaling of an axis to the unit box."""
 
     LINEAR = "linear"
     LOGARITHMIC = "logarithmic"
 
 
 class Measure(Enum):
-    """How an output is learnt and its error taken.
+    """Measure by which an output is learnt and its error is taken.
 
     Of positive values by logarithm, relative; else as it is: of an output of order one the error itself, of others
     over the largest magnitude of all learnt values.
@@ -102,7 +102,7 @@ class Samples:
 class HeldOutError:
     """Error of each of the m outputs over the held-out points, as the output's measure says.
 
-    rms, largest (m,); worst (m,): which held-out point the largest stands at.
+    rms, largest (m,); worst (m,): held-out point of the largest.
     """
 
     rms: Array
@@ -111,7 +111,7 @@ class HeldOutError:
 
 
 @dataclass(frozen=True)
-class Region:
+class ErrorRegion:
     """The box around the held-out points with an error above a limit: how many, lower and upper ends (d,), SI."""
 
     count: int
@@ -165,14 +165,14 @@ class Response:
 
     @cached_property
     def held_out_error(self) -> HeldOutError:
-        """What the held-out points say of the interpolant."""
+        """Error of the interpolant at the held-out points."""
         off = np.abs(self.errors(self.held_out))
         return HeldOutError(np.sqrt(np.mean(off**2, axis=0)), np.max(off, axis=0), np.argmax(off, axis=0))
 
-    def large_error(self, column: int, limit: float) -> Region | None:
-        """Where an output is learnt badly: a kink shows as a region of large error. None where it is nowhere."""
+    def large_error(self, column: int, limit: float) -> ErrorRegion | None:
+        """Region of large error of an output, such as a kink; None without one."""
         above = self.held_out.points[np.abs(self.errors(self.held_out)[:, column]) > limit]
-        return Region(len(above), above.min(axis=0), above.max(axis=0)) if len(above) else None
+        return ErrorRegion(len(above), above.min(axis=0), above.max(axis=0)) if len(above) else None
 
     @property
     def _logarithmic(self) -> np.ndarray:
@@ -188,7 +188,7 @@ class Response:
 
 
 def fewest_learnt(inputs: int) -> int:
-    """Points without which nothing is learnt: half of the fewest asked for, and what a linear law needs."""
+    """Least number of points: half of the fewest requested, and enough for a linear law."""
     return max(2**inputs, 2 * inputs + 2)
 
 

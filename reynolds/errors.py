@@ -1,4 +1,4 @@
-"""The named ways in which a film can fail to give a number."""
+"""Errors of a film that gives no number."""
 
 
 class FilmInputError(ValueError):
@@ -9,7 +9,7 @@ class FilmInputError(ValueError):
         self.where, self.found, self.expected = where, found, expected
 
     def __reduce__(self) -> tuple[type, tuple[str, str, str]]:
-        """What another process makes the same error of."""
+        """Arguments from which another process rebuilds the error (pickle)."""
         return type(self), (self.where, self.found, self.expected)
 
 
@@ -21,5 +21,5 @@ class FilmNotConverged(RuntimeError):
         self.what, self.remedy = what, remedy
 
     def __reduce__(self) -> tuple[type, tuple[str, str]]:
-        """What another process makes the same error of."""
+        """Arguments from which another process rebuilds the error (pickle)."""
         return type(self), (self.what, self.remedy)

@@ -1,7 +1,7 @@
-"""What a film problem is, and what its solution holds. Frozen data, grouped by lifetime.
+"""Film problem and film solution: frozen data, grouped by lifetime.
 
 `FilmSpace` outlives many `Film`s; a `FilmProblem` is one film with its boundary conditions, a `FilmSolution`
-one pressure field with the evidence that it is one.
+one pressure field with the evidence of its quality.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ from math import isfinite
 import numpy as np
 from numpy.typing import NDArray
 
-from reynolds.bodies.compliance import Walls
+from reynolds.bodies.compliance import ElasticWalls
 from reynolds.errors import FilmInputError
 from reynolds.fem.space import FilmSpace
 from reynolds.laws.contact import Asperities
@@ -26,11 +26,11 @@ from reynolds.numerics.arrays import Array
 
 
 class Cavitation(Enum):
-    """What a film does that cannot be pulled.
+    """Cavitation model: treatment of pressures below the cavitation pressure.
 
-    NONE: negative pressure stands. REYNOLDS: pressure and its gradient vanish where the film ruptures; makes and
-    swallows oil in the cavity. JFO (Jakobsson and Floberg 1957, Olsson 1965): the cavity is filled in part, by a
-    film fraction that is carried along, and mass is conserved where the film ruptures and where it reforms.
+    NONE: they stay. REYNOLDS: pressure and its gradient vanish where the film ruptures; creates and destroys oil
+    in the cavity. JFO (Jakobsson and Floberg 1957, Olsson 1965): the cavity is filled in part, by a film fraction
+    that moves with the walls; conserves mass where the film ruptures and where it reforms.
     """
 
     NONE = "none"
@@ -40,7 +40,7 @@ class Cavitation(Enum):
 
 @dataclass(frozen=True)
 class Held:
-    """Boundary at a given pressure (Pa), with the film fraction (0 .. 1) of what it may send in.
+    """Boundary at a given pressure (Pa), with the film fraction (0 .. 1) of its inflow.
 
     Less than one, a starved supply, goes with the cavitation pressure, since a film filled in part bears none.
     """
@@ -54,8 +54,8 @@ class Pocket:
     """Boundary of uniform unknown pressure, fed from outside.
 
     `feed(p)` gives the inflow (m3/s) into the film at pocket pressure p (Pa) and its derivative dq/dp <= 0.
-    A groove without supply is fed by `no_feed`. `volume` (m3) is what a film with storage holds there, which like
-    the film is filled in part at cavitation pressure. The boundary must be a pocket of the space.
+    A groove without supply is fed by `no_feed`. `volume` (m3) counts in a film with storage, filled in
+    part at cavitation pressure like the film. The boundary must be a pocket of the space.
     """
 
     feed: Callable[[float], tuple[float, float]]
@@ -63,7 +63,7 @@ class Pocket:
 
 
 def no_feed(pressure: float) -> tuple[float, float]:
-    """A groove that nothing enters from outside: inflow 0 at any pressure."""
+    """A groove without supply: inflow 0 at any pressure."""
     return 0.0, 0.0
 
 
@@ -71,7 +71,7 @@ Boundary = Held | Pocket
 
 
 LEAST_FRACTION = -0.01
-"""Film fraction that cells with obtuse angles may overshoot to; one further below zero is no film."""
+"""Film fraction that cells with obtuse angles may overshoot to; one further below zero is an error."""
 
 ZERO = np.zeros((1, 1))
 HALF = np.full((1, 1), 0.5)
@@ -83,7 +83,7 @@ class Film:
 
     Each array is (cells | 1, points | 1): a length of one means "everywhere". SI: thickness m, viscosity Pa s,
     wall velocities m/s (moving and fixed wall, x and y), squeeze = dh/dt at a fixed place, m/s.
-    `thickness_at_vertices` (vertices,) m, for pictures and the least film: where it is not known it is
+    `thickness_at_vertices` (vertices,) m, for pictures and the least film: if None it is
     extrapolated from the quadrature points, which is exact for a smooth film and void for a step within a cell.
     Where viscosity varies across the film (Dowson 1962), `viscosity` is that of pressure flow,
     `couette_viscosity` (Pa s; None: the same) that of sliding, and `moving_share` w the moving wall's share:
@@ -108,7 +108,7 @@ class Film:
 
     @property
     def mean_velocity(self) -> tuple[Array, Array]:
-        """Velocity with which the walls carry the film along, w U_moving + (1 - w) U_fixed (m/s)."""
+        """Mean velocity of the Couette flow, w U_moving + (1 - w) U_fixed (m/s)."""
         w = self.moving_share
         x, y = (
             one if one is two else w * one + (1.0 - w) * two
@@ -127,7 +127,7 @@ def film(
 ) -> Film:
     """A film with its fields checked.
 
-    Thickness (m) and viscosity (Pa s) are numbers or arrays as `Film` has them. Raises FilmInputError where one is
+    Thickness (m) and viscosity (Pa s) are numbers or arrays as in `Film`. Raises FilmInputError where one is
     not positive, or an array of one axis, which could be cells or points.
     """
     if 1 in (np.ndim(thickness), np.ndim(viscosity)):
@@ -140,13 +140,13 @@ def film(
 
 
 def _all_finite(values: Array) -> bool:
-    """Whether every value is a number; most fields are one, and looked at without numpy's loops."""
+    """True if every value is finite; a single value is tested without numpy's loops."""
     return isfinite(values.item()) if values.size == 1 else bool(all_finite(np.ravel(values)))
 
 
 @dataclass(frozen=True)
 class Storage:
-    """What each unknown held one time step ago, (size,) m3 at reference density, and the step (s)."""
+    """Oil of each unknown one time step ago, (size,) m3 at reference density, and the step (s)."""
 
     held_before: Array
     step: float
@@ -158,11 +158,11 @@ class FilmProblem:
 
     `held_nodes` (size,) may hold further unknowns at a pressure: NaN where the film is free (regions of the
     film plane that lie under a port). `fluid` gives viscosity and density over pressure, `surface`
-    the roughness of the walls, `asperities` what they bear where they touch, and `walls` how far they give way.
-    With `storage` the film is one step of a transient: it swallows the change of what it holds, beside
+    the roughness of the walls, `asperities` their contact, and `walls` their compliance.
+    With `storage` the film is one step of a transient: it stores the change of its oil, beside
     `film.squeeze`. Pressures in Pa on one common reference, gauge or absolute.
     Where two held boundaries meet, their common unknowns are held by the later one.
-    Raises FilmInputError for a field that is not of the space, or of which a value is no number or means nothing.
+    Raises FilmInputError for a field of another space, or with a value that is not finite or out of range.
     """
 
     space: FilmSpace
@@ -174,7 +174,7 @@ class FilmProblem:
     fluid: Fluid = CONSTANT
     surface: Surface | None = None
     asperities: Asperities | None = None
-    walls: Walls | None = None
+    walls: ElasticWalls | None = None
     storage: Storage | None = None
 
     def __post_init__(self) -> None:
@@ -197,7 +197,7 @@ class FilmProblem:
             ("fixed wall, x", oil.velocity_fixed[0]), ("fixed wall, y", oil.velocity_fixed[1]),
             ("moving wall's share", oil.moving_share), ("sliding viscosity", oil.couette_viscosity),
         ):  # fmt: skip
-            if field_values is None or field_values is ZERO or field_values is HALF:  # nothing to look at
+            if field_values is None or field_values is ZERO or field_values is HALF:  # valid by construction
                 continue
             # The compiled loops trust these shapes: another one would read beside the array.
             shape = np.shape(field_values)
@@ -229,27 +229,27 @@ class FilmProblem:
 
 @dataclass(frozen=True)
 class FilmSolution:
-    """A pressure field and its quality.
+    """Solution of a film problem, and its quality.
 
-    pressure (size,) Pa; film_fraction (size,), 1 in the film; film: as it is under this pressure, with the walls'
-    opening (vertices,) m in its thickness and the oil's law in its viscosity; flux, m2/s, and content, m: what the
-    walls carry along and the oil per area at the quadrature points of a full film. Of each unknown (size,), at
-    reference density: outflow, m3/s out of the film at held nodes and pockets; swallowed, rate of its oil in m3/s;
-    mixing, what upwinding exchanges in a cavity and at its ends, m3/s; meeting, magnitudes of the flows that meet
-    there, m3/s. `cavity` marks unknowns at cavitation pressure; `path` is the imbalance after each step.
+    pressure (size,) Pa; film_fraction (size,), 1 in the film; film: under this pressure, with the walls'
+    deformation (vertices,) m in its thickness and the oil's law in its viscosity; flux, m2/s, and content, m:
+    Couette flow and oil per area at the quadrature points of a full film. Of each unknown (size,), at reference
+    density: outflow, m3/s out of the film at held nodes and pockets; storage_rate, rate of its oil in m3/s;
+    upwind_exchange, flow by upwinding in a cavity and at its ends, m3/s; flow_scale, sum of the magnitudes of its
+    flows, m3/s. `cavity` marks unknowns at cavitation pressure; `path` is the imbalance after each step.
     """
 
     problem: FilmProblem = field(repr=False)
     pressure: Array
     film_fraction: Array
     film: Film = field(repr=False)
-    opening: Array
+    deformation: Array
     flux: tuple[Array, Array] = field(repr=False)
     content: Array = field(repr=False)
     outflow: Array
-    swallowed: Array
-    mixing: Array
-    meeting: Array
+    storage_rate: Array
+    upwind_exchange: Array
+    flow_scale: Array
     held: NDArray[np.bool_]
     cavity: NDArray[np.bool_]
     path: tuple[float, ...]
@@ -262,16 +262,18 @@ class FilmSolution:
 
     @property
     def gap(self) -> Array:
-        """Distance of the mean planes at the quadrature points, (cells | 1, points | 1) m: what asperities feel.
+        """Distance of the mean planes at the quadrature points, (cells | 1, points | 1) m, which decides contact.
 
-        The film's thickness but for rough walls that overlap (`overlap`).
+        Equal to the film's thickness except for rough walls that overlap (`rough_overlap`).
         """
         given = self.problem.film.thickness
-        return given if self.problem.walls is None else given + self.problem.space.sample_vertices(self.opening)
+        return (
+            given if self.problem.walls is None else given + self.problem.space.sample_vertices(self.deformation)
+        )
 
     @property
     def imbalance(self) -> float:
-        """Largest residual of a free unknown relative to `meeting` (round-off when converged)."""
+        """Largest residual of a free unknown relative to `flow_scale` (round-off when converged)."""
         return self.path[-1]
 
     @property
@@ -281,7 +283,7 @@ class FilmSolution:
 
 
 def contents(problem: FilmProblem, content: Array) -> Array:
-    """What each unknown of a full film holds, (size,) m3 at reference density: the film's content (m), pockets."""
+    """Oil of each unknown of a full film, (size,) m3 at reference density: film content (m), and pockets."""
     held = problem.space.lumped(content)
     for name, condition in problem.boundary.items():
         if isinstance(condition, Pocket) and condition.volume:
@@ -290,7 +292,7 @@ def contents(problem: FilmProblem, content: Array) -> Array:
 
 
 def holds_oil(problem: FilmProblem, held: Array) -> bool:
-    """Whether no unknown holds (size,) m3 less than no oil, but for what cells with obtuse angles overshoot."""
+    """True if no unknown has negative oil (size,) m3, but for the overshoot of cells with obtuse angles."""
     film = np.ones(problem.space.size, dtype=bool)
     for name, condition in problem.boundary.items():
         if isinstance(condition, Pocket) and name in problem.space.edge_dofs:

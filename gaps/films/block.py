@@ -14,8 +14,8 @@ n by n . (lift + W x (r - S)), W the block's turning about the spline S at heigh
 a turning about the sphere's centre would not change the film.
 
 The block is held sideways and turned at the spline, a point of the shaft: tilting about that point the shaft does
-no work on it, so that moments count about it. What presses are all forces from outside on block, pistons and
-slippers but those of film and kidneys, D'Alembert's included (`wrench_about`).
+no work on it, so that moments count about it. The pressing forces are all forces from outside on block, pistons
+and slippers but those of film and kidneys, D'Alembert's included (`wrench_about`).
 """
 
 from __future__ import annotations
@@ -27,34 +27,34 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
-from gaps.films.friction import Rubbed, rubbed
+from gaps.films.friction import WallShear, wall_shear
 from gaps.films.over_turn import OverTurn
 from gaps.films.physics import FilmLaws, Physics, laws_left
 from gaps.shapes.profiles import PLAIN, Profile
 from gaps.shapes.valve_plate_ring import SEALED, Ring, ValvePlateGeometry
 from gaps.walls.pair import while_turning
-from gaps.walls.parts import Stand
-from reynolds.bodies.compliance import Walls
+from gaps.walls.parts import Pose
+from reynolds.bodies.compliance import ElasticWalls
 from reynolds.errors import FilmInputError
 from reynolds.fem.space import FilmSpace
 from reynolds.fem.sphere import Sphere
 from reynolds.floating.coordinates import Modes, contact_force, modes_on
 from reynolds.floating.problem import Floating, Outer
-from reynolds.floating.step import Stage
+from reynolds.floating.step import FloatingStage
 from reynolds.laws.contact import Asperities
 from reynolds.numerics.arrays import Array
 from reynolds.problem import ZERO, Film, FilmProblem, FilmSolution, Held
 
-LEAST_LEVERAGE = 1e-3  # 1 + s/R: below, what a tilt opens is lost in round-off and shape
+LEAST_LEVERAGE = 1e-3  # 1 + s/R: below, a tilt's effect is lost in round-off and shape
 
 
 @dataclass(frozen=True)
 class BlockDrive:
-    """What drives the block over the turn, SI.
+    """Drive of the block over the turn, SI.
 
     shaft_speed rad/s, viscosity Pa s, pressures Pa. chamber_pressure over a chamber's own angle, Pa: one for all
     or (z,), of each. press over the shaft angle, (3,): force along z (N, negative: towards the plate) and moments
-    about x and y through the spline (N m) of all that works on the rotating group besides film and kidneys
+    about x and y through the spline (N m) of all forces on the rotating group besides film and kidneys
     (`wrench_about`). spline_height: of the spline over the valve plate, m.
     """
 
@@ -103,10 +103,10 @@ def kidney_wrench(geometry: ValvePlateGeometry, shaft_angle: float, above: Array
 
 @dataclass(frozen=True)
 class _Turned:
-    """What does not depend on the position, at one shaft angle.
+    """Quantities of one shaft angle that do not depend on the position.
 
     depth (cells, points) m of the face below its plane; over_port (cells, 1); chamber_pressure (z,) Pa; pressed
-    (3,) N: generalised forces of what presses and of the kidneys.
+    (3,) N: generalised pressing forces and those of the kidneys.
     """
 
     modes: Modes
@@ -117,7 +117,7 @@ class _Turned:
 
 
 class BlockFilm:
-    """Films of the floating block on a ring; cells = (across a land, a kidney pitch), as `Ring` has them."""
+    """Films of the floating block on a ring; cells = (across a land, a kidney pitch), see `Ring`."""
 
     def __init__(
         self,
@@ -135,7 +135,7 @@ class BlockFilm:
         self._physics = Physics() if physics is None else physics
         self._laws = laws_left(FilmLaws() if laws is None else laws, self._physics)
         self._named = np.unique(np.concatenate(list(self.ring.space.edge_dofs.values())))
-        # A stage asks for the same instant many times over.
+        # A stage needs the same instant many times.
         self._turned: Callable[[float], _Turned] = lru_cache(maxsize=4)(self._turned_to)
 
     @property
@@ -144,16 +144,16 @@ class BlockFilm:
         return self.ring.space
 
     def problem_at(self, time: float) -> FilmProblem:
-        """The film with the block's face on the plate (q = 0) at a time (s), velocities seen from the mesh."""
+        """The film with the block's face on the plate (q = 0) at a time (s), velocities relative to the mesh."""
         turns = np.where(self.ring.turns_with_block(self.space), 1.0, 0.0)
         return self._problem(time, turns)
 
     def standing_at(self, time: float) -> FilmProblem:
-        """The same with velocities seen from the plate: of a block that turns but does not wobble."""
+        """The same with velocities relative to the plate: of a block that turns but does not wobble."""
         return self._problem(time, np.zeros((1, 1)))
 
     def _problem(self, time: float, turns: Array) -> FilmProblem:
-        """The film seen from a frame that turns with the block where `turns` is one, with the plate where zero."""
+        """The film in a frame that turns with the block where `turns` is one, with the plate where zero."""
         drive, laws, angle = self.drive, self._laws, self._angle(time)
         at = self._turned(angle)
         space, port = at.modes.space, at.over_port
@@ -183,24 +183,23 @@ class BlockFilm:
             walls=self._walls(angle),
         )
 
-    def _walls(self, angle: float) -> Walls | None:
-        """Both walls with the block at a shaft angle (rad): past it pads turn, and plates unlike around."""
+    def _walls(self, angle: float) -> ElasticWalls | None:
+        """Both walls with the block at a shaft angle (rad): pads and plates of unlike sectors turn past it."""
         walls = self._laws.walls
         if walls is None:
             return None
         if not self.geometry.pads and walls.alike_around:
-            return walls.at(self.space, Stand())
-        return while_turning(lambda at: walls.at(self.ring.turned(at), Stand(moving=at)), angle, self.ring.column)
+            return walls.at(self.space, Pose())
+        return while_turning(lambda at: walls.at(self.ring.turned(at), Pose(moving=at)), angle, self.ring.column)
 
     def modes_at(self, time: float) -> Array:
         """Growth of the film by each coordinate at the vertices, (vertices, 3): in a plane 1, x/R4, y/R4."""
         return self._turned(self._angle(time)).modes.at_vertices
 
     def outer_at(self, time: float, position: Array, rate: Array) -> Outer:
-        """What presses and the kidneys' lift at a time (s).
+        """Pressing forces and the kidneys' lift at a time (s).
 
-        A web over a port touches nothing: what contact would bear there is taken off. Between walls that give way
-        held nodes have none.
+        A web over a port has no contact: its part is subtracted. Between elastic walls held nodes have none.
         """
         at, nothing, asperities = self._turned(self._angle(time)), np.zeros((3, 3)), self._laws.asperities
         if asperities is None or self._laws.walls is not None:
@@ -218,11 +217,11 @@ class BlockFilm:
         at_cavity = np.isclose(pressure, self.drive.cavitation_pressure, rtol=1e-12, atol=0.0)
         return np.where(at_cavity, self.drive.cavitation_pressure, pressure)
 
-    def rubbed(self, stage: Stage) -> Rubbed:
-        """What film and contact do to block (moving) and plate, webs over the ports as if they were films."""
-        return rubbed(stage.solution, self.asperities, stage.gap)
+    def rubbed(self, stage: FloatingStage) -> WallShear:
+        """Shear of film and contact on block (moving) and plate, webs over the ports counted as films."""
+        return wall_shear(stage.solution, self.asperities, stage.gap)
 
-    def friction_torque(self, space: FilmSpace, by: Rubbed) -> float:
+    def friction_torque(self, space: FilmSpace, by: WallShear) -> float:
         """Torque (N m) of film and contact against the block's turning, webs over the ports left out."""
         x, y, _ = space.points_in_space
         along_x, along_y = by.on_moving
@@ -235,7 +234,7 @@ class BlockFilm:
     def inflows(self, solution: FilmSolution, flows: Mapping[str, float]) -> tuple[Array, float, float]:
         """Flow into the film from each kidney (z,), and from suction and delivery port at their edges, m3/s.
 
-        `flows` out of the film as `reynolds.solve.loads.boundary_flows` has them.
+        `flows` out of the film by `reynolds.solve.loads.boundary_flows`.
         """
         space = solution.problem.space
         suction, delivery = (
@@ -246,7 +245,7 @@ class BlockFilm:
 
     @property
     def asperities(self) -> Asperities | None:
-        """What touches where the walls do."""
+        """Asperities of the walls, if rough."""
         return self._laws.asperities
 
     def _turned_to(self, angle: float) -> _Turned:
@@ -269,7 +268,7 @@ class BlockFilm:
         return np.column_stack([sphere.normal(*space.vertices.T)[2], reach * x, reach * y])
 
     def _shape(self, x: Array, y: Array) -> Array:
-        """What is taken off the plate's face (m), by radius and the plate's own angle."""
+        """Relief of the plate's face (m), by radius and the plate's own angle."""
         off_axis = np.hypot(*self.geometry.sphere.place(x, y)[:2])
         return np.asarray(self._face(off_axis, np.arctan2(y, x) - self.geometry.turned).depth)
 
@@ -278,7 +277,7 @@ class BlockFilm:
 
 
 def _leverage(sphere: Sphere, spline_height: float) -> float:
-    """1 + s/R: how far the block's turning about the spline opens the film, to turning about the face's middle."""
+    """1 + s/R: film opened by turning about the spline, over that by turning about the face's middle."""
     leverage = 1.0 + spline_height / sphere.radius
     if abs(leverage) < LEAST_LEVERAGE:
         found = f"a sphere about a point {-sphere.radius:.4g} m over the plate, the spline {spline_height:.4g} m"
@@ -287,7 +286,7 @@ def _leverage(sphere: Sphere, spline_height: float) -> float:
 
 
 def floating_block(film: BlockFilm) -> Floating:
-    """The block as `reynolds.floating.problem` takes it: coordinates (h, rise x, rise y) m, massless.
+    """The block as a floating film: coordinates (h, rise x, rise y) m, massless.
 
     Validity: small tilts; a plane or spherical valve plate but for its face and ports; a spline without friction.
     """

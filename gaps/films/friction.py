@@ -2,7 +2,7 @@
 
 A floating film keeps contact apart from its oil: asperities bear by the gap between mean planes, which may
 overlap, while the thickness of the oil stays positive (`reynolds.equation.rough_overlap`). Rubbing follows the
-same two.
+same rule.
 """
 
 from __future__ import annotations
@@ -20,8 +20,8 @@ Vector = tuple[Array, Array]
 
 
 @dataclass(frozen=True)
-class Heat:
-    """What a film turns into heat, W: the flow that pressure drives, shear of the oil, rubbing of asperities."""
+class Dissipation:
+    """Dissipation of a film, W: flow driven by pressure, shear of the oil, rubbing of asperities."""
 
     flow: float
     shear: float
@@ -34,12 +34,12 @@ class Heat:
 
 
 @dataclass(frozen=True)
-class Rubbed:
-    """What oil and touching asperities do to the walls of a film, at the quadrature points (cells, points) each.
+class WallShear:
+    """Shear and contact on the walls of a film, at the quadrature points (cells, points) each.
 
     on_moving and on_fixed: shear (x, y) Pa on either wall, contact's included; contact: pressure of asperities,
     Pa; driven, sheared, rubbing: heat W of the flow that pressure drives, of sliding oil and of asperities; area
-    elements m2; mixing: heat W in all at the ends of a cavity.
+    elements m2; mixing: total heat W at the ends of a cavity.
     """
 
     on_moving: Vector
@@ -51,30 +51,30 @@ class Rubbed:
     area: Array
     mixing: float
 
-    def heat(self, is_film: Array | float = 1.0) -> Heat:
-        """Heat of oil and asperities; `is_film` (cells | 1, points | 1) weighs. Mixing counts as flow."""
+    def heat(self, is_film: Array | float = 1.0) -> Dissipation:
+        """Heat of oil and asperities; weighted by `is_film` (cells | 1, points | 1). Mixing counts as flow."""
         flow, shear, rubbing = (
             float(np.sum(part * is_film)) for part in (self.driven, self.sheared, self.rubbing)
         )
-        return Heat(flow + self.mixing, shear, rubbing)
+        return Dissipation(flow + self.mixing, shear, rubbing)
 
     def load(self, is_film: Array | float = 1.0) -> float:
         """int p_contact dA, N."""
         return float(np.sum(self.contact * self.area * is_film))
 
 
-def rubbed(solution: FilmSolution, asperities: Asperities | None, gap: Array) -> Rubbed:
-    """What a film and its asperities do to the walls.
+def wall_shear(solution: FilmSolution, asperities: Asperities | None, gap: Array) -> WallShear:
+    """Shear and contact of a film and its asperities on the walls.
 
     `solution` is the film without asperities; `gap` (cells, points) m: the distance of the mean planes. Contact
     resists the sliding of the walls with `boundary_shear`; raises as the law of contact does.
     """
     fields, area = point_fields(solution), solution.problem.space.area
     driven, sheared = dissipated(solution, fields.filled)
-    mixing = float(np.sum(solution.pressure * solution.mixing))
+    mixing = float(np.sum(solution.pressure * solution.upwind_exchange))
     moving, fixed, nothing = fields.shear_moving, fields.shear_fixed, np.zeros_like(area)
     if asperities is None:
-        return Rubbed(moving, fixed, nothing, driven, sheared, nothing, area, mixing)
+        return WallShear(moving, fixed, nothing, driven, sheared, nothing, area, mixing)
     film, bears = solution.film, contact_pressure(asperities, gap).value
     slip = [
         np.broadcast_to(a - b, area.shape) for a, b in zip(film.velocity_moving, film.velocity_fixed, strict=True)
@@ -82,7 +82,7 @@ def rubbed(solution: FilmSolution, asperities: Asperities | None, gap: Array) ->
     speed, rubs = np.hypot(*slip), boundary_shear(asperities, bears).value
     along = np.divide(rubs, speed, out=np.zeros(area.shape), where=speed > 0.0)
     x, y = along * slip[0], along * slip[1]
-    return Rubbed(
+    return WallShear(
         (moving[0] - x, moving[1] - y), (fixed[0] + x, fixed[1] + y), bears, driven, sheared, rubs * speed * area,
         area, mixing,
     )  # fmt: skip

@@ -1,4 +1,4 @@
-"""Quantities over one turn of the shaft: what drives a floating part, between the angles where it is known."""
+"""Quantities over one turn of the shaft, interpolated between known angles: the drive of a floating part."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ OverTurn = Callable[[float], Array]
 
 
 @dataclass(frozen=True)
-class Course:
+class PeriodicCurve:
     """Values (n, ...) at rising angles (n,) rad within one turn, continued from turn to turn.
 
     Between the angles monotone cubic interpolation (Fritsch and Carlson 1980, Fritsch and Butland 1984): slope
@@ -58,6 +58,6 @@ class Course:
 
 
 def constant(*value: float) -> OverTurn:
-    """A quantity that stays the same: a number, or (k,) of several."""
+    """A constant quantity: a number, or (k,) of several."""
     held = np.asarray(value[0] if len(value) == 1 else value, dtype=float)
     return lambda angle: held

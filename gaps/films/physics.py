@@ -1,4 +1,4 @@
-"""Which physics a floating gap has: switches, and the laws of oil and walls that they leave."""
+"""Physics of a gap: switches, and the laws of oil and walls under them."""
 
 from __future__ import annotations
 
@@ -24,11 +24,11 @@ class Effect(Enum):
 
 @dataclass(frozen=True)
 class Physics:
-    """What is on. Off means left out; on means as far as the pump's description has it.
+    """Switches of the physics. Off: left out; on: as far as the pump file states it.
 
     cavitation: mass-conserving (JFO), else pressures may fall below the cavity's; pressure_viscosity: the fluid's
     laws over pressure, else viscosity and density are constant; roughness: flow factors and contact of asperities,
-    else smooth walls that never touch; elastic_walls: walls give way, else rigid; heat: the film warms, else it
+    else smooth walls that never touch; elastic_walls: walls deform, else rigid; heat: the film warms, else it
     has the case's temperature.
     """
 
@@ -48,18 +48,18 @@ class Physics:
 
     @property
     def left_out(self) -> tuple[Effect, ...]:
-        """Effects that are off, in the order of `Effect`: a result says them."""
+        """Effects that are off, in the order of `Effect`, for the result."""
         return tuple(effect for effect in Effect if not getattr(self, effect.value))
 
     @property
     def film_rupture(self) -> Cavitation:
-        """How the film solver takes pressures below the cavity's."""
+        """Cavitation model of the film solver."""
         return Cavitation.JFO if self.cavitation else Cavitation.NONE
 
 
 @dataclass(frozen=True)
 class FilmLaws:
-    """Oil and walls of one gap: what `reynolds.problem.FilmProblem` takes, the walls on any mesh."""
+    """Oil and walls of one gap for `reynolds.problem.FilmProblem`, the walls on any mesh."""
 
     fluid: Fluid = CONSTANT
     surface: Surface | None = None
@@ -68,7 +68,7 @@ class FilmLaws:
 
 
 def laws_left(laws: FilmLaws, physics: Physics) -> FilmLaws:
-    """The laws of a gap of which those that `physics` switches off are taken away."""
+    """The laws of a gap without those that `physics` switches off."""
     return FilmLaws(
         fluid=laws.fluid if physics.pressure_viscosity else CONSTANT,
         surface=laws.surface if physics.roughness else None,

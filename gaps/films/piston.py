@@ -8,8 +8,8 @@ depth inside the case edge, s = guide_length - y,
 
     h = c + bore(s) + piston(depth from its end) - e(s) . (cos, sin),   e(s) = e1 + (e0 - e1) s/guide_length.
 
-The mesh spans what is engaged and stretches as the piston moves; wall velocities are relative to it. Between walls
-that give way its rows are closer at both edges.
+The mesh spans what is engaged and stretches as the piston moves; wall velocities are relative to it. Between
+elastic walls its rows are closer at both edges.
 """
 
 from __future__ import annotations
@@ -20,19 +20,19 @@ from functools import lru_cache
 
 import numpy as np
 
-from gaps.films.friction import Rubbed, rubbed
+from gaps.films.friction import WallShear, wall_shear
 from gaps.films.over_turn import OverTurn
 from gaps.films.physics import FilmLaws, Physics, laws_left
-from gaps.films.piston_deformation import Yielding, yielding
+from gaps.films.piston_deformation import PistonDeformation, piston_deformation
 from gaps.shapes.profiles import PLAIN, Profile, Relief
 from gaps.walls.pair import BoreWalls
-from gaps.walls.parts import Stand, closer_at_both
+from gaps.walls.parts import Pose, closer_at_both
 from reynolds.equation.rough_overlap import vertex_thickness
 from reynolds.errors import FilmInputError
 from reynolds.fem.mesh import Cell, rectangle, rename
 from reynolds.fem.space import FilmSpace, film_space
 from reynolds.floating.problem import Floating, Outer, steady
-from reynolds.floating.step import Stage
+from reynolds.floating.step import FloatingStage
 from reynolds.laws.contact import Asperities
 from reynolds.laws.law import require_positive
 from reynolds.numerics.arrays import Array
@@ -42,7 +42,7 @@ from reynolds.solve.loads import evaluate
 
 @dataclass(frozen=True)
 class PistonShape:
-    """Piston diameter, radial clearance and guide length in the bore (m), and what is taken off either part.
+    """Piston diameter, radial clearance and guide length in the bore (m), and the relief of either part.
 
     `piston` counts places from the piston's chamber end, `bore` from the guide's case edge inwards.
     """
@@ -61,11 +61,11 @@ class PistonShape:
 
 @dataclass(frozen=True)
 class PistonDrive:
-    """What drives a piston over the turn, SI.
+    """Drive of a piston over the turn, SI.
 
     shaft_speed rad/s; viscosity Pa s and pressures Pa; spins rad/s of piston and bore about the bore's axis in the
-    frame that does not turn. Over the shaft angle: chamber_pressure Pa; reach m, how far inside the case edge the
-    piston's end stands; velocity m/s of the piston out of the block, -d reach/dt; outer (4,) N, the generalised
+    frame that does not turn. Over the shaft angle: chamber_pressure Pa; reach m, depth of the piston's end inside
+    the case edge; velocity m/s of the piston out of the block, -d reach/dt; outer (4,) N, the generalised
     forces of all but the film (`gaps.loads.ball_joint`).
     """
 
@@ -83,10 +83,10 @@ class PistonDrive:
 
 @dataclass(frozen=True)
 class PistonFriction:
-    """What a film does to its piston besides bearing it.
+    """Friction of a film on its piston.
 
     force N along the bore, out of the block, beside the chamber's pressure on the nominal section; torque N m
-    about its axis; moment (2,) N m of the axial shear about axes across the bore; power W, what both parts spend.
+    about its axis; moment (2,) N m of the axial shear about axes across the bore; power W, spent by both parts.
     """
 
     force: float
@@ -97,7 +97,7 @@ class PistonFriction:
 
 @dataclass(frozen=True)
 class _Driven:
-    """What drives a piston at one time: reach m, velocity m/s, chamber_pressure Pa, as `PistonDrive` has them."""
+    """Drive of a piston at one time: reach m, velocity m/s, chamber_pressure Pa, see `PistonDrive`."""
 
     reach: float
     velocity: float
@@ -122,7 +122,7 @@ class PistonFilm:
         assert walls is None or isinstance(walls, BoreWalls)
         self._walls: BoreWalls | None = walls
         mesh = rectangle((np.pi * shape.diameter, 1.0), cells, cell=Cell.QUADRILATERAL, periodic_x=True)
-        # Of length one; what is engaged stretches its places and keeps their angles.
+        # Of length one; the engaged length stretches it along the bore.
         self._unit = film_space(rename(mesh, {"bottom": "chamber", "top": "case"}))
         if self._walls is not None:
             around, along = self._unit.vertices.T
@@ -130,12 +130,12 @@ class PistonFilm:
         self._space = self._unit
         self._points, self._vertices = self._unit.points, self._unit.vertices.T
         angle = 2.0 * self._vertices[0] / shape.diameter
-        # A stage asks for the same instant many times over.
+        # A stage needs the same instant many times.
         self._driven: Callable[[float], _Driven] = lru_cache(maxsize=4)(self._driven_at)
         self._towards = np.column_stack([np.cos(angle), np.sin(angle)])
 
     def space_at(self, time: float) -> FilmSpace:
-        """The mesh over what is engaged at a time (s); raises FilmInputError where nothing is."""
+        """The mesh over the engaged length at a time (s); raises FilmInputError where it is zero."""
         around, along = self._vertices
         axial = self.shape.guide_length - self._engaged(time) * (1.0 - along)
         if not np.array_equal(self._space.vertices[:, 1], axial):
@@ -147,31 +147,31 @@ class PistonFilm:
         return self._problem(time, self._mesh_velocity(time), ZERO)
 
     def standing_at(self, time: float) -> FilmProblem:
-        """The same in a mesh that stands, squeezed by the profiles that pass: of a piston held across its bore."""
+        """The same in a fixed mesh, squeezed by the moving profiles: of a piston held across its bore."""
         drive = self.drive
         _, along, around = self._relief(time, *self._points)
         bore = self._bore_relief(time, *self._points).around
         velocity = self._driven(time).velocity
         return self._problem(time, ZERO, -velocity * along - drive.piston_spin * around - drive.bore_spin * bore)
 
-    def _problem(self, time: float, carried: Array, squeeze: Array) -> FilmProblem:
-        """The film seen from a mesh that moves along the bore at `carried` (m/s), squeezed at dh/dt (m/s)."""
+    def _problem(self, time: float, mesh_velocity: Array, squeeze: Array) -> FilmProblem:
+        """The film in a mesh that moves along the bore at `mesh_velocity` (m/s), squeezed at dh/dt (m/s)."""
         space, drive, laws = self.space_at(time), self.drive, self._laws
         moving, fixed = self._velocities(time)
         film = Film(
             thickness=self._thickness(time, *self._points),
             viscosity=np.full((1, 1), drive.viscosity),
-            velocity_moving=(moving[0], moving[1] - carried),
-            velocity_fixed=(fixed[0], fixed[1] - carried),
+            velocity_moving=(moving[0], moving[1] - mesh_velocity),
+            velocity_fixed=(fixed[0], fixed[1] - mesh_velocity),
             squeeze=squeeze,
             thickness_at_vertices=self._thickness(time, *self._vertices),
         )
         pressure = self._driven(time).chamber_pressure
         walls = None
         if self._walls is not None:
-            stand = self._stand(time)
-            walls = self._walls.at(space, stand)
-            film = widened(space, film, pressure * self._walls.by_chamber(space, stand).opened)
+            pose = self._pose(time)
+            walls = self._walls.at(space, pose)
+            film = widened(space, film, pressure * self._walls.by_chamber(space, pose).deformation)
         return FilmProblem(
             space=space,
             film=film,
@@ -193,21 +193,23 @@ class PistonFilm:
         """Outer generalised forces; they depend on the shaft's angle alone."""
         return steady(self.drive.outer(self._angle(time)))
 
-    def rubbed(self, stage: Stage) -> Rubbed:
-        """What film and contact do to piston (moving) and bore."""
-        return rubbed(stage.solution, self.asperities, stage.gap)
+    def rubbed(self, stage: FloatingStage) -> WallShear:
+        """Shear of film and contact on piston (moving) and bore."""
+        return wall_shear(stage.solution, self.asperities, stage.gap)
 
-    def yielding(self, stage: Stage) -> Yielding | None:
-        """How the parts have given way; None between rigid walls."""
+    def deformation(self, stage: FloatingStage) -> PistonDeformation | None:
+        """Deformation of both parts; None between rigid walls."""
         if self._walls is None:
             return None
         pressure = self._driven(stage.time).chamber_pressure
-        return yielding(self._walls, stage, self._stand(stage.time), pressure)
+        return piston_deformation(self._walls, stage, self._pose(stage.time), pressure)
 
-    def friction(self, stage: Stage, by: Rubbed, given: Yielding | None = None) -> PistonFriction:
-        """What film and contact do to the piston along and around the bore, told from what they do to its wall.
+    def friction(
+        self, stage: FloatingStage, by: WallShear, given: PistonDeformation | None = None
+    ) -> PistonFriction:
+        """Friction on the piston along and around the bore from the shear on its wall.
 
-        `given`: the dents that it carries along.
+        `given`: the deformation, whose slope adds a force.
         """
         space = stage.solution.problem.space
         radius, angle = 0.5 * self.shape.diameter, 2.0 * space.points[0] / self.shape.diameter
@@ -223,11 +225,11 @@ class PistonFilm:
             power=-sheared - flank * float(walls[0][1].item()),
         )
 
-    def _flank_force(self, stage: Stage, contact: Array, given: Yielding | None) -> float:
-        """Force (N) out of the block of pressure on the piston's profile and dents, beside a plain piston's.
+    def _flank_force(self, stage: FloatingStage, contact: Array, given: PistonDeformation | None) -> float:
+        """Force (N) out of the block of pressure on the piston's profile and deformation, beside a plain piston's.
 
-        -int (p - p_case) d relief/dy dA of film and contact, and the chamber's pressure on what is taken off where
-        the film begins: a groove filled with one pressure pushes nowhere.
+        -int (p - p_case) d relief/dy dA of film and contact, and the chamber's pressure on the relief at the
+        film's edge: a groove under one pressure has no force.
         """
         solution, drive = stage.solution, self.drive
         space, (around, along) = solution.problem.space, self._points
@@ -238,11 +240,11 @@ class PistonFilm:
         if given is None:
             above = above + contact
         else:
-            taken_off, slope = taken_off + given.dented, slope + given.slope(solution)
+            taken_off, slope = taken_off + given.piston, slope + given.slope(solution)
         return -float(np.sum(above * slope * space.area)) - chamber * self._on_chamber_edge(taken_off)
 
     def _relief(self, time: float, around: Array, along: Array) -> Relief:
-        """What is taken off the piston at places of the unit mesh; it moves and turns with the piston."""
+        """Relief of the piston at places of the unit mesh; it moves and turns with the piston."""
         reach = self._driven(time).reach
         depth = self._engaged(time) * (1.0 - along)
         return self.shape.piston(reach - depth, 2.0 * around / self.shape.diameter - self.drive.piston_spin * time)
@@ -253,28 +255,29 @@ class PistonFilm:
         nodal[self._unit.vertex_dofs] = at_vertices
         return float(nodal[self._unit.edge_dofs["chamber"]] @ self._unit.edge_share["chamber"])
 
-    def chamber_flow(self, stage: Stage, flows: Mapping[str, float], given: Yielding | None) -> float:
-        """Flow (m3/s) out of the chamber, which grows by the piston's nominal section and by what `given` swells.
+    def chamber_flow(
+        self, stage: FloatingStage, flows: Mapping[str, float], given: PistonDeformation | None
+    ) -> float:
+        """Flow (m3/s) out of the chamber, which grows by the piston's nominal section and the deformation `given`.
 
-        `flows` out of the film as `reynolds.solve.loads.boundary_flows` has them. The film's edge moves with the
-        piston's end and sweeps the clearance there, which flows out besides; what is taken off the piston never
-        was part of the section.
+        `flows` out of the film by `reynolds.solve.loads.boundary_flows`. The film's edge moves with the piston's
+        end and sweeps the clearance there, which flows out besides; the piston's relief is no part of the section.
         """
         swept = 0.0
         if self._driven(stage.time).reach < self.shape.guide_length:
-            clearance = vertex_thickness(stage.solution) - (0.0 if given is None else given.opened)
+            clearance = vertex_thickness(stage.solution) - (0.0 if given is None else given.film)
             swept = self._on_chamber_edge(clearance)
         return self.standing_flow(stage, flows) + self._driven(stage.time).velocity * swept
 
-    def standing_flow(self, stage: Stage, flows: Mapping[str, float]) -> float:
-        """The same (m3/s) in a mesh that stands (`standing_at`)."""
+    def standing_flow(self, stage: FloatingStage, flows: Mapping[str, float]) -> float:
+        """The same (m3/s) in a fixed mesh (`standing_at`)."""
         velocity = self._driven(stage.time).velocity
         taken_off = self._on_chamber_edge(self._relief(stage.time, *self._vertices).depth)
         return -velocity * taken_off - flows["chamber"]
 
     @property
     def asperities(self) -> Asperities | None:
-        """What touches where the walls do."""
+        """Asperities of the walls, if rough."""
         return self._laws.asperities
 
     def _angle(self, time: float) -> float:
@@ -286,10 +289,10 @@ class PistonFilm:
             float(drive.reach(angle)), float(drive.velocity(angle)), float(drive.chamber_pressure(angle))
         )
 
-    def _stand(self, time: float) -> Stand:
-        """How piston and bore stand beside the film."""
+    def _pose(self, time: float) -> Pose:
+        """Pose of piston and bore relative to the film."""
         drive = self.drive
-        return Stand(self._driven(time).reach, drive.piston_spin * time, drive.bore_spin * time)
+        return Pose(self._driven(time).reach, drive.piston_spin * time, drive.bore_spin * time)
 
     def _engaged(self, time: float) -> float:
         """Length of the film (m): up to the piston's end, or to the guide's where the piston passes it."""
@@ -309,7 +312,7 @@ class PistonFilm:
     def _mesh_velocity(self, time: float) -> Array:
         """Velocity of the mesh along the bore, m/s: that of the piston at its end, none at the case edge.
 
-        As the mesh's own rate it is what makes a stretching film store as much oil as the walls bring.
+        With this rate a stretching film stores as much oil as the walls bring.
         """
         if self._driven(time).reach >= self.shape.guide_length:
             return ZERO
@@ -321,23 +324,23 @@ class PistonFilm:
         return np.asarray(self.shape.radial_clearance + bore + piston)
 
     def _bore_relief(self, time: float, around: Array, along: Array) -> Relief:
-        """What is taken off the bore at places of the unit mesh; it turns with the block."""
+        """Relief of the bore at places of the unit mesh; it turns with the block."""
         angle, depth = 2.0 * around / self.shape.diameter, self._engaged(time) * (1.0 - along)
         return self.shape.bore(depth, angle - self.drive.bore_spin * time)
 
 
-def widened(space: FilmSpace, film: Film, opened: Array) -> Film:
-    """A film whose walls open at the vertices by (vertices,) m that its own pressure does not cause."""
+def widened(space: FilmSpace, film: Film, growth: Array) -> Film:
+    """A film grown by (vertices,) m at the vertices, by other loads than its own pressure."""
     corners = film.thickness_at_vertices
     return replace(
         film,
-        thickness=film.thickness + space.sample_vertices(opened),
-        thickness_at_vertices=None if corners is None else corners + opened,
+        thickness=film.thickness + space.sample_vertices(growth),
+        thickness_at_vertices=None if corners is None else corners + growth,
     )
 
 
 def floating_piston(film: PistonFilm) -> Floating:
-    """A piston as `reynolds.floating.problem` takes it: coordinates (ex0, ey0, ex1, ey1) m, massless across the
+    """A piston as a floating film: coordinates (ex0, ey0, ex1, ey1) m, massless across the
     bore.
 
     Validity: eccentricities and clearance small beside the radius; forces above case pressure.

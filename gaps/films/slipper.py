@@ -16,18 +16,18 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from gaps.films.friction import Rubbed, rubbed
+from gaps.films.friction import WallShear, wall_shear
 from gaps.films.over_turn import OverTurn
 from gaps.films.physics import FilmLaws, Physics, laws_left
 from gaps.shapes.orifice_table import OrificeTable
 from gaps.shapes.profiles import PLAIN, Profile
 from gaps.shapes.slipper_lands import SlipperLands, slipper_mesh
 from gaps.walls.pair import while_turning
-from gaps.walls.parts import Stand
-from reynolds.bodies.compliance import Walls
+from gaps.walls.parts import Pose
+from reynolds.bodies.compliance import ElasticWalls
 from reynolds.fem.space import FilmSpace, film_space
 from reynolds.floating.problem import Floating, Outer
-from reynolds.floating.step import Stage
+from reynolds.floating.step import FloatingStage
 from reynolds.laws.contact import Asperities
 from reynolds.laws.law import Tangent, require_positive
 from reynolds.numerics.arrays import Array
@@ -38,7 +38,7 @@ ROUND_OFF = 1e-13  # of a retainer's force
 
 
 @dataclass(frozen=True)
-class Orifice:
+class PocketOrifice:
     """Diameter and length (m) of the bore that feeds the pocket; flow coefficient of its ends, None: none.
 
     With a flow coefficient Cd entry and exit take rho/2 (q/(Cd A))^2 on top of the laminar loss. A table holds the
@@ -53,10 +53,10 @@ class Orifice:
 
 @dataclass(frozen=True)
 class SlipperShape:
-    """Lands and their grooves, the orifice, and what is taken off the face; `face` counts places by the radius."""
+    """Lands and their grooves, the orifice, and the relief of the face; `face` counts places by the radius."""
 
     lands: SlipperLands
-    orifice: Orifice
+    orifice: PocketOrifice
     face: Profile = PLAIN
 
     @property
@@ -69,8 +69,8 @@ class SlipperShape:
 class Retainer:
     """A plate over the slippers: reached where the film at the rim exceeds `clearance` (m).
 
-    stiffness N/m, of the whole rim together. From a force of `limit` (N) on the plate itself gives way, as a
-    spring of `rate` (N/m).
+    stiffness N/m, of the whole rim together. Above a force of `limit` (N) the plate itself yields, as a spring of
+    `rate` (N/m).
     """
 
     clearance: float
@@ -81,12 +81,12 @@ class Retainer:
 
 @dataclass(frozen=True)
 class SlipperDrive:
-    """What drives a slipper over the turn, SI.
+    """Drive of a slipper over the turn, SI.
 
     shaft_speed rad/s; viscosity Pa s, density kg/m3, pressures Pa; spin rad/s about the plate's normal. Over the
     shaft angle: chamber_pressure Pa; sliding (2,) m/s over the plate along x and y; outer (3,) N, the generalised
-    forces of all but film, pocket and retainer (`face_force`). inertia (3, 3) kg: generalised masses of what moves
-    with it (`face_inertia`), None: none.
+    forces of all but film, pocket and retainer (`face_force`). inertia (3, 3) kg: generalised masses of the moving
+    parts (`face_inertia`), None: none.
     """
 
     shaft_speed: float
@@ -103,7 +103,7 @@ class SlipperDrive:
 
 
 def face_force(outer_radius: float, lift: float, pressed: Array) -> Array:
-    """Generalised forces (3,) N that ask a film for a lift (N) and for int p (x, y) dA = pressed (2,) N m."""
+    """Generalised forces (3,) N that require of a film a lift (N) and int p (x, y) dA = pressed (2,) N m."""
     return -np.array([lift, pressed[0] / outer_radius, pressed[1] / outer_radius])
 
 
@@ -111,8 +111,8 @@ def face_inertia(outer_radius: float, lifted: float, mass: float, centre_of_mass
     """Generalised masses (3, 3) kg of a slipper that moves with its piston along a bore tilted by `tilt` (rad).
 
     Both, `lifted` kg, move by h/cos(tilt) as the film grows by h. A slipper of `mass` kg tilts about the ball, its
-    centre of mass l (m) from there: m (l^2 + r2^2/4), as a disc of its rim. Small beside a film's damping, but all
-    there is where none is left: in the flight of a slipper that its retainer has to catch.
+    centre of mass l (m) from there: m (l^2 + r2^2/4), as a disc of its rim. Small beside a film's damping, but
+    decisive without it: in the flight of a slipper until its retainer stops it.
     """
     turned = mass * (centre_of_mass**2 + 0.25 * outer_radius**2) / outer_radius**2
     return np.diag([lifted / np.cos(tilt) ** 2, turned, turned])
@@ -149,10 +149,10 @@ def orifice_and_capillary(drop: float, conductance: float, loss: float) -> Tange
     return Tangent(2.0 * conductance * drop / (1.0 + root), conductance / root)
 
 
-def supply(shape: Orifice, viscosity: float, density: float) -> Callable[[float], Tangent]:
+def supply(shape: PocketOrifice, viscosity: float, density: float) -> Callable[[float], Tangent]:
     """Flow through the orifice by the pressure drop over it (Pa).
 
-    viscosity Pa s, density kg/m3; raises FilmInputError for sizes that are none.
+    viscosity Pa s, density kg/m3; raises FilmInputError for sizes that are not positive.
     """
     require_positive("slipper orifice", diameter=shape.diameter, length=shape.length, viscosity=viscosity)
     if (table := shape.table) is not None:
@@ -165,15 +165,15 @@ def supply(shape: Orifice, viscosity: float, density: float) -> Callable[[float]
 
 
 def retainer_force(retainer: Retainer, position: Array) -> Outer:
-    """What a retainer around the rim does: springs k/N at N places there, where the film exceeds the clearance.
+    """Force of a retainer around the rim: springs k/N at N places there, where the film exceeds the clearance.
 
     P = -k mean <rise - clearance - u> (1, cos, sin) over the rim, rise = q0 + q1 cos + q2 sin, of a plate that has
-    given way by u: pushed and never pulled, with a potential, so that it spends no work over a turn.
+    moved by u: pressure only, with a potential, so that it does no work over a turn.
     """
     angle = 2.0 * np.pi * np.arange(RIM_PLACES) / RIM_PLACES
     places = np.column_stack([np.ones(RIM_PLACES), np.cos(angle), np.sin(angle)])
     over = places @ position - retainer.clearance
-    lifted = _given_way(retainer, over)
+    lifted = _plate_rise(retainer, over)
     pressed = np.maximum(over - lifted, 0.0)
     reached = places[pressed > 0.0]
     stiffness = retainer.stiffness / RIM_PLACES
@@ -184,10 +184,10 @@ def retainer_force(retainer: Retainer, position: Array) -> Outer:
     return Outer(-stiffness * pressed @ places, -slopes, np.zeros((3, 3)))
 
 
-def _given_way(retainer: Retainer, over: Array) -> float:
+def _plate_rise(retainer: Retainer, over: Array) -> float:
     """Rise u (m) of the plate at which k mean <over - u> is limit + rate u; 0 where it is less than the limit.
 
-    By Newton's method, which passes from kink to kink of a convex broken line and ends on it.
+    By Newton's method, exact on a convex piecewise linear function.
     """
     lifted, smallest = 0.0, ROUND_OFF * retainer.stiffness * float(np.abs(over).max())
     for _ in range(RIM_PLACES):
@@ -201,11 +201,11 @@ def _given_way(retainer: Retainer, over: Array) -> float:
 
 @dataclass(frozen=True)
 class SlipperFriction:
-    """What a film does to its slipper besides bearing it.
+    """Friction of a film on its slipper.
 
-    force (2,) N along the plate's x and y: the opposite of what the plate feels, so that pressure on the slope of
-    the slipper's face counts; torque N m about its normal; power W, what slipper and plate spend on shearing the
-    film, seen from the slipper.
+    force (2,) N along the plate's x and y: the opposite of that on the plate, so that pressure on the slope of
+    the slipper's face counts; torque N m about its normal; power W, spent by slipper and plate on shearing the
+    film, relative to the slipper.
     """
 
     force: Array
@@ -237,7 +237,7 @@ class SlipperFilm:
         return self._space
 
     def problem_at(self, time: float) -> FilmProblem:
-        """The film with the slipper's face on the plate (q = 0) at a time (s), seen from the slipper."""
+        """The film with the slipper's face on the plate (q = 0) at a time (s), relative to the slipper."""
         space, drive, laws = self._space, self.drive, self._laws
         x, y = space.points
         along, across = drive.sliding(self._angle(time))
@@ -261,15 +261,15 @@ class SlipperFilm:
             walls=self._walls(time),
         )
 
-    def _walls(self, time: float) -> Walls | None:
-        """Both walls at a time (s); a slipper that is not alike around and spins turns in its film."""
+    def _walls(self, time: float) -> ElasticWalls | None:
+        """Both walls at a time (s); a spinning slipper of unlike sectors turns in its film."""
         walls = self._laws.walls
         if walls is None:
             return None
         if walls.alike_around or self.drive.spin == 0.0:
-            return walls.at(self._space, Stand())
+            return walls.at(self._space, Pose())
         column = 2.0 * np.pi / self._around
-        return while_turning(lambda at: walls.at(self._space, Stand(moving=at)), self.drive.spin * time, column)
+        return while_turning(lambda at: walls.at(self._space, Pose(moving=at)), self.drive.spin * time, column)
 
     def modes_at(self, time: float) -> Array:
         """Growth of the film by each coordinate at the vertices, (vertices, 3): 1, x/r2, y/r2."""
@@ -292,16 +292,16 @@ class SlipperFilm:
         return replace(held, force=given + held.force)
 
     def is_held(self, position: Array) -> bool:
-        """Whether the retainer presses at a position."""
+        """True if the retainer presses at a position."""
         retainer = self.drive.retainer
         return retainer is not None and bool(retainer_force(retainer, position).force.any())
 
-    def rubbed(self, stage: Stage) -> Rubbed:
-        """What film and contact do to slipper (moving) and plate."""
-        return rubbed(stage.solution, self.asperities, stage.gap)
+    def rubbed(self, stage: FloatingStage) -> WallShear:
+        """Shear of film and contact on slipper (moving) and plate."""
+        return wall_shear(stage.solution, self.asperities, stage.gap)
 
-    def friction(self, stage: Stage, by: Rubbed) -> SlipperFriction:
-        """What film and contact of the lands do to slipper and plate; the pocket's oil shears next to nothing."""
+    def friction(self, stage: FloatingStage, by: WallShear) -> SlipperFriction:
+        """Friction of film and contact of the lands on the slipper; the pocket's oil has next to none."""
         space = stage.solution.problem.space
         x, y = space.points
         along, across = (part * space.area for part in by.on_moving)
@@ -314,14 +314,14 @@ class SlipperFilm:
             power=float(sliding @ plate) - self.drive.spin * torque,
         )
 
-    def supplied(self, stage: Stage) -> tuple[float, float]:
+    def supplied(self, stage: FloatingStage) -> tuple[float, float]:
         """Pressure (Pa) in the pocket and flow (m3/s) through the orifice into it."""
         solution = stage.solution
         pocket = float(solution.pressure[solution.problem.space.edge_dofs["pocket"][0]])
         return pocket, float(self._supply(self.chamber_pressure(stage.time) - pocket)[0])
 
-    def throttling(self, stage: Stage) -> float:
-        """Flow through the orifice per pressure drop over it, m3/(s Pa), at the flow that it has."""
+    def throttling(self, stage: FloatingStage) -> float:
+        """Flow through the orifice per pressure drop over it, m3/(s Pa), at its present flow."""
         pocket, fed = self.supplied(stage)
         drop = self.chamber_pressure(stage.time) - pocket
         return fed / drop if drop else float(self._supply(0.0)[1])
@@ -332,7 +332,7 @@ class SlipperFilm:
 
     @property
     def asperities(self) -> Asperities | None:
-        """What touches where the walls do."""
+        """Asperities of the walls, if rough."""
         return self._laws.asperities
 
     def _angle(self, time: float) -> float:
@@ -350,14 +350,14 @@ class SlipperFilm:
         return still | {"pocket": Pocket(feed)} | dict.fromkeys(lands.open, Held(self.drive.case_pressure))
 
     def _face(self, time: float, x: Array, y: Array) -> Array:
-        """What is taken off the face (m) at places; it turns with the slipper."""
+        """Relief of the face (m) at places; it turns with the slipper."""
         # The mesh's sectors are straight: between their corners the radius is a little less than the land's.
         radius = np.maximum(np.hypot(x, y), self.shape.lands.inner_radius)
         return np.asarray(self.shape.face(radius, np.arctan2(y, x) - self.drive.spin * time).depth)
 
 
 def floating_slipper(film: SlipperFilm) -> Floating:
-    """A slipper as `reynolds.floating.problem` takes it: coordinates (h, rise x, rise y) m.
+    """A slipper as a floating film: coordinates (h, rise x, rise y) m.
 
     Validity: film thin beside the land's width; forces above case pressure.
     """

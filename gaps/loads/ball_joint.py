@@ -1,4 +1,4 @@
-"""The ball joint between piston and slipper: what either film must bear, and the moment that the joint rubs with.
+"""The ball joint between piston and slipper, and piston side forces: loads of both films, friction of the joint.
 
 Vectors (3,) in any right-handed frame, N, m, s. a is the bore's axis out of the block, n the swash plate's normal
 away from the block, B the force of the piston on the slipper:
@@ -6,7 +6,7 @@ away from the block, B the force of the piston on the slipper:
     slipper   m_s A   = B + G_s - lift n          piston   m_p a_p = -B + G_p + L,  L . a = 0
 
 G are the known forces on either body. The slipper's motion in the plate fixes B there, the piston's along its bore
-fixes the rest of B; what the slipper's film must press with (lift) and the bore with (L) follows.
+fixes the rest of B; the lift of the slipper's film and the force L of the bore follow.
 """
 
 from __future__ import annotations
@@ -29,8 +29,8 @@ SETTLED = 1e-10  # of the shaft's speed
 class DrivenBody:
     """Piston or slipper at one instant.
 
-    mass kg; acceleration (3,) m/s2 of its centre of mass; force (3,) N, the sum of all on it but the joint's and
-    its own film's bearing force.
+    mass kg; acceleration (3,) m/s2 of its centre of mass; force (3,) N, the sum of all forces on it but the
+    joint's and its own film's.
     """
 
     mass: float
@@ -39,16 +39,16 @@ class DrivenBody:
 
     @property
     def lack(self) -> Array:
-        """Force (3,) N that joint and film together must give it."""
+        """Force (3,) N required of joint and film together."""
         return self.mass * self.acceleration - self.force
 
 
 @dataclass(frozen=True)
 class BallForces:
-    """What joint and films bear at one instant, N.
+    """Forces of joint and films at one instant, N.
 
-    ball: force (3,) of the piston on the slipper; lift: of the slipper's film away from the plate, to which what
-    else presses the slipper (retainer, spring) is to be added; side: force (3,) of the bore's film on the piston,
+    ball: force (3,) of the piston on the slipper; lift: of the slipper's film away from the plate, without
+    other pressing forces (retainer, spring); side: force (3,) of the bore's film on the piston,
     across the bore.
     """
 
@@ -58,7 +58,7 @@ class BallForces:
 
 
 def ball_forces(bore_axis: Array, plate_normal: Array, piston: DrivenBody, slipper: DrivenBody) -> BallForces:
-    """What joint, slipper film and bore must bear, from both bodies' balance of forces (file head).
+    """Forces of joint, slipper film and bore, from both bodies' balance of forces (module docstring).
 
     The ball's acceleration is the slipper's prescribed motion along the plate: growth and tilting of its film are
     left out of it (1e-4 of the rest). Raises FilmInputError where the plate hardly faces the bore (n . a < 0.1).
@@ -79,7 +79,7 @@ def ball_forces(bore_axis: Array, plate_normal: Array, piston: DrivenBody, slipp
 def swept_acceleration(
     place: Array, axis: Array, velocity: float, acceleration: float, shaft_speed: float
 ) -> Array:
-    """Acceleration (3,) m/s2 of a point at `place` (3,) m that slides along an axis which the shaft carries round.
+    """Acceleration (3,) m/s2 of a point at `place` (3,) m that slides along an axis turning with the shaft.
 
     s'' a + 2 w s' z x a - w^2 (r - z z . r): along the bore, Coriolis (nothing for a cylindrical block) and
     centripetal, z the shaft's axis. velocity s' m/s, acceleration s'' m/s2, shaft_speed w rad/s, constant.
@@ -107,7 +107,7 @@ def ball_friction(coefficient: float, force: float, radius: float, spin: Array, 
 
     Coulomb's law on the ball's radius (m) under a force (N), W the relative spin (rad/s); |W| is taken as
     sqrt(W^2 + (0.01 w)^2), so that a joint at rest has none. Exact for a contact that is small beside the ball and
-    W square to the force; a socket that bears all over has another factor, of order one.
+    W square to the force; contact over the whole socket has another factor, of order one.
     """
     width = np.sqrt(float(spin @ spin) + (CREEP * shaft_speed) ** 2)
     return np.asarray(-coefficient * abs(force) * radius / width * spin)
@@ -145,7 +145,7 @@ def free_spins(
 ) -> Spins:
     """The spins at which the joint's friction and both films' drag balance about bore and plate normal.
 
-    `stated`: spins (rad/s) of piston and slipper that something else sets; None: free. `driven`: torques T (N m)
+    `stated`: spins (rad/s) of piston and slipper that are given; None: free. `driven`: torques T (N m)
     by which films turn piston and slipper that do not spin.
     friction: mu |B| r of the joint, N m; drags: N m s, above zero. They are the least of friction |W| +
     (piston_drag s_p^2 + slipper_drag s^2)/2 - T . s, a convex function of both, found by Newton's method.

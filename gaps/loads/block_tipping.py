@@ -1,4 +1,4 @@
-"""Can a block stand on its valve plate? Lift of a parallel film against the pistons.
+"""Tipping of a block on its valve plate: lift of a parallel film against the pistons.
 
 Kidneys and webs at the chambers' pressure, spread evenly around; a logarithm over either land. Half a turn at
 delivery pressure, half at suction pressure; a cylindrical block, the spline in the plane of the ball centres.

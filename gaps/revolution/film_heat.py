@@ -1,4 +1,4 @@
-"""Film temperature over the revolution: each film as warm as it makes itself, walls as warm as a turn makes them.
+"""Film temperature over the revolution: each film by its own dissipation, walls by the heat of the turn.
 
 Heat crosses a film in h^2/(pi^2 a), below a millisecond at 30 um, and a turn takes tens of them: so the
 temperature of a film follows its motion without delay (dT/dt at a place of the mesh is left out). Parts take
@@ -12,25 +12,25 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from time import perf_counter
-from typing import Generic, TypeVar, cast
+from typing import Generic, cast
 
 import numpy as np
 
-from gaps.revolution.march import GapRevolution, Leg, TurnReport, run_revolution, unheard
-from gaps.revolution.reports import GapSeen
+from gaps.films.reports import Reported
+from gaps.revolution.march import GapRevolution, Leg, TurnReport, no_report, run_revolution
 from gaps.revolution.schedule import Accuracy, Schedule
-from gaps.revolution.warmth import HeatFlows, ThinnedOver, Warmth, thinned
+from gaps.revolution.warmth import GapTemperatures, HeatFlows, ViscosityRatios, thinned
 from reynolds.equation.coefficients import at_points
 from reynolds.errors import FilmInputError, FilmNotConverged
 from reynolds.floating.problem import Floating
 from reynolds.floating.start import seats_of
-from reynolds.floating.step import Stage
+from reynolds.floating.step import FloatingStage
 from reynolds.laws.fluid import Fluid, isoviscous
 from reynolds.numerics.anderson import History
 from reynolds.numerics.arrays import Array
 from reynolds.problem import HALF, FilmProblem, FilmSolution
 from reynolds.solve.solver import FilmSolver
-from reynolds.thermal.coupling import Coupled, LocalLaw, Posed, agree, resting_viscosity
+from reynolds.thermal.coupling import Coupled, LocalLaw, ThermalCase, agree, resting_viscosity
 from reynolds.thermal.energy import FilmTemperature, Heat
 from reynolds.thermal.film_profile import levels
 from reynolds.thermal.walls import GivenTemperature
@@ -42,13 +42,12 @@ AGREED = 1e-4  # relative change of viscosity within an angle
 WALL_SETTLED = 0.05  # K
 MOST_WALL_ROUNDS = 40
 
-Seen = TypeVar("Seen", bound=GapSeen)
 Found = Coupled[FilmTemperature]
 
 
 @dataclass(frozen=True)
 class Sink:
-    """Where a wall's heat goes: to a temperature (K) through a resistance (m2 K/W, thickness over conductivity).
+    """Heat sink of a wall: a temperature (K) behind a resistance (m2 K/W, thickness over conductivity).
 
     Without resistance the wall has that temperature; a huge one lets no heat pass.
     """
@@ -61,8 +60,8 @@ class Sink:
 class GapHeat:
     """Oil and walls of a gap that warms, SI.
 
-    density, specific_heat, conductivity of the oil; temperature (K) of what enters; thins(T): viscosity over that
-    at this temperature; where the heat of the fixed and of the moving wall goes. The work of compression is left
+    density, specific_heat, conductivity of the oil; temperature (K) of inflow; thins(T): viscosity over that
+    at this temperature; heat sinks of the fixed and of the moving wall. The work of compression is left
     out: oil comes as cold from a chamber as from the case, and throttling warms it by dp/(rho c).
     """
 
@@ -97,24 +96,24 @@ def warm_revolution(
     floating: Floating,
     schedule: Schedule,
     start: Array,
-    look: Callable[[Stage], Seen],
+    report_of: Callable[[FloatingStage], Reported],
     heat: GapHeat,
     *,
     accuracy: Accuracy | None = None,
-    before: GapRevolution[Seen] | None = None,
-    report: TurnReport = unheard,
-) -> GapRevolution[Seen]:
+    before: GapRevolution[Reported] | None = None,
+    report: TurnReport = no_report,
+) -> GapRevolution[Reported]:
     """The periodic motion of a gap and its temperatures that agree, with `warmth`; else as `run_revolution`.
 
     Afterwards one more round would change viscosity by CLOSE at most (root mean square). Raises as
     `run_revolution`, FilmInputError where the oil's law ends, and FilmNotConverged.
     """
     began, films, found, spent = perf_counter(), 0, before, {}
-    warm = _Warming(floating, schedule, look, heat, None if before is None else before.warmth)
+    warm = _Warming(floating, schedule, report_of, heat, None if before is None else before.warmth)
     for rounds in range(1, MOST_ROUNDS + 1):
         moving = thinned(floating, schedule.speed, warm.shares)
         found = run_revolution(
-            solver, moving, schedule, start, warm.look, accuracy=accuracy, before=found,
+            solver, moving, schedule, start, warm.report_of, accuracy=accuracy, before=found,
             report=_of_round(report, rounds),
         )  # fmt: skip
         films += found.films_solved
@@ -135,18 +134,18 @@ def _of_round(report: TurnReport, number: int) -> TurnReport:
     return lambda turn, share: report(f"warming {number}, {turn}", share)
 
 
-class _Warming(Generic[Seen]):
+class _Warming(Generic[Reported]):
     """Temperatures of one gap: gathers films as its turn passes, and warms them."""
 
     def __init__(
         self,
         floating: Floating,
         schedule: Schedule,
-        look: Callable[[Stage], Seen],
+        report_of: Callable[[FloatingStage], Reported],
         heat: GapHeat,
-        last: Warmth | None,
+        last: GapTemperatures | None,
     ) -> None:
-        self._floating, self._heat, self._seen = floating, heat, look
+        self._floating, self._heat, self._report_of = floating, heat, report_of
         self._angles = _warmed_angles(schedule.angles)
         self._times = self._angles / schedule.speed
         self._gathered: dict[float, FilmSolution] = {}
@@ -155,22 +154,22 @@ class _Warming(Generic[Seen]):
         self._walls = heat.outside if last is None else last.walls
         self.shares = None if last is None else last.shares
 
-    def look(self, stage: Stage) -> Seen:
-        """What is told of an angle; its film is kept where temperatures are wanted."""
+    def report_of(self, stage: FloatingStage) -> Reported:
+        """Report of a stage; its film is kept at the warmed angles."""
         if stage.time in self._times:
             self._gathered[stage.time] = stage.solution
-        return self._seen(stage)
+        return self._report_of(stage)
 
-    def of(self, found: GapRevolution[Seen], rounds: int) -> Warmth:
+    def of(self, found: GapRevolution[Reported], rounds: int) -> GapTemperatures:
         """The temperatures of the films gathered over the turn just passed."""
-        rubbing = float(np.mean([instant.seen.heat.rubbing for instant in found.turn.instants]))
+        rubbing = float(np.mean([instant.report.heat.rubbing for instant in found.turn.instants]))
         self._settle(rubbing)
         films = [self._warm[time] for time in self._times]
         logs = self._over_turn([np.log(one.share) for one in films])
-        shares, before = ThinnedOver(np.concatenate([[0.0], self._angles]), logs), self.shares
+        shares, before = ViscosityRatios(np.concatenate([[0.0], self._angles]), logs), self.shares
         self.shares = shares
         change = shares.logs if before is None else shares.logs - before.logs
-        return Warmth(
+        return GapTemperatures(
             shares=shares,
             film=self._over_turn([one.heat.mean for one in films]),
             walls=self._walls,
@@ -197,7 +196,7 @@ class _Warming(Generic[Seen]):
         )
 
     def _wall_image(self, rubbing: float) -> Array:
-        """Walls (2,) K at which their resistance would pass what they take; the film's conductance damps."""
+        """Walls (2,) K at which their resistance passes the heat taken; the film's conductance damps."""
         heat, flows = self._heat, self._flows(rubbing)
         films = [self._warm[time].film for time in self._times]
         area = self._mean([float(film.problem.space.area.sum()) for film in films])
@@ -211,14 +210,14 @@ class _Warming(Generic[Seen]):
         """The film of a time, of the viscosity that its own temperature makes, its shape as it is.
 
         Oil is as stiff as the motion's pressure makes it, to which that of a film of given shape comes back as
-        both agree: under its own a thin one between walls that give way no more would stiffen without bound.
+        both agree: under its own a thin one between walls then rigid would stiffen without bound.
         """
         cold, film, heat = self._floating.shape_at(time), self._gathered[time], self._heat
         under = at_points(film.problem.space, film.pressure)
         stiff = np.asarray(cold.fluid.viscosity(under, cold.film.viscosity)[0])
         resting = replace(film.problem.film, viscosity=stiff, couette_viscosity=None, moving_share=HALF)
         problem = replace(film.problem, film=resting, fluid=Fluid(isoviscous, cold.fluid.density))
-        posed = Posed(problem, local_law(problem, heat), heat.of(problem, self._walls), at_once=True)
+        posed = ThermalCase(problem, local_law(problem, heat), heat.of(problem, self._walls), at_once=True)
         try:
             return _with_heat(agree(posed, levels(), AGREED, self._solver, self._warm.get(time)))
         except (FilmInputError, FilmNotConverged) as reason:
@@ -230,7 +229,7 @@ class _Warming(Generic[Seen]):
             ) from None
 
     def _over_turn(self, of_films: list[Array]) -> Array:
-        """What the films have at their unknowns with that of the turn's begin: its end's, at places that moved."""
+        """Values of the films at their unknowns, preceded by the turn's start: its end's, at moved places."""
         first, last = (self._floating.shape_at(time).space for time in (0.0, self._times[-1]))
         return np.array([of_films[-1][seats_of(first, last)], *of_films])
 
@@ -242,7 +241,7 @@ class _Warming(Generic[Seen]):
             rubbing=rubbing,
             to_fixed=self._mean([one.to_fixed for one in heats]) + 0.5 * rubbing,
             to_moving=self._mean([one.to_moving for one in heats]) + 0.5 * rubbing,
-            carried_out=self._mean([one.carried_out for one in heats]),
+            convected_out=self._mean([one.convected_out for one in heats]),
             stored=self._mean([one.stored for one in heats]),
         )
 
@@ -252,7 +251,7 @@ class _Warming(Generic[Seen]):
 
 
 def wall_image(heat: GapHeat, walls: Array, taken: Array, conductance: float) -> Array:
-    """Walls (2,) K nearer to those that pass on what they take, `taken` (2,) W/m2, by their resistance.
+    """Walls (2,) K nearer to those that conduct the heat taken, `taken` (2,) W/m2, through their resistance.
 
     The film's own conductance (W/(m2 K)) damps: a warmer wall takes less.
     """
@@ -269,7 +268,7 @@ def _warmed_angles(angles: Array) -> Array:
 
 
 def local_law(problem: FilmProblem, heat: GapHeat) -> LocalLaw:
-    """The gap's oil (webs over ports as stiff as they are), thinned under any pressure as under none."""
+    """The gap's oil (webs over ports of their own viscosity), thinned under any pressure as under none."""
 
     def law(temperature: Array, pressure: Array, rate: Array) -> Array:
         return np.asarray(resting_viscosity(problem, pressure[:, 0])[:, None] * heat.thins(temperature))

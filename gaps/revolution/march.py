@@ -10,27 +10,28 @@ from typing import Generic
 
 import numpy as np
 
+from gaps.films.reports import Reported, drawn
 from gaps.revolution.schedule import Accuracy, Schedule
-from gaps.revolution.turn import GapInstant, GapTurn, Seen, Turns
-from gaps.revolution.warmth import Warmth
+from gaps.revolution.turn import GapInstant, GapTurn, Turns, Value
+from gaps.revolution.warmth import GapTemperatures
 from reynolds.errors import FilmInputError
 from reynolds.floating.problem import Floating
-from reynolds.floating.step import Stage
+from reynolds.floating.step import FloatingStage
 from reynolds.numerics.arrays import Array
 from reynolds.numerics.dirk import ALEXANDER_2, Tableau
-from reynolds.numerics.shooting import Periodic, approached, periodic
+from reynolds.numerics.shooting import PeriodicTurn, approached, periodic
 from reynolds.solve.solver import FilmSolver
 
 TurnReport = Callable[[str, float], None]
-"""Hears of each step: which turn it is in, and the share of that turn that is done."""
+"""Progress callback: name of the turn, and the fraction of it that is done."""
 
 
-def unheard(turn: str, share: float) -> None:
-    """Report a turn's progress to nobody."""
+def no_report(turn: str, share: float) -> None:
+    """Ignore a turn's progress."""
 
 
 class Leg(Enum):
-    """A stretch of the way to a gap's motion, by the physics that it adds."""
+    """A stage of the solution of a gap's motion, by the physics that it adds."""
 
     RIGID = "rigid"
     ELASTIC = "elastic"
@@ -38,18 +39,18 @@ class Leg(Enum):
 
 
 @dataclass(frozen=True)
-class GapRevolution(Generic[Seen]):
+class GapRevolution(Generic[Value]):
     """A gap whose turn closes: the turn, and how it was found (turns, changes a turn, multipliers).
 
-    spent: time (s) of each leg, of which elastic counts oil that pressure stiffens, too. warmth: temperatures over
+    spent: time (s) of each leg; elastic includes pressure-dependent viscosity. warmth: temperatures over
     the turn, None where they are not solved.
     """
 
-    turn: GapTurn[Seen]
-    closing: Periodic[GapTurn[Seen]] = field(repr=False)
+    turn: GapTurn[Value]
+    closing: PeriodicTurn[GapTurn[Value]] = field(repr=False)
     films_solved: int
     spent: Mapping[Leg, float]
-    warmth: Warmth | None = None
+    warmth: GapTemperatures | None = None
 
     @property
     def angles(self) -> Array:
@@ -63,17 +64,17 @@ class GapRevolution(Generic[Seen]):
 
     @property
     def seconds(self) -> float:
-        """Time (s) that it took."""
+        """Total time (s)."""
         return sum(self.spent.values())
 
     @property
-    def bare(self) -> GapRevolution[Seen]:
-        """The same without its last film and oil: what goes on from it starts as a full film where it ended."""
+    def bare(self) -> GapRevolution[Value]:
+        """The same without its last film and oil: a march from it starts as a full film at its end."""
         turn = replace(self.turn, oil=(), last=replace(self.turn.last, stage=None))
         return replace(self, turn=turn, closing=replace(self.closing, turn=turn))
 
     @property
-    def least_film(self) -> GapInstant[Seen]:
+    def least_film(self) -> GapInstant[Value]:
         """The instant at which the film is thinnest."""
         return min(self.turn.instants, key=lambda instant: instant.film_thickness_min)
 
@@ -83,19 +84,19 @@ def run_revolution(
     floating: Floating,
     schedule: Schedule,
     start: Array,
-    look: Callable[[Stage], Seen],
+    report_of: Callable[[FloatingStage], Value],
     *,
     accuracy: Accuracy | None = None,
     method: Tableau = ALEXANDER_2,
-    before: GapRevolution[Seen] | None = None,
-    report: TurnReport = unheard,
-) -> GapRevolution[Seen]:
+    before: GapRevolution[Value] | None = None,
+    report: TurnReport = no_report,
+) -> GapRevolution[Value]:
     """The periodic motion of a gap whose drive repeats with the schedule's last angle.
 
     Starts as a full film at rest at `start` (k,) m, from which turns of wide steps lead next to the periodic
-    motion, or goes on from a revolution `before` it, of a full film where that has no last one; `look` tells what
-    else to report of each angle. The steps of the first turn that stops at all angles are those of all that
-    follow, so that the map of a turn is smooth. Afterwards each coordinate is as near to the periodic motion as
+    motion, or goes on from a revolution `before` it, of a full film where that has no last one; `report_of` gives
+    the report of each angle. The steps of the first turn that stops at all angles are those of all that follow, so
+    that the map of a turn is smooth. Afterwards each coordinate is as near to the periodic motion as
     `closed` says, and the oil in the film repeats as well. Raises FilmInputError for a schedule that does not rise
     from 0, FilmNotConverged with part and time where a step or the turn does not settle.
     """
@@ -107,16 +108,28 @@ def run_revolution(
     began, accuracy = perf_counter(), accuracy or Accuracy()
     films, opening = 0, None if before is None else before.turn
     if opening is None:
-        told = _told(report, "approach, turn")
-        first = Turns(solver, floating, schedule.wide, look, accuracy.rough, method, None, told)
+        approach = _numbered(report, "approach, turn")
+        first = Turns(solver, floating, schedule.wide, report_of, accuracy.rough, method, None, approach)
         opening = approached(first.turn, start)
         films = first.films_solved
-    run = Turns(solver, floating, schedule, look, accuracy, method, opening, _told(report, "turn"))
+    run = Turns(solver, floating, schedule, report_of, accuracy, method, opening, _numbered(report, "turn"))
     closing = periodic(run.turn, opening.end)
     leg = Leg.RIGID if floating.shape_at(0.0).walls is None else Leg.ELASTIC
     spent = {leg: perf_counter() - began}
     return GapRevolution(closing.turn, closing, films + run.films_solved, spent)
 
 
-def _told(report: TurnReport, name: str) -> Callable[[int, float], None]:
+def _numbered(report: TurnReport, name: str) -> Callable[[int, float], None]:
     return lambda number, share: report(f"{name} {number}", share)
+
+
+def mass_balance_error(revolution: GapRevolution[Reported]) -> float:
+    """Oil that enters a gap over the turn and does not leave it, of all that passes between the reported angles.
+
+    The march keeps its oil to round-off; the rest is the turn's lack of periodicity, and films that are
+    extrapolated along their slopes (`Closeness`).
+    """
+    came = np.array([drawn(instant.passed) for instant in revolution.turn.instants])
+    left = np.array([instant.passed.leakage for instant in revolution.turn.instants])
+    passed = 0.5 * float(np.mean(np.abs(came)) + np.mean(np.abs(left)))
+    return abs(float(np.mean(came) - np.mean(left))) / max(passed, 1e-300)

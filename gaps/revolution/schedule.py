@@ -1,4 +1,4 @@
-"""Where a gap's revolution stops, and how exactly it is marched and closed."""
+"""Reported angles of a gap's revolution, and the accuracy of its march and closure."""
 
 from __future__ import annotations
 
@@ -15,12 +15,12 @@ FEWEST = 24  # nodes of a whole turn with steps as wide as their error allows
 
 @dataclass(frozen=True)
 class Accuracy:
-    """How exactly a revolution is marched and closed.
+    """Accuracy of the march and closure of a revolution.
 
     step, floor: largest error of the film by one step, share of it in each place and m beside it; balance: share
     of that error within which forces are taken along their slopes; closed: distance from the periodic motion,
-    share of the mean film, and oil that is elsewhere after a turn, share of all; reach: how far beyond a turn's
-    end the next may start, share of the least film there.
+    share of the mean film, and oil that differs in place after a turn, share of all; reach: distance of the next
+    start from a turn's end, share of the least film there.
     """
 
     step: float = 1e-3
@@ -31,24 +31,24 @@ class Accuracy:
 
     @property
     def closeness(self) -> Closeness:
-        """How near to balance the film of a stage has to come."""
+        """Required balance of the film of a stage."""
         return Closeness(self.balance * self.step, self.balance * self.floor)
 
     @property
     def rough(self) -> Accuracy:
         """The same for turns of wide steps that only lead near to the periodic motion.
 
-        Each of their steps is the more exact, so that the first turn that stops at all angles closes.
+        Their steps are more exact, so that the first turn that stops at all angles closes.
         """
         return replace(self, step=max(self.step / MORE_EXACT, min(self.step, self.closed)))
 
 
 @dataclass(frozen=True)
 class Schedule:
-    """Where a revolution stops: shaft speed rad/s, angles (n,) rad to report, `breaks` to step on, films to keep.
+    """Schedule of a revolution: shaft speed rad/s, angles (n,) rad to report, `breaks` to step on, films to keep.
 
     Angles rise from above 0 to the last, at which the turn closes: 2 pi, or a pitch where parts and mesh repeat
-    with it. `breaks` are those at which the drive bends (a port opens). Every `keep`th reported film is kept.
+    with it. `breaks` are those of kinks of the drive (a port opens). Every `keep`th reported film is kept.
     """
 
     speed: float

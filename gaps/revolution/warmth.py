@@ -1,4 +1,4 @@
-"""How warm a gap is over the turn: its oil's viscosity by place and shaft angle, and where its heat goes."""
+"""Temperatures of a gap over the turn: its oil's viscosity by place and shaft angle, and its heat flows."""
 
 from __future__ import annotations
 
@@ -8,12 +8,12 @@ import numpy as np
 
 from reynolds.floating.problem import Floating
 from reynolds.numerics.arrays import Array
-from reynolds.thermal.coupling import bent
+from reynolds.thermal.coupling import with_profile
 from reynolds.thermal.film_profile import dowson, levels
 
 
 @dataclass(frozen=True)
-class ThinnedOver:
+class ViscosityRatios:
     """Viscosity over that of oil at the case's temperature, between shaft angles interpolated.
 
     angles (n,) rad from 0 to where the turn or pitch closes; logs (n, size, m): logarithm of the share at each
@@ -36,47 +36,51 @@ def _between(angles: Array, values: Array, angle: float) -> Array:
     return np.asarray((1.0 - part) * values[after - 1] + part * values[after])
 
 
-def thinned(floating: Floating, shaft_speed: float, shares: ThinnedOver | None) -> Floating:
-    """The same gap with oil of these shares of its viscosity; None: as cold as it is."""
+def thinned(floating: Floating, shaft_speed: float, shares: ViscosityRatios | None) -> Floating:
+    """The same gap with oil of these shares of its viscosity; None: the cold gap."""
     if shares is None:
         return floating
     cold, across = floating.shape_at, levels(shares.logs.shape[2])
-    return replace(floating, shape_at=lambda time: bent(cold(time), dowson(across, shares.at(shaft_speed * time))))
+    return replace(
+        floating, shape_at=lambda time: with_profile(cold(time), dowson(across, shares.at(shaft_speed * time)))
+    )
 
 
 @dataclass(frozen=True)
 class HeatFlows:
-    """Heat of a gap's film, W: what arises and where it goes.
+    """Heat balance of a gap's film, W.
 
     dissipation of the oil and rubbing of asperities arise; to_fixed, to_moving into the walls, half of rubbing
-    with each; carried_out by oil, against oil that enters; stored in oil that the film takes up as it grows.
+    with each; convected_out by oil, against oil that enters; stored in oil that the film takes up as it grows.
     """
 
     dissipation: float
     rubbing: float
     to_fixed: float
     to_moving: float
-    carried_out: float
+    convected_out: float
     stored: float
 
     @property
     def balance_error(self) -> float:
-        """Heat that is missing, over all that arises."""
+        """Residual of the heat balance over all sources."""
         arises = self.dissipation + self.rubbing
-        return abs(arises - self.to_fixed - self.to_moving - self.carried_out - self.stored) / max(arises, 1e-300)
+        return abs(arises - self.to_fixed - self.to_moving - self.convected_out - self.stored) / max(
+            arises, 1e-300
+        )
 
 
 @dataclass(frozen=True)
-class Warmth:
-    """A gap's temperatures that agree with its motion.
+class GapTemperatures:
+    """Temperatures of a gap in agreement with its motion.
 
-    shares: the viscosity that these temperatures make; film (n + 1, size) K, mean over the thickness at the angles
+    shares: the viscosity at these temperatures; film (n + 1, size) K, mean over the thickness at the angles
     of `shares`; walls (2,) K of the fixed and the moving part; mean and hottest (n,) K of the film at its angles;
     flows: means over the turn; change: root mean square relative change of viscosity by one more round; rounds of
     motion and temperature.
     """
 
-    shares: ThinnedOver
+    shares: ViscosityRatios
     film: Array = field(repr=False)
     walls: Array
     mean: Array

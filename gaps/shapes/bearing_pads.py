@@ -1,6 +1,6 @@
 """Outer bearing pads of the valve plate: lands beyond the sealing lands, with case oil all around them.
 
-They stand still with the plate while the block turns over them; a run of pads is alike, evenly spaced, the first
+They are fixed to the plate while the block turns over them; a run of pads is alike, evenly spaced, the first
 about pump angle 0.
 """
 

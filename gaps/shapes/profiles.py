@@ -27,7 +27,7 @@ class Relief(NamedTuple):
     around: Array
 
 
-class Shape(Protocol):
+class ProfileShape(Protocol):
     """A shape of a profile."""
 
     @property
@@ -42,7 +42,7 @@ class Shape(Protocol):
 class Profile:
     """The sum of shapes; without any, a plain face or cylinder."""
 
-    shapes: tuple[Shape, ...] = ()
+    shapes: tuple[ProfileShape, ...] = ()
 
     @property
     def knees(self) -> tuple[float, ...]:
@@ -169,10 +169,10 @@ class Waviness(_Smooth):
 
 
 @dataclass(frozen=True)
-class Points:
+class DepthPoints:
     """Measured depths (m) at rising places (m), straight in between: the slope jumps at each.
 
-    Raises FilmInputError for places that do not rise, and, when asked, beyond the first and last of them: what was
+    Raises FilmInputError for places that do not rise, and, if set, beyond the first and last of them: what was
     not measured is not known.
     """
 
@@ -199,8 +199,8 @@ class Points:
 class PointsAround:
     """Measured depths (m) on a net of rising places (m) and rising angles (rad) within one turn: a worn surface.
 
-    depths[i][j] at place i and angle j; bilinear in between and closed around. Raises as `Points`, and for angles
-    that span a turn or more.
+    depths[i][j] at place i and angle j; bilinear in between and closed around. Raises as `DepthPoints`, and for
+    angles that span a turn or more.
     """
 
     places: tuple[float, ...]
@@ -234,13 +234,13 @@ class PointsAround:
         return Relief(depth, along, around)
 
 
-def measured(rows: Sequence[Sequence[float]]) -> Points | PointsAround:
+def measured(rows: Sequence[Sequence[float]]) -> DepthPoints | PointsAround:
     """The shape of measured rows: (place, depth), or (place, angle, depth) of every pair of place and angle.
 
-    Raises as `Points` and `PointsAround`, and FilmInputError for a net with holes or with places told twice.
+    Raises as `DepthPoints` and `PointsAround`, and FilmInputError for a net with holes or with places given twice.
     """
     if len(rows[0]) == 2:
-        return Points(tuple(row[0] for row in rows), tuple(row[1] for row in rows))
+        return DepthPoints(tuple(row[0] for row in rows), tuple(row[1] for row in rows))
     places, angles = (tuple(sorted({row[column] for row in rows})) for column in (0, 1))
     depths = {(row[0], row[1]): row[2] for row in rows}
     if not len(depths) == len(rows) == len(places) * len(angles):

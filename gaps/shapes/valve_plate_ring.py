@@ -3,7 +3,7 @@
 Kidneys are holes of the mesh, kidney_1 about angle 0 at shaft angle 0; the film plane (pump's x, y, x to the inner
 dead centre) does not turn. Ports are sectors of the valve plate between R2 and R3. Webs between kidneys that lie
 over a port are at its pressure and are no film; a port's edge is taken at the next mesh line inside it. Outer
-bearing pads (`gaps.shapes.bearing_pads`) are cells of their own, which stand still.
+bearing pads (`gaps.shapes.bearing_pads`) are cells of their own, fixed to the plate.
 """
 
 from __future__ import annotations
@@ -83,7 +83,7 @@ class ValvePlateGeometry:
 
     @property
     def kidney_area(self) -> float:
-        """Area of a kidney seen along the shaft, m2."""
+        """Area of a kidney projected along the shaft, m2."""
         _, r2, r3, _ = self.land_radii
         return 0.5 * self.kidney_arc * (r3**2 - r2**2)
 

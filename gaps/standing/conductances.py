@@ -1,7 +1,6 @@
-"""What pressure alone drives through the film of a standing part: its walls at rest, nothing torn.
+"""Conductances of the film of a part that stands still: pressure flow between walls at rest, without cavitation.
 
-The film stays as it is, as thick as its walls are open and its oil as stiff as under the film's pressure: then
-flows are linear in the pressures.
+Thickness and viscosity are those under the film's pressure, so that flows are linear in the pressures.
 """
 
 from __future__ import annotations
@@ -13,7 +12,7 @@ import numpy as np
 
 from gaps.films.block import BlockFilm
 from gaps.films.slipper import SlipperFilm
-from reynolds.floating.step import Stage
+from reynolds.floating.step import FloatingStage
 from reynolds.numerics.arrays import Array
 from reynolds.problem import (
     ZERO,
@@ -32,7 +31,7 @@ from reynolds.solve.solver import FilmSolver
 def walls_at_rest(
     solution: FilmSolution, boundary: Mapping[str, Boundary], held_nodes: Array | None = None
 ) -> FilmProblem:
-    """A film as it is, between walls that stand, with other pressures at its edges and held nodes."""
+    """The same film between walls at rest, with other pressures at its edges and held nodes."""
     problem = solution.problem
     still = replace(
         problem.film, viscosity=solution.film.viscosity, velocity_moving=(ZERO, ZERO), velocity_fixed=(ZERO, ZERO),
@@ -41,19 +40,19 @@ def walls_at_rest(
     return FilmProblem(problem.space, still, boundary, Cavitation.NONE, held_nodes=held_nodes)
 
 
-def piston_conductance(solver: FilmSolver, stage: Stage) -> float:
+def piston_conductance(solver: FilmSolver, stage: FloatingStage) -> float:
     """Flow from chamber to case per pressure difference, m3/(s Pa)."""
     edges: dict[str, Boundary] = {"chamber": Held(1.0), "case": Held(0.0)}
     return boundary_flows(solver.solve(walls_at_rest(stage.solution, edges)))["case"]
 
 
-def slipper_conductance(solver: FilmSolver, film: SlipperFilm, stage: Stage) -> float:
+def slipper_conductance(solver: FilmSolver, film: SlipperFilm, stage: FloatingStage) -> float:
     """Flow per pressure difference through orifice and lands in series, m3/(s Pa), the orifice as it flows."""
     land, orifice = slipper_land_conductance(solver, film, stage), film.throttling(stage)
     return land * orifice / (land + orifice)
 
 
-def slipper_land_conductance(solver: FilmSolver, film: SlipperFilm, stage: Stage) -> float:
+def slipper_land_conductance(solver: FilmSolver, film: SlipperFilm, stage: FloatingStage) -> float:
     """Flow from pocket to case per pressure difference, m3/(s Pa)."""
     lands = film.shape.lands
     edges: dict[str, Boundary] = {name: Pocket(no_feed) for name in lands.closed}
@@ -62,7 +61,7 @@ def slipper_land_conductance(solver: FilmSolver, film: SlipperFilm, stage: Stage
     return sum(flows[name] for name in lands.open)
 
 
-def kidney_conductances(solver: FilmSolver, film: BlockFilm, stage: Stage) -> Array:
+def kidney_conductances(solver: FilmSolver, film: BlockFilm, stage: FloatingStage) -> Array:
     """d flow / d pressure (z,) m3/(s Pa) of each kidney, the other edges and the ports held."""
     problem = stage.solution.problem
     ports = film.ring.port_nodes(problem.space, 0.0, 0.0)
@@ -73,8 +72,8 @@ def kidney_conductances(solver: FilmSolver, film: BlockFilm, stage: Stage) -> Ar
     return np.array(found)
 
 
-def carried_power(solver: FilmSolver, film: BlockFilm, stage: Stage) -> float:
-    """What the flow that the block drags along takes from kidneys and ports, W.
+def drag_power(solver: FilmSolver, film: BlockFilm, stage: FloatingStage) -> float:
+    """Power of the block's drag flow from kidneys and ports, W.
 
     (flow - pressure flow) x (pressure - case pressure).
     """

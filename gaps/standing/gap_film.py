@@ -1,41 +1,78 @@
-"""What a gap reports of an instant at which its part stands still: film, flows, friction, load borne."""
+"""Film of a gap whose part stands still at one instant, at a given position or at rest: load borne, and report."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import partial
+from typing import Generic
 
 import numpy as np
 
-from gaps.revolution.reports import Active
+from gaps.films.block import BlockFilm
+from gaps.films.piston import PistonFilm
+from gaps.films.reports import (
+    Active,
+    BlockReport,
+    PistonReport,
+    Reported,
+    SlipperReport,
+    block_report,
+    piston_report,
+    slipper_report,
+)
+from gaps.films.slipper import SlipperFilm
+from reynolds.floating.problem import Floating
+from reynolds.floating.rest import come_to_rest
+from reynolds.floating.start import pressed, started
+from reynolds.floating.step import FloatingStage, solve_stage
 from reynolds.numerics.arrays import Array
 from reynolds.problem import FilmSolution
-from reynolds.solve.loads import Loads
+from reynolds.solve.loads import Loads, loads
+from reynolds.solve.solver import FilmSolver
 
 LOAD_TOLERANCE = 1e-3
-"""Of the required load: what a film at a given position may miss of it and still count as holding it."""
+"""Share of the required load by which a film at a given position may miss it and still count as holding it."""
+FIRST_STEP = 1e-3  # s, in which parts of a pump answer to their load through films of a micrometre
+SOFTENING = 1e-2  # of it, in which elastic walls deform under their first load
+STILL = 1e-10  # m, by which a part at rest may still move in a step
 
 
 @dataclass(frozen=True)
-class GapFilm:
-    """One gap at one instant, SI; the part neither approaches nor tilts.
+class GapFilm(Generic[Reported]):
+    """Film of a gap at one instant, SI; the part neither approaches nor tilts.
 
-    position (k,) m, as the gap's film counts it; chamber_flow m3/s out of the chamber into the gap, leakage_flow
-    m3/s out of the gap into the case; friction_power W drawn from the moving parts; required_load N and
+    position (k,) m, as the gap's film counts it; friction_power W drawn from the moving parts; required_load N and
     carried_load N: what presses the parts together and what the film with its pockets and contact holds, both in
-    the load's direction; contact_load N, int of the asperities' pressure; active: as
-    `gaps.revolution.reports.GapSeen` has it.
+    the load's direction.
     """
 
     solution: FilmSolution
     loads: Loads
     position: Array
-    chamber_flow: float
-    leakage_flow: float
+    report: Reported
     friction_power: float
     required_load: float
     carried_load: float
-    contact_load: float
-    active: tuple[Active, ...]
+
+    @property
+    def chamber_flow(self) -> float:
+        """Flow (m3/s) out of the chambers into the gap."""
+        return float(self.report.flow.sum())
+
+    @property
+    def leakage_flow(self) -> float:
+        """Flow (m3/s) out of the gap into the case."""
+        return self.report.leakage
+
+    @property
+    def contact_load(self) -> float:
+        """Integral of the asperities' pressure, N."""
+        return self.report.contact_load
+
+    @property
+    def active(self) -> tuple[Active, ...]:
+        """Limiting states of the part."""
+        return self.report.active
 
     @property
     def carried_fraction(self) -> float:
@@ -44,7 +81,7 @@ class GapFilm:
 
     @property
     def holds_its_load(self) -> bool:
-        """Whether film and load balance to LOAD_TOLERANCE."""
+        """True where film and load balance to LOAD_TOLERANCE."""
         return abs(self.carried_fraction - 1.0) < LOAD_TOLERANCE
 
     @property
@@ -54,11 +91,61 @@ class GapFilm:
         return float(np.sum(self.solution.film.thickness * area) / np.sum(area))
 
 
-@dataclass(frozen=True)
-class ValvePlateFilm:
-    """The ring's film with what chambers (z,) and ports give into it, m3/s."""
+def rest_from(solver: FilmSolver, floating: Floating, time: float, start: Array) -> FloatingStage:
+    """The part at rest under its drive at `time` (s), nearest to a start (k,) m as `come_to_rest` finds it.
 
-    gap: GapFilm
-    chamber_flows: Array
-    suction_flow: float
-    delivery_flow: float
+    Raises FilmNotConverged, with its last move, for a part that finds none: pulled off, or pressed on walls that
+    do not bear.
+    """
+    begin = started(floating, time, start)
+    if floating.shape_at(time).walls is not None:
+        begin = pressed(solver, floating, begin, SOFTENING * FIRST_STEP)
+    found = come_to_rest(partial(solve_stage, solver, floating), begin, FIRST_STEP, STILL)
+    return found.stage
+
+
+def standing_piston_film(film: PistonFilm, stage: FloatingStage) -> GapFilm[PistonReport]:
+    """Film of a piston that does not move across its bore (`gaps.films.piston.standing_piston`)."""
+    across = stage.outer.force.reshape(2, 2).sum(axis=0)
+    required = float(np.hypot(*across))
+    borne = (stage.film_force + stage.contact_force).reshape(2, 2).sum(axis=0)
+    report = piston_report(film, stage, standing=True)
+    return GapFilm(
+        solution=stage.solution,
+        loads=loads(stage.solution),
+        position=stage.q,
+        report=report,
+        friction_power=report.friction.power,
+        required_load=required,
+        carried_load=-float(borne @ across) / max(required, 1e-300),
+    )
+
+
+def standing_slipper_film(film: SlipperFilm, stage: FloatingStage) -> GapFilm[SlipperReport]:
+    """Film of a slipper that keeps its position; the required load is zero where it is pulled off the plate."""
+    report = slipper_report(film, stage)
+    return GapFilm(
+        solution=stage.solution,
+        loads=loads(stage.solution),
+        position=stage.q,
+        report=report,
+        friction_power=report.friction.power,
+        required_load=max(-float(stage.outer.force[0]), 0.0),
+        carried_load=float(stage.film_force[0] + stage.contact_force[0]),
+    )
+
+
+def standing_block_film(film: BlockFilm, stage: FloatingStage) -> GapFilm[BlockReport]:
+    """Film of a block that turns but keeps its position (`gaps.films.block.standing_block`), webs left out."""
+    solution, drive = stage.solution, film.drive
+    required = -float(drive.press(drive.shaft_speed * stage.time)[0])
+    report = block_report(film, stage)
+    return GapFilm(
+        solution=solution,
+        loads=loads(solution, film.is_film(solution.problem.space)),
+        position=stage.q,
+        report=report,
+        friction_power=report.torque * drive.shaft_speed,
+        required_load=required,
+        carried_load=float(stage.film_force[0] + stage.contact_force[0] + stage.outer.force[0]) + required,
+    )

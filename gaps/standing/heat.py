@@ -1,7 +1,7 @@
-"""A part that stands in its gap at every angle of a turn, its films as warm as they make themselves.
+"""Temperatures of a part that stands still at every angle of a turn, by its films' own heat.
 
 Heat crosses a film in less than a millisecond, so that films of a turn are warmed one by one; walls take minutes,
-so that each has one temperature, that at which it passes on what all films of the turn give it.
+so that each has one temperature, at which it conducts the heat of all films of the turn.
 """
 
 from __future__ import annotations
@@ -22,11 +22,11 @@ from gaps.revolution.film_heat import (
 from reynolds.errors import FilmNotConverged
 from reynolds.floating.problem import Floating
 from reynolds.floating.rest import held_at
-from reynolds.floating.step import Stage
+from reynolds.floating.step import FloatingStage
 from reynolds.numerics.anderson import History
 from reynolds.numerics.arrays import Array
 from reynolds.solve.solver import FilmSolver
-from reynolds.thermal.coupling import Coupled, Posed, agree, bent
+from reynolds.thermal.coupling import Coupled, ThermalCase, agree, with_profile
 from reynolds.thermal.energy import FilmTemperature
 from reynolds.thermal.film_profile import dowson, levels
 
@@ -34,13 +34,13 @@ Warm = Coupled[FilmTemperature | None]
 
 
 def warm_turn(
-    solver: FilmSolver, floating: Floating, cold: Sequence[Stage], heat: GapHeat, rubbing: float
-) -> list[Stage]:
-    """The films of a turn at evenly spaced angles, warmed, between walls that pass on what they take.
+    solver: FilmSolver, floating: Floating, cold: Sequence[FloatingStage], heat: GapHeat, rubbing: float
+) -> list[FloatingStage]:
+    """The films of a turn at evenly spaced angles, warmed, between walls that conduct their heat.
 
-    cold: the part held where it stands (`held_at`) in isothermal films between rigid walls. `rubbing` (W): mean
+    cold: the part held at its positions (`held_at`) in isothermal films between rigid walls. `rubbing` (W): mean
     loss of contact over the turn, of which each wall takes half. Raises FilmInputError where the oil's law ends,
-    FilmNotConverged where films, temperatures or walls do not settle.
+    FilmNotConverged where films, temperatures or walls do not converge.
     """
     area, conductance = _means(cold, heat)
     walls, history = heat.outside, History()
@@ -59,16 +59,16 @@ def warm_turn(
     )
 
 
-def _agreed(solver: FilmSolver, cold: Stage, heat: GapHeat, walls: Array, before: Warm | None) -> Warm:
+def _agreed(solver: FilmSolver, cold: FloatingStage, heat: GapHeat, walls: Array, before: Warm | None) -> Warm:
     """Film and temperature that agree, started from a film warmed before."""
     problem = cold.solution.problem
-    posed = Posed(problem, local_law(problem, heat), heat.of(problem, walls), at_once=True)
+    posed = ThermalCase(problem, local_law(problem, heat), heat.of(problem, walls), at_once=True)
     return agree(posed, levels(), AGREED, solver, before)
 
 
-def _held_warm(solver: FilmSolver, floating: Floating, cold: Stage, found: Warm) -> Stage:
+def _held_warm(solver: FilmSolver, floating: Floating, cold: FloatingStage, found: Warm) -> FloatingStage:
     profile = dowson(levels(), found.share)
-    warm = replace(floating, shape_at=lambda time: bent(floating.shape_at(time), profile))
+    warm = replace(floating, shape_at=lambda time: with_profile(floating.shape_at(time), profile))
     return held_at(solver, warm, cold.time, cold.q, found.film)
 
 
@@ -77,7 +77,7 @@ def _to_walls(found: Warm) -> Array:
     return np.array([found.heat.to_fixed, found.heat.to_moving])
 
 
-def _means(films: Sequence[Stage], heat: GapHeat) -> tuple[float, float]:
+def _means(films: Sequence[FloatingStage], heat: GapHeat) -> tuple[float, float]:
     """Area (m2) of the films and their conductance to heat (W/(m2 K)), means over the turn."""
     spaces = [stage.solution.problem.space for stage in films]
     areas = [float(space.area.sum()) for space in spaces]

@@ -1,4 +1,4 @@
-"""How the walls of a floating gap give way: as its film asks for it, wherever the parts stand."""
+"""Elastic walls of a gap, for any mesh of its film and any pose of its parts."""
 
 from __future__ import annotations
 
@@ -13,8 +13,8 @@ from gaps.walls.parts import (
     BushingPart,
     PistonPart,
     PlatePart,
+    Pose,
     SlipperPart,
-    Stand,
     bushing_body,
     closer_at_end,
     closer_at_start,
@@ -23,8 +23,8 @@ from gaps.walls.parts import (
     plate_body,
     slipper_body,
 )
-from gaps.walls.piston import ByChamber, PistonWalls, face_grid
-from reynolds.bodies.compliance import Walls, full
+from gaps.walls.piston import ChamberInfluence, PistonWalls, face_grid
+from reynolds.bodies.compliance import ElasticWalls, full
 from reynolds.bodies.foundation import Compliance, both
 from reynolds.bodies.wall import Body
 from reynolds.fem.space import FilmSpace
@@ -38,57 +38,57 @@ class GapWalls(Protocol):
 
     @property
     def alike_around(self) -> bool:
-        """True where parts that turn stay what they were."""
+        """True where turned parts are the same."""
 
-    def at(self, film: FilmSpace, stand: Stand) -> Walls:
-        """Those of a film on that mesh, its parts standing so."""
+    def at(self, film: FilmSpace, pose: Pose) -> ElasticWalls:
+        """The walls of a film on that mesh, for a pose of the parts."""
 
 
 @dataclass(frozen=True)
 class PlateWalls:
     """Both parts of a film across an axis, the moving one first.
 
-    What is made from sizes is alike all around; a part by a mesh of the user's need not be.
+    Parts made from sizes are alike all around; a part by a mesh of the user's need not be.
     """
 
     parts: tuple[SlipperPart | PlatePart, SlipperPart | PlatePart]
-    _built: list[tuple[FilmSpace, Stand, Walls]] = field(default_factory=list, compare=False, repr=False)
+    _built: list[tuple[FilmSpace, Pose, ElasticWalls]] = field(default_factory=list, compare=False, repr=False)
 
     @property
     def alike_around(self) -> bool:
-        """True where parts that turn stay what they were."""
+        """True where turned parts are the same."""
         return all(part.own is None for part in self.parts)
 
-    def at(self, film: FilmSpace, stand: Stand) -> Walls:
-        """The walls, meshed when a film first asks; the last ones are kept."""
+    def at(self, film: FilmSpace, pose: Pose) -> ElasticWalls:
+        """The walls, meshed on first use; the last ones are kept."""
         if self.alike_around:
-            stand = Stand()
-        for known, stood, walls in self._built:
-            if known.pattern is film.pattern and stood == stand and np.array_equal(known.vertices, film.vertices):
+            pose = Pose()
+        for known, at, walls in self._built:
+            if known.pattern is film.pattern and at == pose and np.array_equal(known.vertices, film.vertices):
                 return walls
-        angles = (stand.moving, stand.fixed)
+        angles = (pose.moving, pose.fixed)
         one, two = (
-            part_wall(_plane_body(part), seen_from(film, angle))
+            part_wall(_plane_body(part), in_part_axes(film, angle))
             for part, angle in zip(self.parts, angles, strict=True)
         )
         found = both(one, two)
-        self._built.append((film, stand, found))
+        self._built.append((film, pose, found))
         del self._built[: -max(2, int(KEPT / (8.0 * np.prod(found.matrix.shape))))]
         return found
 
 
-def seen_from(film: FilmSpace, angle: float) -> FilmSpace:
-    """A film about an axis in the axes of a part that is turned by an angle (rad) in the film's."""
+def in_part_axes(film: FilmSpace, angle: float) -> FilmSpace:
+    """A film in the axes of a part turned by an angle (rad) about the film's axis."""
     if angle == 0.0:
         return film
     c, s = np.cos(angle), np.sin(angle)
     return film.moved(np.ascontiguousarray(film.vertices @ np.array([[c, -s], [s, c]])))
 
 
-def while_turning(walls_at: Callable[[float], Walls], angle: float, column: float) -> Walls:
+def while_turning(walls_at: Callable[[float], ElasticWalls], angle: float, column: float) -> ElasticWalls:
     """Walls that change as parts turn: between those at multiples of a column (rad), by their shares.
 
-    Force and work stay the same on both sides; the opening errs by the square of a column.
+    Force and work stay the same on both sides; the deformation errs by the square of a column.
     """
     before, share = divmod(angle / column, 1.0)
     one, two = (full(walls_at((before + k) * column).matrix) for k in (0, 1))
@@ -101,27 +101,27 @@ def _plane_body(part: SlipperPart | PlatePart) -> Body:
 
 @dataclass(frozen=True)
 class BoreWalls:
-    """Piston and bushing by their sizes, the guide as long as the bushing; meshed when a film first asks."""
+    """Piston and bushing by their sizes, the guide as long as the bushing; meshed on first use."""
 
     piston: PistonPart
     bushing: BushingPart
 
     @property
     def alike_around(self) -> bool:
-        """True where parts that turn stay what they were."""
+        """True where turned parts are the same."""
         return self.piston.own is None and self.bushing.own is None
 
-    def at(self, film: FilmSpace, stand: Stand) -> Walls:
+    def at(self, film: FilmSpace, pose: Pose) -> ElasticWalls:
         """See `PistonWalls.at`."""
-        return self._walls(film).at(film, stand)
+        return self._walls(film).at(film, pose)
 
-    def piston_at(self, film: FilmSpace, stand: Stand) -> Walls:
+    def piston_at(self, film: FilmSpace, pose: Pose) -> ElasticWalls:
         """See `PistonWalls.piston_at`."""
-        return self._walls(film).piston_at(film, stand)
+        return self._walls(film).piston_at(film, pose)
 
-    def by_chamber(self, film: FilmSpace, stand: Stand) -> ByChamber:
+    def by_chamber(self, film: FilmSpace, pose: Pose) -> ChamberInfluence:
         """See `PistonWalls.by_chamber`."""
-        return self._walls(film).by_chamber(film, stand)
+        return self._walls(film).by_chamber(film, pose)
 
     def _walls(self, film: FilmSpace) -> PistonWalls:
         return _bore_walls(self.piston, self.bushing, len(np.unique(film.vertices[:, 0])) - 1)
@@ -129,7 +129,7 @@ class BoreWalls:
 
 @lru_cache(maxsize=4)
 def _bore_walls(piston: PistonPart, bushing: BushingPart, around: int) -> PistonWalls:
-    """The faces of both parts, as many cells around as the film has."""
+    """The faces of both parts, with the film's cells around."""
     radius, shares = 0.5 * piston.diameter, np.linspace(0.0, 1.0, ROWS + 1)
     return PistonWalls(
         bushing.length,

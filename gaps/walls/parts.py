@@ -2,7 +2,7 @@
 
     piston      hollow or solid cylinder, free: films and the ball hold it, and its rigid motion is the gap's own
     bushing     ring in the block out to the middle of the web, where it slides on what the next bore presses back
-    slipper     flange on its socket: what is over the ball does not give way, the rim bends about it
+    slipper     flange on its socket: rigid over the ball, the rim bends about it
     plate       swash plate or valve plate, its back on the cradle or on the end case
 
 A part lies in its film's own axes: slipper and valve plate under the plane z = 0, swash plate and block over it
@@ -22,10 +22,10 @@ from numpy.typing import NDArray
 from gaps.shapes.slipper_lands import Land
 from gaps.walls.user_mesh import CHAMBER, FILM, HELD, POCKET, OwnMesh, own_body, with_faces
 from reynolds.bodies.chart import Cylinder, OnSphere, Plane, Side
-from reynolds.bodies.compliance import Walls
+from reynolds.bodies.compliance import ElasticWalls
 from reynolds.bodies.elasticity import Elastic
 from reynolds.bodies.foundation import both
-from reynolds.bodies.mesh import BodyMesh, disc, ring
+from reynolds.bodies.mesh import BodyMesh, disc, hollow_cylinder
 from reynolds.bodies.supports import Supports
 from reynolds.bodies.wall import Body, body_wall, face_wall
 from reynolds.errors import FilmInputError
@@ -39,7 +39,7 @@ PINHOLE = 0.05  # of a pocket's radius
 NEAR = 1e-6  # of a radius: on a mesh line or not
 Cells = tuple[int, int, int]
 Grooves = tuple[tuple[str, Land], ...]
-EDGES = 0.8  # of a row's length is taken off at an edge, and put on where rows are widest
+EDGES = 0.8  # of a row's length along a bore, taken off at an edge and added where rows are widest
 
 
 @dataclass(frozen=True)
@@ -138,7 +138,7 @@ def piston_body(part: PistonPart, cells: Cells = (3, 16, 18)) -> Body:
     if part.own:
         return own_body(part.own, part.elastic, chart)
     if part.inner_diameter > 0.0:
-        mesh = ring((0.5 * part.inner_diameter, radius), part.length, cells)
+        mesh = hollow_cylinder((0.5 * part.inner_diameter, radius), part.length, cells)
     else:
         mesh = disc(radius, part.length, (max(cells[1] // 4, 1), cells[0], cells[2]))
     mesh = _drawn(mesh, part.length, cells[2], closer_at_start)
@@ -157,7 +157,9 @@ def bushing_body(part: BushingPart, cells: Cells = (3, 16, 18)) -> Body:
     chart = Cylinder(radius, Side.BORE)
     if part.own:
         return own_body(part.own, part.elastic, chart)
-    mesh = _drawn(ring((radius, radius + part.wall), part.length, cells), part.length, cells[2], closer_at_end)
+    mesh = _drawn(
+        hollow_cylinder((radius, radius + part.wall), part.length, cells), part.length, cells[2], closer_at_end
+    )
     return Body(mesh, part.elastic, Supports(symmetry=("outer",)), "inner", chart)
 
 
@@ -207,7 +209,7 @@ def plate_body(part: PlatePart, cells: Cells = (6, 36, 2)) -> Body:
     return Body(_on(sphere, mesh), part.elastic, Supports(clamped=("bottom",)), "top", OnSphere(sphere))
 
 
-def part_wall(body: Body, film: FilmSpace, *, folder: Path | None = None) -> Walls:
+def part_wall(body: Body, film: FilmSpace, *, folder: Path | None = None) -> ElasticWalls:
     """One part as its film feels it, by whichever is smaller: its face's nodes or the film's unknowns.
 
     Pocket and grooves of the film press on the part's faces of those names, where it has them. Raises
@@ -221,10 +223,10 @@ def part_wall(body: Body, film: FilmSpace, *, folder: Path | None = None) -> Wal
     return body_wall(body, film, pockets=pockets, folder=folder)
 
 
-def slipper_walls(slipper: Body, plate: Body, film: FilmSpace, *, folder: Path | None = None) -> Walls:
+def slipper_walls(slipper: Body, plate: Body, film: FilmSpace, *, folder: Path | None = None) -> ElasticWalls:
     """Slipper and swash plate together, the pocket pressing on both.
 
-    The plate is one about the slipper's middle, with the slipper's pocket: what gives way is near the film.
+    The plate is one about the slipper's middle, with the slipper's pocket: deformation is local to the film.
     """
     return both(part_wall(slipper, film, folder=folder), part_wall(plate, film, folder=folder))
 
@@ -235,7 +237,7 @@ def _rings(start: float, edges: tuple[float, ...], end: float, thickness: float,
     spaces = np.maximum(1, np.round(cells[0] * np.diff(knots) / (end - start))).astype(int)
     within = [np.linspace(a, b, n + 1)[1:] for a, b, n in zip(knots[:-1], knots[1:], spaces, strict=True)]
     lines = np.concatenate([knots[:1], *within])
-    body = ring((start, end), thickness, (len(lines) - 1, *cells[1:]), bottom=-thickness)
+    body = hollow_cylinder((start, end), thickness, (len(lines) - 1, *cells[1:]), bottom=-thickness)
     # Moved radius by radius, arcs stay arcs.
     places = body.mesh.doflocs.copy()
     radius = np.hypot(*places[:2])
@@ -285,10 +287,10 @@ def _facets(body: BodyMesh, face: str, *, up_to: float = np.inf, from_cell_over:
 
 
 @dataclass(frozen=True)
-class Stand:
-    """Reach (m) of a piston's chamber end inside the guide's case edge; turned parts.
+class Pose:
+    """Pose of both parts relative to the film: reach (m) of a piston's chamber end inside the case edge, angles.
 
-    Angles (rad) in the film's axes: moving part (piston, slipper, block) and fixed one (bushing, plate).
+    Angles (rad) in the film's axes: of the moving part (piston, slipper, block) and fixed one (bushing, plate).
     """
 
     reach: float = 0.0
@@ -297,7 +299,7 @@ class Stand:
 
 
 def closer_at_both(share: Array) -> Array:
-    """Even shares drawn to both edges, widest in the middle."""
+    """Even shares (0 .. 1) of a bore's length drawn to both edges, whose wedges bear; widest in the middle."""
     return np.asarray(share - EDGES / (2.0 * np.pi) * np.sin(2.0 * np.pi * share))
 
 

@@ -1,12 +1,12 @@
-"""Piston and bushing as the film between them feels them, wherever the piston stands.
+"""Compliance of piston and bushing for the film between them, at any reach of the piston.
 
 The film's mesh stretches as the piston moves; each part's compliance is built once, on a film over all of its
-face, and met there by the film's rows along the bore: with hats psi of the face and phi of the film,
+face, and coupled there to the film's rows along the bore: with hats psi of the face and phi of the film,
 
     M_psi P = G p,   M_phi w = G^T W,   G = int psi phi dy,
 
-so that force and work are the same on both (`reynolds.bodies.transfer` in one dimension). What no film covers is
-loaded too: bore and piston beyond the film, and the piston's own chamber faces, by the chamber's pressure, whose
+so that force and work are the same on both (`reynolds.bodies.transfer` in one dimension). Faces outside the film
+are loaded too: bore and piston beyond it, and the piston's own chamber faces, by the chamber's pressure, whose
 volume grows in turn.
 """
 
@@ -19,10 +19,10 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from gaps.walls.parts import Stand
+from gaps.walls.parts import Pose
 from gaps.walls.user_mesh import CHAMBER
 from reynolds.bodies.foundation import Compliance
-from reynolds.bodies.wall import Body, FacePressure, body_wall, load_opening
+from reynolds.bodies.wall import Body, FacePressure, body_wall, load_deformation
 from reynolds.errors import FilmInputError
 from reynolds.fem.mesh import Cell, rectangle
 from reynolds.fem.space import FilmSpace, film_space
@@ -36,7 +36,7 @@ POINTS, WEIGHTS = np.polynomial.legendre.leggauss(2)  # exact for the product of
 class FaceGrid:
     """A cylindrical part's whole face as rows along the bore and columns around it.
 
-    rows (n,) m from the part's end; influence (n, period, columns, n) m/Pa: opening of a row and column by
+    rows (n,) m from the part's end; influence (n, period, columns, n) m/Pa: deformation at a row and column by
     pressure on a column and row; the part is the same every `period` columns, so that those of one are all.
     by_chamber (n, columns + 1) m/Pa, by the pressure on its chamber faces, the seam's column twice.
     """
@@ -73,12 +73,12 @@ def face_grid(body: Body, radius: float, rows: Array, around: int = 48, folder: 
     influence = matrix[np.ix_(vertices.ravel(), unknowns.T.ravel())].reshape(*vertices.shape, *unknowns.T.shape)
     opened = np.zeros(len(space.vertices))
     if CHAMBER in body.mesh.face_names:
-        opened = load_opening(body, space, FacePressure(CHAMBER, 1.0), folder=folder)
+        opened = load_deformation(body, space, FacePressure(CHAMBER, 1.0), folder=folder)
     return FaceGrid(space.vertices[vertices[:, 0], 1], _of_one_period(influence), opened[vertices])
 
 
 def _of_one_period(influence: Array) -> Array:
-    """The least of an influence (n, columns + 1, columns, n) that tells all of it."""
+    """One period of an influence (n, columns + 1, columns, n), which determines all of it."""
     columns, same = influence.shape[2], ALIKE * float(np.abs(influence).max())
     for period in (p for p in range(1, columns) if columns % p == 0):
         turned = np.roll(influence[:, :-period], period, axis=2)
@@ -88,7 +88,7 @@ def _of_one_period(influence: Array) -> Array:
 
 
 def _turned(influence: Array, angle: float) -> Array:
-    """The influence of a part turned by an angle (rad) around its axis, columns staying where they are.
+    """The influence of a part turned by an angle (rad) around its axis, at fixed columns.
 
     Between two columns the mean of the part turned to either: as good as columns are fine, and force and work stay
     the same on both sides.
@@ -103,7 +103,7 @@ def _turned(influence: Array, angle: float) -> Array:
 
 
 def _around(opened: Array, angle: float) -> Array:
-    """What a part turned by an angle (rad) opens by, (n, columns + 1), the seam's column twice."""
+    """Deformation by a part turned by an angle (rad), (n, columns + 1), the seam's column twice."""
     after, share = divmod(angle / (2.0 * np.pi) * (opened.shape[1] - 1), 1.0)
     one, two = (np.roll(opened[:, :-1], int(after) + k, axis=1) for k in (0, 1))
     turned = (1.0 - share) * one + share * two
@@ -119,16 +119,16 @@ def _all_around(influence: Array) -> Array:
 
 
 @dataclass(frozen=True)
-class ByChamber:
-    """What unit pressure (Pa) in the chamber does by what the film leaves bare.
+class ChamberInfluence:
+    """Influence of unit pressure (Pa) in the chamber on faces outside the film.
 
-    opened (vertices,) m/Pa: opening of the film, piston that of the piston alone; swollen m3/Pa: growth of the
-    chamber. What the piston's chamber faces do to each other is left out: it is the same wherever the piston is.
+    deformation (vertices,) m/Pa of the film, piston (vertices,) m/Pa by the piston alone; chamber_growth m3/Pa.
+    The influence of the piston's chamber faces on each other is left out: it is the same at any reach.
     """
 
-    opened: Array
+    deformation: Array
     piston: Array
-    swollen: float
+    chamber_growth: float
 
 
 @dataclass(frozen=True)
@@ -139,51 +139,51 @@ class PistonWalls:
     bushing: FaceGrid
     piston: FaceGrid
 
-    def at(self, film: FilmSpace, stand: Stand) -> Compliance:
+    def at(self, film: FilmSpace, pose: Pose) -> Compliance:
         """Both walls of a film on that mesh.
 
         The film plane is that of `gaps.films.piston`. Raises FilmInputError for a film with other columns than
         the faces have, and for one that reaches beyond a part.
         """
-        one, two = (_turned(_met(grid, film, start), angle) for grid, start, angle in self._parts(stand))
+        one, two = (_turned(_on_film_rows(grid, film, start), angle) for grid, start, angle in self._parts(pose))
         total = _all_around(one + two) if one.shape == two.shape else _all_around(one) + _all_around(two)
         return _placed(total, film)
 
-    def piston_at(self, film: FilmSpace, stand: Stand) -> Compliance:
+    def piston_at(self, film: FilmSpace, pose: Pose) -> Compliance:
         """The piston alone; raises as `at`."""
-        grid, start, angle = self._parts(stand)[1]
-        return _placed(_all_around(_turned(_met(grid, film, start), angle)), film)
+        grid, start, angle = self._parts(pose)[1]
+        return _placed(_all_around(_turned(_on_film_rows(grid, film, start), angle)), film)
 
-    def by_chamber(self, film: FilmSpace, stand: Stand) -> ByChamber:
-        """What the chamber's pressure does on what the film leaves bare."""
+    def by_chamber(self, film: FilmSpace, pose: Pose) -> ChamberInfluence:
+        """Influence of the chamber's pressure on faces outside the film."""
         vertices, _ = _numbers(film)
         opened, swollen = np.empty((2, len(film.vertices))), 0.0
         width = float(np.ptp(film.vertices[:, 0]))
-        for part, (grid, start, angle) in zip(opened, self._parts(stand), strict=True):
+        for part, (grid, start, angle) in zip(opened, self._parts(pose), strict=True):
             rows = film.vertices[vertices[:, 0], 1] - start
             _, back = _between(grid, rows)
             bare = _bare(grid, float(rows[0]))
             loaded = (grid.influence @ bare).sum(axis=2)[:, np.arange(grid.columns + 1) % grid.period]
             part[vertices] = back @ _around(grid.by_chamber + loaded, angle)
-            both = (loaded + 2.0 * grid.by_chamber)[:, :-1].mean(axis=1)  # faces and bare rows open each other
+            both = (loaded + 2.0 * grid.by_chamber)[:, :-1].mean(axis=1)  # faces and bare rows deform each other
             swollen += width * float(bare @ grid.mass @ both)
-        return ByChamber(opened.sum(axis=0), opened[1], swollen)
+        return ChamberInfluence(opened.sum(axis=0), opened[1], swollen)
 
-    def _parts(self, stand: Stand) -> tuple[tuple[FaceGrid, float, float], tuple[FaceGrid, float, float]]:
-        """Each part with the place (m) in the film plane from which its rows count, and how far it is turned."""
-        start = self.guide_length - stand.reach
-        return (self.bushing, 0.0, stand.fixed), (self.piston, start, stand.moving)
+    def _parts(self, pose: Pose) -> tuple[tuple[FaceGrid, float, float], tuple[FaceGrid, float, float]]:
+        """Each part with the place (m) in the film plane from which its rows count, and its angle."""
+        start = self.guide_length - pose.reach
+        return (self.bushing, 0.0, pose.fixed), (self.piston, start, pose.moving)
 
 
 def _placed(influence: Array, film: FilmSpace) -> Compliance:
-    """An influence on every column (rows, columns + 1, columns, rows) by the film's own numbers."""
+    """An influence on every column (rows, columns + 1, columns, rows) by the film's own numbering."""
     vertices, unknowns = _numbers(film)
     matrix = np.empty((len(film.vertices), film.size))
     matrix[np.ix_(vertices.ravel(), unknowns.T.ravel())] = influence.reshape(matrix.shape)
     return Compliance(matrix)
 
 
-def _met(grid: FaceGrid, film: FilmSpace, start: float) -> Array:
+def _on_film_rows(grid: FaceGrid, film: FilmSpace, start: float) -> Array:
     """The part's compliance on the film's rows, (rows, period, columns, rows) m/Pa."""
     vertices, unknowns = _numbers(film)
     if unknowns.shape[1] != grid.columns:

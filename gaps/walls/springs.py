@@ -1,6 +1,6 @@
-"""Walls on springs side by side: they open in proportion to the pressure at their own place alone.
+"""Walls on springs side by side: they deform in proportion to the pressure at their own place alone.
 
-The wall whose flow a closed law of an opening gives: bodies spread what presses on them, springs do not.
+The wall of closed laws for the flow of a deformed gap: bodies spread a load, springs do not.
 """
 
 from __future__ import annotations
@@ -11,8 +11,8 @@ import numpy as np
 from scipy.sparse import csr_array
 
 from gaps.walls.pair import BoreWalls, PlateWalls
-from gaps.walls.parts import Stand
-from gaps.walls.piston import ByChamber
+from gaps.walls.parts import Pose
+from gaps.walls.piston import ChamberInfluence
 from reynolds.bodies.foundation import Compliance, winkler
 from reynolds.fem.space import FilmSpace
 
@@ -23,18 +23,18 @@ class SpringBore(BoreWalls):
 
     compliance: float = field(kw_only=True)
 
-    def at(self, film: FilmSpace, stand: Stand) -> Compliance:
-        """Opening p times `compliance`, wherever the parts stand (Winkler 1867)."""
+    def at(self, film: FilmSpace, pose: Pose) -> Compliance:
+        """Deformation p times `compliance`, in any pose (Winkler 1867)."""
         return winkler(film, 1.0 / self.compliance)
 
-    def piston_at(self, film: FilmSpace, stand: Stand) -> Compliance:
-        """None: the piston is rigid."""
+    def piston_at(self, film: FilmSpace, pose: Pose) -> Compliance:
+        """Zero: the piston is rigid."""
         return Compliance(csr_array((len(film.vertices), film.size)))
 
-    def by_chamber(self, film: FilmSpace, stand: Stand) -> ByChamber:
-        """Nothing: what the film leaves bare opens no other place."""
+    def by_chamber(self, film: FilmSpace, pose: Pose) -> ChamberInfluence:
+        """Zero: faces outside the film deform no other place."""
         none = np.zeros(len(film.vertices))
-        return ByChamber(none, none, 0.0)
+        return ChamberInfluence(none, none, 0.0)
 
 
 @dataclass(frozen=True)
@@ -43,6 +43,6 @@ class SpringPlates(PlateWalls):
 
     compliance: float = field(kw_only=True)
 
-    def at(self, film: FilmSpace, stand: Stand) -> Compliance:
-        """Opening p times `compliance`, wherever the parts stand (Winkler 1867)."""
+    def at(self, film: FilmSpace, pose: Pose) -> Compliance:
+        """Deformation p times `compliance`, in any pose (Winkler 1867)."""
         return winkler(film, 1.0 / self.compliance)

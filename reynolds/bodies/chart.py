@@ -1,4 +1,4 @@
-"""Where a film lies on its wall: from the film plane (x, y) to points and outward normals of the body."""
+"""Charts of a film on its wall: from the film plane (x, y) to points and outward normals of the body."""
 
 from __future__ import annotations
 
@@ -16,14 +16,14 @@ Vector = tuple[float, float, float]
 
 
 class Side(Enum):
-    """Which side of a cylinder's surface the body is on, hence where its film is."""
+    """Side of a cylinder's surface on which the body lies; its film lies on the other."""
 
     BORE = -1  # the body lies outside the radius, its film within
     SHAFT = 1  # the body lies within, its film outside
 
 
 class Chart(Protocol):
-    """A film plane on a body's surface, without stretch but for a sphere's, which the film's space has."""
+    """A film plane on a body's surface, isometric but for a sphere's, whose stretch is in the film's space."""
 
     def places(self, film_points: Array) -> Array:
         """Points (n, 3) m of the wall at points (n, 2) m of the film plane."""
@@ -83,8 +83,7 @@ class Cylinder:
 
 @dataclass(frozen=True)
 class OnSphere:
-    """A film on a sphere through the origin, as its space has it (`reynolds.fem.sphere`); a plane where it is
-    none.
+    """A film on a sphere through the origin (`reynolds.fem.sphere`), which may be a plane.
 
     The body lies under it, at z < 0, or over it.
     """

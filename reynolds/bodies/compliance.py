@@ -1,4 +1,4 @@
-"""Walls that give way: what the film solver asks of a wall's compliance."""
+"""Compliance of elastic walls, as the film solver needs it."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ class LowRank:
 
     @property
     def shape(self) -> tuple[int, int]:
-        """(vertices, size), as of the matrix that it stands for."""
+        """(vertices, size), the shape of the product."""
         return self.left.shape[0], self.right.shape[1]
 
     @property
@@ -34,7 +34,7 @@ class LowRank:
         return int(self.left.shape[1])
 
     def __matmul__(self, pressure: Array) -> Array:
-        """Opening (vertices, ...) m by pressures (size, ...) Pa."""
+        """Deformation (vertices, ...) m by pressures (size, ...) Pa."""
         return self.left @ (self.right @ pressure)
 
     def toarray(self) -> Array:
@@ -42,7 +42,7 @@ class LowRank:
         return self.left @ full(self.right)
 
     def beside(self, other: LowRank) -> LowRank:
-        """Both walls of a film: their openings add up."""
+        """Sum of the deformations of both walls of a film."""
         both = self.right, other.right
         sparse = all(issparse(part) for part in both)
         right = csr_array(vstack(both)) if sparse else np.vstack([full(part) for part in both])
@@ -53,24 +53,24 @@ WallMatrix: TypeAlias = Array | csr_array | LowRank
 
 
 class Product(Protocol):
-    """An opening by pressures that contact resists, (I - C S)^-1 C, not multiplied out."""
+    """Deformation by pressures with contact, (I - C S)^-1 C, not multiplied out."""
 
     @property
     def compliance(self) -> WallMatrix:
-        """C, what it would be without contact."""
+        """C, the compliance without contact."""
 
     @property
     def contact(self) -> csr_array:
         """S: pressure of contact on each unknown by the gap at each vertex, (size, vertices) Pa/m."""
 
     def __matmul__(self, pressure: Array) -> Array:
-        """Opening (vertices, ...) m by pressures (size, ...) Pa."""
+        """Deformation (vertices, ...) m by pressures (size, ...) Pa."""
 
     def columns(self, unknowns: NDArray[np.intp]) -> Array:
-        """Those of the matrix for some unknowns, (vertices, unknowns) m/Pa."""
+        """Columns of the matrix for some unknowns, (vertices, unknowns) m/Pa."""
 
 
-Opens: TypeAlias = WallMatrix | Product
+WallOperator: TypeAlias = WallMatrix | Product
 
 
 def full(matrix: WallMatrix) -> Array:
@@ -78,20 +78,20 @@ def full(matrix: WallMatrix) -> Array:
     return matrix if isinstance(matrix, np.ndarray) else np.asarray(matrix.toarray())
 
 
-def compliance_of(opens: Opens) -> WallMatrix:
+def compliance_of(operator: WallOperator) -> WallMatrix:
     """The walls' own compliance, (vertices, size) m/Pa."""
-    return opens if isinstance(opens, LowRank | np.ndarray | csr_array) else opens.compliance
+    return operator if isinstance(operator, LowRank | np.ndarray | csr_array) else operator.compliance
 
 
-def contact_of(opens: Opens) -> csr_array:
+def contact_of(operator: WallOperator) -> csr_array:
     """Pressure of contact by the gap, (size, vertices) Pa/m: nothing where nothing touches."""
-    if isinstance(opens, LowRank | np.ndarray | csr_array):
-        return csr_array(opens.shape[::-1])
-    return opens.contact
+    if isinstance(operator, LowRank | np.ndarray | csr_array):
+        return csr_array(operator.shape[::-1])
+    return operator.contact
 
 
-def columns_of(matrix: Opens, unknowns: NDArray[np.intp]) -> Array:
-    """Opening (vertices, unknowns) m by unit pressure at some unknowns."""
+def columns_of(matrix: WallOperator, unknowns: NDArray[np.intp]) -> Array:
+    """Deformation (vertices, unknowns) m by unit pressure at some unknowns."""
     if isinstance(matrix, LowRank):
         return matrix.left @ full(matrix.right[:, unknowns])
     if isinstance(matrix, np.ndarray | csr_array):
@@ -99,9 +99,9 @@ def columns_of(matrix: Opens, unknowns: NDArray[np.intp]) -> Array:
     return matrix.columns(unknowns)
 
 
-class Walls(Protocol):
+class ElasticWalls(Protocol):
     """Both walls of a film together, as one linear operator."""
 
     @property
     def matrix(self) -> WallMatrix:
-        """Opening of the film at the mesh's vertices by unit pressure at each unknown, (vertices, size) m/Pa."""
+        """Deformation at the mesh's vertices by unit pressure at each unknown, (vertices, size) m/Pa."""

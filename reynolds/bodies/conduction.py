@@ -1,10 +1,11 @@
-"""Steady heat in a body, and the opening of the film as the body expands.
+"""Steady heat in a body, and the deformation of the film as the body expands.
 
     - div(k grad T) = 0;  k dT/dn = q on the film's face, h (T_ambient - T) on cooled faces; T given on held ones
     sigma = lambda div u I + 2 mu eps(u) - (3 lambda + 2 mu) alpha (T - T_0) I
 
-Both are linear, so that what the film sees is `FaceResponse`: reference + matrix @ (heat at the face nodes).
-Transient heat is left out: a body's own time L^2 rho c/k is seconds to minutes, a revolution's milliseconds.
+Both are linear, so that their effect on the film is a `FaceResponse`: reference + matrix @ (heat at the face
+nodes). Transient heat is left out: a body's own time L^2 rho c/k is seconds to minutes, a revolution's
+milliseconds.
 """
 
 from __future__ import annotations
@@ -63,7 +64,7 @@ Surroundings = Mapping[str, Convection | HeldTemperature]
 
 @dataclass(frozen=True)
 class FaceResponse:
-    """What the face nodes do: reference (nodes,) + matrix (nodes, nodes) @ input at the nodes (N or W)."""
+    """Response of the face nodes: reference (nodes,) + matrix (nodes, nodes) @ input at the nodes (N or W)."""
 
     reference: Array
     matrix: Array
@@ -80,7 +81,7 @@ class HeatedBody:
     factor: Any
 
     def warmed(self, heat: Array) -> Array:
-        """Rise of temperature (nodes, k) by heat (nodes, k) W; held nodes take up theirs without a rise."""
+        """Rise of temperature (nodes, k) by heat (nodes, k) W; held nodes absorb theirs without a rise."""
         rise = np.zeros(heat.shape)
         rise[self.free] = self.factor.solve(np.ascontiguousarray(heat[self.free]))
         return rise
@@ -141,10 +142,10 @@ def face_expansion(heated: HeatedBody, body: Structure, face: Face, normals: Arr
         work = coupling.T @ body.displaced(into[:, rows].toarray())
         matrix[rows] = heated.warmed(np.asarray(work))[face.nodes].T
     warm = heated.reference - heated.thermal.unstrained_temperature
-    return FaceResponse(temperature_opening(body, face, normals, heated.thermal.expansion, warm), matrix)
+    return FaceResponse(temperature_deformation(body, face, normals, heated.thermal.expansion, warm), matrix)
 
 
-def temperature_opening(body: Structure, face: Face, normals: Array, expansion: float, rise: Array) -> Array:
+def temperature_deformation(body: Structure, face: Face, normals: Array, expansion: float, rise: Array) -> Array:
     """Displacement into the body (face nodes,) m by a rise (nodes,) K above the temperature without strain."""
     forces = expansion_forces(body, expansion) @ rise
     return np.asarray(normal_forces(body.space, face, normals).T @ body.displaced(forces[:, None])[:, 0])

@@ -162,7 +162,7 @@ def face_compliance(body: Structure, face: Face, normals: Array) -> Array:
     return 0.5 * (result + result.T)
 
 
-def face_opening(body: Structure, face: Face, normals: Array, forces: Array) -> Array:
+def face_deformation(body: Structure, face: Face, normals: Array, forces: Array) -> Array:
     """Displacement into the body (nodes,) m at each face node by a load case: nodal forces (dofs,) N."""
     return np.asarray(normal_forces(body.space, face, normals).T @ body.displaced(forces[:, None])[:, 0])
 

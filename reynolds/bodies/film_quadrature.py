@@ -53,7 +53,7 @@ class FilmRule:
 
     @cached_property
     def _sewn(self) -> csr_array:
-        """Vertices by the vertices that are left where seams are sewn."""
+        """Vertices by the distinct vertices of a film with sewn seams."""
         count, same = len(self.film.vertices), film_space(self.film.film_mesh).vertex_dofs
         return csr_array(coo_array((np.ones(count), (np.arange(count), same)), shape=(count, same.max() + 1)))
 
@@ -64,7 +64,7 @@ class FilmRule:
 
 
 def film_rule(film: FilmSpace, splits: int = 1) -> FilmRule:
-    """The quadrature of a film that carries its fields to a body, each cell split into `splits` squared alike."""
+    """Quadrature for the transfer of a film's fields to a body, each cell split into `splits` squared parts."""
     corners = film.cells.shape[1]
     basis, geometry = _BASIS[corners, film.degree], _BASIS[corners, 1]
     at, weights = _composite(get_quadrature(geometry.refdom, ORDER), corners, splits)

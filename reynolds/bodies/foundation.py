@@ -1,4 +1,4 @@
-"""Walls that give way without a mesh of their own, and the sum of two walls."""
+"""Elastic walls without a mesh of their own, and the sum of two walls."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.sparse import coo_array, csr_array
 
-from reynolds.bodies.compliance import LowRank, WallMatrix, Walls, full
+from reynolds.bodies.compliance import ElasticWalls, LowRank, WallMatrix, full
 from reynolds.bodies.elasticity import Elastic
 from reynolds.errors import FilmInputError
 from reynolds.fem.space import FilmSpace
@@ -18,13 +18,13 @@ BLOCK = 128  # points at a time: bounds the memory beside the result
 
 @dataclass(frozen=True)
 class Compliance:
-    """Opening at the film's vertices by unit pressure at each unknown, (vertices, size) m/Pa."""
+    """Deformation at the film's vertices by unit pressure at each unknown, (vertices, size) m/Pa."""
 
     matrix: WallMatrix
 
 
 def winkler(space: FilmSpace, stiffness: float) -> Compliance:
-    """Springs side by side, opening = p/k with k in Pa/m (Winkler 1867): a thin soft layer on a rigid wall.
+    """Springs side by side, deformation = p/k with k in Pa/m (Winkler 1867): a thin soft layer on a rigid wall.
 
     Validity: layer much thinner than the pressure field is long. Raises FilmInputError unless k > 0.
     """
@@ -36,9 +36,9 @@ def winkler(space: FilmSpace, stiffness: float) -> Compliance:
 
 
 def half_space(space: FilmSpace, elastic: Elastic) -> Compliance:
-    """A wall as deep as it is wide without end: Boussinesq's influence of each cell's mean pressure.
+    """A half-space: Boussinesq's influence of each cell's mean pressure.
 
-        opening(x) = (1 - nu^2)/(pi E) sum over cells of mean p times integral over the cell of dA/|x - x'|
+        deformation(x) = (1 - nu^2)/(pi E) sum over cells of mean p times integral over the cell of dA/|x - x'|
 
     Love's (1929) integral of a rectangle, and likewise of any convex cell; symmetric in mean square up to the
     error of the mesh. Validity: plane film, much smaller than the body; rigid motion is not removed (the
@@ -56,7 +56,7 @@ def half_space(space: FilmSpace, elastic: Elastic) -> Compliance:
 
 
 def polygon_potential(points: Array, corners: Array) -> Array:
-    """Integral of dA/|x - x'| over each convex polygon (cells, corners, 2) seen from points (n, 2), (n, cells) m.
+    """Integral of dA/|x - x'| over each convex polygon (cells, corners, 2) at points (n, 2), (n, cells) m.
 
     Sum over the edges of d [asinh(t2/d) - asinh(t1/d)], d the distance to the edge's line, t along it; an edge in
     line with the point gives nothing. Of a rectangle it is Love's (1929) formula.
@@ -82,8 +82,8 @@ def _potential(points: Array, corners: Array) -> Array:
     return total
 
 
-def both(first: Walls, second: Walls) -> Compliance:
-    """Both walls of one film: their openings add up."""
+def both(first: ElasticWalls, second: ElasticWalls) -> Compliance:
+    """Sum of both walls of one film."""
     one, two = first.matrix, second.matrix
     if isinstance(one, LowRank) and isinstance(two, LowRank):
         beside = one.beside(two)

@@ -61,7 +61,7 @@ def block(
     return BodyMesh(_with_faces(mesh, faces))
 
 
-def ring(
+def hollow_cylinder(
     radii: tuple[float, float],
     height: float,
     cells: tuple[int, int, int],
@@ -127,7 +127,7 @@ def disc(radius: float, height: float, cells: tuple[int, int, int], *, bottom: f
 def _core(reach: float, cells: int) -> tuple[Array, NDArray[np.int64]]:
     """Points (2, n) of a square about the origin rounded half way to a circle, and their numbers on the grid.
 
-    Rounded, its corners keep clear of straight angles in the ring around it; its corner lies at `reach`.
+    The rounding keeps the ring's cells at its corners from straight angles; a corner lies at `reach`.
     """
     x, y = np.meshgrid(*(np.linspace(-1.0, 1.0, cells + 1),) * 2, indexing="ij")
     longest = np.maximum(np.abs(x), np.abs(y))
@@ -184,7 +184,7 @@ def _extruded(points: Array, quads: NDArray[np.int64], heights: Array, *, arcs_f
 
 
 def _fill_serendipity(mesh: skfem.MeshHex2, places: Array) -> None:
-    """Middles of faces and cells half way between their edges, which alone are bent."""
+    """Middles of faces and cells half way between their edges, which alone are curved."""
     reference, cells = mesh.elem.refdom, mesh.dofs.element_dofs
     edge_of = {frozenset(pair): 8 + k for k, pair in enumerate(reference.edges)}
     for k, corners in enumerate(reference.facets):

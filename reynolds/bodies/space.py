@@ -1,8 +1,8 @@
 """The discrete body: quadratic elements, their integrals and the nodes of its named faces.
 
 Hexahedra of 27 nodes (quadrilaterals of 9) and quadratic tetrahedra (triangles): none of them locks in bending.
-The 20-node hexahedron was measured and left: on cells that are no parallelepipeds, as in all round bodies, it
-loses its order (Arnold, Boffi and Falk 2002) and is four times as far off on a thin clamped disc.
+The 20-node hexahedron is not used: on cells that are no parallelepipeds, as in all round bodies, it
+loses its order (Arnold, Boffi and Falk 2002) and has four times the error on a thin clamped disc (measured).
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""What holds a body, and how it may still move."""
+"""Supports of a body, and the motions that they leave."""
 
 from __future__ import annotations
 
@@ -17,10 +17,10 @@ FAR = 0.1  # of the body's size: a held point no farther than this from a node m
 
 @dataclass(frozen=True)
 class Supports:
-    """What holds a body: faces clamped, faces that only slide (symmetry planes), points (m) by the nearest node.
+    """Supports of a body: clamped faces, faces that only slide (symmetry planes), points (m) by the nearest node.
 
-    None at all is a free body. A force on a held point sinks in the deeper the smaller its cells: points are for
-    bodies whose loads hold each other in balance.
+    Without any the body is free. The displacement under a force on a held point grows as its cells shrink: points
+    are for bodies whose loads balance each other.
     """
 
     clamped: tuple[str, ...] = ()

@@ -1,15 +1,15 @@
-"""Between a film and the face of a body whose meshes need not match: forces one way, openings back.
+"""Transfer between a film and a body's face with meshes that need not match: forces to it, deformation back.
 
 Every point of the film's rule is found in the face, along the film's normal. With N its shape functions there,
 
-    force at face node i = int p N_i dA          opening w: int psi (w - sum_i N_i w_i) dA = 0 for all hats psi
+    force at face node i = int p N_i dA          deformation w: int psi (w - sum_i N_i w_i) dA = 0 for all hats psi
 
 so that the force, its moments and, since one is the other's transpose, the work p w are the same on either side
 whatever the meshes (Farhat, Lesoinne and Le Tallec 1998); the work exactly for a linear film without pockets. On a
 cylinder N is scaled by the nearly unit factor that makes its nodes' normals add up to the normal.
 
 Two meshes draw one circle by different polygons. A film point that lies beyond the edge of the face by no more
-than that is met by the nearest point of the face: force and work stay the same, moments up to that way.
+than that takes the nearest point of the face: force and work stay the same, moments up to that distance.
 """
 
 from __future__ import annotations
@@ -62,13 +62,13 @@ class Transfer:
         """Heat (W) into the body at each face node by flux at the film's vertices, (face nodes, vertices) m2."""
         return csr_array(self.share.T @ self.rule.by_vertex)
 
-    def opening(self, into: Array) -> Array:
-        """Opening (vertices, ...) m from displacements (face nodes, ...) m into the body, in mean square."""
+    def deformation(self, into: Array) -> Array:
+        """Deformation (vertices, ...) m from displacements (face nodes, ...) m into the body, in mean square."""
         return self.rule.fitted(csr_array(self.rule.by_vertex.T @ self.normal_share) @ into)
 
-    def opening_by_force(self, compliance: Array) -> Array:
-        """Opening by film pressure (vertices, size) m/Pa from a face's compliance (nodes, nodes) m/N."""
-        return np.asarray((self.force.T @ self.opening(compliance).T).T)
+    def deformation_by_force(self, compliance: Array) -> Array:
+        """Deformation by film pressure (vertices, size) m/Pa from a face's compliance (nodes, nodes) m/N."""
+        return np.asarray((self.force.T @ self.deformation(compliance).T).T)
 
     def temperature(self, nodal: Array) -> Array:
         """Temperature (vertices, ...) from values at the face nodes (face nodes, ...), in mean square."""
@@ -78,7 +78,7 @@ class Transfer:
 def transfer(film: FilmSpace, face: Face, chart: Chart) -> Transfer:
     """Find the film's points in the face of a body along the chart's normal.
 
-    A film of revolution on a section (r, z) is met by its mean around the turn. Raises FilmInputError where the
+    A film of revolution acts on a section (r, z) by its mean around the turn. Raises FilmInputError where the
     face ends short of the film by more than the meshes explain or lies off it by more than a tenth of a facet: how
     many points, where, and how far from the face.
     """
@@ -129,7 +129,7 @@ def _found(face: Face, places: Array, normals: Array, rule: FilmRule) -> tuple[N
 
 
 def _not_covered(face: Face, lost: Array, flat: Array, held: NDArray[np.bool_]) -> tuple[str, str]:
-    """What to say of film points that no face lies under, and what was expected."""
+    """Message on film points that no face lies under, and the expectation."""
     far = float(cKDTree(face.places).query(lost)[0].max())
     (x0, y0), (x1, y1) = flat[~held].min(axis=0), flat[~held].max(axis=0)
     found = (
@@ -180,11 +180,11 @@ def _projected(face: Face, facet: NDArray[np.int64], places: Array, normals: Arr
         gap = np.einsum("an,nak->nk", value, nodes) - places[moving]
         residual = np.einsum("nik,nk->ni", across[moving], gap)
         jacobian = np.einsum("nik,ndk->nid", across[moving], np.einsum("dan,nak->ndk", slope, nodes))
-        # Points of other facets need not converge: they only must not run away.
+        # Points of other facets need not converge, but must stay bounded.
         after = np.clip(reference[moving] - _solved(jacobian, residual), -0.5, 1.5)
         step = np.abs(after - reference[moving]).max(axis=1)
         reference[moving] = after
-        # What two steps leave far outside is met by another facet, or by this one's nearest edge.
+        # A point far outside after two steps belongs to another facet, or to this one's nearest edge.
         moving = moving[(step > CONVERGED) & ((_outside(face, after) < FAR_OUTSIDE) | (taken == 0))]
     reference[moving] = np.nan
     value, _ = tabulated(face.element, reference.T, corners.shape[1])
@@ -215,7 +215,7 @@ def _tangents(normals: Array) -> Array:
 
 
 def _outside(face: Face, reference: Array) -> Array:
-    """How far outside the reference facet a point lies (<= 0 inside)."""
+    """Distance of a point outside the reference facet (<= 0 inside)."""
     if face.facets.shape[1] == 6:
         return np.maximum((-reference).max(axis=1), reference.sum(axis=1) - 1.0)
     return np.maximum(-reference, reference - 1.0).max(axis=1)

@@ -1,4 +1,4 @@
-"""A body under a film: what its loaded face does, as operators on the film's own unknowns.
+"""A body under a film: response of its face as operators on the film's unknowns.
 
 Signs: positive opens the film. Everything expensive is done once per body and face and kept (`cache`); the film's
 mesh may change freely after that.
@@ -20,7 +20,7 @@ from reynolds.bodies.elasticity import (
     Elastic,
     centrifugal_forces,
     face_compliance,
-    face_opening,
+    face_deformation,
     pressure_forces,
     structure,
 )
@@ -31,14 +31,14 @@ from reynolds.bodies.transfer import Transfer, transfer
 from reynolds.errors import FilmInputError
 from reynolds.fem.space import FilmSpace
 from reynolds.numerics.arrays import Array
-from reynolds.numerics.cache import Origin, content_key, kept
+from reynolds.numerics.cache import CacheOrigin, content_key, kept
 
 
 @dataclass(frozen=True)
 class Body:
     """An elastic body, its supports, the face that is under the film, and where the film's plane lies on it.
 
-    Name a face no larger than the film needs: its nodes are the size of the operator kept, n^2 numbers.
+    Name a face no larger than the film needs: the cached operator has n^2 numbers for n face nodes.
     """
 
     mesh: BodyMesh
@@ -67,18 +67,18 @@ class Spin:
 
 @dataclass(frozen=True)
 class BodyWall:
-    """Opening = matrix (vertices, size) m/Pa @ nodal film pressure; and whether it came from the cache."""
+    """Deformation = matrix (vertices, size) m/Pa @ nodal film pressure; and its origin in the cache."""
 
     matrix: Array
-    origin: Origin
+    origin: CacheOrigin
 
 
 @dataclass(frozen=True)
 class FaceWall:
-    """The same as `BodyWall`, its matrix of the rank of the face's nodes."""
+    """As `BodyWall`, with a matrix of the rank of the face's nodes."""
 
     matrix: LowRank
-    origin: Origin
+    origin: CacheOrigin
 
 
 @dataclass(frozen=True)
@@ -91,17 +91,17 @@ class FilmResponse:
 
 @dataclass(frozen=True)
 class HeatedWall:
-    """Wall temperature (scale of the surroundings) and opening (m) by the film's heat flux into the body."""
+    """Wall temperature (scale of the surroundings) and deformation (m) by the film's heat flux into the body."""
 
     temperature: FilmResponse
-    opening: FilmResponse
-    origin: Origin
+    deformation: FilmResponse
+    origin: CacheOrigin
 
 
 def body_wall(
     body: Body, film: FilmSpace, *, pockets: Mapping[str, str] | None = None, folder: Path | None = None
 ) -> BodyWall:
-    """The elastic wall of a film: opening = matrix @ pressure, symmetric in mean square (module `transfer`).
+    """The elastic wall of a film: deformation = matrix @ pressure, symmetric in mean square (module `transfer`).
 
     `pockets` names, for a pocket of the film, the body's face that its pressure fills: it has no film cells of its
     own. Raises FilmInputError where the face does not lie under the film, or for a name that is not there.
@@ -123,29 +123,32 @@ def face_wall(
 
     found = kept(_key("compliance", body), compute, folder)
     meeting = transfer(film, face, body.chart)
-    left, right = meeting.opening(found.arrays["compliance"]), meeting.force
+    left, right = meeting.deformation(found.arrays["compliance"]), meeting.force
     for name, filled in (pockets or {}).items():
         if name not in film.edge_dofs or len(film.edge_dofs[name]) != 1:
             raise FilmInputError(f"pocket {name}", "no such pocket of the film", "a boundary that is one unknown")
         nodal = _load_case(body, space, face, FacePressure(filled, 1.0), folder)
         alone = csr_array(([1.0], ([0], [film.edge_dofs[name][0]])), shape=(1, film.size))
-        left, right = np.column_stack([left, meeting.opening(nodal)]), csr_array(vstack([right, alone]))
+        left, right = np.column_stack([left, meeting.deformation(nodal)]), csr_array(vstack([right, alone]))
     return FaceWall(LowRank(left, right), found.origin)
 
 
-def load_opening(body: Body, film: FilmSpace, load: FacePressure | Spin, *, folder: Path | None = None) -> Array:
-    """Opening (vertices,) m by a load case apart from the film's pressure; linear in pressure and in speed^2."""
+def load_deformation(
+    body: Body, film: FilmSpace, load: FacePressure | Spin, *, folder: Path | None = None
+) -> Array:
+    """Deformation (vertices,) m by a load case beside the film's pressure; linear in pressure, in speed^2."""
     space = body_space(body.mesh)
     face = space.face(body.face)
-    return transfer(film, face, body.chart).opening(_load_case(body, space, face, load, folder))
+    return transfer(film, face, body.chart).deformation(_load_case(body, space, face, load, folder))
 
 
 def heated_wall(
     body: Body, film: FilmSpace, thermal: Thermal, surroundings: Surroundings, *, folder: Path | None = None
 ) -> HeatedWall:
-    """The wall's temperature and thermal opening by the film's heat flux at its vertices (steady, linear).
+    """The wall's temperature and thermal deformation by the film's heat flux at its vertices (steady, linear).
 
-    opening is measured from the body at its unstrained temperature. Raises FilmInputError where no heat can leave.
+    The deformation counts from the body at its unstrained temperature. Raises FilmInputError where no heat can
+    leave.
     """
     space = body_space(body.mesh)
     face = space.face(body.face)
@@ -164,7 +167,7 @@ def heated_wall(
     nodal, meeting = found.arrays, transfer(film, face, body.chart)
     return HeatedWall(
         _on_film(meeting, meeting.temperature, nodal["temperature"], nodal["resistance"]),
-        _on_film(meeting, meeting.opening, nodal["opening"], nodal["expansion"]),
+        _on_film(meeting, meeting.deformation, nodal["opening"], nodal["expansion"]),
         found.origin,
     )
 
@@ -175,7 +178,7 @@ def _on_film(meeting: Transfer, back: Callable[[Array], Array], reference: Array
 
 
 def _load_case(body: Body, space: BodySpace, face: Face, load: FacePressure | Spin, folder: Path | None) -> Array:
-    """Displacement into the body (face nodes,) m; what is kept is that of a unit load."""
+    """Displacement into the body (face nodes,) m; the cache holds that of a unit load."""
     unit: FacePressure | Spin
     if isinstance(load, FacePressure):
         unit, size = FacePressure(load.face, 1.0), load.pressure
@@ -187,13 +190,13 @@ def _load_case(body: Body, space: BodySpace, face: Face, load: FacePressure | Sp
     def compute() -> dict[str, Array]:
         normals = face_normals(body.chart, face.places)
         held = structure(space, body.elastic, body.supports)
-        return {"opening": face_opening(held, face, normals, forces)}
+        return {"opening": face_deformation(held, face, normals, forces)}
 
     return size * kept(_key("load", body, unit), compute, folder).arrays["opening"]
 
 
 def _key(*parts: object) -> str:
-    """Content of a body and of what was asked of it."""
+    """Cache key: content of a body and of the quantity computed."""
     spelled: list[object] = []
     for part in parts:
         if not isinstance(part, Body):

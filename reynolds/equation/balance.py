@@ -4,11 +4,11 @@ At unknown i, with nodal pressure p, film fraction theta and density ratio r,
 
     R_i = sum_j K_ij p_j + sum_j C_ij theta_j r_j + sum_j D_ij theta_j r_c + d(theta_i r_i M_i)/dt
 
-K is the conductance, C the walls' carrying, M the lumped content. D, the least diffusion that makes C + D an
-upwind scheme (Kuzmin and Turek 2002), vanishes where the film is full, since its rows sum to zero: the full film
-keeps its order of accuracy, a cavity is carried along without overshoot, and columns that sum to zero conserve
-mass to round-off. At an edge over which the walls carry nothing in, D takes the edge's film fraction out of the
-balance beside it.
+K is the conductance, C the convection by the walls, M the lumped content. D, the least diffusion that makes C + D
+an upwind scheme (Kuzmin and Turek 2002), vanishes where the film is full, since its rows sum to zero: the full
+film keeps its order of accuracy, a cavity moves with the walls without overshoot, and columns that sum to zero
+conserve mass to round-off. At an edge without inflow D takes the edge's film fraction out of the balance beside
+it.
 """
 
 from __future__ import annotations
@@ -21,14 +21,12 @@ from numpy.typing import NDArray
 from scipy.sparse import csr_array
 
 from reynolds.equation import (
-    deformation_kernels as opening_kernels,
-)
-from reynolds.equation import (
-    hourglass_kernels as twist_kernels,
+    deformation_kernels,
+    hourglass_kernels,
 )
 from reynolds.equation.coefficients import Tensor, Transport, along, at_points, times, transport
-from reynolds.equation.deformation_sparsity import Openings
-from reynolds.equation.hourglass import as_one, relieved, signs, twisting_slope
+from reynolds.equation.deformation_sparsity import DeformationPattern
+from reynolds.equation.hourglass import as_one, has_hourglass_mode, hourglass_slope, signs
 from reynolds.fem import kernels
 from reynolds.fem.space import FilmSpace
 from reynolds.laws.fluid import CONSTANT
@@ -41,19 +39,19 @@ NO_FLOW = 1e-9  # of the flow along an edge: less across it is round-off
 
 
 @dataclass(frozen=True)
-class State:
-    """A film on the way to its solution: pressure (size,) Pa, film fraction (size,), opening (vertices,) m."""
+class FilmState:
+    """State of the iteration: pressure (size,) Pa, film fraction (size,), deformation (vertices,) m."""
 
     pressure: Array
     film_fraction: Array
-    opening: Array
+    deformation: Array
 
 
 @dataclass(frozen=True)
 class Operators:
     """K, C and D of the balance on the space's pattern (upper triangle, C's mirror beside it), lumped integrals.
 
-    Each is computed when it is first asked for: a full film of constant density needs neither C nor D.
+    Each is computed on first use: a full film of constant density needs neither C nor D.
     """
 
     problem: FilmProblem
@@ -71,7 +69,7 @@ class Operators:
 
     @cached_property
     def diffusion(self) -> Array:
-        """D, m3/s; zero where no film fraction is carried along."""
+        """D, m3/s; zero unless the film fraction is an unknown (JFO)."""
         diffusion = np.zeros(len(self.problem.space.pattern.indices))
         if self.problem.cavitation is Cavitation.JFO:
             pattern = self.problem.space.pattern
@@ -80,19 +78,19 @@ class Operators:
 
     @cached_property
     def leaves(self) -> NDArray[np.bool_]:
-        """Unknowns of edges over which no oil is carried in, (size,): see `sends_nothing`."""
-        return sends_nothing(self.problem, self.transport.flux)
+        """Unknowns of edges without inflow by the walls, (size,): see `without_inflow`."""
+        return without_inflow(self.problem, self.transport.flux)
 
     @cached_property
-    def carriage(self) -> tuple[Array, Array]:
+    def advection(self) -> tuple[Array, Array]:
         """C + D and its mirror, m3/s: R by film fraction at reference density."""
         upper, lower = self.convection
         return upper + self.diffusion, lower + self.diffusion
 
     @cached_property
     def brim(self) -> Array:
-        """Oil that leaves or stays at an unknown filled to the brim, (size,) m3/s."""
-        return self.carriage[0][self.problem.space.pattern.diagonal] + np.maximum(self.rate, 0.0)
+        """Oil that leaves or stays at a full unknown, (size,) m3/s."""
+        return self.advection[0][self.problem.space.pattern.diagonal] + np.maximum(self.rate, 0.0)
 
     @cached_property
     def lack(self) -> Array:
@@ -107,40 +105,40 @@ class Operators:
 
     @cached_property
     def rate(self) -> Array:
-        """What a full film swallows, (size,) m3/s: its squeeze, and its content over the time step."""
+        """Storage rate of a full film, (size,) m3/s: its squeeze, and its content over the time step."""
         storage, squeeze = self.problem.storage, self.problem.space.lumped(self.transport.squeeze)
         return squeeze if storage is None else squeeze + self.content / storage.step
 
     @cached_property
     def full(self) -> tuple[Array, Array]:
-        """What walls and rate add to R in a full film at reference density, and the sum of the magnitudes.
+        """Part of R from walls and storage in a full film at reference density, and the sum of its magnitudes.
 
         (size,) m3/s each: the rows of C summed in the cells, without C.
         """
         space = self.problem.space
-        net, meeting = self.rate.copy(), np.abs(self.rate)
+        net, flow_scale = self.rate.copy(), np.abs(self.rate)
         tensors, loops = space.tensors, space.reference.loops
         for axis, part in enumerate(self.transport.flux):
             if part.size > 1 or part.item() != 0.0:
                 gradient, flux = tensors.gradient[..., axis], space.everywhere(part)
-                kernels.carried(space.dofs, tensors.shape, gradient, flux, *loops, net, meeting)
-        return net, meeting
+                kernels.wall_outflow(space.dofs, tensors.shape, gradient, flux, *loops, net, flow_scale)
+        return net, flow_scale
 
 
-def operators(problem: FilmProblem, state: State) -> Operators:
+def operators(problem: FilmProblem, state: FilmState) -> Operators:
     """The balance's operators at a state; they are constant for a constant fluid between rigid walls."""
-    return Operators(problem, transport(problem, state.pressure, state.opening))
+    return Operators(problem, transport(problem, state.pressure, state.deformation))
 
 
-def sends_nothing(problem: FilmProblem, flux: tuple[Array, Array]) -> NDArray[np.bool_]:
-    """Unknowns of held edges over which the walls carry no oil into the film, (size,).
+def without_inflow(problem: FilmProblem, flux: tuple[Array, Array]) -> NDArray[np.bool_]:
+    """Unknowns of held edges over which the walls bring no oil into the film, (size,).
 
-    Their film fraction is of no matter: upwinding across the way of the walls would bring it in all the same, and
-    feed a cavity that runs along the side of a bearing.
+    Their film fraction has no effect on the film. Upwinding across the walls' direction would bring it in all the
+    same, and feed a cavity that runs along the side of a bearing.
     """
     space = problem.space
     held, sends = np.zeros(space.size, dtype=bool), np.zeros(space.size, dtype=bool)
-    out, size = space.carried_out(flux)
+    out, size = space.edge_outflow(flux)
     come_in, first = (out < -NO_FLOW * size) | (size == 0.0), 0
     for name, nodes in space.facet_dofs.items():
         facets = slice(first, first := first + nodes.shape[1])
@@ -153,15 +151,15 @@ def sends_nothing(problem: FilmProblem, flux: tuple[Array, Array]) -> NDArray[np
 
 
 def stiffness(space: FilmSpace, conductance: Tensor) -> Array:
-    """Entries of int k grad p . grad f, upper triangle in the space's pattern (m3/(s Pa)); see `twist`.
+    """Entries of int k grad p . grad f, upper triangle in the space's pattern (m3/(s Pa)); see `hourglass`.
 
     `conductance` is h^3/(12 mu), its xx, yy and xy part, (cells | 1, points | 1) each, m3/(Pa s).
     """
     tensors, pattern = space.tensors, space.pattern
     data = np.zeros(len(pattern.indices))
     field, pairs, points = as_one(space, conductance)
-    if relieved(space):
-        twist_kernels.stiffness(pattern.slots, tensors.shape, pairs, tensors.parallel, field, points, data)
+    if has_hourglass_mode(space):
+        hourglass_kernels.stiffness(pattern.slots, tensors.shape, pairs, tensors.parallel, field, points, data)
     else:
         kernels.stiffness(pattern.slots, tensors.shape, pairs, field, space.reference.loops[0], points, data)
     kernels.close_rows(pattern.indptr, pattern.indices, data)
@@ -169,7 +167,7 @@ def stiffness(space: FilmSpace, conductance: Tensor) -> Array:
 
 
 def positive_share(space: FilmSpace, stiffness: Array) -> float:
-    """Share of couplings of the wrong sign, which let a pressure overshoot: of cells with obtuse angles."""
+    """Share of positive couplings, of cells with obtuse angles, which let a pressure overshoot."""
     off = space.pattern.indices != space.pattern.columns
     return float(np.mean(stiffness[off] > 1e-9 * np.abs(stiffness[off]).max(initial=0.0))) if off.any() else 0.0
 
@@ -194,47 +192,47 @@ def density(problem: FilmProblem, pressure: Array) -> tuple[Array, Array]:
 
 @dataclass(frozen=True)
 class Balance:
-    """The flows of each unknown, (size,) m3/s at reference density.
+    """Flow balance of each unknown, (size,) m3/s at reference density.
 
-    net is R; meeting adds up the magnitudes (see `kernels.exchange`): the scale against which net is round-off.
-    swallowed is the rate at which its oil grows, mixing what upwinding exchanges (zero in a full film); both are
-    part of net.
+    net is R; flow_scale adds up the magnitudes (see `kernels.exchange`): the scale against which net is round-off.
+    storage_rate: growth of its oil; upwind_exchange: flow by upwinding (zero in a full film); both are part of
+    net.
     """
 
     net: Array
-    meeting: Array
-    swallowed: Array
-    mixing: Array
+    flow_scale: Array
+    storage_rate: Array
+    upwind_exchange: Array
 
 
-def flow_balance(problem: FilmProblem, parts: Operators, state: State) -> Balance:
-    """The balance of a state; C and D are not asked for where the film is full and its density constant."""
+def flow_balance(problem: FilmProblem, parts: Operators, state: FilmState) -> Balance:
+    """The balance of a state; C and D are not computed where the film is full and its density constant."""
     pattern = problem.space.pattern
     mixed = np.zeros(problem.space.size)
     driven = not all_equal(state.pressure, state.pressure[0])
     if problem.fluid is CONSTANT and all_equal(state.film_fraction, 1.0):
-        net, meeting = parts.full
+        net, flow_scale = parts.full
         grown = parts.rate
         if driven:
-            net, meeting = net.copy(), meeting.copy()
+            net, flow_scale = net.copy(), flow_scale.copy()
     else:
         ratio = density(problem, state.pressure)[0]
         filling = state.film_fraction * ratio
-        # A full film swallows; as it is torn apart, its film fraction gives way.
+        # Growth is filled in proportion to the filling; where the gap closes, the film fraction is what yields.
         grown = parts.rate * np.where(parts.rate > 0.0, filling, ratio)
-        net, meeting = grown.copy(), np.abs(parts.rate * filling)
-        kernels.carry(pattern.indptr, pattern.indices, *parts.convection, filling, net, meeting)
+        net, flow_scale = grown.copy(), np.abs(parts.rate * filling)
+        kernels.convect(pattern.indptr, pattern.indices, *parts.convection, filling, net, flow_scale)
         level = cavity_density(problem) * state.film_fraction
         if level.min() < level.max():
-            kernels.exchange(pattern.indptr, pattern.indices, parts.diffusion, level, mixed, meeting)
+            kernels.exchange(pattern.indptr, pattern.indices, parts.diffusion, level, mixed, flow_scale)
             net += mixed
     if driven:
-        kernels.exchange(pattern.indptr, pattern.indices, parts.stiffness, state.pressure, net, meeting)
+        kernels.exchange(pattern.indptr, pattern.indices, parts.stiffness, state.pressure, net, flow_scale)
     if problem.storage is not None:
         before = problem.storage.held_before / problem.storage.step
         net = net - before
         grown = grown - before
-    return Balance(net, meeting, grown, mixed)
+    return Balance(net, flow_scale, grown, mixed)
 
 
 def cavity_density(problem: FilmProblem) -> float:
@@ -252,26 +250,28 @@ class Slopes:
     by_fraction: tuple[Array, Array, Array]
 
 
-def slopes(problem: FilmProblem, parts: Operators, state: State) -> Slopes:
+def slopes(problem: FilmProblem, parts: Operators, state: FilmState) -> Slopes:
     """Slopes of the balance between rigid walls.
 
-    That the diffusion D changes with the pressure is left out: it does so only where walls give way.
+    The change of the diffusion D with the pressure is left out; it exists only between elastic walls.
     """
     space, terms = problem.space, parts.transport
     grows = np.maximum(parts.rate, 0.0)
     if problem.fluid is CONSTANT:
-        return Slopes((parts.stiffness, parts.stiffness, np.zeros(space.size)), (*parts.carriage, grows))
+        return Slopes((parts.stiffness, parts.stiffness, np.zeros(space.size)), (*parts.advection, grows))
     ratio, ratio_slope = density(problem, state.pressure)
     row, column = space.pattern.indices, space.pattern.columns
     c_upper, c_lower = parts.convection
     driven_x, driven_y = along(terms.conductance, steep_gradient(space, state.pressure))
     less = -terms.by_pressure
     changed = convection(space, (less * driven_x, less * driven_y), steep=True)
-    if relieved(space):
+    if has_hourglass_mode(space):
         grows_by = times(terms.conductance, terms.by_pressure)
-        grown = twisting_slope(space, terms.conductance, grows_by, state.pressure)
+        grown = hourglass_slope(space, terms.conductance, grows_by, state.pressure)
         points = space.reference.loops[1]
-        twist_kernels.convected(space.dofs, space.pattern.slots, space.reference.value, grown, points, *changed)
+        hourglass_kernels.convected(
+            space.dofs, space.pattern.slots, space.reference.value, grown, points, *changed
+        )
     filled = state.film_fraction * ratio_slope
     p_upper = parts.stiffness + changed[0] + c_upper * filled[column]
     p_lower = parts.stiffness + changed[1] + c_lower * filled[row]
@@ -282,7 +282,7 @@ def slopes(problem: FilmProblem, parts: Operators, state: State) -> Slopes:
 
 
 def steep_gradient(space: FilmSpace, nodal: Array) -> tuple[Array, Array]:
-    """Gradient of a nodal field (size,) as the conductance has it, (cells, points) along x and y."""
+    """Gradient of a nodal field (size,) by the conductance's tables, (cells, points) along x and y."""
     reference = space.reference
     out = tuple(np.empty(space.area.shape) for _ in range(3))
     kernels.evaluate(
@@ -292,20 +292,22 @@ def steep_gradient(space: FilmSpace, nodal: Array) -> tuple[Array, Array]:
     return space.on_film((out[1], out[2]), space.steep_scale)
 
 
-def by_opening(problem: FilmProblem, parts: Operators, state: State, rows: Array, at: Openings) -> csr_array:
-    """dR by the opening at each vertex, (size, vertices) m2/s, each row times that of `rows` (size,)."""
+def by_deformation(
+    problem: FilmProblem, parts: Operators, state: FilmState, rows: Array, at: DeformationPattern
+) -> csr_array:
+    """dR by the deformation at each vertex, (size, vertices) m2/s, each row times its factor in `rows` (size,)."""
     space, terms, reference = problem.space, parts.transport, problem.space.reference
     filling = state.film_fraction * density(problem, state.pressure)[0]
     driven = along(terms.conductance_slope, steep_gradient(space, state.pressure))
-    twisted = twisting_slope(space, terms.conductance, terms.conductance_slope, state.pressure)
+    twisted = hourglass_slope(space, terms.conductance, terms.conductance_slope, state.pressure)
     full = at_points(space, filling)
-    carried = (full * terms.flux_slope[0], full * terms.flux_slope[1])
+    dragged = (full * terms.flux_slope[0], full * terms.flux_slope[1])
     stored = 0.0 if problem.storage is None else terms.content_slope / problem.storage.step
     data, tensors = np.empty(at.entries), space.tensors
-    opening_kernels.opened(
+    deformation_kernels.slopes_by_deformation(
         space.dofs, at.slots, tensors.shape, reference.value, tensors.steep_gradient, tensors.gradient,
         reference.geometry_value, signs(space), space.area,
-        *(space.everywhere(part) for part in (*driven, twisted, *carried, np.atleast_2d(stored))),
+        *(space.everywhere(part) for part in (*driven, twisted, *dragged, np.atleast_2d(stored))),
         filling, rows, *reference.loops, data,
     )  # fmt: skip
     return at.matrix(data)

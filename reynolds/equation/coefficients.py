@@ -1,4 +1,4 @@
-"""What carries the oil at each point of a film: conductance to pressure, flow with the walls, and oil held.
+"""Coefficients of the film equation at each point: conductance, flow with the walls, and oil content.
 
 Values and, for Newton's method, their slopes by pressure and by film thickness, at the quadrature points.
 """
@@ -21,7 +21,7 @@ from reynolds.numerics.array_kernels import cubes
 from reynolds.numerics.arrays import Array
 from reynolds.problem import ZERO, Film, FilmProblem
 
-WIDEST = 1e6  # times the given film: walls that open further were meant to be stiffer
+WIDEST = 1e6  # times the given film: greatest deformation that counts as one
 ONE = np.ones((1, 1))
 SMALLEST_CONDUCTANCE = 1e-250  # m3/(Pa s): products of less are no longer numbers of full precision
 
@@ -39,9 +39,9 @@ def isotropic(conductance: Array) -> Tensor:
 class Transport:
     """Flow terms, each (cells | 1, points | 1); *_slope by thickness, by_pressure the relative one by pressure.
 
-    film: as it is under pressure; smooth: r h^3/(12 mu), m3/(Pa s), the conductance between smooth walls; factors:
-    what roughness makes of it and of the flow with the walls; widening: slope of the film by the gap between walls
-    that give way and overlap, by which *_slope count then (None: one).
+    film: under pressure; smooth: r h^3/(12 mu), m3/(Pa s), the conductance between smooth walls; factors: flow
+    factors of roughness; widening: slope of the film by the gap between elastic walls that overlap, a factor of
+    every *_slope (None: one).
     """
 
     film: Film
@@ -76,7 +76,7 @@ class Transport:
 
     @cached_property
     def flux(self) -> tuple[Array, Array]:
-        """h U along x and y by which the walls carry a full film, m2/s; between rough walls see `roughness`."""
+        """Couette flow h U of a full film along x and y, m2/s; between rough walls see `roughness`."""
         return self._with_walls(self._content.value, lambda part: part.value)
 
     @cached_property
@@ -125,15 +125,15 @@ def _times(content: Array, velocity: Array) -> Array:
     return velocity if velocity.size == 1 and velocity.item() == 0.0 else content * velocity
 
 
-def transport(problem: FilmProblem, pressure: Array, opening: Array) -> Transport:
-    """Flow terms of a film at nodal pressures (size,) Pa and with its walls opened at the vertices (vertices,) m.
+def transport(problem: FilmProblem, pressure: Array, deformation: Array) -> Transport:
+    """Flow terms of a film at nodal pressures (size,) Pa and a deformation (vertices,) m.
 
-    Raises FilmInputError where the conductance is no number of full precision and where a law of the oil or of the
-    walls does not hold, FilmNotConverged where no film is left between walls that give way.
+    Raises FilmInputError where the conductance underflows and where a law of the oil or of the walls does not
+    hold, FilmNotConverged where no film is left between elastic walls.
     """
     film, widening = problem.film, None
     if problem.walls is not None:
-        parted = _parted(problem, opening)
+        parted = _parted(problem, deformation)
         film, widening = replace(film, thickness=parted.value), parted.slope
     ratio, by_pressure = ONE, ZERO
     if problem.fluid is not CONSTANT:
@@ -148,14 +148,14 @@ def transport(problem: FilmProblem, pressure: Array, opening: Array) -> Transpor
     return Transport(film, smooth, by_pressure, problem.surface, factors, widening)
 
 
-def _parted(problem: FilmProblem, opening: Array) -> Tangent:
-    """Thickness of a film whose walls give way by an opening at the vertices (vertices,) m, its slope by that."""
+def _parted(problem: FilmProblem, deformation: Array) -> Tangent:
+    """Thickness (m) of a film whose walls deform by (vertices,) m, and its slope by the deformation."""
     given = problem.film.thickness
-    film = film_between(problem, np.asarray(given + problem.space.sample_vertices(opening)))
+    film = film_between(problem, np.asarray(given + problem.space.sample_vertices(deformation)))
     least, most = float(film.value.min()), float(film.value.max())
     if not (least > 0.0 and most < WIDEST * np.abs(given).max()):
         raise FilmNotConverged(
-            f"walls that give way leave {least:.3g} to {most:.3g} m of film",
+            f"elastic walls leave {least:.3g} to {most:.3g} m of film",
             "a thicker film, stiffer walls, or contact",
         )
     return film
@@ -186,7 +186,7 @@ def _conductance(thickness: Array, factor: Array) -> Array:
         found = np.empty(thickness.shape)
         least, most = cubes(thickness.ravel(), factor.item(), found.reshape(-1))
     else:
-        with np.errstate(over="ignore"):  # told of in words
+        with np.errstate(over="ignore"):  # an error below
             found = np.asarray(thickness * thickness * thickness * factor)
         least, most = found.min(), found.max()
     if not (least >= SMALLEST_CONDUCTANCE and most < np.inf):

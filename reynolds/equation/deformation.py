@@ -1,4 +1,4 @@
-"""How far walls that give way open under a film's pressure and, where they touch, under their contact.
+"""Deformation of elastic walls under a film's pressure and, where they touch, under their contact.
 
 g = C (p + p_c(h + g)): contact presses on the walls as the film does, p_c the mean of the vertices that share an
 unknown. Where a pocket or a port is, at a pocket's unknown and at held nodes inside, one wall is missing: nothing
@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from scipy.sparse import csc_array, csr_array, eye_array, issparse
 from scipy.sparse.linalg import splu
 
-from reynolds.bodies.compliance import LowRank, Opens, WallMatrix, columns_of, full
+from reynolds.bodies.compliance import LowRank, WallMatrix, WallOperator, columns_of, full
 from reynolds.errors import FilmInputError, FilmNotConverged
 from reynolds.laws.contact import LOWEST_RATIO, Asperities, contact_pressure
 from reynolds.laws.law import Tangent
@@ -32,11 +32,11 @@ MOST_HALVINGS, LEAST_GAIN = 8, 1e-4  # of a step; of what is missing, by a full 
 FELT = 1e-6  # of the stiffness K E'/sigma where mean planes meet: less resists nothing
 
 
-def opening(problem: FilmProblem, pressure: Array, start: Array | None = None) -> Array:
-    """Opening of the film at the vertices (vertices,) m under nodal pressures (size,) Pa.
+def deformation(problem: FilmProblem, pressure: Array, start: Array | None = None) -> Array:
+    """Deformation of the film at the vertices (vertices,) m under nodal pressures (size,) Pa.
 
     Solves g = C (p + p_c(h + g)) by Newton's method from `start`: contact closes as the film opens. Raises
-    FilmNotConverged where that does not settle, and FilmInputError as the contact's law does.
+    FilmNotConverged where that does not converge, and FilmInputError as the contact's law does.
     """
     if problem.walls is None:
         return np.zeros(len(problem.space.vertices))
@@ -50,9 +50,9 @@ def opening(problem: FilmProblem, pressure: Array, start: Array | None = None) -
 
 
 def _balanced(problem: FilmProblem, alone: Array, start: Array) -> Array:
-    """The opening at which walls that would open by `alone` (vertices,) m under the oil and contact agree.
+    """The deformation in balance with contact, of walls that deform by `alone` (vertices,) m under the oil.
 
-    Each step brings the two nearer, and leaves a tenth of what is left to the end of the law of contact.
+    Each step reduces the imbalance, and goes at most nine tenths of the way to the end of the law of contact.
     """
     assert problem.asperities is not None
     meeting, given = meeting_of(problem), _given_gap(problem)
@@ -79,12 +79,13 @@ def _balanced(problem: FilmProblem, alone: Array, start: Array) -> Array:
             share *= 0.5
         found, touch, rest = found - share * change, new, after
     raise FilmNotConverged(
-        f"the opening of walls in contact not settled after {MAX_STEPS} steps", "a thicker film, or stiffer walls"
+        f"the deformation of walls in contact not converged after {MAX_STEPS} steps",
+        "a thicker film, or stiffer walls",
     )
 
 
-def opening_slope(problem: FilmProblem, found: Array) -> Opens:
-    """dg/dp at an opening (vertices,) m: (vertices, size) m/Pa, the compliance where nothing touches."""
+def deformation_slope(problem: FilmProblem, found: Array) -> WallOperator:
+    """dg/dp at a deformation (vertices,) m: (vertices, size) m/Pa, the compliance where nothing touches."""
     assert problem.walls is not None
     compliance = problem.walls.matrix
     if problem.asperities is None:
@@ -99,7 +100,7 @@ def opening_slope(problem: FilmProblem, found: Array) -> Opens:
 
 @dataclass(frozen=True)
 class Touch:
-    """Contact of walls that give way, at one opening.
+    """Contact of elastic walls at one deformation.
 
     bears: pressure (vertices,) Pa and its slope by the gap, Pa/m; felt: vertices at which it resists.
     """
@@ -119,7 +120,7 @@ class Touch:
         return self.meeting.on_unknowns(self.bears.value)
 
     def settled(self, displaced: Array) -> Array:
-        """x with x - C dp_c/dh x = displaced, (vertices, ...) m: a displacement that contact resists."""
+        """x with x - C dp_c/dh x = displaced, (vertices, ...) m: a displacement against contact."""
         if not self.felt.size:
             return displaced
         here = self._within(np.ascontiguousarray(displaced[self.felt]), 0.0)
@@ -154,12 +155,12 @@ class Touch:
 
 @dataclass(frozen=True)
 class Resisted:
-    """(I - C dp_c/dh)^-1 C, (vertices, size) m/Pa: a compliance that contact resists, never multiplied out."""
+    """(I - C dp_c/dh)^-1 C, (vertices, size) m/Pa: the compliance with contact, never multiplied out."""
 
     touch: Touch
 
     def __matmul__(self, pressure: Array) -> Array:
-        """Opening (vertices, ...) m by pressures (size, ...) Pa."""
+        """Deformation (vertices, ...) m by pressures (size, ...) Pa."""
         return self.touch.settled(np.asarray(self.touch.compliance @ pressure))
 
     @property
@@ -175,13 +176,13 @@ class Resisted:
         return csr_array(entries, shape=(shape[1], shape[0]))
 
     def columns(self, unknowns: NDArray[np.intp]) -> Array:
-        """Those of the matrix for some unknowns."""
+        """Columns of the matrix for some unknowns."""
         return self.touch.settled(columns_of(self.touch.compliance, unknowns))
 
 
 @dataclass(frozen=True)
 class Meeting:
-    """Where rough walls that give way can touch.
+    """Places at which rough elastic walls can touch.
 
     oil (vertices,): where nothing touches; seats (vertices,): unknown of each vertex; shares (vertices,): of its
     pressure in that of the unknown.
@@ -208,7 +209,7 @@ class Meeting:
 
 
 def meeting_of(problem: FilmProblem) -> Meeting:
-    """Where the walls of a problem with walls that give way and asperities can touch."""
+    """The possible contact of a problem with elastic walls and asperities."""
     assert problem.walls is not None
     assert problem.asperities is not None
     space, compliance = problem.space, problem.walls.matrix
@@ -222,7 +223,7 @@ def meeting_of(problem: FilmProblem) -> Meeting:
 
 
 def touch_at(problem: FilmProblem, found: Array) -> Touch:
-    """Contact of rough walls that give way, open by (vertices,) m; raises as the law of contact does."""
+    """Contact of rough elastic walls at a deformation (vertices,) m; raises as the law of contact does."""
     return meeting_of(problem).at(_given_gap(problem) + found)
 
 

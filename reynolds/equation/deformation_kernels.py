@@ -1,4 +1,4 @@
-"""Element loop of how the flow balance answers to walls that open at the mesh's vertices.
+"""Element loop for the slopes of the flow balance by the walls' deformation at the vertices.
 
 `basis` and `points` are tuples as in `kernels`.
 """
@@ -11,13 +11,13 @@ _FAST = {"cache": True, "fastmath": {"contract"}, "error_model": "numpy"}
 
 
 @njit(**_FAST)
-def opened(
-    dofs, slots, shape, value, steep, gradient, corner, signs, area, driven_x, driven_y, twisted, carried_x,
-    carried_y, stored, filling, rows, basis, points, data,
+def slopes_by_deformation(
+    dofs, slots, shape, value, steep, gradient, corner, signs, area, driven_x, driven_y, hourglass, drag_x,
+    drag_y, stored, filling, rows, basis, points, data,
 ):  # fmt: skip
-    """data[slots[e, i, v]] += rows_i int f_v (driven . grad f_i - carried . grad f_i + stored f_i), m2/s.
+    """data[slots[e, i, v]] += rows_i int f_v (driven . grad f_i - drag . grad f_i + stored f_i), m2/s.
 
-    With what `twist_kernels.changed` tells (twisted) times each corner's sign.
+    With the flow of the hourglass mode (`hourglass_kernels.changed`) times each corner's sign.
     """
     data[:] = 0.0
     for e in range(dofs.shape[0]):
@@ -25,10 +25,8 @@ def opened(
             row, content = rows[dofs[e, i]], filling[dofs[e, i]]
             for q in range(len(points)):
                 driven = driven_x[e, q] * steep[shape[e], q, i, 0] + driven_y[e, q] * steep[shape[e], q, i, 1]
-                driven += twisted[e, q] * signs[i]
-                carried = (
-                    carried_x[e, q] * gradient[shape[e], q, i, 0] + carried_y[e, q] * gradient[shape[e], q, i, 1]
-                )
-                total = row * (driven - carried + stored[e, q] * area[e, q] * value[q, i] * content)
+                driven += hourglass[e, q] * signs[i]
+                drag = drag_x[e, q] * gradient[shape[e], q, i, 0] + drag_y[e, q] * gradient[shape[e], q, i, 1]
+                total = row * (driven - drag + stored[e, q] * area[e, q] * value[q, i] * content)
                 for v in range(corner.shape[1]):
                     data[slots[e, i, v]] += total * corner[q, v]

@@ -1,4 +1,4 @@
-"""The fixed sparsity patterns of a balance between walls that give way: made once for a mesh."""
+"""The fixed sparsity patterns of a balance between elastic walls: made once for a mesh."""
 
 from __future__ import annotations
 
@@ -16,10 +16,10 @@ from reynolds.numerics.arrays import Array
 
 
 @dataclass(frozen=True)
-class Openings:
-    """Which unknowns feel the opening at which vertices: `empty` (size, vertices), a pattern by rows.
+class DeformationPattern:
+    """Pattern of the unknowns' slopes by the deformation of vertices: `empty` (size, vertices), by rows.
 
-    slots (cells, basis, corners): where each cell's entries stand.
+    slots (cells, basis, corners): index of each cell's entries.
     """
 
     empty: csr_array
@@ -31,14 +31,14 @@ class Openings:
         return len(self.empty.indices)
 
     def matrix(self, data: Array) -> csr_array:
-        """The matrix with these entries; scipy checks indices whenever one is made of them, so it is a copy."""
+        """The matrix with these entries: a copy, since scipy checks indices of every new matrix."""
         filled = copy(self.empty)
         filled.data = data
         return filled
 
 
-def openings(space: FilmSpace) -> Openings:
-    """Those of a film: each cell's unknowns feel its corners."""
+def deformation_pattern(space: FilmSpace) -> DeformationPattern:
+    """The pattern of a film: each cell's unknowns depend on its corners."""
     rows = np.repeat(space.dofs, space.cells.shape[1], axis=1)
     columns = np.tile(space.cells, (1, space.dofs.shape[1]))
     key = rows.astype(np.int64) * len(space.vertices) + columns
@@ -46,19 +46,19 @@ def openings(space: FilmSpace) -> Openings:
     row, column = np.divmod(found, len(space.vertices))
     shape = (space.size, len(space.vertices))
     empty = csr_array(coo_array((np.zeros(len(found)), (row, column)), shape=shape))
-    return Openings(empty, slots.reshape(*space.dofs.shape, -1).astype(np.int32))
+    return DeformationPattern(empty, slots.reshape(*space.dofs.shape, -1).astype(np.int32))
 
 
 @dataclass(frozen=True)
-class SoftPatterns:
-    """Both patterns of the films on one mesh, made when first asked for."""
+class ElasticPatterns:
+    """Both patterns of the films on one mesh, made on first use."""
 
     space: FilmSpace
 
     @cached_property
-    def openings(self) -> Openings:
+    def deformation(self) -> DeformationPattern:
         """Unknowns by vertices."""
-        return openings(self.space)
+        return deformation_pattern(self.space)
 
     @cached_property
     def _both(self) -> tuple[BothTriangles, csc_array]:
@@ -66,7 +66,7 @@ class SoftPatterns:
         return both, both.matrix(np.zeros(len(both.source)))
 
     def full_matrix(self, upper: Array, lower: Array) -> csc_array:
-        """The operator whose upper triangle and mirrored entries stand in the pattern's order."""
+        """The operator with upper triangle and mirrored entries in the pattern's order."""
         both, empty = self._both
         filled = copy(empty)
         filled.data = both.entries(upper, lower)

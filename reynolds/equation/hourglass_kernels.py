@@ -1,8 +1,8 @@
-"""Bilinear quadrilaterals relieved of their resistance to twisting, compiled once by numba: see `twist`.
+"""Reduced hourglass stiffness, compiled once by numba: see `hourglass`.
 
-A cell's unknowns stand in a ring, 0 to 3; w = p_0 - p_1 + p_2 - p_3 is how far their pressures are twisted.
-pairs[shape, pair, q] as `ElementTensors`; parallel (shapes,) is 1 for parallelograms, whose linear pressures are
-not twisted, and 0 for other shapes.
+A cell's unknowns are numbered around it, 0 to 3; w = p_0 - p_1 + p_2 - p_3 is the amplitude of the hourglass mode.
+pairs[shape, pair, q] as `ElementTensors`; parallel (shapes,) is 1 for parallelograms, whose linear pressures
+have no part of the mode, and 0 for other shapes.
 """
 
 # mypy: allow-untyped-defs, allow-incomplete-defs, no-check-untyped-defs
@@ -17,7 +17,7 @@ SIDES = (0, 2, 3, 5)  # pairs of neighbours among (0, 1), (0, 2), (0, 3), (1, 2)
 
 @njit(inline="always")
 def _coupled(conductance, pairs, e, s, pair, points):
-    """What gradients at its corners couple two of a cell's unknowns with: int k grad f_i . grad f_j."""
+    """Coupling of two of a cell's unknowns by gradients at its corners: int k grad f_i . grad f_j."""
     total = 0.0
     for q in range(len(points)):
         total += conductance[e, q] * pairs[s, pair, q]
@@ -26,7 +26,7 @@ def _coupled(conductance, pairs, e, s, pair, points):
 
 @njit(inline="always")
 def _sides(conductance, pairs, e, s, points):
-    """The same of its four sides, below zero where they conduct."""
+    """Couplings of the four sides, below zero where they conduct."""
     return (
         _coupled(conductance, pairs, e, s, SIDES[0], points),
         _coupled(conductance, pairs, e, s, SIDES[1], points),
@@ -36,11 +36,11 @@ def _sides(conductance, pairs, e, s, points):
 
 
 @njit(inline="always")
-def _relief(sides):
-    """Resistance to twisting that is taken off a cell, by what its sides couple.
+def _reduction(sides):
+    """Reduction of a cell's hourglass stiffness, by the couplings of its sides.
 
     A sixth of their sum makes gradients at the corners those at Gauss's points, for a uniform film between
-    parallel sides; the least of them is what may go without a positive coupling.
+    parallel sides; the least of them is the most that leaves no positive coupling.
     """
     south, west, east, north = sides
     whole = -(south + west + east + north) / 6.0
@@ -49,7 +49,7 @@ def _relief(sides):
 
 @njit(**_FAST)
 def stiffness(slots, shape, pairs, parallel, conductance, points, data):
-    """data += int k grad f_i . grad f_j, i < j, in the fixed pattern, less the relief times 1, -1, 1, -1 squared.
+    """data += int k grad f_i . grad f_j, i < j, in the fixed pattern, less reduction times g_i g_j.
 
     The diagonal is left to `kernels.close_rows`. Gradients at the corners of rectangles do not couple opposite
     corners: such sums are passed over.
@@ -58,7 +58,7 @@ def stiffness(slots, shape, pairs, parallel, conductance, points, data):
     for e in range(slots.shape[0]):
         s = _at(shape[e])
         south, west, east, north = sides = _sides(conductance, pairs, e, s, points)
-        less = parallel[s] * _relief(sides)
+        less = parallel[s] * _reduction(sides)
         rising = falling = -less
         if crossed:
             rising += _coupled(conductance, pairs, e, s, 1, points)
@@ -72,17 +72,17 @@ def stiffness(slots, shape, pairs, parallel, conductance, points, data):
 
 
 @njit(inline="always")
-def _twisted(dofs, pressure, e):
+def _mode(dofs, pressure, e):
     return pressure[dofs[e, 0]] - pressure[dofs[e, 1]] + pressure[dofs[e, 2]] - pressure[dofs[e, 3]]
 
 
 @njit(**_FAST)
 def changed(dofs, shape, pairs, parallel, conductance, slope, pressure, points, out):
-    """out[e, q] = - w d(relief)/dk_q slope_q: what a change of the conductance sends into corners 0 and 2."""
+    """out[e, q] = - w d(reduction)/dk_q slope_q: flow into corners 0 and 2 by a change of the conductance."""
     for e in range(dofs.shape[0]):
         s = shape[e]
         sides = _sides(conductance, pairs, e, s, points)
-        less, w = _relief(sides), _twisted(dofs, pressure, e)
+        less, w = _reduction(sides), _mode(dofs, pressure, e)
         weakest = 0
         for k in range(4):
             if sides[k] > sides[weakest]:
@@ -98,11 +98,11 @@ def changed(dofs, shape, pairs, parallel, conductance, slope, pressure, points, 
 
 @njit(**_FAST)
 def saved(dofs, shape, pairs, parallel, conductance, pressure, points, out):
-    """out[e] = relief w^2, the heat that the cell is spared, W."""
+    """out[e] = reduction w^2, the dissipation taken off the cell, W."""
     for e in range(dofs.shape[0]):
         s = shape[e]
-        less = _relief(_sides(conductance, pairs, e, s, points))
-        out[e] = parallel[s] * less * _twisted(dofs, pressure, e) ** 2
+        less = _reduction(_sides(conductance, pairs, e, s, points))
+        out[e] = parallel[s] * less * _mode(dofs, pressure, e) ** 2
 
 
 @njit(**_FAST)

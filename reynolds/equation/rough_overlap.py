@@ -1,7 +1,7 @@
 """The film between rough walls whose mean planes touch or overlap: thin, yet a film.
 
-A position that presses asperities together is a gap between mean planes of either sign; what flows, shears and is
-stored there is oil between the summits.
+The gap between mean planes may have either sign where asperities are pressed together; the oil there flows, shears
+and is stored between the summits.
 """
 
 from __future__ import annotations
@@ -20,8 +20,8 @@ def film_between(problem: FilmProblem, gap: Array) -> Tangent:
     """Film thickness (m) at a gap between mean planes (m), of any shape, and its slope by the gap.
 
     The gap itself where nothing touches (no asperities). With asperities alone: hT = sigma [H N(H) + n(H)], the
-    mean of what is left open by walls of Gaussian height, H = gap/sigma, with the summits' sigma; but the gap
-    itself between walls that give way, which keep it open. With a `Surface`, whose flow factors are functions of
+    mean distance of walls of Gaussian height, H = gap/sigma, with the summits' sigma; but the gap
+    itself between elastic walls, which keep it open. With a `Surface`, whose flow factors are functions of
     the gap: the gap down to the range of Patir and Cheng (half a standard deviation or one), from there on an
     exponential with the same value and slope. That continuation is ours: it keeps the film positive and is no
     measurement.
@@ -42,11 +42,11 @@ def vertex_thickness(solution: FilmSolution) -> Array:
         return solution.problem.space.to_vertices(solution.film.thickness)
     if solution.problem.walls is None:
         return given.thickness_at_vertices
-    return film_between(solution.problem, given.thickness_at_vertices + solution.opening).value
+    return film_between(solution.problem, given.thickness_at_vertices + solution.deformation).value
 
 
 def as_shaped(solution: FilmSolution) -> FilmSolution:
-    """The same film between rigid walls of the shape that it has now, contact left out: for what its oil does."""
+    """The same film between rigid walls of its present shape, without contact."""
     problem = solution.problem
     if problem.walls is None and problem.asperities is None:
         return solution
@@ -54,4 +54,4 @@ def as_shaped(solution: FilmSolution) -> FilmSolution:
     if shaped.thickness_at_vertices is not None:
         shaped = replace(shaped, thickness_at_vertices=vertex_thickness(solution))
     rigid = replace(problem, film=shaped, walls=None, asperities=None)
-    return replace(solution, problem=rigid, opening=np.zeros_like(solution.opening))
+    return replace(solution, problem=rigid, deformation=np.zeros_like(solution.deformation))

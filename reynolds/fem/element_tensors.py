@@ -1,4 +1,4 @@
-"""Element tensors of a mesh: what geometry contributes to the operators, once for each shape of cell.
+"""Element tensors of a mesh: the geometry's part of the operators, once for each shape of cell.
 
 Cells of one shape share their tensors, so that a regular mesh has a handful of them however fine it is; where no
 two cells are alike each has its own. Assembly is then field times tensor, summed into a fixed pattern.
@@ -47,7 +47,7 @@ def element_tensors(
     steep_geometry: Array,
     weights: Array,
 ) -> ElementTensors:
-    """Tensors of cells (cells, corners) between vertices (n, 2) m; tables are those of `reference.Reference`."""
+    """Tensors of cells (cells, corners) between vertices (n, 2) m; tables of `ReferenceElement`."""
     shape, first = _shapes(vertices[cells])
     cells, points, basis = cells[first], len(weights), gradient.shape[1]
     weighted, steeply = (np.empty((len(first), points, basis, 2)) for _ in range(2))
@@ -61,7 +61,8 @@ def element_tensors(
 def stretched(tensors: ElementTensors, scale: Array, steep_scale: Array) -> ElementTensors:
     """Tensors of a film whose lengths are `scale` (cells, points) those of its map, each cell a shape of its own.
 
-    Area times a gradient grows with the scale, area times two gradients not. `steep_scale`: where the steep stand.
+    Area times a gradient grows with the scale, area times two gradients does not. `steep_scale`: at the steep
+    ones.
     """
     of = tensors.shape
     return replace(
@@ -81,15 +82,15 @@ def _parallel(corners: Array) -> Array:
     """1 where the corners (cells, corners, 2) are those of a parallelogram, else 0."""
     if corners.shape[1] != 4:
         return np.zeros(len(corners))
-    twisted = np.abs(corners[:, 0] - corners[:, 1] + corners[:, 2] - corners[:, 3]).max(axis=1)
-    return (twisted <= PARALLEL * np.ptp(corners, axis=1).max(axis=1)).astype(float)
+    skew = np.abs(corners[:, 0] - corners[:, 1] + corners[:, 2] - corners[:, 3]).max(axis=1)
+    return (skew <= PARALLEL * np.ptp(corners, axis=1).max(axis=1)).astype(float)
 
 
 def _shapes(corners: Array) -> tuple[NDArray[np.int32], NDArray[np.int64]]:
     """Number of each cell's shape (cells,), and a cell of each shape."""
     edges = (corners[:, 1:] - corners[:, :1]).reshape(len(corners), -1)
     size = np.abs(edges).max()
-    # One number a shape: a fixed combination of its edges, rounded, tells shapes apart but for a chance of 1e-10.
+    # One number a shape: a fixed combination of its edges, rounded; equal for two shapes with a chance of 1e-10.
     key = np.rint(edges / (SAME * size)) @ np.sqrt(np.arange(2.0, 2.0 + edges.shape[1]))
     _, first, shape = np.unique(np.rint(key), return_index=True, return_inverse=True)
     return shape.astype(np.int32), first

@@ -5,9 +5,9 @@ Weak form of the Reynolds equation (Reynolds 1886): for every test function f
     int r h^3/(12 mu) grad p . grad f - int theta r h U . grad f + int d(theta r h)/dt f = - contour int q_n f
 
 with U the mean velocity of the two walls, theta the film fraction, r the density ratio and q_n the flow that
-leaves through the edge; theta and r are nodal, and their product is called filling. Fields stand at the
+leaves through the edge; theta and r are nodal, and their product is called filling. Fields are given at the
 quadrature points, (cells, points).
-Geometry enters by the tensors of the cells' shapes (`tensors`), or is recomputed in the loop.
+Geometry enters by the tensors of the cells' shapes (`element_tensors`), or is recomputed in the loop.
 
 `basis` and `points` are tuples as long as a cell has unknowns and quadrature points: the compiler knows the length
 of a tuple and unrolls the loops over it.
@@ -22,15 +22,15 @@ _FAST = {"cache": True, "fastmath": {"contract"}, "error_model": "numpy"}
 
 
 LEAST_MIXING = 1e-3
-"""Share of upwinding's exchange kept with an edge that sends nothing in: a ring of oil has no other level."""
+"""Share of upwinding's exchange kept with an edge without inflow: a ring of oil has no other level."""
 
 ROUNDING = 1e-6
-"""Weight of what cancels in a nearly uniform pressure: with the solver's 1e-9, some units in the last place."""
+"""Weight of terms that cancel in a nearly uniform pressure: with the solver's 1e-9, some last places."""
 
 
 @njit(inline="always")
 def _at(index):
-    """An index that is not below zero, unsigned: numba then does not ask whether it counts from the end."""
+    """An index that is not below zero, unsigned, so that numba does not test for counting from the end."""
     return np.uint32(index)
 
 
@@ -60,7 +60,7 @@ def measure(vertices, cells, geometry_gradient, weights, area):
 
 @njit(**_FAST)
 def _any_couples(pairs, pair):
-    """Whether any shape couples these two unknowns; most meshes tell at the first."""
+    """True if any shape couples these two unknowns; the first decides for most meshes."""
     for s in range(pairs.shape[0]):
         for q in range(pairs.shape[2]):
             if pairs[s, pair, q] != 0.0:
@@ -72,7 +72,7 @@ def _any_couples(pairs, pair):
 def stiffness(slots, shape, pairs, conductance, basis, points, data):
     """data += int k grad f_i . grad f_j, i < j, in the fixed pattern; pairs[shape, pair, q] as `ElementTensors`.
 
-    What then stands on the diagonal means nothing: see `close_rows`. Pairs that no shape couples, such as opposite
+    The diagonal has no meaning afterwards: see `close_rows`. Pairs that no shape couples, such as opposite
     corners of rectangles, are passed over.
     """
     couples = np.empty(pairs.shape[1], np.bool_)
@@ -95,7 +95,7 @@ def stiffness(slots, shape, pairs, conductance, basis, points, data):
 
 @njit(**_FAST)
 def close_rows(indptr, indices, data):
-    """Set the diagonal so that the rows of the symmetric matrix sum to zero: one level everywhere drives nothing.
+    """Set the diagonal so that rows of the symmetric matrix sum to zero: a uniform field drives no flow.
 
     Corners tied to one unknown (seam, pocket) have put their coupling on the diagonal; it is overwritten.
     """
@@ -111,11 +111,11 @@ def close_rows(indptr, indices, data):
 
 
 @njit(**_FAST)
-def carried(dofs, shape, gradient, flux, basis, points, out, size):
-    """out_i += - int flux df_i/dx, what the walls carry out of each unknown of a full film along one axis.
+def wall_outflow(dofs, shape, gradient, flux, basis, points, out, size):
+    """out_i += - int flux df_i/dx, the walls' flow out of each unknown of a full film along one axis.
 
-    gradient[shape, q, i] is the area element times df_i/dx, as `ElementTensors` has it. size adds up the
-    magnitudes of the cells: in a uniform film they cancel, and are no less for that.
+    gradient[shape, q, i] is the area element times df_i/dx of `ElementTensors`. size adds up the magnitudes of
+    the cells, which cancel in a uniform film.
     """
     for e in range(dofs.shape[0]):
         s = _at(shape[e])
@@ -131,7 +131,7 @@ def carried(dofs, shape, gradient, flux, basis, points, out, size):
 def convection(dofs, slots, shape, value, gradient, flux_x, flux_y, basis, points, upper, lower):
     """C_ij = - int f_j (flux_x, flux_y) . grad f_i: upper[slot] takes C_ij for i <= j, lower[slot] its mirror.
 
-    gradient as for `carried`.
+    gradient as for `wall_outflow`.
     """
     along = np.empty((len(points), len(basis)))
     upper[:] = 0.0
@@ -168,8 +168,8 @@ def convection(dofs, slots, shape, value, gradient, flux_x, flux_y, basis, point
 def upwinding(indptr, indices, upper, lower, leaves, diffusion):
     """The least diffusion D, symmetric with rows of sum zero, for which C + D couples nothing positively.
 
-    Beside an edge that sends nothing in (`leaves`) D takes the level of the unknown there for the edge's, as far
-    as what the edge's unknowns so bring in is no more than what they take.
+    Beside an edge without inflow (`leaves`) D takes the level of the unknown there for the edge's, as far as the
+    edge's unknowns so bring in no more than they take.
     """
     size = indptr.shape[0] - 1
     taken, brought = np.zeros(size), np.zeros(size)
@@ -201,8 +201,8 @@ def upwinding(indptr, indices, upper, lower, leaves, diffusion):
 def exchange(indptr, indices, coupling, level, out, size):
     """out_i += sum_j A_ij (level_j - level_i): A's rows sum to zero: nothing flows at one level everywhere.
 
-    coupling is the upper triangle of the symmetric A. size adds up the magnitudes, and ROUNDING of what cancels
-    in them: the scale against which out is round-off.
+    coupling is the upper triangle of the symmetric A. size adds up the magnitudes, and ROUNDING of terms that
+    cancel in them: the scale against which out is round-off.
     """
     for j in range(indptr.shape[0] - 1):
         there = level[j]
@@ -220,7 +220,7 @@ def exchange(indptr, indices, coupling, level, out, size):
 
 
 @njit(**_FAST)
-def carry(indptr, indices, upper, lower, filling, out, size):
+def convect(indptr, indices, upper, lower, filling, out, size):
     """out += A filling, A's upper triangle by columns and the mirror of each entry in lower; size as above."""
     for j in range(indptr.shape[0] - 1):
         last = _at(indptr[j + 1] - 1)
@@ -254,8 +254,8 @@ def lump(dofs, value, area, field, basis, points, out):
 def gather(indptr, indices):
     """Number of the aggregate of each unknown, (n,) (Vanek, Mandel and Brezina 1996).
 
-    The graph is symmetric. An unknown none of whose neighbours is taken makes an aggregate with them; what is left
-    over joins an aggregate beside it.
+    The graph is symmetric. An unknown none of whose neighbours is taken makes an aggregate with them; the others
+    join an aggregate beside them.
     """
     size = indptr.shape[0] - 1
     aggregate = np.full(size, -1, np.int32)
@@ -279,7 +279,7 @@ def gather(indptr, indices):
 
 @njit(**_FAST)
 def find_slots(indptr, indices, row, column, slots):
-    """Fill slots[cell, entry] with where (row, column) stands in sorted CSC indices, by bisection."""
+    """Fill slots[cell, entry] with the index of (row, column) in sorted CSC indices, by bisection."""
     for e in range(row.shape[0]):
         for k in range(row.shape[1]):
             low, high = indptr[column[e, k]], indptr[column[e, k] + 1]
@@ -335,8 +335,8 @@ def choose_columns(
 ):  # fmt: skip
     """Newton's matrix: each unknown is a pressure (in the film) or a film fraction (in the cavity).
 
-    p_* and f_* are the balance's slopes by nodal pressure and by nodal film fraction, p_gain and f_gain what
-    their diagonals carry besides; p_scale and f_scale multiply them. Held unknowns get identity rows and columns.
+    p_* and f_* are the balance's slopes by nodal pressure and by nodal film fraction, p_gain and f_gain
+    additions to their diagonals; p_scale and f_scale multiply them. Held unknowns get identity rows and columns.
     """
     for j in range(indptr.shape[0] - 1):
         last = _at(indptr[j + 1] - 1)

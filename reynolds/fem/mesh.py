@@ -1,7 +1,7 @@
 """Film meshes: plane triangles or quadrilaterals with named boundaries and periodic seams.
 
 Boundary names are API. Built-in shapes: `rectangle` (left, right, bottom, top) and `annulus` (inner, outer).
-A mesh from a file keeps its own names; edges that carry none are named after where they lie.
+A mesh from a file keeps its own names; other edges are named by their place.
 """
 
 from __future__ import annotations
@@ -54,7 +54,7 @@ class FilmMesh:
 
     @cached_property
     def sharing(self) -> dict[str, frozenset[str]]:
-        """By the name of a boundary, those that have edges of it."""
+        """Boundaries that share edges with each boundary, by its name."""
         boundaries = self.mesh.boundaries or {}
         return {
             name: frozenset(other for other, theirs in boundaries.items() if np.intersect1d(edges, theirs).size)
@@ -146,7 +146,7 @@ def mesh_from_file(path: Path) -> FilmMesh:
     Names come from gmsh physical groups or scikit-fem tags; edges lying on the bounding box are named left,
     right, bottom, top, and closed edge loops outer, inner (or hole_0, ... if several), where the file has not
     given that name to something else. Raises FilmInputError for a file that is absent or holds no such mesh,
-    and for cells that no film is computed on (`mesh_check`).
+    and for invalid cells (`mesh_check`).
     """
     if not path.is_file():
         raise FilmInputError("mesh", f"no file {path}", "an existing mesh file in a format that meshio reads")
@@ -191,13 +191,13 @@ def _physical_lines(raw: Any, mesh: skfem.Mesh) -> dict[str, NDArray[np.int64]]:
 def read_mesh_file(path: Path) -> Any:
     """The meshio.Mesh of a file, as it is; raises FilmInputError for one that cannot be read, and prints nothing.
 
-    meshio's readers print, exit, or fail inside a format: all that becomes one kind of error.
+    Readers of meshio that print, exit, or fail inside a format raise the same error.
     """
     import meshio
 
-    if path.stat().st_size == 0:  # some readers wait for ever for a line of it
+    if path.stat().st_size == 0:  # some readers wait for ever for a line
         raise FilmInputError("mesh", f"{path} is empty", "a file that meshio reads")
-    # Its readers fail by whatever line a broken file trips them on, or for want of a package.
+    # Readers fail with any exception on a broken file, or for want of a package.
     faults = (
         meshio.ReadError, SystemExit, ArithmeticError, AssertionError, AttributeError, EOFError, ImportError,
         LookupError, NameError, OSError, RuntimeError, SyntaxError, TypeError, ValueError, struct.error,
@@ -231,7 +231,7 @@ def box_names(mesh: skfem.Mesh) -> dict[str, NDArray[np.int64]]:
 def loop_names(mesh: skfem.Mesh) -> dict[str, NDArray[np.int64]]:
     """Closed boundary loops: outer (the longest reach), inner if there is one more, else inner and hole_k.
 
-    The inner loop is the one around the origin of the rest if one is; other holes are numbered by the angle
+    The inner loop is the one around the origin, if any; other holes are numbered by the angle
     of their centre, from the x axis on.
     """
     facets = mesh.boundary_facets()

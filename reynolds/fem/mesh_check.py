@@ -1,4 +1,4 @@
-"""What makes points and cells of a file no film mesh: told all at once, before anything is computed on them."""
+"""Checks of a film mesh from a file: all faults of its points and cells at once."""
 
 from __future__ import annotations
 
@@ -14,10 +14,11 @@ NEAREST = 1e-9  # least distance of two points / size of the mesh
 
 
 def mesh_faults(points: Array, cells: Cells) -> list[str]:
-    """What is wrong with plane points (n, 2) m and cells (cells, 3 | 4); empty for a film mesh.
+    """Faults of plane points (n, 2) m and cells (cells, 3 | 4); empty for a valid film mesh.
 
     Faults: cells that name points which are not there, points in no cell or without coordinates, cells without
-    area or crossed or not convex, cells that lie on each other, points in one place. Cells may run either way.
+    area or crossed or not convex, cells that lie on each other, points in one place. Cells may be numbered either
+    way round.
     """
     if cells.min() < 0 or cells.max() >= len(points):
         return [f"cells name points up to number {cells.max()}, of {len(points)} (from 0)"]
@@ -51,7 +52,7 @@ def corner_areas(points: Array, cells: Cells) -> Array:
 
 
 def _overlaps(points: Array, cells: Cells) -> list[str]:
-    """Cells that run anticlockwise pass an edge in one direction only once, unless they lie on each other."""
+    """Fault of overlapping cells: else anticlockwise cells pass an edge only once in each direction."""
     first, second = cells.ravel(), np.roll(cells, -1, axis=1).ravel()
     _, where, count = np.unique(first * len(points) + second, return_inverse=True, return_counts=True)
     shared = (count[where] > 1).reshape(cells.shape).any(axis=1)

@@ -22,13 +22,13 @@ ELEMENTS = {
 
 
 @dataclass(frozen=True)
-class Reference:
+class ReferenceElement:
     """Basis and geometry on the reference element at its quadrature points.
 
-    `steep` tables belong to the conductance: for a bilinear quadrilateral they stand at the corner next to the
-    point, which integrates as exactly (trapezium rule) and leaves no positive coupling between unknowns, however
-    stretched a rectangle is: pressure and film fraction then know no overshoot. What is too stiff of it is taken
-    off again in `twist`. Else they are the others.
+    `steep` tables belong to the conductance: for a bilinear quadrilateral they are taken at the corner next to
+    the point, which integrates as exactly (trapezium rule) and leaves no positive coupling between unknowns of any
+    rectangle: pressure and film fraction do not overshoot. `equation.hourglass` takes the excess stiffness off.
+    Other cells have the same tables for both.
     """
 
     value: Array  # (points, basis)
@@ -42,7 +42,7 @@ class Reference:
 
     @cached_property
     def loops(self) -> tuple[tuple[int, ...], tuple[int, ...]]:
-        """Numbers of the basis and of the points, as tuples: see `kernels`."""
+        """Indices of the basis and of the points, as tuples: see `kernels`."""
         points, basis = self.value.shape
         return tuple(range(basis)), tuple(range(points))
 
@@ -57,7 +57,7 @@ class Reference:
         return np.asarray(np.linalg.pinv(self.geometry_value))
 
 
-def reference(mesh: skfem.Mesh, element: skfem.Element, points: Array, weights: Array) -> Reference:
+def reference(mesh: skfem.Mesh, element: skfem.Element, points: Array, weights: Array) -> ReferenceElement:
     """Tables of an element of ELEMENTS at quadrature points (2, points) with their weights."""
     geometry = skfem.ElementTriP1() if isinstance(mesh, skfem.MeshTri1) else skfem.ElementQuad1()
 
@@ -74,6 +74,6 @@ def reference(mesh: skfem.Mesh, element: skfem.Element, points: Array, weights: 
         corners = np.round(points)
         _, steep = table(element, 4, corners)
         steep_at, steep_corner = table(geometry, 4, corners)
-    return Reference(
+    return ReferenceElement(
         value, gradient, corner, corner_gradient, steep, steep_at, steep_corner, np.ascontiguousarray(weights)
     )

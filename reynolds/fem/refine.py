@@ -1,4 +1,4 @@
-"""A film mesh refined uniformly: every edge halved, names kept, data carried along."""
+"""A film mesh refined uniformly: every edge halved, names kept, data interpolated."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from reynolds.numerics.arrays import Array
 
 @dataclass(frozen=True)
 class RefinedMesh:
-    """A mesh twice finer than another, and how data of the coarse one live on it.
+    """A mesh twice as fine as another, with the interpolation of the coarse one's data.
 
     `parent` (cells,) is the coarse cell of each fine cell; `sources` (vertices, 4) are the coarse vertices whose
     mean a fine vertex is (a vertex four times itself, an edge's ends twice each, a quadrilateral's corners).
@@ -25,7 +25,7 @@ class RefinedMesh:
     sources: NDArray[np.int64]
 
     def point_data(self, values: Array) -> Array:
-        """Data of coarse vertices, interpolated to the fine ones as the coarse cells do, (vertices,)."""
+        """Data of coarse vertices, interpolated to the fine ones within the coarse cells, (vertices,)."""
         return np.asarray(values, dtype=float)[self.sources].mean(axis=1)
 
     def cell_data(self, values: Array) -> Array:
@@ -36,8 +36,8 @@ class RefinedMesh:
 def refine_mesh(film_mesh: FilmMesh) -> RefinedMesh:
     """The mesh with every cell cut into four by the middles of its edges (and of the cell, in quadrilaterals).
 
-    Boundary names and seams are kept: each named edge becomes two. A curved boundary stays the polygon that the
-    coarse mesh has made of it.
+    Boundary names and seams are kept: each named edge becomes two. A curved boundary stays the polygon of
+    the coarse mesh.
     """
     mesh = film_mesh.mesh
     vertices, facets, cells = mesh.p.shape[1], mesh.facets.shape[1], mesh.t.shape[1]

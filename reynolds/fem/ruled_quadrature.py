@@ -1,4 +1,4 @@
-"""Formulas on meshes whose quadrature points lie in rows and columns: what depends on x alone costs one row."""
+"""Formulas on meshes whose quadrature points lie in rows and columns: a function of x alone costs one row."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ SAME = 1e-9  # of the film's length: coordinates nearer than this are one
 
 @dataclass(frozen=True)
 class Ruling:
-    """Columns x (columns, 1) m and rows y (1, rows) m, and those in which each point lies, (cells, points)."""
+    """Columns x (columns, 1) m and rows y (1, rows) m, and the column and row of each point, (cells, points)."""
 
     x: Array
     y: Array
@@ -26,13 +26,13 @@ class Ruling:
 
     @cached_property
     def place(self) -> NDArray[np.intp]:
-        """Where its column and its row cross."""
+        """Index of each point in the rows and columns, flat."""
         return self.column * self.y.size + self.row
 
     def sample(self, field: Callable[[Array, Array], Array | float]) -> Array:
-        """A formula at the points, (cells, points): numpy broadcasts the column x and the row y as far as it must.
+        """A formula at the points, (cells, points): numpy broadcasts the column x and the row y.
 
-        Raises FilmInputError for values of another shape than that gives.
+        Raises FilmInputError for values of another shape.
         """
         values, shape = np.asarray(field(self.x, self.y), dtype=float), (self.x.size, self.y.size)
         if values.shape == (shape[0], 1):  # as most films are: of the angle alone
@@ -55,7 +55,7 @@ def ruling_of(points: Array) -> Ruling | None:
 
 
 def _distinct(values: Array, near: float) -> tuple[Array, NDArray[np.intp]]:
-    """Distinct values, and the number of its own for each."""
+    """Distinct values, and the index of each value's own."""
     order = np.argsort(values, axis=None)
     sorted_values = values.ravel()[order]
     new = np.concatenate([[True], np.diff(sorted_values) > near])

@@ -20,7 +20,7 @@ from reynolds.errors import FilmInputError
 from reynolds.fem import kernels
 from reynolds.fem.element_tensors import ElementTensors, element_tensors, stretched
 from reynolds.fem.mesh import FilmMesh
-from reynolds.fem.reference_element import ELEMENTS, Reference, reference
+from reynolds.fem.reference_element import ELEMENTS, ReferenceElement, reference
 from reynolds.fem.ruled_quadrature import Ruling, ruling_of
 from reynolds.fem.sparsity import Pattern, pattern_of
 from reynolds.fem.sphere import PLANE, Sphere
@@ -45,7 +45,7 @@ class FilmSpace:
     cells: NDArray[np.int32]
     dofs: NDArray[np.int32]
     size: int
-    reference: Reference
+    reference: ReferenceElement
     pattern: Pattern
     edge_dofs: Mapping[str, NDArray[np.int64]]
     facet_dofs: Mapping[str, NDArray[np.int64]]
@@ -58,7 +58,7 @@ class FilmSpace:
 
     @cached_property
     def steep_area(self) -> Array:
-        """Area element where the steep gradients stand, (cells, points), m2."""
+        """Area element at the steep gradients, (cells, points), m2."""
         return self._measured(self.reference.steep_geometry, self.steep_scale)
 
     @cached_property
@@ -68,13 +68,13 @@ class FilmSpace:
 
     @cached_property
     def steep_scale(self) -> Array:
-        """The same where the steep gradients stand."""
+        """The same at the steep gradients."""
         if self.sphere.is_plane:
             return _ONE
         return self.sphere.scale(*self._places(self.reference.steep_value))
 
     def on_film(self, gradient: tuple[Array, Array], scale: Array) -> tuple[Array, Array]:
-        """A gradient along the map (cells, points) as it is along the film; `scale` where it stands."""
+        """Gradient along the film of a gradient along the map (cells, points), by `scale` at its points."""
         return gradient if self.sphere.is_plane else (gradient[0] / scale, gradient[1] / scale)
 
     def _measured(self, geometry_gradient: Array, scale: Array) -> Array:
@@ -97,13 +97,13 @@ class FilmSpace:
         return out
 
     def everywhere(self, field: Array) -> Array:
-        """A field (cells | 1, points | 1) at every quadrature point (cells, points), as the kernels want it."""
+        """A field (cells | 1, points | 1) at every quadrature point (cells, points), for kernels."""
         shape = self.area.shape
         return field if field.shape == shape else np.ascontiguousarray(np.broadcast_to(field, shape))
 
     @cached_property
     def tensors(self) -> ElementTensors:
-        """What geometry contributes to the operators."""
+        """The geometry's part of the operators."""
         tables = self.reference
         of_map = element_tensors(
             self.vertices, self.cells, tables.gradient, tables.geometry_gradient, tables.steep_gradient,
@@ -118,12 +118,12 @@ class FilmSpace:
 
     @cached_property
     def points_in_space(self) -> tuple[Array, Array, Array]:
-        """Where the quadrature points stand, x, y, z (cells, points) m; z = 0 in a plane."""
+        """Places of the quadrature points in space, x, y, z (cells, points) m; z = 0 in a plane."""
         return self.sphere.place(*self.points)
 
     @cached_property
     def axial_area(self) -> Array:
-        """Area element seen along z, the film's normal at the origin, (cells, points) m2."""
+        """Area element projected along z, the film's normal at the origin, (cells, points) m2."""
         return self.area if self.sphere.is_plane else self.area * self.axial_share
 
     @cached_property
@@ -173,8 +173,8 @@ class FilmSpace:
     def _rim_length(self) -> Array:
         return np.asarray(np.hypot(*self._rim_normal))
 
-    def carried_out(self, flux: tuple[Array, Array]) -> tuple[Array, Array]:
-        """Flow (m3/s) out over each facet of all named boundaries, and the magnitude that it could have at most.
+    def edge_outflow(self, flux: tuple[Array, Array]) -> tuple[Array, Array]:
+        """Flow (m3/s) out over each facet of all named boundaries, and its greatest possible magnitude.
 
         (facets,) each, one boundary after another in the order of `facet_dofs`. `flux` (cells | 1, points | 1)
         m2/s; both zero for a line inside the film.
@@ -199,7 +199,7 @@ class FilmSpace:
         return found
 
     def place(self, unknown: int) -> tuple[float, float]:
-        """Where an unknown stands, x and y (m); a tied one (seam, pocket) has many places: this is one."""
+        """Place of an unknown, x and y (m); one of many for a tied unknown (seam, pocket)."""
         cell, local = (int(k[0]) for k in np.nonzero(self.dofs == unknown))
         corners = self.vertices[self.cells[cell]]
         geometry = skfem.ElementTriP1() if len(corners) == 3 else skfem.ElementQuad1()
@@ -217,11 +217,11 @@ class FilmSpace:
 
     @cached_property
     def ruling(self) -> Ruling | None:
-        """The rows and columns in which the quadrature points lie; None where they do not."""
+        """The rows and columns of the quadrature points; None where they have none."""
         return ruling_of(self.points)
 
     def sample_ruled(self, field: Callable[[Array, Array], Array | float]) -> Array:
-        """As `sample`, for a formula that numpy may broadcast: see `ruled`."""
+        """As `sample`, for a formula that numpy may broadcast: see `ruled_quadrature`."""
         return self.sample(field) if self.ruling is None else self.ruling.sample(field)
 
     def sample_vertices(self, nodal: Array) -> Array:
@@ -261,7 +261,7 @@ class FilmSpace:
 
     @cached_property
     def _empty(self) -> csc_array:
-        """An upper triangle to copy: scipy checks indices whenever a matrix is made of them."""
+        """An upper triangle to copy, since scipy checks indices of every new matrix."""
         indices, indptr = self.pattern.indices, self.pattern.indptr
         return csc_array((np.zeros(len(indices)), indices, indptr), shape=(self.size, self.size))
 
@@ -271,7 +271,7 @@ def film_space(
 ) -> FilmSpace:
     """The discrete film on a mesh, of a plane or of a sphere's map: P1/Q1 (degree 1) or P2/Q2 (degree 2).
 
-    Afterwards seams are sewn (both sides carry the same unknowns) and each boundary named in `pockets` is one
+    Afterwards seams are sewn (both sides have the same unknowns) and each boundary named in `pockets` is one
     unknown: a pocket, groove or chamber of uniform pressure. Raises FilmInputError for another degree or mesh, a
     seam whose sides do not match under a translation and a pocket whose name is not in the mesh.
     """
@@ -280,7 +280,7 @@ def film_space(
         found = f"degree {degree} on a {type(mesh).__name__}"
         raise FilmInputError("film_space", found, "degree 1 or 2 on MeshTri or MeshQuad of straight cells")
     element, order = ELEMENTS[type(mesh), degree]
-    # The numbering is what is wanted: the basis itself is tabulated in one element only.
+    # Only the numbering is used: the basis is tabulated in one element.
     dofs = skfem.Basis(mesh, element, intorder=order, elements=np.array([0]))
     tied = _tie(film_mesh, dofs, tuple(pockets))
     numbers, joined = np.unique(tied, return_inverse=True)

@@ -1,4 +1,4 @@
-"""The fixed sparsity pattern of one mesh: which unknowns couple, and where their entries stand."""
+"""The fixed sparsity pattern of one mesh: coupled unknowns and the indices of their entries."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from reynolds.fem import kernels
 
 @dataclass(frozen=True)
 class Pattern:
-    """Upper triangle by columns, and where each element entry goes in its data."""
+    """Upper triangle by columns, and the index of each element entry in its data."""
 
     indptr: NDArray[np.int32]
     indices: NDArray[np.int32]
@@ -28,12 +28,12 @@ class Pattern:
 
     @cached_property
     def diagonal(self) -> NDArray[np.int32]:
-        """Where the diagonal stands among the entries, (size,)."""
+        """Index of each diagonal entry, (size,)."""
         return self.indptr[1:] - 1
 
     @cached_property
     def pieces(self) -> tuple[int, NDArray[np.int32]]:
-        """How many pieces the film falls into, and the piece of each unknown (size,)."""
+        """Number of separate pieces of the film, and the piece of each unknown (size,)."""
         size = len(self.indptr) - 1
         graph = csc_array((np.ones(len(self.indices), dtype=bool), self.indices, self.indptr), shape=(size, size))
         count, piece = connected_components(graph, directed=False)
@@ -50,7 +50,7 @@ class Pattern:
 
 
 def pattern_of(dofs: NDArray[np.int32], size: int) -> Pattern:
-    """The pattern of `size` unknowns, of which each cell couples all its own, dofs (cells, basis)."""
+    """The pattern of `size` unknowns, all unknowns of a cell coupled, dofs (cells, basis)."""
     rows, columns = np.triu_indices(dofs.shape[1])
     a, b = dofs[:, rows], dofs[:, columns]
     row, column = np.minimum(a, b), np.maximum(a, b)

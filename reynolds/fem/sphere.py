@@ -21,7 +21,7 @@ from reynolds.numerics.arrays import Array
 class Sphere:
     """Sphere of a fixed wall through the origin, normals out of that wall into the film.
 
-    radius (m): positive where the wall bulges into the film, negative where it is hollow, infinite for a plane.
+    radius (m): positive where the wall bulges into the film, negative where it is concave, infinite for a plane.
     Raises FilmInputError for zero and for no number.
     """
 
@@ -41,14 +41,14 @@ class Sphere:
         return np.asarray(1.0 / (1.0 + (x / (2.0 * self.radius)) ** 2 + (y / (2.0 * self.radius)) ** 2))
 
     def place(self, x: Array, y: Array) -> tuple[Array, Array, Array]:
-        """Where a point of the map lies in space, m; z = 0 at the middle, along its normal."""
+        """Place of a point of the map in space, m; z = 0 at the middle, along its normal."""
         if self.is_plane:
             return x, y, np.zeros_like(x)
         scale = self.scale(x, y)
         return scale * x, scale * y, -scale * (x**2 + y**2) / (2.0 * self.radius)
 
     def in_space(self, points: Array) -> Array:
-        """The same of points (n, 2) m, (n, 3) m."""
+        """Places (n, 3) m of points (n, 2) m of the map."""
         return np.column_stack(self.place(*points.T))
 
     def normal(self, x: Array, y: Array) -> tuple[Array, Array, Array]:

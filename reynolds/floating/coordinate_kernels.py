@@ -1,6 +1,6 @@
-"""Element loops over modes: what a mode of the film's thickness weighs, and what it does to the flow balance.
+"""Element loops over modes of the film's thickness: integrals of a mode, and its effect on the flow balance.
 
-`basis` and `points` are tuples as in `kernels`; modes (cells, points, k) stand at the quadrature points.
+`basis` and `points` are tuples as in `kernels`; modes (cells, points, k) are given at the quadrature points.
 """
 
 # mypy: allow-untyped-defs, allow-incomplete-defs, no-check-untyped-defs
@@ -39,14 +39,14 @@ def mixed(modes, shares):
 
 @njit(**_FAST)
 def thicken(
-    dofs, shape, value, steep, gradient, signs, area, driven_x, driven_y, twisted, carried_x, carried_y, stored,
+    dofs, shape, value, steep, gradient, signs, area, driven_x, driven_y, hourglass, drag_x, drag_y, stored,
     filling, modes, basis, points, out,
 ):  # fmt: skip
-    """out[i, j] = int phi_j (driven . grad f_i - carried . grad f_i + stored filling_i f_i).
+    """out[i, j] = int phi_j (driven . grad f_i - drag . grad f_i + stored filling_i f_i).
 
-    driven goes with the gradients of the conductance (steep), carried with the others, both area element times
-    gradient as `ElementTensors` has them; stored is a rate per thickness (1/s) in a lumped term. With what
-    `twist_kernels.changed` tells (twisted) times each corner's sign.
+    driven takes the gradients of the conductance (steep), drag the others, both area element times gradient of
+    `ElementTensors`; stored is a rate per thickness (1/s) in a lumped term. With the flow of the hourglass mode
+    (`hourglass_kernels.changed`) times each corner's sign.
     """
     out[:] = 0.0
     for e in range(dofs.shape[0]):
@@ -55,8 +55,8 @@ def thicken(
             row = dofs[e, i]
             for q in range(len(points)):
                 flow = driven_x[e, q] * steep[s, q, i, 0] + driven_y[e, q] * steep[s, q, i, 1]
-                flow += twisted[e, q] * signs[i]
-                flow -= carried_x[e, q] * gradient[s, q, i, 0] + carried_y[e, q] * gradient[s, q, i, 1]
+                flow += hourglass[e, q] * signs[i]
+                flow -= drag_x[e, q] * gradient[s, q, i, 0] + drag_y[e, q] * gradient[s, q, i, 1]
                 flow += stored[e, q] * filling[row] * area[e, q] * value[q, i]
                 for j in range(modes.shape[2]):
                     out[row, j] += flow * modes[e, q, j]
@@ -64,7 +64,7 @@ def thicken(
 
 @njit(**_FAST)
 def _apart(indptr, indices, level):
-    """Whether an unknown has a neighbour at another level, (size,)."""
+    """True for an unknown with a neighbour at another level, (size,)."""
     found = np.zeros(len(level), dtype=np.bool_)
     for j in range(len(level)):
         for k in range(indptr[j], indptr[j + 1] - 1):
@@ -74,10 +74,10 @@ def _apart(indptr, indices, level):
 
 
 @njit(**_FAST)
-def _carried_more(
+def _convection_slopes(
     dofs, slots, shape, value, gradient, slope_x, slope_y, modes, wanted, basis, points, upper, lower
 ):
-    """Slopes (entries, k) of `kernels.convection` by the modes, where a wanted unknown (size,) is concerned."""
+    """Slopes (entries, k) of `kernels.convection` by the modes, at the wanted unknowns (size,)."""
     for e in range(dofs.shape[0]):
         needed = False
         for i in range(len(basis)):
@@ -115,13 +115,13 @@ def mixed_more(
     dofs, slots, shape, value, gradient, slope_x, slope_y, modes, basis, points,
     indptr, indices, upper, lower, leaves, level, out,
 ):  # fmt: skip
-    """out[i, m] += what `kernels.upwinding` exchanges between levels, by a film that grows along the modes.
+    """out[i, m] += change of the exchange of `kernels.upwinding` between levels, by the film's growth along modes.
 
     upper and lower are the convection's entries, slope_x and slope_y (cells, points) of its flux by the thickness.
     """
     wanted, count = _apart(indptr, indices, level), modes.shape[2]
     more_up, more_low = np.zeros((len(indices), count)), np.zeros((len(indices), count))
-    _carried_more(
+    _convection_slopes(
         dofs, slots, shape, value, gradient, slope_x, slope_y, modes, wanted, basis, points, more_up, more_low
     )
     size = indptr.shape[0] - 1

@@ -1,4 +1,4 @@
-"""Generalised coordinates of a film: h = shape + sum_j q_j phi_j, and the force that works on each of them.
+"""Generalised coordinates of a film: h = shape + sum_j q_j phi_j, and the force on each of them.
 
 q_j in m, phi_j without unit (a tilt counts as the rise over a reference radius), so that every force
 Q_j = int (p - p_reference + p_contact) phi_j dA is in N and Q_j dq_j is work.
@@ -41,7 +41,7 @@ class Modes:
         return np.ascontiguousarray(self.space.reference.geometry_value @ self.at_vertices[self.space.cells])
 
     def rise(self, position: Array) -> Array:
-        """What a position (k,) m adds to the film at the quadrature points, (cells, points) m."""
+        """Growth of the film by a position (k,) m at the quadrature points, (cells, points) m."""
         found: Array = kernels.mixed(self.at_points, np.ascontiguousarray(position).reshape(-1, 1))
         return found[:, :, 0]
 
@@ -80,7 +80,7 @@ def modes_on(space: FilmSpace, at_vertices: Array, pockets: Mapping[str, Array] 
 
 
 def generalised_force(pressure: Array, modes: Modes, reference: float) -> Array:
-    """Q_j = int (p - p_reference) phi_j dA with the pockets' push, (k,) N, of nodal pressures (size,) Pa.
+    """Q_j = int (p - p_reference) phi_j dA with the pockets' force, (k,) N, of nodal pressures (size,) Pa.
 
     Positive where it opens the film along the mode; in a cavity p is the cavitation pressure.
     """
@@ -89,9 +89,9 @@ def generalised_force(pressure: Array, modes: Modes, reference: float) -> Array:
 
 @dataclass(frozen=True)
 class ContactForce:
-    """What touching asperities add: force (k,) N, its slopes by position (k, k) N/m, its magnitudes (k,) N.
+    """Force of touching asperities (k,) N, its slopes by position (k, k) N/m, its magnitudes (k,) N.
 
-    Slopes at the film's pressure as it is, which opens no rigid wall.
+    Slopes at constant film pressure, which deforms no rigid wall.
     """
 
     force: Array
@@ -109,7 +109,7 @@ def contact_force(
     """int p_c(gap) phi_j dA and its slopes int p_c' phi_i phi_j dA, the walls rigid.
 
     `gap` (cells, points) m is the distance of the mean planes, which may overlap down to the limit of
-    `contact_pressure`; raises as that does. `within` (cells, 1): the cells that count, all without it.
+    `contact_pressure`; raises as that does. `within` (cells, 1): the cells that count, by default all.
     Source: Greenwood and Tripp 1970-71.
     """
     near = gap < asperities.summit_height + NO_CONTACT * asperities.height
@@ -122,10 +122,10 @@ def contact_force(
 
 @dataclass(frozen=True)
 class SoftContact(ContactForce):
-    """The same between walls that give way.
+    """The same between elastic walls.
 
-    touch: contact at the vertices; grown (vertices, k): growth of the gap by each coordinate, the film's pressure
-    as it is; lever (vertices, k) N/m: slopes of the force by the gap at the vertices.
+    touch: contact at the vertices; grown (vertices, k): growth of the gap by each coordinate at constant film
+    pressure; lever (vertices, k) N/m: slopes of the force by the gap at the vertices.
     """
 
     touch: Touch
@@ -133,16 +133,16 @@ class SoftContact(ContactForce):
     lever: Array
 
     def by_pressure(self, changed: Array) -> Array:
-        """Change of the force by changes (size, m) Pa of the film's pressure, which opens the walls, (k, m) N."""
-        return np.asarray(self.lever.T @ self.opened(changed))
+        """Change of the force by changes (size, m) Pa of film pressure, which deform the walls, (k, m) N."""
+        return np.asarray(self.lever.T @ self.deformation(changed))
 
-    def opened(self, changed: Array) -> Array:
-        """Opening (vertices, m) m by changes (size, m) Pa of the film's pressure, which contact resists."""
+    def deformation(self, changed: Array) -> Array:
+        """Deformation (vertices, m) m by changes (size, m) Pa of the film's pressure, against contact."""
         return self.touch.settled(np.asarray(self.touch.compliance @ changed))
 
 
 def soft_contact(touch: Touch, modes: Modes) -> SoftContact:
-    """int p_c phi_j dA with contact as it presses on walls that give way: the pressure of the film's unknowns.
+    """int p_c phi_j dA between elastic walls: contact as a pressure of the film's unknowns.
 
     The gap grows by (I - C dp_c/dh)^-1 phi: contact stiffens the walls.
     """

@@ -1,4 +1,4 @@
-"""Where a film carries its load: separation and tilts of its walls at which film and contact bear what is asked.
+"""Separation and tilts of a film's walls at which film and contact bear a given load.
 
 The film's thickness is then a shape, to which h = shape + separation + slope_x x + slope_y y adds a rigid motion.
 """
@@ -21,7 +21,7 @@ TOLERANCE = 1e-6  # of the load, and of the load at the film's edge for moments
 MOST_FILMS = 200
 THICKEST, THINNEST = 1.0, 1e-9  # least gap over the film's extent; beyond, no film
 USUAL_GAP = 1e-4  # of the extent, where the shape is flat
-SOFT_START = 0.7  # place to begin at where walls give way: steps of one from there do not meet a gap of nothing
+SOFT_START = 0.7  # first place between elastic walls: unit steps from there do not meet a zero gap
 LEAST_STEP, MOST_STEP = 1e-3, 2.5  # of the logarithm of the least gap
 LEAST_SHARE = 0.2  # of the least gap that a step may leave
 DIFFERENCE = 1e-4  # of the least gap, for slopes by differences
@@ -31,7 +31,7 @@ Solve = Callable[[FilmProblem], FilmSolution]
 
 @dataclass(frozen=True)
 class RigidLoad:
-    """What film and contact are to bear: force N, and moments N m about the origin as `Loads` counts them.
+    """Load on film and contact: force N, and moments N m about the origin as in `Loads`.
 
     moment_x (integral of p y) frees the tilt along y, moment_y (integral of -p x) that along x; None: no tilt.
     Raises FilmInputError for a force that is not above zero.
@@ -57,16 +57,16 @@ class Position:
     slope_y: float = 0.0
 
     def of(self, x: Array, y: Array) -> Array:
-        """What it adds to the film thickness at places (m), m."""
+        """Growth of the film thickness at places (m), m."""
         return self.separation + self.slope_x * x + self.slope_y * y
 
 
 @dataclass(frozen=True)
-class Carried:
+class LoadedFilm:
     """A film at the position at which it bears its load.
 
-    force N and moments N m that film and contact bear there; rest: largest miss, relative as TOLERANCE; films: how
-    many were solved.
+    force N and moments N m that film and contact bear there; rest: largest miss, relative as TOLERANCE; films:
+    number of films solved.
     """
 
     position: Position
@@ -78,23 +78,23 @@ class Carried:
     films: int
 
 
-def carry(problem: FilmProblem, load: RigidLoad, solve: Solve | None = None) -> Carried:
+def carry_load(problem: FilmProblem, load: RigidLoad, solve: Solve | None = None) -> LoadedFilm:
     """The film of `problem`, its thickness a shape, at the position at which it bears the load.
 
     Afterwards force and free moments are those of `load` to 1e-6. The separation is bracketed between a film that
     bears more and a thicker one that bears less, so that it is stable, and closed in by regula falsi (Illinois:
     Dowell and Jarratt 1971). Tilts: Newton's method with Broyden's updates (1965) from there.
     `solve` gives the film of a problem (left out: `FilmSolver`, each film warming the next). Raises
-    FilmNotConverged, with what was borne at best, where no position bears the load; and as `solve` does.
+    FilmNotConverged, with the nearest load borne, where no position bears the load; also as `solve` does.
     """
-    search = _Search(problem, load, solve or _warmed(problem))
+    search = _LoadSearch(problem, load, solve or _warmed(problem))
     for lean in search.leans():
         try:
             found = search.one_freedom(lean)
             found = found if search.free == [0] else search.newton(found.position)
         except _Nowhere:
             continue
-        return Carried(found.position, found.solution, *found.borne, found.rest, search.films)
+        return LoadedFilm(found.position, found.solution, *found.borne, found.rest, search.films)
     raise search.verdict()
 
 
@@ -113,12 +113,12 @@ def _warmed(problem: FilmProblem) -> Solve:
 
 
 class _Nowhere(Exception):
-    """A way of searching has come to its end without a position."""
+    """A search ended without a position."""
 
 
 @dataclass(frozen=True)
 class _Tried:
-    """A film at a position: what it bears (N, N m), the misses that are to vanish, the least gap as given (m)."""
+    """A film at a position: load borne (N, N m), misses that are to vanish, least gap by its shape (m)."""
 
     position: Position
     solution: FilmSolution
@@ -131,7 +131,7 @@ class _Tried:
         return float(np.abs(self.misses).max())
 
 
-class _Search:
+class _LoadSearch:
     """Films of one shape at positions; remembers the one that bore the load best."""
 
     def __init__(self, problem: FilmProblem, load: RigidLoad, solve: Solve) -> None:
@@ -191,7 +191,7 @@ class _Search:
         return np.array(misses)
 
     def _leaning(self, place: float, lean: tuple[float, float]) -> Position:
-        """Position of least gap scale exp(place), where walls give way 2 scale sinh(place), which may overlap."""
+        """Position of least gap scale exp(place); between elastic walls 2 scale sinh(place), which may overlap."""
         gap = self._scale * np.exp(place)
         slope_x, slope_y = (gap / self.extent * part for part in lean)
         if self._problem.walls is not None:
@@ -226,7 +226,7 @@ class _Search:
             if abs(step) < LEAST_STEP or not self._ends[0] < at + step < self._ends[1]:
                 raise _Nowhere
             new = self._tried(self._leaning(at + step, lean))
-            if new is None:  # from nearer by it may be reached
+            if new is None:  # a shorter step may reach it
                 step *= 0.5
                 longest = abs(step)
                 continue
@@ -239,7 +239,7 @@ class _Search:
             longest = min(2.0 * longest, MOST_STEP)
 
     def _tried(self, position: Position) -> _Tried | None:
-        """The film there, None where it does not settle or its walls are pressed beyond their contact's law."""
+        """The film there; None where it does not converge or its walls are beyond their contact's law."""
         try:
             return self.at(position)
         except (FilmNotConverged, FilmInputError):
@@ -304,7 +304,7 @@ class _Search:
         return float((self._shape + position.of(self._x, self._y)).min())
 
     def verdict(self) -> FilmNotConverged:
-        """What was borne at best, for the person who asked for more."""
+        """The error with the nearest load borne."""
         assert self._best is not None
         best, load = self._best, self._load
         asked = f"{load.force:.6g} N" + ("" if self.free == [0] else " and its moments")

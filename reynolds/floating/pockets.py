@@ -1,7 +1,7 @@
-"""Pockets of a floating film: what they hold, and how it grows with the position.
+"""Pockets of a floating film: their oil, and its growth with the position.
 
 A pocket's oil counts as the film's: where the pocket falls to cavitation pressure it is filled in part, so that a
-part that takes off leaves a cavity behind and what its supply cannot send is missed.
+part that lifts off leaves a cavity behind where its supply does not follow.
 """
 
 from __future__ import annotations
@@ -17,11 +17,11 @@ from reynolds.floating.problem import Floating
 from reynolds.numerics.arrays import Array
 from reynolds.problem import Boundary, FilmProblem, FilmSolution, Pocket
 
-DEPTH = 5e-5  # m, at q = 0: what a pocket holds must stay above zero; how far above is of no matter
+DEPTH = 5e-5  # m, at q = 0: keeps a pocket's volume above zero; its size has no effect
 
 
 def filled(floating: Floating, shape: FilmProblem, q: Array) -> dict[str, Boundary]:
-    """The boundaries of a shape, its pockets of the volume that they have at a position (k,) m.
+    """The boundaries of a shape, its pockets with their volume at a position (k,) m.
 
     Raises FilmInputError for a name of `floating.pockets` that is no pocket of the shape, and where one is closed.
     """
@@ -39,6 +39,6 @@ def filled(floating: Floating, shape: FilmProblem, q: Array) -> dict[str, Bounda
 
 
 def pockets_grown(solution: FilmSolution, modes: Modes) -> Array:
-    """Growth of the oil in the pockets, filled as they are, by each coordinate, (size, k) m2."""
+    """Growth of the oil in the pockets at constant filling, by each coordinate, (size, k) m2."""
     filling = solution.film_fraction * density(solution.problem, solution.pressure)[0]
     return np.asarray(filling[:, None] * modes.pockets)

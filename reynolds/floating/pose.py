@@ -1,4 +1,4 @@
-"""A floating film put at a position, before it is solved: its shape there, how near its walls are to touching."""
+"""A floating film at a position, before it is solved: its shape there, and its distance from touching."""
 
 from __future__ import annotations
 
@@ -17,8 +17,8 @@ SOLID = 1.0 - 1e-6  # of the overlap at which the law of contact ends
 
 
 @dataclass(frozen=True)
-class Posed:
-    """A film at a position, before it is solved, and the asperities that its problem knows; see `Trial`."""
+class PosedFilm:
+    """A film at a position, before it is solved, and the asperities of its problem; see `Trial`."""
 
     film: Film
     asperities: Asperities | None
@@ -28,16 +28,16 @@ class Posed:
     thicker: Array
 
 
-def posed(shape: FilmProblem, modes: Modes, q: Array) -> Posed:
+def posed(shape: FilmProblem, modes: Modes, q: Array) -> PosedFilm:
     """The film of a shape at a position (k,) m.
 
-    Between rigid walls contact is left out of its problem: the gap counts there. Walls that give way feel it.
+    Between rigid walls contact is left out of the problem, since the gap decides it; elastic walls feel it.
     """
     gap, corners = shape.film.thickness + modes.rise(q), shape.film.thickness_at_vertices
     if shape.walls is not None:
         corners = None if corners is None else corners + modes.at_vertices @ q
         film = replace(shape.film, thickness=gap, thickness_at_vertices=corners)
-        return Posed(film, shape.asperities, gap, corners, float(gap.min()), modes.at_points)
+        return PosedFilm(film, shape.asperities, gap, corners, float(gap.min()), modes.at_points)
     between, at_corners, least = film_between(shape, gap), None, float(gap.min())
     if corners is not None:
         corners = corners + modes.at_vertices @ q
@@ -48,25 +48,25 @@ def posed(shape: FilmProblem, modes: Modes, q: Array) -> Posed:
             least = min(least, float(corners.min()))
     film = replace(shape.film, thickness=between.value, thickness_at_vertices=at_corners)
     thicker = np.ascontiguousarray(between.slope[:, :, None] * modes.at_points)
-    return Posed(film, None, gap, corners, least, thicker)
+    return PosedFilm(film, None, gap, corners, least, thicker)
 
 
-def given_way(at: Posed, solution: FilmSolution, contact: ContactForce | None) -> Posed:
-    """What a position leaves once the walls have given way: their gap, and how it grows with the position."""
+def deformed_pose(at: PosedFilm, solution: FilmSolution, contact: ContactForce | None) -> PosedFilm:
+    """The pose of the deformed walls: their gap, and its growth with the position."""
     gap = np.broadcast_to(solution.gap, solution.problem.space.area.shape)
-    corners = None if at.corner_gap is None else at.corner_gap + solution.opening
+    corners = None if at.corner_gap is None else at.corner_gap + solution.deformation
     thicker = at.thicker
     if isinstance(contact, SoftContact):
         space = solution.problem.space
         thicker = np.ascontiguousarray(space.reference.geometry_value @ contact.grown[space.cells])
     least = min(float(part.min()) for part in (gap, corners) if part is not None)
-    return Posed(at.film, at.asperities, gap, corners, least, thicker)
+    return PosedFilm(at.film, at.asperities, gap, corners, least, thicker)
 
 
 def lowest_gap(shape: FilmProblem) -> float:
-    """The gap (m) above which there is a film: next to zero, or where the law of contact ends.
+    """The gap (m) above which there is a film: next to zero, or the end of the law of contact.
 
-    Smooth walls that give way keep any film open.
+    Smooth elastic walls keep any film open.
     """
     if shape.walls is not None and shape.asperities is None:
         return -np.inf

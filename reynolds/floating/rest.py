@@ -1,7 +1,7 @@
-"""A floating film while what drives it stands still: held at a position, or come to rest where its forces balance.
+"""A floating film under a constant drive: held at a position, or at rest where its forces balance.
 
-Rest is found by implicit Euler with steps that grow. Long steps forget how the motion got there, so that the rest
-found is stable and near the start; a motion that has none runs into something, and the message tells what.
+Rest is found by implicit Euler with steps that grow. Long steps forget the way of the motion, so that the rest
+found is stable and near the start; a motion without rest ends in an error with its cause.
 """
 
 from __future__ import annotations
@@ -12,37 +12,37 @@ import numpy as np
 
 from reynolds.errors import FilmInputError, FilmNotConverged
 from reynolds.floating.problem import Floating
-from reynolds.floating.step import Stage, standing
+from reynolds.floating.step import FloatingStage, standing
 from reynolds.floating.trial import instant_of
 from reynolds.numerics.arrays import Array
-from reynolds.numerics.dirk import BACKWARD_EULER, S, StageSolver, State, Taken, advance
+from reynolds.numerics.dirk import BACKWARD_EULER, AcceptedStep, S, StageSolver, State, advance
 from reynolds.problem import FilmSolution
 from reynolds.solve.solver import FilmSolver
 
 GROWTH = 4.0  # of a step after one that was solved
 STILL = 3  # steps in a row that move no coordinate by more than allowed, each GROWTH times as long
-PATIENCE = 3  # steps solved before a length is tried again that had no solution: looking for one is dear
+PATIENCE = 3  # steps solved before a length without solution is tried again, which is costly
 MOST_STEPS = 100
 SHORTEST = 1e-6  # of the first step
-FOR_EVER = 1e9  # s, a step after which nothing of before counts
+FOR_EVER = 1e9  # s, a step that forgets the start
 
 
 def held_at(
     solver: FilmSolver, floating: Floating, time: float, q: Array, warm: FilmSolution | None = None
-) -> Stage:
-    """The film at a position (k,) m where the part is held, its drive that of `time` (s): forces need not balance.
+) -> FloatingStage:
+    """The film of a part held at a position (k,) m, its drive that of `time` (s): forces need not balance.
 
     Raises FilmInputError where walls overlap, FilmNotConverged where the film does not settle.
     """
     q = np.asarray(q, dtype=float)
     instant = instant_of(solver, floating, time, FOR_EVER, standing(floating, time, q))
-    return Stage(time, instant.tried(q, warm), instant, films=1, steps=0, shift=np.zeros_like(q))
+    return FloatingStage(time, instant.tried(q, warm), instant, films=1, steps=0, shift=np.zeros_like(q))
 
 
-def come_to_rest(solve: StageSolver[S], start: State[S], step: float, allowed: float) -> Taken[S]:
+def come_to_rest(solve: StageSolver[S], start: State[S], step: float, allowed: float) -> AcceptedStep[S]:
     """The last step of a motion from `start`, its drive held at `start.time`.
 
-    `step` (s) is the first one, about the time in which the motion answers its drive. Afterwards three steps in a
+    `step` (s) is the first one, about the response time of the motion. Afterwards three steps in a
     row, each four times the one before, have moved no coordinate by more than `allowed` (m). A step without
     solution is cut to a quarter, and tried again after PATIENCE of the shorter ones. Raises FilmInputError for a
     step or tolerance that is none, FilmNotConverged for a motion that finds no rest, with its last move.
@@ -64,7 +64,7 @@ def come_to_rest(solve: StageSolver[S], start: State[S], step: float, allowed: f
         still = still + 1 if moved <= allowed else 0
         if still == STILL:
             return taken
-        # The next guess is the place itself: a rate says nothing over a step four times as long.
+        # The next guess is the place itself: a rate is no guide over a step four times as long.
         state = replace(taken.state, rate=np.zeros_like(state.rate), bend=0.0)
         since += 1
         if GROWTH * step < refused or since >= PATIENCE:

@@ -1,9 +1,9 @@
-"""How a solved film answers to its thickness and to what it held: slopes on the solver's last factor.
+"""Sensitivity of a solved film to its thickness and to its oil before the step, by the solver's last factor.
 
-The balance R(p, theta; h, held before) = 0 of every unknown, differentiated with the cavity as it is:
-J d(p, theta) = - R_h dh + d(held before)/step, one right-hand side for each change. Exact between rigid walls;
-where walls give way J leaves out how a cavity's upwinding changes with the opening (`balance.slopes`): some 1e-4
-of dQ/dq.
+The balance R(p, theta; h, held before) = 0 of every unknown, differentiated at constant cavity: J d(p,
+theta) = - R_h dh + d(held before)/step, one right-hand side for each change. Exact between rigid
+walls; between elastic ones J leaves out the change of a cavity's upwinding with the deformation
+(`balance.slopes`): some 1e-4 of dQ/dq.
 """
 
 from __future__ import annotations
@@ -12,10 +12,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from reynolds.equation.balance import Operators, State, cavity_density, density, steep_gradient
+from reynolds.equation.balance import FilmState, Operators, cavity_density, density, steep_gradient
 from reynolds.equation.coefficients import along, at_points
-from reynolds.equation.deformation import opening_slope
-from reynolds.equation.hourglass import signs, twisting_slope
+from reynolds.equation.deformation import deformation_slope
+from reynolds.equation.hourglass import hourglass_slope, signs
 from reynolds.floating import coordinate_kernels as generalised_kernels
 from reynolds.linear.factor import ITERATIVE_TOLERANCE
 from reynolds.numerics.arrays import Array
@@ -24,7 +24,7 @@ from reynolds.solve.solver import FilmSolver
 
 
 @dataclass(frozen=True)
-class Response:
+class FilmSensitivity:
     """Changes of pressure (size, m) Pa and of film fraction (size, m) per unit of each of m parameters."""
 
     pressure: Array
@@ -33,9 +33,9 @@ class Response:
 
 def response(
     solver: FilmSolver, solution: FilmSolution, inflow: Array, tolerance: float = ITERATIVE_TOLERANCE
-) -> Response:
-    """What inflows (size, m) m3/s into the unknowns change, to a tolerance; held ones keep their pressure."""
-    return Response(*solver.response(solution, inflow, tolerance))
+) -> FilmSensitivity:
+    """Changes by inflows (size, m) m3/s into the unknowns, to a tolerance; held ones keep their pressure."""
+    return FilmSensitivity(*solver.response(solution, inflow, tolerance))
 
 
 def thickness_load(solution: FilmSolution, thicker: Array, parts: Operators) -> Array:
@@ -47,18 +47,18 @@ def thickness_load(solution: FilmSolution, thicker: Array, parts: Operators) -> 
     space, terms, tensors = problem.space, parts.transport, problem.space.tensors
     filling = state.film_fraction * density(problem, state.pressure)[0]
     driven = along(terms.conductance_slope, steep_gradient(space, state.pressure))
-    twisted = twisting_slope(space, terms.conductance, terms.conductance_slope, state.pressure)
+    mode = hourglass_slope(space, terms.conductance, terms.conductance_slope, state.pressure)
     full = at_points(space, filling)
     carried = (full * part for part in terms.flux_slope)
     per_second = 0.0 if problem.storage is None else terms.content_slope / problem.storage.step
     out = np.empty((space.size, thicker.shape[2]))
     generalised_kernels.thicken(
         space.dofs, tensors.shape, space.reference.value, tensors.steep_gradient, tensors.gradient, signs(space),
-        space.area, *(space.everywhere(part) for part in (*driven, twisted, *carried, np.atleast_2d(per_second))),
+        space.area, *(space.everywhere(part) for part in (*driven, mode, *carried, np.atleast_2d(per_second))),
         filling, thicker, *space.reference.loops, out,
     )  # fmt: skip
     if problem.cavitation is Cavitation.JFO and bool(np.any(state.film_fraction != 1.0)):
-        # Upwinding's diffusion grows with the flow that the walls carry.
+        # Upwinding's diffusion grows with the walls' flow.
         generalised_kernels.mixed_more(
             space.dofs, space.pattern.slots, tensors.shape, space.reference.value, tensors.gradient,
             *(space.everywhere(part) for part in terms.flux_slope), thicker, *space.reference.loops,
@@ -68,18 +68,18 @@ def thickness_load(solution: FilmSolution, thicker: Array, parts: Operators) -> 
     return out
 
 
-def oil_slopes(solution: FilmSolution, thicker: Array, changed: Response, parts: Operators) -> Array:
-    """Change of what each unknown holds, (size, k) m3 per unit of q_j at reference density.
+def oil_slopes(solution: FilmSolution, thicker: Array, changed: FilmSensitivity, parts: Operators) -> Array:
+    """Change of each unknown's oil, (size, k) m3 per unit of q_j at reference density.
 
-    `thicker` and `parts` as above; `changed` is what pressures and film fractions do meanwhile, the pressures
-    opening walls that give way.
+    `thicker` and `parts` as above; `changed`: the changes of pressures and film fractions, the pressures
+    deforming elastic walls.
     """
     problem, space = solution.problem, solution.problem.space
     ratio, ratio_slope = density(problem, solution.pressure)
     terms = parts.transport
     grown = np.empty((space.size, thicker.shape[2]))
     if problem.walls is not None:
-        opened = opening_slope(problem, solution.opening) @ changed.pressure
+        opened = deformation_slope(problem, solution.deformation) @ changed.pressure
         thicker = thicker + space.reference.geometry_value @ opened[space.cells]
     wider = np.ascontiguousarray(terms.content_slope[:, :, None] * thicker)
     generalised_kernels.weigh(space.dofs, space.reference.value, space.area, wider, *space.reference.loops, grown)
@@ -91,5 +91,5 @@ def oil_slopes(solution: FilmSolution, thicker: Array, changed: Response, parts:
     )
 
 
-def _state(solution: FilmSolution) -> State:
-    return State(solution.pressure, solution.film_fraction, solution.opening)
+def _state(solution: FilmSolution) -> FilmState:
+    return FilmState(solution.pressure, solution.film_fraction, solution.deformation)

@@ -1,4 +1,4 @@
-"""Where a march of a floating film begins: what it holds at a position, and how that changes with the position."""
+"""Start of a march of a floating film: its oil at a position, and the change of the oil with the position."""
 
 from __future__ import annotations
 
@@ -12,10 +12,10 @@ from reynolds.errors import FilmInputError
 from reynolds.fem.space import FilmSpace
 from reynolds.floating.pockets import pockets_grown
 from reynolds.floating.problem import Floating
-from reynolds.floating.sensitivity import Response, oil_slopes
-from reynolds.floating.step import Stage, solve_stage, standing
+from reynolds.floating.sensitivity import FilmSensitivity, oil_slopes
+from reynolds.floating.step import FloatingStage, solve_stage, standing
 from reynolds.numerics.arrays import Array
-from reynolds.numerics.dirk import State, Tangent
+from reynolds.numerics.dirk import State, StateTangent
 from reynolds.solve.solver import FilmSolver
 
 NUDGE = (
@@ -25,8 +25,8 @@ NUDGE = (
 NEAR = 1e-9  # of the mesh: round-off of a place
 
 
-def started(floating: Floating, time: float, q: Array) -> State[Stage]:
-    """A full film standing still at a position (k,) m, with the tangent of its position.
+def started(floating: Floating, time: float, q: Array) -> State[FloatingStage]:
+    """A full film at rest at a position (k,) m, with the tangent of its position.
 
     Raises FilmInputError where walls overlap, as `standing` does.
     """
@@ -35,28 +35,34 @@ def started(floating: Floating, time: float, q: Array) -> State[Stage]:
     for nudge in NUDGE * np.eye(len(q)):
         ahead, behind = (standing(floating, time, q + sign * nudge) for sign in (1.0, -1.0))
         columns.append((ahead - behind) / (2.0 * NUDGE))
-    tangent = Tangent(np.eye(len(q)), np.column_stack(columns))
+    tangent = StateTangent(np.eye(len(q)), np.column_stack(columns))
     return State(time, q, standing(floating, time, q), np.zeros(len(q)), tangent=tangent)
 
 
-def pressed(solver: FilmSolver, floating: Floating, start: State[Stage], step: float) -> State[Stage]:
-    """The start once walls that give way have done so, oil hardly having flowed: one implicit step (s).
+def pressed(
+    solver: FilmSolver, floating: Floating, start: State[FloatingStage], step: float
+) -> State[FloatingStage]:
+    """The start with deformed elastic walls, before oil flows much: one implicit step (s).
 
-    Elastic walls follow a load at once, by a way that no shorter step makes shorter. Raises as `solve_stage`.
+    Elastic walls follow a load at once, whatever the step. Raises as `solve_stage`.
     """
     stage = solve_stage(solver, floating, start.time, start.held, step, start.q, start.stage)
     assert start.tangent is not None
     return replace(
-        start, q=stage.q, held=stage.holds, tangent=Tangent(*stage.carried(start.tangent.held)), stage=stage
+        start,
+        q=stage.q,
+        held=stage.holds,
+        tangent=StateTangent(*stage.propagated(start.tangent.held)),
+        stage=stage,
     )
 
 
-def restarted(floating: Floating, time: float, last: State[Stage], q: Array) -> State[Stage]:
-    """What the end of a march holds, moved to a position (k,) m: the start of the next one, with its tangent.
+def restarted(floating: Floating, time: float, last: State[FloatingStage], q: Array) -> State[FloatingStage]:
+    """The end of a march moved to a position (k,) m: the start of the next one, with its tangent.
 
     The film fraction of each place stays, and its oil changes with the film over it; so does the rate. A mesh that
-    turned by a pitch has other unknowns in each place. Raises FilmInputError where that leaves less than no oil
-    somewhere, and for a mesh that did not come back.
+    turned by a pitch has other unknowns in each place. Raises FilmInputError where the oil of an unknown
+    falls below zero, and for a mesh that does not return.
     """
     stage = last.stage
     if stage is None:
@@ -64,7 +70,7 @@ def restarted(floating: Floating, time: float, last: State[Stage], q: Array) -> 
     k = len(stage.q)
     nothing = np.zeros((stage.instant.shape.space.size, k))
     film, parts = stage.trial.solution, stage.instant.solver.operators(stage.trial.solution)
-    oil = oil_slopes(film, stage.trial.thicker, Response(nothing, nothing), parts)
+    oil = oil_slopes(film, stage.trial.thicker, FilmSensitivity(nothing, nothing), parts)
     oil = oil + pockets_grown(film, stage.instant.modes)
     beside = np.zeros((len(last.held) - len(oil), k))  # position, and rates where walls have inertia
     beside[:k] = np.eye(k)
@@ -76,11 +82,13 @@ def restarted(floating: Floating, time: float, last: State[Stage], q: Array) -> 
         found = f"{least:.3g} m3 of oil at an unknown, {np.abs(q - stage.q).max():.3g} m from the last position"
         raise FilmInputError(f"{floating.name}, start of a turn", found, "a position nearer to it")
     warm = stage if np.array_equal(seats, np.arange(len(oil))) else None
-    return State(time, np.asarray(q, dtype=float), held, last.rate, last.bend, warm, Tangent(np.eye(k), slopes))
+    return State(
+        time, np.asarray(q, dtype=float), held, last.rate, last.bend, warm, StateTangent(np.eye(k), slopes)
+    )
 
 
 def seats_of(space: FilmSpace, other: FilmSpace) -> NDArray[np.intp]:
-    """Unknown of another placing of a mesh that stands where each unknown of the mesh does, (size,).
+    """Unknown of a moved mesh at the place of each unknown of the mesh, (size,).
 
     Raises FilmInputError where places differ by more than round-off.
     """

@@ -1,4 +1,4 @@
-"""A floating film tried at one position: forces that are to balance there, and their exact slopes."""
+"""A floating film tried at one position: its forces, which are to balance, and their exact slopes."""
 
 from __future__ import annotations
 
@@ -19,9 +19,9 @@ from reynolds.floating.coordinates import (
     soft_contact,
 )
 from reynolds.floating.pockets import filled, pockets_grown
-from reynolds.floating.pose import THINNEST, Posed, given_way, lowest_gap, posed
+from reynolds.floating.pose import THINNEST, PosedFilm, deformed_pose, lowest_gap, posed
 from reynolds.floating.problem import Floating, Outer
-from reynolds.floating.sensitivity import Response, oil_slopes, response, thickness_load
+from reynolds.floating.sensitivity import FilmSensitivity, oil_slopes, response, thickness_load
 from reynolds.linear.factor import ITERATIVE_TOLERANCE
 from reynolds.numerics.arrays import Array
 from reynolds.problem import Cavitation, FilmProblem, FilmSolution, Storage, holds_oil
@@ -30,14 +30,14 @@ from reynolds.solve.solver import FilmSolver, as_given
 LEAST_SHARE = 0.2  # of the least gap that a step may leave
 DEEPEST = 3.0  # standard deviations of the summits by which a step may press the walls together
 NEXT = 1e-2  # of the least film or of the summits' height
-SOFT_TOLERANCE = 1e-6  # of slopes between walls that give way, for what steers no more than a turn
+SOFT_TOLERANCE = 1e-6  # of slopes between elastic walls, which only steer the turn's closure
 TOUCHING = "asperities that bear where walls touch, an edge relief, a finer mesh, or less load"
 ROUNDING = 1e-6  # share of the largest magnitude below which another one is none
 
 
 @dataclass(frozen=True)
-class Kept:
-    """What a floating film carries on from one step to the next.
+class StepStart:
+    """State of a floating film between two steps.
 
     oil (size,) m3 at reference density, position q (k,) m and, where the walls have inertia, rate dq/dt (k,) m/s;
     also changes of them, (size, m) and so on.
@@ -48,26 +48,26 @@ class Kept:
     rate: Array
 
 
-def joined(floating: Floating, held: Kept) -> Array:
-    """All that is carried on as one vector, or its changes as columns."""
+def joined(floating: Floating, held: StepStart) -> Array:
+    """The state as one vector, or its changes as columns."""
     parts = [held.oil, held.position] if floating.inertia is None else [held.oil, held.position, held.rate]
     return np.concatenate(parts)
 
 
-def parted(floating: Floating, held: Array, size: int) -> Kept:
-    """What `joined` has joined, for a film of so many unknowns."""
+def parted(floating: Floating, held: Array, size: int) -> StepStart:
+    """The inverse of `joined`, for a film of so many unknowns."""
     k = len(held) - size if floating.inertia is None else (len(held) - size) // 2
     oil, position, rate = held[:size], held[size : size + k], held[size + k :]
-    return Kept(oil, position, np.zeros_like(position) if floating.inertia is None else rate)
+    return StepStart(oil, position, np.zeros_like(position) if floating.inertia is None else rate)
 
 
 @dataclass(frozen=True)
 class Trial:
     """A film at a position q (k,) m and rate m/s over the step.
 
-    gap (cells, points) m between the mean planes, walls having given way, corner_gap (vertices,) m the same where
-    it is known, least the smallest of both; thicker (cells, points, k): growth of the film by q at its pressure;
-    film_force Q (k,) N without contact; missing (k,) N: what is left of the balance, and `size` (k,) N, the
+    gap (cells, points) m between the mean planes, deformation included, corner_gap (vertices,) m the same where
+    it is known, least the smallest of both; thicker (cells, points, k): growth of the film by q at constant
+    pressure; film_force Q (k,) N without contact; missing (k,) N: residual of the balance, and `size` (k,) N, the
     magnitudes in it.
     """
 
@@ -96,8 +96,8 @@ class Trial:
 
 
 @dataclass(frozen=True)
-class Instant:
-    """A floating film at a time (s): its shape, and what it held one implicit step (s) before."""
+class FloatingInstant:
+    """A floating film at a time (s): its shape, and its state one implicit step (s) before."""
 
     solver: FilmSolver
     floating: Floating
@@ -105,25 +105,25 @@ class Instant:
     step: float
     shape: FilmProblem
     modes: Modes
-    before: Kept
+    before: StepStart
 
     def tried(self, q: Array, warm: FilmSolution | None) -> Trial:
-        """The film at a position; raises FilmNotConverged where walls overlap or the film does not settle."""
+        """The film at a position; raises FilmNotConverged where walls overlap or the film does not converge."""
         at = posed(self.shape, self.modes, q)
         if self.shape.walls is None and not at.least > lowest_gap(self.shape):
             raise FilmNotConverged(f"walls that touch: least gap {at.least:.3g} m", TOUCHING)
         return self._balanced(q, at, self.solver.solve(self._problem(q, at), warm))
 
-    def _problem(self, q: Array, at: Posed) -> FilmProblem:
-        """The film at a position, an implicit step after what was held."""
+    def _problem(self, q: Array, at: PosedFilm) -> FilmProblem:
+        """The film at a position, an implicit step after the state before."""
         storage = Storage(self.before.oil, self.step)
         boundary = filled(self.floating, self.shape, q)
         return replace(self.shape, film=at.film, asperities=at.asperities, boundary=boundary, storage=storage)
 
-    def _balanced(self, q: Array, at: Posed, solution: FilmSolution) -> Trial:
+    def _balanced(self, q: Array, at: PosedFilm, solution: FilmSolution) -> Trial:
         reference, contact = self.floating.reference, self._contact(at, solution)
         if self.shape.walls is not None:
-            at = given_way(at, solution, contact)
+            at = deformed_pose(at, solution, contact)
         rate = (q - self.before.position) / self.step
         force = generalised_force(solution.pressure, self.modes, reference)
         size = np.abs(solution.pressure - reference) @ np.abs(self.modes.weights)
@@ -143,19 +143,19 @@ class Instant:
             return np.zeros_like(rate)
         return np.asarray(-self.floating.inertia @ (rate - self.before.rate) / self.step)
 
-    def _contact(self, at: Posed, solution: FilmSolution) -> ContactForce | None:
+    def _contact(self, at: PosedFilm, solution: FilmSolution) -> ContactForce | None:
         if self.shape.asperities is None:
             return None
         if self.shape.walls is None:
             return contact_force(self.shape.asperities, at.gap, self.modes)
-        return soft_contact(touch_at(solution.problem, solution.opening), self.modes)
+        return soft_contact(touch_at(solution.problem, solution.deformation), self.modes)
 
-    def room(self, at: Trial, step: Array, film: Response) -> float:
+    def room(self, at: Trial, step: Array, film: FilmSensitivity) -> float:
         """The share of a step (k,) m, maybe more than one, that leaves as much gap as one step may take.
 
         That is a fifth of the least gap, or of rough walls three standard deviations of the summits less than it.
-        Walls that give way follow the pressure that the step brings, `film` per unit of it; smooth ones the
-        further the nearer they come.
+        Elastic walls follow the pressure of the step, `film` per unit of it; smooth ones the further the nearer
+        they come.
         """
         if self.shape.walls is not None and self.shape.asperities is None:
             return np.inf
@@ -173,24 +173,24 @@ class Instant:
             for gap, fall in falls
         )
 
-    def grown(self, at: Trial, film: Response) -> Array:
-        """Growth of the gap by each coordinate at the vertices, (vertices, k), walls that give way following."""
+    def grown(self, at: Trial, film: FilmSensitivity) -> Array:
+        """Growth of the gap by each coordinate at the vertices, (vertices, k), elastic walls following."""
         if self.shape.walls is None:
             return self.modes.at_vertices
         if isinstance(at.contact, SoftContact):
-            return at.contact.opened(film.pressure) + at.contact.grown
+            return at.contact.deformation(film.pressure) + at.contact.grown
         return self.shape.walls.matrix @ film.pressure + self.modes.at_vertices
 
-    def ahead(self, at: Trial, step: Array, film: Response) -> FilmSolution:
-        """The film a step (k,) m on as its slopes have it: where to start from for the film there.
+    def ahead(self, at: Trial, step: Array, film: FilmSensitivity) -> FilmSolution:
+        """The film a step (k,) m on along its slopes: a first guess of the film there.
 
-        Between walls that give way a step that left the pressure as it is would close the gap by all of it.
+        Between elastic walls a step at constant pressure would close the gap by all of it.
         """
         found = at.solution
         pressure = np.where(found.held, found.pressure, found.pressure + film.pressure @ step)
         fraction, level = found.film_fraction + film.film_fraction @ step, found.problem.cavitation_pressure
         cavity = found.cavity
-        if found.problem.cavitation is Cavitation.JFO:  # what fills up, and what tears
+        if found.problem.cavitation is Cavitation.JFO:  # unknowns that fill up, and that cavitate
             cavity = np.where(cavity, fraction < 1.0, ~found.held & (pressure < level))
         if found.problem.cavitation is not Cavitation.NONE:
             pressure = np.maximum(pressure, level)
@@ -198,32 +198,32 @@ class Instant:
         found = replace(found, cavity=cavity)
         if found.problem.walls is None:
             return replace(found, pressure=pressure, film_fraction=fraction)
-        opened = found.opening + (self.grown(at, film) - self.modes.at_vertices) @ step
-        return replace(found, pressure=pressure, film_fraction=fraction, opening=opened)
+        opened = found.deformation + (self.grown(at, film) - self.modes.at_vertices) @ step
+        return replace(found, pressure=pressure, film_fraction=fraction, deformation=opened)
 
-    def moved(self, at: Trial, step: Array, film: Response) -> FilmSolution:
-        """The film a step (k,) m on as its slopes have it, its flows those of these pressures."""
+    def moved(self, at: Trial, step: Array, film: FilmSensitivity) -> FilmSolution:
+        """The film a step (k,) m on along its slopes, its flows those of these pressures."""
         q = at.q + step
         return as_given(self._problem(q, posed(self.shape, self.modes, q)), self.ahead(at, step, film))
 
     def touching(self, at: Trial) -> bool:
-        """Whether walls are next to where there is no film between them, or no law of contact."""
+        """True where walls are next to the end of the film, or of the law of contact."""
         asperities = self.shape.asperities
         height = THINNEST if asperities is None else asperities.height
         return at.least - lowest_gap(self.shape) < NEXT * height
 
     @property
     def exactness(self) -> float:
-        """Tolerance of linear solves for slopes that are carried on: dear between walls that give way."""
+        """Tolerance of linear solves for slopes, which are costly between elastic walls."""
         return ITERATIVE_TOLERANCE if self.shape.walls is None else SOFT_TOLERANCE
 
-    def by_position(self, at: Trial, tolerance: float) -> Response:
-        """How the film at a position answers to it, on the film's last factor, to a tolerance of linear solves."""
+    def by_position(self, at: Trial, tolerance: float) -> FilmSensitivity:
+        """Sensitivity of the film to the position, by the film's last factor, to a tolerance of linear solves."""
         parts = self.solver.operators(at.solution)
         load = thickness_load(at.solution, at.thicker, parts) + pockets_grown(at.solution, self.modes) / self.step
         return response(self.solver, at.solution, -load, tolerance)
 
-    def slopes(self, at: Trial, film: Response) -> Array:
+    def slopes(self, at: Trial, film: FilmSensitivity) -> Array:
         """d missing/dq, (k, k) N/m."""
         total = self.film_slopes(film) + at.outer.by_position + at.outer.by_rate / self.step
         if at.contact is not None:
@@ -232,23 +232,23 @@ class Instant:
             total = total - self.floating.inertia / self.step**2
         return np.asarray(total)
 
-    def film_slopes(self, film: Response) -> Array:
+    def film_slopes(self, film: FilmSensitivity) -> Array:
         """dQ/dq without contact, (k, k) N/m."""
         return np.asarray(self.modes.weights.T @ film.pressure)
 
-    def oil_moved(self, at: Trial, own: Response, moved: Array) -> Array:
-        """Change of what the unknowns hold, (size, m) m3, with the position (k, m) m alone."""
-        both = Response(own.pressure @ moved, own.film_fraction @ moved)
+    def oil_moved(self, at: Trial, own: FilmSensitivity, moved: Array) -> Array:
+        """Change of the unknowns' oil, (size, m) m3, with the position (k, m) m alone."""
+        both = FilmSensitivity(own.pressure @ moved, own.film_fraction @ moved)
         return self._oil_by(at, both, moved)
 
-    def _oil_by(self, at: Trial, both: Response, moved: Array) -> Array:
-        """Change of what the unknowns hold, pockets' oil in it, with film and position (k, m) m."""
+    def _oil_by(self, at: Trial, both: FilmSensitivity, moved: Array) -> Array:
+        """Change of the unknowns' oil, pockets included, with film and position (k, m) m."""
         thicker = generalised_kernels.mixed(at.thicker, np.ascontiguousarray(moved))
         oil = oil_slopes(at.solution, thicker, both, self.solver.operators(at.solution))
         return np.asarray(oil + pockets_grown(at.solution, self.modes) @ moved)
 
-    def by_before(self, at: Trial, changed: Kept) -> tuple[Response, Array]:
-        """Change of the film and of `missing` (k, m) with what was held before, the position as it is."""
+    def by_before(self, at: Trial, changed: StepStart) -> tuple[FilmSensitivity, Array]:
+        """Change of the film and of `missing` (k, m) with the state before, at constant position."""
         film = response(self.solver, at.solution, changed.oil / self.step, self.exactness)
         missing = self.modes.weights.T @ film.pressure - at.outer.by_rate @ changed.position / self.step
         if at.contact is not None:
@@ -257,19 +257,19 @@ class Instant:
             missing += self.floating.inertia @ (changed.position / self.step + changed.rate) / self.step
         return film, missing
 
-    def onward(self, at: Trial, own: Response, slopes: Array, changed: Kept) -> Kept:
-        """Change of what is held at the end of the step with what was held before it, balance kept.
+    def onward(self, at: Trial, own: FilmSensitivity, slopes: Array, changed: StepStart) -> StepStart:
+        """Change of the state at the end of the step with that before it, in balance.
 
-        `own` and `slopes`: how film and forces answer to the position.
+        `own` and `slopes`: sensitivities of film and forces to the position.
         """
         film, missing = self.by_before(at, changed)
         q = -solved(slopes, missing, self.floating.name)
-        both = Response(film.pressure + own.pressure @ q, film.film_fraction + own.film_fraction @ q)
-        return Kept(self._oil_by(at, both, q), q, (q - changed.position) / self.step)
+        both = FilmSensitivity(film.pressure + own.pressure @ q, film.film_fraction + own.film_fraction @ q)
+        return StepStart(self._oil_by(at, both, q), q, (q - changed.position) / self.step)
 
 
-def instant_of(solver: FilmSolver, floating: Floating, time: float, step: float, held: Array) -> Instant:
-    """The floating film at the end of a step; raises FilmNotConverged where less than no oil was held before."""
+def instant_of(solver: FilmSolver, floating: Floating, time: float, step: float, held: Array) -> FloatingInstant:
+    """The floating film at the end of a step; raises FilmNotConverged for negative oil before the step."""
     shape = floating.shape_at(time)
     modes = modes_on(shape.space, floating.modes_at(time), floating.pockets)
     before = parted(floating, held, shape.space.size)
@@ -278,7 +278,7 @@ def instant_of(solver: FilmSolver, floating: Floating, time: float, step: float,
             f"{floating.name}: {before.oil.min():.3g} m3 of oil left in a cavity between two stages",
             "a shorter step, or implicit Euler",
         )
-    return Instant(solver, floating, time, step, shape, modes, before)
+    return FloatingInstant(solver, floating, time, step, shape, modes, before)
 
 
 def solved(slopes: Array, load: Array, name: str) -> Array:

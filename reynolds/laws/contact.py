@@ -24,7 +24,7 @@ _TERMS = 80  # of the Chebyshev series of `gaussian_moment`
 
 @dataclass(frozen=True)
 class Asperities:
-    """The rough walls as Greenwood and Tripp see them: two sheets of parabolic summits of Gaussian height.
+    """Rough walls by Greenwood and Tripp: two sheets of parabolic summits of Gaussian height.
 
     density: summits per area eta, 1/m2; radius: of the summits beta, m; height: standard deviation sigma of the
     summits' heights, both walls together, m; modulus E' of both walls (`composite_modulus`), Pa;
@@ -112,7 +112,7 @@ def contact_area(asperities: Asperities, h: ArrayLike) -> Tangent:
 def boundary_shear(asperities: Asperities, pressure: ArrayLike) -> Tangent:
     """Shear stress of the contacts, min(mu_b p_c, shear_limit) (Pa), against the sliding, and its slope over p_c.
 
-    Pressure in Pa per nominal area, as `contact_pressure` gives it. Raises FilmInputError for p_c < 0.
+    Pressure in Pa per nominal area, by `contact_pressure`. Raises FilmInputError for p_c < 0.
     """
     p = within("contact pressure", pressure, 0.0, np.inf, "Pa")
     sliding = asperities.friction_coefficient * p
@@ -121,7 +121,7 @@ def boundary_shear(asperities: Asperities, pressure: ArrayLike) -> Tangent:
 
 
 def lambda_ratio(h: ArrayLike, composite_roughness: float) -> Array:
-    """h/sigma (1): above 3 to 4 the film carries alone, below 1 the contacts carry most (boundary lubrication)."""
+    """h/sigma (1): above 3 to 4 the film carries the load, below 1 mostly the contacts (boundary lubrication)."""
     require_positive("lambda ratio", composite_roughness=composite_roughness)
     return np.asarray(h, dtype=float) / composite_roughness
 
@@ -136,7 +136,7 @@ def gaussian_moment(order: float, ratio: ArrayLike) -> Tangent:
     if order == 1.0:
         return Tangent(_moments(h, order)[0], -ndtr(-h))
     if order < 1.0:
-        raise FilmInputError("Gaussian moment, order", f"{order:g}", "1 or more: below, its slope is none")
+        raise FilmInputError("Gaussian moment, order", f"{order:g}", "1 or more: below, it has no slope")
     value, slope = _moments(h, order, order - 1.0)
     return Tangent(value, -order * slope)
 
@@ -166,7 +166,7 @@ def _moments(h: Array, *orders: float) -> list[Array]:
 def _series(order: float) -> Array:
     """Chebyshev coefficients, from Gauss' quadrature at the nodes: t = u^2 takes the root out of t^n.
 
-    F_n e^(H^2/2) = integral of t^n e^(-t^2/2 - H t) dt/sqrt(2 pi); what is beyond t^2/2 + H t = 60 + 18 is
+    F_n e^(H^2/2) = integral of t^n e^(-t^2/2 - H t) dt/sqrt(2 pi); the part beyond t^2/2 + H t = 60 + 18 is
     below round-off (18 = H^2/2 at H = -6, where the integrand's peak is e^18).
     """
     node, weight = np.polynomial.legendre.leggauss(200)

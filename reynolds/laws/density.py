@@ -18,7 +18,6 @@ from reynolds.numerics.arrays import Array
 
 ATMOSPHERE = 101325.0  # Pa absolute at zero gauge
 MINERAL_OIL_BUNSEN = 0.09  # volume of air (0 gauge) that a volume of mineral oil dissolves per atmosphere
-TAIT_UNIVERSAL_SLOPE = 11.0  # K0' of mineral oils; Fakhreddine and Zoller 1990
 API_LUBRICANT = 0.6278  # kg/(m3 K): expansion times density of lubricating oils, ASTM D1250 table 54D
 
 
@@ -117,8 +116,8 @@ class Aerated:
 
     `free_air` is the volume share of bubbles at zero gauge. Henry and Dalton: each volume of oil dissolves
     `bunsen` volumes of that air per atmosphere of rise and gives as much back when the pressure falls, at once;
-    0 stands for a passage too short to dissolve any (a film's passage takes milliseconds, dissolving seconds).
-    What is free follows V ~ P^(-1/n), n = 1 isothermal (small bubbles), 1.4 adiabatic. The mass of the air is
+    0 for a passage too short to dissolve any (a film's passage takes milliseconds, dissolving seconds).
+    The free air follows V ~ P^(-1/n), n = 1 isothermal (small bubbles), 1.4 adiabatic. The mass of the air is
     left out (0.1 % of the oil's). The slope jumps where the last bubble dissolves.
     Source: Nykanen, Esque and Ellman 2000; Kim and Murrenhoff 2012; Gholizadeh, Burton and Schoenau 2011.
     Raises FilmInputError at and below 1 % of the absolute `atmosphere` (Pa at zero gauge): vapour, not this law.

@@ -1,4 +1,4 @@
-"""How the oil of a film answers to pressure: viscosity and density, each with its slope for Newton's method."""
+"""Laws of the oil in pressure: viscosity and density, each with its slope for Newton's method."""
 
 from __future__ import annotations
 
@@ -18,12 +18,12 @@ DensityLaw = Callable[[Array], tuple[Array, Array]]
 
 
 def isoviscous(pressure: Array, viscosity: Array) -> tuple[Array, Array]:
-    """A viscosity that pressure does not change."""
+    """A viscosity independent of pressure."""
     return viscosity, np.zeros((1, 1))
 
 
 def incompressible(pressure: Array) -> tuple[Array, Array]:
-    """A density that pressure does not change: ratio one."""
+    """A density independent of pressure: ratio one."""
     return _constant(pressure.shape)
 
 

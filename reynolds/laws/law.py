@@ -1,6 +1,6 @@
-"""What every law of the oil and of the walls gives: a value and its slope; and how it refuses.
+"""Value and slope of a law of the oil or of the walls, and checks of its range.
 
-The film solver is a Newton method, so that a law without its derivative is of no use to it.
+The film solver is a Newton method, so that every law gives its derivative.
 """
 
 from __future__ import annotations

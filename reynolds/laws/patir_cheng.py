@@ -3,7 +3,7 @@
 gamma, Peklenik's number, is the ratio of correlation lengths of the roughness along x and across: gamma > 1 ridges
 along x, < 1 across, 1 isotropic. Between the rows of the table the factors (not their coefficients, whose formulas
 differ) are interpolated in log gamma. Below a row's range every factor changes exponentially, with the value and
-slope it has at the limit. That continuation is ours: smooth and positive, so that a solver finds its way, but no
+slope it has at the limit. That continuation is ours: smooth and positive for the solver, but no
 measurement. FilmInputError for gamma outside 1/9 .. 9.
 """
 
@@ -141,7 +141,7 @@ def _interpolated(
     require_peklenik(peklenik)
     h = np.asarray(ratio, dtype=float)
     place = float(np.interp(np.log(peklenik), _LOG_PEKLENIK, np.arange(len(TABLE))))
-    # A table's own number is not to be mixed with its neighbour by the round-off of the logarithm.
+    # Round-off of the logarithm must not mix a table's own number with its neighbour.
     place = round(place) if abs(place - round(place)) < 1e-9 else place
     low = int(place)
     first = _continued(law, TABLE[low], lowest(TABLE[low]), h)

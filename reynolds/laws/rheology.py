@@ -1,7 +1,7 @@
 """Viscosity over shear rate: Carreau, Carreau-Yasuda, Cross and the Ree-Eyring stress law.
 
 Each is a published function of shear rate gamma (1/s, its magnitude counts) and viscosity without shear mu0
-(Pa s), and a small frozen class that keeps an oil's constants. The second Newtonian viscosity is given as a
+(Pa s), and a frozen class of an oil's constants. The second Newtonian viscosity is given as a
 share of mu0, so that it follows temperature and pressure.
 """
 

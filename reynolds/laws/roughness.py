@@ -3,12 +3,12 @@
 Mean flow per width along x, wall 1 the moving and wall 2 the fixed one (h between the mean planes):
     q = - phi_x h^3/(12 mu) dp/dx + (U1 + U2)/2 hT + (U1 - U2)/2 sigma phi_s,
     phi_s = V1 Phi_s(gamma1) - V2 Phi_s(gamma2),  V = (sigma of the wall/sigma)^2.
-A moving rough wall carries oil in its valleys, so that phi_s > 0 there: with crossing ridges the flow is exactly
+A moving rough wall drags oil in its valleys, so that phi_s > 0 there: with crossing ridges the flow is exactly
 U/2 (2 h - E[h^-2]/E[h^-3]), that is phi_s = 3 sigma/h > 0 at first order.
 
 Peklenik's number is counted along the principal direction of the roughness (x unless a lay is given). The factors
-reach down to h/sigma = 0.5 or 1 and are continued below (`patir_cheng`); `beyond_range` says how much of a film
-lies there.
+reach down to h/sigma = 0.5 or 1 and are continued below (`patir_cheng`); `beyond_range` gives the share of a film
+there.
 """
 
 from __future__ import annotations
@@ -78,7 +78,7 @@ class Surface:
 class Directional(NamedTuple):
     """A symmetric tensor in the film plane, each part with its slope: flux_x = x g_x + xy g_y, and so on.
 
-    Where it is the same in every direction, y is the very x, and xy is zero.
+    If isotropic, y is x and xy is zero.
     """
 
     x: Tangent
@@ -87,7 +87,7 @@ class Directional(NamedTuple):
 
 
 class FlowFactors(NamedTuple):
-    """What roughness does to the flow; slopes are with respect to h (per m).
+    """Flow factors of roughness; slopes are with respect to h (per m).
 
     `pressure` multiplies h^3/(12 mu); `shear` (phi_s) enters the flow as + (U_moving - U_fixed)/2 sigma phi_s;
     `content` is the mean film thickness hT in m, which replaces h in the mean sliding flow and in the storage.
@@ -99,11 +99,11 @@ class FlowFactors(NamedTuple):
 
 
 class ShearFactors(NamedTuple):
-    """What roughness does to the viscous stress of the oil on the walls (Pa); slopes with respect to h.
+    """Factors of the viscous stress of the oil on the walls (Pa); slopes with respect to h.
 
     moving: - mu (U1 - U2)/h (couette - sliding) - pressure h/2 dp/dx
     fixed:  + mu (U1 - U2)/h (couette + sliding) - pressure h/2 dp/dx
-    The pressure's push on the asperities' flanks comes on top and is no viscous stress.
+    The pressure on the asperities' flanks is added apart and is no viscous stress.
     """
 
     couette: Tangent
@@ -120,7 +120,7 @@ class BeyondRange(NamedTuple):
 
 
 def beyond_range(h: ArrayLike, surface: Surface) -> BeyondRange:
-    """How much of a film (m, at any points) is thinner than Patir and Cheng's formulas reach."""
+    """Share of a film (m, at any points) thinner than the range of Patir and Cheng's formulas."""
     ratio = np.asarray(h, dtype=float) / surface.composite_roughness
     below = float(np.mean(ratio < surface.lowest_ratio))
     return BeyondRange(below, float(np.min(ratio)), surface.lowest_ratio)
@@ -142,12 +142,12 @@ def flow_factors(surface: Surface, h: ArrayLike) -> FlowFactors:
 
 
 def pressure_factors(surface: Surface, h: ArrayLike) -> Directional:
-    """What multiplies h^3/(12 mu) alone, as `flow_factors` has it."""
+    """Factor of h^3/(12 mu) alone, see `flow_factors`."""
     return _directed(phi_x, surface, _ratio(surface, h), surface.variance_shares)
 
 
 def sliding_factor(surface: Surface, h: ArrayLike) -> Tangent:
-    """What multiplies mu (U1 - U2)/h alone, as `shear_factors` has it."""
+    """Factor of mu (U1 - U2)/h alone, see `shear_factors`."""
     couette = phi_f(_ratio(surface, h))
     return Tangent(couette.value, couette.slope / surface.composite_roughness)
 
@@ -166,7 +166,7 @@ def shear_factors(surface: Surface, h: ArrayLike) -> ShearFactors:
 def mean_thickness(composite_roughness: float, h: ArrayLike) -> Tangent:
     """hT = sigma [H N(H) + n(H)] (m) and the contact factor phi_c = dhT/dh = N(H): Gaussian heights, exact.
 
-    The mean of what is left between the walls where asperities that would overlap are cut off; any h, even < 0.
+    The mean distance of the walls with overlapping asperities cut off; any h, even < 0.
     """
     gap = np.asarray(h, dtype=float, order="C")
     mean, share = np.empty(gap.shape), np.empty(gap.shape)

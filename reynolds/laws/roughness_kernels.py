@@ -1,4 +1,4 @@
-"""What rough walls leave open, point by point, compiled once by numba."""
+"""Mean gap and sliding stress of rough walls, point by point, compiled once by numba."""
 
 # mypy: allow-untyped-defs, allow-incomplete-defs, no-check-untyped-defs
 

@@ -1,9 +1,9 @@
-"""Direct solves of small films: elimination in the narrow band that a good order of the unknowns leaves.
+"""Direct solves of small films: elimination in the narrow band of a good order of the unknowns.
 
 A film around a ring, numbered from one line across it both ways round, couples only to unknowns at most two lines
 away. Below some thousand unknowns its elimination costs less than a few iterations do, and each further right-hand
 side next to nothing. Film columns are symmetric and diagonally dominant, those of a cavity transport downstream:
-such a matrix needs no exchange of rows (Golub and Van Loan 2013, 3.4.10); where one does, the residual tells.
+such a matrix needs no exchange of rows (Golub and Van Loan 2013, 3.4.10); where one does, the residual shows it.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ REFINEMENTS = 2
 
 
 class BandedFactor:
-    """The factors of one pattern after another `update`; `solve` with any number of right-hand sides."""
+    """Factors of one pattern: `update` with new entries, `solve` with any number of right-hand sides."""
 
     def __init__(self, both: BothTriangles, order: NDArray[np.intp], hubs: int) -> None:
         """`order` (n,): the new number of each unknown, of hubs last."""
@@ -64,7 +64,7 @@ class BandedFactor:
         return True
 
     def solve(self, loads: Array, tolerance: float) -> tuple[Array, float]:
-        """Rows x of (m, n) with |A x - load| <= tolerance |load|, or as near as refinement comes; what is left."""
+        """Rows x of (m, n) with |A x - load| <= tolerance |load|, or as near as refinement comes; the residual."""
         found = np.empty_like(loads)
         pattern = self._both.indptr, self._both.indices
         left = kernels.solve(

@@ -1,7 +1,7 @@
 """Elimination in a narrow band, compiled once by numba: rows in one flat array, eight numbers at a time.
 
 `half`, the band's half width, is a multiple of eight. Row i keeps columns i - half .. i + half; entry (i, j)
-stands at i * width + j - i + half, width = 2 half + 1. Some last unknowns, coupled to more than a band holds
+is at i * width + j - i + half, width = 2 half + 1. Some last unknowns, coupled beyond the band
 (pockets), border it: columns `across` (hubs, n), rows `down` (hubs, n) and `corner` (hubs, hubs). Vectors have
 `half` zeros before and after their n numbers, so that eights may be read beyond their ends.
 """
@@ -151,9 +151,9 @@ def residual(indptr, indices, entries, load, x, left):
 
 @njit(**_FAST)
 def solve(band, inverse, order, pattern, entries, loads, tolerance, rounds, found):
-    """Rows of found (m, n) := A^-1 rows of loads, refined until |A x - load| <= tolerance |load|; what is left.
+    """Rows of found (m, n) := A^-1 rows of loads, refined until |A x - load| <= tolerance |load|; the residual.
 
-    `pattern`: indptr and indices by columns. What is left is the largest of |A x - load|/|load|.
+    `pattern`: indptr and indices by columns. The residual is the largest |A x - load|/|load|.
     """
     worst, nothing = 0.0, np.zeros(loads.shape[1])
     new, rest = np.empty(loads.shape[1]), np.empty(loads.shape[1])

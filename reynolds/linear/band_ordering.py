@@ -1,8 +1,8 @@
 """An order of unknowns in which each is near those that it couples to: line after line across a film.
 
-Cuthill and McKee (1969) walk from neighbours to neighbours of neighbours. Begun at one unknown their front is
-bent and twice as long as need be; begun at a whole line across the film it stays a line. Around a ring two fronts
-go both ways round.
+Cuthill and McKee (1969) walk from neighbours to neighbours of neighbours. From one unknown the front is
+curved and twice as long as necessary; from a whole line across the film it stays a line. Around a ring two
+fronts go both ways round.
 """
 
 from __future__ import annotations
@@ -31,7 +31,8 @@ def line_order(graph: csr_array) -> Numbers:
 def _line(graph: csr_array) -> Numbers:
     """A line of unknowns across a connected graph, at an end if it has one, in order.
 
-    Half-way between two unknowns far apart the graph is cut across; what is farthest from a cut is a line too.
+    Half-way between two unknowns far apart the graph is cut across; the unknowns farthest from a cut are a line
+    too.
     """
     one = int(np.argmax(_steps(graph, [0])))
     steps = _steps(graph, [one])

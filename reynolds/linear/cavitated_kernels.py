@@ -1,6 +1,6 @@
-"""Kernels of the film whose cavities carry oil (see `carried`), compiled once by numba.
+"""Kernels of the film with oil in its cavities (see `cavitated`), compiled once by numba.
 
-The matrix stands in columns, both triangles: indptr, indices, entries.
+The matrix is stored by columns, both triangles: indptr, indices, entries.
 """
 
 # mypy: allow-untyped-defs, allow-incomplete-defs, no-check-untyped-defs
@@ -16,12 +16,12 @@ from reynolds.linear.multigrid.cycle_kernels import cycle, put, take
 _FAST = {"cache": True, "error_model": "numpy", "fastmath": {"contract"}}
 _SUMS = _FAST | {"fastmath": {"contract", "reassoc", "nsz"}}  # lets a sum run in several parts at once
 
-NEGLIGIBLE = 1e-12  # of what an unknown of the cavity gives on: less is round-off, and sets no order
+NEGLIGIBLE = 1e-12  # of an unknown's flow downstream: less is round-off, and sets no order
 MOST_RETURNED = 1.0 - 1e-3  # a film that cavities return all to would have no level
 
 
-class Columns(NamedTuple):
-    """A matrix in columns (indptr, indices, entries) and its diagonal (n,); and apart, what the cavity carries.
+class CavitatedColumns(NamedTuple):
+    """A matrix in columns (indptr, indices, entries) and its diagonal (n,); and apart, the cavity's transport.
 
     order: the cavity's unknowns downstream; begin, row, value: their columns without diagonal; edge: the entries
     by which columns of the film, edge_column, reach the cavity.
@@ -44,8 +44,8 @@ class Columns(NamedTuple):
 def film_part(indptr, indices, upper, lower, cavity, returned, out):
     """The upper triangle of the film alone, symmetric, the identity in the cavity.
 
-    What the film's pressure pushes into an unknown of the cavity and the cavity returns to the film at once is
-    not lost to the film: where a film reforms, it is not held by the cavity before it. `returned` (n,) is the
+    Flow that the film's pressure drives into an unknown of the cavity and the cavity returns at once is not lost
+    to the film: where a film reforms, the cavity before it does not hold its pressure. `returned` (n,) is the
     share, found on the way.
     """
     n = indptr.shape[0] - 1
@@ -73,7 +73,7 @@ def film_part(indptr, indices, upper, lower, cavity, returned, out):
 
 
 @njit(inline="always")
-def _carries(entries, diagonal, k, j):
+def _transports(entries, diagonal, k, j):
     return abs(entries[k]) > NEGLIGIBLE * abs(diagonal[j])
 
 
@@ -85,7 +85,7 @@ def flow_order(indptr, indices, entries, diagonal, cavity, order, waits):
     for j in range(n):
         if cavity[j]:
             for k in range(indptr[j], indptr[j + 1]):
-                if indices[k] != j and _carries(entries, diagonal, k, j):
+                if indices[k] != j and _transports(entries, diagonal, k, j):
                     waits[indices[k]] += 1
     end = 0
     for j in range(n):
@@ -99,7 +99,7 @@ def flow_order(indptr, indices, entries, diagonal, cavity, order, waits):
             begin += 1
             for k in range(indptr[j], indptr[j + 1]):
                 i = indices[k]
-                if i != j and cavity[i] and _carries(entries, diagonal, k, j):
+                if i != j and cavity[i] and _transports(entries, diagonal, k, j):
                     waits[i] -= 1
                     if waits[i] == 0:
                         order[end] = i
@@ -115,7 +115,7 @@ def flow_order(indptr, indices, entries, diagonal, cavity, order, waits):
 
 @njit(**_FAST)
 def sort_columns(m):
-    """Fill what `Columns` keeps apart; the number of edges."""
+    """Fill the cavity's part of `CavitatedColumns`; the number of edges."""
     at = edges = 0
     for place in range(m.order.shape[0]):
         j = m.order[place]
@@ -151,7 +151,7 @@ def _multiply(m, x, out):
 
 @njit(**_FAST)
 def _sweep(m, rest):
-    """Solve for the cavity downstream, in place: `rest` of the film ends less what the cavity carries there."""
+    """Solve for the cavity downstream, in place: `rest` of the film ends less the cavity's flow into it."""
     for place in range(m.order.shape[0]):
         j = m.order[place]
         carried = rest[j] / m.diagonal[j]
@@ -162,7 +162,7 @@ def _sweep(m, rest):
 
 @njit(**_FAST)
 def _precondition(levels, slots, m, load, rest, out):
-    """out = M load: the cavity, a cycle on the film with what that carries to it, and the cavity once more."""
+    """out = M load: the cavity, a cycle on the film with the cavity's flow, and the cavity once more."""
     fine, coarse, coarsest = levels
     rest[:] = load
     _sweep(m, rest)

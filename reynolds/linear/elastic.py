@@ -1,11 +1,11 @@
-"""The linearised balance between walls that give way, J = A + B C, ready for any load.
+"""Linear solver of the film coupled to elastic walls, J = A + B C, for any load.
 
-A, sparse, is the balance between rigid walls, B, sparse, its slope by the opening, C the walls' compliance. A film
-smooths what a wall feeds back to it: but for a few smooth pressures A^-1 B C is small, on any mesh, so that GMRES
-(Saad and Schultz 1986) on J A^-1 takes a few tens of solves with A, where a dense factor of J costs size^3. Up to
-DENSE_LIMIT free pressures the factor is cheaper all the same (803 of 1575 unknowns: 28 ms, and .4 ms a load; GMRES
-takes 30 to 100 steps of .9 ms a load). Beyond, where one balance is asked more often, or one after the other like
-it, the dense factor is made and kept: GMRES on J J_before^-1 takes a few steps.
+A, sparse, is the balance between rigid walls, B, sparse, its slope by the deformation, C the walls' compliance. A
+film smooths the walls' feedback: but for a few smooth pressures A^-1 B C is small, on any mesh, so that
+GMRES (Saad and Schultz 1986) on J A^-1 takes a few tens of solves with A, where a dense factor of J costs size^3.
+Up to DENSE_LIMIT free pressures the factor is cheaper all the same (803 of 1575 unknowns: 28 ms, and .4 ms a load;
+GMRES takes 30 to 100 steps of .9 ms a load). Beyond, for more loads on one balance or on similar ones, the dense
+factor is made and kept: GMRES on J J_before^-1 takes a few steps.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ from scipy.linalg import lapack
 from scipy.sparse import csc_array, csr_array
 from scipy.sparse.linalg import SuperLU, splu
 
-from reynolds.bodies.compliance import Opens, columns_of, compliance_of, contact_of
+from reynolds.bodies.compliance import WallOperator, columns_of, compliance_of, contact_of
 from reynolds.errors import FilmNotConverged
 from reynolds.numerics.arrays import Array
 from reynolds.numerics.gmres import gmres
@@ -34,14 +34,14 @@ Answer = Callable[[Array, float], Array]
 
 
 class NearFactor:
-    """The dense factor of a balance, kept for those that come after it."""
+    """The dense factor of a balance, kept for later ones."""
 
     def __init__(self) -> None:
         self.answer: Answer | None = None
 
 
 @dataclass(frozen=True)
-class Balance:
+class WallBalance:
     """J = A + B C P: A `rigid` (size, size), B `slope` (size, vertices), C `wider` (vertices, size).
 
     P is the diagonal `pressures` (size,), one where an unknown is a free pressure, else zero.
@@ -49,7 +49,7 @@ class Balance:
 
     rigid: csc_array
     slope: csr_array
-    wider: Opens
+    wider: WallOperator
     pressures: Array
 
     def __matmul__(self, change: Array) -> Array:
@@ -57,10 +57,10 @@ class Balance:
         return np.asarray(self.rigid @ change + self.slope @ (self.wider @ (self.pressures * change)))
 
 
-def compliant_answer(balance: Balance, near: NearFactor | None = None) -> Answer:
-    """The answer of J; what is factorised is factorised once.
+def compliant_answer(balance: WallBalance, near: NearFactor | None = None) -> Answer:
+    """The answer of J; every factor is made once.
 
-    `near` keeps the dense factor of a balance for those to come, of one size. Raises FilmNotConverged where J is
+    `near` keeps the dense factor of a balance for later ones of its size. Raises FilmNotConverged where J is
     singular.
     """
     if isinstance(balance.wider, csr_array):
@@ -72,12 +72,12 @@ def compliant_answer(balance: Balance, near: NearFactor | None = None) -> Answer
 
 
 class _Iterated:
-    """By GMRES, with the factor of a balance near it or of the rigid one, until its own is worth making."""
+    """Answer by GMRES, with the factor of a similar balance or of the rigid one, until its own factor pays."""
 
-    def __init__(self, balance: Balance, near: NearFactor) -> None:
+    def __init__(self, balance: WallBalance, near: NearFactor) -> None:
         self._balance, self._near = balance, near
         self._size = len(balance.pressures)
-        # Where the film is thin next to nothing flows: there too the answer is to be as good.
+        # Rows are scaled, since in a thin film next to nothing flows.
         diagonal = np.abs(balance.rigid.diagonal())
         self._rows = 1.0 / np.where(diagonal > 0.0, diagonal, 1.0)
         self._before = near.answer or _rigid_answer(balance.rigid)
@@ -103,12 +103,12 @@ class _Iterated:
         return before(part, 0.0) if left <= max(tolerance, GOOD_ENOUGH) else None
 
 
-def reduced_answer(balance: Balance) -> Answer:
-    """The answer of J by the dense factor of what is left of it for the pressures on the walls."""
+def reduced_answer(balance: WallBalance) -> Answer:
+    """The answer of J by the dense factor of its Schur complement for the pressures on the walls."""
     alone = _alone(balance)
     rest = np.flatnonzero((balance.pressures == 0.0) & ~alone)
     factor = _eliminated(csc_array(csr_array(balance.rigid)[rest][:, rest])) if rest.size else None
-    if factor is None and rest.size:  # J need not be singular where what opens no wall is
+    if factor is None and rest.size:  # J need not be singular where the part without deformation is
         return _whole_answer(balance, np.flatnonzero(balance.pressures))
     return _Reduced(balance, np.flatnonzero(alone), rest, factor)
 
@@ -116,19 +116,19 @@ def reduced_answer(balance: Balance) -> Answer:
 class _Reduced:
     """J by the pressures t of oil and contact together.
 
-    With C the walls' own compliance, S the contact's pressure by the gap and w = C t: p = t - S w, and
-    J p = A t + (B - A S) C t, so that no compliance need be known that contact resists. Held unknowns, `alone`,
-    meet no other. The `rest`, a cavity's film fractions, open no wall: of J_rr, J_rt; J_tr, J_tt the first column
-    is sparse, and J_tt - J_tr J_rr^-1 J_rt is left.
+    With C the walls' own compliance, S the contact's pressure by the gap and w = C t: p = t - S w, and J p = A t +
+    (B - A S) C t, so that the compliance with contact is not needed. Held unknowns, `alone`, couple to no other.
+    The `rest`, a cavity's film fractions, deform no wall: of J_rr, J_rt; J_tr, J_tt the first column is sparse,
+    and J_tt - J_tr J_rr^-1 J_rt remains.
     """
 
     def __init__(
-        self, balance: Balance, alone: NDArray[np.intp], rest: NDArray[np.intp], factor: SuperLU | None
+        self, balance: WallBalance, alone: NDArray[np.intp], rest: NDArray[np.intp], factor: SuperLU | None
     ) -> None:
         rigid, contact = csr_array(balance.rigid), contact_of(balance.wider)
         free = np.flatnonzero(balance.pressures)
         self._free, self._alone, self._rest = free, alone, rest
-        # Contact presses on the walls of a cavity, too, where the oil's pressure stays.
+        # Contact presses on the walls of a cavity too, where the oil's pressure is constant.
         touched = np.flatnonzero((np.diff(contact.indptr) > 0) & (balance.pressures == 0.0))
         self._opens = columns_of(compliance_of(balance.wider), np.concatenate([free, touched]))
         slope = csr_array(balance.slope - rigid[:, free] @ contact[free])
@@ -160,8 +160,8 @@ class _Reduced:
         return change
 
 
-def _alone(balance: Balance) -> NDArray[np.bool_]:
-    """Unknowns without a pressure of their own that meet no other: held ones, (size,)."""
+def _alone(balance: WallBalance) -> NDArray[np.bool_]:
+    """Held unknowns, which couple to no other, (size,)."""
     rigid, slope = balance.rigid.tocoo(), balance.slope.tocoo()
     row, column = rigid.coords
     off = (row != column) & (rigid.data != 0.0)
@@ -177,7 +177,7 @@ def _add(dense: Array, sparse: csr_array) -> None:
     np.add.at(dense, entries.coords, entries.data)
 
 
-def _whole_answer(balance: Balance, free: NDArray[np.intp]) -> Answer:
+def _whole_answer(balance: WallBalance, free: NDArray[np.intp]) -> Answer:
     """The answer of J by its dense factor, nothing eliminated beforehand; `free`: where pressures are free."""
     whole = balance.rigid.toarray(order="F")
     whole[:, free] += balance.slope @ columns_of(balance.wider, free)
@@ -190,7 +190,7 @@ def _rigid_answer(rigid: csc_array) -> Answer | None:
 
 
 def _eliminated(matrix: csc_array) -> SuperLU | None:
-    """Factor of a matrix of symmetric pattern whose diagonal bears it; None where a pivot vanishes."""
+    """Factor of a matrix of symmetric pattern without pivoting; None where a pivot vanishes."""
     options = {"SymmetricMode": True, "Equil": False}
     try:
         return splu(matrix, permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=1e-3, options=options)
@@ -207,7 +207,7 @@ def _sparse(matrix: csc_array) -> Answer:
 
 
 def dense_answer(matrix: Array) -> Answer:
-    """Of a dense matrix, factorised; for loads of any number of columns. Raises FilmNotConverged if singular."""
+    """The answer of a dense matrix, for loads of any number of columns. Raises FilmNotConverged if singular."""
     if not matrix.size:
         return lambda load, tolerance: load
     factor, pivots, fault = lapack.dgetrf(matrix)
@@ -217,6 +217,6 @@ def dense_answer(matrix: Array) -> Answer:
 
 
 def singular(reason: str) -> FilmNotConverged:
-    """The error of a balance that no change of pressure answers."""
-    what = f"the balance between walls that give way is singular ({reason})"
+    """The error of a singular balance."""
+    what = f"the balance between elastic walls is singular ({reason})"
     return FilmNotConverged(what, "stiffer walls, or a thicker film")

@@ -1,9 +1,9 @@
 """Linear solves with one sparsity pattern: symmetric positive definite (`Factor`) and general (`GeneralFactor`).
 
-A ladder for the symmetric ones. On a grid, multigrid takes them from a few hundred unknowns on. QDLDL (Stellato
+Symmetric ones by size. On a grid, multigrid solves them from a few hundred unknowns on. QDLDL (Stellato
 et al. 2020) keeps its symbolic part between calls and is the fastest of the freely licensed direct solvers below
 about 1e5 unknowns; above, conjugate gradients with algebraic multigrid (Ruge-Stueben 1987, pyamg) take over,
-since fill grows faster than the mesh. Where a rung stalls, the next one does it.
+since fill grows faster than the mesh. Where one stalls, the next one takes over.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ from scipy.sparse.linalg import SuperLU, splu
 
 from reynolds.errors import FilmNotConverged
 from reynolds.linear.band import BandedFactor, banded
-from reynolds.linear.cavitated import CarriedFilm
+from reynolds.linear.cavitated import CavitatedFilm
 from reynolds.linear.multigrid.grid import Grid
 from reynolds.linear.multigrid.solver import Multigrid
 from reynolds.linear.triangles import BothTriangles, both_triangles
@@ -29,7 +29,7 @@ from reynolds.numerics.arrays import Array
 DIRECT_LIMIT = 60_000
 GRID_LEAST = 100  # unknowns: below, a direct solve of a grid is as fast as multigrid
 ITERATIVE_TOLERANCE = 1e-11
-STALLED = 1e3  # times the tolerance: what round-off may leave; beyond, the next rung of the ladder
+STALLED = 1e3  # times the tolerance: what round-off may leave; beyond, the next solver
 ROUND_OFF = 1e-13  # of the answer, in units of the scaled matrix
 GENERAL_TOLERANCE = 1e-10  # residual over load beyond which an elimination without pivots is done again with them
 
@@ -53,7 +53,7 @@ class Factor:
     """The factorised operator of one pattern: `update` with new entries, then `solve` any number of times."""
 
     def __init__(self, grid: Grid | None = None) -> None:
-        """`grid`: the rows and columns of the unknowns (`grid_of`), None where there are none."""
+        """`grid`: the rows and columns of the unknowns (`grid_of`), None where the mesh is no grid."""
         self._grid = grid if grid is not None and grid.unknowns.size >= GRID_LEAST else None
         self._on_grid: Multigrid | None = None
         self._direct: qdldl.Solver | None = None
@@ -81,7 +81,7 @@ class Factor:
         if self._on_grid is not None:
             answer, effort = self._on_grid.solve(load, tolerance)
             enough = max(STALLED * ITERATIVE_TOLERANCE, tolerance)
-            # Entries are of order one: no answer leaves less than round-off of itself, however small the load.
+            # Entries are of order one: the residual is at least the answer's round-off, however small the load.
             if effort.left <= enough or (effort.left - enough) * norm(load) <= ROUND_OFF * norm(answer):
                 return answer
             self._leave_grid()
@@ -125,7 +125,7 @@ def multigrid(upper: csc_array, max_coarse: int = 10) -> tuple[csr_array, Any]:
 
 
 def _conjugate_gradients(matrix: csr_array, hierarchy: Any, load: Array) -> tuple[Array, bool]:
-    """The solution, and whether its residual came down to near ITERATIVE_TOLERANCE of the load."""
+    """The solution, and True if its residual is near ITERATIVE_TOLERANCE of the load."""
     answer = hierarchy.solve(load, tol=ITERATIVE_TOLERANCE, accel="cg", maxiter=200)
     reached = norm(load - matrix @ answer)
     return answer, reached <= STALLED * ITERATIVE_TOLERANCE * norm(load)
@@ -134,15 +134,15 @@ def _conjugate_gradients(matrix: csr_array, hierarchy: Any, load: Array) -> tupl
 class GeneralFactor:
     """A matrix of symmetric pattern and any values, factorised: `update`, then `solve` any number of times.
 
-    Made for the film whose cavities carry oil, with columns symmetric in the film and upwind transport in the
-    cavity. A small one is eliminated in its band (`band`), on a grid an iteration does it (`CarriedFilm`). Else,
-    and where those fail, an elimination with pivots on the diagonal, and where those do not do, with pivots.
+    Made for the film with oil in its cavities, with columns symmetric in the film and upwind transport in the
+    cavity. A small one is eliminated in its band (`band`), on a grid an iteration solves it (`CavitatedFilm`).
+    Else, and where those fail, an elimination with pivots on the diagonal, and where that fails, with any pivots.
     """
 
     def __init__(self, grid: Grid | None = None) -> None:
-        """`grid`: the rows and columns of the unknowns (`grid_of`), None where there are none."""
+        """`grid`: the rows and columns of the unknowns (`grid_of`), None where the mesh is no grid."""
         self._grid = grid if grid is not None and grid.unknowns.size >= GRID_LEAST else None
-        self._on_grid: CarriedFilm | None = None
+        self._on_grid: CavitatedFilm | None = None
         self._band: BandedFactor | None = None
         self._patterned = self._in_band = False
         self._both: BothTriangles | None = None
@@ -154,8 +154,8 @@ class GeneralFactor:
     def update(self, upper: csc_array, lower: Array, cavity: NDArray[np.bool_] | None = None) -> None:
         """Take the upper triangle with its diagonal, the mirrored entries and which columns are the cavity's.
 
-        lower[k] is the entry (j, i) where upper.data[k] is (i, j); on the diagonal it is not looked at. The
-        pattern never changes. Without `cavity` (size,) the elimination does it. Raises FilmNotConverged for a
+        lower[k] is the entry (j, i) where upper.data[k] is (i, j); on the diagonal it is not used. The
+        pattern never changes. Without `cavity` (size,) the elimination solves it. Raises FilmNotConverged for a
         row or column of zeros.
         """
         self._given, self._matrix = (upper, lower), None
@@ -166,7 +166,7 @@ class GeneralFactor:
             return
         if self._grid is not None and cavity is not None:
             if self._on_grid is None:
-                self._on_grid = CarriedFilm(self._grid, upper)
+                self._on_grid = CavitatedFilm(self._grid, upper)
             if self._on_grid.update(upper.data, lower, cavity):
                 return
             self._leave_grid()
@@ -247,12 +247,12 @@ def _eliminate(matrix: csc_array, threshold: float) -> SuperLU | None:
 
 
 def _refined(lu: SuperLU | None, matrix: csc_array, load: Array) -> tuple[Array, bool]:
-    """Solution after one step of refinement, and whether its residual is small."""
+    """Solution after one step of refinement, and True if its residual is small."""
     if lu is None:
         return load, False
     answer = lu.solve(load)
     answer += lu.solve(load - matrix @ answer)
     left = norm(load - matrix @ answer)
-    # The rows are of order one: a backward stable answer leaves round-off of itself, however small the load.
+    # Rows are of order one: a backward stable answer has a residual of its own round-off, however small the load.
     allowed = GENERAL_TOLERANCE * norm(load) + ROUND_OFF * norm(answer)
     return answer, bool(left <= allowed)

@@ -6,7 +6,7 @@ import numpy as np
 
 from reynolds.numerics.arrays import Array
 
-REMEMBERED = 5  # rounds that the extrapolation looks back on
+REMEMBERED = 5  # earlier rounds that the extrapolation uses
 
 
 class History:

@@ -1,4 +1,4 @@
-"""Loops over the numbers of one array, compiled once by numba: in one pass what takes numpy several."""
+"""Loops over the numbers of one array, compiled once by numba: one pass where numpy takes several."""
 
 # mypy: allow-untyped-defs, allow-incomplete-defs, no-check-untyped-defs
 
@@ -11,16 +11,16 @@ _SUMS = _FAST | {"fastmath": {"contract", "reassoc"}}  # lets a sum run in sever
 
 @njit(**_SUMS)
 def all_finite(values):
-    """Whether every value is a number, of an array (n,)."""
+    """True if every value of an array (n,) is finite."""
     total = 0.0
     for k in range(values.shape[0]):
-        total += 0.0 * values[k]  # of what is infinite it is none
+        total += 0.0 * values[k]  # NaN for an infinite value
     return total == 0.0
 
 
 @njit(**_FAST)
 def all_equal(values, value):
-    """Whether every one of an array (n,) is this value."""
+    """True if every entry of an array (n,) is this value."""
     same = True
     for k in range(values.shape[0]):
         same &= values[k] == value
@@ -48,7 +48,7 @@ def cubes(values, unit, out):
 
 @njit(**_SUMS)
 def norm(vector):
-    """Euclidean norm, without the threads of a BLAS library, which cost more than they bring here."""
+    """Euclidean norm, without the threads of a BLAS library, which do not pay here."""
     total = 0.0
     for k in range(vector.shape[0]):
         total += vector[k] * vector[k]

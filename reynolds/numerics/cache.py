@@ -1,4 +1,4 @@
-"""Arrays kept on disk under a hash of what they were computed from.
+"""Arrays kept on disk under a hash of their inputs.
 
 Folder: the argument, else SWASHFILM_CACHE, else XDG_CACHE_HOME/swashfilm, else ~/.cache/swashfilm.
 """
@@ -24,8 +24,8 @@ FORMAT = "swashfilm bodies 1"  # raised when the same input gives other arrays
 LOG = logging.getLogger(__name__)
 
 
-class Origin(Enum):
-    """Where arrays came from; recomputed: the file kept of them was broken."""
+class CacheOrigin(Enum):
+    """Origin of arrays; recomputed: the cached file was broken."""
 
     COMPUTED = "computed"
     CACHE = "cache"
@@ -33,15 +33,15 @@ class Origin(Enum):
 
 
 @dataclass(frozen=True)
-class Kept:
-    """Arrays by name, and where they came from."""
+class CachedArrays:
+    """Arrays by name, and their origin."""
 
     arrays: Mapping[str, Array]
-    origin: Origin
+    origin: CacheOrigin
 
 
 def cache_folder(folder: Path | None = None) -> Path:
-    """The folder that results are kept in; it need not exist."""
+    """The cache folder; it need not exist."""
     if folder is not None:
         return folder
     if own := os.environ.get("SWASHFILM_CACHE"):
@@ -63,25 +63,25 @@ def content_key(*parts: object) -> str:
     return digest.hexdigest()
 
 
-def kept(key: str, compute: Callable[[], Mapping[str, Array]], folder: Path | None = None) -> Kept:
-    """The arrays of `compute`, from the cache where they are there.
+def kept(key: str, compute: Callable[[], Mapping[str, Array]], folder: Path | None = None) -> CachedArrays:
+    """The arrays of `compute`, from the cache if present.
 
-    Afterwards they are there: written beside and moved into place, so that no reader meets half a file. A broken
-    file is computed anew, which the origin and the log tell. Raises FilmInputError where the folder cannot be
+    Afterwards the cache holds them: written beside and moved into place, so that no reader finds half a file. A
+    broken file is computed anew, as the origin and the log state. Raises FilmInputError where the folder cannot be
     written.
     """
     place = cache_folder(folder) / f"{key}.npz"
     found = _read(place) if place.is_file() else None
     if found is not None:
-        return Kept(found, Origin.CACHE)
-    origin = Origin.RECOMPUTED if place.is_file() else Origin.COMPUTED
+        return CachedArrays(found, CacheOrigin.CACHE)
+    origin = CacheOrigin.RECOMPUTED if place.is_file() else CacheOrigin.COMPUTED
     arrays = dict(compute())
     try:
         _write(place, arrays)
     except OSError as fault:
         expected = "a folder to write in (SWASHFILM_CACHE names another)"
         raise FilmInputError("cache of bodies", f"{place.parent}: {fault.strerror}", expected) from fault
-    return Kept(arrays, origin)
+    return CachedArrays(arrays, origin)
 
 
 def _read(place: Path) -> dict[str, Array] | None:

@@ -1,9 +1,9 @@
 """Steps in time for stiff motion: diagonally implicit Runge-Kutta methods with error control.
 
-What moves is known by what it holds, y (size,): of a film the oil of each unknown, whose rate is its flow
-balance. A stage at time t is one step of implicit Euler, y = y_before + step rate(t, y), and whoever solves it (a
-film with the force balance of what floats on it, or an equation of one line) needs to know no other. From its
-stages a method puts together a step of higher order.
+The state of a motion is a vector y (size,): of a film the oil of each unknown, whose rate is its flow
+balance. A stage at time t is one step of implicit Euler, y = y_before + step rate(t, y), solved by
+the caller (a film with the force balance of its floating wall, or an equation of one line). A method combines
+its stages to a step of higher order.
 """
 
 from __future__ import annotations
@@ -21,7 +21,6 @@ from reynolds.numerics.arrays import Array
 MOST_REFUSALS = 25  # of one step, each at least halving it
 LEAST_CHANGE, MOST_CHANGE = 0.2, 5.0  # of the step from one to the next
 CAUTION = 0.9  # of the step that would just keep the tolerance
-SLIVER = 1e-9  # of the way to the next node: not worth a step
 PROPORTIONAL, INTEGRAL = 0.4, 0.7  # of the step control (Gustafsson 1991), over the order of the error
 
 
@@ -30,16 +29,16 @@ class Stage(Protocol):
 
     @property
     def q(self) -> Array:
-        """Position (k,), m: what the error is measured in."""
+        """Position (k,), m, in which the error is measured."""
 
     @property
     def holds(self) -> Array:
-        """What is held at its end, (size,)."""
+        """State y at its end, (size,)."""
 
-    def carried(self, before: Array) -> tuple[Array, Array]:
-        """Change of q (k, m) and of `holds` (size, m) for changes (size, m) of what was held before.
+    def propagated(self, before: Array) -> tuple[Array, Array]:
+        """Change of q (k, m) and of `holds` (size, m) for changes (size, m) of the state before.
 
-        Asked for, if at all, before the next stage is solved.
+        Called, if at all, before the next stage is solved.
         """
 
 
@@ -53,7 +52,7 @@ StageSolver = Callable[[float, Array, float, Array, S | None], S]
 class Tableau:
     """Coefficients of a method whose last stage is the end of the step (stiffly accurate).
 
-    Stage i stands at start + places[i] step and takes matrix[i][j] step of stage j's rate; the diagonal is
+    Stage i is at start + places[i] step and takes matrix[i][j] step of stage j's rate; the diagonal is
     positive. `error` (stages + 1,) weighs the rates at the start and of the stages; times the step it estimates
     the local error, of order step**error_order. `order` is that of the solution at a given time.
     """
@@ -85,8 +84,8 @@ y' = f(t), is seven times less than it says.
 
 
 @dataclass(frozen=True)
-class Tangent:
-    """How position (k, m) and what is held (size, m) change with m parameters."""
+class StateTangent:
+    """Changes of position (k, m) and state (size, m) with m parameters."""
 
     q: Array
     held: Array
@@ -94,10 +93,10 @@ class Tangent:
 
 @dataclass(frozen=True)
 class State(Generic[S]):
-    """Between two steps: time s, position q (k,) m, what is held (size,), rate dq/dt (k,) m/s, the last stage.
+    """Between two steps: time s, position q (k,) m, state y (size,), rate dq/dt (k,) m/s, the last stage.
 
     The rate enters the error of the step to come and, with its own rate `bend` (k,) m/s2, the guess of it, not its
-    result: zero where they are not known. The tangent, where there is one, is carried along.
+    result: zero where they are not known. The tangent, if any, is propagated.
     """
 
     time: float
@@ -106,11 +105,11 @@ class State(Generic[S]):
     rate: Array
     bend: Array | float = 0.0
     stage: S | None = None
-    tangent: Tangent | None = None
+    tangent: StateTangent | None = None
 
 
 @dataclass(frozen=True)
-class Taken(Generic[S]):
+class AcceptedStep(Generic[S]):
     """One step: the state at its end, its length s, the estimate of its local error in q (k,) m."""
 
     state: State[S]
@@ -129,12 +128,12 @@ class Taken(Generic[S]):
         return self.state.stage
 
 
-def advance(tableau: Tableau, solve: StageSolver[S], state: State[S], step: float) -> Taken[S]:
+def advance(tableau: Tableau, solve: StageSolver[S], state: State[S], step: float) -> AcceptedStep[S]:
     """One step (s) of a method from a state.
 
-    Stage i solves y_i = y + step sum_j matrix[i][j] rate_j, and the last one is the end. q is taken along as if
-    its own rate were integrated, which is what happens where what is held is linear in q (a full film); that
-    enters the error and the guesses alone. Raises what `solve` raises.
+    Stage i solves y_i = y + step sum_j matrix[i][j] rate_j, and the last one is the end. q is integrated as if
+    by its own rate, which is exact where y is linear in q (a full film); this enters the error and the guesses
+    alone. Raises what `solve` raises.
     """
     tangent = state.tangent
     held = _beside(state.held, None if tangent is None else tangent.held)  # column 0, its tangents after it
@@ -151,14 +150,14 @@ def advance(tableau: Tableau, solve: StageSolver[S], state: State[S], step: floa
         stage = solve(state.time + place * step, held_before, own, guess, stage)
         after = stage.holds[:, None]
         if tangent is not None:
-            tangent = Tangent(*stage.carried(before[:, 1:]))
+            tangent = StateTangent(*stage.propagated(before[:, 1:]))
             after = _beside(stage.holds, tangent.held)
         held_rates.append((after - before) / own)
         q_rates.append((stage.q - q_before) / own)
         bend = (q_rates[-1] - q_rates[-2]) / passed
     assert stage is not None
     end = State(state.time + step, stage.q, stage.holds, q_rates[-1], bend, stage, tangent)
-    return Taken(end, step, np.asarray(_sum(tableau.error, q_rates, step)))
+    return AcceptedStep(end, step, np.asarray(_sum(tableau.error, q_rates, step)))
 
 
 def _beside(column: Array, others: Array | None) -> Array:
@@ -169,27 +168,27 @@ def _sum(weights: Sequence[float], rates: Sequence[Array], step: float) -> Array
     return step * sum((weight * rate for weight, rate in zip(weights, rates, strict=True)), 0.0)
 
 
-def nodes_only(_: Taken[Any]) -> float:
+def nodes_only(_: AcceptedStep[Any]) -> float:
     """Excess of a march whose steps are given: from node to node, halved only where a stage has no solution."""
     return 0.0
 
 
-def within(tolerance: float) -> Callable[[Taken[Any]], float]:
-    """Excess over a tolerance (m) that every coordinate keeps at every step."""
+def within(tolerance: float) -> Callable[[AcceptedStep[Any]], float]:
+    """Excess over a tolerance (m) of every coordinate at every step."""
     return lambda taken: taken.largest_error / tolerance
 
 
-def march(
+def integrate(
     tableau: Tableau,
     solve: StageSolver[S],
     start: State[S],
     nodes: Sequence[float] | Array,
-    excess: Callable[[Taken[S]], float],
-) -> Iterator[Taken[S]]:
+    excess: Callable[[AcceptedStep[S]], float],
+) -> Iterator[AcceptedStep[S]]:
     """Step by step from a state to the last of `nodes` (s), each of which ends a step.
 
-    Each step's error estimate over what is tolerated, `excess(step)`, is at most one; the first step tries to
-    reach the first node. A step on which a stage has no solution is halved. Raises FilmInputError for nodes that
+    Each step's error estimate over its tolerance, `excess(step)`, is at most one; the first step aims at the
+    first node. A step on which a stage has no solution is halved. Raises FilmInputError for nodes that
     do not rise from the state's time on, FilmNotConverged where no step is short enough.
     """
     times = np.array([start.time, *nodes])
@@ -213,13 +212,13 @@ class Pace:
     error: float = 1.0
 
     def refused(self, step: float, change: float) -> Pace:
-        """After a step that is not taken."""
+        """Pace after a rejected step."""
         return Pace(step * min(0.5, max(LEAST_CHANGE, change)), self.error)
 
     def kept(self, step: float, error: float, order: int) -> Pace:
-        """After a step of `error` <= 1 over its tolerance; one cut short by a node does not slow those to come.
+        """Pace after a step of `error` <= 1 over its tolerance; one cut short by a node does not slow later ones.
 
-        Of such a one the error before, of another step, tells nothing.
+        For such a step the error before is ignored.
         """
         error = max(error, 1e-6)
         if step < self.step:
@@ -235,9 +234,9 @@ def _kept(
     solve: StageSolver[S],
     state: State[S],
     node: float,
-    excess: Callable[[Taken[S]], float],
+    excess: Callable[[AcceptedStep[S]], float],
     pace: Pace,
-) -> tuple[Taken[S], Pace]:
+) -> tuple[AcceptedStep[S], Pace]:
     """A step towards the node that keeps the tolerance, and the pace after it."""
     order, reason = tableau.error_order, FilmNotConverged("no step tried", "a later node")
     for _ in range(MOST_REFUSALS):

@@ -1,4 +1,4 @@
-"""GMRES (Saad and Schultz 1986) for operators that are known by what they do to a vector."""
+"""GMRES (Saad and Schultz 1986) for operators given by their action on a vector."""
 
 from __future__ import annotations
 
@@ -9,14 +9,14 @@ import numpy as np
 from reynolds.numerics.array_kernels import norm
 from reynolds.numerics.arrays import Array
 
-NOTHING = 1e-14  # of an image: what orthogonalisation leaves of one that lies in the basis
+NOTHING = 1e-14  # of an image: remainder of one that lies in the basis
 
 
 def gmres(image: Callable[[Array], Array], load: Array, tolerance: float, most: int) -> tuple[Array, float]:
-    """x (n,) of least |A x - load| after as few steps as reach tolerance |load|, `most` of them; what is left.
+    """x (n,) of least |A x - load| after as few steps as reach tolerance |load|, `most` of them; the residual.
 
-    image(v) = A v, not zero for v not zero. What is left, over |load|, is that of the recursion: in exact
-    arithmetic the residual.
+    image(v) = A v, not zero for v not zero. The residual over |load| is that of the recursion, equal to the
+    true one in exact arithmetic.
     """
     size = norm(load)
     if size == 0.0:

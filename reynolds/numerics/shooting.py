@@ -1,10 +1,10 @@
 """Periodic motion: the start that one turn leads back to, by many linearised turns for each that is run.
 
-A turn takes the start q to its end M(q) and tells the slopes M' of that map. Marching turn after turn shrinks a
-disturbance by the largest multiplier (eigenvalue of M') a turn, which takes for ever where that is near one. After
+A turn maps the start q to its end M(q), with the slopes M' of that map. Marching turn after turn shrinks a
+disturbance by the largest multiplier (eigenvalue of M') a turn, which is slow where that is near one. After
 n turns of the linearised map q has moved by (1 + M' + ... + M'^(n-1)) (M(q) - q). For a stable motion that tends
 to Newton's step (1 - M')^-1 (M(q) - q), the whole way at once; near an unstable one, where Newton's step goes
-against the motion, it grows along the motion. So what is found is what a march of many turns would find.
+against the motion, it grows along the motion. The result is that of a march of many turns.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ from reynolds.errors import FilmNotConverged
 from reynolds.numerics.arrays import Array
 
 MOST_TURNS = 30
-MOST_DOUBLINGS = 40  # of the linearised turns run at once: 1e12 of them
+MOST_DOUBLINGS = 40  # of the linearised turns taken at once: 1e12 of them
 RETREAT = 0.25  # of the reach, after a step too far
 
 
@@ -45,7 +45,7 @@ class Turn(Protocol):
 
     @property
     def repeats(self) -> bool:
-        """Whether whatever else a turn leaves to the next (what its cavity holds) came back, too."""
+        """True if the rest of the state (oil in the cavity) repeats, too."""
 
 
 T = TypeVar("T", bound=Turn)
@@ -55,7 +55,7 @@ TurnFrom = Callable[[Array, T | None], T]
 
 
 @dataclass(frozen=True)
-class Periodic(Generic[T]):
+class PeriodicTurn(Generic[T]):
     """The turn that closes from `start`, |end - start| of each turn on the way (m), eigenvalues of its slopes."""
 
     turn: T
@@ -70,16 +70,16 @@ class Periodic(Generic[T]):
 
     @property
     def largest_multiplier(self) -> float:
-        """Share of a small disturbance of q that a turn leaves; above one it grows, and the motion is unstable."""
+        """Factor of a small disturbance of q over a turn; above one it grows, and the motion is unstable."""
         return float(np.abs(self.multipliers).max())
 
 
-def periodic(turn_from: TurnFrom[T], start: Array) -> Periodic[T]:
-    """The periodic motion that turns from `start` (k,) m lead to.
+def periodic(turn_from: TurnFrom[T], start: Array) -> PeriodicTurn[T]:
+    """The periodic motion reached by turns from `start` (k,) m.
 
     Afterwards neither the turn nor all linearised ones after it lead further than `allowed` from its start in any
     coordinate, and the turn repeats. A start lies no further than `reach` from the end of the turn before; one
-    from which the turn goes back, and further than it came, is taken back for a nearer one. Raises
+    from which the turn goes back, and further than it came, is replaced by a nearer one. Raises
     FilmNotConverged after MOST_TURNS: the motion is not periodic, unstable, or its start far away.
     """
     changes = []
@@ -87,7 +87,7 @@ def periodic(turn_from: TurnFrom[T], start: Array) -> Periodic[T]:
         changes.append(float(np.abs(turn.end - at).max()))
         away = np.abs(_next(at, turn, 1.0) - at).max()
         if max(away, changes[-1]) <= turn.allowed and turn.repeats:
-            return Periodic(turn, at, tuple(changes), np.linalg.eigvals(turn.slopes).astype(complex))
+            return PeriodicTurn(turn, at, tuple(changes), np.linalg.eigvals(turn.slopes).astype(complex))
     raise _never_closed(changes)
 
 
@@ -131,13 +131,13 @@ def _turns(turn_from: TurnFrom[T], start: Array) -> Iterator[tuple[Array, T]]:
 
 
 def _too_far(last_start: Array, last: Turn, start: Array, turn: Turn) -> bool:
-    """Whether a turn goes back, and further than the one before went forth."""
+    """True if a turn goes back, and further than the one before went forth."""
     forth, back = last.end - last_start, turn.end - start
     return bool(back @ (start - last_start) < 0.0 and np.abs(back).max() > np.abs(forth).max())
 
 
 def _next(start: Array, turn: Turn, share: float) -> Array:
-    """Where as many linearised turns lead as stay within reach of the turn's end."""
+    """The end of as many linearised turns as stay within reach of the turn's end."""
     reach = share * turn.reach
     way, power = turn.end - start, turn.slopes
     beyond = np.zeros(len(start))

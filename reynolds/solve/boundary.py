@@ -17,12 +17,12 @@ Feed = Callable[[float], tuple[float, float]]
 NARROW = 1e3  # Pa: of the first interval searched
 MOST_DOUBLINGS = 60
 NEAR = 1e-8  # of the interval
-BENT = 0.1  # change of the slope on the way: of less, a straight step makes nothing
+BENT = 0.1  # change of the slope on the way: less does not disturb Newton's method
 
 
 @dataclass(frozen=True)
-class Setting:
-    """Pressure (size,) Pa and film fraction (size,) where `held`, elsewhere a guess and a full film; pockets."""
+class BoundaryValues:
+    """Pressure (size,) Pa and film fraction (size,), `held` or a first guess, and the pockets."""
 
     pressure: Array
     film_fraction: Array
@@ -31,19 +31,18 @@ class Setting:
 
 
 def check_pressures(problem: FilmProblem) -> None:
-    """Raise FilmInputError where no pressure is solved for.
+    """Raise FilmInputError for boundary conditions without a solution.
 
-    That is where a boundary is not of the mesh, where a piece of the film has no pressure level, where a boundary
-    lies below cavitation pressure, or where one filled in part lies above it; and where a pocket touches another
-    one or a held boundary, so that its pressure is not its own. Last, where the mesh is so coarse that every
-    unknown lies on a held boundary.
+    Faults: a boundary that is not of the mesh, a piece of the film without a pressure level, a boundary below
+    cavitation pressure, or one filled in part above it; a pocket that touches another one or a held boundary; a
+    mesh of which every unknown lies on a held boundary.
     """
     if spread(problem).held.all():
         found = f"{problem.space.size} unknowns, each on an edge of given pressure: none is left to solve for"
         raise FilmInputError("mesh", found, "at least 2 cells from one such edge to the next")
 
 
-def spread(problem: FilmProblem) -> Setting:
+def spread(problem: FilmProblem) -> BoundaryValues:
     """The boundary conditions at the unknowns; raises as `check_pressures`."""
     space = problem.space
     cavitates = problem.cavitation is not Cavitation.NONE
@@ -75,7 +74,7 @@ def spread(problem: FilmProblem) -> Setting:
         raise FilmInputError(
             "boundary", f"pressure {low:.4g} Pa", f"at least the cavitation pressure {level:.4g} Pa"
         )
-    return Setting(pressure, fraction, held, tuple(pockets))
+    return BoundaryValues(pressure, fraction, held, tuple(pockets))
 
 
 def _check_apart(held: NDArray[np.bool_], pockets: list[tuple[int, Pocket]]) -> None:
@@ -95,20 +94,20 @@ def _check_fraction(name: str, condition: Held, problem: FilmProblem) -> None:
         raise FilmInputError(
             f"boundary {name}",
             f"film fraction {condition.film_fraction:g} with cavitation '{problem.cavitation.value}'",
-            "1, or cavitation 'jfo', which carries a film fraction along",
+            "1, or cavitation 'jfo', whose film fraction is an unknown",
         )
     if condition.pressure != problem.cavitation_pressure:
         raise FilmInputError(
             f"boundary {name}",
             f"film fraction {condition.film_fraction:g} at {condition.pressure:.4g} Pa",
-            f"the cavitation pressure {problem.cavitation_pressure:.4g} Pa, which is all that such a film bears",
+            f"the cavitation pressure {problem.cavitation_pressure:.4g} Pa, the only one of such a film",
         )
 
 
 def _check_level(
     problem: FilmProblem, held: NDArray[np.bool_], pockets: list[tuple[int, Pocket]], level: float
 ) -> None:
-    """Fault a piece of the film whose pressure nothing fixes."""
+    """Fault a piece of the film without a pressure level."""
     pattern = problem.space.pattern
     fed = held.copy()
     for node, pocket in pockets:
@@ -119,9 +118,9 @@ def _check_level(
 
 
 def pressure_sending(feed: Feed, flow: float, start: float) -> float:
-    """A pressure (Pa) at which a feed sends about a flow (m3/s); `start` where none does or the law is straight.
+    """A pressure (Pa) at which a feed sends about a flow (m3/s); `start` where none does or the law is linear.
 
-    `feed` as `problem.Pocket` has it: (m3/s, its slope by pressure), never rising. Behind an orifice,
+    `feed` as in `problem.Pocket`: (m3/s, its slope by pressure), never rising. Behind an orifice,
     q ~ sqrt(p_supply - p), Newton's method oscillates between a pressure far from the supply's and its mirror
     image; from a pressure that sends the flow of the iteration before it converges.
     """

@@ -1,7 +1,7 @@
-"""Where a film cavitates, found first on coarser problems: the start of the active set.
+"""First guess of the cavity from coarser problems, for the active set.
 
 The front of a cavity moves by about one cell per step of the active set, so that a cold start costs steps in
-proportion to the mesh. Coarse problems are gathered from neighbouring unknowns (aggregation: Vanek, Mandel and
+proportion to the mesh. Coarse problems are made of neighbouring unknowns (aggregation: Vanek, Mandel and
 Brezina 1996), so any mesh has them; each starts from the answer of the next coarser one (cascade: Bornemann and
 Deuflhard 1996).
 """
@@ -23,16 +23,16 @@ from reynolds.numerics.arrays import Array
 COARSEST = 200  # unknowns: below this a cold start takes no more than a few steps
 FINEST = 20_000  # unknowns: above this a coarse problem costs more than the steps that it saves
 ACROSS = 3.0  # cells from the middle of an aggregate to the middle of the next
-MAX_STEPS = 10  # per level: a guess that has not settled is still a guess
-ROUGHLY = 1e-4  # of the load: what is asked is where a pressure is positive
+MAX_STEPS = 10  # per level: a guess need not converge
+ROUGHLY = 1e-4  # of the load: only the sign of a pressure matters
 
 
 @dataclass(frozen=True)
 class Obstacle:
     """Find u >= 0 with A u - load >= 0 and u (A u - load) = 0, and u = 0 where it is `held`.
 
-    entries: the upper triangle of A (n, n), symmetric positive definite and the identity where held, on a pattern
-    that is kept apart; load (n,), zero where held.
+    entries: the upper triangle of A (n, n), symmetric positive definite and the identity where held, on a separate
+    pattern; load (n,), zero where held.
     """
 
     entries: Array
@@ -45,7 +45,7 @@ class Coarser:
     """The next coarser problem of a pattern.
 
     aggregate (n,): coarse unknown of each unknown; crossing (couplings,): the entries of the finer upper triangle
-    that couple two of them; slots: where these stand in the coarser one, `upper`, whose own entries mean nothing.
+    that couple two of them; slots: their indices in the coarser one, `upper`, whose own entries are not used.
     """
 
     aggregate: NDArray[np.int32]
@@ -71,7 +71,7 @@ class Cascade:
             upper = self._levels[-1].upper
 
     def cavity(self, problem: Obstacle) -> NDArray[np.bool_]:
-        """Where u = 0, held unknowns apart, to within a few cells, (n,).
+        """The cavity: unknowns (n,) with u = 0 that are not held, to within a few cells.
 
         A guess, best where A has the signs of a film operator (no positive couplings): the caller's active set
         makes it exact.
@@ -88,19 +88,19 @@ class Cascade:
         return cavity & ~problem.held
 
     def _tied(self, problem: Obstacle) -> Array:
-        """Row sums of A: couplings of each free unknown to what is held, (n,)."""
+        """Row sums of A: couplings of each free unknown to held ones, (n,)."""
         tied, size = np.zeros(len(problem.load)), np.zeros(len(problem.load))
         entries, one = problem.entries, np.ones(len(problem.load))
-        kernels.carry(self._pattern.indptr, self._pattern.indices, entries, entries, one, tied, size)
+        kernels.convect(self._pattern.indptr, self._pattern.indices, entries, entries, one, tied, size)
         return np.where(problem.held, 0.0, tied)
 
 
 def active_set(
     pattern: csc_array, factor: Factor, problem: Obstacle, cavity: NDArray[np.bool_]
 ) -> NDArray[np.bool_]:
-    """Where u = 0, held unknowns apart, from a guess near it: settled, or after MAX_STEPS steps of the active set.
+    """The cavity from a guess near it: converged, or after MAX_STEPS steps of the active set.
 
-    `factor` takes matrices of `pattern`, an upper triangle whose entries are not looked at.
+    `factor` takes matrices of `pattern`, an upper triangle whose entries are not used.
     """
     indptr, indices, load = pattern.indptr, pattern.indices, problem.load
     upper, nothing = copy(pattern), np.zeros(len(load))
@@ -110,7 +110,7 @@ def active_set(
         factor.update(upper)
         answer = factor.solve(np.where(cavity | problem.held, 0.0, load), ROUGHLY)
         lack, size = -load, np.zeros(len(load))
-        kernels.carry(indptr, indices, problem.entries, problem.entries, answer, lack, size)
+        kernels.convect(indptr, indices, problem.entries, problem.entries, answer, lack, size)
         now = np.where(cavity, lack > 0.0, answer < 0.0) & ~problem.held
         if np.array_equal(now, cavity):
             break
@@ -151,9 +151,9 @@ def _coarser(upper: csc_array, aggregate: NDArray[np.int32]) -> Coarser:
 
 
 def _gathered(level: Coarser, fine: Obstacle, tied: Array) -> Obstacle:
-    """The coarser problem, in which what is held in the finer one has no part.
+    """The coarser problem, without the held unknowns of the finer one.
 
-    `tied` (n,): how stiffly its unknowns are tied to what is held. A level that is constant over each aggregate
+    `tied` (n,): couplings of its unknowns to held ones. A level that is constant over each aggregate
     falls from one to the next within one cell instead of three, so that their couplings are three times too stiff.
     """
     indptr, indices = level.upper.indptr, level.upper.indices

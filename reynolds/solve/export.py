@@ -1,4 +1,4 @@
-"""Film fields for ParaView: VTU files of a plane or bent film, and PVD series over shaft angle or time."""
+"""Film fields for ParaView: VTU files of a plane or curved film, and PVD series over shaft angle or time."""
 
 from __future__ import annotations
 
@@ -24,8 +24,8 @@ def write_vtu(
     """Write one film as a surface: film_pressure (Pa), film_thickness (m), wall_shear (Pa, moving wall).
 
     `more` are further fields at the vertices (vertices,), by name. `place` maps vertices (n, 2) m of the film
-    plane to their true place (n, 3) m: a cylinder for a piston. film_thickness stands at the vertices (averaged
-    where it jumps) and, exact, as the mean of each cell.
+    plane to their true place (n, 3) m: a cylinder for a piston. film_thickness is given at the vertices
+    (averaged where it jumps) and, exact, as the mean of each cell.
     """
     import meshio
 
@@ -51,7 +51,7 @@ def write_vtu(
 
 
 def surface_points(space: FilmSpace, place: Callable[[Array], Array] | None = None) -> Array:
-    """Vertices of a film in space, (n, 3) m: placed by `place`, else where the film's plane or sphere has them."""
+    """Vertices of a film in space, (n, 3) m: by `place`, else on the film's plane or sphere."""
     flat = space.vertices
     return place(flat) if place else space.sphere.in_space(flat)
 

@@ -1,4 +1,4 @@
-"""A film on the way to its solution: where it stands, and how it moves on."""
+"""Iterates of the film solver: states, their balance, and steps between them."""
 
 from __future__ import annotations
 
@@ -7,15 +7,15 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from reynolds.equation.balance import Balance, Operators, State, flow_balance, operators
-from reynolds.equation.deformation import opening
+from reynolds.equation.balance import Balance, FilmState, Operators, flow_balance, operators
+from reynolds.equation.deformation import deformation
 from reynolds.errors import FilmInputError, FilmNotConverged
 from reynolds.fem import kernels
 from reynolds.laws.fluid import CONSTANT
 from reynolds.numerics.array_kernels import all_finite, largest_share
 from reynolds.numerics.arrays import Array
 from reynolds.problem import Cavitation, FilmProblem
-from reynolds.solve.boundary import Setting
+from reynolds.solve.boundary import BoundaryValues
 
 MOST_HALVINGS = 10
 LEAST_GAIN = 1e-4  # of the balance, by a full step
@@ -25,29 +25,29 @@ LEAST_GAIN = 1e-4  # of the balance, by a full step
 class Iterate:
     """A state, its cavity and the balance there.
 
-    `signed` (size,) Pa tells the two apart: pressure above cavitation pressure where it is positive, else what
-    the cavity lacks of a full film, in pressures (see `newton.signed_after`).
+    `signed` (size,) Pa: pressure above cavitation pressure where it is positive, else the cavity's lack of oil as
+    a pressure (see `newton.signed_after`).
     """
 
     signed: Array
-    state: State
+    state: FilmState
     cavity: NDArray[np.bool_]
     parts: Operators
     balance: Balance
 
 
 def is_linear(problem: FilmProblem) -> bool:
-    """Whether the balance is linear in pressures and film fractions, so that its operators are constant."""
+    """True if the balance is linear in pressures and film fractions, with constant operators."""
     return problem.fluid is CONSTANT and problem.walls is None
 
 
-def opened(problem: FilmProblem, pressure: Array, fraction: Array, near: Array | None = None) -> State:
-    """The state of nodal pressures and film fractions, the walls opened by them (`near`: an opening like it)."""
-    return State(pressure, fraction, opening(problem, pressure, near))
+def deformed(problem: FilmProblem, pressure: Array, fraction: Array, near: Array | None = None) -> FilmState:
+    """The state of nodal pressures and film fractions with the deformation (`near`: a guess of it)."""
+    return FilmState(pressure, fraction, deformation(problem, pressure, near))
 
 
 def iterate_of(
-    problem: FilmProblem, state: State, cavity: NDArray[np.bool_], signed: Array | None = None
+    problem: FilmProblem, state: FilmState, cavity: NDArray[np.bool_], signed: Array | None = None
 ) -> Iterate:
     """The iterate at a state, its operators and balance computed; `signed` where it is known."""
     parts = operators(problem, state)
@@ -58,8 +58,8 @@ def iterate_of(
     return Iterate(signed, state, cavity, parts, flow_balance(problem, parts, state))
 
 
-def iterate_at(problem: FilmProblem, setting: Setting, before: Iterate, signed: Array) -> Iterate:
-    """The iterate that signed unknowns mean: each a pressure where positive, else a cavity."""
+def iterate_at(problem: FilmProblem, setting: BoundaryValues, before: Iterate, signed: Array) -> Iterate:
+    """The iterate of signed unknowns: each a pressure where positive, else a cavity."""
     if not all_finite(signed):
         raise FilmNotConverged("pressures that grow without bound", "stiffer walls, or a thicker film")
     level = problem.cavitation_pressure
@@ -72,16 +72,18 @@ def iterate_at(problem: FilmProblem, setting: Setting, before: Iterate, signed: 
         fraction = np.where(cavity, 1.0 + signed / before.parts.lack, fraction)
     pressure = np.where(setting.held, setting.pressure, pressure)
     if is_linear(problem):
-        state = State(pressure, fraction, before.state.opening)
+        state = FilmState(pressure, fraction, before.state.deformation)
         return Iterate(signed, state, cavity, before.parts, flow_balance(problem, before.parts, state))
-    return iterate_of(problem, opened(problem, pressure, fraction, before.state.opening), cavity, signed)
+    return iterate_of(problem, deformed(problem, pressure, fraction, before.state.deformation), cavity, signed)
 
 
-def advanced(problem: FilmProblem, setting: Setting, at: Iterate, signed: Array, *, downhill: bool) -> Iterate:
-    """The iterate after a step, cut back where no film would be left or a law would not hold.
+def advanced(
+    problem: FilmProblem, setting: BoundaryValues, at: Iterate, signed: Array, *, downhill: bool
+) -> Iterate:
+    """The iterate after a step, cut where no film would be left or a law would not hold.
 
-    `downhill` cuts it back further until it brings the balance nearer to zero; where no share does, the best of
-    those tried. Raises what the laws raise where even the shortest step leads out of them.
+    `downhill` cuts it further until it reduces the imbalance; where no share does, the best of those tried. Raises
+    as the laws do where even the shortest step leaves their range.
     """
 
     def rest(there: Iterate) -> float:
@@ -108,26 +110,26 @@ def advanced(problem: FilmProblem, setting: Setting, at: Iterate, signed: Array,
     return best[1]
 
 
-def imbalance_of(problem: FilmProblem, setting: Setting, at: Iterate) -> float:
+def imbalance_of(problem: FilmProblem, setting: BoundaryValues, at: Iterate) -> float:
     """Largest residual of a free unknown over the flows that meet there."""
     rest, slope = with_pockets(setting, at)
-    size = at.balance.meeting
+    size = at.balance.flow_scale
     if setting.pockets:
         size = size + np.abs(at.balance.net - rest) + kernels.ROUNDING * np.abs(slope * at.state.pressure)
     if problem.cavitation is Cavitation.JFO and at.cavity.any():
-        # A film fraction next to zero is one less nearly one: to the last place of one.
+        # A film fraction near zero is one minus nearly one, exact to the last place of one.
         size = size + np.where(at.cavity, kernels.ROUNDING * at.parts.brim, 0.0)
-    # Round-off of a solve is that of its largest flows: where next to nothing flows it is all there is.
+    # Round-off of a solve is that of its largest flows, and counts where next to nothing flows.
     return largest_share(rest, size, kernels.ROUNDING, fixed_in(problem, setting, at))
 
 
-def fixed_in(problem: FilmProblem, setting: Setting, at: Iterate) -> NDArray[np.bool_]:
-    """Unknowns that a step leaves alone: held ones, and those that Reynolds' condition holds."""
+def fixed_in(problem: FilmProblem, setting: BoundaryValues, at: Iterate) -> NDArray[np.bool_]:
+    """Unknowns without a step: held ones, and those that Reynolds' condition holds."""
     return setting.held | at.cavity if problem.cavitation is Cavitation.REYNOLDS else setting.held
 
 
-def with_pockets(setting: Setting, at: Iterate) -> tuple[Array, Array]:
-    """The balance less what pockets are fed, and what their feeds add to the diagonal."""
+def with_pockets(setting: BoundaryValues, at: Iterate) -> tuple[Array, Array]:
+    """The balance less the pockets' feeds, and their part of the diagonal."""
     net = at.balance.net
     rest, gain = net.copy() if setting.pockets else net, np.zeros(len(net))
     for node, pocket in setting.pockets:

@@ -1,4 +1,4 @@
-"""What a pressure field does: load, moments, wall friction, dissipation, flows and their balances."""
+"""Integrals of a film solution: load, moments, wall friction, dissipation, flows and their balances."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ import numpy as np
 
 from reynolds.equation.balance import steep_gradient
 from reynolds.equation.coefficients import along, at_points, isotropic
-from reynolds.equation.hourglass import spared
+from reynolds.equation.hourglass import saved_heat
 from reynolds.equation.rough_overlap import vertex_thickness
 from reynolds.fem import kernels
 from reynolds.laws.contact import boundary_shear, contact_pressure
@@ -22,16 +22,16 @@ from reynolds.problem import Cavitation, FilmSolution, Pocket
 class Loads:
     """Integrals of one film solution, SI.
 
-    load N (integral of p); contact_load N, what touching asperities bear besides; moment_x, moment_y N m
-    (integrals of p y and of -p x about the origin, p with the contact's pressure); friction_moving,
-    friction_fixed N: force of oil and contact on each wall (x, y); friction_torque_* N m about the origin;
-    dissipation W, contact included; flow m3/s by boundary name, positive out of the film; squeeze_flow m3/s by
-    which what the film holds grows; cavity_flow m3/s that Reynolds' condition makes the cavity supply (+) or
-    swallow (-), else zero; film_fraction_min, cavitated_area_fraction; mass_balance_error =
-    |out + squeeze - cavity|, relative to the flow through the boundaries or the flows within the film, whichever
-    are larger; energy_balance_error likewise relative to the dissipation, the walls' or the flows' power:
-    round-off between smooth walls and with oil of constant density; else what is left out: the pressure's push on
-    asperities, by the shear stress factors, and the work of compression.
+    load N (integral of p); contact_load N, borne by asperities besides; moment_x, moment_y N m (integrals of p y
+    and of -p x about the origin, p with the contact's pressure); friction_moving, friction_fixed N: force of oil
+    and contact on each wall (x, y); friction_torque_* N m about the origin; dissipation W, contact included; flow
+    m3/s by boundary name, positive out of the film; squeeze_flow m3/s, growth of the film's oil; cavity_flow m3/s,
+    supply (+) or sink (-) of the cavity under Reynolds' condition, else zero; film_fraction_min,
+    cavitated_area_fraction; mass_balance_error = |out + squeeze - cavity|, relative to the flow through the
+    boundaries or the flows within the film, whichever are larger; energy_balance_error likewise relative to the
+    dissipation, the walls' or the flows' power: round-off between smooth walls and with oil of constant density;
+    else the terms left out: the pressure on the asperities' flanks, by the shear stress factors, and the work of
+    compression.
     """
 
     load: float
@@ -56,7 +56,7 @@ class Loads:
 
     @property
     def throughput(self) -> float:
-        """The larger of what enters and what leaves through the named boundaries, m3/s."""
+        """The larger of inflow and outflow through the named boundaries, m3/s."""
         return max(sum(max(sign * flow, 0.0) for flow in self.flow.values()) for sign in (1.0, -1.0))
 
 
@@ -65,7 +65,7 @@ class PointFields:
     """Fields at the quadrature points, (cells, points) each.
 
     Film pressure (Pa), its gradient (Pa/m), contact pressure (Pa), and the shear stress on both walls (Pa), that
-    of contact included; filled: share of the width in which oil shears, times what roughness makes of its sliding
+    of contact included; filled: share of the width in which oil shears, times the shear factor of roughness
     (cells | 1, points | 1).
     """
 
@@ -83,8 +83,8 @@ def point_fields(solution: FilmSolution) -> PointFields:
     Stress of the oil on the moving wall: -w h grad p - mu (U1 - U2)/h, on the fixed wall
     -(1 - w) h grad p + mu (U1 - U2)/h; w = 1/2 where viscosity does not vary across the film (parabolic plus
     linear profile). Rough walls: each term with its shear stress factor (Patir and Cheng 1979). In a cavity oil
-    fills the film fraction of the width and shears there alone (JFO); Reynolds' condition knows no film fraction
-    and takes it as full. Walls that touch rub with the boundary friction of their asperities.
+    fills the film fraction of the width and shears there alone (JFO); Reynolds' condition has no film fraction
+    and counts it as full. Walls that touch rub with the boundary friction of their asperities.
     """
     at, at_x, at_y = evaluate(solution, solution.pressure)
     problem, film = solution.problem, solution.film
@@ -141,8 +141,8 @@ def evaluate(solution: FilmSolution, nodal: Array) -> tuple[Array, Array, Array]
 def loads(solution: FilmSolution, weight: Array | None = None) -> Loads:
     """All integrals of a solution.
 
-    `weight` (cells | 1, points | 1) leaves regions out of friction and dissipation (0 where the film is no
-    film but a port); pressure integrals and flows count the whole mesh.
+    `weight` (cells | 1, points | 1) leaves regions out of friction and dissipation (0 over a port); pressure
+    integrals and flows count the whole mesh.
     """
     space, film = solution.problem.space, solution.film
     fields = point_fields(solution)
@@ -152,11 +152,11 @@ def loads(solution: FilmSolution, weight: Array | None = None) -> Loads:
     moving = [float(np.sum(t * rubbing)) for t in fields.shear_moving]
     fixed = [float(np.sum(t * rubbing)) for t in fields.shear_fixed]
     flow, drawn = _edge_flows(solution)
-    squeeze_flow = float(solution.swallowed.sum())
+    squeeze_flow = float(solution.storage_rate.sum())
     made = solution.problem.cavitation is Cavitation.REYNOLDS
     cavity_flow = -float(solution.outflow[solution.cavity].sum()) - drawn if made else 0.0
     out = float(solution.outflow[solution.held].sum()) - drawn + _pocket_flow(solution)
-    through = float(np.abs(solution.outflow[solution.held]).sum()) + float(np.abs(solution.swallowed).sum())
+    through = float(np.abs(solution.outflow[solution.held]).sum()) + float(np.abs(solution.storage_rate).sum())
     peak = int(np.argmax(solution.pressure))
     load, moment_x, moment_y = pressure_integrals(solution)
     return Loads(
@@ -177,7 +177,7 @@ def loads(solution: FilmSolution, weight: Array | None = None) -> Loads:
         cavity_flow=cavity_flow,
         film_fraction_min=float(solution.film_fraction.min()),
         cavitated_area_fraction=cavitated_fraction(solution),
-        mass_balance_error=abs(out + squeeze_flow - cavity_flow) / max(through, _root_sum(solution.meeting)),
+        mass_balance_error=abs(out + squeeze_flow - cavity_flow) / max(through, _root_sum(solution.flow_scale)),
         energy_balance_error=_energy_error(solution, fields),
     )
 
@@ -201,7 +201,7 @@ def boundary_flows(solution: FilmSolution) -> dict[str, float]:
     """Flow through each named boundary (m3/s, positive out), from the consistent nodal residuals.
 
     A corner's Poiseuille flow is divided between the held boundaries that meet there by their length, its
-    Couette flow by their direction. What a cavity that reaches the boundary draws is not a flow through the
+    Couette flow by their direction. The supply of a cavity at the boundary is not a flow through the
     boundary. A closed boundary's flow is zero by construction; a second name of edges that have a condition under
     their first one is left out.
     """
@@ -209,7 +209,7 @@ def boundary_flows(solution: FilmSolution) -> dict[str, float]:
 
 
 def _edge_flows(solution: FilmSolution) -> tuple[dict[str, float], float]:
-    """Flow through each named boundary, and what Reynolds' condition draws (<= 0) where a cavity meets one."""
+    """Flow through each named boundary, and the cavity's supply (<= 0) under Reynolds' condition at boundaries."""
     space = solution.problem.space
     couette = _couette_through(solution)
     length, rest = np.zeros(space.size), solution.outflow.copy()
@@ -217,12 +217,12 @@ def _edge_flows(solution: FilmSolution) -> tuple[dict[str, float], float]:
         length[space.edge_dofs[name]] += space.edge_share[name]
         rest[space.edge_dofs[name]] -= across
     # At a boundary at cavitation pressure no pressure inside is lower, so that no Poiseuille flow can enter:
-    # what does in the nodal balance is the cavity's own supply in the last row of cells.
+    # inflow in the nodal balance is the cavity's own supply in the last row of cells.
     drawn = np.zeros(space.size)
     if solution.problem.cavitation is Cavitation.REYNOLDS:
         level = solution.held & (length > 0.0) & (solution.pressure <= solution.problem.cavitation_pressure)
         drawn[level] = np.minimum(rest[level], 0.0)
-    flows = dict.fromkeys((name for name in space.edge_dofs if not _told_by_another(solution, name)), 0.0)
+    flows = dict.fromkeys((name for name in space.edge_dofs if not _counted_by_another(solution, name)), 0.0)
     for name, across in couette.items():
         nodes = space.edge_dofs[name]
         share = space.edge_share[name] / length[nodes]
@@ -230,8 +230,8 @@ def _edge_flows(solution: FilmSolution) -> tuple[dict[str, float], float]:
     return flows, float(drawn.sum())
 
 
-def _told_by_another(solution: FilmSolution, name: str) -> bool:
-    """Whether a boundary without a condition has edges of one that has: what passes there is that one's flow."""
+def _counted_by_another(solution: FilmSolution, name: str) -> bool:
+    """True for a boundary without a condition that shares edges with one that has: the flow is that one's."""
     conditions = solution.problem.boundary
     if name in conditions:
         return False
@@ -267,7 +267,7 @@ def dissipated(solution: FilmSolution, filled: Array | None = None) -> tuple[Arr
 
     h^3/(12 mu) |grad p|^2 and mu |U1 - U2|^2 / h, the latter where oil fills the film, times the area element and,
     between rough walls, Patir and Cheng's factors; sliding with the boundary friction of contact. `filled` as
-    `PointFields` has it, where it is known.
+    in `PointFields`, if known.
     """
     film, space, surface = solution.film, solution.problem.space, solution.problem.surface
     slip = tuple(a - b for a, b in zip(film.velocity_moving, film.velocity_fixed, strict=True))
@@ -281,7 +281,7 @@ def dissipated(solution: FilmSolution, filled: Array | None = None) -> tuple[Arr
 
 
 def _driven(solution: FilmSolution) -> Array:
-    """Heat of the flow that pressure drives, (cells, points) W; in each cell what its conductance spends."""
+    """Heat of the flow that pressure drives, (cells, points) W, by each cell's conductance."""
     film, space, surface = solution.film, solution.problem.space, solution.problem.surface
     smooth = film.thickness**3 / (12.0 * film.viscosity)
     tensor = isotropic(smooth)
@@ -292,15 +292,15 @@ def _driven(solution: FilmSolution) -> Array:
     gradient = steep_gradient(space, solution.pressure)
     flow = along(tensor, gradient)
     heat = (flow[0] * gradient[0] + flow[1] * gradient[1]) * space.steep_area
-    whole, less = heat.sum(axis=1), spared(space, tensor, solution.pressure)
+    whole, less = heat.sum(axis=1), saved_heat(space, tensor, solution.pressure)
     left = 1.0 - np.divide(less, whole, out=np.zeros_like(less), where=whole > 0.0)
     return np.asarray(heat * left[:, None])
 
 
 def _dissipation(solution: FilmSolution, fields: PointFields, weight: Array | None = None) -> float:
-    """Heat of the film (W), with what mixing spends in the cells at the ends of a cavity."""
+    """Heat of the film (W), with that of mixing in the cells at the ends of a cavity."""
     driven, sliding = dissipated(solution, fields.filled)
-    mixed = float(np.sum(solution.pressure * solution.mixing))
+    mixed = float(np.sum(solution.pressure * solution.upwind_exchange))
     return float(np.sum((driven + sliding) * (1.0 if weight is None else weight))) + mixed
 
 
@@ -319,9 +319,9 @@ def _energy_error(solution: FilmSolution, fields: PointFields) -> float:
         )
     )
     flow = -float(np.sum(solution.outflow * solution.pressure))
-    squeeze = float(np.sum(solution.pressure * solution.swallowed))
+    squeeze = float(np.sum(solution.pressure * solution.storage_rate))
     spent = _dissipation(solution, fields)
-    scale = max(spent, abs(walls), abs(flow), _root_sum(solution.meeting * solution.pressure))
+    scale = max(spent, abs(walls), abs(flow), _root_sum(solution.flow_scale * solution.pressure))
     return abs(walls + flow - squeeze - spent) / scale
 
 

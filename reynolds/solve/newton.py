@@ -8,34 +8,36 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.sparse import csc_array
 
-from reynolds.equation.balance import NOTHING, by_opening, flow_balance, slopes
-from reynolds.equation.deformation import opening_slope
-from reynolds.equation.deformation_sparsity import SoftPatterns
+from reynolds.equation.balance import NOTHING, by_deformation, flow_balance, slopes
+from reynolds.equation.deformation import deformation_slope
+from reynolds.equation.deformation_sparsity import ElasticPatterns
 from reynolds.fem import kernels
-from reynolds.linear.elastic import Answer, Balance, NearFactor, compliant_answer
+from reynolds.linear.elastic import Answer, NearFactor, WallBalance, compliant_answer
 from reynolds.numerics.array_kernels import scaled_free
 from reynolds.numerics.arrays import Array
 from reynolds.problem import Cavitation, FilmProblem
-from reynolds.solve.boundary import Setting
+from reynolds.solve.boundary import BoundaryValues
 from reynolds.solve.iterate import Iterate, fixed_in, with_pockets
 
-TIE = 1e-9  # of the flows that meet at an unknown
+TIE = 1e-9  # of the flow scale of an unknown
 
 
 def symmetric_step(
-    problem: FilmProblem, setting: Setting, at: Iterate, fixed: NDArray[np.bool_]
+    problem: FilmProblem, setting: BoundaryValues, at: Iterate, fixed: NDArray[np.bool_]
 ) -> tuple[csc_array, Array]:
     """Upper triangle and right-hand side for the change of pressure, identity where fixed."""
     rest, gain = with_pockets(setting, at)
-    # Conductances are 1e-15 to 1e-9: scaled to order one they stay clear of any pivot threshold.
-    scale = float(at.parts.stiffness.max()) or float(gain.max()) or 1.0  # a film all pocket conducts nothing
+    # Conductances are 1e-15 to 1e-9: scaled to order one they stay above any pivot threshold.
+    scale = (
+        float(at.parts.stiffness.max()) or float(gain.max()) or 1.0
+    )  # a film of pockets alone has no conductance
     data = np.empty_like(at.parts.stiffness)
     pattern = problem.space.pattern
     kernels.hold(pattern.indptr, pattern.indices, at.parts.stiffness, 1.0 / scale, fixed, gain, data)
     return problem.space.matrix(data), scaled_free(rest, -1.0 / scale, fixed)
 
 
-def general_step(problem: FilmProblem, setting: Setting, at: Iterate) -> tuple[Array, Array, Array, float]:
+def general_step(problem: FilmProblem, setting: BoundaryValues, at: Iterate) -> tuple[Array, Array, Array, float]:
     """Upper triangle, mirror and right-hand side for the change of pressure or, in the cavity, film fraction.
 
     Scaled to order one; the last value turns an unknown of the cavity into a film fraction.
@@ -48,7 +50,7 @@ def general_step(problem: FilmProblem, setting: Setting, at: Iterate) -> tuple[A
     unit = _largest(at.parts.stiffness) or 1.0
     largest = max(_largest(f_upper), _largest(f_gain))
     scale = unit / largest if largest > 0.0 else 1.0
-    # Where nothing carries a cavity along, its film fraction stays as it is.
+    # Without wall motion a cavity's film fraction stays constant.
     least = NOTHING * (largest if largest > 0.0 else unit)
     pattern = problem.space.pattern
     f_gain = f_gain + np.where(f_upper[pattern.diagonal] + f_gain < least, least, 0.0)
@@ -67,29 +69,29 @@ def _largest(values: Array) -> float:
 
 def compliant(
     problem: FilmProblem,
-    setting: Setting,
+    setting: BoundaryValues,
     at: Iterate,
     upper: Array,
     lower: Array,
-    patterns: SoftPatterns,
+    patterns: ElasticPatterns,
     near: NearFactor,
 ) -> Answer:
-    """The general step where each pressure opens the film everywhere, dR/dp + dR/dh dh/dp, for any load.
+    """The general step between elastic walls, dR/dp + dR/dh dh/dp, for any load.
 
-    `patterns` are those of the mesh, `near` keeps what serves the steps to come. Raises FilmNotConverged where
+    `patterns` are those of the mesh, `near` keeps a factor for later steps. Raises FilmNotConverged where
     the step is singular.
     """
     free = (~fixed_in(problem, setting, at)).astype(float)
     rows = free / np.abs(at.parts.stiffness).max()
-    slope = by_opening(problem, at.parts, at.state, rows, patterns.openings)
-    rigid, wider = patterns.full_matrix(upper, lower), opening_slope(problem, at.state.opening)
-    return compliant_answer(Balance(rigid, slope, wider, free * ~at.cavity), near)
+    slope = by_deformation(problem, at.parts, at.state, rows, patterns.deformation)
+    rigid, wider = patterns.full_matrix(upper, lower), deformation_slope(problem, at.state.deformation)
+    return compliant_answer(WallBalance(rigid, slope, wider, free * ~at.cavity), near)
 
 
 def signed_after(problem: FilmProblem, at: Iterate, change: Array, scale: float) -> Array:
     """The signed unknowns (size,) Pa after a step.
 
-    In the cavity the lack of oil 1 - theta, or the oil that Reynolds' condition makes, over the pressure that
+    In the cavity the lack of oil 1 - theta, or the oil that Reynolds' condition creates, as the pressure that
     would move as much: slopes of the balance by a signed unknown are then alike on both sides of zero.
     """
     level = problem.cavitation_pressure
@@ -100,6 +102,6 @@ def signed_after(problem: FilmProblem, at: Iterate, change: Array, scale: float)
         lack = at.state.film_fraction + scale * change - 1.0
         return np.where(at.cavity, lack * at.parts.lack, pressure - level)
     balance = flow_balance(problem, at.parts, replace(at.state, pressure=pressure))
-    # A node that nothing drives (balance zero but for round-off) would otherwise enter and leave for ever.
-    made = (balance.net + TIE * balance.meeting) / at.parts.stiffness[problem.space.pattern.diagonal]
+    # A node of zero balance (but for round-off) would otherwise enter and leave the cavity for ever.
+    made = (balance.net + TIE * balance.flow_scale) / at.parts.stiffness[problem.space.pattern.diagonal]
     return np.where(at.cavity, -made, pressure - level)

@@ -13,8 +13,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from reynolds.equation.balance import Operators, State, operators, positive_share
-from reynolds.equation.deformation_sparsity import SoftPatterns
+from reynolds.equation.balance import FilmState, Operators, operators, positive_share
+from reynolds.equation.deformation_sparsity import ElasticPatterns
 from reynolds.errors import FilmInputError, FilmNotConverged
 from reynolds.fem.space import FilmSpace
 from reynolds.laws.fluid import CONSTANT
@@ -23,31 +23,31 @@ from reynolds.linear.factor import ITERATIVE_TOLERANCE, Factor, GeneralFactor, S
 from reynolds.linear.multigrid.grid import grid_of
 from reynolds.numerics.arrays import Array
 from reynolds.problem import LEAST_FRACTION, Cavitation, FilmProblem, FilmSolution
-from reynolds.solve.boundary import Setting, pressure_sending, spread
+from reynolds.solve.boundary import BoundaryValues, pressure_sending, spread
 from reynolds.solve.cavity_guess import COARSEST, Cascade, Obstacle, active_set
 from reynolds.solve.iterate import (
     Iterate,
     advanced,
+    deformed,
     fixed_in,
     imbalance_of,
     is_linear,
     iterate_of,
-    opened,
     with_pockets,
 )
 from reynolds.solve.newton import compliant, general_step, signed_after, symmetric_step
 
 MAX_ITERATIONS = 100
-FULL_STEPS = 15  # then, or as soon as a cavity comes back, each step must bring the balance nearer to zero
+FULL_STEPS = 15  # then, or as soon as a cavity repeats, each step must reduce the imbalance
 TOLERANCE = 1e-9
 NEAR = 1e-6  # of which one more step leaves round-off
 ROUND_OFF = 1e-12
-SOFT_STEP = 1e-5  # residual of a first step between walls that give way over its load
-KEPT = 1e-3  # imbalance from which on a linearisation between walls that give way, which is dear, is kept
-KEPT_GAIN = 0.03  # of the imbalance is left, at most, by a step of a kept one that another one may follow
+SOFT_STEP = 1e-5  # residual of a first step between elastic walls over its load
+KEPT = 1e-3  # imbalance below which a linearisation between elastic walls, which is costly, is kept
+KEPT_GAIN = 0.03  # largest reduction factor of a kept linearisation that is used again
 LOOSEST = 1e-2  # residual of a linear solve over its load
-LESS = 0.3  # of a pocket's flow before, from where its supply's law leads up to more without a mirrored step
-LEAST_GAP = 0.1  # of the largest film, where walls overlap that a first pressure parts
+LESS = 0.3  # of a pocket's flow before: from a smaller flow its supply's law converges
+LEAST_GAP = 0.1  # of the largest film, to which a first pressure parts overlapping walls
 
 
 class FilmSolver:
@@ -58,17 +58,17 @@ class FilmSolver:
         self._grid = grid_of(space)
         self._factor = Factor(self._grid)
         self._general = GeneralFactor(self._grid)
-        self._near, self._patterns = NearFactor(), SoftPatterns(space)
+        self._near, self._patterns = NearFactor(), ElasticPatterns(space)
         self._cascade: Cascade | None = None
         self._answers: _Answers | None = None
         self._answered: FilmSolution | None = None  # the film that came of them
 
     def solve(self, problem: FilmProblem, start: FilmSolution | None = None) -> FilmSolution:
-        """The film of `problem`; `start` warms pressures, film fractions and cavity.
+        """The film of `problem`; `start` gives the first pressures, film fractions and cavity.
 
-        Afterwards every free unknown's flow balance holds to 1e-9 of the flows meeting there. Raises
+        Afterwards every free unknown's flow balance holds to 1e-9 of the flows that meet there. Raises
         FilmInputError as `check_pressures` does and for a `start` or a problem of another mesh, and
-        FilmNotConverged when that is not reached or a cavity would have to give more oil than reaches it.
+        FilmNotConverged when that is not reached or a cavity has a negative film fraction.
         """
         if problem.space.pattern is not self._pattern:
             raise FilmInputError("space", "another mesh", "the space of this solver, moved or not")
@@ -78,7 +78,7 @@ class FilmSolver:
             try:
                 return self._solved(problem, self.solve(simpler))
             except FilmNotConverged:
-                pass  # the simpler film leads nowhere, or has no solution itself: start from nothing
+                pass  # the simpler film is no help, or has no solution itself: a cold start
         return self._solved(problem, start)
 
     def _solved(self, problem: FilmProblem, start: FilmSolution | None) -> FilmSolution:
@@ -91,7 +91,7 @@ class FilmSolver:
         imbalance = imbalance_of(problem, setting, at) if soft_series else 1.0
         for iteration in range(1, MAX_ITERATIONS + 1):
             tolerance = max(ITERATIVE_TOLERANCE, min(LOOSEST, 0.1 * ROUND_OFF / max(imbalance, ROUND_OFF)))
-            if problem.walls is not None:  # no step between them is exact: one that gains as Newton's does will do
+            if problem.walls is not None:  # no step between them is exact: the gain of Newton's method is enough
                 tolerance = max(tolerance, min(SOFT_STEP, 0.1 * imbalance))
             keeps = keeps and imbalance < KEPT and self._serves(fixed_in(problem, setting, at), at)
             signed = (
@@ -112,13 +112,13 @@ class FilmSolver:
                 _check_filled(at)
                 self._answered = _solution(problem, setting, at, path)
                 return self._answered
-            # Under JFO an unknown next to zero may change sides for ever: either side is the solution.
+            # Under JFO an unknown near zero may change sides for ever: either side is the solution.
             near = imbalance < (NEAR if settled else TOLERANCE if problem.cavitation is Cavitation.JFO else 0.0)
             cycles |= iteration >= FULL_STEPS or (not settled and at.cavity.tobytes() in seen)
             seen.add(at.cavity.tobytes())
         raise _not_settled(problem, at, imbalance)
 
-    def _begin(self, problem: FilmProblem, setting: Setting, start: FilmSolution | None) -> Iterate:
+    def _begin(self, problem: FilmProblem, setting: BoundaryValues, start: FilmSolution | None) -> Iterate:
         space, cavitates = problem.space, problem.cavitation is not Cavitation.NONE
         pressure, fraction = setting.pressure.copy(), setting.film_fraction
         cavity, near = np.zeros(space.size, dtype=bool), None
@@ -126,29 +126,30 @@ class FilmSolver:
             pressure = _lifting(problem, setting)
         if start is not None:
             pressure = np.where(setting.held, pressure, start.pressure)
-            near = start.opening
+            near = start.deformation
             fraction = np.where(setting.held, fraction, start.film_fraction)
             cavity = start.cavity & ~setting.held & cavitates
         for node, pocket in setting.pockets:
             sent = 0.0 if start is None else -LESS * float(start.outflow[node])
             level = pressure_sending(pocket.feed, sent, float(pressure[node]))
             pressure[node] = max(level, problem.cavitation_pressure) if cavitates else level
-        return iterate_of(problem, opened(problem, pressure, fraction, near), cavity)
+        return iterate_of(problem, deformed(problem, pressure, fraction, near), cavity)
 
-    def _ruptured(self, problem: FilmProblem, setting: Setting, at: Iterate, signed: Array) -> Iterate:
-        """The same with a first guess of its cavity, if a film without one would be pulled (`signed` < 0)."""
+    def _ruptured(self, problem: FilmProblem, setting: BoundaryValues, at: Iterate, signed: Array) -> Iterate:
+        """The iterate with a first guess of its cavity, if pressures without one fall below (`signed` < 0)."""
         pulled = problem.cavitation is not Cavitation.NONE and bool((signed[~setting.held] < 0.0).any())
         if at.cavity.any() or not pulled or not is_linear(problem) or problem.space.size <= COARSEST:
             return at
-        # Free unknowns of the spread pressures stand at cavitation pressure: the step from there is p - p_c.
-        spread_out = opened(problem, setting.pressure, setting.film_fraction)
+        # Free unknowns of the spread pressures are at cavitation pressure: the step from there is p - p_c.
+        spread_out = deformed(problem, setting.pressure, setting.film_fraction)
         cavity = self._cavity(problem, setting, iterate_of(problem, spread_out, at.cavity))
         return replace(at, cavity=cavity)
 
-    def _cavity(self, problem: FilmProblem, setting: Setting, at: Iterate) -> NDArray[np.bool_]:
+    def _cavity(self, problem: FilmProblem, setting: BoundaryValues, at: Iterate) -> NDArray[np.bool_]:
         """A first guess, from coarser problems under Reynolds' condition.
 
-        Under JFO, whose steps are dearer, made exact for that condition; under Reynolds' the steps to come do it.
+        Under JFO, whose steps cost more, it is made exact for that condition; under Reynolds' the later steps do
+        so.
         """
         matrix, load = symmetric_step(problem, setting, at, setting.held)
         obstacle = Obstacle(matrix.data, load, setting.held)
@@ -158,7 +159,7 @@ class FilmSolver:
         return active_set(matrix, self._factor, obstacle, guess) if problem.cavitation is Cavitation.JFO else guess
 
     def _answer(self, solution: FilmSolution) -> _Answers | None:
-        """The last linearised balance, if it is of that film, its cavity the same but for what is full."""
+        """The last linearised balance, if it is of that film, with the same cavity but for full unknowns."""
         kept = self._answers
         if kept is None or self._answered is not solution:
             return None
@@ -169,42 +170,47 @@ class FilmSolver:
         kept = self._answer(solution)
         if kept is not None and is_linear(solution.problem):
             return kept.at.parts
-        return operators(solution.problem, State(solution.pressure, solution.film_fraction, solution.opening))
+        return operators(
+            solution.problem, FilmState(solution.pressure, solution.film_fraction, solution.deformation)
+        )
 
     def response(
         self, solution: FilmSolution, inflow: Array, tolerance: float = ITERATIVE_TOLERANCE
     ) -> tuple[Array, Array]:
-        """What inflows (size, m) m3/s add to pressures (Pa) and film fractions of a solution, (size, m) each.
+        """Changes of pressures (Pa) and film fractions of a solution by inflows (size, m) m3/s, (size, m) each.
 
-        By its linearised balance, held unknowns and cavity as they are: a free unknown changes pressure, one of
+        By its linearised balance at constant held unknowns and cavity: a free unknown changes pressure, one of
         the cavity its film fraction. Where the last film solved is this one its last factor is used again, which
         for a balance that is not linear was made some 1e-6 before the solution, or `tolerance` before it.
         """
         kept = self._answer(solution)
         if kept is None or kept.aged > tolerance:
-            problem, state = solution.problem, State(solution.pressure, solution.film_fraction, solution.opening)
+            problem, state = (
+                solution.problem,
+                FilmState(solution.pressure, solution.film_fraction, solution.deformation),
+            )
             kept, _ = self._linear(problem, spread(problem), iterate_of(problem, state, solution.cavity))
             self._answered = solution
         return kept.to(inflow, tolerance)
 
     def _serves(self, fixed: NDArray[np.bool_], at: Iterate) -> bool:
-        """Whether the linearisation made last has the same unknowns: held ones, pressures and cavity."""
+        """True if the last linearisation has the same unknowns: held ones, pressures and cavity."""
         kept = self._answers
         return kept is not None and bool(
             np.array_equal(kept.at.cavity, at.cavity) and np.array_equal(kept.fixed, fixed)
         )
 
     def _step(
-        self, problem: FilmProblem, setting: Setting, at: Iterate, tolerance: float, imbalance: float
+        self, problem: FilmProblem, setting: BoundaryValues, at: Iterate, tolerance: float, imbalance: float
     ) -> Array:
-        """The signed unknowns after one Newton step of the free ones; held ones stay as they are."""
+        """The signed unknowns after one Newton step of the free ones; held ones stay."""
         made, load = self._linear(problem, setting, at, imbalance)
         return signed_after(problem, at, made.solve(load, tolerance), made.scale)
 
     def _step_kept(
-        self, problem: FilmProblem, setting: Setting, at: Iterate, tolerance: float, imbalance: float
+        self, problem: FilmProblem, setting: BoundaryValues, at: Iterate, tolerance: float, imbalance: float
     ) -> Array:
-        """The same by the linearisation made last, of the same unknowns: the simplified Newton method."""
+        """The same by the last linearisation, of the same unknowns: the simplified Newton method."""
         assert self._answers is not None
         self._answers = kept = self._answers.again_from(imbalance)
         self._answered = None
@@ -212,15 +218,15 @@ class FilmSolver:
         return signed_after(problem, at, kept.solve(load, tolerance), kept.scale)
 
     def _linear(
-        self, problem: FilmProblem, setting: Setting, at: Iterate, imbalance: float = 0.0
+        self, problem: FilmProblem, setting: BoundaryValues, at: Iterate, imbalance: float = 0.0
     ) -> tuple[_Answers, Array]:
         """The balance linearised at an iterate of such an imbalance, and the load of a Newton step.
 
         Both are scaled alike. Afterwards this is the solver's last linearised balance, of no film yet.
         """
-        carried = problem.cavitation is Cavitation.JFO and bool(at.cavity.any())
+        conserving = problem.cavitation is Cavitation.JFO and bool(at.cavity.any())
         fixed, scale = fixed_in(problem, setting, at), 0.0
-        if is_linear(problem) and not carried:
+        if is_linear(problem) and not conserving:
             matrix, load = symmetric_step(problem, setting, at, fixed)
             self._factor.update(matrix)
             solve = row_by_row(self._factor.solve)
@@ -237,12 +243,12 @@ class FilmSolver:
 
 
 def as_given(problem: FilmProblem, given: FilmSolution) -> FilmSolution:
-    """The film of `problem` at the pressures, film fractions and opening of another one, as they are.
+    """The film of `problem` at the pressures, film fractions and deformation of another one.
 
-    Its flows are theirs; what does not balance is its imbalance. Raises as the laws do.
+    Its flows are theirs, with their imbalance. Raises as the laws do.
     """
     setting = spread(problem)
-    at = iterate_of(problem, State(given.pressure, given.film_fraction, given.opening), given.cavity)
+    at = iterate_of(problem, FilmState(given.pressure, given.film_fraction, given.deformation), given.cavity)
     return _solution(problem, setting, at, [imbalance_of(problem, setting, at)])
 
 
@@ -251,8 +257,7 @@ class _Answers:
     """The linearised balance of a film at an iterate, ready to be solved.
 
     `solve(load or rows of them, tolerance)`, both sides scaled; `scale` turns an unknown of the cavity into a film
-    fraction; `made`: imbalance of the iterate; `aged`: how far from balance what they serve may be from where they
-    were made.
+    fraction; `made`: imbalance of the iterate; `aged`: imbalance of the iterate that uses them.
     """
 
     solve: Solve
@@ -263,16 +268,16 @@ class _Answers:
     aged: float = 0.0
 
     def again_from(self, imbalance: float) -> _Answers:
-        """The same for an iterate of such an imbalance, maybe of another problem."""
+        """The same for an iterate of another imbalance, maybe of another problem."""
         return replace(self, aged=max(self.made, self.aged, imbalance))
 
     @property
     def unit(self) -> float:
-        """Over which `newton` scales the balance, m3/(s Pa)."""
+        """Scale of the balance in `newton`, m3/(s Pa)."""
         return float(self.at.parts.stiffness.max())
 
     def to(self, inflow: Array, tolerance: float) -> tuple[Array, Array]:
-        """What inflows (size, m) m3/s change: pressures and film fractions, (size, m) each."""
+        """Changes of pressures and film fractions by inflows (size, m) m3/s, (size, m) each."""
         if self.unit == 0.0:
             raise FilmInputError("response", "a film that is all pocket", "one in which pressure drives a flow")
         load = np.where(self.fixed[:, None], 0.0, inflow / self.unit)
@@ -295,7 +300,7 @@ def _not_settled(problem: FilmProblem, at: Iterate, imbalance: float) -> FilmNot
 
 
 def _check_filled(at: Iterate) -> None:
-    """Fault a cavity drawn dry: upwinding alone leaves no film fraction below zero, obtuse angles leave little."""
+    """Fault a cavity of negative film fraction: upwinding leaves none below zero, obtuse angles little."""
     if (least := float(at.state.film_fraction.min())) < LEAST_FRACTION:
         raise FilmNotConverged(
             f"more oil drawn from a cavity than flows into it (film fraction {least:.3g})",
@@ -319,7 +324,7 @@ def _simpler(problem: FilmProblem) -> FilmProblem | None:
     return None
 
 
-def _lifting(problem: FilmProblem, setting: Setting) -> Array:
+def _lifting(problem: FilmProblem, setting: BoundaryValues) -> Array:
     """Pressures (size,) Pa to start from between walls that overlap until a pressure parts them."""
     assert problem.walls is not None
     one = np.where(setting.held, 0.0, 1.0)
@@ -332,22 +337,22 @@ def _lifting(problem: FilmProblem, setting: Setting) -> Array:
     return np.where(setting.held, setting.pressure, np.maximum(setting.pressure, needed))
 
 
-def _solution(problem: FilmProblem, setting: Setting, at: Iterate, path: list[float]) -> FilmSolution:
-    # A cavity that is full of oil is a film whose pressure happens to be the cavity's.
-    carried = problem.cavitation is Cavitation.JFO and bool(at.cavity.any())
+def _solution(problem: FilmProblem, setting: BoundaryValues, at: Iterate, path: list[float]) -> FilmSolution:
+    # A cavity full of oil is a film at the cavitation pressure.
+    conserving = problem.cavitation is Cavitation.JFO and bool(at.cavity.any())
     return FilmSolution(
         problem=problem,
         pressure=at.state.pressure,
         film_fraction=at.state.film_fraction,
         film=at.parts.transport.film,
-        opening=at.state.opening,
+        deformation=at.state.deformation,
         flux=at.parts.transport.flux,
         content=at.parts.transport.content,
         outflow=-at.balance.net,
-        swallowed=at.balance.swallowed,
-        mixing=at.balance.mixing,
-        meeting=at.balance.meeting,
+        storage_rate=at.balance.storage_rate,
+        upwind_exchange=at.balance.upwind_exchange,
+        flow_scale=at.balance.flow_scale,
         held=setting.held,
-        cavity=at.cavity & (at.state.film_fraction <= 1.0 - TOLERANCE) if carried else at.cavity,
+        cavity=at.cavity & (at.state.film_fraction <= 1.0 - TOLERANCE) if conserving else at.cavity,
         path=tuple(path),
     )

@@ -11,19 +11,19 @@ from typing import Generic, Protocol, TypeVar
 
 import numpy as np
 
-from reynolds.equation.balance import State, density, operators
-from reynolds.equation.deformation import opening
+from reynolds.equation.balance import FilmState, density, operators
+from reynolds.equation.deformation import deformation
 from reynolds.errors import FilmInputError, FilmNotConverged
 from reynolds.numerics.arrays import Array
 from reynolds.problem import ZERO, FilmProblem, FilmSolution, Storage
 from reynolds.solve.boundary import spread
 from reynolds.solve.solver import FilmSolver
 
-MOST_HALVINGS = 12  # of a step on which the cavity does not settle
+MOST_HALVINGS = 12  # of a step on which the cavity does not converge
 
 
 class Holding(Protocol):
-    """A solution of any kind, of which a march needs what its unknowns hold."""
+    """A solution of any kind, of which a march needs the unknowns' oil."""
 
     @property
     def holds(self) -> Array:
@@ -37,8 +37,8 @@ Step = Callable[[FilmProblem, Solved | None], Solved]
 
 
 @dataclass(frozen=True)
-class Instant(Generic[Solved]):
-    """The film at the end of a step: time s, step s, and its solution (`storage` holds what it was before)."""
+class FilmInstant(Generic[Solved]):
+    """The film at the end of a step: time s, step s, and its solution (its `storage` has the oil before)."""
 
     time: float
     step: float
@@ -53,7 +53,7 @@ def march(
     *,
     start: float = 0.0,
     held: Array | None = None,
-) -> Iterator[Instant[FilmSolution]]:
+) -> Iterator[FilmInstant[FilmSolution]]:
     """The film at start + step, start + 2 step, ... up to end (s), one instant at a time: as `march_with`."""
 
     def solve(problem: FilmProblem, last: FilmSolution | None) -> FilmSolution:
@@ -70,14 +70,14 @@ def march_with(
     *,
     start: float = 0.0,
     held: Array | None = None,
-) -> Iterator[Instant[Solved]]:
+) -> Iterator[FilmInstant[Solved]]:
     """The film at start + step, start + 2 step, ... up to end (s), one instant at a time, each solved by `solve`.
 
     Solves d(theta r h)/dt + div q = 0 with `problem_at(t)` the film at time t, without storage: its thickness,
-    wall speeds and boundary pressures; its squeeze is not used. `held` (size,) m3 is what the unknowns hold at
-    `start`; None: a full film at its lowest pressure. A step on which the film does not settle is cut in two, each
-    half yielded. Raises FilmInputError for an end or step that leads nowhere and for a mesh that moves, since its
-    motion would carry oil too; FilmNotConverged where no step is short enough.
+    wall speeds and boundary pressures; its squeeze is not used. `held` (size,) m3 is the unknowns' oil at
+    `start`; None: a full film at its lowest pressure. A step without convergence is cut in two, each half yielded.
+    Raises FilmInputError for an end before the start, a step not above zero and a mesh that moves, since its
+    motion would move oil too; FilmNotConverged where no step is short enough.
     """
     if not (np.isfinite(end) and end > start):
         raise FilmInputError("time, end", f"{end:g} s", f"after the start, {start:g} s")
@@ -102,7 +102,7 @@ def march_with(
 
 
 def oil_held(problem: FilmProblem, film_fraction: float | Array = 1.0) -> Array:
-    """What each unknown of a film holds at given film fractions (size,): m3 at reference density, (size,)."""
+    """Oil of each unknown of a film at given film fractions (size,), m3 at reference density, (size,)."""
     setting = spread(problem)
     fraction = np.asarray(film_fraction, dtype=float)
     if fraction.shape not in ((), (problem.space.size,)):
@@ -110,7 +110,7 @@ def oil_held(problem: FilmProblem, film_fraction: float | Array = 1.0) -> Array:
     fraction = np.broadcast_to(fraction, (problem.space.size,))
     if not np.all((fraction >= 0.0) & (fraction <= 1.0)):
         raise FilmInputError("film fraction", f"{fraction.min():g} .. {fraction.max():g}", "0 to 1")
-    state = State(setting.pressure, fraction, opening(problem, setting.pressure))
+    state = FilmState(setting.pressure, fraction, deformation(problem, setting.pressure))
     return operators(problem, state).content * fraction * density(problem, setting.pressure)[0]
 
 
@@ -121,8 +121,8 @@ def _stepped(
     last: Solved | None,
     begin: float,
     until: float,
-) -> Iterator[Instant[Solved]]:
-    """One step, or the shorter ones that it takes."""
+) -> Iterator[FilmInstant[Solved]]:
+    """One step, or shorter ones."""
     at, step, halvings = begin, until - begin, 0
     while at < until - 1e-9 * (until - begin):
         problem = replace(problem_at(at + step), storage=Storage(before, step))
@@ -136,11 +136,11 @@ def _stepped(
             continue
         at += step
         before, last = solution.holds, solution
-        yield Instant(at, step, solution)
+        yield FilmInstant(at, step, solution)
 
 
 def from_last_or_anew(solve: Callable[[Solved | None], Solved], last: Solved | None) -> Solved:
-    """From the step before; where that leads nowhere (a cavity that opens everywhere at once), from nothing."""
+    """The solution from the step before; where that fails (a cavity opens everywhere), from a cold start."""
     try:
         return solve(last)
     except FilmNotConverged:

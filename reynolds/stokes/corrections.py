@@ -1,12 +1,12 @@
-"""What the film equation leaves out where a section jumps: extra film length and loss factor, from solved flows.
+"""Corrections of the film equation at jumps of the section: extra film length and loss factor, from solved flows.
 
-Where a film meets a step, a groove or a pipe the pressure falls by more than the film equation has it,
+Where a film meets a step, a groove or a pipe the pressure falls by more than by the film equation,
 
     dp = c mu u (L + extra_length h)/h^2 + loss_factor rho u^2/2,   c = 12 (film, slot), 32 (bore: h its diameter)
 
 with h the thinner film's thickness and u the mean velocity there. The extra length is Stokes flow's, the loss
-factor is inertia's at one Reynolds number Re = u h/nu. Ratios all: flows are solved with h, u and mu of one, where
-the density is Re. dp is between static pressures: what a wider film behind gets back of the flow's energy is gain.
+factor is inertia's at one Reynolds number Re = u h/nu. All are ratios: flows are solved with h, u and mu of one,
+where the density is Re. dp is between static pressures: energy recovered in a wider film behind is a gain.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ from reynolds.numerics.arrays import Array
 from reynolds.stokes.flow import (
     Flow,
     FlowProblem,
-    Held,
+    HeldVelocities,
     held,
     solve_navier_stokes,
     solve_stokes,
@@ -34,7 +34,7 @@ from reynolds.stokes.space import StokesSpace, Symmetry, taylor_hood
 FILM, BORE = 12.0, 32.0
 """The c of a developed flow between planes (Reynolds 1886) and in a pipe (Poiseuille 1846)."""
 SETTLED = 3.0
-"""Film thicknesses in which Stokes flow is a film's again: what is left falls by exp(-4.2 x/h) (Fadle 1940)."""
+"""Film thicknesses in which Stokes flow is a film's again: the remainder falls by exp(-4.2 x/h) (Fadle 1940)."""
 SETTLED_BY_INERTIA = 0.15
 """Further film thicknesses behind an edge for each unit of Re."""
 REACHES = 1.0, 4.0
@@ -69,7 +69,7 @@ class Correction:
 
 
 def step_correction(film_ratio: float, reynolds: Sequence[float], cells: int = 6) -> Correction:
-    """Of a flow from a film into one of film_ratio times its thickness, both on one plane wall.
+    """Correction of a flow from a film into one of film_ratio times its thickness, both on one plane wall.
 
     `cells` across the thinner film; `length` is zero. Raises FilmInputError for a ratio of one, FilmNotConverged
     where no steady flow is found. Laminar and plane: gaps as wide as many films, Re up to some hundred.
@@ -84,9 +84,9 @@ def step_correction(film_ratio: float, reynolds: Sequence[float], cells: int = 6
 def groove_correction(
     film_ratio: float, width_ratio: float, reynolds: Sequence[float], cells: int = 6
 ) -> Correction:
-    """Of a flow across a groove as wide as width_ratio films, where the film is film_ratio times as thick.
+    """Correction of a flow across a groove of width_ratio films, where the film is film_ratio times as thick.
 
-    `length` is what the film equation has for the groove, width_ratio/film_ratio^3. Raises and holds as
+    `length` is the groove's in the film equation, width_ratio/film_ratio^3. Raises and valid as
     `step_correction`.
     """
     behind = SETTLED + SETTLED_BY_INERTIA * max(reynolds)
@@ -98,10 +98,10 @@ def groove_correction(
 def orifice_correction(
     length_ratio: float, pipe_ratio: float, reynolds: Sequence[float], symmetry: Symmetry, cells: int = 4
 ) -> Correction:
-    """Of a sharp-edged bore (axial) or slot (plane) length_ratio h long, between pipes pipe_ratio h wide.
+    """Correction of a sharp bore (axial) or slot (plane) length_ratio h long, between pipes pipe_ratio h wide.
 
-    `cells` across half the passage. The pressure behind is that at the end (REACHES): beyond it a jet may get
-    back some 2/pipe_ratio^2 of rho u^2/2 (a slot's 2/pipe_ratio). Steady and even about the axis: a bore's jet
+    `cells` across half the passage. The pressure behind is that at the end (REACHES): beyond it a jet may
+    recover some 2/pipe_ratio^2 of rho u^2/2 (a slot's 2/pipe_ratio). Steady and even about the axis: a bore's jet
     wavers from Re of some hundreds, a slot's leans to a wall from Re of some tens. Raises as `step_correction`.
     """
     outer = 0.5 * pipe_ratio
@@ -115,16 +115,21 @@ def orifice_correction(
     return _correction(space, ends, reynolds, resistance, length_ratio, rest)
 
 
-def _between_walls(space: StokesSpace, height: float) -> Held:
+def _between_walls(space: StokesSpace, height: float) -> HeldVelocities:
     """Walls at rest and the parabola of a film of given thickness at the inlet, for a flow of one."""
     inlet = held(space, "inlet", lambda x: np.stack([6.0 * x[1] * (height - x[1]) / height**3, 0.0 * x[1]]))
     return together([held(space, "wall"), inlet, straight(space, "outlet")])
 
 
 def _correction(
-    space: StokesSpace, ends: Held, reynolds: Sequence[float], resistance: float, length: float, rest: float
+    space: StokesSpace,
+    ends: HeldVelocities,
+    reynolds: Sequence[float],
+    resistance: float,
+    length: float,
+    rest: float,
 ) -> Correction:
-    """From flows of viscosity one at each Reynolds number; `rest`: pressure drop of the mesh's films or pipes."""
+    """Correction from flows of viscosity one at each Reynolds number; `rest`: drop of its films or pipes."""
     problem = FlowProblem(space, 1.0, ends)
     densities = [max(number, CREEPING) for number in reynolds]
     creeping = solve_stokes(problem)

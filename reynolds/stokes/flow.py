@@ -1,4 +1,4 @@
-"""Steady viscous flow: what holds it at its boundary, Stokes' equations, and Newton's method on Navier-Stokes'.
+"""Steady viscous flow: boundary conditions, Stokes' equations, and Newton's method on Navier-Stokes'.
 
 rho (u . grad) u = div(2 mu sym grad u) - grad p + f,   div u = 0
 """
@@ -21,11 +21,11 @@ TOLERANCE = 1e-10
 """Last step of the velocity by Newton's method, relative to the largest velocity."""
 MOST_STEPS = 12
 SMALLEST_SHARE = 1 / 64
-"""Of a step of the density on the way to its end; what needs a smaller one is told as not converged."""
+"""Of a step of the density on the way to its end; a smaller one is a failure."""
 
 
 @dataclass(frozen=True)
-class Held:
+class HeldVelocities:
     """Velocity unknowns whose values are given: `unknowns` (K,) by number, `values` (K,) in m/s."""
 
     unknowns: NDArray[np.int64]
@@ -34,7 +34,7 @@ class Held:
 
 @dataclass(frozen=True)
 class FlowProblem:
-    """A flow to be solved: dynamic viscosity in Pa s, what is held, and the momentum's other forces (N,).
+    """A flow to be solved: dynamic viscosity in Pa s, held velocities, and the momentum's other forces (N,).
 
     Forces are N per m of width, about an axis N per radian. Where a boundary is neither held nor pushed, its
     traction is zero. `enclosed`: velocity is held all round, the pressure is known up to a constant, its first
@@ -43,7 +43,7 @@ class FlowProblem:
 
     space: StokesSpace
     viscosity: float
-    held: Held
+    held: HeldVelocities
     force: Array | None = None
     enclosed: bool = False
 
@@ -63,27 +63,27 @@ class Flow:
     steps: int
 
 
-def held(space: StokesSpace, boundary: str, profile: Callable[[Array], Array] | None = None) -> Held:
+def held(space: StokesSpace, boundary: str, profile: Callable[[Array], Array] | None = None) -> HeldVelocities:
     """The velocity on a named boundary: (2, ..) in m/s at places (2, ..) in m; left out: a wall at rest."""
     unknowns = np.asarray(space.velocity.get_dofs(boundary).all())
     if profile is None:
-        return Held(unknowns, np.zeros(unknowns.size))
+        return HeldVelocities(unknowns, np.zeros(unknowns.size))
     both = profile(space.velocity.doflocs[:, unknowns])
     along_x = np.isin(unknowns, space.velocity.get_dofs(boundary).all("u^1"))
-    return Held(unknowns, np.where(along_x, both[0], both[1]))
+    return HeldVelocities(unknowns, np.where(along_x, both[0], both[1]))
 
 
-def straight(space: StokesSpace, boundary: str) -> Held:
+def straight(space: StokesSpace, boundary: str) -> HeldVelocities:
     """No velocity along y on a named boundary: an end that flow passes square to it, or an axis of symmetry."""
     unknowns = np.asarray(space.velocity.get_dofs(boundary).all("u^2"))
-    return Held(unknowns, np.zeros(unknowns.size))
+    return HeldVelocities(unknowns, np.zeros(unknowns.size))
 
 
-def together(parts: Iterable[Held]) -> Held:
-    """All that is held; of an unknown held twice the first part counts (a wall's corner, then its inlet)."""
+def together(parts: Iterable[HeldVelocities]) -> HeldVelocities:
+    """All held velocities; of an unknown held twice the first part counts (a wall's corner, then its inlet)."""
     parts = list(parts)
     unknowns, first = np.unique(np.concatenate([part.unknowns for part in parts]), return_index=True)
-    return Held(unknowns, np.concatenate([part.values for part in parts])[first])
+    return HeldVelocities(unknowns, np.concatenate([part.values for part in parts])[first])
 
 
 def solve_stokes(problem: FlowProblem) -> Flow:
@@ -94,9 +94,8 @@ def solve_stokes(problem: FlowProblem) -> Flow:
 def solve_navier_stokes(problem: FlowProblem, densities: Sequence[float], start: Flow | None = None) -> list[Flow]:
     """The flow at each density in kg/m3, in their order, each from the one before (the first from Stokes flow).
 
-    Newton's method; where it does not settle in MOST_STEPS steps the way from one density to the next is halved.
-    Raises FilmNotConverged where that does not help: as a rule the flow is no longer steady or the mesh too
-    coarse there.
+    Newton's method; where it does not converge in MOST_STEPS steps the way from one density to the next is halved.
+    Raises FilmNotConverged where that fails, mostly as the flow is no longer steady or the mesh too coarse.
     """
     system = _system(problem)
     flow = start or solve_stokes(problem)
@@ -162,14 +161,14 @@ def _newton(problem: FlowProblem, system: Sparse, density: float, start: Array, 
 
 
 def _empty(space: StokesSpace) -> Sparse:
-    """The pressure's own block, which has no entry."""
+    """The pressure's own block, which is empty."""
     from scipy.sparse import csr_matrix
 
     return csr_matrix((space.pressure.N, space.pressure.N))
 
 
 def _solved(matrix: Sparse, rest: Array) -> Array:
-    """One step: the pattern is symmetric, and so ordered it fills 2/3 of what the default ordering does."""
+    """One step: the pattern is symmetric, and so ordered it has 2/3 of the fill of the default ordering."""
     factors = splu(
         matrix.tocsc(), permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.01, options={"SymmetricMode": True}
     )

@@ -1,4 +1,4 @@
-"""Meshes of quadrilaterals on the sections that references are solved on, finest at the edges flow turns about.
+"""Meshes of quadrilaterals on sections of gaps, finest at the edges.
 
 Boundaries have names: "inlet" at the left, "outlet" at the right end, "axis" where y = 0 is one, "wall" elsewhere.
 """
@@ -49,7 +49,7 @@ def channel_mesh(length: float, height: float, along: int, across: int, *, even:
 def step_mesh(heights: tuple[float, float], lengths: tuple[float, float], cells: int) -> skfem.MeshQuad:
     """Two films end to end on a plane wall y = 0, of other heights before and behind x = 0; (before, behind) in m.
 
-    `cells` even ones stand across the thinner film, finer near the edge at (0, the thinner height). Raises
+    `cells` even ones lie across the thinner film, finer near the edge at (0, the thinner height). Raises
     FilmInputError for films of one height.
     """
     before, behind = heights
@@ -73,7 +73,7 @@ def groove_mesh(
 ) -> skfem.MeshQuad:
     """A film 0 < y < height with a groove of given depth above it, |x| < width/2; films (before, behind) it in m.
 
-    `cells` even ones stand across the film, finer near the groove's edges.
+    `cells` even ones lie across the film, finer near the groove's edges.
     """
     size = height / cells
     edge, half = EDGE * size, 0.5 * width
@@ -94,7 +94,7 @@ def orifice_mesh(
     """A bore or slot of given radius or half height through a wall, |x| < length/2, between two wide pipes.
 
     `outer` is the pipes' radius or half height, `reaches` their lengths before and behind the wall. The flow is
-    even about y = 0. `cells` even ones stand across the bore, finer near its two edges.
+    even about y = 0. `cells` even ones lie across the bore, finer near its two edges.
     """
     size = radius / cells
     edge, half, largest = EDGE * size, 0.5 * length, outer / cells

@@ -1,4 +1,4 @@
-"""What is read off a solved flow: flux, pressure at an end, and where the flow along a wall turns back."""
+"""Results of a solved flow: flux, pressure at an end, and turning places of the flow along a wall."""
 
 from __future__ import annotations
 

@@ -25,7 +25,7 @@ QUADRATURE = 5
 
 
 class Symmetry(Enum):
-    """What a section stands for: a gap as wide as one likes, or one that is turned about the x axis."""
+    """Symmetry of a section: a plane gap of any width, or one of revolution about the x axis."""
 
     PLANE = "plane"
     AXIAL = "axial"
@@ -46,7 +46,7 @@ class StokesSpace:
         return int(self.velocity.N + self.pressure.N)
 
     def weight(self, place: Array) -> Array:
-        """What an area of the section counts at places (2, ..) in m: one, or its distance from the axis."""
+        """Weight of an area of the section at places (2, ..) in m: one, or its distance from the axis."""
         return place[1] if self.symmetry is Symmetry.AXIAL else np.ones_like(place[1])
 
     def beside(self, boundary: str) -> skfem.FacetBasis:
@@ -86,7 +86,7 @@ def viscous(space: StokesSpace) -> Sparse:
 
 
 def divergence(space: StokesSpace) -> Sparse:
-    """The matrix (M, N) of - q div u: continuity as it stands, the pressure's force on the momentum transposed."""
+    """The matrix (M, N) of - q div u: continuity, and transposed the pressure's force on the momentum."""
 
     @skfem.BilinearForm
     def form(u: Any, q: Any, w: Any) -> Any:

@@ -1,9 +1,9 @@
-"""A film and its oil brought to agree: viscosity by shear, by temperature or by both, and walls that warmth bends.
+"""Coupling of a film and its oil: viscosity by shear, by temperature or by both, and walls that deform by heat.
 
-What is sought is the viscosity at the levels across the film, over that of the resting oil under the same
-pressure, and the opening of the film by its walls' heat. A round takes them to the generalised Reynolds equation,
-whose own Newton method follows the pressure, then to temperatures and shear rates and so back; Anderson's
-extrapolation takes the place of a relaxation factor.
+The unknowns are the viscosity at the levels across the film, over that of the resting oil under the same
+pressure, and the deformation of the film by its walls' heat. A round maps them through the generalised Reynolds
+equation, whose own Newton method follows the pressure, temperatures and shear rates;
+Anderson's extrapolation replaces a relaxation factor.
 """
 
 from __future__ import annotations
@@ -21,8 +21,8 @@ from reynolds.numerics.arrays import Array
 from reynolds.problem import FilmProblem, FilmSolution
 from reynolds.solve.solver import FilmSolver
 from reynolds.thermal.energy import FilmTemperature, Heat, solve_energy
-from reynolds.thermal.film_profile import Levels, Profile, dowson, film_with, scaled, shear_rate
-from reynolds.thermal.walls import opening_by_heat
+from reynolds.thermal.film_profile import FilmLevels, FlowProfile, dowson, film_with, scaled, shear_rate
+from reynolds.thermal.walls import deformation_by_heat
 
 MAX_ROUNDS = 100
 MOST_HALVINGS = 12
@@ -38,16 +38,16 @@ HeatOrNone = TypeVar("HeatOrNone", covariant=True)
 
 @dataclass(frozen=True)
 class Coupled(Generic[HeatOrNone]):
-    """A film and its oil that agree.
+    """A film and its oil in agreement.
 
-    `heat`: its temperature, None where none was asked for; profile: how viscosity bends the flow; share (size, m):
-    viscosity at the levels over that of the resting oil under the same pressure; growth (vertices,) m: opening of
-    the film by its walls' heat; change: the largest relative one of viscosity or thickness in one more round.
+    `heat`: its temperature, None if not solved; profile: of the flow across the film; share (size, m):
+    viscosity at the levels over that of the resting oil under the same pressure; growth (vertices,) m: deformation
+    of the film by its walls' heat; change: the largest relative one of viscosity or thickness in one more round.
     """
 
     film: FilmSolution
     heat: HeatOrNone
-    profile: Profile = field(repr=False)
+    profile: FlowProfile = field(repr=False)
     share: Array = field(repr=False)
     growth: Array = field(repr=False)
     rounds: int
@@ -60,7 +60,7 @@ class Coupled(Generic[HeatOrNone]):
 
 
 @dataclass(frozen=True)
-class Posed:
+class ThermalCase:
     """A film of resting oil at one temperature, the oil's law, and its heat (None: the temperature stays).
 
     `before` (size, m + 2) K: the temperature one time step ago, where the film stores oil; `at_once`: it follows
@@ -75,7 +75,7 @@ class Posed:
 
 
 class _Conditions(NamedTuple):
-    """What the law answers to: temperature at all levels (size, m + 2) K, shear rate (size, m) 1/s."""
+    """Arguments of the law: temperature at all levels (size, m + 2) K, shear rate (size, m) 1/s."""
 
     temperature: Array
     rate: Array
@@ -83,7 +83,7 @@ class _Conditions(NamedTuple):
 
 @dataclass(frozen=True)
 class _Guess:
-    """Viscosity over the resting oil's (size, m) and opening by heat over the film given (vertices,), as one."""
+    """Viscosity over the resting oil's (size, m), and deformation by heat over the given film (vertices,)."""
 
     share: Array
     opened: Array
@@ -93,7 +93,7 @@ class _Guess:
         return np.concatenate([np.log(self.share).ravel(), self.opened])
 
     def at(self, point: Array) -> _Guess:
-        """The guess of this shape at a point; the film closes by no more than the half in one step."""
+        """The guess of this shape at a point; the film closes by half at most in one step."""
         count = self.share.size
         opened = np.maximum(point[count:], self.opened - MOST_CLOSED * np.maximum(1.0 + self.opened, 0.0))
         return _Guess(np.exp(point[:count]).reshape(self.share.shape), opened)
@@ -101,18 +101,22 @@ class _Guess:
 
 @dataclass(frozen=True)
 class _Work:
-    """What stays through the rounds: the case, levels, solver, and the film given (vertices,) m."""
+    """Constants of the rounds: the case, levels, solver, and the given film (vertices,) m."""
 
-    posed: Posed
-    across: Levels
+    posed: ThermalCase
+    across: FilmLevels
     solver: FilmSolver
     given: Array
 
 
 def agree(
-    posed: Posed, across: Levels, tolerance: float, solver: FilmSolver | None, start: Coupled[object] | None
+    posed: ThermalCase,
+    across: FilmLevels,
+    tolerance: float,
+    solver: FilmSolver | None,
+    start: Coupled[object] | None,
 ) -> Coupled[FilmTemperature | None]:
-    """The film of the viscosity that its own temperature and shear rates make at the levels across.
+    """The film with the viscosity of its own temperature and shear rates at the levels across.
 
     Afterwards one more round would change no viscosity and no film thickness by more than `tolerance` of it.
     Raises FilmInputError, also where the oil's law does not hold at the answer, and FilmNotConverged.
@@ -120,7 +124,7 @@ def agree(
     problem = posed.problem
     work = _Work(posed, across, solver or FilmSolver(problem.space), _given_thickness(problem))
     if start is None and problem.fluid.viscosity is not isoviscous:
-        # An oil still cold or at rest may stiffen without bound under a pressure that the film never has.
+        # An oil still cold or at rest may stiffen without bound under a pressure beyond the film's.
         start = agree(_unpressed(posed), across, ROUGHLY, work.solver, None)
     conditions, guess = _first(work, start)
     film, heat = (None, None) if start is None else (start.film, start.heat)
@@ -143,8 +147,8 @@ def agree(
     )
 
 
-def _unpressed(posed: Posed) -> Posed:
-    """The same with an oil that no pressure stiffens."""
+def _unpressed(posed: ThermalCase) -> ThermalCase:
+    """The same with an oil of constant viscosity in pressure."""
     problem = posed.problem
 
     def law(temperature: Array, pressure: Array, rate: Array) -> Array:
@@ -156,11 +160,11 @@ def _unpressed(posed: Posed) -> Posed:
 def _film(
     work: _Work, guess: _Guess, warm: FilmSolution | None, solved: _Guess | None
 ) -> tuple[FilmSolution, _Guess]:
-    """The film of a guess, or of one nearer to the last that had a film; without such a one, of a thinner oil."""
+    """The film of a guess, or of one nearer to the last with a solution; without one, of a thinner oil."""
     problem = work.posed.problem
     fault: FilmInputError | FilmNotConverged | None = None
     for _ in range(MOST_HALVINGS):
-        posed = _opened(bent(problem, dowson(work.across, guess.share)), guess.opened * work.given)
+        posed = _with_growth(with_profile(problem, dowson(work.across, guess.share)), guess.opened * work.given)
         try:
             return work.solver.solve(posed, warm), guess
         except (FilmInputError, FilmNotConverged) as reason:
@@ -176,7 +180,7 @@ def _film(
 
 
 def resting_viscosity(problem: FilmProblem, pressure: Array) -> Array:
-    """Viscosity (size,) Pa s that the problem itself states at nodal pressures (size,) Pa."""
+    """Viscosity (size,) Pa s of the problem itself at nodal pressures (size,) Pa."""
     given = problem.space.to_unknowns(problem.film.viscosity)[:, None]
     found, _ = problem.fluid.viscosity(pressure[:, None], given)
     return np.asarray(found[:, 0])
@@ -184,7 +188,7 @@ def resting_viscosity(problem: FilmProblem, pressure: Array) -> Array:
 
 @dataclass(frozen=True)
 class _Shared:
-    """A law in pressure of which each place has a share (cells, points): the film's viscosity has it already."""
+    """A pressure law with a share (cells, points) at each place, which the film's viscosity contains."""
 
     law: ViscosityLaw
     share: Array
@@ -194,8 +198,8 @@ class _Shared:
         return value * self.share, slope * self.share
 
 
-def bent(problem: FilmProblem, shape: Profile) -> FilmProblem:
-    """The problem with the shares of its viscosity that a profile has, under any pressure the same."""
+def with_profile(problem: FilmProblem, shape: FlowProfile) -> FilmProblem:
+    """The problem with the shares of its viscosity by a profile, the same under any pressure."""
     rest = problem.film
     film = film_with(rest, problem.space, shape)
     share = film.viscosity
@@ -207,8 +211,8 @@ def bent(problem: FilmProblem, shape: Profile) -> FilmProblem:
     return replace(problem, film=film, fluid=Fluid(_Shared(problem.fluid.viscosity, share), problem.fluid.density))
 
 
-def _opened(problem: FilmProblem, growth: Array) -> FilmProblem:
-    """The problem with its film opened by growth (vertices,) m."""
+def _with_growth(problem: FilmProblem, growth: Array) -> FilmProblem:
+    """The problem with its film grown by (vertices,) m."""
     if not growth.any():
         return problem
     film, known = problem.film, problem.film.thickness_at_vertices
@@ -226,7 +230,7 @@ def _given_thickness(problem: FilmProblem) -> Array:
 
 
 def _first(work: _Work, start: Coupled[object] | None) -> tuple[_Conditions, _Guess]:
-    """The oil at rest at the lowest temperature given, or as a start has it."""
+    """The oil at rest at the lowest temperature given, or that of a start."""
     posed, space, m = work.posed, work.posed.problem.space, len(work.across.weights)
     lowest = np.nan if posed.heat is None else posed.heat.datum
     conditions = _Conditions(np.full((space.size, m + 2), lowest), np.zeros((space.size, m)))
@@ -241,7 +245,7 @@ def _first(work: _Work, start: Coupled[object] | None) -> tuple[_Conditions, _Gu
     return conditions, _Guess(start.share, start.growth / work.given)
 
 
-def _heat(posed: Posed, film: FilmSolution, profile: Profile, last: object) -> FilmTemperature | None:
+def _heat(posed: ThermalCase, film: FilmSolution, profile: FlowProfile, last: object) -> FilmTemperature | None:
     if posed.heat is None:
         return None
     warm = last.temperature if isinstance(last, FilmTemperature) else None
@@ -249,11 +253,11 @@ def _heat(posed: Posed, film: FilmSolution, profile: Profile, last: object) -> F
 
 
 def _image(
-    work: _Work, film: FilmSolution, profile: Profile, heat: FilmTemperature | None, last: _Conditions
+    work: _Work, film: FilmSolution, profile: FlowProfile, heat: FilmTemperature | None, last: _Conditions
 ) -> tuple[_Guess, _Conditions, FilmInputError | None]:
-    """What a film makes of its oil; where the law does not hold there, on the way from the last conditions.
+    """The oil's viscosity in a film; where the law does not hold, a point on the way from the last conditions.
 
-    An oil still too stiff makes more heat than the film's answer will: then the fault comes along.
+    An oil still too stiff heats more than at the solution: the fault is then returned too.
     """
     posed = work.posed
     temperature = last.temperature if heat is None else heat.temperature
@@ -272,8 +276,8 @@ def _image(
     raise fault
 
 
-def _share(posed: Posed, conditions: _Conditions, pressure: Array) -> Array:
-    """Viscosity by the law over that of the resting oil, (size, m). Raises FilmInputError where no oil has it."""
+def _share(posed: ThermalCase, conditions: _Conditions, pressure: Array) -> Array:
+    """Viscosity by the law over that of the resting oil, (size, m). Raises FilmInputError where that is void."""
     found = posed.law(conditions.temperature[:, 1:-1], pressure[:, None], conditions.rate)
     share = np.broadcast_to(found / resting_viscosity(posed.problem, pressure)[:, None], conditions.rate.shape)
     if not (share.min() > THINNEST and share.max() < 1.0 / THINNEST):
@@ -287,9 +291,9 @@ def _share(posed: Posed, conditions: _Conditions, pressure: Array) -> Array:
 
 
 def _growth(heat: Heat | None, problem: FilmProblem, flux: Array) -> Array:
-    """Opening (vertices,) m by both walls' heat."""
+    """Deformation (vertices,) m by both walls' heat."""
     growth = np.zeros(len(problem.space.vertices))
     if heat is not None:
         for wall, into in zip((heat.fixed_wall, heat.moving_wall), flux, strict=True):
-            growth = growth + opening_by_heat(wall, problem.space, into)
+            growth = growth + deformation_by_heat(wall, problem.space, into)
     return growth

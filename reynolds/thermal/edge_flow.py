@@ -1,10 +1,10 @@
 """The flow of a solved film between neighbouring unknowns, spread across the film.
 
 The balance of the film is one of flows between unknowns: pressure drives K_ij (p_j - p_i) along the edge i j, and
-what the walls carry off each corner of a cell flows between its corners (on a triangle through the median dual
+the walls' flow off each corner of a cell passes between its corners (on a triangle through the median dual
 faces). So unknowns are control volumes whose flows are antisymmetric and sum to the film's own balance to
-round-off, without a further approximation. Each part of it, driven by pressure or carried
-by a wall, has its own shape across the film, of mean one: whatever the shapes, mass stays as it was.
+round-off, without a further approximation. Each part of it, driven by pressure or dragged
+by a wall, has its own shape across the film, of mean one, so that mass is conserved for any shapes.
 """
 
 from __future__ import annotations
@@ -14,20 +14,20 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from reynolds.equation.balance import State, cavity_density, density, operators
+from reynolds.equation.balance import FilmState, cavity_density, density, operators
 from reynolds.errors import FilmInputError
 from reynolds.fem.space import FilmSpace
 from reynolds.numerics.arrays import Array
 from reynolds.problem import FilmSolution, Pocket
 from reynolds.thermal import energy_kernels
-from reynolds.thermal.film_profile import Profile
+from reynolds.thermal.film_profile import FlowProfile
 
 
 @dataclass(frozen=True)
 class Neighbours:
     """Neighbours of each unknown by rows: start (size + 1,); neighbour, edge and sign of its flow, (2 edges,).
 
-    A flow counts from the edge's lower unknown to its higher one; sign is +1 seen from the lower.
+    A flow counts from the edge's lower unknown to its higher one; sign is +1 at the lower.
     """
 
     start: NDArray[np.int64]
@@ -40,23 +40,23 @@ class Neighbours:
 class EdgeFlow:
     """Flows of oil (m3/s at reference density) at the Gauss points across the film, per zeta.
 
-    flow (edges, m) between neighbours, leaving (size, m) through the boundary, positive out; swallowed (size,):
-    what stays at the unknown (squeeze, storage, Reynolds' cavity), the same at each level; up (size, m): through
+    flow (edges, m) between neighbours, leaving (size, m) through the boundary, positive out; storage_rate (size,):
+    stored at the unknown (squeeze, storage, Reynolds' cavity), the same at each level; up (size, m): through
     the levels, in zeta's direction; working (size, m) W: flow times pressure rise.
     """
 
     neighbours: Neighbours
     flow: Array
     leaving: Array
-    swallowed: Array
+    storage_rate: Array
     up: Array
     working: Array
 
 
-def edge_flow(solution: FilmSolution, profile: Profile) -> EdgeFlow:
+def edge_flow(solution: FilmSolution, profile: FlowProfile) -> EdgeFlow:
     """The flows of a solution whose film has this profile.
 
-    Afterwards those off each unknown, what leaves and what is swallowed sum to zero at every level together with
+    Afterwards flows off each unknown, outflow and storage sum to zero at every level together with
     the flow through the levels, which is zero at both walls. Raises FilmInputError for a space of degree 2.
     """
     space, across = solution.problem.space, profile.levels
@@ -74,9 +74,9 @@ def edge_flow(solution: FilmSolution, profile: Profile) -> EdgeFlow:
         off, working,
     )  # fmt: skip
     leaving = _leaving(solution, profile)
-    swallowed = -(off + leaving) @ across.weights
-    up = -(off + leaving + swallowed[:, None]) @ across.integral.T
-    return EdgeFlow(neighbours, flow, leaving, swallowed, up, working)
+    storage_rate = -(off + leaving) @ across.weights
+    up = -(off + leaving + storage_rate[:, None]) @ across.integral.T
+    return EdgeFlow(neighbours, flow, leaving, storage_rate, up, working)
 
 
 def _edges(space: FilmSpace) -> tuple[NDArray[np.int64], NDArray[np.int32], NDArray[np.int32]]:
@@ -89,16 +89,16 @@ def _edges(space: FilmSpace) -> tuple[NDArray[np.int64], NDArray[np.int32], NDAr
 def _parts(solution: FilmSolution) -> Array:
     """Flows in the pattern's places (3, entries): driven by pressure, with the moving wall, with the fixed one."""
     problem, space = solution.problem, solution.problem.space
-    operator = operators(problem, State(solution.pressure, solution.film_fraction, solution.opening))
+    operator = operators(problem, FilmState(solution.pressure, solution.film_fraction, solution.deformation))
     row, column = space.pattern.indices, space.pattern.columns
     driven = operator.stiffness * (solution.pressure[column] - solution.pressure[row])
-    carried = _carried(solution)
+    dragged = _with_walls(solution)
     added = cavity_density(problem) * operator.diffusion
     added *= solution.film_fraction[column] - solution.film_fraction[row]
-    return np.stack([driven, *(carried + added * _shares(carried))])
+    return np.stack([driven, *(dragged + added * _shares(dragged))])
 
 
-def _carried(solution: FilmSolution) -> Array:
+def _with_walls(solution: FilmSolution) -> Array:
     """Flows with the moving and with the fixed wall (2, entries)."""
     space, reference = solution.problem.space, solution.problem.space.reference
     standing = _standing(solution)
@@ -107,7 +107,7 @@ def _carried(solution: FilmSolution) -> Array:
     flows = [np.asarray(part * space.scale) for part in (*moving, *standing)]
     filling = solution.film_fraction * density(solution.problem, solution.pressure)[0]
     out = np.empty((2, len(space.pattern.indices)))
-    energy_kernels.carried_flows(
+    energy_kernels.wall_flows(
         space.vertices, space.cells, space.dofs, space.pattern.slots, reference.value, reference.gradient,
         reference.geometry_gradient, reference.weights, _split(space.cells.shape[1]), *flows,
         filling, out,
@@ -115,9 +115,9 @@ def _carried(solution: FilmSolution) -> Array:
     return out
 
 
-def _shares(carried: Array) -> Array:
-    """Share of each wall in the flow that both carry; the upwinding of a cavity is theirs in this proportion."""
-    size = np.abs(carried)
+def _shares(dragged: Array) -> Array:
+    """Share of each wall in the flow of both; the upwinding of a cavity is divided in this proportion."""
+    size = np.abs(dragged)
     total = size.sum(axis=0)
     share = np.where(total > 0.0, size[0] / np.where(total > 0.0, total, 1.0), 1.0)
     return np.stack([share, 1.0 - share])
@@ -131,9 +131,9 @@ def _standing(solution: FilmSolution) -> tuple[Array, Array]:
 
 
 def _split(corners: int) -> Array:
-    """Least flows between a cell's corners that give each what it gives off, (pairs i <= j, corners).
+    """Least flows between a cell's corners with given outflow of each, (pairs i <= j, corners).
 
-    A quadrilateral's diagonals carry none.
+    None along a quadrilateral's diagonals.
     """
     pairs = [(i, j) for i in range(corners) for j in range(i, corners)]
     incidence = np.zeros((corners, len(pairs)))
@@ -153,29 +153,29 @@ def _neighbours(lower: NDArray[np.int32], higher: NDArray[np.int32], size: int) 
     return Neighbours(start, there, edge, np.repeat([1.0, -1.0], edges)[order])
 
 
-def _leaving(solution: FilmSolution, profile: Profile) -> Array:
+def _leaving(solution: FilmSolution, profile: FlowProfile) -> Array:
     """Flow out of the film at each held unknown and pocket, at the Gauss points (size, m) m3/s.
 
-    The walls carry their part through the boundary as they are directed; the rest is driven by pressure.
+    The walls' part follows their direction at the boundary; the rest is driven by pressure.
     """
     problem, space = solution.problem, solution.problem.space
     filling = solution.film_fraction * density(problem, solution.pressure)[0]
     standing = _standing(solution)
     moving = [whole - part for whole, part in zip(solution.flux, standing, strict=True)]
-    carried = np.zeros((2, space.size))
+    dragged = np.zeros((2, space.size))
     for name in problem.boundary:
         nodes = space.edge_dofs[name]
         for part, along in enumerate((moving, standing)):
             nodal = np.column_stack([space.to_unknowns(flux)[nodes] for flux in along])
-            carried[part, nodes] += filling[nodes] * np.sum(nodal * space.edge_normal[name], axis=1)
+            dragged[part, nodes] += filling[nodes] * np.sum(nodal * space.edge_normal[name], axis=1)
     out = np.where(open_unknowns(solution), solution.outflow, 0.0)
-    driven = out - carried.sum(axis=0)
-    parts = ((driven, profile.driven), (carried[0], profile.sliding), (carried[1], profile.standing))
+    driven = out - dragged.sum(axis=0)
+    parts = ((driven, profile.driven), (dragged[0], profile.sliding), (dragged[1], profile.standing))
     return np.asarray(sum(flow[:, None] * shape for flow, shape in parts))
 
 
 def open_unknowns(solution: FilmSolution) -> NDArray[np.bool_]:
-    """Unknowns that oil enters or leaves the film at: held ones and pockets (size,)."""
+    """Unknowns at which oil enters or leaves the film: held ones and pockets (size,)."""
     found = solution.held.copy()
     for name, condition in solution.problem.boundary.items():
         if isinstance(condition, Pocket):

@@ -1,4 +1,4 @@
-"""The temperature of a film: its energy equation, resolved across the film, carried by the film's own flows.
+"""Temperature of a film: the energy equation, resolved across the film, convected by the film's discrete flows.
 
 With zeta = z/h, the fixed wall at 0 and the moving wall at 1, and at a fixed place in the plane
 
@@ -8,13 +8,13 @@ With zeta = z/h, the fixed wall at 0 and the moving wall at 1, and at a fixed pl
 (convection, conduction across, dissipation, work of compression; conduction along the film is left out, as h/L is
 small). u is the velocity in the plane at this zeta and W = w - zeta dh/dt - zeta u . grad h the flow through the
 levels; it follows from continuity, dW/dzeta = - div(h u) - d(theta h)/dt, and vanishes at both walls. The film
-fraction theta scales what the oil holds, carries, conducts and dissipates.
+fraction theta scales storage, convection, conduction and dissipation.
 
-In the plane the unknowns of the film are control volumes between which its discrete flows carry heat, at each
-level with limited faces (of second order, no new extremum, stable in backflow); across it the equation is met at
-Gauss points (`across`). As flows and temperatures are polynomials that the quadrature integrates, the heat that
-enters, leaves and arises closes to the error of the linear solve, and a uniform temperature stays uniform exactly.
-Validity: that of the film equation, and rho c U h^2/(k L) of any size; density and c are constant here.
+In the plane the unknowns of the film are control volumes between which its discrete flows convect heat, at each
+level with limited faces (of second order, no new extremum, stable in backflow); across it the equation holds at
+Gauss points (`film_profile`). As flows and temperatures are polynomials that the quadrature integrates, the heat
+balance closes to the error of the linear solve, and a uniform temperature stays uniform exactly. Validity: that of
+the film equation, and rho c U h^2/(k L) of any size; density and c are constant here.
 """
 
 from __future__ import annotations
@@ -34,26 +34,26 @@ from reynolds.solve.loads import dissipated
 from reynolds.thermal import energy_kernels
 from reynolds.thermal.edge_flow import EdgeFlow, edge_flow, open_unknowns
 from reynolds.thermal.energy_system import HeatMatrix, solve_heat
-from reynolds.thermal.film_profile import Profile
-from reynolds.thermal.walls import Body, Convecting, GivenTemperature, Wall, wall_rows
+from reynolds.thermal.film_profile import FlowProfile
+from reynolds.thermal.walls import ConductingBody, Convecting, GivenTemperature, Wall, wall_rows
 
 LEAST_WET = 1e-6  # film fraction that conducts where there is less: a dry film has its walls' temperature
-LEAST_JUMP = 2e-5  # of the range of temperature: smaller jumps go upwind, which lets the corrections settle
+LEAST_JUMP = 2e-5  # of the range of temperature: smaller jumps go upwind, for the corrections to converge
 LEAST_RANGE = 1e-3  # K, where all is nearly at one temperature
 CORRECTED = 1e-7  # change of the last correction over the range of temperature
 PATIENCE = 40  # corrections, after which larger and larger jumps go upwind too
 CLOSER = 0.02  # of the residual is left by the solve of a correction
 MAX_CORRECTIONS = 100
-NO_INFLOW = 1e-9  # of the flows that meet at the unknown
+NO_INFLOW = 1e-9  # of the unknown's flow scale
 
 
 @dataclass(frozen=True)
 class Heat:
-    """What oil and surroundings do to a film's heat.
+    """Properties of oil and surroundings for a film's heat.
 
     density (kg/m3), specific_heat (J/(kg K)), conductivity (W/(m K)) and thermal expansion (1/K; zero leaves the
-    work of compression out) of the oil; the two walls; `inflow`: temperature (K) of what enters by the boundary of
-    this name, and `port_temperature` of what enters at `FilmProblem.held_nodes`. Oil that leaves has its own.
+    work of compression out) of the oil; the two walls; `inflow`: temperature (K) of inflow through the boundary of
+    this name, and `port_temperature` of inflow at `FilmProblem.held_nodes`. Oil that leaves has its own.
     Raises FilmInputError for a property that is not positive.
     """
 
@@ -91,7 +91,7 @@ class Heat:
         bodies = [
             float(np.mean(wall.reference))
             for wall in (self.fixed_wall, self.moving_wall)
-            if isinstance(wall, Body)
+            if isinstance(wall, ConductingBody)
         ]
         return (*self.inflow.values(), *ports, *walls, *bodies)
 
@@ -108,20 +108,19 @@ class FilmTemperature:
     """Temperature of a film (K) and where its heat goes (W).
 
     temperature (size, m + 2) at the levels across (fixed wall first), mean (size,) over the thickness; heat_flux
-    (2, size) W/m2 into the fixed and the moving wall; to_fixed, to_moving W; carried_out: by the oil through the
+    (2, size) W/m2 into the fixed and the moving wall; to_fixed, to_moving W; convected_out: by the oil through the
     boundary, against `datum` (K), the lowest given temperature; stored: in the oil that the film holds;
-    dissipation, compression: what arises. least_jump (K): smaller jumps between unknowns go upwind (first order),
-    2e-5 of the range where the limiter settles soon. energy_balance_error: what is missing, over all that is
-    passed.
+    dissipation, compression: sources. least_jump (K): smaller jumps between unknowns go upwind (first order),
+    2e-5 of the range where the limiter converges soon. energy_balance_error: residual over the heat passed.
     """
 
     solution: FilmSolution = field(repr=False)
-    profile: Profile = field(repr=False)
+    profile: FlowProfile = field(repr=False)
     temperature: Array
     heat_flux: Array
     to_fixed: float
     to_moving: float
-    carried_out: float
+    convected_out: float
     stored: float
     dissipation: float
     compression: float
@@ -164,7 +163,7 @@ class _Terms:
 def solve_energy(
     solution: FilmSolution,
     heat: Heat,
-    profile: Profile,
+    profile: FlowProfile,
     *,
     start: Array | None = None,
     before: Array | None = None,
@@ -172,9 +171,9 @@ def solve_energy(
 ) -> FilmTemperature:
     """The temperature of a solved film, whose viscosities follow `profile`.
 
-    `start` (size, m + 2) K warms the solve; `before` (size, m + 2) K is the temperature one time step ago, wanted
-    where the film problem has a storage, unless the temperature follows `at_once`: without dT/dt, oil that the
-    film takes up having the temperature of its place. Afterwards the energy balance closes to 1e-9 of the heat
+    `start` (size, m + 2) K is a first guess; `before` (size, m + 2) K is the temperature one time step ago, needed
+    where the film problem has a storage, unless the temperature follows `at_once`: without dT/dt, stored oil
+    having the temperature of its place. Afterwards the energy balance closes to 1e-9 of the heat
     passed (1e-8 where conduction outweighs convection 1e4 times). Raises FilmInputError where oil enters without a
     temperature, and FilmNotConverged.
     """
@@ -186,9 +185,9 @@ def solve_energy(
 
 
 def _sharpened(terms: _Terms, matrix: HeatMatrix, right: Array, guess: Array | None) -> tuple[Array, float, int]:
-    """The rise with faces of second order: upwind solves, each with what the last field adds on the right.
+    """The rise with faces of second order: upwind solves, each with the last field's correction on the right.
 
-    Also the jump of temperature below which faces are upwind: it grows where the corrections do not settle.
+    Also the jump of temperature below which faces are upwind: it grows where the corrections do not converge.
     """
     neighbours, flow = terms.flows.neighbours, terms.flows.flow
     graph = (neighbours.start, neighbours.neighbour, neighbours.edge, neighbours.sign, flow)
@@ -214,7 +213,9 @@ def _sharpened(terms: _Terms, matrix: HeatMatrix, right: Array, guess: Array | N
     )
 
 
-def _terms(solution: FilmSolution, heat: Heat, profile: Profile, before: Array | None, at_once: bool) -> _Terms:
+def _terms(
+    solution: FilmSolution, heat: Heat, profile: FlowProfile, before: Array | None, at_once: bool
+) -> _Terms:
     space, film = solution.problem.space, solution.film
     flows = edge_flow(solution, profile)
     wet = np.maximum(at_points(space, solution.film_fraction), LEAST_WET)
@@ -241,7 +242,7 @@ def _terms(solution: FilmSolution, heat: Heat, profile: Profile, before: Array |
 
 
 def _inflow_temperature(solution: FilmSolution, heat: Heat) -> Array:
-    """Temperature of what enters at each unknown (size,) K; NaN where none is given and none enters."""
+    """Temperature of the inflow at each unknown (size,) K; NaN where there is none."""
     space, boundary = solution.problem.space, solution.problem.boundary
     if unknown := set(heat.inflow) - set(boundary):
         expected = f"one of {', '.join(sorted(boundary))}, through which oil can pass"
@@ -258,7 +259,7 @@ def _inflow_temperature(solution: FilmSolution, heat: Heat) -> Array:
     if heat.port_temperature is not None:
         found[~named & open_unknowns(solution)] = heat.port_temperature
     net = np.where(open_unknowns(solution), solution.outflow, 0.0)
-    dry = np.isnan(found) & (net < -NO_INFLOW * solution.meeting)
+    dry = np.isnan(found) & (net < -NO_INFLOW * solution.flow_scale)
     if dry.any():
         names = [name for name in boundary if dry[space.edge_dofs[name]].any()] or ["held nodes"]
         where = f"inflow temperature at {', '.join(names)}"
@@ -266,12 +267,12 @@ def _inflow_temperature(solution: FilmSolution, heat: Heat) -> Array:
     return found
 
 
-def dissipation(solution: FilmSolution, profile: Profile) -> Array:
+def dissipation(solution: FilmSolution, profile: FlowProfile) -> Array:
     """Heat that arises at each unknown and Gauss point, per zeta, (size, m) W.
 
     h mu |du/dz|^2 with tau = mu du/dz = mu_c (U1 - U2)/h + (z - zbar) grad p: its two squares and their product
     are integrated over the plane by the film's quadrature, so that the sum is the dissipation of `loads`: with the
-    friction of walls in contact, spread as that of sliding, and with what mixing spends at the ends of a cavity.
+    friction of walls in contact, spread as that of sliding, and with that of mixing at the ends of a cavity.
     """
     space, film = solution.problem.space, solution.film
     driven, sliding = dissipated(solution)
@@ -284,12 +285,14 @@ def dissipation(solution: FilmSolution, profile: Profile) -> Array:
         (driven / space.area, profile.driven_heat),
         (mixed, profile.mixed_heat),
     )
-    # What mixes sums to zero, so that any level of pressure will do: above the cavity's no heat is negative.
-    mixed_up = (solution.pressure - solution.problem.cavitation_pressure) * solution.mixing
+    # Mixing sums to zero, so that any level of pressure is right: above the cavity's no heat is negative.
+    mixed_up = (solution.pressure - solution.problem.cavitation_pressure) * solution.upwind_exchange
     return np.asarray(sum(space.lumped(part)[:, None] * shape for part, shape in parts) + mixed_up[:, None])
 
 
-def _equations(solution: FilmSolution, heat: Heat, profile: Profile, terms: _Terms) -> tuple[HeatMatrix, Array]:
+def _equations(
+    solution: FilmSolution, heat: Heat, profile: FlowProfile, terms: _Terms
+) -> tuple[HeatMatrix, Array]:
     """Left and right side for the rise above the datum; Gauss points in m3/s (K), walls in K."""
     across, flows, space = profile.levels, terms.flows, solution.problem.space
     g = terms.conductance / terms.area
@@ -310,7 +313,7 @@ def _equations(solution: FilmSolution, heat: Heat, profile: Profile, terms: _Ter
 def _answer(
     solution: FilmSolution,
     heat: Heat,
-    profile: Profile,
+    profile: FlowProfile,
     terms: _Terms,
     matrix: HeatMatrix,
     rise: Array,
@@ -323,12 +326,12 @@ def _answer(
     enters = terms.entering * (terms.inflow - terms.datum)[:, None]
     leaves = (flows.leaving + terms.entering) * inner
     grown = terms.before[:, None] * (inner - (terms.old - terms.datum))
-    carried = heat.capacity * float(((leaves - enters) @ weights).sum())
-    stored = heat.capacity * float(((grown + flows.swallowed[:, None] * inner) @ weights).sum())
+    convected = heat.capacity * float(((leaves - enters) @ weights).sum())
+    stored = heat.capacity * float(((grown + flows.storage_rate[:, None] * inner) @ weights).sum())
     spent = float((terms.heat @ weights).sum())
     pressed = heat.expansion * float((flows.working * (inner + terms.datum) @ weights).sum())
-    missing = carried + stored + to_fixed + to_moving - spent - pressed
-    scale = abs(carried) + abs(stored) + abs(to_fixed) + abs(to_moving) + spent + abs(pressed)
+    missing = convected + stored + to_fixed + to_moving - spent - pressed
+    scale = abs(convected) + abs(stored) + abs(to_fixed) + abs(to_moving) + spent + abs(pressed)
     return FilmTemperature(
         solution=solution,
         profile=profile,
@@ -336,7 +339,7 @@ def _answer(
         heat_flux=flux,
         to_fixed=to_fixed,
         to_moving=to_moving,
-        carried_out=carried,
+        convected_out=convected,
         stored=stored,
         dissipation=spent,
         compression=pressed,

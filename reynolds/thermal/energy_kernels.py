@@ -1,6 +1,6 @@
 """The loops of the film's energy equation, compiled once by numba: flows along edges, blocks of nodes, sweeps.
 
-Nodes are the unknowns of the film; each carries `levels` temperatures across the film: fixed wall, Gauss points,
+Nodes are the unknowns of the film; each has `levels` temperatures across the film: fixed wall, Gauss points,
 moving wall. Neighbours exchange heat at the Gauss points alone, so that the matrix is one dense block for each
 node and a diagonal for each pair of neighbours.
 """
@@ -16,14 +16,14 @@ _FAST = {"cache": True, "fastmath": False, "error_model": "numpy"}
 
 
 @njit(**_FAST)
-def carried_flows(
+def wall_flows(
     vertices, cells, dofs, slots, value, gradient, geometry_gradient, weights, split,
     moving_x, moving_y, fixed_x, fixed_y, filling, out,
 ):  # fmt: skip
     """out[part, slot]: flow (m3/s) from the lower to the higher unknown of each pair of a cell's corners.
 
-    Parts: carried by the moving wall, by the fixed one. `split[pair, corner]` turns what a cell's corners give off
-    into flows between them, so that the flows of a node sum to its Galerkin balance.
+    Parts: dragged by the moving wall, by the fixed one. `split[pair, corner]` turns the outflow of a cell's
+    corners into flows between them, so that the flows of a node sum to its Galerkin balance.
     """
     nb = dofs.shape[1]
     me, mq = int(moving_x.shape[0] > 1), int(moving_x.shape[1] > 1)
@@ -75,8 +75,8 @@ def gather(start, neighbour, edge, sign, flow, pressure, out, along):
 def blocks(start, edge, sign, flow, across, gain, conduction, derivative, second, wall_rows, out):
     """Fill out[i] with node i's own equations, (size, levels, levels); m3/s at the Gauss points.
 
-    across: flow through the levels (size, m); gain: what else stands on the diagonal (size, m); conduction
-    (size,); wall_rows (size, 2, levels): the equations of the two wall temperatures, as they stand.
+    across: flow through the levels (size, m); gain: rest of the diagonal (size, m); conduction
+    (size,); wall_rows (size, 2, levels): the equations of the two wall temperatures.
     """
     m = flow.shape[1]
     out[:] = 0.0
@@ -111,11 +111,11 @@ def apply(start, neighbour, edge, sign, flow, block, field, out):
 
 @njit(**_FAST)
 def sharpen(start, neighbour, edge, sign, flow, entering, inflow, field, least, out):
-    """out[i, q]: what faces of second order add to upwind ones, in heat over rho c (m3/s K).
+    """out[i, q]: correction of upwind faces to second order, in heat over rho c (m3/s K).
 
-    The upstream node's part in the jump to its neighbour is limited by what reaches that node (Kuzmin and Turek
-    2004, with van Leer's smooth limiter), so that no new extremum arises; jumps below `least` (K) go upwind. What
-    one node gains its neighbour loses.
+    The upstream node's part in the jump to its neighbour is limited by the jumps into that node (Kuzmin and Turek
+    2004, with van Leer's smooth limiter), so that no new extremum arises; jumps below `least` (K) go upwind. The
+    correction conserves heat.
     """
     size, m = out.shape
     out[:] = 0.0
@@ -147,7 +147,7 @@ def sharpen(start, neighbour, edge, sign, flow, entering, inflow, field, least, 
 
 @njit(**_FAST)
 def invert(block):
-    """Replace each block by its inverse; a block that has none fills with what is not finite."""
+    """Replace each block by its inverse; a singular block becomes not finite."""
     for i in range(block.shape[0]):
         block[i] = np.linalg.inv(block[i])
 
@@ -175,7 +175,7 @@ def sweep(start, neighbour, edge, sign, flow, inverse, order, right, field):
 
 @njit(**_FAST)
 def downstream(start, neighbour, out_flow, first, order):
-    """Nodes in the order of the flow, as far as it does not run in circles: depth first, the last left first.
+    """Nodes in the order of the flow, as far as it has no circles: depth first, the last left first.
 
     out_flow[k] > 0 where the flow of entry k leaves its node; `first` are the nodes to begin at, in turn.
     """

@@ -1,7 +1,7 @@
 """The linear system of a film's temperature: blocks of nodes, swept down the flow, inside GMRES.
 
-Heat runs with the oil, so that block Gauss-Seidel in the order of the flow is nearly exact; what remains are the
-ways back: oil that runs in circles or back along a wall, and walls that pass heat from place to place.
+Heat moves with the oil, so that block Gauss-Seidel in the order of the flow is nearly exact but for backward
+couplings: oil that circulates or flows back along a wall, and walls that conduct heat from place to place.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ from reynolds.errors import FilmNotConverged
 from reynolds.numerics.arrays import Array
 from reynolds.thermal import energy_kernels
 from reynolds.thermal.edge_flow import EdgeFlow
-from reynolds.thermal.film_profile import Levels
+from reynolds.thermal.film_profile import FilmLevels
 from reynolds.thermal.walls import WallRows
 
 TOLERANCE = 1e-12  # of the rise of temperature
@@ -27,14 +27,14 @@ class HeatMatrix:
 
     def __init__(
         self,
-        across: Levels,
+        across: FilmLevels,
         flows: EdgeFlow,
         gain: Array,
         conduction: Array,
         to_wall: Array,
         walls: tuple[WallRows, WallRows],
     ) -> None:
-        """gain (size, m) and conduction (size,) m3/s stand on the nodes; to_wall (size,) W/(m2 K) is k/h."""
+        """gain (size, m) and conduction (size,) m3/s of the nodes; to_wall (size,) W/(m2 K) is k/h."""
         neighbours = flows.neighbours
         self._graph = (neighbours.start, neighbours.neighbour, neighbours.edge, neighbours.sign, flows.flow)
         self._walls, self._to_wall = walls, to_wall
@@ -82,8 +82,8 @@ class HeatMatrix:
 def solve_heat(matrix: HeatMatrix, right: Array, start: Array | None, closer: float = 0.0) -> tuple[Array, int]:
     """Temperature (size, levels) with this right side, and the number of sweeps.
 
-    Afterwards the swept residual is below 1e-12 of the swept right side (below 1e-9 where round-off lets it fall
-    no further), or below `closer` of what it was at the start. Raises FilmNotConverged.
+    Afterwards the swept residual is below 1e-12 of the swept right side (below 1e-9 where round-off is
+    larger), or below `closer` of that at the start. Raises FilmNotConverged.
     """
     from scipy.sparse.linalg import LinearOperator, gmres
 

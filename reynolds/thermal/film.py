@@ -13,8 +13,8 @@ from reynolds.laws.fluid import Fluid, ViscosityLaw, isoviscous
 from reynolds.numerics.arrays import Array
 from reynolds.problem import FilmProblem
 from reynolds.solve.solver import FilmSolver
-from reynolds.solve.transient import Instant, from_last_or_anew, march_with
-from reynolds.thermal.coupling import Coupled, Posed, agree
+from reynolds.solve.transient import FilmInstant, from_last_or_anew, march_with
+from reynolds.thermal.coupling import Coupled, ThermalCase, agree
 from reynolds.thermal.energy import FilmTemperature, Heat
 from reynolds.thermal.film_profile import DEFAULT_LEVELS, levels
 from reynolds.thermal.shear_thinning import ShearLaw, newtonian
@@ -43,8 +43,8 @@ def solve_thermal(
     """The film of `problem` with the viscosity of its own temperature, resolved by `count` levels across.
 
     The viscosity of `problem.film` is not used; its fluid may change density with pressure, but not viscosity,
-    which is here; `shear` thins that of the oil at rest. Walls that give way, rough ones, a cavity and a storage
-    of the problem are taken along, and a wall of `heat` that expands opens the film. `start` warms; `before`
+    which is given here; `shear` thins that of the oil at rest. Elastic and rough walls, a cavity and a storage of
+    the problem count, and a wall of `heat` that expands deforms the film. `start` is a first guess; `before`
     (size, count + 2) K is the temperature one time step ago. Afterwards one more round would change no viscosity
     and no thickness by more than `tolerance` of it. Raises FilmInputError, FilmNotConverged.
     """
@@ -56,7 +56,7 @@ def solve_thermal(
     def thinned(temperature: Array, pressure: Array, rate: Array) -> Array:
         return shear(rate, np.asarray(viscosity(temperature, pressure), dtype=float))
 
-    posed = Posed(_resting(problem, heat.datum, viscosity), thinned, heat, before)
+    posed = ThermalCase(_resting(problem, heat.datum, viscosity), thinned, heat, before)
     found = agree(posed, levels(count), tolerance, solver, start)
     return cast("ThermalSolution", found)  # with a heat posed there is one
 
@@ -78,13 +78,13 @@ class _AtTemperature:
 
 
 def _resting(problem: FilmProblem, temperature: float, viscosity: ThermalViscosity) -> FilmProblem:
-    """The problem with the oil at rest at one temperature (K): by pressure it varies there as anywhere."""
+    """The problem with the oil at rest at one temperature (K): it varies with pressure there as anywhere."""
     at = np.full((1, 1), temperature)
     without, under = (float(np.asarray(viscosity(at, np.full((1, 1), p))).item()) for p in (0.0, PRESSURE_STEP))
     if not (np.isfinite(without) and without > 0.0):
         raise FilmInputError("viscosity", f"{without:.4g} Pa s at {temperature:g} K", "positive")
     law: ViscosityLaw = isoviscous if under == without else _AtTemperature(viscosity, at, without)
-    # An oil of constant viscosity and density stays the very fluid that the solver knows to be linear.
+    # An oil of constant viscosity and density stays CONSTANT, for which the film is linear.
     fluid = problem.fluid if law is isoviscous else Fluid(law, problem.fluid.density)
     return replace(problem, film=replace(problem.film, viscosity=np.full((1, 1), without)), fluid=fluid)
 
@@ -103,11 +103,11 @@ def march_thermal(
     solver: FilmSolver | None = None,
     start: float = 0.0,
     held: Array | None = None,
-) -> Iterator[Instant[ThermalSolution]]:
-    """A film and its temperature in time, as `transient.march_with` and `solve_thermal` say.
+) -> Iterator[FilmInstant[ThermalSolution]]:
+    """A film and its temperature in time, see `transient.march_with` and `solve_thermal`.
 
     `temperature` (K, one number or (size, count + 2)) and `held` are those at `start`. Heat and oil are balanced
-    at each step. A body answers as if it were steady: of one slower than the film give the temperature.
+    at each step. A body responds as if steady: give the temperature of one slower than the film.
     """
     space = problem_at(start).space
     used = FilmSolver(space) if solver is None else solver

@@ -1,7 +1,7 @@
-"""The profile across the film: levels of zeta = z/h, and how a viscosity that varies over them bends the flow.
+"""The profile across the film: levels of zeta = z/h, and the flow profile of a viscosity that varies over them.
 
-Across the film a field is a polynomial through a few levels: the Gauss points of (0, 1), where the equations are
-met (orthogonal collocation, Villadsen and Stewart 1967), and the two walls. zeta is 0 on the fixed wall and 1 on
+Across the film a field is a polynomial through a few levels: the Gauss points of (0, 1), where the equations hold
+(orthogonal collocation, Villadsen and Stewart 1967), and the two walls. zeta is 0 on the fixed wall and 1 on
 the moving one. With the fluidity 1/mu at the levels the generalised Reynolds equation (Dowson 1962) has
 
     f0 = int 1/mu,  zbar = int zeta/mu / f0,  f2 = int zeta (zeta - zbar)/mu          (zeta from 0 to 1)
@@ -30,7 +30,7 @@ MOST_LEVELS = 40
 
 
 @dataclass(frozen=True)
-class Levels:
+class FilmLevels:
     """Collocation across the film, all over zeta in (0, 1).
 
     place (m + 2,): fixed wall, m Gauss points, moving wall; weights (m,) of the Gauss points. Of a field at the
@@ -61,7 +61,7 @@ class Levels:
 
 
 @lru_cache
-def levels(count: int = DEFAULT_LEVELS) -> Levels:
+def levels(count: int = DEFAULT_LEVELS) -> FilmLevels:
     """`count` Gauss points across the film, and the walls. Raises FilmInputError outside 2 .. 40."""
     if not 2 <= count <= MOST_LEVELS:
         raise FilmInputError("levels across the film", f"{count}", f"2 to {MOST_LEVELS}")
@@ -70,7 +70,7 @@ def levels(count: int = DEFAULT_LEVELS) -> Levels:
     place = np.concatenate([[0.0], inner, [1.0]])
     from_inner = np.linalg.inv(_modes(inner, count))
     from_all = np.linalg.inv(_modes(place, count + 2))
-    return Levels(
+    return FilmLevels(
         place=place,
         weights=0.5 * weights,
         derivative=_modes(inner, count, 1) @ from_inner,
@@ -92,16 +92,16 @@ def _modes(zeta: Array, count: int, order: int = 0) -> Array:
 
 
 @dataclass(frozen=True)
-class Profile:
-    """How the flow is spread over the film at each unknown; shapes (size, m) at the Gauss points, of mean one.
+class FlowProfile:
+    """Distribution of the flow over the film at each unknown; shapes (size, m) at the Gauss points, of mean one.
 
-    viscosity, couette_viscosity (Pa s) and moving_share (size,) as `Film` has them; `sliding` the velocity from
+    viscosity, couette_viscosity (Pa s) and moving_share (size,) as in `Film`; `sliding` the velocity from
     the moving wall's motion over its mean, `standing` that from the fixed wall's, `driven` that from the pressure
     gradient. Dissipation is spread likewise: `sliding_heat`, `driven_heat`, and `mixed_heat` of their product,
     which has the mean zero: the mixed part per area is 2 h (U_moving - U_fixed) . grad p mixed_heat.
     """
 
-    levels: Levels
+    levels: FilmLevels
     viscosity: Array
     couette_viscosity: Array
     moving_share: Array
@@ -113,7 +113,7 @@ class Profile:
     mixed_heat: Array
 
 
-def dowson(across: Levels, viscosity: Array) -> Profile:
+def dowson(across: FilmLevels, viscosity: Array) -> FlowProfile:
     """The profile of a viscosity (size, m) Pa s at the Gauss points (Dowson 1962).
 
     Integrals by Gauss quadrature: exact for a fluidity of degree m. Raises FilmInputError for a viscosity that is
@@ -129,7 +129,7 @@ def dowson(across: Levels, viscosity: Array) -> Profile:
     carried = fluidity @ across.integral.T / f0[:, None]
     share = carried @ weights
     driven = -bending @ across.integral.T
-    return Profile(
+    return FlowProfile(
         levels=across,
         viscosity=1.0 / (12.0 * f2),
         couette_viscosity=1.0 / f0,
@@ -143,7 +143,7 @@ def dowson(across: Levels, viscosity: Array) -> Profile:
     )
 
 
-def film_with(film: Film, space: FilmSpace, profile: Profile) -> Film:
+def film_with(film: Film, space: FilmSpace, profile: FlowProfile) -> Film:
     """The same film with the viscosities and the moving wall's share of a profile, between unknowns linear."""
     viscosity, couette, share = (
         space.sample_vertices(nodal[space.vertex_dofs])
@@ -152,14 +152,14 @@ def film_with(film: Film, space: FilmSpace, profile: Profile) -> Film:
     return replace(film, viscosity=viscosity, couette_viscosity=couette, moving_share=share)
 
 
-def scaled(profile: Profile, viscosity: Array) -> Profile:
+def scaled(profile: FlowProfile, viscosity: Array) -> FlowProfile:
     """The profile of shares of a viscosity (size,) Pa s that does not vary across the film, in Pa s."""
     return replace(
         profile, viscosity=viscosity * profile.viscosity, couette_viscosity=viscosity * profile.couette_viscosity
     )
 
 
-def shear_rate(solution: FilmSolution, profile: Profile) -> Array:
+def shear_rate(solution: FilmSolution, profile: FlowProfile) -> Array:
     """Magnitude of du/dz at each unknown and Gauss point across the film, (size, m) 1/s.
 
     `profile` is that of the solution's film, in Pa s. The slopes of film and pressure are averaged over the cells
@@ -176,7 +176,7 @@ def shear_rate(solution: FilmSolution, profile: Profile) -> Array:
     return np.sqrt(square)
 
 
-def velocity(profile: Profile, thickness: Array, moving: Array, fixed: Array, gradient: Array) -> Array:
+def velocity(profile: FlowProfile, thickness: Array, moving: Array, fixed: Array, gradient: Array) -> Array:
     """Velocity along one direction at the Gauss points, (size, m) m/s.
 
     From the film thickness (size,) m, the walls' velocities (size,) m/s and the pressure gradient (size,) Pa/m.
@@ -190,7 +190,7 @@ def velocity(profile: Profile, thickness: Array, moving: Array, fixed: Array, gr
     )
 
 
-def shear_stress(profile: Profile, thickness: Array, moving: Array, fixed: Array, gradient: Array) -> Array:
+def shear_stress(profile: FlowProfile, thickness: Array, moving: Array, fixed: Array, gradient: Array) -> Array:
     """Shear stress mu du/dz along one direction at all levels, (size, m + 2) Pa; linear across the film.
 
     On the moving wall (last) it is minus, on the fixed wall (first) plus the stress that the oil puts on the wall.

@@ -14,7 +14,7 @@ import numpy as np
 from reynolds.numerics.arrays import Array
 from reynolds.problem import FilmProblem
 from reynolds.solve.solver import FilmSolver
-from reynolds.thermal.coupling import Coupled, Posed, agree, resting_viscosity
+from reynolds.thermal.coupling import Coupled, ThermalCase, agree, resting_viscosity
 from reynolds.thermal.film_profile import DEFAULT_LEVELS, levels
 
 TOLERANCE = 1e-8
@@ -24,7 +24,7 @@ ShearLaw = Callable[[Array, Array], Array]
 
 
 def newtonian(shear_rate: Array, viscosity: Array) -> Array:
-    """A viscosity that shear does not change."""
+    """A viscosity independent of shear."""
     return np.broadcast_to(viscosity, np.broadcast_shapes(np.shape(shear_rate), np.shape(viscosity)))
 
 
@@ -40,14 +40,14 @@ def solve_shear(
     """The film of `problem` with an oil that thins with shear, resolved by `count` levels across.
 
     The problem's own viscosity and pressure law are those of the oil at rest, from which `law(shear rate, mu)`
-    makes the viscosity at each level. `start` warms. Afterwards one more round would change no viscosity by more
-    than `tolerance` of it. Raises FilmInputError as the laws do, and FilmNotConverged.
-    Validity: an oil without memory (its relaxation time far below the time through the film).
-    Source: Dowson 1962; Yang and Wen 1990, for oils that are not Newtonian.
+    gives the viscosity at each level. `start` is a first guess. Afterwards one more round would change no
+    viscosity by more than `tolerance` of it. Raises FilmInputError as the laws do, and FilmNotConverged. Validity:
+    an oil without memory (its relaxation time far below the time through the film). Source: Dowson 1962; Yang and
+    Wen 1990, for oils that are not Newtonian.
     """
 
     def viscosity(temperature: Array, pressure: Array, rate: Array) -> Array:
         return law(rate, resting_viscosity(problem, pressure[:, 0])[:, None])
 
-    found = agree(Posed(problem, viscosity), levels(count), tolerance, solver, start)
+    found = agree(ThermalCase(problem, viscosity), levels(count), tolerance, solver, start)
     return cast("Coupled[None]", found)  # without a heat posed there is none

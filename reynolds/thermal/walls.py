@@ -1,4 +1,4 @@
-"""What a wall does with the heat of the film: its temperature given, none taken, an outer side, a body, a shaft.
+"""Thermal conditions of a wall: given temperature, adiabatic, convection outside, a body, a turning shaft.
 
 Heat flux q (W/m2) counts from the oil into the wall. The film is coupled to each wall by its conductance g
 (W/(m2 K)), of the order of k/h.
@@ -26,7 +26,7 @@ class GivenTemperature:
 
 @dataclass(frozen=True)
 class Adiabatic:
-    """A surface that no heat passes."""
+    """A surface without heat flux."""
 
 
 @dataclass(frozen=True)
@@ -40,29 +40,29 @@ class Convecting:
     outer_temperature: float | Array
 
 
-class Response(Protocol):
-    """What answers to the heat flux q (vertices,) W/m2 into a wall by reference + matrix @ q."""
+class WallResponse(Protocol):
+    """Response to the heat flux q (vertices,) W/m2 into a wall: reference + matrix @ q."""
 
     @property
     def reference(self) -> Array:
-        """Without flux, (vertices,)."""
+        """Value without flux, (vertices,)."""
 
     @property
     def matrix(self) -> Array:
-        """By unit flux at each vertex, (vertices, vertices)."""
+        """Change by unit flux at each vertex, (vertices, vertices)."""
 
 
 @dataclass(frozen=True)
-class Body:
+class ConductingBody:
     """A body of its own heat equation, steady: T = reference + matrix @ q at the vertices.
 
-    reference (vertices,) K, matrix (vertices, vertices) K/(W/m2). `opening`, of a body that expands, is that of
-    the film at the vertices, m by W/m2 (`bodies.wall.heated_wall` gives both).
+    reference (vertices,) K, matrix (vertices, vertices) K/(W/m2). `deformation`, of a body that expands, is that
+    of the film at the vertices, m by W/m2 (`bodies.wall.heated_wall` gives both).
     """
 
     reference: Array
     matrix: Array
-    opening: Response | None = None
+    deformation: WallResponse | None = None
 
 
 @dataclass(frozen=True)
@@ -72,14 +72,14 @@ class Turning:
     heat: float = 0.0
 
 
-Wall = GivenTemperature | Adiabatic | Convecting | Body | Turning
+Wall = GivenTemperature | Adiabatic | Convecting | ConductingBody | Turning
 
 
 @dataclass(frozen=True)
 class WallRows:
     """Equations of a wall's temperature at the unknowns (size,): own T - by_flux q = right (K).
 
-    `coupled(T, q)` (size,), where there is one, is the true left side; own and by_flux are a place's part of it.
+    `coupled(T, q)` (size,), if given, is the full left side; own and by_flux are its diagonal.
     """
 
     own: Array
@@ -110,29 +110,31 @@ def wall_rows(wall: Wall, space: FilmSpace, area: Array, conductance: Array) -> 
             given = _nodal(space, coefficient, "heat transfer coefficient", "W/(m2 K)")
             if given.min() < 0.0:
                 raise FilmInputError("heat transfer coefficient", f"{given.min():.4g} W/(m2 K)", "at least 0")
-            # H T - q = H T_outer, scaled so that both ends, H = 0 and H without bound, stand well.
+            # H T - q = H T_outer, scaled to suit both H = 0 and H without bound.
             share = given / (given + conductance)
             return WallRows(
                 share, 1.0 / (given + conductance), share * _nodal(space, outer, "outer temperature", "K")
             )
-        case Body(reference, matrix, _):
+        case ConductingBody(reference, matrix, _):
             return _body(space, _nodal(space, reference, "body temperature", "K"), matrix)
         case Turning(heat):
             return _turning(heat, area, conductance)
 
 
-def opening_by_heat(wall: Wall, space: FilmSpace, flux: Array) -> Array:
-    """Opening of the film (vertices,) m as the wall expands under the heat flux (size,) W/m2 into it.
+def deformation_by_heat(wall: Wall, space: FilmSpace, flux: Array) -> Array:
+    """Deformation of the film (vertices,) m as the wall expands under the heat flux (size,) W/m2 into it.
 
-    Raises FilmInputError for an opening that is not of the vertices.
+    Raises FilmInputError for a deformation that is not of the vertices.
     """
     count = len(space.vertices)
-    if not isinstance(wall, Body) or wall.opening is None:
+    if not isinstance(wall, ConductingBody) or wall.deformation is None:
         return np.zeros(count)
-    grows = wall.opening
+    grows = wall.deformation
     shapes = np.shape(grows.reference), np.shape(grows.matrix)
     if shapes != ((count,), (count, count)):
-        raise FilmInputError("opening of a warm body", f"shapes {shapes}", f"({count},) and ({count}, {count})")
+        raise FilmInputError(
+            "deformation of a warm body", f"shapes {shapes}", f"({count},) and ({count}, {count})"
+        )
     return np.asarray(grows.reference + grows.matrix @ flux[space.vertex_dofs])
 
 

@@ -2,43 +2,36 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
-from gaps.films.block import BlockFilm, standing_block
 from gaps.films.physics import Effect, Physics
-from gaps.films.piston import PistonFilm, standing_piston
-from gaps.films.slipper import SlipperFilm, floating_slipper
+from gaps.films.reports import BlockReport
 from gaps.revolution.film_heat import GapHeat
 from gaps.standing.conductances import (
-    carried_power,
+    drag_power,
     kidney_conductances,
     piston_conductance,
     slipper_conductance,
 )
-from gaps.standing.gap_film import GapFilm, ValvePlateFilm
+from gaps.standing.gap_film import GapFilm
 from gaps.standing.heat import warm_turn
-from gaps.standing.reports import block_told, piston_told, slipper_told
-from reynolds.floating.problem import Floating
-from reynolds.floating.rest import held_at
-from reynolds.floating.step import Stage
+from reynolds.floating.step import FloatingStage
 from reynolds.laws.fluid import isoviscous
 from reynolds.numerics.arrays import Array
-from reynolds.solve.solver import FilmSolver
 from system.films.drives import drives, no_rubbing
 from system.films.heat import block_heat, piston_heat, slipper_heat
 from system.films.parts import FloatingParts
-from system.films.positions import given_block, given_piston, given_slipper
-from system.films.problems import RIGID, Cells, block_film, piston_film, slipper_film
+from system.films.problems import RIGID
 from system.films.rotor import Rotor
+from system.films.standing import StandingGap, standing_block_gap, standing_piston_gap, standing_slipper_gap
 from system.work.progress import Report, silent
 
-PISTON_CELLS, SLIPPER_CELLS, RING_CELLS = (48, 16), (12, 48), (8, 32)
-"""Of the ring so many around that mesh lines meet REF90's port edges at the film angles."""
 SMOOTH = RIGID.without(Effect.ROUGHNESS)
-"""At a given position nothing touches: what asperities would bear and rub stands in the pairs' coefficients."""
+"""At a given position nothing touches: load and friction of asperities are in the pairs' coefficients."""
 
 
 @dataclass(frozen=True)
@@ -62,20 +55,20 @@ PLAIN = GapPhysics()
 class GapCycle:
     """Films of one piston and one slipper at N shaft angles and of the ring at N/z block angles, SI.
 
-    shaft_angle (N,) rad from inner dead centre; the ring's films stand at the first N/z of them, in which every
+    shaft_angle (N,) rad from inner dead centre; the ring's films are at the first N/z of them, in which every
     chamber passes through all N. flow (3, N) m3/s out of one chamber at that angle into piston, slipper and
-    valve-plate gap; conductance (3, N) m3/(s Pa) are its slopes with the chamber's pressure; carried_power (N/z,)
-    W: what the flow that the block drags along takes from kidneys and ports.
+    valve-plate gap; conductance (3, N) m3/(s Pa) are its slopes with the chamber's pressure; drag_power (N/z,)
+    W: power of the block's drag flow from kidneys and ports.
     """
 
     shaft_angle: Array
     chamber_pressure: Array
     piston: tuple[GapFilm, ...]
     slipper: tuple[GapFilm, ...]
-    valve_plate: tuple[ValvePlateFilm, ...]
+    valve_plate: tuple[GapFilm[BlockReport], ...]
     flow: Array
     conductance: Array
-    carried_power: Array
+    drag_power: Array
 
 
 def gap_cycle(
@@ -91,21 +84,21 @@ def gap_cycle(
 ) -> GapCycle:
     """All films at equidistant `shaft_angle` (N,), N a multiple of the pistons, and pressures (N,) Pa.
 
-    Meshes have `finer` times the usual cells each way. Parts stand where the description gives them. With heat in
-    a gap's physics its walls are as warm as films and `rubbing` make them, the mean loss of contact of one piston,
-    one slipper and the ring (W). Raises FilmInputError where parts touch where they stand, FilmNotConverged.
+    Meshes have `finer` times the usual cells each way. Parts have the positions of the pump file. With heat in
+    a gap's physics its walls are warmed by films and `rubbing`, the mean loss of contact of one piston,
+    one slipper and the ring (W). Raises FilmInputError where parts touch, FilmNotConverged.
     """
     count = len(shaft_angle)
     driven = drives(rotor, parts, shaft_angle, chamber_pressure, no_rubbing(count))
     positions = count // rotor.pump.pump.pistons
     steps = 2 * count + positions
 
-    def told(done: int, what: str) -> None:
+    def progress(done: int, what: str) -> None:
         report(done, steps, f"{what} films")
 
-    piston = piston_film(rotor, parts, driven.piston, physics.piston, _finer(PISTON_CELLS, finer))
-    slipper = slipper_film(rotor, parts, driven.slipper, physics.slipper, _finer(SLIPPER_CELLS, finer))
-    block = block_film(rotor, parts, driven.block, physics.valve_plate, _finer(RING_CELLS, finer))
+    piston = standing_piston_gap(rotor, parts, driven.piston, physics.piston, finer)
+    slipper = standing_slipper_gap(rotor, parts, driven.slipper, physics.slipper, finer)
+    block = standing_block_gap(rotor, parts, driven.block, physics.valve_plate, finer)
     warm = [
         _Warm(heat(rotor, parts), rubs) if of.heat else None
         for of, heat, rubs in zip(
@@ -115,13 +108,14 @@ def gap_cycle(
             strict=True,
         )
     ]
-    pistons, of_piston = _pistons(rotor, piston, shaft_angle, warm[0], lambda k: told(k, "piston"))
-    slippers, of_slipper = _slippers(rotor, slipper, shaft_angle, warm[1], lambda k: told(count + k, "slipper"))
-    ring, slopes, carried = _ring(
-        rotor, block, shaft_angle[:positions], warm[2], lambda k: told(2 * count + k, "valve-plate")
-    )
+    of_piston = _held(piston, shaft_angle, warm[0], lambda k: progress(k, "piston"))
+    of_slipper = _held(slipper, shaft_angle, warm[1], lambda k: progress(count + k, "slipper"))
+    of_ring = _held(block, shaft_angle[:positions], warm[2], lambda k: progress(2 * count + k, "valve-plate"))
+    pistons, slippers = tuple(map(piston.report, of_piston)), tuple(map(slipper.report, of_slipper))
+    ring = tuple(map(block.report, of_ring))
     # (position, chamber) -> the chamber's own angle.
-    drawn, of_ring = (by_chamber.T.ravel() for by_chamber in (np.array([f.chamber_flows for f in ring]), slopes))
+    drawn = np.array([film.report.flow for film in ring]).T.ravel()
+    kidneys = np.array([kidney_conductances(block.solver, block.film, stage) for stage in of_ring]).T.ravel()
     return GapCycle(
         shaft_angle=shaft_angle,
         chamber_pressure=np.array([float(driven.piston.chamber_pressure(angle)) for angle in shaft_angle]),
@@ -129,8 +123,14 @@ def gap_cycle(
         slipper=slippers,
         valve_plate=ring,
         flow=np.array([[f.chamber_flow for f in pistons], [f.chamber_flow for f in slippers], drawn]),
-        conductance=np.array([of_piston, of_slipper, of_ring]),
-        carried_power=carried,
+        conductance=np.array(
+            [
+                [piston_conductance(piston.solver, stage) for stage in of_piston],
+                [slipper_conductance(slipper.solver, slipper.film, stage) for stage in of_slipper],
+                kidneys,
+            ]
+        ),
+        drag_power=np.array([drag_power(block.solver, block.film, stage) for stage in of_ring]),
     )
 
 
@@ -142,57 +142,14 @@ class _Warm:
     rubbing: float
 
 
-def _finer(cells: Cells, times: float) -> Cells:
-    return round(cells[0] * times), round(cells[1] * times)
-
-
 def _held(
-    solver: FilmSolver,
-    floating: Floating,
-    speed: float,
-    places: Sequence[tuple[float, Array]],
-    warm: _Warm | None,
-    told: Callable[[int], None],
-) -> list[Stage]:
-    """Films at shaft angles (rad) and positions, each from that before; stiffening oil from a film of its own."""
-    stages: list[Stage] = []
-    for k, (angle, place) in enumerate(places):
-        stiffens = floating.shape_at(angle / speed).fluid.viscosity is not isoviscous
+    gap: StandingGap[Any, Any], angles: Array, warm: _Warm | None, progress: Callable[[int], None]
+) -> list[FloatingStage]:
+    """Films at shaft angles (rad), each started from that before; stiffening oil from a film of its own."""
+    stages: list[FloatingStage] = []
+    for k, angle in enumerate(angles):
+        stiffens = gap.floating.shape_at(gap.time(angle)).fluid.viscosity is not isoviscous
         last = stages[-1].solution if stages and not stiffens else None
-        stages.append(held_at(solver, floating, angle / speed, place, last))
-        told(k + 1)
-    return stages if warm is None else warm_turn(solver, floating, stages, warm.heat, warm.rubbing)
-
-
-def _pistons(
-    rotor: Rotor, film: PistonFilm, angles: Array, warm: _Warm | None, told: Callable[[int], None]
-) -> tuple[tuple[GapFilm, ...], list[float]]:
-    """Films and conductances."""
-    solver, floating = FilmSolver(film.space_at(0.0)), standing_piston(film)
-    places = [(angle, given_piston(rotor.pump, film.drive.outer(angle))) for angle in angles]
-    stages = _held(solver, floating, film.drive.shaft_speed, places, warm, told)
-    slopes = [piston_conductance(solver, stage) for stage in stages]
-    return tuple(piston_told(film, stage) for stage in stages), slopes
-
-
-def _slippers(
-    rotor: Rotor, film: SlipperFilm, angles: Array, warm: _Warm | None, told: Callable[[int], None]
-) -> tuple[tuple[GapFilm, ...], list[float]]:
-    """Films and conductances."""
-    solver, floating = FilmSolver(film.space), floating_slipper(film)
-    places = [(angle, given_slipper(rotor, angle)) for angle in angles]
-    stages = _held(solver, floating, film.drive.shaft_speed, places, warm, told)
-    slopes = [slipper_conductance(solver, film, stage) for stage in stages]
-    return tuple(slipper_told(film, stage) for stage in stages), slopes
-
-
-def _ring(
-    rotor: Rotor, film: BlockFilm, angles: Array, warm: _Warm | None, told: Callable[[int], None]
-) -> tuple[tuple[ValvePlateFilm, ...], Array, Array]:
-    """Films, conductances (N/z, z) and carried power."""
-    solver, floating = FilmSolver(film.space), standing_block(film)
-    places = [(angle, given_block(rotor.pump)) for angle in angles]
-    stages = _held(solver, floating, film.drive.shaft_speed, places, warm, told)
-    slopes = np.array([kidney_conductances(solver, film, stage) for stage in stages])
-    carried = np.array([carried_power(solver, film, stage) for stage in stages])
-    return tuple(block_told(film, stage) for stage in stages), slopes, carried
+        stages.append(gap.held_at(angle, start=last))
+        progress(k + 1)
+    return stages if warm is None else warm_turn(gap.solver, gap.floating, stages, warm.heat, warm.rubbing)

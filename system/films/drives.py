@@ -1,4 +1,4 @@
-"""What drives the three floating gaps: forces between the parts over a turn, from chamber pressure and friction.
+"""Drives of the three gaps: forces between the parts over a turn, from chamber pressure and friction.
 
 Every sampled shaft angle has the balance of forces of piston and slipper with the ball joint between them
 (`gaps.loads.ball_joint`); from it follow what the bore, the swash plate and the valve plate must bear. Friction of
@@ -13,10 +13,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from gaps.films.block import BlockDrive, wrench_about
-from gaps.films.over_turn import Course, OverTurn
+from gaps.films.over_turn import OverTurn, PeriodicCurve
 from gaps.films.piston import PistonDrive, PistonShape
 from gaps.films.slipper import (
-    Orifice,
+    PocketOrifice,
     Retainer,
     SlipperDrive,
     SlipperShape,
@@ -54,7 +54,7 @@ from system.pump.lumped import block_spring, piston_area
 
 @dataclass(frozen=True)
 class Rubbing:
-    """What the films did to the parts in the turn before, over (N,) shaft angles; zero before the first.
+    """Friction of the films on the parts in the turn before, over (N,) shaft angles; zero at first.
 
     piston: force (N,) N along the bore, out of the block; piston_moment (N, 2) N m about axes across the bore;
     slipper: force (N, 2) N of its film along the plate's axes.
@@ -136,17 +136,17 @@ def group_instant(
 
 
 def _spring_share(rotor: Rotor, parts: FloatingParts) -> float:
-    """What the block's spring presses a slipper with, through the retainer (N)."""
+    """Force (N) of the block's spring on a slipper, through the retainer."""
     if parts.slipper.retainer.kind is not RetainerKind.SPRING:
         return 0.0
     return float(block_spring(rotor.pump) / (rotor.pump.pump.pistons * np.cos(rotor.drive.swash_angle)))
 
 
 def slipper_retainer(rotor: Rotor, parts: FloatingParts) -> Retainer:
-    """The plate that a slipper finds over itself: one that stands, or one that the spring presses on the others.
+    """The retainer over a slipper: a fixed plate, or one that the spring presses on the others.
 
     Of the latter a slipper already bears its share; up to what tips the plate about the slippers across it is as
-    firm as one that stands, and then gives way as the spring does, by as much less as its middle rises less.
+    firm as a fixed one, and then yields as the spring does, reduced by the smaller rise of its middle.
     """
     of, tilt = parts.slipper.retainer, rotor.drive.swash_angle
     if of.kind is not RetainerKind.SPRING:
@@ -169,14 +169,14 @@ class Drives:
 def drives(rotor: Rotor, parts: FloatingParts, shaft_angle: Array, pressure: Array, rubbing: Rubbing) -> Drives:
     """Drives from the chamber pressure (N,) Pa at equidistant shaft angles (N,) rad, N a multiple of the pistons.
 
-    A chamber that cavitates stands within a kilopascal of the cavity's pressure: films take it as that.
+    A chamber that cavitates is within a kilopascal of the cavity's pressure, which films take.
     """
     pressure = np.maximum(pressure, CAVITY_PRESSURE)
     group = tuple(
         group_instant(rotor, parts, float(a), float(p), (float(rubbing.piston[k]), rubbing.slipper[k]))
         for k, (a, p) in enumerate(zip(shaft_angle, pressure, strict=True))
     )
-    chamber = Course(shaft_angle, pressure)
+    chamber = PeriodicCurve(shaft_angle, pressure)
     return Drives(
         piston=_piston_drive(rotor, parts, shaft_angle, chamber, group, rubbing),
         slipper=_slipper_drive(rotor, parts, shaft_angle, chamber, group),
@@ -208,7 +208,7 @@ def _piston_drive(
         chamber_pressure=chamber,
         reach=lambda angle: np.asarray(pump.piston.engaged_length - travel(rotor, angle)),
         velocity=lambda angle: piston_velocity(rotor.drive, angle, point.shaft_speed),
-        outer=Course(angles, outer),
+        outer=PeriodicCurve(angles, outer),
     )
 
 
@@ -226,7 +226,7 @@ def _slipper_drive(
         spin=rotor.spins.slipper,
         chamber_pressure=chamber,
         sliding=lambda angle: slipper_sliding_velocity(rotor.drive, angle, point.shaft_speed),
-        outer=Course(angles, outer),
+        outer=PeriodicCurve(angles, outer),
         retainer=slipper_retainer(rotor, parts),
         inertia=face_inertia(
             outer_radius,
@@ -245,7 +245,7 @@ def block_drive(
     pressure: Sequence[Array],
     groups: Sequence[tuple[GroupInstant, ...]],
 ) -> BlockDrive:
-    """What presses on the block: pressures (N,) Pa and balances (N,) over a chamber's own angles (N,) rad.
+    """Pressing forces on the block: pressures (N,) Pa and balances (N,) over a chamber's own angles (N,) rad.
 
     Of one chamber for all, or of each.
     """
@@ -257,9 +257,9 @@ def block_drive(
     ]
     press = sum(np.roll(by_chamber[k % len(groups)], -k * step, axis=0) for k in range(pistons))
     held = np.maximum(np.stack(pressure, axis=-1), CAVITY_PRESSURE)
-    chamber = Course(angles, held[:, 0] if len(pressure) == 1 else held)
+    chamber = PeriodicCurve(angles, held[:, 0] if len(pressure) == 1 else held)
     if parts.slipper.retainer.kind is not RetainerKind.SPRING:
-        # Then the slippers do not hand the spring on to the swash plate: it stands on the shaft.
+        # Then the slippers do not pass the spring's force to the swash plate: the shaft bears it.
         press = press - np.array([block_spring(rotor.pump), 0.0, 0.0])
     return BlockDrive(
         shaft_speed=point.shaft_speed,
@@ -269,7 +269,7 @@ def block_drive(
         case_pressure=point.case_pressure,
         cavitation_pressure=CAVITY_PRESSURE,
         chamber_pressure=chamber,
-        press=Course(angles, np.asarray(press)),
+        press=PeriodicCurve(angles, np.asarray(press)),
         spline_height=parts.block.spline_height,
     )
 
@@ -286,5 +286,7 @@ def slipper_shape(rotor: Rotor, parts: FloatingParts) -> SlipperShape:
     """The slipper's face and feed."""
     slipper = rotor.pump.slipper
     flow_coefficient = parts.slipper.orifice_flow_coefficient
-    orifice = Orifice(slipper.orifice_diameter, slipper.orifice_length, flow_coefficient, bore_table(slipper))
+    orifice = PocketOrifice(
+        slipper.orifice_diameter, slipper.orifice_length, flow_coefficient, bore_table(slipper)
+    )
     return SlipperShape(slipper.lands, orifice, parts.slipper.face)

@@ -1,4 +1,4 @@
-"""What warms the floating gaps of a pump: its oil, and the ways of their heat through the parts.
+"""Heat of the gaps of a pump: its oil, and the heat paths through the parts.
 
 Each part passes heat to its far side, which has the case's temperature: plates through their thickness, a bushing
 out to the middle of the web, a piston along its axis to both ends.
@@ -65,7 +65,7 @@ def block_heat(rotor: Rotor, parts: FloatingParts) -> GapHeat:
 
 
 def all_taken(rotor: Rotor, parts: FloatingParts, physics: Physics) -> tuple[Assumption, ...]:
-    """What floating gaps take where the pump file says nothing, that of heat only where they warm."""
+    """Assumptions of floating gaps where the pump file has no value, those of heat only where they warm."""
     taken = Taken()
     if physics.heat:
         _oil_conductivity(rotor.pump, taken)

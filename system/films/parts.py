@@ -1,6 +1,6 @@
 """The parts as floating gaps need them: what the pump file says, and what is taken where it says nothing.
 
-Every value taken is an `Assumption`, which a result tells by name; nothing is taken in silence.
+Every value taken is an `Assumption`, which a result names; nothing is assumed in silence.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ from gaps.shapes.profiles import (
     Crown,
     EdgeRelief,
     Profile,
-    Shape,
+    ProfileShape,
     Waviness,
     measured,
     ring_grooves,
@@ -85,7 +85,7 @@ class PistonParts:
 
 @dataclass(frozen=True)
 class RetainerParts:
-    """How slippers are held: beyond a clearance (m) by a stiffness (N/m each), by a spring also at all times."""
+    """Retention of slippers: beyond a clearance (m) by a stiffness (N/m each), with a spring at all times."""
 
     kind: RetainerKind
     clearance: float
@@ -114,7 +114,7 @@ class BlockParts:
 
 @dataclass(frozen=True)
 class FloatingParts:
-    """What gaps need to float, SI, complete; `materials` as [materials] has them; `taken`: what is not stated."""
+    """Complete data of floating gaps, SI; `materials` of [materials]; `taken`: the assumptions."""
 
     piston: PistonParts
     slipper: SlipperParts
@@ -148,7 +148,7 @@ def ball_plane_height(pump: PumpDescription) -> float:
     """Height (m) over the valve plate at which the plane of the ball centres cuts the shaft at full swash angle.
 
     Dead space (taken as a straight prolongation of the bore), engaged length, overhang and way along a bore that
-    stands square to the swash plate's steepest line.
+    is square to the swash plate's steepest line.
     """
     way = float(piston_displacement(full_drive(pump), 0.5 * math.pi))
     reach = pump.pump.dead_volume / piston_area(pump) + pump.piston.engaged_length + pump.piston.overhang + way
@@ -165,7 +165,7 @@ def _piston(pump: PumpDescription, laws: FilmLaws, taken: Taken) -> PistonParts:
         "piston.centre_of_mass", part.centre_of_mass, 0.5 * (part.overhang + part.engaged_length),
         "the middle from ball centre to inner end, as of a plain rod", length,
     )  # fmt: skip
-    shapes: list[Shape] = [] if part.profile is None else [measured(part.profile)]
+    shapes: list[ProfileShape] = [] if part.profile is None else [measured(part.profile)]
     if part.barrel is not None:
         shapes.append(Barrel(part.engaged_length, part.barrel))
     if part.edge_relief is not None:
@@ -174,7 +174,7 @@ def _piston(pump: PumpDescription, laws: FilmLaws, taken: Taken) -> PistonParts:
         shapes += ring_grooves(part.grooves).shapes
     if not shapes:
         taken.note("piston.profile", "a cylinder with sharp edges", "no shape is stated")
-    bore: list[Shape] = [] if pump.bore.profile is None else [measured(pump.bore.profile)]
+    bore: list[ProfileShape] = [] if pump.bore.profile is None else [measured(pump.bore.profile)]
     if pump.bore.edge_relief is not None:
         bore.append(EdgeRelief(0.0, pump.bore.edge_relief.width, pump.bore.edge_relief.depth))
     if not bore:
@@ -192,7 +192,7 @@ def _slipper(pump: PumpDescription, laws: FilmLaws, taken: Taken) -> SlipperPart
         "slipper.orifice_flow_coefficient", part.orifice_flow_coefficient, 1.5**-0.5,
         "a sharp entry and a free exit take 1.5 velocity heads, Idelchik 1960",
     )  # fmt: skip
-    shapes: list[Shape] = [] if part.profile is None else [measured(part.profile)]
+    shapes: list[ProfileShape] = [] if part.profile is None else [measured(part.profile)]
     if part.crown is not None:
         shapes.append(Crown(rim, part.crown))
     if part.rim_relief is not None:
@@ -203,7 +203,7 @@ def _slipper(pump: PumpDescription, laws: FilmLaws, taken: Taken) -> SlipperPart
 
 
 def retainer_kind(pump: PumpDescription, taken: Taken) -> RetainerKind:
-    """How the pump keeps its slippers on the plate, stated or taken."""
+    """Retention of the slippers on the plate, stated or assumed."""
     part = pump.retainer
     if part.kind is not None:
         return part.kind
@@ -242,7 +242,7 @@ def spline_height(pump: PumpDescription, taken: Taken) -> float:
 def _block(pump: PumpDescription, laws: FilmLaws, taken: Taken) -> BlockParts:
     height = spline_height(pump, taken)
     waves, rows = pump.valve_plate.waviness, pump.valve_plate.profile
-    shapes: list[Shape] = [] if rows is None else [measured(rows)]
+    shapes: list[ProfileShape] = [] if rows is None else [measured(rows)]
     if waves is not None:
         shapes.append(Waviness(waves.waves, waves.amplitude))
     if not shapes:

@@ -1,4 +1,4 @@
-"""The films of a pump's three gaps: its parts and what drives them, put on their meshes."""
+"""The films of a pump's three gaps: its parts and their drives on meshes."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from system.films.parts import FloatingParts
 from system.films.rotor import Rotor, valve_plate_geometry
 
 RIGID = Physics().without(Effect.ELASTIC_WALLS, Effect.PRESSURE_VISCOSITY)
-"""Rigid walls and oil of constant viscosity: what settles without bodies that give way."""
+"""Rigid walls and oil of constant viscosity: physics without elastic bodies."""
 Cells = tuple[int, int]
 
 

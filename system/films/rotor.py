@@ -21,7 +21,7 @@ from system.pump.operating import OperatingPoint
 class Rotor:
     """A pump at an operating point, its drive set to the displacement ratio.
 
-    spin_torques: what sets free spins by solved films, None before any is.
+    spin_torques: of solved films, which set free spins; None before any is solved.
     """
 
     pump: PumpDescription
@@ -37,7 +37,7 @@ class Rotor:
 
     @property
     def estimated_torques(self) -> SpinTorques:
-        """What sets free spins before any film is solved."""
+        """Torques that set free spins before any film is solved."""
         return estimated_torques(self.pump, self.point, self.drive)
 
 
@@ -65,7 +65,7 @@ def valve_plate_geometry(pump: PumpDescription, turned: float = 0.0) -> ValvePla
     """The valve plate's ring; its ports' arcs follow from the opening angles and the block kidney's arc.
 
     A port opens when the kidney's leading edge reaches it (end of the groove) and shuts when the trailing edge
-    leaves it. `turned` (rad): the drive's `dead_centre_shift`, of no matter where radii alone are asked for.
+    leaves it. `turned` (rad): the drive's `dead_centre_shift`, without effect on radii.
     """
     part, half = pump.valve_plate, 0.5 * pump.valve_plate.kidney_arc
     sides = tuple(zip(pump.ports.sides, (0.0, np.pi), strict=True))

@@ -1,4 +1,4 @@
-"""Spins of piston and slipper about their own axes: stated, or what ball joint and films leave them."""
+"""Spins of piston and slipper about their own axes: stated, or free between ball joint and films."""
 
 from __future__ import annotations
 
@@ -17,8 +17,8 @@ from system.pump.operating import OperatingPoint
 
 @dataclass(frozen=True)
 class SpinTorques:
-    """What sets spins: friction mu |B| r of the joint (N m); drags (N m s) of the films of piston and slipper, and
-    torques (N m) by which these turn what does not spin."""
+    """Torques that set spins: friction mu |B| r of the joint (N m); drags (N m s) of both films,
+    and torques (N m) of the films on parts without spin."""
 
     friction: float
     drags: tuple[float, float]
@@ -29,7 +29,7 @@ def spins(pump: PumpDescription, point: OperatingPoint, drive: SwashDrive, torqu
     """Spins (rad/s) of the piston relative to the block and of the slipper in space, constant over the turn.
 
     spin_ratio times shaft speed where stated; where left out, that at which the joint's friction and the films'
-    drags balance (`gaps.loads.ball_joint.free_spins`); the bore stands along the shaft, as the cone's mean over
+    drags balance (`gaps.loads.ball_joint.free_spins`); the bore is along the shaft, as the cone's mean over
     the turn does.
     """
     speed, ratios = point.shaft_speed, (pump.piston.spin_ratio, pump.slipper.spin_ratio)
@@ -49,7 +49,7 @@ def spins(pump: PumpDescription, point: OperatingPoint, drive: SwashDrive, torqu
 
 
 def estimated_torques(pump: PumpDescription, point: OperatingPoint, drive: SwashDrive) -> SpinTorques:
-    """What sets spins before any film is solved.
+    """Torques that set spins before any film is solved.
 
     The friction is that of the turn's mean force, Ap (mean of both ports' pressures - p_case)/cos(g); drags are
     Petroff's of a centred piston at mid stroke and of the slipper's parallel lands at `film_thickness`.
@@ -72,7 +72,7 @@ def estimated_torques(pump: PumpDescription, point: OperatingPoint, drive: Swash
 def torques_of_films(
     estimated: SpinTorques, friction: float, turned: Spins, torques: tuple[float, float]
 ) -> SpinTorques:
-    """What sets spins by films solved at spins (rad/s): mean torques (N m) on piston and slipper there.
+    """Torques that set spins, from films solved at spins (rad/s): mean torques (N m) on piston and slipper there.
 
     A torque against its spin is drag, as far as it exceeds the estimated one; what is left of it the film drives.
     friction as `SpinTorques` has it.

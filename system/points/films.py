@@ -227,16 +227,16 @@ def gap_exchange(gaps: GapCycle, cycle: ChamberCycle, pistons: int, point: Opera
     """Power of the oil that moving walls drag along, and what the valve plate's film takes from the ports."""
     carried = chamber_exchange(cycle, pistons * point.shaft_speed / TURN).carried
     return GapExchange(
-        carried=replace(carried, valve_plate=float(gaps.carried_power.mean())),
-        delivery_draw=float(np.mean([film.delivery_flow for film in gaps.valve_plate])),
-        suction_draw=float(np.mean([film.suction_flow for film in gaps.valve_plate])),
+        carried=replace(carried, valve_plate=float(gaps.drag_power.mean())),
+        delivery_draw=float(np.mean([film.report.delivery_draw for film in gaps.valve_plate])),
+        suction_draw=float(np.mean([film.report.suction_draw for film in gaps.valve_plate])),
     )
 
 
 def port_draws(gaps: GapCycle, point: OperatingPoint, bulk_modulus: float) -> tuple[float, float]:
     """Flow from delivery and suction port into the valve plate's film, mean, m3/s at zero gauge pressure."""
-    delivery = float(np.mean([film.delivery_flow for film in gaps.valve_plate]))
-    suction = float(np.mean([film.suction_flow for film in gaps.valve_plate]))
+    delivery = float(np.mean([film.report.delivery_draw for film in gaps.valve_plate]))
+    suction = float(np.mean([film.report.suction_draw for film in gaps.valve_plate]))
     dense = np.exp(np.array([point.delivery_pressure, point.inlet_pressure]) / bulk_modulus)
     return delivery * float(dense[0]), suction * float(dense[1])
 
@@ -250,7 +250,7 @@ def film_shear(gaps: GapCycle, case_pressure: float) -> tuple[Array, Array, Arra
     carried = leak_table(gaps, case_pressure).carried_flow * (gaps.chamber_pressure - case_pressure)
     piston = np.array([film.friction_power for film in gaps.piston]) + carried[0]
     slipper = np.array([film.friction_power for film in gaps.slipper]) + carried[1]
-    ring = np.array([film.gap.friction_power for film in gaps.valve_plate]) + gaps.carried_power
+    ring = np.array([film.friction_power for film in gaps.valve_plate]) + gaps.drag_power
     return piston, slipper, ring
 
 

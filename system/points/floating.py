@@ -15,8 +15,7 @@ from time import perf_counter
 
 import numpy as np
 
-from gaps.revolution.march import Leg
-from gaps.revolution.reports import mass_balance_error
+from gaps.revolution.march import Leg, mass_balance_error
 from system.description.pump import PumpDescription
 from system.effects.switched import hold_plain
 from system.films.drives import Drives, Rubbing, no_rubbing

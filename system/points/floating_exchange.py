@@ -11,8 +11,8 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from gaps.films.reports import BlockReport, GapReport, PistonReport, Reported, SlipperReport
 from gaps.revolution.march import GapRevolution
-from gaps.revolution.reports import BlockSeen, GapSeen, PistonSeen, Seen, SlipperSeen
 from reynolds.numerics.arrays import Array
 from system.films.drives import GroupInstant, Rubbing
 from system.films.parts import FloatingParts
@@ -35,18 +35,18 @@ class FloatingGaps:
     chamber, from 0: where chambers differ, the one whose gaps they are.
     """
 
-    piston: GapRevolution[PistonSeen]
-    slipper: GapRevolution[SlipperSeen]
-    block: GapRevolution[BlockSeen]
+    piston: GapRevolution[PistonReport]
+    slipper: GapRevolution[SlipperReport]
+    block: GapRevolution[BlockReport]
     chamber: int = 0
 
 
-def of_each(revolution: GapRevolution[Seen], tell: Callable[[Seen], float | Array]) -> Array:
+def of_each(revolution: GapRevolution[Reported], tell: Callable[[Reported], float | Array]) -> Array:
     """Values of `tell` at each reported angle, (n, ...), from shaft angle 0 on."""
-    return np.roll(np.array([tell(instant.seen) for instant in revolution.turn.instants]), 1, axis=0)
+    return np.roll(np.array([tell(instant.report) for instant in revolution.turn.instants]), 1, axis=0)
 
 
-def passing(revolution: GapRevolution[Seen], tell: Callable[[Seen], float | Array]) -> Array:
+def passing(revolution: GapRevolution[Reported], tell: Callable[[Reported], float | Array]) -> Array:
     """Means of `tell` around each reported angle, (n, ...), from shaft angle 0 on."""
     return around(np.roll(np.array([tell(instant.passed) for instant in revolution.turn.instants]), 1, axis=0))
 
@@ -59,7 +59,7 @@ def around(means: Array) -> Array:
     return np.asarray(0.5 * (means + np.roll(means, -1, axis=0)))
 
 
-def positions(revolution: GapRevolution[Seen]) -> Array:
+def positions(revolution: GapRevolution[Reported]) -> Array:
     """Positions (n, k) m from shaft angle 0 on."""
     return np.roll(revolution.positions, 1, axis=0)
 
@@ -78,13 +78,13 @@ def resampled(values: Array, samples: int) -> Array:
 
 def leak_table(gaps: FloatingGaps) -> LeakTable:
     """Flow out of the chamber into each gap, by its angle; it answers to the pressure by the next round alone."""
-    piston = passing(gaps.piston, lambda seen: float(seen.flow[0]))
-    slipper = passing(gaps.slipper, lambda seen: float(seen.flow[0]))
+    piston = passing(gaps.piston, lambda report: float(report.flow[0]))
+    slipper = passing(gaps.slipper, lambda report: float(report.flow[0]))
     carried = np.stack([piston, slipper, chamber_draws(gaps.block, gaps.chamber, len(piston))])
     return LeakTable(np.zeros_like(carried), carried)
 
 
-def chamber_draws(block: GapRevolution[BlockSeen], chamber: int, steps: int) -> Array:
+def chamber_draws(block: GapRevolution[BlockReport], chamber: int, steps: int) -> Array:
     """Flow (steps,) m3/s out of a chamber into the block's film, in the mean around the chamber's own angles.
 
     If the block is known over a pitch alone, each of its chambers gives a part.
@@ -143,16 +143,16 @@ def growth(gaps: FloatingGaps, rotor: Rotor, parts: FloatingParts) -> Array:
     rise = (block[:, 1] * np.cos(angle) + block[:, 2] * np.sin(angle)) / rim
     lifted, area = block[:, 0] + pump.pump.pitch_radius * rise, piston_area(pump)
     kidney = plate.kidney_area * block[:, 0] + plate.kidney_lever * rise
-    swollen = of_each(gaps.piston, lambda seen: seen.swollen)
+    swollen = of_each(gaps.piston, lambda report: report.chamber_growth)
     return np.asarray(area * (along - lifted) + kidney + swollen)
 
 
 def rubbing(gaps: FloatingGaps, samples: int) -> Rubbing:
     """Forces of the films on piston and slipper at `samples` angles."""
     return Rubbing(
-        resampled(of_each(gaps.piston, lambda seen: seen.friction.force), samples),
-        resampled(of_each(gaps.piston, lambda seen: seen.friction.moment), samples),
-        resampled(of_each(gaps.slipper, lambda seen: seen.friction.force), samples),
+        resampled(of_each(gaps.piston, lambda report: report.friction.force), samples),
+        resampled(of_each(gaps.piston, lambda report: report.friction.moment), samples),
+        resampled(of_each(gaps.slipper, lambda report: report.friction.force), samples),
     )
 
 
@@ -162,8 +162,8 @@ def spin_torques(gaps: FloatingGaps, rotor: Rotor, group: tuple[GroupInstant, ..
     force = float(np.mean([np.linalg.norm(at.forces.ball) for at in group]))
     friction = pump.friction.piston_slipper_socket * force * pump.slipper.ball_joint_radius
     torques = (
-        _mean(gaps.piston, lambda seen: seen.friction.torque),
-        _mean(gaps.slipper, lambda seen: seen.friction.torque),
+        _mean(gaps.piston, lambda report: report.friction.torque),
+        _mean(gaps.slipper, lambda report: report.friction.torque),
     )
     return torques_of_films(rotor.estimated_torques, friction, rotor.spins, torques)
 
@@ -215,10 +215,10 @@ def _applied(rotor: Rotor, parts: FloatingParts, group: tuple[GroupInstant, ...]
         yield np.vstack([at.places, at.places[1] + foot * normal]), np.vstack([at.inertia, lift, at.plate - lift])
 
 
-def block_torque(block: GapRevolution[BlockSeen], samples: int) -> Array:
+def block_torque(block: GapRevolution[BlockReport], samples: int) -> Array:
     """Torque (samples,) N m of the valve plate's film against the block's turning."""
     turns = round(TURN / block.angles[-1])
-    return resampled(np.tile(passing(block, lambda seen: seen.torque), turns), samples)
+    return resampled(np.tile(passing(block, lambda report: report.torque), turns), samples)
 
 
 def with_floating_gaps(
@@ -239,11 +239,11 @@ def with_floating_gaps(
     )
 
 
-def _pair(count: int, revolution: GapRevolution[Seen], samples: int) -> PairLoss:
+def _pair(count: int, revolution: GapRevolution[Reported], samples: int) -> PairLoss:
     turns = round(TURN / revolution.angles[-1])
     rubbed, sheared = (
         resampled(np.tile(passing(revolution, tell), turns), samples)
-        for tell in (lambda seen: seen.heat.rubbing, lambda seen: seen.heat.shear)
+        for tell in (lambda report: report.heat.rubbing, lambda report: report.heat.shear)
     )
     return PairLoss(count, rubbed, sheared)
 
@@ -251,9 +251,9 @@ def _pair(count: int, revolution: GapRevolution[Seen], samples: int) -> PairLoss
 def leakage_heat(gaps: FloatingGaps, pistons: int) -> Gaps:
     """Heat (W) of the flow that pressure drives through the gaps, the slippers' orifices with them, mean."""
     return Gaps(
-        pistons * _mean(gaps.piston, lambda seen: seen.heat.flow),
-        pistons * _mean(gaps.slipper, lambda seen: seen.heat.flow + seen.throttled),
-        _mean(gaps.block, lambda seen: seen.heat.flow),
+        pistons * _mean(gaps.piston, lambda report: report.heat.flow),
+        pistons * _mean(gaps.slipper, lambda report: report.heat.flow + report.orifice_heat),
+        _mean(gaps.block, lambda report: report.heat.flow),
     )
 
 
@@ -265,35 +265,33 @@ def gap_exchange(gaps: FloatingGaps, pistons: int, shaft_speed: float) -> GapExc
     """
     return GapExchange(
         carried=Gaps(
-            pistons
-            * (_mean(gaps.piston, lambda seen: _rubbed(seen) - seen.friction.power) + _pushed(gaps.piston)),
-            pistons
-            * (_mean(gaps.slipper, lambda seen: _rubbed(seen) - seen.friction.power) + _pushed(gaps.slipper)),
-            _mean(gaps.block, lambda seen: _rubbed(seen) - seen.torque * shaft_speed) + _pushed(gaps.block),
+            pistons * (_mean(gaps.piston, lambda one: _rubbed(one) - one.friction.power) + _pushed(gaps.piston)),
+            pistons * (_mean(gaps.slipper, lambda one: _rubbed(one) - one.friction.power) + _pushed(gaps.slipper)),
+            _mean(gaps.block, lambda one: _rubbed(one) - one.torque * shaft_speed) + _pushed(gaps.block),
         ),
-        delivery_draw=_mean(gaps.block, lambda seen: seen.delivery_draw),
-        suction_draw=_mean(gaps.block, lambda seen: seen.suction_draw),
+        delivery_draw=_mean(gaps.block, lambda report: report.delivery_draw),
+        suction_draw=_mean(gaps.block, lambda report: report.suction_draw),
     )
 
 
-def _pushed(revolution: GapRevolution[Seen]) -> float:
+def _pushed(revolution: GapRevolution[Reported]) -> float:
     """Power (W) of a film on the parts that press on it, mean over the turn."""
     return float(np.mean([instant.pushed for instant in revolution.turn.instants]))
 
 
-def _rubbed(seen: GapSeen) -> float:
-    return seen.heat.shear + seen.heat.rubbing
+def _rubbed(report: GapReport) -> float:
+    return report.heat.shear + report.heat.rubbing
 
 
-def _mean(revolution: GapRevolution[Seen], tell: Callable[[Seen], float]) -> float:
+def _mean(revolution: GapRevolution[Reported], tell: Callable[[Reported], float]) -> float:
     return float(np.mean([tell(instant.passed) for instant in revolution.turn.instants]))
 
 
 def port_draws(
-    block: GapRevolution[BlockSeen], pressures: tuple[float, float], modulus: float, count: int
+    block: GapRevolution[BlockReport], pressures: tuple[float, float], modulus: float, count: int
 ) -> tuple[Array, Array]:
     """Flow from delivery and suction port into the block's film over its period, (count,) m3/s at zero gauge."""
-    delivery = resampled(passing(block, lambda seen: seen.delivery_draw), count)
-    suction = resampled(passing(block, lambda seen: seen.suction_draw), count)
+    delivery = resampled(passing(block, lambda report: report.delivery_draw), count)
+    suction = resampled(passing(block, lambda report: report.suction_draw), count)
     dense = np.exp(np.array(pressures) / modulus)
     return np.asarray(delivery * dense[0]), np.asarray(suction * dense[1])

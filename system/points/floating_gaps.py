@@ -5,29 +5,30 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
+from functools import partial
 
 import numpy as np
 
 from gaps.films.block import BlockDrive, floating_block
 from gaps.films.physics import Effect, Physics
 from gaps.films.piston import PistonDrive, floating_piston
+from gaps.films.reports import (
+    BlockReport,
+    PistonReport,
+    Reported,
+    SlipperReport,
+    block_report,
+    piston_report,
+    slipper_report,
+)
 from gaps.films.slipper import SlipperDrive, floating_slipper
 from gaps.revolution.film_heat import GapHeat, warm_revolution
 from gaps.revolution.march import GapRevolution, TurnReport, run_revolution
-from gaps.revolution.reports import (
-    BlockSeen,
-    PistonSeen,
-    Seen,
-    SlipperSeen,
-    block_seen,
-    piston_seen,
-    slipper_seen,
-)
 from gaps.revolution.schedule import Accuracy, Schedule, evenly
 from reynolds.errors import FilmNotConverged
 from reynolds.fem.space import FilmSpace
 from reynolds.floating.problem import Floating
-from reynolds.floating.step import Stage
+from reynolds.floating.step import FloatingStage
 from reynolds.numerics.arrays import Array
 from reynolds.solve.solver import FilmSolver
 from system.description.pump import PumpDescription
@@ -102,9 +103,9 @@ def piston_revolution(
     parts: FloatingParts,
     drive: PistonDrive,
     options: FloatingOptions,
-    before: GapRevolution[PistonSeen] | None = None,
+    before: GapRevolution[PistonReport] | None = None,
     report: Report = silent,
-) -> GapRevolution[PistonSeen]:
+) -> GapRevolution[PistonReport]:
     """The piston over the turn, from the middle of its bore or on from a revolution `before`.
 
     Raises as `run_revolution`.
@@ -113,10 +114,10 @@ def piston_revolution(
     film = piston_film(rotor, parts, drive, options.physics, cells)
     floating, schedule = floating_piston(film), evenly(drive.shaft_speed, options.steps, keep=options.keep)
     told = _of_turn(report, options.steps, "piston")
+    report_of = partial(piston_report, film)
     heat = piston_heat(rotor, parts) if options.physics.heat else None
-    return _run(
-        film.space_at(0.0), floating, schedule, np.zeros(4), piston_seen(film), options, heat, before, told
-    )
+    space, start = film.space_at(0.0), np.zeros(4)
+    return _run(space, floating, schedule, start, report_of, options, heat, before, told)
 
 
 def slipper_revolution(
@@ -124,9 +125,9 @@ def slipper_revolution(
     parts: FloatingParts,
     drive: SlipperDrive,
     options: FloatingOptions,
-    before: GapRevolution[SlipperSeen] | None = None,
+    before: GapRevolution[SlipperReport] | None = None,
     report: Report = silent,
-) -> GapRevolution[SlipperSeen]:
+) -> GapRevolution[SlipperReport]:
     """The slipper over the turn, from a film of SLIPPER_START without tilt or on from a revolution `before`.
 
     Raises as `run_revolution`; where nothing presses the slipper on, that is the reason given.
@@ -135,9 +136,10 @@ def slipper_revolution(
     film = slipper_film(rotor, parts, drive, options.physics, cells)
     floating, schedule = floating_slipper(film), evenly(drive.shaft_speed, options.steps, keep=options.keep)
     start, told = np.array([SLIPPER_START, 0.0, 0.0]), _of_turn(report, options.steps, "slipper")
+    report_of = partial(slipper_report, film)
     heat = slipper_heat(rotor, parts) if options.physics.heat else None
     try:
-        return _run(film.space, floating, schedule, start, slipper_seen(film), options, heat, before, told)
+        return _run(film.space, floating, schedule, start, report_of, options, heat, before, told)
     except FilmNotConverged as stopped:
         raise _pulled_off(drive, options.steps, stopped) from stopped
 
@@ -163,9 +165,9 @@ def block_revolution(
     parts: FloatingParts,
     drive: BlockDrive,
     options: FloatingOptions,
-    before: GapRevolution[BlockSeen] | None = None,
+    before: GapRevolution[BlockReport] | None = None,
     report: Report = silent,
-) -> GapRevolution[BlockSeen]:
+) -> GapRevolution[BlockReport]:
     """The block over the turn, or over a piston pitch where chambers are equal, after which all repeats.
 
     From a film of BLOCK_START without tilt or on from a revolution `before`; between elastic walls from the
@@ -184,11 +186,10 @@ def block_revolution(
     film = block_film(rotor, parts, drive, options.physics, options.block_cells)
     schedule = evenly(drive.shaft_speed, steps, span, options.keep)
     start, told = np.array([BLOCK_START, 0.0, 0.0]), _of_turn(report, steps, "block")
+    report_of = partial(block_report, film)
     heat = block_heat(rotor, parts) if options.physics.heat else None
     try:
-        return _run(
-            film.space, floating_block(film), schedule, start, block_seen(film), options, heat, before, told
-        )
+        return _run(film.space, floating_block(film), schedule, start, report_of, options, heat, before, told)
     except FilmNotConverged as stopped:
         raise _off_its_plate(pump, stopped) from stopped
 
@@ -202,7 +203,7 @@ def _off_its_plate(pump: PumpDescription, stopped: FilmNotConverged) -> FilmNotC
 
 def _between_rigid(
     rotor: Rotor, parts: FloatingParts, drive: BlockDrive, options: FloatingOptions, report: Report
-) -> GapRevolution[BlockSeen] | None:
+) -> GapRevolution[BlockReport] | None:
     """Start of a block between elastic walls: its turn between rigid ones, at a tenth of the cost.
 
     A block approaches its periodic motion only over several pitches. None where walls are rigid, and where no
@@ -221,20 +222,20 @@ def _run(
     floating: Floating,
     schedule: Schedule,
     start: Array,
-    look: Callable[[Stage], Seen],
+    report_of: Callable[[FloatingStage], Reported],
     options: FloatingOptions,
     heat: GapHeat | None,
-    before: GapRevolution[Seen] | None,
+    before: GapRevolution[Reported] | None,
     report: TurnReport,
-) -> GapRevolution[Seen]:
+) -> GapRevolution[Reported]:
     solver, accuracy = FilmSolver(space), options.accuracy
     try:
         if heat is None:
             return run_revolution(
-                solver, floating, schedule, start, look, accuracy=accuracy, before=before, report=report
+                solver, floating, schedule, start, report_of, accuracy=accuracy, before=before, report=report
             )
         return warm_revolution(
-            solver, floating, schedule, start, look, heat, accuracy=accuracy, before=before, report=report
+            solver, floating, schedule, start, report_of, heat, accuracy=accuracy, before=before, report=report
         )
     except FilmNotConverged as reason:
         if not options.physics.elastic_walls:

@@ -12,8 +12,8 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from gaps.films.reports import PistonReport
 from gaps.revolution.march import GapRevolution
-from gaps.revolution.reports import PistonSeen
 from reynolds.numerics.arrays import Array
 from system.description.pump import PumpDescription
 from system.films.drives import Drives, Rubbing, block_drive, drives
@@ -120,7 +120,7 @@ def gap_revolutions(
     options, block_before = asked.options, None if before is None else before[0].block
     last_of: Sequence[FloatingGaps | None] = [None] * len(driven) if before is None else before
     each = list(zip(group.rotors(asked), group.parts, driven, last_of, strict=True))
-    pistons: Sequence[GapRevolution[PistonSeen]] = ()
+    pistons: Sequence[GapRevolution[PistonReport]] = ()
     if beside is not None:
         beside.start(driven_by(asked, group))
     else:

@@ -13,8 +13,8 @@ from contextlib import contextmanager
 from dataclasses import dataclass
 from multiprocessing.connection import Connection
 
+from gaps.films.reports import PistonReport
 from gaps.revolution.march import GapRevolution
-from gaps.revolution.reports import PistonSeen
 from reynolds.numerics.arrays import Array
 from system.films.drives import Rubbing, drives
 from system.films.parts import FloatingParts
@@ -23,7 +23,7 @@ from system.inputs.errors import NotConverged
 from system.points.floating_gaps import FloatingOptions, piston_revolution
 from system.work.progress import Report
 
-Found = GapRevolution[PistonSeen]
+Found = GapRevolution[PistonReport]
 TOLD_A_TURN = 12
 
 

@@ -90,7 +90,7 @@ def test_which_films_carry(rated):
     # The balance ratio of 0.955 refers to Fa/cos(16.2 deg); plate and bore stand 11.2 to 21.2 deg to each other.
     nearest, farthest = (0.955 * np.cos(np.radians(g)) / np.cos(np.radians(16.2)) for g in (11.2, 21.2))
     assert farthest - 0.03 < carried.min() <= carried.max() < nearest + 0.001  # inertia and spring take the rest
-    ring = [film.gap.carried_fraction for film in gaps.valve_plate]
+    ring = [film.carried_fraction for film in gaps.valve_plate]
     assert np.mean(ring) == pytest.approx(0.933, abs=0.03)  # the balance by hand, less the block's own webs
     assert not any(film.holds_its_load for film in gaps.piston)
 

@@ -9,8 +9,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from gaps.films.reports import BlockReport
 from gaps.revolution.march import GapRevolution
-from gaps.revolution.reports import BlockSeen
 from gaps.revolution.schedule import Accuracy
 from reynolds.errors import FilmNotConverged
 from system.films.drives import drives, no_rubbing
@@ -27,7 +27,7 @@ COARSE = FloatingOptions(RIGID, steps=72, accuracy=Accuracy(step=3e-2), finer=0.
 pytestmark = pytest.mark.slow
 
 
-def block(name: str) -> GapRevolution[BlockSeen]:
+def block(name: str) -> GapRevolution[BlockReport]:
     """The block over a pitch at rated pressure, chambers by the lumped cycle."""
     pump = load_pump(name)
     point, parts = operating_point(pump), floating_parts(pump)

@@ -14,7 +14,7 @@ import pytest
 
 from reynolds.bodies.chart import Cylinder, Side
 from reynolds.bodies.elasticity import Elastic
-from reynolds.bodies.mesh import BodyMesh, ring
+from reynolds.bodies.mesh import BodyMesh, hollow_cylinder
 from reynolds.bodies.supports import Supports
 from reynolds.bodies.wall import Body, body_wall
 from reynolds.equation.coefficients import at_points
@@ -43,7 +43,7 @@ def _diaphragm(along: int, beside: int, across: int, outside: int) -> BodyMesh:
     (49 mm of steel, held outside) gives way by less than a micrometre and is taken as rigid.
     """
     around, tall = along + beside, across + outside
-    mesh = ring((BORE, BORE + SHEET), 1.0, (1, around, tall), angles=(0.1, 1.1)).mesh
+    mesh = hollow_cylinder((BORE, BORE + SHEET), 1.0, (1, around, tall), angles=(0.1, 1.1)).mesh
     x, y, z = mesh.doflocs
     start = 0.5 * SLOT / BORE
     lines = np.r_[
@@ -84,7 +84,7 @@ def _freund(folder, fine: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     ends = dict.fromkeys(("left", "right", "top"), Held(0.0))
     found = FilmSolver(space).solve(FilmProblem(space, posed, ends, walls=walls))
     assert loads(found).mass_balance_error < 1e-9
-    return _middle_plane(space, found.pressure[space.vertex_dofs] * 1e-3, found.opening * 1e6)
+    return _middle_plane(space, found.pressure[space.vertex_dofs] * 1e-3, found.deformation * 1e6)
 
 
 def _middle_plane(space: FilmSpace, *fields: np.ndarray) -> tuple[np.ndarray, ...]:

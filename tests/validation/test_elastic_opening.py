@@ -10,7 +10,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from gaps.walls.parts import BushingPart, PistonPart, Stand, bushing_body, piston_body
+from gaps.walls.parts import BushingPart, PistonPart, Pose, bushing_body, piston_body
 from gaps.walls.piston import PistonWalls, face_grid
 from reynolds.bodies.elasticity import Elastic
 from reynolds.bodies.foundation import Compliance
@@ -39,7 +39,7 @@ def walls(space, tmp_path_factory) -> Compliance:
     bushing = bushing_body(BushingPart(2.0 * RADIUS, 4e-3, LENGTH, BRASS), BODY)
     piston = piston_body(PistonPart(2.0 * RADIUS, 12e-3, LENGTH, STEEL), BODY)
     faces = (face_grid(body, RADIUS, rows, AROUND, folder) for body in (bushing, piston))
-    return PistonWalls(LENGTH, *faces).at(space, Stand(LENGTH))
+    return PistonWalls(LENGTH, *faces).at(space, Pose(LENGTH))
 
 
 def leak(
@@ -49,7 +49,7 @@ def leak(
     held = {"bottom": Held(pressure), "top": Held(0.0)}
     posed = FilmProblem(space, film(CLEARANCE, viscosity), held, cavitation=Cavitation.NONE, walls=walls)
     solved = FilmSolver(space).solve(posed)
-    opening = 0.0 if walls is None else float(np.max(solved.opening))
+    opening = 0.0 if walls is None else float(np.max(solved.deformation))
     return loads(solved).flow["top"], opening
 
 

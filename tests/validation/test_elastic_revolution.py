@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from gaps.films.physics import Effect, Physics
+from gaps.films.reports import SlipperReport
 from gaps.revolution.march import GapRevolution, Leg
-from gaps.revolution.reports import SlipperSeen
 from gaps.revolution.schedule import Accuracy
 from system.films.drives import Drives, drives, no_rubbing
 from system.films.parts import FloatingParts, floating_parts
@@ -36,7 +36,7 @@ def driven_at(pressure: str) -> tuple[Rotor, FloatingParts, Drives]:
 
 
 @pytest.fixture(scope="module")
-def slippers() -> tuple[GapRevolution[SlipperSeen], GapRevolution[SlipperSeen]]:
+def slippers() -> tuple[GapRevolution[SlipperReport], GapRevolution[SlipperReport]]:
     """That of ref90_floating at 10 MPa between rigid and between elastic walls."""
     at, parts, driven = driven_at("10 MPa")
     rigid, soft = (

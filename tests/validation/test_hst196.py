@@ -102,7 +102,7 @@ def test_floating_slipper_leaks_no_more_than_the_range_taken():
     driven = drives(group, parts, cycle.shaft_angle, cycle.pressure, no_rubbing(cycle.shaft_angle.size))
     options = FloatingOptions(RIGID, steps=36, accuracy=Accuracy(step=3e-2), finer=0.5)
     turn = slipper_revolution(group, parts, driven.slipper, options).turn
-    leak = 9.0 * float(np.mean([instant.seen.leakage for instant in turn.instants]))
+    leak = 9.0 * float(np.mean([instant.report.leakage for instant in turn.instants]))
     taken = lumped_point(load_pump(PUMP, {"slipper.film_thickness": "8 um"}), point).leakage_flow.slipper
     assert 0.0 < leak < taken
     assert 8e-6 < float(np.mean([instant.mean_film for instant in turn.instants])) < 15e-6

@@ -19,7 +19,7 @@ import pytest
 from reynolds.bodies.chart import Cylinder, Side
 from reynolds.bodies.elasticity import Elastic
 from reynolds.bodies.foundation import both
-from reynolds.bodies.mesh import disc, ring
+from reynolds.bodies.mesh import disc, hollow_cylinder
 from reynolds.bodies.supports import Supports
 from reynolds.bodies.wall import Body, body_wall
 from reynolds.equation.coefficients import at_points
@@ -117,7 +117,7 @@ def _bearing(
     if shell is not None:
         free = Supports(symmetry=("bottom",))
         sides = (
-            (ring((radius, SHELL), 0.5 * width, (3, 32, 2)), shell, "inner", Side.BORE),
+            (hollow_cylinder((radius, SHELL), 0.5 * width, (3, 32, 2)), shell, "inner", Side.BORE),
             (disc(radius, 0.5 * width, (8, 2, 2)), STEEL, "outer", Side.SHAFT),
         )
         walls = both(*(

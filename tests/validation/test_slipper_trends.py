@@ -14,8 +14,8 @@ from itertools import pairwise
 import numpy as np
 import pytest
 
+from gaps.films.reports import Active, SlipperReport
 from gaps.revolution.march import GapRevolution
-from gaps.revolution.reports import Active, SlipperSeen
 from gaps.revolution.schedule import Accuracy
 from system.films.drives import Drives, drives, no_rubbing
 from system.films.parts import FloatingParts, floating_parts
@@ -70,7 +70,7 @@ def driven(at: At) -> tuple[Rotor, FloatingParts, Drives]:
 
 
 @cache
-def slipper(at: At) -> GapRevolution[SlipperSeen]:
+def slipper(at: At) -> GapRevolution[SlipperReport]:
     group, parts, drive = driven(at)
     return slipper_revolution(group, parts, drive.slipper, COARSE)
 
@@ -82,13 +82,13 @@ def mean_film(at: At) -> float:
 
 def torque(at: At) -> float:
     """What all slippers take of the shaft's torque by shear and contact, N m."""
-    power = np.mean([instant.seen.friction.power for instant in slipper(at).turn.instants])
+    power = np.mean([instant.report.friction.power for instant in slipper(at).turn.instants])
     return float(PISTONS * power / (at.speed * np.pi / 30.0))
 
 
 def drain(at: At) -> float:
     """What all slippers pass into the case, L/min, mean of the turn."""
-    return LITRES_A_MINUTE * PISTONS * float(np.mean([i.seen.leakage for i in slipper(at).turn.instants]))
+    return LITRES_A_MINUTE * PISTONS * float(np.mean([i.report.leakage for i in slipper(at).turn.instants]))
 
 
 def pumped(at: At) -> float:
@@ -275,7 +275,7 @@ def test_no_film_holds_a_slipper_that_is_pulled():
 
     def retained(speed: float) -> bool:
         turn = slipper(At(pressure=5.0, speed=speed, inlet=0.1, case=0.0)).turn
-        return any(Active.RETAINER in at.seen.active for at in turn.instants)
+        return any(Active.RETAINER in at.report.active for at in turn.instants)
 
     assert not retained(1000.0)
     assert retained(3000.0)

@@ -16,7 +16,7 @@ from reynolds.floating.rest import held_at
 from reynolds.laws.oil import dynamic_viscosity
 from reynolds.problem import HALF
 from reynolds.solve.solver import FilmSolver
-from reynolds.thermal.coupling import Posed, agree
+from reynolds.thermal.coupling import ThermalCase, agree
 from reynolds.thermal.film_profile import levels
 from system.description.gap import Gap
 from system.effects.effect import BenchState, GapCourse
@@ -74,7 +74,7 @@ def warm(solver: FilmSolver, cold, heat: GapHeat):
     area = problem.space.area
     passing = float(np.sum(heat.conductivity / problem.film.thickness * area) / area.sum())
     for _ in range(WALLS):
-        posed = Posed(problem, local_law(problem, heat), heat.of(problem, walls), at_once=True)
+        posed = ThermalCase(problem, local_law(problem, heat), heat.of(problem, walls), at_once=True)
         found = agree(posed, levels(), 1e-3, solver, found)
         taken = np.array([found.heat.to_fixed, found.heat.to_moving]) / area.sum()
         before, walls = walls, wall_image(heat, walls, taken, passing)

@@ -1,7 +1,7 @@
 """Coarse levels of multigrid on lines, compiled once by numba: weights, operators P^T A P and line factors.
 
-Every second line stays. Interpolation follows the operator (Schaffer 1998): T w = -B 1 for T an odd line and B its
-coupling to a neighbour. Coarse operators have nine-point stencils again. The layout is that of `line_kernels`.
+Every second line remains. Interpolation follows the operator (Schaffer 1998): T w = -B 1 for T an odd line and B
+its coupling to a neighbour. Coarse operators have nine-point stencils again. The layout is that of `line_kernels`.
 """
 
 # mypy: allow-untyped-defs, allow-incomplete-defs, no-check-untyped-defs
@@ -87,11 +87,11 @@ def _weights(a, level):
 
     Afterwards the odd block of `answer` has the southern weights, that of `load` the northern ones. T is the line,
     with as much diagonal as makes the two weights one together where there are two neighbours: what a held end of
-    the line has taken out of the matrix shall not shorten them.
+    the line has taken out of the matrix must not shorten them.
     """
     slots, begin, wide = a.slots[level], a.start[level, 1] + 1, width(a, level, 1)
     over = a.start[level, 0] - begin
-    south, north, pivot = a.answer, a.load, a.pivot  # which are free while operators are made
+    south, north, pivot = a.answer, a.load, a.pivot  # unused while operators are made
     none = all_lanes(a.centre, 0.0)
     for i in range(1, a.length + 1):
         for q in range(begin + i * slots, begin + i * slots + wide, WIDTH):
@@ -100,7 +100,7 @@ def _weights(a, level):
             n = none - lanes(a.north, q) - lanes(a.north_east, q) - lanes(a.north_west, q)
             centre = lanes(a.centre, q)
             whole = s + n - lanes(a.east, q) - lanes(a.east, q - slots)
-            # By all three couplings: the straight one alone may vanish where the corners carry everything.
+            # By all three couplings: the straight one may vanish where all coupling is through corners.
             made = where_positive(
                 s * s, where_positive(n * n, where_positive(whole, whole, centre), centre), centre
             )
@@ -158,7 +158,7 @@ def _put_apart(stencil, even, odd, first, second):
 
 @njit(inline="always")
 def _coarse_stencils(a, level, t):
-    """Coarse stencils of the even lines at t: their own, and what the odd lines north and south of them add."""
+    """Coarse stencils of the even lines at t: their own, and those added by the odd lines north and south."""
     slots = a.slots[level]
     q = t + a.start[level, 1] - a.start[level, 0] + 1
     p = q - 1
@@ -179,7 +179,7 @@ def _coarse_stencils(a, level, t):
 
 @njit(**_FAST)
 def _join_ends(a, level, b, below):
-    """Where the last line is next to the first: the coupling of two even ones stays.
+    """Couplings across the seam where the last line is next to the first: that of two even ones stays.
 
     The pad after the coarse lines, to which the last odd line has added too, is one again.
     """

@@ -20,7 +20,7 @@ SQUARE = WIDTH * WIDTH
 
 
 class Coarsest(NamedTuple):
-    """Blocks 0 to n + 1, row by row in flat arrays: S^-1, W and B transposed; `x`, 8 a block, is room to solve."""
+    """Blocks 0 to n + 1, row by row in flat arrays: S^-1, W and B transposed; `x`, 8 a block, is work space."""
 
     inverse: NDArray[np.floating[Any]]
     onward: NDArray[np.floating[Any]]
@@ -60,7 +60,7 @@ def eliminate_blocks(c, a, level):
 
 @njit(inline="always")
 def _place(a, level, i, k):
-    """Where unknown i of line k stands."""
+    """Index of unknown i of line k."""
     odd = k % 2
     return a.start[level, odd] + i * a.slots[level] + k // 2 + odd
 

@@ -1,10 +1,10 @@
 """Multigrid on lines, compiled once by numba: cycles and conjugate gradients.
 
 Every second line is coarsened away (semicoarsening), lines are solved as a whole, even ones and odd ones in turn:
-fast whatever the anisotropy, for a strong coupling along the lines is solved and one across them is coarsened.
+fast for any anisotropy, since a strong coupling along the lines is solved and one across them is coarsened.
 The layout is that of `line_kernels`. Cycles only precondition, in any precision: `top` is their finest level,
 `coarse` holds the others; the last of them, of at most eight lines, is solved as a whole. `fine` is the operator
-in double precision: `top` itself, or what that is rounded from.
+in double precision: `top` itself, or its unrounded original.
 """
 
 # mypy: allow-untyped-defs, allow-incomplete-defs, no-check-untyped-defs
@@ -31,7 +31,7 @@ _FAST = {"cache": True, "error_model": "numpy", "fastmath": {"contract"}}
 
 @njit(**_FAST)
 def _descend(a, level, b, below):
-    """From nothing: relax even lines, then odd ones, and hand what is left in the even ones to the next level."""
+    """From nothing: relax even lines, then odd ones, and hand the residual of the even ones to the next level."""
     start_even(a, level)
     finish_even_start_odd(a, level)
     finish_odd_hand_down(a, level, b, below, False)
@@ -89,7 +89,7 @@ def full_cycle(top, coarse, coarsest):
 
 @njit(**_FAST)
 def _first_load(a, level, b, below):
-    """The load of the next level where the even lines are still nothing."""
+    """The load of the next level while the even lines are zero."""
     a.answer[a.start[level, 0] : a.start[level, 1]] = 0.0
     finish_even_start_odd(a, level)
     finish_odd_hand_down(a, level, b, below, True)
@@ -97,7 +97,7 @@ def _first_load(a, level, b, below):
 
 @njit(**_FAST)
 def _improve(a, level, b, below):
-    """From the next level's answer: relax odd lines, and hand down what is left in the even ones."""
+    """From the next level's answer: relax odd lines, and hand down the residual of the even ones."""
     lift_start_odd(a, level, b, below, 0.0)
     finish_odd_hand_down(a, level, b, below, True)
 
@@ -128,19 +128,19 @@ def apply(a, x, out):
 
 @njit(**_FAST)
 def conjugate_gradients(fine, top, coarse, coarsest, x, direction, goal, most):
-    """Add to x what solves A x = load of `fine`, to |load - A x| <= goal; returns steps.
+    """Add to x the solution of A x = load of `fine`, to |load - A x| <= goal; returns steps.
 
-    The load is what is left of it afterwards. Hestenes and Stiefel 1952. Stops short where the operator or the
+    The load becomes the residual. Hestenes and Stiefel 1952. Stops short where the operator or the
     cycle is not positive.
     """
     load, single = fine.load, top.load.itemsize < fine.load.itemsize
     left, steps, before, unit = _dot(load, load), 0, 1.0, 1.0
     while goal * goal < left < np.inf and steps < most:
         if single:
-            unit = np.sqrt(left)  # of what is left, whose numbers may be too small for single precision
+            unit = np.sqrt(left)  # of the residual, whose numbers may be too small for single precision
             _rounded(load, 1.0 / unit, top.load)
         cycle(top, coarse, coarsest)
-        now = unit * _dot(load, top.answer)  # no load stands in pads
+        now = unit * _dot(load, top.answer)  # pads have no load
         if not now > 0.0:
             break
         _combine(direction, top.answer, unit, now / before if steps else 0.0)
@@ -157,7 +157,7 @@ def conjugate_gradients(fine, top, coarse, coarsest, x, direction, goal, most):
 def solve(fine, top, coarse, coarsest, slots, load, x, started, work, tolerance, most):
     """x (n,) with |load - A x| <= tolerance |load|, from x where it is `started`, else from nothing.
 
-    Returns steps and what is left over |load|. Unknown k stands at slots[k]; `work` (2, slots) is room.
+    Returns steps and residual over |load|. Unknown k is at slots[k]; `work` (2, slots) is work space.
     """
     flat, direction = work[0], work[1]
     put(load, slots, fine.load)
@@ -179,7 +179,7 @@ def solve(fine, top, coarse, coarsest, slots, load, x, started, work, tolerance,
 
 @njit(**_FAST)
 def left_of(fine, x, image):
-    """|load - A x| on the finest level, whose load ends as that residual; `image` is lost."""
+    """|load - A x| on the finest level, whose load becomes that residual; `image` is overwritten."""
     apply(fine, x, image)
     return np.sqrt(_less(fine.load, image))
 
@@ -242,13 +242,13 @@ def _advance(x, direction, residual, image, length):
 
 @njit(**_FAST)
 def put(values, places, out):
-    """Values where they stand in a flat array, out[places] = values."""
+    """Scatter values into a flat array, out[places] = values."""
     for k in range(places.shape[0]):
         out[places[k]] = values[k]
 
 
 @njit(**_FAST)
 def take(flat, places, out):
-    """The mirror of `put`: out = flat[places]."""
+    """Gather values of a flat array: out = flat[places]."""
     for k in range(places.shape[0]):
         out[k] = flat[places[k]]

@@ -1,6 +1,6 @@
-"""Logically rectangular meshes, found by walking from cell to cell: what multigrid on lines needs to know.
+"""Logically rectangular meshes, found by walking from cell to cell, for multigrid on lines.
 
-Coordinates play no part: a ring, a stretched or a moved rectangle and one with sewn seams are all grids.
+Coordinates are not used: a ring, a stretched or a moved rectangle and one with sewn seams are all grids.
 """
 
 from __future__ import annotations
@@ -26,10 +26,10 @@ class Grid:
 
 
 def grid_of(space: FilmSpace) -> Grid | None:
-    """The lines of a linear space (P1 on split quadrilaterals, Q1); None where there are none.
+    """The lines of a linear space (P1 on split quadrilaterals, Q1); None where the mesh has none.
 
     None too for holes, unknowns tied to a pocket, fewer than three cells around a seam, and films that close on
-    themselves both ways. Triangles are taken for halves of quadrilaterals as scikit-fem cuts them: triangle k with
+    themselves both ways. Triangles count as halves of quadrilaterals as scikit-fem cuts them: triangle k with
     triangle k + cells/2. Lines run from side to side of a film that closes on itself, else the shorter way.
     """
     if space.degree != 1:
@@ -49,7 +49,7 @@ def grid_of(space: FilmSpace) -> Grid | None:
 
 
 def _joined(triangles: NDArray[np.int32]) -> NDArray[np.int32] | None:
-    """Quadrilaterals (cells, 4) of pairs of triangles that share a side; None where a pair does not."""
+    """Quadrilaterals (cells, 4) of pairs of triangles that share a side; None where a pair shares none."""
     half = len(triangles) // 2
     if len(triangles) != 2 * half:
         return None
@@ -73,9 +73,9 @@ def _agreed(corners: NDArray[np.int32], around_x: bool, around_y: bool) -> NDArr
     if around_x and not around_y:
         top = np.hstack([north_west[-1:], north_west[-1:, :1]])
     nodes = np.vstack([below, top])
-    seen = (nodes[:-1, :-1], nodes[:-1, 1:], nodes[1:, 1:], nodes[1:, :-1])
+    joined = (nodes[:-1, :-1], nodes[:-1, 1:], nodes[1:, 1:], nodes[1:, :-1])
     if not all(
-        np.array_equal(a, b) for a, b in zip(seen, (south_west, south_east, north_east, north_west), strict=True)
+        np.array_equal(a, b) for a, b in zip(joined, (south_west, south_east, north_east, north_west), strict=True)
     ):
         return None
     rows, columns = corners.shape[0] + (not around_y), corners.shape[1] + (not around_x)

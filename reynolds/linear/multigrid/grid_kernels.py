@@ -1,6 +1,6 @@
 """Walking over quadrilaterals that lie in rows and columns, compiled once by numba.
 
-A cell is held by its number, the local number p of its south-west corner and the step s (1 or 3) from there to
+A cell is given by its number, the local number p of its south-west corner and the step s (1 or 3) from there to
 the south-east one: corners SW, SE, NE, NW are p, p + s, p + 2 s, p - s, all modulo 4.
 """
 
@@ -74,7 +74,7 @@ def _step(cells, first, owner, cell, p, s, way):
 
 @njit(**_FAST)
 def _to_the_end(cells, first, owner, cell, p, s, way):
-    """The last cell in a direction, how many lie on the way, and whether the way leads back to the start."""
+    """The last cell in a direction, the number on the way, and True if the way leads back to the start."""
     start, count = cell, 1
     while True:
         other, q, t = _step(cells, first, owner, cell, p, s, way)
@@ -86,7 +86,7 @@ def _to_the_end(cells, first, owner, cell, p, s, way):
 
 @njit(**_FAST)
 def walk(cells, size):
-    """Corners (rows, columns, 4) in the order SW, SE, NE, NW of cells laid out in rows, and what closes on itself.
+    """Corners (rows, columns, 4) in the order SW, SE, NE, NW of cells in rows, and the closed directions.
 
     The rows are empty where the cells do not lie in rows and columns: every cell is reached once, or none is.
     """
@@ -117,7 +117,7 @@ def walk(cells, size):
 
 @njit(**_FAST)
 def find_places(indptr, indices, along, line_of, place_of, lines, around, total, places):
-    """Where each entry of the upper triangle stands in stencils (5, total), flat; unknown k at place_of[k].
+    """Index of each entry of the upper triangle in stencils (5, total), flat; unknown k at place_of[k].
 
     Stencil 0 is the centre, 1 to 4 the couplings east, north, north-east, north-west. False where an entry
     couples unknowns that are not neighbours.

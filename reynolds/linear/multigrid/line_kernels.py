@@ -1,10 +1,10 @@
-"""Lines of nine-point stencils, compiled once by numba: how they lie in memory, and what is done to many at once.
+"""Lines of nine-point stencils, compiled once by numba: memory layout, and operations on many at once.
 
 Layout: the lines of a level lie side by side, so that eight of them share a vector register; odd ones and even
-ones apart, for each colour needs the other only. A block is n + 2 rows of `slots` numbers: row i has unknowns i
-of its lines, rows 0 and n + 1 are zero. Line 2 k stands in slot k of the even block, line 2 k + 1 in slot k + 1 of
+ones apart, since each colour needs the other only. A block is n + 2 rows of `slots` numbers: row i has unknowns i
+of its lines, rows 0 and n + 1 are zero. Line 2 k is in slot k of the even block, line 2 k + 1 in slot k + 1 of
 the odd one: line k of a colour has its southern neighbour in slot k of the other block, its northern one in slot
-k + 1. The slots that are left over are pads: the centre of their stencil is one, all else zero, but for a copy of
+k + 1. The other slots are pads: the centre of their stencil is one, all else zero, but for a copy of
 the line at the other end where the last line is next to the first.
 
 Numba's cache watches a function's own file only: after a change here, touch the kernels that import it.
@@ -23,7 +23,7 @@ from reynolds.numerics.lanes import WIDTH, all_lanes, lanes, put_lanes
 _FAST = {"cache": True, "error_model": "numpy", "fastmath": {"contract"}}
 
 
-class Levels(NamedTuple):
+class GridLevels(NamedTuple):
     """Operators and vectors of some levels, each one flat array: level by level, even block and odd block.
 
     The symmetric stencil of an unknown: centre, and its coupling east (along the line), north (to the next line),
@@ -49,7 +49,7 @@ class Levels(NamedTuple):
 
 @njit(**_FAST)
 def plain(number):
-    """A number that the compiler does not know: for each that it does, a function called with it is made anew."""
+    """A number unknown to the compiler, which compiles a function anew for each constant argument."""
     return number + 0
 
 
@@ -96,7 +96,7 @@ def repeat_last(stencil, a, level):
 
 @njit(**_FAST)
 def factorise(centre, east, pivot, begin, slots, wide, n):
-    """Inverse pivots of the lines of a block from `begin` on; all three may be anywhere in their arrays alike."""
+    """Inverse pivots of the lines of a block from `begin` on; the same place in all three arrays."""
     one = all_lanes(pivot, 1.0)
     for i in range(1, n + 1):
         for q in range(begin + i * slots, begin + i * slots + wide, WIDTH):

@@ -3,9 +3,9 @@
 Lines are relaxed as a whole, odd ones and even ones in turn, and every second one is coarsened away; weights and
 coarse operators follow from the entries of the matrix alone (semicoarsening: Dendy, McCormick, Ruge, Russell and
 Schaffer 1989; Schaffer 1998). So cells of any aspect ratio, films that jump, nodes that are held and cavities
-(rows of the identity) need no word about them. The cycle is symmetric positive definite and preconditions
-conjugate gradients. All of it is in single precision, unless a film jumps by more than that holds or who cycles
-asks for more; the residual and the steps are in double.
+(rows of the identity) need no special treatment. The cycle is symmetric positive definite and preconditions
+conjugate gradients. All of it is in single precision, unless a film jumps beyond its range or the caller
+asks for double; the residual and the steps are in double.
 """
 
 from __future__ import annotations
@@ -24,25 +24,25 @@ from reynolds.linear.multigrid import coarsening_kernels, grid_kernels
 from reynolds.linear.multigrid import cycle_kernels as kernels
 from reynolds.linear.multigrid.coarsest_kernels import SQUARE, Coarsest
 from reynolds.linear.multigrid.grid import Grid
-from reynolds.linear.multigrid.line_kernels import Levels
+from reynolds.linear.multigrid.line_kernels import GridLevels
 from reynolds.numerics.arrays import Array
 from reynolds.numerics.lanes import WIDTH
 
-MAX_STEPS = 60  # some 10 are usual: beyond these the operator is not one for multigrid
+MAX_STEPS = 60  # some 10 are usual: beyond these the operator is not suited to multigrid
 IN_CACHE = 200_000  # unknowns: above, the finest level is kept once, in double precision, to hold less memory
 SPARE = 2  # steps beyond one a digit after which levels of single precision are made anew in double
 
 
 @dataclass(frozen=True)
-class Effort:
-    """What a solve took: steps of conjugate gradients, and what is left of the load, |A x - b| / |b|."""
+class IterationRecord:
+    """Record of a solve: steps of conjugate gradients, and the residual, |A x - b| / |b|."""
 
     steps: int
     left: float
 
 
 class Precision(Enum):
-    """Of the cycle, which only preconditions. DOUBLE: for those that ask it to be linear to more than 1e-7."""
+    """Precision of the cycle, which only preconditions. DOUBLE: linear to better than 1e-7."""
 
     SINGLE = "single"
     DOUBLE = "double"
@@ -70,18 +70,18 @@ class Multigrid:
         self._work = np.zeros((2, self._fine.load.size))
 
     @property
-    def fine(self) -> Levels:
+    def fine(self) -> GridLevels:
         """The finest level in double precision."""
         return self._fine
 
     @property
-    def levels(self) -> tuple[Levels, Levels, Coarsest]:
+    def levels(self) -> tuple[GridLevels, GridLevels, Coarsest]:
         """The cycle: its finest level, the others and what solves the last, for kernels that cycle themselves."""
         return self._top, self._coarse, self._coarsest
 
     @property
     def slots(self) -> NDArray[np.int32]:
-        """Where each unknown stands in the vectors of the finest level."""
+        """Index of each unknown in the vectors of the finest level."""
         return self._slots
 
     def update(self, data: Array) -> bool:
@@ -92,7 +92,7 @@ class Multigrid:
         )
 
     def _precise(self) -> bool:
-        """All levels in double precision from here on; False where they have been, or do not help."""
+        """All levels in double precision from now on; False where they are already, or do not help."""
         if self._coarse.load.dtype == np.float64:
             return False
         self._take_levels(Precision.DOUBLE)
@@ -108,24 +108,24 @@ class Multigrid:
         inverse, onward, back = np.zeros((3, blocks * SQUARE), dtype=dtype)
         self._coarsest = Coarsest(inverse, onward, back, np.zeros(blocks * WIDTH, dtype=dtype))
 
-    def solve(self, load: Array, tolerance: float, start: Array | None = None) -> tuple[Array, Effort]:
-        """x with |A x - load| <= tolerance |load|, (n,), or as near as round-off and MAX_STEPS let it come.
+    def solve(self, load: Array, tolerance: float, start: Array | None = None) -> tuple[Array, IterationRecord]:
+        """x with |A x - load| <= tolerance |load|, (n,), or as near as round-off and MAX_STEPS allow.
 
         From `start` (n,), or from nothing.
         """
         answer, effort = self._iterated(load, tolerance, start)
-        # What single precision rounds off may be all that holds up a wide pocket between thin lands.
+        # Single precision may round off the only coupling of a wide pocket between thin lands.
         if effort.steps > SPARE - log10(tolerance) and self._precise():
             answer, more = self._iterated(load, tolerance, answer)
-            effort = Effort(effort.steps + more.steps, more.left)
+            effort = IterationRecord(effort.steps + more.steps, more.left)
         return answer, effort
 
-    def _iterated(self, load: Array, tolerance: float, start: Array | None) -> tuple[Array, Effort]:
+    def _iterated(self, load: Array, tolerance: float, start: Array | None) -> tuple[Array, IterationRecord]:
         x = np.empty(len(load)) if start is None else np.array(start, dtype=float)
         steps, left = kernels.solve(
             self._fine, *self.levels, self._slots, load, x, start is not None, self._work, tolerance, MAX_STEPS
         )
-        return x, Effort(steps, left)
+        return x, IterationRecord(steps, left)
 
     def full_pass(self, load: Array) -> Array:
         """x to about the error of the mesh, (n,): one pass of full multigrid (Brandt 1977), without a check."""
@@ -147,7 +147,7 @@ class Multigrid:
 
 def _levels(
     grid: Grid, lines: NDArray[np.int64], precision: type[np.floating[Any]]
-) -> tuple[Levels, NDArray[np.floating[Any]]]:
+) -> tuple[GridLevels, NDArray[np.floating[Any]]]:
     """Levels of so many lines each, empty, and all their stencils as one flat array."""
     # Two registers of even lines for one of the next level; a pad before the odd lines, and one after any.
     slots = -(-lines // (4 * WIDTH)) * 2 * WIDTH + 2
@@ -157,7 +157,7 @@ def _levels(
     stencils[0] = 1.0
     centre, east, north, north_east, north_west = stencils
     pivot, answer, load = vectors
-    levels = Levels(
+    levels = GridLevels(
         centre, east, north, north_east, north_west, pivot, answer, load,
         start=(np.cumsum(sizes) - sizes).reshape(-1, 2), slots=slots,
         lines=lines, length=grid.unknowns.shape[1], around=grid.around,
@@ -165,8 +165,8 @@ def _levels(
     return levels, stencils.reshape(-1)
 
 
-def _places(grid: Grid, upper: csc_array, fine: Levels) -> tuple[NDArray[np.int32], NDArray[np.int32]]:
-    """Where each unknown stands in a vector of the finest level, and each entry of `upper` in the stencils."""
+def _places(grid: Grid, upper: csc_array, fine: GridLevels) -> tuple[NDArray[np.int32], NDArray[np.int32]]:
+    """Index of each unknown in a vector of the finest level, and of each entry of `upper` in the stencils."""
     line_of, along = np.empty((2, grid.unknowns.size), dtype=np.int32)
     line_of[grid.unknowns], along[grid.unknowns] = np.indices(grid.unknowns.shape, dtype=np.int32)
     odd = line_of % 2

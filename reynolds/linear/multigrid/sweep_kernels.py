@@ -1,7 +1,7 @@
 """Sweeps over the lines of a level of multigrid, compiled once by numba.
 
 A line is eliminated from one end on and substituted from the other: even lines up first, odd ones down. So the one
-colour's substitution and what comes next run through the rows the same way, in one sweep, some rows apart: half
+colour's substitution and the next operation run through the rows the same way, in one sweep, some rows apart: half
 the passes through memory, and two chains of operations where one would wait for itself.
 """
 
@@ -13,19 +13,19 @@ from reynolds.linear.multigrid.line_kernels import repeat_row, width
 from reynolds.numerics.lanes import WIDTH, all_lanes, apart, lanes, lanes_like, put_lanes, together
 
 _FAST = {"cache": True, "error_model": "numpy", "fastmath": {"contract"}}
-BEHIND = 4  # rows by which one colour follows the other: one would do, but what was just stored is slow to load
+BEHIND = 4  # rows by which one colour follows the other: one would do, but numbers just stored are slow to load
 
 
 @njit(inline="always")
 def own(a, x, q, slots):
-    """What unknowns q couple to themselves and along their line."""
+    """Coupling of unknowns q to themselves and along their line."""
     along = lanes(a.east, q) * lanes(x, q + slots) + lanes(a.east, q - slots) * lanes(x, q - slots)
     return lanes(a.centre, q) * lanes(x, q) + along
 
 
 @njit(inline="always")
 def others(a, x, q, t, slots):
-    """What unknowns q couple to the next line on both sides; t is their slot in the other block."""
+    """Coupling of unknowns q to the next line on both sides; t is their slot in the other block."""
     corners = lanes(a.north_east, q) * lanes(x, t + slots + 1) + lanes(a.north_west, q) * lanes(x, t - slots + 1)
     south = lanes(a.north_east, t - slots) * lanes(x, t - slots) + lanes(a.north_west, t + slots) * lanes(
         x, t + slots
@@ -35,7 +35,7 @@ def others(a, x, q, t, slots):
 
 @njit(inline="always")
 def _forward(a, row, wide, over, slots, back):
-    """A row of a colour's elimination: load less what the others bring and its row at `back` (slots, -slots)."""
+    """A row of a colour's elimination: load less the others' part and its row at `back` (slots, -slots)."""
     for q in range(row, row + wide, WIDTH):
         rest = lanes(a.load, q) - others(a, a.answer, q, q + over, slots)
         rest -= lanes(a.east, q + min(back, 0)) * lanes(a.answer, q + back)
@@ -52,7 +52,7 @@ def _back(a, row, wide, on):
 
 @njit(inline="always")
 def _left(a, q, over, slots, whole):
-    """The residual of even lines that hold for themselves, or of any."""
+    """The residual of even lines already solved, or of any."""
     rest = all_lanes(a.load, 0.0) - others(a, a.answer, q, q + over, slots)
     if whole:
         rest += lanes(a.load, q) - own(a, a.answer, q, slots)
@@ -71,7 +71,7 @@ def _hand_down_row(a, b, row, even, odd, half, over, slots, whole):
 
 @njit(inline="always")
 def _lift_row(a, b, row, even, odd, half, old):
-    """A row of the next level's answer, on the even lines: added to `old` (0 or 1) times what stands there."""
+    """A row of the next level's answer, on the even lines: added to `old` (0 or 1) times the value there."""
     kept = all_lanes(a.answer, old)
     for k in range(0, half, WIDTH):
         first, second = together(lanes(b.answer, even + k), lanes(b.answer, odd + k))
@@ -106,9 +106,9 @@ def finish_even_start_odd(a, level):
 
 @njit(**_FAST)
 def finish_odd_hand_down(a, level, b, below, whole):
-    """Up: the answer of the odd lines, and what is left in the even ones as the load of the next level.
+    """Up: the answer of the odd lines, and the residual of the even ones as the load of the next level.
 
-    Those have just been solved, but for the odd lines; unless they are to be taken as a `whole`.
+    The even ones have just been solved, but for the odd lines, unless `whole`.
     """
     slots, even, odd, n = a.slots[level], a.start[level, 0], a.start[level, 1] + 1, a.length
     wide, half, around = width(a, level, 1), width(b, below, 0), a.around

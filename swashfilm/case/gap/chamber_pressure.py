@@ -8,7 +8,7 @@ from pathlib import Path
 
 import numpy as np
 
-from gaps.films.over_turn import TURN, Course
+from gaps.films.over_turn import TURN, PeriodicCurve
 from reynolds.numerics.arrays import Array
 from system.films.rotor import Rotor
 from system.inputs.faults import nearest_choice
@@ -35,7 +35,7 @@ Row = tuple[float, ...]
 class ChamberPressure:
     """Rows of shaft angle (rad) and pressure (Pa) of one chamber; no rows: the pump's own lumped cycle.
 
-    `text`: its entry in a case. Between rows the pressure is a `gaps.films.over_turn.Course`; a single row is
+    `text`: its entry in a case. Between rows the pressure is a `gaps.films.over_turn.PeriodicCurve`; a single row is
     constant over the turn.
     """
 
@@ -53,7 +53,7 @@ class ChamberPressure:
         angles = piston_motion(rotor.pump, rotor.point).shaft_angle
         if len(self.rows) == 1:
             return angles, np.full(len(angles), self.rows[0][1])
-        course = Course(*np.array(self.rows).T)
+        course = PeriodicCurve(*np.array(self.rows).T)
         return angles, np.array([float(course(angle)) for angle in angles])
 
 

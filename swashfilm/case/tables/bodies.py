@@ -10,7 +10,7 @@ import numpy as np
 
 from reynolds.bodies.chart import Chart, Cylinder, Plane, Side
 from reynolds.bodies.elasticity import Elastic
-from reynolds.bodies.mesh import BodyMesh, block, disc, ring
+from reynolds.bodies.mesh import BodyMesh, block, disc, hollow_cylinder
 from reynolds.bodies.mesh_file import body_from_file
 from reynolds.bodies.supports import Supports
 from reynolds.bodies.wall import Body
@@ -79,7 +79,7 @@ def _flat(entry: Table, kind: BodyKind, elastic: Elastic | None, points: np.ndar
 
     def build() -> BodyMesh:
         if is_ring:
-            return ring((inner, outer), thickness, cells, bottom=-thickness)
+            return hollow_cylinder((inner, outer), thickness, cells, bottom=-thickness)
         return disc(outer, thickness, cells, bottom=-thickness)
 
     return _body(entry, build, elastic, faces, "top")
@@ -101,7 +101,7 @@ def _round(entry: Table, kind: BodyKind, elastic: Elastic | None, points: np.nda
     base, length = float(points[1].min()), float(np.ptp(points[1]))
     chart = Cylinder(radius, Side.BORE if bush else Side.SHAFT)
     face = "inner" if bush else "outer"
-    return _body(entry, lambda: ring(radii, length, cells, bottom=base), elastic, faces, face, chart)
+    return _body(entry, lambda: hollow_cylinder(radii, length, cells, bottom=base), elastic, faces, face, chart)
 
 
 def file_body(entry: Table, elastic: Elastic | None, folder: Path) -> Body | None:

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from functools import reduce
 from pathlib import Path
 
-from reynolds.bodies.compliance import Walls
+from reynolds.bodies.compliance import ElasticWalls
 from reynolds.bodies.elasticity import Elastic
 from reynolds.bodies.foundation import both, half_space, winkler
 from reynolds.bodies.wall import Body, body_wall
@@ -26,7 +26,7 @@ class WallStatement:
     elastic: Elastic
     text: str
 
-    def compliance(self, space: FilmSpace) -> Walls:
+    def compliance(self, space: FilmSpace) -> ElasticWalls:
         """Return the compliance of the wall; raise FilmInputError where it does not lie under the film."""
         return half_space(space, self.elastic) if self.body is None else body_wall(self.body, space)
 
@@ -39,16 +39,16 @@ class ElasticStatement:
     moving: WallStatement | None
     fixed: WallStatement | None
 
-    def walls(self, space: FilmSpace) -> Walls:
+    def walls(self, space: FilmSpace) -> ElasticWalls:
         """Return the compliance of all walls; raise FilmInputError as `WallStatement.compliance`."""
-        parts: list[Walls] = [] if self.stiffness is None else [winkler(space, self.stiffness)]
+        parts: list[ElasticWalls] = [] if self.stiffness is None else [winkler(space, self.stiffness)]
         parts += [
             _under(wall, key, space) for key, wall in (("moving", self.moving), ("fixed", self.fixed)) if wall
         ]
         return reduce(both, parts)
 
 
-def _under(wall: WallStatement, key: str, space: FilmSpace) -> Walls:
+def _under(wall: WallStatement, key: str, space: FilmSpace) -> ElasticWalls:
     """Return the compliance of a wall; its fault is reported at `elastic.moving` or `elastic.fixed`."""
     try:
         return wall.compliance(space)

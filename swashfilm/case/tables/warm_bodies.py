@@ -8,7 +8,7 @@ from reynolds.bodies.conduction import Convection, HeldTemperature, Surroundings
 from reynolds.bodies.wall import Body, heated_wall
 from reynolds.errors import FilmInputError
 from reynolds.fem.space import FilmSpace
-from reynolds.thermal.walls import Body as HeatedBody
+from reynolds.thermal.walls import ConductingBody as HeatedBody
 from system.inputs.toml_table import Table, quoted
 from system.inputs.units import Dimension
 
@@ -28,7 +28,7 @@ class WarmBody:
                 "thermal wall, faces", f"'{unknown[0]}'", f"one of {', '.join(body.mesh.face_names)}"
             )
         found = heated_wall(body, space, self.thermal, self.faces)
-        return HeatedBody(found.temperature.reference, found.temperature.matrix, found.opening)
+        return HeatedBody(found.temperature.reference, found.temperature.matrix, found.deformation)
 
 
 def read_warm_body(wall: Table) -> WarmBody | None:

@@ -25,7 +25,7 @@ def physics_summary(study: FilmStudy) -> dict[str, Any]:
     if study.heat:
         found |= _heat_summary(study)
     if study.solution.problem.walls is not None:
-        found["deformation_max_m"] = float(study.solution.opening.max())
+        found["deformation_max_m"] = float(study.solution.deformation.max())
     if study.solution.problem.surface is not None:
         found |= _rough_summary(study)
     if study.history:
@@ -53,7 +53,7 @@ def _heat_summary(study: FilmStudy) -> dict[str, Any]:
         "temperature_max_at_m": [float(part) for part in space.vertices[hottest]],
         "temperature_mean_K": float(np.average(heat.mean, weights=space.lumped(np.ones(space.area.shape)))),
         "wall_heat_W": {"fixed": heat.to_fixed, "moving": heat.to_moving},
-        "oil_heat_W": heat.carried_out,
+        "oil_heat_W": heat.convected_out,
         "heat_balance_error": heat.energy_balance_error,
     }
 
@@ -123,7 +123,7 @@ def vertex_fields(study: FilmStudy) -> dict[str, tuple[np.ndarray, str]]:
         found["temperature_fixed_wall"] = (study.heat.fixed_wall[at], "K")
         found["temperature_moving_wall"] = (study.heat.moving_wall[at], "K")
     if solution.problem.walls is not None:
-        found["deformation"] = (solution.opening, "m")
+        found["deformation"] = (solution.deformation, "m")
     if solution.problem.asperities is not None:
         pressed = contact_pressure(solution.problem.asperities, vertex_thickness(solution)).value
         found["contact_pressure"] = (pressed, "Pa")

@@ -38,7 +38,7 @@ def gap_films(films: FilmsPoint) -> dict[str, tuple[GapFilm, ...]]:
     return {
         "piston": films.gaps.piston,
         "slipper": films.gaps.slipper,
-        "valve_plate": tuple(film.gap for film in films.gaps.valve_plate),
+        "valve_plate": films.gaps.valve_plate,
     }
 
 

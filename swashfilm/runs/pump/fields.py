@@ -6,6 +6,7 @@ from pathlib import Path
 
 import numpy as np
 
+from gaps.standing.gap_film import GapFilm
 from reynolds.solve.export import write_pvd, write_vtu
 from swashfilm.output.gap_names import FIELDS, vtu_name
 from swashfilm.runs.pump.data import GAPS
@@ -24,8 +25,10 @@ def write_fields(folder: Path, films: FilmsPoint) -> None:
     place = folder / FIELDS
     place.mkdir()
     viscosity = films.rotor.point.viscosity
-    series = {Gap.PISTON: films.gaps.piston, Gap.SLIPPER: films.gaps.slipper}
-    series[Gap.VALVE_PLATE] = tuple(ring.gap for ring in films.gaps.valve_plate)
+    gaps = films.gaps
+    series: dict[Gap, tuple[GapFilm, ...]] = {
+        Gap.PISTON: gaps.piston, Gap.SLIPPER: gaps.slipper, Gap.VALVE_PLATE: gaps.valve_plate,
+    }  # fmt: skip
     for gap, films_of_gap in series.items():
         for k, film in enumerate(films_of_gap):
             at = place_of(gap, films.rotor, films.parts, films.gaps.shaft_angle[k])

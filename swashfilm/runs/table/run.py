@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from gaps.response import Region, Response
+from gaps.response import ErrorRegion, Response
 from swashfilm.output.run_folder import write_json
 from swashfilm.runs.table.page import input_text, place_text
 from system.films.parts import floating_parts
@@ -100,7 +100,7 @@ def _far_off(record: Mapping[str, Any]) -> Iterator[str]:
             )
 
 
-def region_text(response: Response, region: Region, axes: Sequence[Mapping[str, Any]]) -> str:
+def region_text(response: Response, region: ErrorRegion, axes: Sequence[Mapping[str, Any]]) -> str:
     """Return the position of a region in words, by the axes along which it is narrow."""
     ends = []
     for axis, row, low, high in zip(response.axes, axes, region.lower, region.upper, strict=True):

@@ -88,7 +88,7 @@ def _films_told(found: GapRevolution[Any]) -> Record:
     return {
         "mean": float(np.mean([one.mean_film for one in instants])),
         "least": min(one.least_gap for one in instants),
-        "contact": float(np.mean([one.seen.contact_load for one in instants])),
+        "contact": float(np.mean([one.report.contact_load for one in instants])),
     }
 
 

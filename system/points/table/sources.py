@@ -66,7 +66,7 @@ class FilmsSolver:
     def solve(self, pump: PumpDescription, point: OperatingPoint) -> SolvedPoint:
         """The point by `films_point`."""
         found = films_point(pump, point, positions_per_pitch=self.positions_per_pitch)
-        series = (found.gaps.piston, found.gaps.slipper, tuple(film.gap for film in found.gaps.valve_plate))
+        series = (found.gaps.piston, found.gaps.slipper, found.gaps.valve_plate)
         mean = (float(np.mean([film.film_thickness_mean for film in films])) for films in series)
         least = (min(film.loads.film_thickness_min for film in films) for films in series)
         return SolvedPoint(found.pump_point, Gaps(*mean), Gaps(*least))

@@ -242,7 +242,7 @@ def test_run_folder_files_are_documented(tmp_path):
 def test_warnings_are_explained(films):
     explained = _code_words(ROOT / "docs" / "wrong_results.md")
     assert {warning.value for warning in PointWarning} <= explained
-    stands = GapStudy(films.gaps.valve_plate[0].gap, PositionSource.GIVEN, ())
+    stands = GapStudy(films.gaps.valve_plate[0], PositionSource.GIVEN, ())
     assert {warning["name"] for warning in gap_warnings(stands)} <= explained
     sources = "".join(
         (ROOT / name).read_text("utf-8")

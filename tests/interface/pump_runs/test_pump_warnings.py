@@ -8,7 +8,7 @@ import pytest
 from gaps.films.over_turn import constant
 from gaps.films.physics import Effect
 from gaps.films.piston import PistonDrive, PistonFilm, PistonShape, standing_piston
-from gaps.standing.reports import piston_told
+from gaps.standing.gap_film import standing_piston_film
 from reynolds.floating.rest import held_at
 from reynolds.solve.solver import FilmSolver
 from swashfilm.runs.pump.validity import coarse_angles, impossible_pressures, uncarried_loads
@@ -24,13 +24,14 @@ def film(pressure, load=0.0):
     )  # fmt: skip
     posed = PistonFilm(PistonShape(22e-3, 15e-6, 40e-3), drive, cells=(24, 6))
     position = np.array([7.5e-6, 0.0, 7.5e-6, 0.0])
-    return piston_told(posed, held_at(FilmSolver(posed.space_at(0.0)), standing_piston(posed), 0.0, position))
+    return standing_piston_film(
+        posed, held_at(FilmSolver(posed.space_at(0.0)), standing_piston(posed), 0.0, position)
+    )
 
 
 def films(piston, other, physics=PLAIN):
     """The part of a FilmsPoint that is looked at: `piston` in the piston gap, `other` in the two others."""
-    ring = SimpleNamespace(gap=other)
-    gaps = SimpleNamespace(piston=(piston,), slipper=(other,), valve_plate=(ring,))
+    gaps = SimpleNamespace(piston=(piston,), slipper=(other,), valve_plate=(other,))
     return SimpleNamespace(gaps=gaps, physics=physics)
 
 

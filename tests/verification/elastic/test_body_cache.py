@@ -8,15 +8,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from reynolds.bodies.chart import Plane
-from reynolds.bodies.elasticity import Elastic
-from reynolds.bodies.mesh import block
-from reynolds.bodies.supports import Supports
-from reynolds.bodies.wall import Body, body_wall
-from reynolds.errors import FilmInputError
-from reynolds.fem.mesh import rectangle
-from reynolds.fem.space import film_space
-from reynolds.numerics.cache import Origin, cache_folder, content_key, kept
+from reynolds import Body, Elastic, FilmInputError, Plane, Supports, block, body_wall, film_space, rectangle
+from reynolds.numerics.cache import CacheOrigin, cache_folder, content_key, kept
 
 BODY = Body(block((1.0, 1.0, 0.5), (1, 1, 1)), Elastic(210e9, 0.3), Supports(), "top",
             Plane((0.0, 0.0, 1.0), (0.0, 0.0, 0.5)))  # fmt: skip
@@ -26,16 +19,16 @@ def test_a_body_is_computed_once(tmp_path):
     coarse, fine = (film_space(rectangle((1.0, 1.0), (n, n))) for n in (2, 5))
     first = body_wall(BODY, coarse, folder=tmp_path)
     again = body_wall(BODY, coarse, folder=tmp_path)
-    assert (first.origin, again.origin) == (Origin.COMPUTED, Origin.CACHE)
+    assert (first.origin, again.origin) == (CacheOrigin.COMPUTED, CacheOrigin.CACHE)
     assert np.array_equal(first.matrix, again.matrix)
-    assert body_wall(BODY, fine, folder=tmp_path).origin is Origin.CACHE  # a film of another mesh
+    assert body_wall(BODY, fine, folder=tmp_path).origin is CacheOrigin.CACHE  # a film of another mesh
     for other in (
         replace(BODY, elastic=Elastic(210e9, 0.29)),
         replace(BODY, supports=Supports(clamped=("bottom",))),
         replace(BODY, mesh=block((1.0, 1.0, 0.5), (1, 1, 2))),
         replace(BODY, mesh=block((1.0, 1.0, 0.5), (1, 1, 1), origin=(0.0, 0.0, 1e-12))),
     ):
-        assert body_wall(other, coarse, folder=tmp_path).origin is Origin.COMPUTED
+        assert body_wall(other, coarse, folder=tmp_path).origin is CacheOrigin.COMPUTED
 
 
 @pytest.mark.parametrize("left", [b"", b"not a file of arrays", None])
@@ -46,9 +39,9 @@ def test_a_broken_file_is_computed_anew(left, tmp_path, caplog):
     place.write_bytes(place.read_bytes()[:-30] if left is None else left)
     with caplog.at_level(logging.WARNING):
         found = kept("key", lambda: made, tmp_path)
-    assert found.origin is Origin.RECOMPUTED
+    assert found.origin is CacheOrigin.RECOMPUTED
     assert "broken" in caplog.text
-    assert kept("key", lambda: {}, tmp_path).origin is Origin.CACHE
+    assert kept("key", lambda: {}, tmp_path).origin is CacheOrigin.CACHE
     assert [path.name for path in tmp_path.iterdir()] == ["key.npz"]
 
 

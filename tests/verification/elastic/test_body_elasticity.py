@@ -8,18 +8,11 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from reynolds.bodies.elasticity import (
-    Elastic,
-    centrifugal_forces,
-    face_compliance,
-    pressure_forces,
-    stiffness,
-    structure,
-)
-from reynolds.bodies.mesh import BodyMesh, block, disc, ring, section
+from reynolds import BodyMesh, Elastic, FilmInputError, Supports, block, disc, hollow_cylinder
+from reynolds.bodies.elasticity import centrifugal_forces, face_compliance, pressure_forces, stiffness, structure
+from reynolds.bodies.mesh import section
 from reynolds.bodies.space import BodySpace, body_space
-from reynolds.bodies.supports import Supports, rigid_motions
-from reynolds.errors import FilmInputError
+from reynolds.bodies.supports import rigid_motions
 
 STEEL = Elastic(210e9, 0.3)
 BORE, OUTSIDE, PRESSURE = 10e-3, 16e-3, 30e6
@@ -53,11 +46,11 @@ def test_lame_bore(kind, state, supports, lame, validation, refine):
     def solve(n: int) -> float:
         radii, length = (BORE, OUTSIDE), 5e-3
         if kind == "ring":
-            return _bore(ring(radii, length, (n, 6 * n, 1)), supports)
+            return _bore(hollow_cylinder(radii, length, (n, 6 * n, 1)), supports)
         if kind == "section":
             return _bore(section(radii, length, (n, n)), supports)
         sides = Supports(symmetry=("start", "end", *supports.symmetry))
-        return _bore(ring(radii, length, (n, n, 1), angles=(0.3, 1.2)), sides)
+        return _bore(hollow_cylinder(radii, length, (n, n, 1), angles=(0.3, 1.2)), sides)
 
     found = refine(solve, (2, 4, 8) if kind == "section" else (1, 2, 4), 3.5)
     validation(
@@ -128,7 +121,11 @@ def _linear(mesh, places):
 
 @pytest.mark.parametrize(
     "body",
-    [ring((BORE, OUTSIDE), 5e-3, (1, 5, 1)), disc(5e-3, 4e-3, (2, 1, 1)), section((0.0, 1e-2), 1e-2, (2, 2))],
+    [
+        hollow_cylinder((BORE, OUTSIDE), 5e-3, (1, 5, 1)),
+        disc(5e-3, 4e-3, (2, 1, 1)),
+        section((0.0, 1e-2), 1e-2, (2, 2)),
+    ],
 )
 def test_rigid_motion_costs_no_energy(body):
     space = body_space(body)

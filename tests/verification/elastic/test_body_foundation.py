@@ -8,11 +8,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from reynolds.bodies.elasticity import Elastic
-from reynolds.bodies.foundation import both, half_space, winkler
-from reynolds.errors import FilmInputError
-from reynolds.fem.mesh import Cell, annulus, rectangle
-from reynolds.fem.space import film_space
+from reynolds import Cell, Elastic, FilmInputError, annulus, film_space, half_space, rectangle, winkler
+from reynolds.bodies.foundation import both
 
 STEEL = Elastic(210e9, 0.3)
 PRESSURE = 30e6

@@ -8,7 +8,20 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from reynolds.bodies.chart import Cylinder, Plane, Side, face_normals
+from reynolds import (
+    Body,
+    Cylinder,
+    Elastic,
+    FilmInputError,
+    Plane,
+    Side,
+    Supports,
+    block,
+    film_space,
+    hollow_cylinder,
+    rectangle,
+)
+from reynolds.bodies.chart import face_normals
 from reynolds.bodies.conduction import (
     Convection,
     HeldTemperature,
@@ -16,16 +29,12 @@ from reynolds.bodies.conduction import (
     face_expansion,
     face_temperature,
     heated_body,
-    temperature_opening,
+    temperature_deformation,
 )
-from reynolds.bodies.elasticity import Elastic, structure
-from reynolds.bodies.mesh import block, ring, section
+from reynolds.bodies.elasticity import structure
+from reynolds.bodies.mesh import section
 from reynolds.bodies.space import body_space
-from reynolds.bodies.supports import Supports
-from reynolds.bodies.wall import Body, heated_wall
-from reynolds.errors import FilmInputError
-from reynolds.fem.mesh import rectangle
-from reynolds.fem.space import film_space
+from reynolds.bodies.wall import heated_wall
 
 STEEL = Elastic(210e9, 0.3)
 WARM = Thermal(conductivity=45.0, expansion=12e-6, unstrained_temperature=20.0)
@@ -62,7 +71,9 @@ def test_bore_with_convection(kind, validation, refine):
 
     def solve(n: int) -> float:
         radii = (a, b)
-        mesh = ring(radii, length, (n, 6 * n, 1)) if kind == "ring" else section(radii, length, (2 * n, 1))
+        mesh = (
+            hollow_cylinder(radii, length, (n, 6 * n, 1)) if kind == "ring" else section(radii, length, (2 * n, 1))
+        )
         space = body_space(mesh)
         face = space.face("inner")
         found = face_temperature(heated_body(space, WARM, {"outer": Convection(800.0, 40.0)}), face)
@@ -103,8 +114,8 @@ def test_free_expansion(kind, validation):
     rise, strain = 30.0, WARM.expansion * 30.0
     a, b, length = 10e-3, 16e-3, 12e-3
     mesh, name, chart, expected = {
-        "bore": (ring((a, b), length, (1, 8, 1)), "inner", Cylinder(a, Side.BORE), strain * a),
-        "shaft": (ring((a, b), length, (1, 8, 1)), "outer", Cylinder(b, Side.SHAFT), -strain * b),
+        "bore": (hollow_cylinder((a, b), length, (1, 8, 1)), "inner", Cylinder(a, Side.BORE), strain * a),
+        "shaft": (hollow_cylinder((a, b), length, (1, 8, 1)), "outer", Cylinder(b, Side.SHAFT), -strain * b),
         "section": (section((a, b), length, (1, 1)), "inner", Cylinder(a, Side.BORE), strain * a),
         "plate": (block((a, b, length), (1, 2, 1)), "top", Plane((0.0, 0.0, 1.0)), -strain * length / 2.0),
     }[kind]
@@ -112,7 +123,7 @@ def test_free_expansion(kind, validation):
     face = space.face(name)
     normals = face_normals(chart, face.places)
     free = structure(space, STEEL, Supports())
-    found = temperature_opening(free, face, normals, WARM.expansion, np.full(len(space.places), rise))
+    found = temperature_deformation(free, face, normals, WARM.expansion, np.full(len(space.places), rise))
     validation(
         case="Free thermal expansion",
         source="closed form alpha dT x size",
@@ -151,7 +162,7 @@ def test_bowed_plate(validation):
 
 
 def test_expansion_matrix_is_that_of_its_temperatures():
-    """Column by column: heat, temperature of the whole body, opening; the adjoint gives the same."""
+    """Column by column: heat, temperature of the whole body, deformation; the adjoint gives the same."""
     space = body_space(block((10e-3, 8e-3, 3e-3), (2, 1, 1)))
     face = space.face("top")
     normals = np.tile([0.0, 0.0, 1.0], (len(face.nodes), 1))
@@ -160,7 +171,7 @@ def test_expansion_matrix_is_that_of_its_temperatures():
     matrix = face_expansion(heated, free, face, normals).matrix
     heat = np.zeros((len(space.places), 1))
     heat[face.nodes, 0] = np.random.default_rng(6).uniform(0.0, 1.0, len(face.nodes))
-    direct = temperature_opening(free, face, normals, WARM.expansion, heated.warmed(heat)[:, 0])
+    direct = temperature_deformation(free, face, normals, WARM.expansion, heated.warmed(heat)[:, 0])
     assert matrix @ heat[face.nodes, 0] == pytest.approx(direct, rel=1e-9, abs=1e-9 * np.abs(direct).max())
 
 

@@ -7,16 +7,20 @@ import numpy as np
 import pytest
 import skfem
 
-from reynolds.bodies.mesh import BodyMesh, block, disc, ring, section
+from reynolds import BodyMesh, FilmInputError, block, disc, hollow_cylinder
+from reynolds.bodies.mesh import section
 from reynolds.bodies.mesh_file import body_from_file
 from reynolds.bodies.space import body_space
-from reynolds.errors import FilmInputError
 
 SHAPES = {
     "block": (block((1.0, 2.0, 3.0), (1, 2, 2)), 6.0, {"top": 2.0, "left": 6.0, "front": 3.0}),
-    "ring": (ring((1.0, 1.6), 2.0, (1, 24, 1)), 3.12 * np.pi, {"inner": 4 * np.pi, "outer": 6.4 * np.pi}),
+    "ring": (
+        hollow_cylinder((1.0, 1.6), 2.0, (1, 24, 1)),
+        3.12 * np.pi,
+        {"inner": 4 * np.pi, "outer": 6.4 * np.pi},
+    ),
     "sector": (
-        ring((1.0, 1.6), 2.0, (2, 4, 1), angles=(3.0, 3.8)),
+        hollow_cylinder((1.0, 1.6), 2.0, (2, 4, 1), angles=(3.0, 3.8)),
         1.248,
         {"start": 1.2, "end": 1.2, "inner": 1.6},
     ),
@@ -87,9 +91,9 @@ def test_errors(tmp_path):
     with pytest.raises(FilmInputError, match="names no faces"):
         body_from_file(tmp_path / "solid.vtu")
     with pytest.raises(FilmInputError, match="120 deg"):
-        ring((1.0, 2.0), 1.0, (1, 2, 1))
+        hollow_cylinder((1.0, 2.0), 1.0, (1, 2, 1))
     with pytest.raises(FilmInputError, match="full turn"):
-        ring((1.0, 2.0), 1.0, (1, 8, 1), angles=(0.0, 7.0))
+        hollow_cylinder((1.0, 2.0), 1.0, (1, 8, 1), angles=(0.0, 7.0))
     with pytest.raises(FilmInputError, match="sizes above zero"):
         block((1.0, -1.0, 1.0), (1, 1, 1))
     with pytest.raises(FilmInputError, match="no such face"):

@@ -11,16 +11,30 @@ import numpy as np
 import pytest
 import skfem
 
-from reynolds.bodies.chart import Cylinder, Plane, Side, face_normals
-from reynolds.bodies.elasticity import Elastic
-from reynolds.bodies.mesh import BodyMesh, block, disc, ring, section
+from reynolds import (
+    Body,
+    BodyMesh,
+    Cell,
+    Cylinder,
+    Elastic,
+    FilmInputError,
+    FilmSpace,
+    Plane,
+    Side,
+    Supports,
+    annulus,
+    block,
+    body_wall,
+    disc,
+    film_space,
+    hollow_cylinder,
+    rectangle,
+)
+from reynolds.bodies.chart import face_normals
+from reynolds.bodies.mesh import section
 from reynolds.bodies.space import body_space
-from reynolds.bodies.supports import Supports
 from reynolds.bodies.transfer import transfer
-from reynolds.bodies.wall import Body, FacePressure, Spin, body_wall, load_opening
-from reynolds.errors import FilmInputError
-from reynolds.fem.mesh import Cell, annulus, rectangle
-from reynolds.fem.space import FilmSpace, film_space
+from reynolds.bodies.wall import FacePressure, Spin, load_deformation
 
 STEEL = Elastic(210e9, 0.3)
 BORE, OUTSIDE, LENGTH = 10e-3, 16e-3, 12e-3
@@ -33,10 +47,10 @@ def _bore_film(cells: tuple[int, int] = (37, 11), degree: int = 1) -> FilmSpace:
 
 MEETINGS = {
     "bore, full turn": (
-        ring((BORE, OUTSIDE), LENGTH, (1, 8, 2)), "inner", Cylinder(BORE, Side.BORE), _bore_film(),
+        hollow_cylinder((BORE, OUTSIDE), LENGTH, (1, 8, 2)), "inner", Cylinder(BORE, Side.BORE), _bore_film(),
     ),
     "piston in part of its bore": (
-        ring((4e-3, BORE), 2 * LENGTH, (1, 8, 3)), "outer", Cylinder(BORE, Side.SHAFT, 0.7, 5e-3),
+        hollow_cylinder((4e-3, BORE), 2 * LENGTH, (1, 8, 3)), "outer", Cylinder(BORE, Side.SHAFT, 0.7, 5e-3),
         _bore_film((19, 7), 2),
     ),
     "turned plane": (
@@ -78,13 +92,13 @@ def test_force_and_moments_are_conserved(kind, validation):
 
 @pytest.mark.parametrize("kind", ["bore, full turn", "turned plane", "ring on a disc"])
 def test_work_is_the_same_on_either_side(kind, tmp_path, validation):
-    """int q w[p] dA = int p w[q] dA, over the film as computed there: the opening is symmetric in mean square."""
+    """int q w[p] dA = int p w[q] dA, over the film: the deformation is symmetric in mean square."""
     mesh, name, chart, film = MEETINGS[kind]
     matrix = body_wall(Body(mesh, STEEL, Supports(), name, chart), film, folder=tmp_path).matrix
     p, q = np.random.default_rng(3).uniform(0.0, 1.0, (2, film.size))
 
-    def work(pressure: np.ndarray, opening: np.ndarray) -> float:
-        at = film.sample_vertices(opening) * (pressure[film.dofs] @ film.reference.value.T)
+    def work(pressure: np.ndarray, deformation: np.ndarray) -> float:
+        at = film.sample_vertices(deformation) * (pressure[film.dofs] @ film.reference.value.T)
         return float(np.sum(at * film.area))
 
     validation(
@@ -106,7 +120,7 @@ def test_body_displaced_as_a_whole():
     face = body_space(body).face(name)
     into = -face.places @ np.array([0.3, -0.2, 0.0]) - 0.1
     x, y = film.vertices.T
-    assert transfer(film, face, chart).opening(into) == pytest.approx(-0.3 * x + 0.2 * y - 0.1, abs=1e-13)
+    assert transfer(film, face, chart).deformation(into) == pytest.approx(-0.3 * x + 0.2 * y - 0.1, abs=1e-13)
 
 
 def test_opening_of_a_bore_by_the_film(tmp_path, validation):
@@ -114,12 +128,16 @@ def test_opening_of_a_bore_by_the_film(tmp_path, validation):
 
     def solve(n: int) -> float:
         body = Body(
-            ring((BORE, OUTSIDE), LENGTH, (n, 6 * n, 1)), STEEL, Supports(), "inner", Cylinder(BORE, Side.BORE)
+            hollow_cylinder((BORE, OUTSIDE), LENGTH, (n, 6 * n, 1)),
+            STEEL,
+            Supports(),
+            "inner",
+            Cylinder(BORE, Side.BORE),
         )
         film = _bore_film((18 * n, 6 * n))
         wall = body_wall(body, film, folder=tmp_path)
-        opening = wall.matrix @ np.full(film.size, 30e6)
-        return 1e6 * float(np.sum(film.sample_vertices(opening) * film.area) / film.area.sum())
+        deformation = wall.matrix @ np.full(film.size, 30e6)
+        return 1e6 * float(np.sum(film.sample_vertices(deformation) * film.area) / film.area.sum())
 
     coarse, fine = solve(1), solve(2)
     validation(
@@ -136,16 +154,18 @@ def test_opening_of_a_bore_by_the_film(tmp_path, validation):
 
 def test_load_cases_open_the_film(tmp_path):
     """A chamber's pressure on a bore of its own, against the same pressure by the film; and spin."""
-    body = Body(ring((BORE, OUTSIDE), LENGTH, (2, 12, 1)), STEEL, Supports(), "inner", Cylinder(BORE, Side.BORE))
+    body = Body(
+        hollow_cylinder((BORE, OUTSIDE), LENGTH, (2, 12, 1)), STEEL, Supports(), "inner", Cylinder(BORE, Side.BORE)
+    )
     film = _bore_film()
-    by_load = load_opening(body, film, FacePressure("inner", 30e6), folder=tmp_path)
+    by_load = load_deformation(body, film, FacePressure("inner", 30e6), folder=tmp_path)
     by_film = body_wall(body, film, folder=tmp_path).matrix @ np.full(film.size, 30e6)
     # Parabolic arcs of 30 degrees: area, normals and radius each fall short of the circle's by less than 1e-4.
     assert by_load.mean() == pytest.approx(by_film.mean(), rel=3e-4)
-    assert load_opening(body, film, FacePressure("outer", 30e6), folder=tmp_path).max() < 0.0
-    assert load_opening(body, film, Spin(7850.0, 1000.0), folder=tmp_path).min() > 0.0
-    twice = load_opening(body, film, Spin(7850.0, 2000.0), folder=tmp_path)
-    assert twice == pytest.approx(4.0 * load_opening(body, film, Spin(7850.0, 1000.0), folder=tmp_path))
+    assert load_deformation(body, film, FacePressure("outer", 30e6), folder=tmp_path).max() < 0.0
+    assert load_deformation(body, film, Spin(7850.0, 1000.0), folder=tmp_path).min() > 0.0
+    twice = load_deformation(body, film, Spin(7850.0, 2000.0), folder=tmp_path)
+    assert twice == pytest.approx(4.0 * load_deformation(body, film, Spin(7850.0, 1000.0), folder=tmp_path))
 
 
 def test_pocket_presses_on_its_own_face(tmp_path):
@@ -157,7 +177,7 @@ def test_pocket_presses_on_its_own_face(tmp_path):
     filled = body_wall(body, film, pockets={"inner": "bottom"}, folder=tmp_path).matrix
     change = filled - alone
     assert change[:, pocket] == pytest.approx(
-        load_opening(body, film, FacePressure("bottom", 1.0), folder=tmp_path)
+        load_deformation(body, film, FacePressure("bottom", 1.0), folder=tmp_path)
     )
     assert np.count_nonzero(np.delete(change, pocket, axis=1)) == 0
     with pytest.raises(FilmInputError, match="no such pocket"):
@@ -165,14 +185,17 @@ def test_pocket_presses_on_its_own_face(tmp_path):
 
 
 def test_section_takes_the_mean_around(tmp_path):
-    """A film of revolution: the section's opening is that of the ring."""
+    """A film of revolution: the section's deformation is that of the ring."""
     chart, film = Cylinder(BORE, Side.BORE), _bore_film((12, 6))
     pressure = 30e6 * (1.0 + film.vertices[:, 1] / LENGTH)
     nodal = np.empty(film.size)
     nodal[film.vertex_dofs] = pressure
     found = [
         body_wall(Body(mesh, STEEL, Supports(), "inner", chart), film, folder=tmp_path).matrix @ nodal
-        for mesh in (section((BORE, OUTSIDE), LENGTH, (3, 3)), ring((BORE, OUTSIDE), LENGTH, (2, 12, 2)))
+        for mesh in (
+            section((BORE, OUTSIDE), LENGTH, (3, 3)),
+            hollow_cylinder((BORE, OUTSIDE), LENGTH, (2, 12, 2)),
+        )
     ]
     assert found[0] == pytest.approx(found[1], rel=3e-3)
 
@@ -183,7 +206,7 @@ def test_section_takes_the_mean_around(tmp_path):
 def test_one_circle_by_two_polygons(film_sectors, body_sectors, solid):
     """A film over all of a face, its circles other polygons than the body's: all force arrives there."""
     inner, outer = 4e-3, 9e-3
-    whole = ring((inner, outer), 3e-3, (2, body_sectors, 1))
+    whole = hollow_cylinder((inner, outer), 3e-3, (2, body_sectors, 1))
     body = whole if solid == "arcs" else straight(whole, tetrahedra=solid == "tetrahedra")
     film = film_space(annulus(inner, outer, (3, film_sectors)))
     face = body_space(body).face("top")
@@ -197,7 +220,7 @@ def test_one_circle_by_two_polygons(film_sectors, body_sectors, solid):
     strays = outer * (1.0 - np.cos(np.pi / min(film_sectors, body_sectors)))
     moments = face.places[:, :2].T @ nodal - meeting.rule.points.T @ at_points
     assert np.abs(moments).max() < strays * np.abs(at_points).sum()
-    assert meeting.opening(np.ones(len(face.nodes))) == pytest.approx(np.ones(len(film.vertices)), abs=1e-12)
+    assert meeting.deformation(np.ones(len(face.nodes))) == pytest.approx(np.ones(len(film.vertices)), abs=1e-12)
 
 
 @pytest.mark.parametrize("cell", Cell)

@@ -14,19 +14,30 @@ import pytest
 from scipy.integrate import quad
 from scipy.optimize import brentq
 
-from reynolds.bodies.elasticity import Elastic
-from reynolds.bodies.foundation import Compliance, half_space, winkler
-from reynolds.errors import FilmInputError
-from reynolds.fem.mesh import Cell, rectangle
-from reynolds.fem.space import film_space
-from reynolds.laws.contact import Asperities
-from reynolds.laws.fluid import Fluid
-from reynolds.laws.roughness import Surface
-from reynolds.problem import ZERO, Cavitation, FilmProblem, Held, film
+from reynolds import (
+    ZERO,
+    Asperities,
+    Cavitation,
+    Cell,
+    Elastic,
+    FilmInputError,
+    FilmProblem,
+    FilmSolver,
+    Fluid,
+    Held,
+    Surface,
+    film,
+    film_space,
+    half_space,
+    loads,
+    march,
+    rectangle,
+    winkler,
+)
+from reynolds.bodies.foundation import Compliance
+from reynolds.laws.contact import contact_pressure
 from reynolds.solve import solver as solve
-from reynolds.solve.loads import loads
-from reynolds.solve.solver import FilmSolver
-from reynolds.solve.transient import march
+from reynolds.solve.loads import evaluate
 
 LENGTH, WIDE, VISCOSITY = 10e-3, 2.5e-3, 0.03
 SLIDING = (np.full((1, 1), 5.0), ZERO)
@@ -95,7 +106,7 @@ def test_mass_per_step_between_soft_walls(cavitation, physics):
                 entered -= found.outflow[found.cavity].sum()
             grown = (found.holds.sum() - before.holds.sum()) / instant.step
             volume = np.sum((found.film.thickness - before.film.thickness) * space.area) / instant.step
-            assert entered == pytest.approx(grown, abs=1e-13 * np.abs(found.meeting).sum())
+            assert entered == pytest.approx(grown, abs=1e-13 * np.abs(found.flow_scale).sum())
             assert loads(found).mass_balance_error < 1e-12
             if physics != "all" and not found.cavity.any() and not before.cavity.any():
                 assert grown == pytest.approx(volume, rel=1e-9)
@@ -133,7 +144,7 @@ def test_walls_pressed_together_on_springs(dense, given, pressure, validation):
     opened = brentq(
         lambda g: stiff * g - pressure - _contact_pressure(TOUCHING, given + g), 0.0, 5e-6, xtol=1e-20, rtol=1e-14
     )
-    assert found.opening == pytest.approx(opened, rel=1e-8)
+    assert found.deformation == pytest.approx(opened, rel=1e-8)
     area, got = LENGTH * WIDE, loads(found)
     bears = _contact_pressure(TOUCHING, given + opened)
     assert got.load == pytest.approx(pressure * area, rel=1e-12)
@@ -159,3 +170,19 @@ def test_contact_takes_linear_pressure():
     soft = FilmProblem(quadratic, film(1e-6, VISCOSITY), ends, Cavitation.NONE, walls=winkler(quadratic, 1e13))
     with pytest.raises(FilmInputError, match=r"quadratic pressure between walls that touch.*degree 1"):
         FilmSolver(quadratic).solve(replace(soft, asperities=TOUCHING))
+
+
+def test_moments_count_the_pressure_of_contact():
+    """A rough, tilted film: load by the film's pressure, moments int (p + p_c) y and -int (p + p_c) x."""
+    space = film_space(rectangle((LENGTH, WIDE), (8, 4), cell=Cell.QUADRILATERAL))
+    thickness = space.sample(lambda x, y: 1e-6 * (1.2 - 0.5 * x / LENGTH - 0.3 * y / WIDE))
+    posed = film(thickness, VISCOSITY, velocity_moving=SLIDING)
+    ends = dict.fromkeys(("left", "right", "top", "bottom"), Held(0.0))
+    solution = FilmSolver(space).solve(FilmProblem(space, posed, ends, surface=ROUGH, asperities=TOUCHING))
+    found, (x, y) = loads(solution), space.points
+    borne = contact_pressure(TOUCHING, thickness).value
+    total = evaluate(solution, solution.pressure)[0] + borne
+    assert found.contact_load == pytest.approx(float(np.sum(borne * space.area)), rel=1e-12)
+    assert found.contact_load > 0.05 * found.load
+    assert found.moment_x == pytest.approx(float(np.sum(total * y * space.area)), rel=1e-12)
+    assert found.moment_y == pytest.approx(-float(np.sum(total * x * space.area)), rel=1e-12)

@@ -11,15 +11,15 @@ from dataclasses import dataclass
 import numpy as np
 import pytest
 
-from reynolds.errors import FilmInputError, FilmNotConverged
+from reynolds import FilmInputError, FilmNotConverged
 from reynolds.numerics.dirk import (
     ALEXANDER_2,
     BACKWARD_EULER,
     State,
+    StateTangent,
     Tableau,
-    Tangent,
     advance,
-    march,
+    integrate,
     nodes_only,
     within,
 )
@@ -39,7 +39,7 @@ class Stage:
     def holds(self) -> np.ndarray:
         return self.q
 
-    def carried(self, before: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    def propagated(self, before: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         return self.slope @ before, self.slope @ before
 
 
@@ -67,7 +67,7 @@ def _start(*y: float, rate: float = 0.0) -> State[Stage]:
 
 def _last(tableau: Tableau, rate: Rate, start: State[Stage], end: float, steps: int) -> np.ndarray:
     nodes = end * np.arange(1, steps + 1) / steps
-    *_, taken = march(tableau, _stages(rate), start, nodes, nodes_only)
+    *_, taken = integrate(tableau, _stages(rate), start, nodes, nodes_only)
     return taken.state.q
 
 
@@ -170,7 +170,7 @@ def test_error_control(tableau, relaxed):
     """Van der Pol, eps = 1e-3: each step keeps its tolerance, and the end that of all of them."""
     errors, steps = [], []
     for tolerance in (1e-4, 1e-5):
-        taken = list(march(tableau, _stages(_van_der_pol), _start(2.0, -0.66), [0.5], within(tolerance)))
+        taken = list(integrate(tableau, _stages(_van_der_pol), _start(2.0, -0.66), [0.5], within(tolerance)))
         errors.append(np.abs(taken[-1].state.q - relaxed).max())
         steps.append(len(taken))
         assert all(step.largest_error <= tolerance for step in taken)
@@ -186,7 +186,7 @@ def test_steps_grow_and_shrink():
         return np.array([np.exp(-(((t - 5.0) / 0.05) ** 2))]), np.zeros((1, 1))
 
     nodes = np.arange(1.0, 10.5)
-    taken = list(march(ALEXANDER_2, _stages(rate), _start(0.0), nodes, within(1e-6)))
+    taken = list(integrate(ALEXANDER_2, _stages(rate), _start(0.0), nodes, within(1e-6)))
     short = [step.step for step in taken if abs(step.state.time - 5.0) < 0.1]
     beside = [step.step for step in taken if step.state.time < 4.0]
     assert max(short) < 0.02
@@ -197,7 +197,7 @@ def test_steps_grow_and_shrink():
 @METHODS
 def test_nodes_are_met(tableau):
     nodes = [0.1, 0.1001, 0.7, 1.3]
-    taken = march(tableau, _stages(_swinging), _start(2.0), nodes, within(1e-4))
+    taken = integrate(tableau, _stages(_swinging), _start(2.0), nodes, within(1e-4))
     assert set(nodes) <= {step.state.time for step in taken}
 
 
@@ -208,12 +208,14 @@ def test_tangent(tableau):
     nodes = np.linspace(0.0, 0.3, 31)[1:]
 
     def end(first: np.ndarray) -> np.ndarray:
-        *_, taken = march(tableau, _stages(_van_der_pol), State(0.0, first, first, start.rate), nodes, nodes_only)
+        *_, taken = integrate(
+            tableau, _stages(_van_der_pol), State(0.0, first, first, start.rate), nodes, nodes_only
+        )
         return taken.state.q
 
-    tangent = Tangent(np.eye(2), np.eye(2))
+    tangent = StateTangent(np.eye(2), np.eye(2))
     begin = State(0.0, start.q, start.q, start.rate, tangent=tangent)
-    *_, taken = march(tableau, _stages(_van_der_pol), begin, nodes, nodes_only)
+    *_, taken = integrate(tableau, _stages(_van_der_pol), begin, nodes, nodes_only)
     differences = np.column_stack([(end(start.q + d) - end(start.q - d)) / 2e-5 for d in 1e-5 * np.eye(2)])
     assert taken.state.tangent is not None
     np.testing.assert_allclose(taken.state.tangent.q, differences, rtol=1e-6, atol=1e-9)
@@ -228,7 +230,7 @@ def test_a_stage_without_solution_halves_the_step():
             raise FilmNotConverged("walls overlap", "a smaller step")
         return stages(time, before, step, guess, last)
 
-    taken = list(march(BACKWARD_EULER, solve, _start(2.0), [0.1], nodes_only))
+    taken = list(integrate(BACKWARD_EULER, solve, _start(2.0), [0.1], nodes_only))
     assert max(step.step for step in taken) <= 0.01
     assert taken[-1].state.time == 0.1
 
@@ -238,10 +240,10 @@ def test_no_step_short_enough():
         raise FilmNotConverged("walls overlap", "another shape")
 
     with pytest.raises(FilmNotConverged, match=r"at 0 s, step .*walls overlap.*another shape"):
-        next(march(BACKWARD_EULER, solve, _start(2.0), [0.1], nodes_only))
+        next(integrate(BACKWARD_EULER, solve, _start(2.0), [0.1], nodes_only))
 
 
 @pytest.mark.parametrize("nodes", [[], [0.0], [0.2, 0.1], [np.nan]])
 def test_nodes_that_do_not_rise(nodes):
     with pytest.raises(FilmInputError, match="times that rise from 0 s on"):
-        next(march(BACKWARD_EULER, _stages(_swinging), _start(2.0), nodes, nodes_only))
+        next(integrate(BACKWARD_EULER, _stages(_swinging), _start(2.0), nodes, nodes_only))

@@ -8,11 +8,9 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from reynolds.equation.balance import Operators, State, operators, steep_gradient
-from reynolds.equation.hourglass import spared
-from reynolds.fem.mesh import Cell, annulus, rectangle
-from reynolds.fem.space import FilmSpace, film_space
-from reynolds.problem import Cavitation, FilmProblem, Held, film
+from reynolds import Cavitation, Cell, FilmProblem, FilmSpace, Held, annulus, film, film_space, rectangle
+from reynolds.equation.balance import FilmState, Operators, operators, steep_gradient
+from reynolds.equation.hourglass import saved_heat
 
 SIZE = (0.02, 0.013)
 SPACES = {
@@ -36,7 +34,7 @@ def _operators(space: FilmSpace) -> Operators:
     posed = film(thickness, 0.03, velocity_moving=walls, squeeze=1e-3 * (1.0 + x))
     held = {name: Held(0.0) for name in space.film_mesh.boundary_names[-1:]}
     problem = FilmProblem(space, posed, held, Cavitation.JFO)
-    return operators(problem, State(np.zeros(space.size), np.ones(space.size), np.zeros(len(space.vertices))))
+    return operators(problem, FilmState(np.zeros(space.size), np.ones(space.size), np.zeros(len(space.vertices))))
 
 
 @pytest.mark.parametrize("kind", sorted(SPACES))
@@ -49,9 +47,9 @@ def test_full_film_is_the_rows_of_the_matrix(kind):
     rows = np.bincount(pattern.indices, weights=upper) + np.bincount(
         pattern.columns[off], weights=lower[off], minlength=parts.problem.space.size
     )
-    net, meeting = parts.full
-    assert np.abs(net - parts.rate - rows).max() <= ROUND_OFF * meeting.max()
-    assert np.all(np.abs(net) <= meeting * (1.0 + ROUND_OFF))
+    net, flow_scale = parts.full
+    assert np.abs(net - parts.rate - rows).max() <= ROUND_OFF * flow_scale.max()
+    assert np.all(np.abs(net) <= flow_scale * (1.0 + ROUND_OFF))
 
 
 @pytest.mark.parametrize("kind", sorted(SPACES))
@@ -66,7 +64,7 @@ def test_conductance_spends_what_pressure_drives(kind):
     full += np.triu(full, 1).T
     x, y = steep_gradient(space, pressure)
     spent = np.sum(parts.transport.conductance[0] * (x * x + y * y) * space.steep_area)
-    spent -= spared(space, parts.transport.conductance, pressure).sum()
+    spent -= saved_heat(space, parts.transport.conductance, pressure).sum()
     assert pressure @ full @ pressure == pytest.approx(spent, rel=1e-12)
     assert np.abs(full.sum(axis=1)).max() <= ROUND_OFF * np.abs(full).max()
 

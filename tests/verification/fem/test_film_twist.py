@@ -1,4 +1,4 @@
-"""Film equation: quadrilaterals relieved of their resistance to twisting.
+"""Film equation: quadrilaterals has_hourglass_mode of their resistance to twisting.
 
 Accuracy, signs of the couplings, and that every slope of the balance knows of the relief.
 """
@@ -12,18 +12,26 @@ import pytest
 import skfem
 from skfem.models.poisson import laplace
 
-from reynolds.bodies.foundation import winkler
-from reynolds.equation.balance import State, by_opening, flow_balance, operators, slopes, stiffness
+from reynolds import (
+    Cavitation,
+    Cell,
+    FilmProblem,
+    FilmSolver,
+    FilmSpace,
+    Fluid,
+    Held,
+    Surface,
+    annulus,
+    film,
+    film_space,
+    loads,
+    rectangle,
+    winkler,
+)
+from reynolds.equation.balance import FilmState, by_deformation, flow_balance, operators, slopes, stiffness
 from reynolds.equation.coefficients import isotropic
-from reynolds.equation.deformation_sparsity import openings
-from reynolds.fem.mesh import Cell, annulus, rectangle
-from reynolds.fem.space import FilmSpace, film_space
+from reynolds.equation.deformation_sparsity import deformation_pattern
 from reynolds.floating.sensitivity import thickness_load
-from reynolds.laws.fluid import Fluid
-from reynolds.laws.roughness import Surface
-from reynolds.problem import Cavitation, FilmProblem, Held, film
-from reynolds.solve.loads import loads
-from reynolds.solve.solver import FilmSolver
 
 JUMPS = 5.0  # decades of the conductance within a cell
 ASPECTS = (0.02, 0.4, 1.0, 2.0, 7.0, 300.0)
@@ -161,7 +169,7 @@ def _posed(space: FilmSpace, thickness: np.ndarray, surface: Surface | None) -> 
 @pytest.mark.parametrize("surface", [None, ROUGH], ids=["smooth", "ridges"])
 @pytest.mark.parametrize("skewed", [False, True], ids=["rectangles", "parallelograms"])
 def test_slopes_of_a_twisted_film(surface, skewed):
-    """By pressure, opening and thickness against central differences: error step^2, and round-off over step."""
+    """By pressure, deformation and thickness against central differences: error step^2 + round-off/step."""
     space = _cells(1.5)
     if skewed:
         space = space.moved(space.vertices @ SKEWED)
@@ -172,24 +180,27 @@ def test_slopes_of_a_twisted_film(surface, skewed):
 
     def net(s: float, a: float = 0.0, b: float = 0.0, c: float = 0.0) -> np.ndarray:
         problem = _posed(space, thickness + s * a * thicker, surface)
-        state = State(pressure + s * b * push, np.ones(space.size), opened + s * c * more)
+        state = FilmState(pressure + s * b * push, np.ones(space.size), opened + s * c * more)
         return flow_balance(problem, operators(problem, state), state).net
 
     def differences(**along: float) -> np.ndarray:
         return (net(step, **along) - net(-step, **along)) / (2.0 * step)
 
     problem = _posed(space, thickness, surface)
-    state = State(pressure, np.ones(space.size), opened)
+    state = FilmState(pressure, np.ones(space.size), opened)
     parts = operators(problem, state)
     upper, lower, gain = slopes(problem, parts, state).by_pressure
     by_pressure = np.zeros((space.size, space.size))
     by_pressure[space.pattern.columns, space.pattern.indices] = lower
     by_pressure[space.pattern.indices, space.pattern.columns] = upper
     by_pressure += np.diag(gain)
-    solution = replace(FilmSolver(space).solve(problem), pressure=pressure, opening=opened)
+    solution = replace(FilmSolver(space).solve(problem), pressure=pressure, deformation=opened)
     for found, expected in (
         (by_pressure @ push, differences(b=1.0)),
-        (by_opening(problem, parts, state, np.ones(space.size), openings(space)) @ more, differences(c=1.0)),
+        (
+            by_deformation(problem, parts, state, np.ones(space.size), deformation_pattern(space)) @ more,
+            differences(c=1.0),
+        ),
         (thickness_load(solution, thicker[:, :, None], parts)[:, 0], differences(a=1.0)),
     ):
         assert np.abs(found - expected).max() <= 1e-7 * np.abs(expected).max()

@@ -10,12 +10,23 @@ import numpy as np
 import pytest
 import skfem
 
-from reynolds.errors import FilmInputError
-from reynolds.fem.mesh import Cell, FilmMesh, annulus, mesh_from_file, rectangle, rename, ring
-from reynolds.fem.space import film_space
-from reynolds.problem import ZERO, FilmProblem, Held, film
-from reynolds.solve.loads import loads
-from reynolds.solve.solver import FilmSolver
+from reynolds import (
+    ZERO,
+    Cell,
+    FilmInputError,
+    FilmMesh,
+    FilmProblem,
+    FilmSolver,
+    Held,
+    annulus,
+    film,
+    film_space,
+    loads,
+    mesh_from_file,
+    rectangle,
+    ring,
+)
+from reynolds.fem.mesh import rename
 
 MESHES = Path(__file__).resolve().parents[3] / "meshes"
 

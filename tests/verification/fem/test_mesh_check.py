@@ -5,13 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from reynolds.errors import FilmInputError
-from reynolds.fem.mesh import mesh_from_file
+from reynolds import FilmInputError, FilmProblem, FilmSolver, Held, film, film_space, loads, mesh_from_file
 from reynolds.fem.mesh_check import mesh_faults
-from reynolds.fem.space import film_space
-from reynolds.problem import FilmProblem, Held, film
-from reynolds.solve.loads import loads
-from reynolds.solve.solver import FilmSolver
 
 SQUARE = np.array([[i, j] for j in range(4) for i in range(4)]) * 1e-3
 QUADS = np.array([[4 * j + i, 4 * j + i + 1, 4 * j + i + 5, 4 * j + i + 4] for j in range(3) for i in range(3)])

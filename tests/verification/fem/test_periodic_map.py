@@ -11,8 +11,8 @@ from dataclasses import dataclass
 import numpy as np
 import pytest
 
-from reynolds.errors import FilmNotConverged
-from reynolds.numerics.dirk import ALEXANDER_2, State, Tangent, march, nodes_only
+from reynolds import FilmNotConverged
+from reynolds.numerics.dirk import ALEXANDER_2, State, StateTangent, integrate, nodes_only
 from reynolds.numerics.shooting import approached, periodic
 
 DAMPING, LOAD, TURN = 3.0e5, 40.0, 2.0 * np.pi / 220.0  # N s/m, N, s: REF90's slipper at 10 um and 2100 1/min
@@ -29,7 +29,7 @@ class Stage:
     def holds(self) -> np.ndarray:
         return self.q
 
-    def carried(self, before: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    def propagated(self, before: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         return self.slope @ before, self.slope @ before
 
 
@@ -61,9 +61,9 @@ def _turn(rate: Callable, period: float, steps: int, *, reach: float = 1.0, allo
 
     def run(start: np.ndarray, before: Turn | None) -> Turn:
         one = np.eye(len(start))
-        state = State(0.0, start, start, np.zeros(len(start)), tangent=Tangent(one, one))
+        state = State(0.0, start, start, np.zeros(len(start)), tangent=StateTangent(one, one))
         nodes = period * np.arange(1, steps + 1) / steps
-        path = [taken.state for taken in march(ALEXANDER_2, solve, state, nodes, nodes_only)]
+        path = [taken.state for taken in integrate(ALEXANDER_2, solve, state, nodes, nodes_only)]
         return Turn(start, path[-1].q, path[-1].tangent.q, np.array([at.q for at in path]), allowed, reach)
 
     return run

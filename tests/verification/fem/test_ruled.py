@@ -3,9 +3,7 @@
 import numpy as np
 import pytest
 
-from reynolds.errors import FilmInputError
-from reynolds.fem.mesh import Cell, annulus, rectangle
-from reynolds.fem.space import film_space
+from reynolds import Cell, FilmInputError, annulus, film_space, rectangle
 
 FORMULAS = {
     "x alone": lambda x, y: 1.0 + 0.6 * np.cos(x),

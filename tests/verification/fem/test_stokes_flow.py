@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 import skfem
 
-from reynolds.errors import FilmInputError, FilmNotConverged
+from reynolds import FilmInputError, FilmNotConverged
 from reynolds.stokes.flow import FlowProblem, held, solve_navier_stokes, solve_stokes, straight, together
 from reynolds.stokes.meshes import channel_mesh, graded, step_mesh
 from reynolds.stokes.results import flux, mean_pressure, turning_places, wall_shear

@@ -5,12 +5,23 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from reynolds.fem.mesh import Cell, rectangle
-from reynolds.fem.space import FilmSpace, film_space
-from reynolds.problem import ZERO, Cavitation, FilmProblem, FilmSolution, Held, Pocket, film, no_feed
+from reynolds import (
+    ZERO,
+    Cavitation,
+    Cell,
+    FilmProblem,
+    FilmSolution,
+    FilmSolver,
+    FilmSpace,
+    Held,
+    Pocket,
+    film,
+    film_space,
+    loads,
+    no_feed,
+    rectangle,
+)
 from reynolds.solve.cavity_guess import COARSEST, Cascade, Obstacle
-from reynolds.solve.loads import loads
-from reynolds.solve.solver import FilmSolver
 
 LEVEL = 1e4  # cavitation pressure, Pa
 

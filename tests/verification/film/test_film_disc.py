@@ -6,11 +6,20 @@ import numpy as np
 import pytest
 import skfem
 
-from reynolds.fem.mesh import Cell, FilmMesh, annulus, loop_names
-from reynolds.fem.space import FilmSpace, film_space
-from reynolds.problem import FilmProblem, Held, film
-from reynolds.solve.loads import Loads, loads
-from reynolds.solve.solver import FilmSolver
+from reynolds import (
+    Cell,
+    FilmMesh,
+    FilmProblem,
+    FilmSolver,
+    FilmSpace,
+    Held,
+    Loads,
+    annulus,
+    film,
+    film_space,
+    loads,
+)
+from reynolds.fem.mesh import loop_names
 
 VISCOSITY, THICKNESS = 0.03, 1e-5
 INNER, OUTER = 5e-3, 10e-3

@@ -5,12 +5,24 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from reynolds.errors import FilmInputError, FilmNotConverged
-from reynolds.fem.mesh import Cell, rectangle
-from reynolds.fem.space import FilmSpace, film_space
-from reynolds.problem import ZERO, Cavitation, Film, FilmProblem, Held, Pocket, film, no_feed
+from reynolds import (
+    ZERO,
+    Cavitation,
+    Cell,
+    Film,
+    FilmInputError,
+    FilmNotConverged,
+    FilmProblem,
+    FilmSolver,
+    FilmSpace,
+    Held,
+    Pocket,
+    film,
+    film_space,
+    no_feed,
+    rectangle,
+)
 from reynolds.solve import solver as solve
-from reynolds.solve.solver import FilmSolver
 
 
 @pytest.fixture(scope="module")

@@ -11,11 +11,21 @@ from dataclasses import dataclass
 import numpy as np
 import pytest
 
-from reynolds.fem.mesh import Cell, rectangle
-from reynolds.fem.space import FilmSpace, film_space
-from reynolds.problem import ZERO, Cavitation, FilmProblem, FilmSolution, Held, film
-from reynolds.solve.loads import loads, point_fields
-from reynolds.solve.solver import FilmSolver
+from reynolds import (
+    ZERO,
+    Cavitation,
+    Cell,
+    FilmProblem,
+    FilmSolution,
+    FilmSolver,
+    FilmSpace,
+    Held,
+    film,
+    film_space,
+    loads,
+    rectangle,
+)
+from reynolds.solve.loads import point_fields
 
 ROUND = 2.0 * np.pi
 MESHES = (60, 120, 240)  # cells round the bearing; a quarter of that over its half-width

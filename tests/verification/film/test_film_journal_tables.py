@@ -10,11 +10,22 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from reynolds.fem.mesh import Cell, rectangle
-from reynolds.fem.space import FilmSpace, film_space
-from reynolds.problem import ZERO, Cavitation, FilmProblem, FilmSolution, Held, film
-from reynolds.solve.loads import Loads, loads, point_fields
-from reynolds.solve.solver import FilmSolver
+from reynolds import (
+    ZERO,
+    Cavitation,
+    Cell,
+    FilmProblem,
+    FilmSolution,
+    FilmSolver,
+    FilmSpace,
+    Held,
+    Loads,
+    film,
+    film_space,
+    loads,
+    rectangle,
+)
+from reynolds.solve.loads import point_fields
 
 ROUND = 2.0 * np.pi
 SLIDING = (np.ones((1, 1)), ZERO)

@@ -8,11 +8,8 @@ from dataclasses import dataclass
 import numpy as np
 import pytest
 
-from reynolds.fem.mesh import Cell, rectangle
-from reynolds.fem.space import FilmSpace, film_space
-from reynolds.problem import FilmProblem, Held, film
+from reynolds import Cell, FilmProblem, FilmSolver, FilmSpace, Held, film, film_space, rectangle
 from reynolds.solve.loads import evaluate
-from reynolds.solve.solver import FilmSolver
 
 WIDTH = 0.7  # of the film across y; its length along x is 1
 COMPLEX_STEP = 1e-30

@@ -9,11 +9,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from reynolds.fem.mesh import Cell, rectangle
-from reynolds.fem.space import film_space
-from reynolds.problem import Cavitation, FilmProblem, Held, film
-from reynolds.solve.loads import loads, point_fields
-from reynolds.solve.solver import FilmSolver
+from reynolds import Cavitation, Cell, FilmProblem, FilmSolver, Held, film, film_space, loads, rectangle
+from reynolds.solve.loads import point_fields
 
 DIAMETER, LENGTH, CLEARANCE, PRESSURE, VISCOSITY = 20e-3, 30e-3, 10e-6, 30e6, 0.02
 RADIUS = DIAMETER / 2

@@ -6,13 +6,22 @@ import numpy as np
 import pytest
 import skfem
 
-from reynolds.errors import FilmInputError
-from reynolds.fem.mesh import Cell, FilmMesh, rectangle
-from reynolds.fem.space import film_space
-from reynolds.problem import ZERO, Cavitation, Film, FilmProblem, Held, film
+from reynolds import (
+    ZERO,
+    Cavitation,
+    Cell,
+    Film,
+    FilmInputError,
+    FilmMesh,
+    FilmProblem,
+    FilmSolver,
+    Held,
+    film,
+    film_space,
+    loads,
+    rectangle,
+)
 from reynolds.solve.boundary import check_pressures
-from reynolds.solve.loads import loads
-from reynolds.solve.solver import FilmSolver
 
 SPACE = film_space(rectangle((0.01, 0.01), (6, 6)))
 ENDS = {"left": Held(1e5), "right": Held(0.0)}

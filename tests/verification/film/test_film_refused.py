@@ -7,14 +7,25 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from reynolds.errors import FilmInputError, FilmNotConverged
-from reynolds.fem.mesh import annulus, rectangle
-from reynolds.fem.space import film_space
-from reynolds.problem import ZERO, Cavitation, FilmProblem, Held, Pocket, Storage, film
+from reynolds import (
+    ZERO,
+    Cavitation,
+    FilmInputError,
+    FilmNotConverged,
+    FilmProblem,
+    FilmSolver,
+    Held,
+    Pocket,
+    Storage,
+    annulus,
+    film,
+    film_space,
+    loads,
+    march,
+    rectangle,
+)
 from reynolds.solve.boundary import check_pressures
-from reynolds.solve.loads import loads
-from reynolds.solve.solver import FilmSolver
-from reynolds.solve.transient import march, oil_held
+from reynolds.solve.transient import oil_held
 
 SPACE = film_space(rectangle((0.01, 0.01), (8, 8)))
 FED = film_space(rectangle((0.01, 0.01), (8, 8)), pockets=["bottom"])

@@ -15,12 +15,25 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.spatial import Delaunay
 
-from reynolds.errors import FilmInputError, FilmNotConverged
-from reynolds.fem.mesh import Cell, FilmMesh, annulus, box_names, rectangle
-from reynolds.fem.space import FilmSpace, film_space
-from reynolds.problem import Cavitation, FilmProblem, FilmSolution, Held, Storage, film
-from reynolds.solve.loads import loads
-from reynolds.solve.solver import FilmSolver
+from reynolds import (
+    Cavitation,
+    Cell,
+    FilmInputError,
+    FilmMesh,
+    FilmNotConverged,
+    FilmProblem,
+    FilmSolution,
+    FilmSolver,
+    FilmSpace,
+    Held,
+    Storage,
+    annulus,
+    film,
+    film_space,
+    loads,
+    rectangle,
+)
+from reynolds.fem.mesh import box_names
 
 SIZE, THICKNESS, VISCOSITY = 0.01, 1e-5, 0.03
 JUMP = 1e4 ** (1.0 / 3.0)

@@ -14,14 +14,24 @@ from scipy.integrate import quad
 from scipy.optimize import brentq
 from scipy.stats import norm
 
-from reynolds.fem.mesh import Cell, rectangle
-from reynolds.fem.space import FilmSpace, film_space
-from reynolds.laws.contact import Asperities
-from reynolds.laws.roughness import Surface
-from reynolds.problem import ZERO, Cavitation, FilmProblem, FilmSolution, Held, film
-from reynolds.solve.loads import Loads, loads
-from reynolds.solve.solver import FilmSolver
-from reynolds.solve.transient import march
+from reynolds import (
+    ZERO,
+    Asperities,
+    Cavitation,
+    Cell,
+    FilmProblem,
+    FilmSolution,
+    FilmSolver,
+    FilmSpace,
+    Held,
+    Loads,
+    Surface,
+    film,
+    film_space,
+    loads,
+    march,
+    rectangle,
+)
 
 LENGTH, WIDE, VISCOSITY, SPEED = 10e-3, 2.5e-3, 0.03, 2.0
 SIGMA = 0.5e-6

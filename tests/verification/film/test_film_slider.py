@@ -8,11 +8,20 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from reynolds.fem.mesh import Cell, rectangle
-from reynolds.fem.space import FilmSpace, film_space
-from reynolds.problem import ZERO, FilmProblem, FilmSolution, Held, film
-from reynolds.solve.loads import Loads, loads
-from reynolds.solve.solver import FilmSolver
+from reynolds import (
+    ZERO,
+    Cell,
+    FilmProblem,
+    FilmSolution,
+    FilmSolver,
+    FilmSpace,
+    Held,
+    Loads,
+    film,
+    film_space,
+    loads,
+    rectangle,
+)
 
 LENGTH, OUTLET, VISCOSITY, SPEED = 0.01, 1e-5, 0.03, 1.0
 PRESSURE_SCALE = VISCOSITY * SPEED * LENGTH / OUTLET**2

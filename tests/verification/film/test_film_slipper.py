@@ -9,11 +9,24 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from reynolds.fem.mesh import Cell, FilmMesh, annulus, ring
-from reynolds.fem.space import film_space
-from reynolds.problem import ZERO, Cavitation, FilmProblem, FilmSolution, Held, Pocket, film, no_feed
-from reynolds.solve.loads import Loads, loads
-from reynolds.solve.solver import FilmSolver
+from reynolds import (
+    ZERO,
+    Cavitation,
+    Cell,
+    FilmMesh,
+    FilmProblem,
+    FilmSolution,
+    FilmSolver,
+    Held,
+    Loads,
+    Pocket,
+    annulus,
+    film,
+    film_space,
+    loads,
+    no_feed,
+    ring,
+)
 
 VISCOSITY, THICKNESS, SUPPLY = 0.03, 10e-6, 20e6
 INNER, OUTER = 5e-3, 10e-3

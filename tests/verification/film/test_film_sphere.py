@@ -10,13 +10,21 @@ import numpy as np
 import pytest
 from scipy.integrate import quad
 
-from reynolds.errors import FilmInputError
-from reynolds.fem.mesh import annulus
-from reynolds.fem.space import FilmSpace, film_space
+from reynolds import (
+    Cavitation,
+    FilmInputError,
+    FilmProblem,
+    FilmSolution,
+    FilmSolver,
+    FilmSpace,
+    Held,
+    annulus,
+    film,
+    film_space,
+    loads,
+)
 from reynolds.fem.sphere import PLANE, Sphere
-from reynolds.problem import Cavitation, FilmProblem, FilmSolution, Held, film
-from reynolds.solve.loads import loads, pressure_integrals
-from reynolds.solve.solver import FilmSolver
+from reynolds.solve.loads import pressure_integrals
 
 RADIUS, FROM, TO = 40e-3, 0.5, 1.2  # m, rad
 SPHERE = Sphere(RADIUS)

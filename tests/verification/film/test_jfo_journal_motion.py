@@ -11,11 +11,20 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from reynolds.fem.mesh import Cell, rectangle
-from reynolds.fem.space import FilmSpace, film_space
-from reynolds.problem import ZERO, FilmProblem, FilmSolution, Held, Storage, film
-from reynolds.solve.loads import loads
-from reynolds.solve.solver import FilmSolver
+from reynolds import (
+    ZERO,
+    Cell,
+    FilmProblem,
+    FilmSolution,
+    FilmSolver,
+    FilmSpace,
+    Held,
+    Storage,
+    film,
+    film_space,
+    loads,
+    rectangle,
+)
 
 MASS, VISCOSITY = 1e-6, 1.0 / 6.0  # div(h^3 grad p) = d(theta h)/dx + 2 d(theta h)/dt
 SIDES = {"bottom": Held(0.0075), "top": Held(0.0)}

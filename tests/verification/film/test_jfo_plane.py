@@ -17,14 +17,27 @@ from scipy.integrate import solve_ivp
 from scipy.optimize import brentq
 from scipy.spatial import Delaunay
 
-from reynolds.fem.mesh import Cell, FilmMesh, box_names, rectangle
-from reynolds.fem.space import FilmSpace, film_space
+from reynolds import (
+    ZERO,
+    Barus,
+    Cavitation,
+    Cell,
+    FilmMesh,
+    FilmProblem,
+    FilmSolution,
+    FilmSolver,
+    FilmSpace,
+    Fluid,
+    Held,
+    film,
+    film_space,
+    loads,
+    rectangle,
+)
+from reynolds.fem.mesh import box_names
 from reynolds.laws.density import RationalDensity
-from reynolds.laws.fluid import CONSTANT, Fluid
-from reynolds.laws.viscosity import Barus
-from reynolds.problem import ZERO, Cavitation, FilmProblem, FilmSolution, Held, film
-from reynolds.solve.loads import evaluate, loads
-from reynolds.solve.solver import FilmSolver
+from reynolds.laws.fluid import CONSTANT
+from reynolds.solve.loads import evaluate
 
 
 def _place(space: FilmSpace) -> np.ndarray:

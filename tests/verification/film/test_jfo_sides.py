@@ -5,14 +5,13 @@ Where the walls carry no oil in over an edge, what stands there must not matter 
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
-from reynolds.fem.mesh import Cell, rectangle
-from reynolds.fem.space import film_space
-from reynolds.problem import ZERO, FilmProblem, Held, film
-from reynolds.solve.loads import loads
-from reynolds.solve.solver import FilmSolver
+from reynolds import ZERO, Cavitation, Cell, FilmProblem, FilmSolver, Held, film, film_space, loads, rectangle
+from reynolds.equation.balance import without_inflow
 
 ROUND = 2.0 * np.pi
 SLIDING = (np.ones((1, 1)), ZERO)
@@ -61,3 +60,18 @@ def test_a_ring_that_nothing_feeds_has_a_level(cell):
     solution = FilmSolver(space).solve(problem)
     assert solution.film_fraction == pytest.approx(1.0, abs=1e-9)
     assert np.abs(solution.pressure).max() < 1e-9
+
+
+@pytest.mark.parametrize("cell", list(Cell))
+def test_edges_without_any_flow_of_the_walls_count_as_supplies(cell):
+    """Walls at rest, and a held line inside the film, which walls carry oil over: no unknown loses its supply."""
+    plain = rectangle((1.0, 1.0), (8, 4), cell=cell)
+    line = plain.mesh.facets_satisfying(lambda x: np.isclose(x[0], 0.5))
+    mesh = replace(plain, mesh=plain.mesh.with_boundaries({"line": line}, boundaries_only=False))
+    space = film_space(mesh)
+    problem = FilmProblem(
+        space, film(1.0, 1.0, velocity_moving=SLIDING), {"right": Held(0.0), "line": Held(0.0)}, Cavitation.JFO
+    )
+    at_rest, sliding = (ZERO, ZERO), (np.ones((1, 1)), ZERO)
+    assert not without_inflow(problem, at_rest).any()
+    assert np.array_equal(np.flatnonzero(without_inflow(problem, sliding)), space.edge_dofs["right"])

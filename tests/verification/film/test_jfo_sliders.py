@@ -15,12 +15,23 @@ import pytest
 import skfem
 from scipy.spatial import Delaunay
 
+from reynolds import (
+    ZERO,
+    Cell,
+    FilmMesh,
+    FilmProblem,
+    FilmSolution,
+    FilmSolver,
+    FilmSpace,
+    Held,
+    Loads,
+    film,
+    film_space,
+    loads,
+    rectangle,
+)
 from reynolds.equation.coefficients import at_points
-from reynolds.fem.mesh import Cell, FilmMesh, box_names, rectangle
-from reynolds.fem.space import FilmSpace, film_space
-from reynolds.problem import ZERO, FilmProblem, FilmSolution, Held, film
-from reynolds.solve.loads import Loads, loads
-from reynolds.solve.solver import FilmSolver
+from reynolds.fem.mesh import box_names
 
 MESHES = (400, 800, 1600)  # cells along the film, two across
 Profile = Callable[[np.ndarray], np.ndarray]

@@ -12,10 +12,19 @@ from dataclasses import dataclass
 import numpy as np
 import pytest
 
-from reynolds.fem.mesh import Cell, rectangle
-from reynolds.fem.space import FilmSpace, film_space
-from reynolds.problem import Cavitation, FilmProblem, FilmSolution, Held, Storage, film
-from reynolds.solve.solver import FilmSolver
+from reynolds import (
+    Cavitation,
+    Cell,
+    FilmProblem,
+    FilmSolution,
+    FilmSolver,
+    FilmSpace,
+    Held,
+    Storage,
+    film,
+    film_space,
+    rectangle,
+)
 
 SUPPLY = 0.025  # pressure at the ends
 UNIT = 1.0 / 6.0  # viscosity with which the equation reads d/dx(h^3 dp/dx) = 2 d(theta h)/dt

@@ -5,11 +5,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from reynolds.fem.mesh import ring
-from reynolds.fem.space import film_space
-from reynolds.problem import FilmProblem, Held, Pocket, film
+from reynolds import FilmProblem, FilmSolver, Held, Pocket, film, film_space, ring
 from reynolds.solve.boundary import Feed, pressure_sending
-from reynolds.solve.solver import FilmSolver
 
 FLOW = 1e-9  # m3/s by the root of a Pa
 

@@ -7,16 +7,25 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from reynolds.bodies.foundation import winkler
+from reynolds import (
+    ZERO,
+    Asperities,
+    Cavitation,
+    FilmInputError,
+    FilmNotConverged,
+    FilmProblem,
+    Held,
+    RigidLoad,
+    Surface,
+    carry_load,
+    film,
+    film_space,
+    loads,
+    rectangle,
+    winkler,
+)
 from reynolds.equation.rough_overlap import film_between
-from reynolds.errors import FilmInputError, FilmNotConverged
-from reynolds.fem.mesh import rectangle
-from reynolds.fem.space import film_space
-from reynolds.floating.load_search import RigidLoad, carry
-from reynolds.laws.contact import Asperities, contact_pressure
-from reynolds.laws.roughness import Surface
-from reynolds.problem import ZERO, Cavitation, FilmProblem, Held, film
-from reynolds.solve.loads import loads
+from reynolds.laws.contact import contact_pressure
 
 LENGTH, WIDTH, VISCOSITY, SPEED = 0.01, 0.002, 0.03, 1.0
 SLIDING = (np.full((1, 1), SPEED), ZERO)
@@ -48,7 +57,7 @@ def test_a_slider_settles_where_it_bears_its_load(outlet, validation, refine):
 
     def found(cells):
         problem = _problem(_space(cells), lambda x, y: rise * (1.0 - x / LENGTH), velocity_moving=SLIDING)
-        return carry(problem, RigidLoad(_slider_load(outlet, rise))).position.separation * 1e6
+        return carry_load(problem, RigidLoad(_slider_load(outlet, rise))).position.separation * 1e6
 
     (column,) = refine(lambda cells: (found(cells),), (16, 32, 64))
     validation(
@@ -65,7 +74,7 @@ def test_a_squeezed_film_settles_where_it_bears_its_load(validation, refine):
 
     def found(cells):
         problem = _problem(_space(cells), lambda x, y: 0.0 * x, squeeze=np.full((1, 1), -approach))
-        return carry(problem, RigidLoad(load)).position.separation * 1e6
+        return carry_load(problem, RigidLoad(load)).position.separation * 1e6
 
     (column,) = refine(lambda cells: (found(cells),), (8, 16, 32))
     validation(
@@ -86,7 +95,7 @@ def test_rough_walls_settle_where_their_contact_bears_the_load(h, stiffness, val
         surface=Surface(0.3e-6, 0.4e-6, 1.0, 1.0, 0.0), asperities=ASPERITIES,
         walls=None if stiffness is None else winkler(space, stiffness), cavitation=Cavitation.NONE,
     )  # fmt: skip
-    found = carry(problem, RigidLoad(bears * LENGTH * WIDTH))
+    found = carry_load(problem, RigidLoad(bears * LENGTH * WIDTH))
     slope = abs(float(contact_pressure(ASPERITIES, h).slope)) / bears
     validation(
         case="Rough walls under a given load", source="Greenwood and Tripp 1970-71, inverted",
@@ -107,9 +116,9 @@ def test_a_flat_pad_on_a_pivot_finds_film_and_tilt(n, validation):
     space, outlet = _space(), 1e-5
     rise = (n - 1.0) * outlet
     slider = _problem(space, lambda x, y: outlet + rise * (1.0 - x / LENGTH), velocity_moving=SLIDING)
-    asked = loads(carry(slider, RigidLoad(_slider_load(outlet, rise))).solution)
+    asked = loads(carry_load(slider, RigidLoad(_slider_load(outlet, rise))).solution)
     flat = _problem(space, lambda x, y: 0.0 * x, velocity_moving=SLIDING)
-    found = carry(flat, RigidLoad(asked.load, moment_y=asked.moment_y))
+    found = carry_load(flat, RigidLoad(asked.load, moment_y=asked.moment_y))
     reached = loads(found.solution)
     assert reached.load == pytest.approx(asked.load, rel=2e-6)
     assert reached.moment_y == pytest.approx(asked.moment_y, abs=2e-6 * asked.load * LENGTH)
@@ -128,7 +137,7 @@ def test_a_square_pad_stays_level_across_its_motion():
     space = film_space(rectangle((LENGTH, LENGTH), (16, 16), origin=(-LENGTH / 2, -LENGTH / 2)))
     every = {name: Held(0.0) for name in ("left", "right", "bottom", "top")}
     problem = replace(_problem(space, lambda x, y: 0.0 * x, velocity_moving=SLIDING), boundary=every)
-    found = carry(problem, RigidLoad(50.0, moment_x=0.0, moment_y=-50.0 * 0.08 * LENGTH))
+    found = carry_load(problem, RigidLoad(50.0, moment_x=0.0, moment_y=-50.0 * 0.08 * LENGTH))
     assert abs(found.position.slope_y) < 1e-3 * abs(found.position.slope_x)
     assert found.position.slope_x < 0.0
     assert found.rest < 1e-6
@@ -138,9 +147,9 @@ def test_what_no_position_bears_is_told_with_the_nearest():
     space = _space(16)
     level = _problem(space, lambda x, y: 0.0 * x, velocity_moving=SLIDING)
     with pytest.raises(FilmNotConverged, match="no position of the walls bears 10 N; nearest after"):
-        carry(level, RigidLoad(10.0))
+        carry_load(level, RigidLoad(10.0))
     pressed = replace(level, boundary={"left": Held(1e6), "right": Held(1e6)}, cavitation=Cavitation.NONE)
     with pytest.raises(FilmNotConverged, match=r"bears 10 N; nearest after .* films: 20 N"):
-        carry(pressed, RigidLoad(10.0))
+        carry_load(pressed, RigidLoad(10.0))
     with pytest.raises(FilmInputError, match="above zero"):
         RigidLoad(-1.0)

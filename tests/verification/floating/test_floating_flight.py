@@ -11,16 +11,26 @@ from functools import partial
 import numpy as np
 import pytest
 
-from reynolds.errors import FilmInputError
-from reynolds.fem.mesh import annulus
-from reynolds.fem.space import film_space
+from reynolds import (
+    ZERO,
+    Film,
+    FilmInputError,
+    FilmProblem,
+    FilmSolver,
+    Floating,
+    Held,
+    Pocket,
+    annulus,
+    film_space,
+    no_feed,
+    solve_stage,
+    steady,
+)
 from reynolds.floating.pockets import filled
-from reynolds.floating.problem import Floating, steady
 from reynolds.floating.start import started
-from reynolds.floating.step import solve_stage, standing
+from reynolds.floating.step import standing
 from reynolds.numerics.dirk import ALEXANDER_2, advance
-from reynolds.problem import ZERO, Boundary, Film, FilmProblem, Held, Pocket, no_feed
-from reynolds.solve.solver import FilmSolver
+from reynolds.problem import Boundary
 
 INNER, OUTER, VISCOSITY = 7e-3, 12e-3, 0.03
 PULL, MASS, START, END = 14.0, 0.139, 1e-5, 1e-3  # N, kg, m, s

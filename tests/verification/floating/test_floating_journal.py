@@ -13,24 +13,34 @@ from functools import partial
 import numpy as np
 import pytest
 
-from reynolds.fem.mesh import Cell, rectangle
-from reynolds.fem.space import FilmSpace, film_space
-from reynolds.floating.problem import Floating, steady
+from reynolds import (
+    ZERO,
+    Array,
+    Cavitation,
+    Cell,
+    FilmProblem,
+    FilmSolver,
+    FilmSpace,
+    Floating,
+    FloatingStage,
+    Held,
+    film,
+    film_space,
+    loads,
+    rectangle,
+    solve_stage,
+    steady,
+)
 from reynolds.floating.start import started
-from reynolds.floating.step import Stage, solve_stage
-from reynolds.numerics.arrays import Array
 from reynolds.numerics.dirk import (
     ALEXANDER_2,
     BACKWARD_EULER,
+    AcceptedStep,
     Tableau,
-    Taken,
-    march,
+    integrate,
     nodes_only,
     within,
 )
-from reynolds.problem import ZERO, Cavitation, FilmProblem, Held, film
-from reynolds.solve.loads import loads
-from reynolds.solve.solver import FilmSolver
 
 RADIUS, CLEARANCE, VISCOSITY = 0.01, 1e-5, 0.03
 
@@ -47,10 +57,10 @@ def _journal(
 
 def _moved(
     floating: Floating, space: FilmSpace, start: Array, rate: Array, nodes: Array, tableau: Tableau
-) -> list[Taken[Stage]]:
+) -> list[AcceptedStep[FloatingStage]]:
     solve = partial(solve_stage, FilmSolver(space), floating)
     state = replace(started(floating, 0.0, start), rate=rate, tangent=None)
-    return list(march(tableau, solve, state, nodes, nodes_only))
+    return list(integrate(tableau, solve, state, nodes, nodes_only))
 
 
 # Long bearing, full film: with u = e/(1 - e^2)^1/2 the Reynolds equation gives du/dt = F C^2/(12 pi mu R^3 B).
@@ -219,7 +229,7 @@ def test_dynamically_loaded_journal(validation):
     start = replace(started(floating, 0.2, np.array([0.5, 0.5])), tangent=None)
     nodes = np.array([0.6, 0.75, 0.9, 1.25, 1.4, 1.5, 1.6])
     solve, places, ratios, steps = partial(solve_stage, FilmSolver(space), floating), {}, [], 0
-    for taken in march(ALEXANDER_2, solve, start, nodes, within(3e-3)):
+    for taken in integrate(ALEXANDER_2, solve, start, nodes, within(3e-3)):
         assert loads(taken.stage.solution).mass_balance_error < 1e-10
         assert taken.stage.solution.pressure.min() >= 0.0
         if taken.state.time > 0.6:

@@ -13,19 +13,30 @@ import numpy as np
 import pytest
 from scipy.sparse import csr_array
 
+from reynolds import (
+    ZERO,
+    Array,
+    Asperities,
+    Cell,
+    Film,
+    FilmProblem,
+    FilmSolver,
+    FilmSpace,
+    Floating,
+    FloatingStage,
+    Fluid,
+    Held,
+    Outer,
+    Surface,
+    film_space,
+    rectangle,
+    solve_stage,
+)
 from reynolds.equation.rough_overlap import film_between
-from reynolds.fem.mesh import Cell, rectangle
-from reynolds.fem.space import FilmSpace, film_space
 from reynolds.floating.coordinates import contact_force, generalised_force, modes_on
-from reynolds.floating.problem import Floating, Outer
 from reynolds.floating.sensitivity import oil_slopes, response, thickness_load
-from reynolds.floating.step import Stage, solve_stage, standing
-from reynolds.laws.contact import Asperities
-from reynolds.laws.fluid import Fluid
-from reynolds.laws.roughness import Surface, mean_thickness
-from reynolds.numerics.arrays import Array
-from reynolds.problem import ZERO, Film, FilmProblem, Held
-from reynolds.solve.solver import FilmSolver
+from reynolds.floating.step import standing
+from reynolds.laws.roughness import mean_thickness
 
 RADIUS, WIDTH, CLEARANCE, SPEED, VISCOSITY = 0.02, 0.02, 20e-6, 5.0, 0.03
 STEP, STEPS = 2e-4, 12
@@ -111,7 +122,7 @@ def _journal(case: Case) -> tuple[FilmSpace, Floating]:
     return space, Floating("journal", lambda t: problem, lambda t: modes, outer, case.sides, inertia=case.inertia)
 
 
-def _marched(case: Case) -> tuple[Floating, FilmSolver, Stage, Array]:
+def _marched(case: Case) -> tuple[Floating, FilmSolver, FloatingStage, Array]:
     """After some steps from rest: the last stage and what was held before it."""
     space, floating = _journal(case)
     solver, stage, q = FilmSolver(space), None, np.array([0.5 * CLEARANCE, 0.0])
@@ -171,7 +182,7 @@ def test_stage_by_what_was_held(name):
     changes = np.zeros((len(before), 2))
     changes[:size, 0] = before[:size] * rng.uniform(-1.0, 1.0, size)
     changes[size:, 1] = CLEARANCE
-    q, holds = stage.carried(changes)
+    q, holds = stage.propagated(changes)
 
     def end(nudge: Array) -> Array:
         other = solve_stage(solver, floating, stage.time, before + changes @ nudge, STEP, stage.q, stage)

@@ -13,21 +13,33 @@ import numpy as np
 import pytest
 from scipy.optimize import brentq
 
-from gaps.revolution.march import run_revolution
-from gaps.revolution.schedule import Accuracy, evenly
-from reynolds.bodies.compliance import Walls
-from reynolds.bodies.elasticity import Elastic
-from reynolds.bodies.foundation import Compliance, half_space, winkler
+from gaps import Accuracy, evenly, run_revolution
+from reynolds import (
+    ZERO,
+    Array,
+    Asperities,
+    Cell,
+    Elastic,
+    Film,
+    FilmProblem,
+    FilmSolver,
+    FilmSpace,
+    Floating,
+    FloatingStage,
+    Held,
+    Surface,
+    film_space,
+    half_space,
+    rectangle,
+    solve_stage,
+    steady,
+    winkler,
+)
+from reynolds.bodies.compliance import ElasticWalls
+from reynolds.bodies.foundation import Compliance
 from reynolds.equation.rough_overlap import as_shaped
-from reynolds.fem.mesh import Cell, rectangle
-from reynolds.fem.space import FilmSpace, film_space
-from reynolds.floating.problem import Floating, steady
-from reynolds.floating.step import Stage, solve_stage, standing
-from reynolds.laws.contact import Asperities, contact_pressure
-from reynolds.laws.roughness import Surface
-from reynolds.numerics.arrays import Array
-from reynolds.problem import ZERO, Film, FilmProblem, Held
-from reynolds.solve.solver import FilmSolver
+from reynolds.floating.step import standing
+from reynolds.laws.contact import contact_pressure
 
 LENGTH, WIDE, VISCOSITY, STIFFNESS = 10e-3, 2.5e-3, 0.03, 1e13
 HIGH, LOW = 30e6, 5e6
@@ -40,7 +52,7 @@ def channel(cells: int = 16) -> FilmSpace:
 
 
 def plate(
-    space: FilmSpace, walls: Walls, ends: tuple[float, float], load: Callable[[float], float],
+    space: FilmSpace, walls: ElasticWalls, ends: tuple[float, float], load: Callable[[float], float],
     asperities: Asperities | None = None, surface: Surface | None = None,
 ) -> Floating:  # fmt: skip
     """A plane plate that one coordinate lifts, pressed by a load (N) in time (s)."""
@@ -55,7 +67,9 @@ def plate(
     return Floating("plate", lambda t: film, lambda t: lift, lambda t, q, rate: steady(np.array([-load(t)])))
 
 
-def at_rest(floating: Floating, space: FilmSpace, start: float, step: float = 1.0, steps: int = 3) -> Stage:
+def at_rest(
+    floating: Floating, space: FilmSpace, start: float, step: float = 1.0, steps: int = 3
+) -> FloatingStage:
     """The plate after steps that leave no squeeze."""
     solver, stage, q = FilmSolver(space), None, np.array([start])
     held = standing(floating, 0.0, q)
@@ -122,7 +136,7 @@ def test_rough_plate_rests_on_springs(surface, validation):
     assert stage.solution.film.thickness.min() > 0.0
 
 
-def turned(load: float, asperities: Asperities | None) -> tuple[FilmSpace, list[Stage]]:
+def turned(load: float, asperities: Asperities | None) -> tuple[FilmSpace, list[FloatingStage]]:
     """The stages of a closed turn of a plate under a mean pressure that comes and goes, at even steps."""
     space, speed = channel(8), 2.0 * np.pi / 0.05
 
@@ -136,7 +150,7 @@ def turned(load: float, asperities: Asperities | None) -> tuple[FilmSpace, list[
         accuracy=Accuracy(step=1.0, floor=1.0, balance=1e-12, closed=1e-7),
     )  # fmt: skip
     assert found.closing.changes[-1] < 1e-7 * 5e-6
-    stages = [instant.seen[0] for instant in found.turn.instants]
+    stages = [instant.report[0] for instant in found.turn.instants]
     return space, [stages[-1], *stages]
 
 
@@ -145,15 +159,15 @@ def turned(load: float, asperities: Asperities | None) -> tuple[FilmSpace, list[
     [(19e6, None), pytest.param(19e6, replace(ROUGH, summit_height=7e-6), marks=pytest.mark.slow)],
 )
 def test_springs_give_back_what_they_took(load, asperities):
-    """Over a closed turn the work of all pressure on the walls' opening vanishes, contact's included.
+    """Over a closed turn the work of all pressure on the walls' deformation vanishes, contact's included.
 
-    Sums of the mean of two pressures times the change of the opening telescope where the walls are symmetric.
+    Sums of the mean of two pressures times the change of the deformation telescope where the walls are symmetric.
     """
     space, stages = turned(load, asperities)
     assert (max(stage.contact_force[0] for stage in stages) > 1.0) == (asperities is not None)
     weight = stages[0].instant.modes.film_weights[:, 0]
     opened = np.zeros((len(stages), space.size))
-    opened[:, space.vertex_dofs] = [stage.trial.solution.opening for stage in stages]
+    opened[:, space.vertex_dofs] = [stage.trial.solution.deformation for stage in stages]
     pressure = STIFFNESS * opened  # of oil and contact together, by the springs' own law
     assert pressure @ weight == pytest.approx([-stage.outer.force[0] for stage in stages], rel=1e-4)
     taken = 0.5 * (pressure[1:] + pressure[:-1]) * np.diff(opened, axis=0) @ weight

@@ -13,17 +13,36 @@ import pytest
 import skfem
 from scipy.optimize import brentq
 
-from reynolds.errors import FilmInputError, FilmNotConverged
-from reynolds.fem.mesh import Cell, FilmMesh, annulus, loop_names, rectangle
-from reynolds.fem.space import FilmSpace, film_space
+from reynolds import (
+    ZERO,
+    Asperities,
+    Cell,
+    Film,
+    FilmInputError,
+    FilmMesh,
+    FilmNotConverged,
+    FilmProblem,
+    FilmSolver,
+    FilmSpace,
+    Floating,
+    FloatingStage,
+    Held,
+    Outer,
+    Pocket,
+    annulus,
+    film,
+    film_space,
+    rectangle,
+    solve_stage,
+    steady,
+)
+from reynolds.fem.mesh import loop_names
 from reynolds.floating.coordinates import generalised_force, modes_on
-from reynolds.floating.problem import Floating, Outer, steady
 from reynolds.floating.start import started
-from reynolds.floating.step import Stage, solve_stage, standing
-from reynolds.laws.contact import Asperities, contact_pressure
+from reynolds.floating.step import standing
+from reynolds.laws.contact import contact_pressure
 from reynolds.numerics.dirk import ALEXANDER_2, BACKWARD_EULER, Tableau, advance
-from reynolds.problem import ZERO, Boundary, Film, FilmProblem, Held, Pocket, film
-from reynolds.solve.solver import FilmSolver
+from reynolds.problem import Boundary
 
 VISCOSITY, LOAD, START, END = 0.03, 100.0, 20e-6, 10e-3
 OUTER, INNER = 10e-3, 5e-3
@@ -206,7 +225,7 @@ def _hydrostatic_rate(h: float) -> float:
     return float(stiffness / (RING / h**3 + effective**2 / (ORIFICE + land)))
 
 
-def _lifted(n: int, step: float) -> Stage:
+def _lifted(n: int, step: float) -> FloatingStage:
     """The slipper after a step, from the film at which it is in balance."""
     space = _slipper(n)
     fed: dict[str, Boundary] = {
@@ -227,7 +246,7 @@ def test_hydrostatic_slipper(validation, refine):
         before[:-1, 0], before[-1, 0] = rest.solution.problem.space.share, 1.0  # a full film lifted by one metre
         before[rest.solution.problem.space.edge_dofs["inner"], 0] += np.pi * INNER**2
         step = 1.0 / _hydrostatic_rate(_hydrostatic_film())
-        left = float(_lifted(n, step).carried(before)[0][0, 0])  # 1/(1 + rate step) of a disturbance
+        left = float(_lifted(n, step).propagated(before)[0][0, 0])  # 1/(1 + rate step) of a disturbance
         return float(rest.q[0]), (1.0 / left - 1.0) / step
 
     lift, rate = refine(solve, (8, 16, 32))

@@ -11,14 +11,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from gaps.films.over_turn import constant
-from gaps.films.physics import Effect, Physics
-from gaps.films.piston import PistonDrive, PistonFilm, PistonShape
-from gaps.shapes.profiles import Points, Profile, Waviness
-from reynolds.errors import FilmInputError
-from reynolds.problem import FilmSolution, Held, Storage
-from reynolds.solve.loads import boundary_flows
-from reynolds.solve.solver import FilmSolver
+from gaps import DepthPoints, Effect, Physics, PistonDrive, PistonFilm, PistonShape, Profile, Waviness, constant
+from reynolds import FilmInputError, FilmSolution, FilmSolver, Held, Storage, boundary_flows
 from reynolds.solve.transient import oil_held
 
 DIAMETER, CLEARANCE, GUIDE, VISCOSITY = 22e-3, 15e-6, 45e-3, 0.0258
@@ -103,7 +97,7 @@ def test_piston_that_passes_its_guide(validation):
 def test_tapered_piston_carries_its_profile(validation, refine):
     """Seen from the piston the film is steady and the bore slides: q' = -v/2 int h^-2/int h^-3, p' from it."""
     fall, length = 6e-6, 40e-3  # from the chamber's end to the case edge
-    taper = Profile((Points((0.0, 50e-3), (fall, fall - fall * 50e-3 / length)),))
+    taper = Profile((DepthPoints((0.0, 50e-3), (fall, fall - fall * 50e-3 / length)),))
     shape = PistonShape(DIAMETER, CLEARANCE, GUIDE, piston=taper)
     one, two = CLEARANCE + fall, CLEARANCE
     gathered = 0.5 * OUTWARDS * 2.0 * one * two / (one + two)  # int h^-2 = L/(h1 h2), int h^-3 by its mean square

@@ -7,15 +7,26 @@ from functools import partial
 import numpy as np
 import pytest
 
-from reynolds.errors import FilmInputError, FilmNotConverged
-from reynolds.fem.mesh import Cell, rectangle
-from reynolds.fem.space import FilmSpace, film_space
-from reynolds.floating.problem import Floating, steady
+from reynolds import (
+    ZERO,
+    Cavitation,
+    Cell,
+    Film,
+    FilmInputError,
+    FilmNotConverged,
+    FilmProblem,
+    FilmSolver,
+    FilmSpace,
+    Floating,
+    Held,
+    film,
+    film_space,
+    rectangle,
+    solve_stage,
+    steady,
+)
 from reynolds.floating.rest import come_to_rest
 from reynolds.floating.start import started
-from reynolds.floating.step import solve_stage
-from reynolds.problem import ZERO, Cavitation, Film, FilmProblem, Held, film
-from reynolds.solve.solver import FilmSolver
 
 LENGTH, WIDTH, TAPER, SPEED, VISCOSITY = 0.01, 0.002, 1e-5, 2.0, 0.03
 

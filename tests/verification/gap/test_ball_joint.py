@@ -8,7 +8,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from gaps.films.slipper import face_force, pressed_by
+from gaps import face_force
+from gaps.films.slipper import pressed_by
 from gaps.loads.ball_joint import (
     DrivenBody,
     Spins,
@@ -22,7 +23,7 @@ from gaps.loads.ball_joint import (
     relative_spin,
     swept_acceleration,
 )
-from reynolds.errors import FilmInputError
+from reynolds import FilmInputError
 from system.pump.laws.directions import bore_axis, bore_sides, plate_axes
 from system.pump.laws.kinematics import (
     SwashDrive,

@@ -5,23 +5,14 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from gaps.films.block import BlockDrive, BlockFilm
-from gaps.films.friction import rubbed
-from gaps.films.over_turn import constant
-from gaps.films.physics import Effect, Physics
+from gaps import BlockDrive, BlockFilm, Effect, Physics, ValvePlateGeometry, constant
+from gaps.films.friction import wall_shear
 from gaps.shapes.bearing_pads import EDGE, BearingPads
-from gaps.shapes.valve_plate_ring import Ring, ValvePlateGeometry
-from reynolds.errors import FilmInputError
+from gaps.shapes.valve_plate_ring import Ring
+from reynolds import FilmInputError, FilmSolution, FilmSolver, loads
 from reynolds.floating.coordinates import generalised_force, modes_on
-from reynolds.problem import FilmSolution
-from reynolds.solve.loads import loads
-from reynolds.solve.solver import FilmSolver
+from system import InputFaults, Pair, load_pump, lumped_point, operating_point, resolved_toml
 from system.films.rotor import valve_plate_geometry
-from system.inputs.faults import InputFaults
-from system.points.lumped import lumped_point
-from system.pump.laws.friction_pairs import Pair
-from system.pump.operating import operating_point
-from system.pump_file.file import load_pump, resolved_toml
 from system.pump_file.floating import check_floating
 
 RADII = (26.5e-3, 31.5e-3, 40.5e-3, 45.7e-3)
@@ -42,7 +33,7 @@ def solved(geometry: ValvePlateGeometry, position, time=0.0) -> tuple[np.ndarray
     oil = replace(problem.film, thickness=opened, thickness_at_vertices=None)
     solution = FilmSolver(film.space).solve(replace(problem, film=oil))
     force = generalised_force(solution.pressure, modes_on(problem.space, modes, {}), 0.0)
-    return force, film.friction_torque(problem.space, rubbed(solution, None, opened)), solution
+    return force, film.friction_torque(problem.space, wall_shear(solution, None, opened)), solution
 
 
 def test_a_tilted_ring_pad_bears_as_a_short_bearing(validation):

@@ -13,28 +13,24 @@ import numpy as np
 import pytest
 from scipy.integrate import quad
 
-from gaps.films.block import (
+from gaps import (
     BlockDrive,
     BlockFilm,
+    Profile,
+    ValvePlateGeometry,
+    Waviness,
+    constant,
     floating_block,
-    generalised,
-    kidney_wrench,
     standing_block,
-    wrench_about,
 )
-from gaps.films.friction import rubbed
-from gaps.films.over_turn import constant
+from gaps.films.block import generalised, kidney_wrench, wrench_about
+from gaps.films.friction import wall_shear
 from gaps.films.physics import FilmLaws
 from gaps.loads.block_tipping import BlockBalance, land_lift
-from gaps.shapes.profiles import Profile, Waviness
-from gaps.shapes.valve_plate_ring import ValvePlateGeometry
+from reynolds import Asperities, FilmProblem, FilmSolver, Storage, held_at, solve_stage
 from reynolds.floating.coordinates import contact_force, generalised_force, modes_on
-from reynolds.floating.rest import held_at
 from reynolds.floating.start import seats_of
-from reynolds.floating.step import solve_stage, standing
-from reynolds.laws.contact import Asperities
-from reynolds.problem import FilmProblem, Storage
-from reynolds.solve.solver import FilmSolver
+from reynolds.floating.step import standing
 
 RADII = (26.5e-3, 31.5e-3, 40.5e-3, 45.7e-3)
 ARC, PISTONS, PITCH = np.radians(30.0), 9, np.radians(40.0)
@@ -297,7 +293,8 @@ def test_a_parallel_block_rubs_as_two_rings(validation, refine):
         film = BlockFilm(ALL_ROUND, drive(), cells=(n, 4 * n))
         solution = FilmSolver(film.space).solve(posed(film, 0.0, position))
         return (
-            film.friction_torque(solution.problem.space, rubbed(solution, None, solution.film.thickness)) * SPEED
+            film.friction_torque(solution.problem.space, wall_shear(solution, None, solution.film.thickness))
+            * SPEED
         )
 
     got = refine(solve, (2, 4, 8))

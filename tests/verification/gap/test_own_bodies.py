@@ -14,16 +14,15 @@ import pytest
 import skfem
 from numpy.typing import NDArray
 
-from gaps.films.physics import Effect, Physics
-from gaps.revolution.schedule import Accuracy
+from gaps import Accuracy, Effect, Physics
 from gaps.shapes.slipper_lands import slipper_mesh
-from gaps.walls.pair import PlateWalls, seen_from, while_turning
+from gaps.walls.pair import PlateWalls, in_part_axes, while_turning
 from gaps.walls.parts import (
     BushingPart,
     PistonPart,
     PlatePart,
+    Pose,
     SlipperPart,
-    Stand,
     bushing_body,
     part_wall,
     piston_body,
@@ -32,22 +31,25 @@ from gaps.walls.parts import (
 )
 from gaps.walls.piston import FaceGrid, PistonWalls, face_grid
 from gaps.walls.user_mesh import OwnMesh
-from reynolds.bodies.elasticity import Elastic
-from reynolds.bodies.mesh import BodyMesh, ring
+from reynolds import (
+    Array,
+    BodyMesh,
+    Cell,
+    Elastic,
+    FilmInputError,
+    FilmSpace,
+    annulus,
+    film_space,
+    hollow_cylinder,
+    rectangle,
+)
 from reynolds.bodies.mesh_file import body_from_file
 from reynolds.bodies.space import body_space
-from reynolds.errors import FilmInputError
-from reynolds.fem.mesh import Cell, annulus, rectangle
-from reynolds.fem.space import FilmSpace, film_space
-from reynolds.numerics.arrays import Array
-from system.description.pump import PumpDescription
+from system import PumpDescription, load_pump, lumped_point, operating_point
 from system.films.drives import drives, no_rubbing
 from system.films.parts import floating_parts
 from system.films.rotor import rotor
 from system.points.floating_gaps import FloatingOptions, slipper_revolution
-from system.points.lumped import lumped_point
-from system.pump.operating import operating_point
-from system.pump_file.file import load_pump
 
 STEEL, BRONZE = Elastic(210e9, 0.3), Elastic(110e9, 0.34)
 BORE, OUTSIDE, GUIDE = 11e-3, 15e-3, 20e-3
@@ -107,7 +109,7 @@ def test_lame_on_a_mesh_of_tetrahedra(tmp_path, validation, refine):
 
     def solve(n: int) -> float:
         near = {"bore": (0.99 * a, 1.01 * a), "web": (0.99 * b, 1.01 * b)}
-        mesh, faces = tetrahedra(ring((a, b), GUIDE, (n, 8 * n, 1)), near)
+        mesh, faces = tetrahedra(hollow_cylinder((a, b), GUIDE, (n, 8 * n, 1)), near)
         own = read(written(tmp_path / f"{n}.msh", mesh, faces), 1e-3, film="bore", sliding=("web",))
         film = unrolled(12 * n)
         body = bushing_body(BushingPart(2.0 * a, b - a, GUIDE, BRONZE, own))
@@ -167,7 +169,7 @@ def test_part_written_and_read_back_is_the_same_part(kind, suffix, tmp_path):
 
 def thin_quarter(place: Path, *, over: bool = False) -> OwnMesh:
     """A plate held on its back that is half as thick where x, y > 0."""
-    mesh = skfem.MeshHex.from_mesh(ring((20e-3, 50e-3), 10e-3, (4, 24, 2), bottom=-10e-3).mesh)
+    mesh = skfem.MeshHex.from_mesh(hollow_cylinder((20e-3, 50e-3), 10e-3, (4, 24, 2), bottom=-10e-3).mesh)
     x, y, z = mesh.p[:, mesh.t].mean(axis=1)
     cut = (x > 0.0) & (y > 0.0) & (z < -5e-3)
     left = mesh.remove_elements(np.flatnonzero(cut))
@@ -194,12 +196,12 @@ def test_a_mesh_lies_in_the_axes_of_its_film(over, tmp_path):
 
 def oblong(place: Path, angle: float) -> OwnMesh:
     """A bushing of 12 sectors that is twice as thick towards an angle (rad) as away from it."""
-    mesh = skfem.MeshHex.from_mesh(ring((BORE, OUTSIDE), GUIDE, (1, 12, 2)).mesh)
+    mesh = skfem.MeshHex.from_mesh(hollow_cylinder((BORE, OUTSIDE), GUIDE, (1, 12, 2)).mesh)
     x, y, z = mesh.p
     thick = np.where(np.hypot(x, y) > 0.5 * (BORE + OUTSIDE), 1.0 + 0.2 * (1.0 + x / OUTSIDE), 1.0)
     c, s = np.cos(angle), np.sin(angle)
     turned = skfem.MeshHex(np.vstack([thick * (c * x - s * y), thick * (s * x + c * y), z]), mesh.t)
-    built = ring((BORE, OUTSIDE), GUIDE, (1, 12, 2)).mesh.boundaries
+    built = hollow_cylinder((BORE, OUTSIDE), GUIDE, (1, 12, 2)).mesh.boundaries
     faces = {"film": built["inner"], "held": built["outer"], "chamber": built["bottom"]}
     pressed = (("chamber", "chamber"),)
     return read(written(place / f"{angle:.3f}.vtu", turned, faces), 1e-3, held=("held",), pressed=pressed)
@@ -220,8 +222,8 @@ def test_a_bushing_that_turns_is_the_turned_bushing(columns, tolerance, tmp_path
         grid = face_grid(body, BORE, np.linspace(0.0, GUIDE, 5), 24, tmp_path)
         stiff = FaceGrid(grid.rows, 0.0 * grid.influence, 0.0 * grid.by_chamber)
         walls = PistonWalls(GUIDE, grid, stiff)
-        stand = Stand(GUIDE, fixed=stands)
-        found.append((walls.at(film, stand).matrix @ pressure, walls.by_chamber(film, stand).opened))
+        stand = Pose(GUIDE, fixed=stands)
+        found.append((walls.at(film, stand).matrix @ pressure, walls.by_chamber(film, stand).deformation))
     for turned, as_built in zip(*found, strict=True):
         assert np.ptp(as_built) > 0.1 * np.abs(as_built).max()
         assert np.abs(turned - as_built).max() < tolerance * np.abs(as_built).max()
@@ -239,11 +241,11 @@ def test_plates_turn_in_their_film(columns, tolerance, tmp_path):
         PlatePart(20e-3, 50e-3, 10e-3, STEEL, own=thin_quarter(tmp_path)), PlatePart(20e-3, 50e-3, 10e-3, STEEL),
     ))  # fmt: skip
     assert not walls.alike_around
-    x, y = seen_from(film, columns * column).vertices.T
+    x, y = in_part_axes(film, columns * column).vertices.T
     pressure = np.empty(film.size)
     pressure[film.vertex_dofs] = 1.0 + x / 50e-3
-    turned = while_turning(lambda at: walls.at(film, Stand(moving=at)), columns * column, column)
-    as_built = walls.at(seen_from(film, columns * column), Stand()).matrix @ pressure
+    turned = while_turning(lambda at: walls.at(film, Pose(moving=at)), columns * column, column)
+    as_built = walls.at(in_part_axes(film, columns * column), Pose()).matrix @ pressure
     assert np.abs(turned.matrix @ pressure - as_built).max() < tolerance * np.abs(as_built).max()
     assert np.abs(as_built[(x > 0.0) & (y > 0.0)]).mean() > 1.3 * np.abs(as_built[(x < 0.0) & (y < 0.0)]).mean()
 
@@ -317,7 +319,7 @@ def radius_of(places: Array) -> Array:
 
 
 def test_a_unit_is_what_a_coordinate_means(tmp_path):
-    body = ring((BORE, OUTSIDE), GUIDE, (1, 12, 1))
+    body = hollow_cylinder((BORE, OUTSIDE), GUIDE, (1, 12, 1))
     for unit in (1.0, 1e-3, 25.4e-3):
         place = written(tmp_path / "ring.vtu", body.mesh, {"film": body.mesh.boundaries["outer"]}, unit)
         face = body_space(body_from_file(place, unit)).face("film")

@@ -5,15 +5,13 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from gaps.films.over_turn import constant
-from gaps.films.physics import Effect, FilmLaws, Physics
-from gaps.films.piston import PistonDrive, PistonFilm, PistonFriction, PistonShape, floating_piston
-from gaps.films.piston_deformation import Yielding
+from gaps import Effect, Physics, PistonDrive, PistonFilm, PistonShape, constant, floating_piston
+from gaps.films.physics import FilmLaws
+from gaps.films.piston import PistonFriction
+from gaps.films.piston_deformation import PistonDeformation
+from reynolds import Asperities, FilmSolver, FloatingStage, boundary_flows, loads, solve_stage
 from reynolds.floating.start import started
-from reynolds.floating.step import Stage, solve_stage
-from reynolds.laws.contact import Asperities, contact_pressure
-from reynolds.solve.loads import boundary_flows, loads
-from reynolds.solve.solver import FilmSolver
+from reynolds.laws.contact import contact_pressure
 
 DIAMETER, CLEARANCE, LENGTH, VISCOSITY = 22e-3, 15e-6, 40e-3, 0.0258
 PRESSURE, CASE, OUTWARDS, PISTON, BORE = 20e6, 1e6, 2.89, 300.0, 220.0
@@ -38,7 +36,7 @@ def _piston(cells: tuple[int, int], rough: Asperities | None = None) -> PistonFi
     return PistonFilm(shape, drive, FilmLaws(asperities=rough), Physics().without(Effect.CAVITATION), cells)
 
 
-def _let_go(film: PistonFilm, eccentricity: float) -> Stage:
+def _let_go(film: PistonFilm, eccentricity: float) -> FloatingStage:
     """It stood parallel to its bore a moment ago."""
     start = started(floating_piston(film), 0.0, eccentricity * CLEARANCE * np.array([1.0, 0.0, 1.0, 0.0]))
     step = 1e-10
@@ -49,7 +47,7 @@ def _let_go(film: PistonFilm, eccentricity: float) -> Stage:
 
 def _at(
     eccentricity: float, cells: tuple[int, int], rough: Asperities | None = None
-) -> tuple[Stage, PistonFriction]:
+) -> tuple[FloatingStage, PistonFriction]:
     """The parallel piston and its friction."""
     film = _piston(cells, rough)
     stage = _let_go(film, eccentricity)
@@ -107,12 +105,14 @@ def test_pressure_pushes_a_piston_by_its_dents():
     along = stage.instant.shape.space.vertices[:, 1]
     dents = deepest * (along.max() - along) / np.ptp(along)
     by = film.rubbed(stage)
-    plain, dented = (film.friction(stage, by, given) for given in (None, Yielding(dents, dents, 0.0)))
+    plain, dented = (film.friction(stage, by, given) for given in (None, PistonDeformation(dents, dents, 0.0)))
     rim = np.pi * DIAMETER * deepest
     assert dented.force - plain.force == pytest.approx(-0.5 * rim * (PRESSURE - CASE), rel=1e-6)
     assert dented.power - plain.power == pytest.approx(0.5 * rim * (PRESSURE - CASE) * OUTWARDS, rel=1e-6)
     flows = boundary_flows(stage.solution)
-    rigid, soft = (film.chamber_flow(stage, flows, given) for given in (None, Yielding(dents, dents, 0.0)))
+    rigid, soft = (
+        film.chamber_flow(stage, flows, given) for given in (None, PistonDeformation(dents, dents, 0.0))
+    )
     assert soft - rigid == pytest.approx(-OUTWARDS * rim, rel=1e-9)
 
 
@@ -138,12 +138,12 @@ def test_contact_rubs_against_the_sliding(validation):
     assert spent == pytest.approx(0.1 * pressed * speed, rel=1e-9)
 
 
-def _pressed(stage: Stage, rough: Asperities) -> float:
+def _pressed(stage: FloatingStage, rough: Asperities) -> float:
     """Contact pressure over the film, N."""
     return float(np.sum(contact_pressure(rough, stage.gap).value * stage.solution.problem.space.area))
 
 
-def _film_alone(stage: Stage) -> tuple[float, float, np.ndarray, float]:
+def _film_alone(stage: FloatingStage) -> tuple[float, float, np.ndarray, float]:
     """Force, torque, moment and power of the oil, by `reynolds.solve.loads`."""
     found = loads(stage.solution)
     around, along = found.friction_moving

@@ -10,18 +10,12 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from gaps.films.over_turn import constant
-from gaps.films.piston import PistonDrive, PistonFilm, PistonShape, standing_piston
+from gaps import PistonDrive, PistonFilm, PistonShape, Profile, constant, standing_piston
 from gaps.loads.ball_joint import lateral_force
-from gaps.shapes.profiles import Barrel, Profile
+from gaps.shapes.profiles import Barrel
 from gaps.standing.conductances import piston_conductance
-from gaps.standing.gap_film import GapFilm
-from gaps.standing.reports import piston_told, rest_from
-from reynolds.errors import FilmNotConverged
-from reynolds.floating.rest import held_at
-from reynolds.floating.step import Stage
-from reynolds.numerics.arrays import Array
-from reynolds.solve.solver import FilmSolver
+from gaps.standing.gap_film import GapFilm, rest_from, standing_piston_film
+from reynolds import Array, FilmNotConverged, FilmSolver, FloatingStage, held_at
 from system.films.positions import eccentric
 
 RADIUS, CLEARANCE = 11e-3, 15e-6
@@ -54,13 +48,15 @@ def flooded(**changed) -> PistonDrive:
     return drive(chamber=10e6, case_pressure=10e6, **changed)
 
 
-def held(at: PistonDrive, position: Array, cells=CELLS, shape: PistonShape = SHAPE) -> tuple[PistonFilm, Stage]:
+def held(
+    at: PistonDrive, position: Array, cells=CELLS, shape: PistonShape = SHAPE
+) -> tuple[PistonFilm, FloatingStage]:
     film = PistonFilm(shape, at, cells=cells)
     return film, held_at(FilmSolver(film.space_at(0.0)), standing_piston(film), 0.0, position)
 
 
 def told(at: PistonDrive, position: Array, cells=CELLS, shape: PistonShape = SHAPE) -> GapFilm:
-    return piston_told(*held(at, position, cells, shape))
+    return standing_piston_film(*held(at, position, cells, shape))
 
 
 def force(at: PistonDrive, position: Array, cells=CELLS, shape: PistonShape = SHAPE) -> Array:
@@ -84,7 +80,7 @@ def test_leakage_of_a_parallel_piston(ratio, validation, refine):
 
     def solve(n: int) -> tuple[float, float, float]:
         film, stage = held(drive(), pushed(ratio, (1.0, 0.0)), (n, n // 4))
-        found = piston_told(film, stage)
+        found = standing_piston_film(film, stage)
         return found.chamber_flow, found.leakage_flow, piston_conductance(FilmSolver(film.space_at(0.0)), stage)
 
     chamber, case, conductance = refine(solve, (24, 48, 96))
@@ -277,7 +273,7 @@ RUNNING = {"chamber": 20e6, "velocity": 1.5, "piston_spin": 220.0, "bore_spin": 
 
 def at_rest(at: PistonDrive, start: Array = NO_LOAD) -> GapFilm:
     film = PistonFilm(SHAPE, at, cells=(32, 8))
-    return piston_told(film, rest_from(FilmSolver(film.space_at(0.0)), standing_piston(film), 0.0, start))
+    return standing_piston_film(film, rest_from(FilmSolver(film.space_at(0.0)), standing_piston(film), 0.0, start))
 
 
 def _turned(position: Array) -> Array:

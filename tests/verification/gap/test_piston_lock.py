@@ -19,18 +19,23 @@ import numpy as np
 import pytest
 from scipy.linalg import expm
 
-from gaps.films.over_turn import constant
-from gaps.films.physics import Effect, FilmLaws, Physics
-from gaps.films.piston import PistonDrive, PistonFilm, PistonShape, floating_piston
-from gaps.shapes.profiles import EdgeRelief, Points, Profile
+from gaps import (
+    DepthPoints,
+    EdgeRelief,
+    Effect,
+    Physics,
+    PistonDrive,
+    PistonFilm,
+    PistonShape,
+    Profile,
+    constant,
+    floating_piston,
+)
+from gaps.films.physics import FilmLaws
+from reynolds import Asperities, FilmSolver, Floating, FloatingStage, loads, solve_stage
 from reynolds.floating.coordinates import generalised_force, modes_on
-from reynolds.floating.problem import Floating
 from reynolds.floating.start import started
-from reynolds.floating.step import Stage, solve_stage
-from reynolds.laws.contact import Asperities
-from reynolds.numerics.dirk import ALEXANDER_2, Taken, march, nodes_only
-from reynolds.solve.loads import loads
-from reynolds.solve.solver import FilmSolver
+from reynolds.numerics.dirk import ALEXANDER_2, AcceptedStep, integrate, nodes_only
 
 DIAMETER, LENGTH, CLEARANCE, PRESSURE, VISCOSITY, TAPER = 20e-3, 30e-3, 10e-6, 30e6, 0.02, 5e-6
 RADIUS = DIAMETER / 2
@@ -52,7 +57,7 @@ DRIVE = PistonDrive(
 def _tapered(at_chamber: float, at_case: float) -> PistonShape:
     """A piston with so much taken off (m) at its chamber end and at the case edge."""
     return PistonShape(
-        DIAMETER, CLEARANCE, LENGTH, piston=Profile((Points((0.0, LENGTH), (at_chamber, at_case)),))
+        DIAMETER, CLEARANCE, LENGTH, piston=Profile((DepthPoints((0.0, LENGTH), (at_chamber, at_case)),))
     )
 
 
@@ -155,7 +160,7 @@ def _collocation(points: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     return 0.5 * LENGTH * (1.0 + y), 2.0 / LENGTH * d, 0.5 * LENGTH * integral
 
 
-def _first_step(floating: Floating, step: float) -> Stage:
+def _first_step(floating: Floating, step: float) -> FloatingStage:
     """One step of the piston let go in the middle."""
     start = started(floating, 0.0, np.zeros(4))
     solver = FilmSolver(floating.shape_at(0.0).space)
@@ -196,12 +201,12 @@ def test_rates_of_small_motions(name, shape, validation, refine):
     assert (exact[0] > 0.0) == (name == "locking")
 
 
-def _let_go(shape: PistonShape, laws: FilmLaws, at: float, times: np.ndarray) -> list[Taken[Stage]]:
+def _let_go(shape: PistonShape, laws: FilmLaws, at: float, times: np.ndarray) -> list[AcceptedStep[FloatingStage]]:
     """The way of a piston let go at an eccentricity (m) parallel to its bore."""
     floating = floating_piston(PistonFilm(shape, DRIVE, laws, FULL, (24, 12)))
     start = started(floating, 0.0, at * np.array([1.0, 0.0, 1.0, 0.0]))
     solve = partial(solve_stage, FilmSolver(floating.shape_at(0.0).space), floating)
-    return list(march(ALEXANDER_2, solve, start, times[1:], nodes_only))
+    return list(integrate(ALEXANDER_2, solve, start, times[1:], nodes_only))
 
 
 def test_released_piston_floats_back(validation):

@@ -5,25 +5,11 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from gaps.films.over_turn import Course, constant
-from gaps.films.physics import Effect, FilmLaws, Physics, laws_left
-from gaps.shapes.profiles import (
-    PLAIN,
-    Barrel,
-    Crown,
-    EdgeRelief,
-    Points,
-    PointsAround,
-    Profile,
-    RingGroove,
-    Waviness,
-    ring_grooves,
-)
-from reynolds.errors import FilmInputError
-from reynolds.laws.contact import Asperities
+from gaps import DepthPoints, EdgeRelief, Effect, PeriodicCurve, Physics, Profile, Waviness, constant
+from gaps.films.physics import FilmLaws, laws_left
+from gaps.shapes.profiles import PLAIN, Barrel, Crown, PointsAround, RingGroove, ring_grooves
+from reynolds import Asperities, Cavitation, FilmInputError, Surface
 from reynolds.laws.fluid import CONSTANT
-from reynolds.laws.roughness import Surface
-from reynolds.problem import Cavitation
 
 LENGTH = 40e-3
 WORN = PointsAround(
@@ -36,7 +22,7 @@ SHAPES = [
     EdgeRelief(0.0, 4e-3, 3e-6),
     RingGroove(10.03e-3, 0.5e-3, 0.3e-3),
     Waviness(3, 1e-6, 0.4),
-    Points((0.0, 13.3e-3, LENGTH), (3e-6, 0.0, 1e-6)),
+    DepthPoints((0.0, 13.3e-3, LENGTH), (3e-6, 0.0, 1e-6)),
     WORN,
 ]
 # Places and angles between the knees, so that differences stay on one piece.
@@ -73,7 +59,7 @@ def test_slopes(shape):
         (RingGroove(10e-3, 1e-3, 3e-4), 10.6e-3, 0.0, 0.0),
         (Waviness(2, 1e-6, 0.3), 0.0, 0.3, 1e-6),
         (Waviness(2, 1e-6, 0.3), 0.0, 0.3 + 0.5 * np.pi, -1e-6),
-        (Points((0.0, 2e-3), (3e-6, 1e-6)), 0.5e-3, 0.0, 2.5e-6),
+        (DepthPoints((0.0, 2e-3), (3e-6, 1e-6)), 0.5e-3, 0.0, 2.5e-6),
         (WORN, 15e-3, 2.0, 1e-6),
         (WORN, 7.5e-3, 1.25, 1.25e-6),  # middle of a cell: mean of its corners
         (WORN, 0.0, 0.5 * (4.0 + 0.5 + 2.0 * np.pi), 1e-6),  # across the seam
@@ -109,16 +95,16 @@ def test_knees():
     ("make", "fault"),
     [
         (
-            lambda: Points((0.0, 0.0), (1e-6, 0.0)),
+            lambda: DepthPoints((0.0, 0.0), (1e-6, 0.0)),
             r"profile, places: \[0\.0, 0\.0\]; expected two or more that rise",
         ),
-        (lambda: Points((0.0, 1e-3), (1e-6,)), r"profile, depths: an array of shape \(1,\)"),
-        (lambda: Points((0.0, 1e-3), (1e-6, np.nan)), "profile, depths"),
+        (lambda: DepthPoints((0.0, 1e-3), (1e-6,)), r"profile, depths: an array of shape \(1,\)"),
+        (lambda: DepthPoints((0.0, 1e-3), (1e-6, np.nan)), "profile, depths"),
         (lambda: PointsAround((0.0, 1.0), (0.0, 6.5), ((0.0, 0.0), (0.0, 0.0))), "profile, angles: 372"),
         (lambda: EdgeRelief(1e-3, 1e-3, 1e-6), "edge relief: from 0.001 to 0.001 m; expected two places apart"),
         (lambda: RingGroove(1e-3, 0.0, 1e-6), "ring groove, width"),
         (lambda: Barrel(-1.0, 1e-6), "barrel, length"),
-        (lambda: Points((0.0, 1e-3), (1e-6, 0.0))(np.array([1.1e-3]), np.zeros(1)), "profile, place: 0.0011"),
+        (lambda: DepthPoints((0.0, 1e-3), (1e-6, 0.0))(np.array([1.1e-3]), np.zeros(1)), "profile, place: 0.0011"),
     ],
 )
 def test_refused(make, fault):
@@ -132,7 +118,7 @@ def _wave(angle: np.ndarray) -> np.ndarray:
 
 def test_course_passes_through_its_values_on_any_turn():
     angles = np.linspace(0.0, 2.0 * np.pi, 37)[:-1] + 0.1
-    course = Course(angles, _wave(angles))
+    course = PeriodicCurve(angles, _wave(angles))
     for turn in (-1, 0, 5):
         for k in (0, 17, 35):
             assert course(angles[k] + 2.0 * np.pi * turn) == pytest.approx(_wave(angles)[k], abs=1e-12)
@@ -143,7 +129,7 @@ def test_course_converges(validation, refine):
 
     def solve(n: int) -> float:
         angles = 2.0 * np.pi * np.arange(n) / n
-        course = Course(angles, _wave(angles)[:, 0])
+        course = PeriodicCurve(angles, _wave(angles)[:, 0])
         between = 2.0 * np.pi * (np.arange(400) + 0.37) / 400
         return float(max(abs(course(angle) - np.sin(angle)) for angle in between))
 
@@ -164,7 +150,7 @@ def test_course_converges(validation, refine):
 def test_course_stays_within_its_values():
     """A chamber's pressure that jumps has no overshoot; its slope is the same from both sides of the wrap."""
     angles = 2.0 * np.pi * np.arange(40) / 40
-    course = Course(angles, np.where(np.sin(angles) > 0.0, -1e5, 35e6))
+    course = PeriodicCurve(angles, np.where(np.sin(angles) > 0.0, -1e5, 35e6))
     between = np.array([float(course(angle)) for angle in np.linspace(-1.0, 8.0, 2001)])
     assert between.min() == -1e5
     assert between.max() == pytest.approx(35e6)
@@ -187,7 +173,7 @@ def test_course_stays_within_its_values():
 )
 def test_course_refused(angles, values, fault):
     with pytest.raises(FilmInputError, match=fault):
-        Course(np.array(angles), np.array(values))
+        PeriodicCurve(np.array(angles), np.array(values))
 
 
 def test_physics_switches():

@@ -14,8 +14,8 @@ from gaps.walls.parts import (
     BushingPart,
     PistonPart,
     PlatePart,
+    Pose,
     SlipperPart,
-    Stand,
     bushing_body,
     closer_at_end,
     closer_at_start,
@@ -27,15 +27,12 @@ from gaps.walls.parts import (
 )
 from gaps.walls.piston import FaceGrid, PistonWalls, face_grid
 from gaps.walls.user_mesh import CHAMBER, FILM
-from reynolds.bodies.elasticity import Elastic, pressure_forces, structure
+from reynolds import Array, Cell, Elastic, FilmInputError, FilmSpace, annulus, film_space, rectangle
+from reynolds.bodies.elasticity import pressure_forces, structure
 from reynolds.bodies.space import body_space
-from reynolds.bodies.wall import BodyWall, FacePressure, FaceWall, load_opening
+from reynolds.bodies.wall import BodyWall, FacePressure, FaceWall, load_deformation
 from reynolds.equation.coefficients import at_points
-from reynolds.errors import FilmInputError
-from reynolds.fem.mesh import Cell, annulus, rectangle
-from reynolds.fem.space import FilmSpace, film_space
-from reynolds.numerics.arrays import Array
-from reynolds.numerics.cache import Origin
+from reynolds.numerics.cache import CacheOrigin
 
 STEEL, BRONZE = Elastic(210e9, 0.3), Elastic(110e9, 0.34)
 PRESSURE, MICRON = 30e6, 1e6
@@ -113,7 +110,7 @@ def test_piston_pressed_from_outside(inner, validation, refine):
 
 
 def dent(wave: float, radius: float) -> float:
-    """Deepest opening (m/Pa) of a long solid cylinder under cos(2 pi z/wave): its own under a line of dents."""
+    """Deepest deformation (m/Pa) of a long solid cylinder under cos(2 pi z/wave): its own, by its dents."""
     x = 2.0 * np.pi / wave * radius
     zero, one = ive(0, x), ive(1, x)
     return 0.7 * radius * 2.6 / 210e9 * one**2 / (x**2 * zero**2 - (x**2 + 1.4) * one**2)
@@ -150,7 +147,7 @@ def test_piston_under_its_chamber(validation, refine):
     ends = [np.abs(film.vertices[:, 1] - y) < 1e-9 for y in (0.0, length)]
 
     def solve(n: int) -> tuple[float, float]:
-        found = load_opening(piston_body(PISTON, (n, 6 * n, n)), film, FacePressure(CHAMBER, -PRESSURE))
+        found = load_deformation(piston_body(PISTON, (n, 6 * n, n)), film, FacePressure(CHAMBER, -PRESSURE))
         return MICRON * float(found[ends[0]].mean()), MICRON * float(found[ends[1]].mean())
 
     found = refine(solve, (1, 2, 4), 3.0)
@@ -223,7 +220,7 @@ def test_slipper_bends_about_its_socket(validation, refine):
 
     def solve(thick: float, across: int) -> float:
         body = slipper_body(SlipperPart(3e-3, socket, socket, rim, thick, BRONZE), (across, 8, 1))
-        found = load_opening(body, film, FacePressure(FILM, 1.0))
+        found = load_deformation(body, film, FacePressure(FILM, 1.0))
         return float(np.mean(found[edge])) / rim_deflection(socket, rim, thick, BRONZE)
 
     thick = (0.6e-3, 0.3e-3, 0.15e-3)
@@ -248,7 +245,7 @@ def test_plate_on_its_back(validation):
     thick = 2e-3
     film = film_space(annulus(30e-3, 50e-3, (8, 24)))
     body = plate_body(PlatePart(20e-3, 60e-3, thick, STEEL), (10, 12, 1))
-    found = load_opening(body, film, FacePressure("top", PRESSURE))
+    found = load_deformation(body, film, FacePressure("top", PRESSURE))
     middle = np.abs(np.hypot(*film.vertices.T) - 40e-3) < 1e-9
     validation(
         case="Plate held on its back",
@@ -276,17 +273,17 @@ def test_film_that_covers_a_part_meets_all_of_it():
     walls = grids()
     film = unrolled(walls.bushing.rows)
     stiff = FaceGrid(walls.piston.rows, 0.0 * walls.piston.influence, 0.0 * walls.piston.by_chamber)
-    found = PistonWalls(GUIDE, walls.bushing, stiff).at(film, Stand(GUIDE)).matrix
+    found = PistonWalls(GUIDE, walls.bushing, stiff).at(film, Pose(GUIDE)).matrix
     whole = part_wall(bushing_body(BUSHING, (1, 12, 2)), film).matrix
     assert found == pytest.approx(whole, abs=1e-9 * np.abs(whole).max())
 
 
 @pytest.mark.parametrize("reach", [0.6 * GUIDE, GUIDE, 1.3 * GUIDE])
 def test_work_is_the_same_wherever_the_piston_stands(reach):
-    """int p1 w(p2) dA = int p2 w(p1) dA, and never negative: force and opening pass the same way."""
+    """int p1 w(p2) dA = int p2 w(p1) dA, and never negative: force and deformation pass the same way."""
     walls = grids()
     film = unrolled(np.linspace(max(0.0, GUIDE - reach), GUIDE, 6))
-    matrix = walls.at(film, Stand(reach)).matrix
+    matrix = walls.at(film, Pose(reach)).matrix
     value, area = film.reference.value, film.area
     at_points = np.zeros((area.size, film.size))
     for local in range(film.dofs.shape[1]):
@@ -313,8 +310,8 @@ def test_bore_under_one_pressure_opens_alike_wherever_the_piston_stands(refine):
         for reach in (0.37 * GUIDE, 0.8 * GUIDE, GUIDE):
             film = unrolled(np.linspace(GUIDE - reach, GUIDE, 9))
             found = (
-                alone.at(film, Stand(reach)).matrix @ np.ones(film.size)
-                + alone.by_chamber(film, Stand(reach)).opened
+                alone.at(film, Pose(reach)).matrix @ np.ones(film.size)
+                + alone.by_chamber(film, Pose(reach)).deformation
             )
             strays.append(float(np.abs(found / whole - 1.0).max()))
         return tuple(strays)
@@ -343,23 +340,23 @@ def test_work_of_film_and_chamber_is_that_of_the_face(row):
     def work(space: FilmSpace, pressure: Array, opened: Array) -> float:
         return float(np.sum(at_points(space, pressure) * space.sample_vertices(opened) * space.area))
 
-    on_film, bare = falling(film), alone.by_chamber(film, Stand(GUIDE - edge))
-    opened = alone.at(film, Stand(GUIDE - edge)).matrix @ on_film + bare.opened
-    grown = work(film, on_film, bare.opened) + bare.swollen
+    on_film, bare = falling(film), alone.by_chamber(film, Pose(GUIDE - edge))
+    opened = alone.at(film, Pose(GUIDE - edge)).matrix @ on_film + bare.deformation
+    grown = work(film, on_film, bare.deformation) + bare.chamber_growth
     on_face = falling(whole)
-    expected = work(whole, on_face, alone.at(whole, Stand(GUIDE)).matrix @ on_face)
-    assert bare.swollen > 0.1 * grown
+    expected = work(whole, on_face, alone.at(whole, Pose(GUIDE)).matrix @ on_face)
+    assert bare.chamber_growth > 0.1 * grown
     assert work(film, on_film, opened) + grown == pytest.approx(expected, rel=1e-9)
 
 
 def test_faces_a_piston_cannot_meet():
     walls = grids()
     with pytest.raises(FilmInputError, match=r"7 cells around a film.*12, as around"):
-        walls.at(unrolled(np.linspace(0.0, GUIDE, 3), around=7), Stand(GUIDE))
+        walls.at(unrolled(np.linspace(0.0, GUIDE, 3), around=7), Pose(GUIDE))
     with pytest.raises(FilmInputError, match="within the part"):
-        walls.at(unrolled(np.linspace(0.0, GUIDE, 3)), Stand(0.5 * GUIDE))  # a film beyond the piston's end
+        walls.at(unrolled(np.linspace(0.0, GUIDE, 3)), Pose(0.5 * GUIDE))  # a film beyond the piston's end
     with pytest.raises(FilmInputError, match="within the part"):
-        walls.at(unrolled(np.linspace(0.0, GUIDE, 3)), Stand(2.0 * PISTON.length))
+        walls.at(unrolled(np.linspace(0.0, GUIDE, 3)), Pose(2.0 * PISTON.length))
 
 
 def test_pocket_presses_on_slipper_and_plate(tmp_path):
@@ -373,7 +370,7 @@ def test_pocket_presses_on_slipper_and_plate(tmp_path):
     pocket = film.edge_dofs["pocket"][0]
     parts = [part_wall(body, film, folder=tmp_path) for body in (slipper, plate)]
     assert both[:, pocket] == pytest.approx(sum(part.matrix[:, pocket] for part in parts), abs=0.0)
-    assert all(part.origin is Origin.CACHE for part in parts)  # kept from the first time
+    assert all(part.origin is CacheOrigin.CACHE for part in parts)  # kept from the first time
     radius = np.hypot(*film.vertices.T)
     rim, edge = radius > 14e-3 * (1.0 - 1e-9), radius < 8e-3 * (1.0 + 1e-9)
     assert parts[1].matrix[edge, pocket].mean() > 5.0 * abs(parts[1].matrix[rim, pocket].mean())  # dents the plate
@@ -390,15 +387,15 @@ def test_pocket_presses_on_slipper_and_plate(tmp_path):
 
 
 def test_slipper_bends_alike_on_coarse_films(refine):
-    """Films of eight sectors on: the rim's opening errs as the area of the film's polygon, by 1/n^2."""
+    """Films of eight sectors on: the rim's deformation errs as the area of the film's polygon, by 1/n^2."""
     from gaps.shapes.slipper_lands import slipper_mesh
 
     body = slipper_body(SlipperPart(0.5e-3, 8e-3, 7e-3, 14e-3, 5e-3, BRONZE), (6, 12, 1))
 
     def rim(sectors: int) -> float:
         film = film_space(slipper_mesh(((8e-3, 14e-3),), (3, sectors)), pockets=["pocket"])
-        opening = part_wall(body, film).matrix @ np.ones(film.size)
-        return float(opening[np.hypot(*film.vertices.T) > 14e-3 * (1.0 - 1e-9)].mean())
+        deformation = part_wall(body, film).matrix @ np.ones(film.size)
+        return float(deformation[np.hypot(*film.vertices.T) > 14e-3 * (1.0 - 1e-9)].mean())
 
     found = refine(rim, (8, 16, 32), 2.0)
     assert abs(found.finest - rim(48)) < found.tolerance()
@@ -420,9 +417,9 @@ def test_grooves_press_on_slipper_and_plate(tmp_path):
         found = []
         for lands in (grooved, plain):
             film = film_space(slipper_mesh(lands.radii, (6, 24)), pockets=lands.closed)
-            opening = part_wall(body, film, folder=tmp_path).matrix @ np.full(film.size, PRESSURE)
+            deformation = part_wall(body, film, folder=tmp_path).matrix @ np.full(film.size, PRESSURE)
             radius = np.hypot(*film.vertices.T)
-            found.append([opening[np.abs(radius - at) < 1e-9].mean() for at in (8e-3, 14e-3)])
+            found.append([deformation[np.abs(radius - at) < 1e-9].mean() for at in (8e-3, 14e-3)])
         # The film's sectors of 15 degrees are chords, its area by 1.1 % short of the groove's arcs.
         assert found[0] == pytest.approx(found[1], rel=0.02)
 

@@ -9,17 +9,9 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from gaps.response import (
-    Axis,
-    Measure,
-    Output,
-    Response,
-    Samples,
-    Spacing,
-    held_out_points,
-    learnt_points,
-)
-from reynolds.errors import FilmInputError
+from gaps import Axis, Response
+from gaps.response import Measure, Output, Samples, Spacing, held_out_points, learnt_points
+from reynolds import FilmInputError
 
 AXES = (
     Axis("shaft speed", 40.0, 260.0, Spacing.LOGARITHMIC),

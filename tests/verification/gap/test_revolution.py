@@ -12,19 +12,32 @@ from functools import partial
 import numpy as np
 import pytest
 
-from gaps.revolution.march import GapRevolution, run_revolution
-from gaps.revolution.schedule import Accuracy, Schedule, evenly
-from reynolds.errors import FilmInputError, FilmNotConverged
-from reynolds.fem.mesh import Cell, rectangle, ring
-from reynolds.fem.space import FilmSpace, film_space
-from reynolds.floating.problem import Floating, Outer, steady
+from gaps import Accuracy, Schedule, evenly, run_revolution
+from gaps.revolution.march import GapRevolution
+from reynolds import (
+    ZERO,
+    Array,
+    Cavitation,
+    Cell,
+    FilmInputError,
+    FilmNotConverged,
+    FilmProblem,
+    FilmSolver,
+    FilmSpace,
+    Floating,
+    FloatingStage,
+    Held,
+    Outer,
+    boundary_flows,
+    film,
+    film_space,
+    rectangle,
+    ring,
+    solve_stage,
+    steady,
+)
 from reynolds.floating.start import restarted, seats_of, started
-from reynolds.floating.step import Stage, solve_stage
-from reynolds.numerics.arrays import Array
-from reynolds.numerics.dirk import ALEXANDER_2, march, nodes_only, within
-from reynolds.problem import ZERO, Cavitation, FilmProblem, Held, film
-from reynolds.solve.loads import boundary_flows
-from reynolds.solve.solver import FilmSolver
+from reynolds.numerics.dirk import ALEXANDER_2, integrate, nodes_only, within
 
 LENGTH, WIDTH, THICKNESS, VISCOSITY, SPEED = 0.01, 0.002, 1e-5, 0.03, 220.0
 DAMPING = VISCOSITY * LENGTH**3 * WIDTH / THICKNESS**3  # N s/m, of a strip open at both ends
@@ -52,7 +65,7 @@ def _flat(space: FilmSpace) -> FilmProblem:
 
 
 def _swayed(
-    share: float, schedule: Schedule, look: Callable[[Stage], float] | None = None, **options
+    share: float, schedule: Schedule, look: Callable[[FloatingStage], float] | None = None, **options
 ) -> GapRevolution[float]:
     """The plate's revolution, for a spring of `share` times the film's c w; reports the film's power by itself."""
     space = _strip()
@@ -63,7 +76,7 @@ def _swayed(
     )
 
 
-def _power(stage: Stage) -> float:
+def _power(stage: FloatingStage) -> float:
     return float(stage.film_force @ stage.rate)
 
 
@@ -112,10 +125,10 @@ def test_oil_returns_and_work_is_spent():
     found = _swayed(1.0, evenly(SPEED, 120))
     instants = found.turn.instants
     drained = _swayed(1.0, evenly(SPEED, 120), look=lambda stage: sum(boundary_flows(stage.solution).values()))
-    flow = np.array([instant.seen for instant in drained.turn.instants])
+    flow = np.array([instant.report for instant in drained.turn.instants])
     assert abs(flow.sum()) < 1e-5 * np.abs(flow).sum()
     load = np.array([SWAY * np.cos(instant.angle) * instant.rate[0] for instant in instants])
-    assert -np.sum([instant.seen for instant in instants]) == pytest.approx(load.sum(), rel=1e-3)
+    assert -np.sum([instant.report for instant in instants]) == pytest.approx(load.sum(), rel=1e-3)
     assert load.sum() > 0.0
 
 
@@ -145,7 +158,7 @@ def test_a_turn_joins_the_one_before():
     first = _swayed(4.0, evenly(SPEED, 90))
     looks: list[float] = []
 
-    def look(stage: Stage) -> float:
+    def look(stage: FloatingStage) -> float:
         looks.append(stage.time)
         return _power(stage)
 
@@ -206,7 +219,9 @@ def test_journal_with_a_cavity():
     ends = []
     for side in (1.0, -1.0):
         begin = restarted(floating, 0.0, found.turn.last, found.turn.end + side * nudge)
-        *_, taken = march(ALEXANDER_2, partial(solve_stage, solver, floating), begin, found.turn.times, nodes_only)
+        *_, taken = integrate(
+            ALEXANDER_2, partial(solve_stage, solver, floating), begin, found.turn.times, nodes_only
+        )
         ends.append(taken.state.q)
     np.testing.assert_allclose((ends[0] - ends[1]) / 2.0, found.turn.slopes @ nudge, atol=2e-3 * 2e-5)
 
@@ -220,7 +235,7 @@ def test_refused():
         run_revolution(FilmSolver(space), plate, evenly(SPEED, 10), np.array([-1e-5]), _power)
     end = started(plate, 0.0, np.array([1e-5]))
     solve = partial(solve_stage, FilmSolver(space), plate)
-    *_, taken = march(ALEXANDER_2, solve, end, [1e-4], within(1e-8))
+    *_, taken = integrate(ALEXANDER_2, solve, end, [1e-4], within(1e-8))
     with pytest.raises(FilmInputError, match="plate, start of a turn"):
         restarted(plate, 0.0, taken.state, np.array([-1e-5]))
 

@@ -9,36 +9,30 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from gaps.films.over_turn import constant
-from gaps.films.slipper import (
-    Orifice,
+from gaps import (
+    Active,
+    PocketOrifice,
     SlipperDrive,
     SlipperFilm,
+    SlipperLands,
     SlipperShape,
+    constant,
     face_force,
     floating_slipper,
-    hagen_poiseuille_conductance,
 )
-from gaps.revolution.reports import Active
-from gaps.shapes.slipper_lands import SlipperLands
+from gaps.films.slipper import hagen_poiseuille_conductance
 from gaps.standing.conductances import slipper_conductance as conductance_of
-from gaps.standing.gap_film import GapFilm
-from gaps.standing.reports import rest_from, slipper_told
-from reynolds.errors import FilmNotConverged
-from reynolds.floating.rest import held_at
-from reynolds.floating.step import Stage
-from reynolds.numerics.arrays import Array
-from reynolds.solve.solver import FilmSolver
+from gaps.standing.gap_film import GapFilm, rest_from, standing_slipper_film
+from reynolds import Array, FilmNotConverged, FilmSolver, FloatingStage, held_at
+from system import load_pump, operating_point
 from system.films.parts import floating_parts
 from system.films.positions import instant_drives
 from system.films.rotor import rotor
 from system.pump.laws.leakage import slipper_conductance
-from system.pump.operating import operating_point
-from system.pump_file.file import load_pump
 
 INNER, OUTER, ORIFICE, ORIFICE_LENGTH = 8.2e-3, 14e-3, 0.9e-3, 5e-3
-SHAPE = SlipperShape(SlipperLands(((INNER, OUTER),)), Orifice(ORIFICE, ORIFICE_LENGTH))
-TABLES = SlipperShape(SlipperLands(((5e-3, 10e-3),)), Orifice(2e-3, 5e-3))
+SHAPE = SlipperShape(SlipperLands(((INNER, OUTER),)), PocketOrifice(ORIFICE, ORIFICE_LENGTH))
+TABLES = SlipperShape(SlipperLands(((5e-3, 10e-3),)), PocketOrifice(2e-3, 5e-3))
 VISCOSITY, PRESSURE, CASE = 0.0258, 35e6, 0.15e6
 LOG = np.log(OUTER / INNER)
 EFFECTIVE_AREA = np.pi * (OUTER**2 - INNER**2) / (2.0 * LOG)
@@ -66,14 +60,16 @@ def drive(
     return SlipperDrive(**(usual | changed))
 
 
-def held(n: int, at: SlipperDrive, position: Array, shape: SlipperShape = SHAPE) -> tuple[SlipperFilm, Stage]:
+def held(
+    n: int, at: SlipperDrive, position: Array, shape: SlipperShape = SHAPE
+) -> tuple[SlipperFilm, FloatingStage]:
     film = SlipperFilm(shape, at, cells=(n, 6 * n))
     return film, held_at(FilmSolver(film.space), floating_slipper(film), 0.0, position)
 
 
 def at_rest(n: int, at: SlipperDrive, start: Array = PARALLEL) -> GapFilm:
     film = SlipperFilm(SHAPE, at, cells=(n, 6 * n))
-    return slipper_told(film, rest_from(FilmSolver(film.space), floating_slipper(film), 0.0, start))
+    return standing_slipper_film(film, rest_from(FilmSolver(film.space), floating_slipper(film), 0.0, start))
 
 
 def land_conductance(thickness: float) -> float:
@@ -90,7 +86,7 @@ def test_parallel_slipper_at_rest(validation, refine):
 
     def solve(n: int) -> tuple[float, ...]:
         film, stage = held(n, drive(), np.array([40e-6, 0.0, 0.0]))
-        told = slipper_told(film, stage)
+        told = standing_slipper_film(film, stage)
         assert told.leakage_flow == pytest.approx(told.chamber_flow, rel=1e-9)
         conductance = conductance_of(FilmSolver(film.space), film, stage)
         return told.chamber_flow, conductance, film.supplied(stage)[0], told.carried_load
@@ -119,7 +115,7 @@ def test_friction_of_sliding_and_spin(validation, refine):
     polar = np.pi / 2.0 * (OUTER**4 - INNER**4)
 
     def solve(n: int) -> tuple[float, float]:
-        told = slipper_told(*held(n, moving, PARALLEL))
+        told = standing_slipper_film(*held(n, moving, PARALLEL))
         return told.friction_power, -told.loads.friction_torque_moving
 
     shear = VISCOSITY / PARALLEL[0]
@@ -162,7 +158,7 @@ def test_tilted_slipper_of_the_tables(speed, side, lift, moment, flow, validatio
         film, stage = held(n, at, tilted, TABLES)
         _, along_x, along_y = TABLES.outer_radius * stage.film_force
         assert abs(along_y) < 1e-9 * lift * OUTER
-        told = slipper_told(film, stage)
+        told = standing_slipper_film(film, stage)
         return told.carried_load, along_x, told.chamber_flow
 
     quantities = (
@@ -295,7 +291,7 @@ def test_ref90_is_underbalanced(validation):
         quantity="carried share, 35 MPa, parallel film of 10 um at rest",
         unit="1",
         expected=0.955,
-        obtained=slipper_told(*held(32, drive(load=load), PARALLEL)).carried_fraction,
+        obtained=standing_slipper_film(*held(32, drive(load=load), PARALLEL)).carried_fraction,
         tolerance=0.5e-3,
         note="rounding of the reference",
     )
@@ -305,7 +301,7 @@ def test_ref90_is_underbalanced(validation):
 
 def test_pulled_slipper_finds_no_rest():
     film, stage = held(8, drive(load=(-120.0, 0.0, 0.0)), PARALLEL)
-    assert slipper_told(film, stage).required_load == 0.0
+    assert standing_slipper_film(film, stage).required_load == 0.0
     with pytest.raises(FilmNotConverged, match="no rest"):
         at_rest(8, drive(load=(-120.0, 0.0, 0.0)))
 

@@ -8,34 +8,31 @@ import numpy as np
 import pytest
 from scipy.optimize import minimize_scalar
 
-from gaps.films.over_turn import constant
-from gaps.films.physics import Effect, FilmLaws, Physics
-from gaps.films.slipper import (
-    Orifice,
-    Retainer,
+from gaps import (
+    EdgeRelief,
+    Effect,
+    Physics,
+    PocketOrifice,
+    Profile,
     SlipperDrive,
     SlipperFilm,
+    SlipperLands,
     SlipperShape,
+    Waviness,
+    constant,
     face_force,
     floating_slipper,
-    orifice_and_capillary,
-    retainer_force,
-    supply,
 )
-from gaps.shapes.profiles import EdgeRelief, Profile, Waviness
-from gaps.shapes.slipper_lands import SlipperLands, lands_between, slipper_mesh
-from reynolds.errors import FilmInputError
+from gaps.films.physics import FilmLaws
+from gaps.films.slipper import Retainer, orifice_and_capillary, retainer_force, supply
+from gaps.shapes.slipper_lands import lands_between, slipper_mesh
+from reynolds import Asperities, FilmInputError, FilmSolution, FilmSolver, FloatingStage, Held, loads, solve_stage
 from reynolds.floating.coordinates import generalised_force, modes_on
 from reynolds.floating.start import started
-from reynolds.floating.step import Stage, solve_stage
-from reynolds.laws.contact import Asperities
-from reynolds.problem import FilmSolution, Held
-from reynolds.solve.loads import loads
-from reynolds.solve.solver import FilmSolver
 
 INNER, OUTER, VISCOSITY, PRESSURE, HEIGHT = 5e-3, 10e-3, 0.03, 20e6, 10e-6
 FULL = Physics().without(Effect.CAVITATION)
-WIDE = Orifice(4e-3, 1e-4)  # lets the pocket have the chamber's pressure but for 1e-8
+WIDE = PocketOrifice(4e-3, 1e-4)  # lets the pocket have the chamber's pressure but for 1e-8
 SHAPE = SlipperShape(SlipperLands(((INNER, OUTER),)), WIDE)
 
 
@@ -147,7 +144,7 @@ def test_grooved_slipper(validation, refine):
         )
 
 
-def _stepped(film: SlipperFilm, start: float, *steps: float) -> list[Stage]:
+def _stepped(film: SlipperFilm, start: float, *steps: float) -> list[FloatingStage]:
     """The slipper under its load, let go parallel at a film thickness, after each of some steps."""
     floating, solver, stages = floating_slipper(film), FilmSolver(film.space), []
     first = started(floating, 0.0, np.array([start, 0.0, 0.0]))
@@ -163,7 +160,7 @@ TO_REST = 1e-4, 1e-3, 1e-2, 0.1, 1.0, 10.0
 
 def test_hydrostatic_slipper(validation, refine):
     """A capillary and a land in series, load W: film and rate at which it comes back, case 8.4 of the design."""
-    orifice, load = Orifice(0.4e-3, 20e-3), 2800.0
+    orifice, load = PocketOrifice(0.4e-3, 20e-3), 2800.0
     log = np.log(OUTER / INNER)
     pocket = load * 2.0 * log / (np.pi * (OUTER**2 - INNER**2))
     capillary = np.pi * orifice.diameter**4 / (128.0 * VISCOSITY * orifice.length)
@@ -196,7 +193,7 @@ def test_hydrostatic_slipper(validation, refine):
 
 
 def test_pocket_feeds_by_its_orifice():
-    shape = replace(SHAPE, orifice=Orifice(0.9e-3, 5e-3, 0.7))
+    shape = replace(SHAPE, orifice=PocketOrifice(0.9e-3, 5e-3, 0.7))
     film = SlipperFilm(shape, _drive(case_pressure=1e5), cells=(4, 12))
     boundary = film.problem_at(0.0).boundary
     assert boundary["case"] == Held(1e5)
@@ -215,7 +212,7 @@ def test_orifice_law(drop):
     assert 1.0 / slope == pytest.approx(1.0 / conductance + 2.0 * loss * abs(flow), rel=1e-12)
     assert orifice_and_capillary(drop, conductance, 0.0).value == pytest.approx(conductance * drop)
     with pytest.raises(FilmInputError, match="slipper orifice, diameter"):
-        supply(Orifice(0.0, 5e-3), VISCOSITY, 870.0)
+        supply(PocketOrifice(0.0, 5e-3), VISCOSITY, 870.0)
 
 
 @pytest.mark.parametrize(("limit", "rate"), [(np.inf, 0.0), (60.0, 2e7), (60.0, 0.0)])

@@ -10,19 +10,16 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
+from gaps import Accuracy, Active
 from gaps.films.slipper import retainer_force
-from gaps.revolution.reports import Active
-from gaps.revolution.schedule import Accuracy
-from reynolds.errors import FilmNotConverged
+from reynolds import FilmNotConverged
 from swashfilm.runs.film.revolution.validity import pulled_together
+from system import load_pump, lumped_point, operating_point
 from system.films.drives import drives, no_rubbing, slipper_retainer
 from system.films.parts import floating_parts
 from system.films.problems import RIGID
 from system.films.rotor import rotor
 from system.points.floating_gaps import FloatingOptions, slipper_revolution
-from system.points.lumped import lumped_point
-from system.pump.operating import operating_point
-from system.pump_file.file import load_pump
 
 COARSE = FloatingOptions(RIGID, steps=36, finer=0.25, accuracy=Accuracy(step=0.1, floor=1e-7, closed=0.1))
 FAST = {"operating.speed": "2800 rpm", "operating.pressure": "10 MPa", "operating.inlet_pressure": "0 bar"}
@@ -48,7 +45,7 @@ def test_a_retainer_that_the_spring_presses_holds_a_slipper():
     rims = [at.position[0] + np.hypot(*at.position[1:]) for at in found.turn.instants]
     top = found.turn.instants[int(np.argmax(rims))]
     assert retainer.clearance < max(rims) < retainer.clearance + 2.0 * retainer.limit / retainer.stiffness
-    assert Active.RETAINER in top.seen.active
+    assert Active.RETAINER in top.report.active
     pull = float(np.asarray(drive.outer(top.angle))[0])
     held = -float(retainer_force(retainer, top.position).force[0])
     sucked = np.pi * 14e-3**2 * (drive.case_pressure - drive.cavitation_pressure)

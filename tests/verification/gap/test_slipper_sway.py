@@ -5,24 +5,26 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from gaps.films.over_turn import constant
-from gaps.films.physics import Effect, Physics
-from gaps.films.slipper import (
-    Orifice,
+from gaps import (
+    Accuracy,
+    Effect,
+    Physics,
+    PocketOrifice,
     SlipperDrive,
     SlipperFilm,
+    SlipperLands,
     SlipperShape,
+    constant,
+    evenly,
     face_force,
     floating_slipper,
+    run_revolution,
 )
-from gaps.revolution.march import GapRevolution, run_revolution
-from gaps.revolution.schedule import Accuracy, evenly
-from gaps.shapes.slipper_lands import SlipperLands
-from reynolds.floating.step import Stage
-from reynolds.solve.solver import FilmSolver
+from gaps.revolution.march import GapRevolution
+from reynolds import FilmSolver, FloatingStage
 
 INNER, OUTER, VISCOSITY, PRESSURE, LOAD = 5e-3, 10e-3, 0.03, 20e6, 2800.0
-ORIFICE, SWAY = Orifice(0.4e-3, 20e-3), 1e-3
+ORIFICE, SWAY = PocketOrifice(0.4e-3, 20e-3), 1e-3
 
 LOG, RATIO = np.log(OUTER / INNER), INNER / OUTER
 AREA = np.pi * (OUTER**2 - INNER**2) / (2.0 * LOG)
@@ -50,7 +52,7 @@ def swayed(share: float, n: int) -> GapRevolution[float]:
     shape = SlipperShape(SlipperLands(((INNER, OUTER),)), ORIFICE)
     film = SlipperFilm(shape, drive, physics=Physics().without(Effect.CAVITATION), cells=(n, 4 * n))
 
-    def power(stage: Stage) -> float:
+    def power(stage: FloatingStage) -> float:
         return float(stage.film_force @ stage.trial.rate)
 
     return run_revolution(
@@ -97,7 +99,7 @@ def test_sway(share, validation, refine):
 def test_orifice_takes_the_work_of_the_load():
     """Over the turn what the load does is what film and orifice take: the motion lags."""
     found = swayed(1.0, 6)
-    work = np.array([instant.seen for instant in found.turn.instants])
+    work = np.array([instant.report for instant in found.turn.instants])
     load = [SWAY * LOAD * np.cos(i.angle) * i.rate[0] for i in found.turn.instants]
     assert -np.sum(load) == pytest.approx(-np.sum(work), rel=1e-2)
     assert np.sum(load) < 0.0

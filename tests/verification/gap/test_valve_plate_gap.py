@@ -11,16 +11,11 @@ from dataclasses import dataclass, replace
 import numpy as np
 import pytest
 
-from gaps.films.block import BlockDrive, BlockFilm, kidney_wrench, standing_block
-from gaps.films.over_turn import Course, constant
-from gaps.shapes.valve_plate_ring import ValvePlateGeometry
+from gaps import BlockDrive, BlockFilm, PeriodicCurve, ValvePlateGeometry, constant, standing_block
+from gaps.films.block import kidney_wrench
 from gaps.standing.conductances import kidney_conductances
-from gaps.standing.gap_film import ValvePlateFilm
-from gaps.standing.reports import block_told
-from reynolds.floating.rest import held_at
-from reynolds.floating.step import Stage
-from reynolds.numerics.arrays import Array
-from reynolds.solve.solver import FilmSolver
+from gaps.standing.gap_film import GapFilm, standing_block_film
+from reynolds import Array, FilmSolver, FloatingStage, held_at
 from system.pump.laws.leakage import valve_plate_conductance
 
 RADII = (26.5e-3, 31.5e-3, 40.5e-3, 45.7e-3)
@@ -61,7 +56,7 @@ def state(*, angle: float = 0.0, chambers: Array | None = None, load: float = 1.
         "spline_height": 0.1,
     }
     pressures = np.full(PISTONS, PRESSURE) if chambers is None else chambers
-    chamber = Course(angle + PITCH * np.arange(PISTONS), pressures)
+    chamber = PeriodicCurve(angle + PITCH * np.arange(PISTONS), pressures)
     return Instant(angle, BlockDrive(**(at_rest | changed), chamber_pressure=chamber))
 
 
@@ -73,14 +68,14 @@ def running(*, angle: float = 0.0, chambers: Array | None = None, **changed) -> 
     return state(angle=angle, chambers=usual if chambers is None else chambers, **(stated | changed))
 
 
-def held(n: int, at: Instant, position: Array, geometry=GEOMETRY) -> tuple[BlockFilm, Stage]:
+def held(n: int, at: Instant, position: Array, geometry=GEOMETRY) -> tuple[BlockFilm, FloatingStage]:
     film = BlockFilm(geometry, at.drive, cells=(n, 4 * n))
     time = at.angle / at.drive.shaft_speed
     return film, held_at(FilmSolver(film.space), standing_block(film), time, position)
 
 
-def told(n: int, at: Instant, position: Array, geometry=GEOMETRY) -> ValvePlateFilm:
-    return block_told(*held(n, at, position, geometry))
+def told(n: int, at: Instant, position: Array, geometry=GEOMETRY) -> GapFilm:
+    return standing_block_film(*held(n, at, position, geometry))
 
 
 def separating(n: int, at: Instant, position: Array, geometry=GEOMETRY) -> tuple[float, Array]:
@@ -98,7 +93,7 @@ def test_one_pressure_all_round(validation, refine):
     def solve(n: int) -> tuple[float, float]:
         force, moment = separating(n, state(), PARALLEL, ALL_PORT)
         assert np.abs(moment).max() < 1e-9 * force * RADII[3]
-        found = told(n, state(), PARALLEL, ALL_PORT).gap
+        found = told(n, state(), PARALLEL, ALL_PORT)
         assert found.friction_power < 1e-9
         return found.leakage_flow, force
 
@@ -144,7 +139,7 @@ def test_leakage_with_half_the_ring_at_pressure(validation):
         place = (np.arange(PISTONS) * PITCH + shaft_angle) % (2.0 * np.pi)
         chambers = PRESSURE * np.where(np.isclose(np.sin(place), 0.0), 0.5, np.where(place > np.pi, 1.0, 0.0))
         still = state(angle=shaft_angle, chambers=chambers, suction_pressure=0.0, case_pressure=0.0)
-        leakage.append(told(8, still, PARALLEL).gap.leakage_flow)
+        leakage.append(told(8, still, PARALLEL).leakage_flow)
     half = 0.5 * PISTONS * valve_plate_conductance(RADII, THICKNESS, PISTONS, VISCOSITY) * PRESSURE
     validation(
         case="Valve-plate gap, half the ring at pressure, at rest",
@@ -162,9 +157,9 @@ def test_leakage_with_half_the_ring_at_pressure(validation):
 def test_what_enters_leaves(shaft_angle):
     """Chambers and ports give what the case gets, in a tilted film of a turning block too."""
     film = told(8, running(angle=shaft_angle), TILTED)
-    given = film.chamber_flows.sum() + film.suction_flow + film.delivery_flow
-    assert film.gap.loads.cavity_flow == 0.0
-    assert given == pytest.approx(film.gap.leakage_flow, abs=1e-10 * np.abs(film.chamber_flows).max())
+    given = film.report.flow.sum() + film.report.suction_draw + film.report.delivery_draw
+    assert film.loads.cavity_flow == 0.0
+    assert given == pytest.approx(film.leakage_flow, abs=1e-10 * np.abs(film.report.flow).max())
 
 
 @pytest.mark.parametrize("shaft_angle", [0.0, 0.3])
@@ -175,10 +170,10 @@ def test_power_of_walls_and_pressure_becomes_heat(shaft_angle):
     """
     at = running(angle=shaft_angle)
     film = told(8, at, TILTED)
-    inflow = np.array([*film.chamber_flows, film.suction_flow, film.delivery_flow])
+    inflow = np.array([*film.report.flow, film.report.suction_draw, film.report.delivery_draw])
     above = np.array([*at.chambers, at.drive.suction_pressure, at.drive.delivery_pressure]) - CASE
-    heat = film.gap.loads.dissipation
-    assert film.gap.friction_power + inflow @ above == pytest.approx(heat, rel=1e-6)
+    heat = film.loads.dissipation
+    assert film.friction_power + inflow @ above == pytest.approx(heat, rel=1e-6)
 
 
 def test_conductance_is_that_of_the_lands(refine):
@@ -201,9 +196,9 @@ def test_one_pitch_on_is_the_same_film():
     first = running(angle=0.1)
     after = running(angle=0.1 + PITCH, chambers=np.roll(first.chambers, -1))
     one, two = told(8, first, TILTED), told(8, after, TILTED)
-    assert np.roll(one.chamber_flows, -1) == pytest.approx(two.chamber_flows, rel=1e-6)
-    assert one.gap.friction_power == pytest.approx(two.gap.friction_power, rel=1e-9)
-    assert one.gap.leakage_flow == pytest.approx(two.gap.leakage_flow, rel=1e-9)
+    assert np.roll(one.report.flow, -1) == pytest.approx(two.report.flow, rel=1e-6)
+    assert one.friction_power == pytest.approx(two.friction_power, rel=1e-9)
+    assert one.leakage_flow == pytest.approx(two.leakage_flow, rel=1e-9)
     force, moment = separating(8, first, TILTED)
     assert separating(8, after, TILTED)[0] == pytest.approx(force, rel=1e-9)
     assert separating(8, after, TILTED)[1] == pytest.approx(moment, rel=1e-6)
@@ -212,7 +207,7 @@ def test_one_pitch_on_is_the_same_film():
 def test_kidneys_stand_where_the_chambers_are():
     """kidney_k is the hole at shaft angle + (k - 1) pitch: its edge carries chamber k's pressure."""
     at = running(angle=0.3, chambers=1e6 * np.arange(1.0, 10.0))
-    solution = told(4, at, PARALLEL).gap.solution
+    solution = told(4, at, PARALLEL).solution
     space = solution.problem.space
     for k in range(PISTONS):
         nodes = space.edge_dofs[f"kidney_{k + 1}"]
@@ -235,8 +230,8 @@ def test_mirrored_pressures_mirror_the_film_at_rest():
     (left, moment), (right, turned) = separating(8, one, place), separating(8, mirrored, other)
     assert right == pytest.approx(left, rel=1e-9)
     assert turned == pytest.approx([-moment[0], moment[1]], rel=1e-9)
-    flows = told(8, one, place).chamber_flows
-    assert told(8, mirrored, other).chamber_flows == pytest.approx(np.roll(flows[::-1], 1), rel=1e-8)
+    flows = told(8, one, place).report.flow
+    assert told(8, mirrored, other).report.flow == pytest.approx(np.roll(flows[::-1], 1), rel=1e-8)
 
 
 def test_tilt_is_pushed_back():
@@ -256,7 +251,7 @@ def test_friction_of_a_parallel_film(validation, refine):
     lands = np.pi / 2.0 * (r2**4 - r1**4 + r4**4 - r3**4)
     webs = PISTONS / 4.0 * (PITCH - np.radians(30.0)) * (r3**4 - r2**4)
     for name, geometry, polar in (("both lands", ALL_PORT, lands), ("lands and webs", NO_PORT, lands + webs)):
-        found = refine(lambda n, g=geometry: told(n, turning, PARALLEL, g).gap.friction_power, MESHES)
+        found = refine(lambda n, g=geometry: told(n, turning, PARALLEL, g).friction_power, MESHES)
         validation(
             case="Valve-plate gap, friction of a parallel film",
             source="closed form, Newton's shear",
@@ -271,6 +266,6 @@ def test_friction_of_a_parallel_film(validation, refine):
 
 def test_carried_load_is_the_separating_force():
     at = running(load=50e3)
-    found = told(4, at, PARALLEL).gap
+    found = told(4, at, PARALLEL)
     assert found.required_load == pytest.approx(50e3)
     assert found.carried_load == pytest.approx(separating(4, at, PARALLEL)[0])

@@ -12,34 +12,34 @@ import numpy as np
 import pytest
 from scipy.integrate import quad
 
-from gaps.films.block import BlockDrive, BlockFilm, floating_block, kidney_wrench, standing_block
-from gaps.films.friction import rubbed
-from gaps.films.over_turn import constant
+from gaps import BlockDrive, BlockFilm, ValvePlateGeometry, constant, floating_block, standing_block
+from gaps.films.block import kidney_wrench
+from gaps.films.friction import wall_shear
 from gaps.films.physics import FilmLaws
 from gaps.loads.block_tipping import BlockBalance, land_lift
-from gaps.shapes.valve_plate_ring import ValvePlateGeometry
-from gaps.standing.reports import block_told
+from gaps.standing.gap_film import standing_block_film
 from gaps.walls.parts import PlatePart, part_wall, plate_body
+from reynolds import (
+    Asperities,
+    Elastic,
+    FilmInputError,
+    FilmSolution,
+    FilmSolver,
+    annulus,
+    film_space,
+    held_at,
+    loads,
+    solve_stage,
+)
 from reynolds.bodies.chart import face_normals
-from reynolds.bodies.elasticity import Elastic
 from reynolds.bodies.space import body_space
 from reynolds.bodies.transfer import transfer
-from reynolds.errors import FilmInputError
-from reynolds.fem.mesh import annulus
-from reynolds.fem.space import film_space
 from reynolds.fem.sphere import Sphere
 from reynolds.floating.coordinates import generalised_force, modes_on
-from reynolds.floating.rest import held_at
-from reynolds.floating.step import solve_stage, standing
-from reynolds.laws.contact import Asperities
-from reynolds.problem import FilmSolution
-from reynolds.solve.loads import loads
-from reynolds.solve.solver import FilmSolver
+from reynolds.floating.step import standing
+from system import InputFaults, check_pump, load_pump, operating_point
 from system.films.rotor import valve_plate_geometry
-from system.inputs.faults import InputFaults
 from system.pump.lumped import lumped_leaks, piston_motion
-from system.pump.operating import operating_point
-from system.pump_file.file import check_pump, load_pump
 
 RADII, RADIUS = (26.5e-3, 31.5e-3, 40.5e-3, 45.7e-3), 90e-3
 SPHERE, ARC = Sphere(RADIUS), float(np.radians(30.0))
@@ -135,7 +135,7 @@ def test_kidneys_turn_the_block_about_the_middle():
 
 def torque_of(film: BlockFilm, solution: FilmSolution) -> float:
     """Torque (N m) of the film against the block's turning."""
-    return film.friction_torque(solution.problem.space, rubbed(solution, None, solution.film.thickness))
+    return film.friction_torque(solution.problem.space, wall_shear(solution, None, solution.film.thickness))
 
 
 def test_turning_block_rubs_as_its_shear_works():
@@ -177,9 +177,9 @@ def test_a_standing_block_turns_in_the_film_of_the_turning_mesh():
     stage = held_at(FilmSolver(film.space), standing_block(film), 2e-4, position)
     force, turning = at(film, position, 2e-4)
     assert stage.film_force + stage.outer.force == pytest.approx(force, rel=1e-3, abs=1.0)
-    told = block_told(film, stage)
-    assert told.gap.friction_power == pytest.approx(SPEED * torque_of(film, turning), rel=1e-3)
-    assert told.gap.leakage_flow == pytest.approx(
+    told = standing_block_film(film, stage)
+    assert told.friction_power == pytest.approx(SPEED * torque_of(film, turning), rel=1e-3)
+    assert told.leakage_flow == pytest.approx(
         sum(loads(turning).flow[edge] for edge in ("inner", "outer")), rel=1e-3
     )
 

@@ -11,9 +11,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.integrate import quad
 
-from reynolds.errors import FilmInputError
+from reynolds import Asperities, FilmInputError
 from reynolds.laws.contact import (
-    Asperities,
     asperities_of,
     boundary_shear,
     composite_modulus,

@@ -10,12 +10,11 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from reynolds.errors import FilmInputError
+from reynolds import ISO_GRADES, Barus, BulkModulus, FilmInputError, Oil, Roelands
 from reynolds.laws.density import (
     DOWSON_HIGGINSON,
     MINERAL_OIL_BUNSEN,
     Aerated,
-    BulkModulus,
     RationalDensity,
     Tait,
     api_density,
@@ -24,12 +23,10 @@ from reynolds.laws.density import (
     thermal_expansion,
 )
 from reynolds.laws.ehl import hamrock_dowson_central, hamrock_dowson_minimum, moes
-from reynolds.laws.oil import ISO_GRADES, Oil, walther, walther_coefficients
+from reynolds.laws.oil import walther, walther_coefficients
 from reynolds.laws.rheology import Carreau, Cross, Eyring, carreau_yasuda
 from reynolds.laws.viscosity import (
     BARUS_HIGHEST_PRESSURE,
-    Barus,
-    Roelands,
     RoelandsIndex,
     Vogel,
     Walther,

@@ -13,9 +13,9 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 from scipy.integrate import quad
 
-from reynolds.errors import FilmInputError
+from reynolds import FilmInputError, Surface
 from reynolds.laws.patir_cheng import TABLE, phi_f, phi_fp, phi_fs, phi_s, phi_x, phi_y
-from reynolds.laws.roughness import Surface, beyond_range, flow_factors, mean_thickness, shear_factors
+from reynolds.laws.roughness import beyond_range, flow_factors, mean_thickness, shear_factors
 
 EXAMPLES = settings(max_examples=60, deadline=None, derandomize=True)
 SIGMA = 0.5e-6

@@ -4,8 +4,7 @@ import numpy as np
 import pytest
 from scipy.sparse import csr_array
 
-from reynolds.fem.mesh import Cell, rectangle, ring
-from reynolds.fem.space import FilmSpace, film_space
+from reynolds import Cell, FilmSpace, film_space, rectangle, ring
 from reynolds.linear.band import BandedFactor, banded
 from reynolds.linear.band_ordering import line_order
 from reynolds.linear.factor import GeneralFactor

@@ -5,11 +5,10 @@ import pytest
 from scipy.sparse import csc_array, diags_array
 from scipy.sparse.linalg import spsolve
 
+from reynolds import Cell, FilmSpace, film_space, rectangle
 from reynolds.equation.balance import stiffness
 from reynolds.equation.coefficients import isotropic
-from reynolds.fem.mesh import Cell, rectangle
-from reynolds.fem.space import FilmSpace, film_space
-from reynolds.linear.cavitated import CarriedFilm
+from reynolds.linear.cavitated import CavitatedFilm
 from reynolds.linear.factor import GeneralFactor
 from reynolds.linear.multigrid.grid import grid_of
 from reynolds.linear.triangles import both_triangles
@@ -62,7 +61,7 @@ def test_it_agrees_with_an_elimination(cell, flow, around):
     cavity = _band(space)
     upper, lower, matrix = carried(space, cavity, flow)
     load = np.random.default_rng(3).standard_normal(space.size)
-    solver = CarriedFilm(grid_of(space), upper)
+    solver = CavitatedFilm(grid_of(space), upper)
     assert solver.update(upper.data, lower, cavity)
     answer, effort = solver.solve(load, 1e-12)
     expected = spsolve(matrix, load)
@@ -77,7 +76,7 @@ def test_steps_grow_but_slowly_with_the_mesh():
         space = film_space(rectangle((1.0, 1.0), (cells, cells), cell=Cell.QUADRILATERAL, periodic_x=True))
         cavity = _band(space)
         upper, lower, _ = carried(space, cavity, (1.0, 0.2))
-        solver = CarriedFilm(grid_of(space), upper)
+        solver = CavitatedFilm(grid_of(space), upper)
         assert solver.update(upper.data, lower, cavity)
         steps.append(solver.solve(np.ones(space.size), 1e-10)[1].steps)
     assert steps[0] <= 20
@@ -93,7 +92,7 @@ def test_a_cavity_all_round_is_entered_somewhere():
     lifted = upper.copy()
     lifted.data[upper.indptr[1:] - 1] += 0.1 * cavity  # the diagonal stands last in its column
     matrix = matrix + 0.1 * diags_array(cavity.astype(float), format="csc")
-    solver = CarriedFilm(grid_of(space), upper)
+    solver = CavitatedFilm(grid_of(space), upper)
     assert solver.update(lifted.data, lower, cavity)
     load = np.random.default_rng(3).standard_normal(space.size)
     answer, effort = solver.solve(load, 1e-11)

@@ -4,8 +4,7 @@ import numpy as np
 import pytest
 import skfem
 
-from reynolds.fem.mesh import Cell, FilmMesh, annulus, rectangle, ring
-from reynolds.fem.space import film_space
+from reynolds import Cell, FilmMesh, annulus, film_space, rectangle, ring
 from reynolds.linear.multigrid.grid import grid_of
 
 

@@ -4,16 +4,12 @@ import numpy as np
 import pytest
 from scipy.sparse import csc_array, triu
 
+from reynolds import ZERO, Cavitation, Cell, FilmProblem, FilmSolver, Held, film, film_space, loads, rectangle
 from reynolds.equation.balance import stiffness
 from reynolds.equation.coefficients import isotropic
 from reynolds.fem import kernels
-from reynolds.fem.mesh import Cell, rectangle
-from reynolds.fem.space import film_space
 from reynolds.linear import factor as linear
 from reynolds.linear.multigrid.grid import grid_of
-from reynolds.problem import ZERO, Cavitation, FilmProblem, Held, film
-from reynolds.solve.loads import loads
-from reynolds.solve.solver import FilmSolver
 
 
 def laplacian(n: int) -> csc_array:

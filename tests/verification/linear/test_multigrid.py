@@ -5,12 +5,10 @@ import pytest
 from scipy.sparse import csc_array, triu
 from scipy.sparse.linalg import spsolve
 
+from reynolds import Cell, FilmInputError, FilmSpace, annulus, film_space, rectangle
 from reynolds.equation.balance import stiffness
 from reynolds.equation.coefficients import isotropic
-from reynolds.errors import FilmInputError
 from reynolds.fem import kernels
-from reynolds.fem.mesh import Cell, annulus, rectangle
-from reynolds.fem.space import FilmSpace, film_space
 from reynolds.linear.multigrid import solver as multigrid_module
 from reynolds.linear.multigrid.grid import Grid, grid_of
 from reynolds.linear.multigrid.solver import MAX_STEPS, Multigrid, Precision

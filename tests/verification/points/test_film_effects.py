@@ -7,7 +7,7 @@ import pytest
 
 from gaps import Effect
 from gaps.walls.pair import BoreWalls, PlateWalls
-from gaps.walls.parts import Stand
+from gaps.walls.parts import Pose
 from gaps.walls.springs import SpringBore, SpringPlates
 from reynolds import FilmInputError
 from swashfilm.runs.pump.oil_fields import oil_state
@@ -161,13 +161,13 @@ def test_springs_open_by_their_own_pressure_alone():
     assert isinstance(plates, PlateWalls)
     pressure = np.arange(float(space.size))
     on = SpringBore(bore.piston, bore.bushing, compliance=1e-13)
-    np.testing.assert_allclose(on.at(space, Stand()).matrix @ pressure, 1e-13 * pressure[space.vertex_dofs])
-    assert not (on.piston_at(space, Stand()).matrix @ pressure).any()
-    bare = on.by_chamber(space, Stand())
-    assert bare.swollen == 0.0
-    assert not bare.opened.any()
+    np.testing.assert_allclose(on.at(space, Pose()).matrix @ pressure, 1e-13 * pressure[space.vertex_dofs])
+    assert not (on.piston_at(space, Pose()).matrix @ pressure).any()
+    bare = on.by_chamber(space, Pose())
+    assert bare.chamber_growth == 0.0
+    assert not bare.deformation.any()
     also = SpringPlates(plates.parts, compliance=2e-13)
-    np.testing.assert_allclose(also.at(space, Stand()).matrix @ pressure, 2e-13 * pressure[space.vertex_dofs])
+    np.testing.assert_allclose(also.at(space, Pose()).matrix @ pressure, 2e-13 * pressure[space.vertex_dofs])
 
 
 def test_heat_between_the_pumps_own_walls_is_heat():
@@ -229,8 +229,8 @@ def test_webs_over_a_port_have_the_cases_oil():
     """They are sealed by a viscosity that is no oil's."""
     point = operating_point(REF90)
     films = coarse(extended({"viscosity_pressure": {"coefficient": 1e-8}}), tolerance=1.0)
-    found = oil_state(REF90, films.physics.valve_plate, films.gaps.valve_plate[0].gap.solution, point.viscosity)
-    highest = point.viscosity * np.exp(1e-8 * films.gaps.valve_plate[0].gap.loads.pressure_max)
+    found = oil_state(REF90, films.physics.valve_plate, films.gaps.valve_plate[0].solution, point.viscosity)
+    highest = point.viscosity * np.exp(1e-8 * films.gaps.valve_plate[0].loads.pressure_max)
     assert found["film_viscosity"].min() > 0.99 * point.viscosity
     assert found["film_viscosity"].max() < 1.01 * highest
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from functools import partial
 
 import numpy as np
 import pytest
@@ -10,11 +11,11 @@ import pytest
 from gaps import Accuracy, Effect, Physics, PistonDrive, PistonFilm, PistonShape, run_revolution, warm_revolution
 from gaps.films.over_turn import constant
 from gaps.films.piston import floating_piston
+from gaps.films.reports import PistonReport, piston_report
 from gaps.revolution.film_heat import GapHeat, Sink
 from gaps.revolution.march import GapRevolution
-from gaps.revolution.reports import PistonSeen, piston_seen
 from gaps.revolution.schedule import evenly
-from gaps.revolution.warmth import ThinnedOver
+from gaps.revolution.warmth import ViscosityRatios
 from gaps.walls.parts import PistonPart
 from reynolds import Elastic, FilmInputError, FilmNotConverged, FilmSolver
 from system.films.heat import rod, slab, tube
@@ -64,25 +65,25 @@ def oil(thinning: float, resistance: float, specific_heat: float = SPECIFIC_HEAT
 
 
 def warm(
-    film: PistonFilm, heat: GapHeat, before: GapRevolution[PistonSeen] | None = None
-) -> GapRevolution[PistonSeen]:
-    solver, start, look = FilmSolver(film.space_at(0.0)), np.zeros(4), piston_seen(film)
+    film: PistonFilm, heat: GapHeat, before: GapRevolution[PistonReport] | None = None
+) -> GapRevolution[PistonReport]:
+    solver, start, look = FilmSolver(film.space_at(0.0)), np.zeros(4), partial(piston_report, film)
     return warm_revolution(
         solver, floating_piston(film), SCHEDULE, start, look, heat, accuracy=ROUGHLY, before=before
     )
 
 
-def cold(film: PistonFilm) -> GapRevolution[PistonSeen]:
-    solver, start, look = FilmSolver(film.space_at(0.0)), np.zeros(4), piston_seen(film)
+def cold(film: PistonFilm) -> GapRevolution[PistonReport]:
+    solver, start, look = FilmSolver(film.space_at(0.0)), np.zeros(4), partial(piston_report, film)
     return run_revolution(solver, floating_piston(film), SCHEDULE, start, look, accuracy=ROUGHLY)
 
 
-def leakage(found: GapRevolution[PistonSeen]) -> float:
-    return float(np.mean([instant.seen.leakage for instant in found.turn.instants]))
+def leakage(found: GapRevolution[PistonReport]) -> float:
+    return float(np.mean([instant.report.leakage for instant in found.turn.instants]))
 
 
-def shear(found: GapRevolution[PistonSeen]) -> float:
-    return float(np.mean([instant.seen.heat.shear for instant in found.turn.instants]))
+def shear(found: GapRevolution[PistonReport]) -> float:
+    return float(np.mean([instant.report.heat.shear for instant in found.turn.instants]))
 
 
 def test_no_heat_passes_the_walls(validation):
@@ -99,7 +100,7 @@ def test_no_heat_passes_the_walls(validation):
         quantity="temperature rise of the leakage",
         unit="K",
         expected=(sheared + PRESSURE * flow) / (DENSITY * SPECIFIC_HEAT * flow),
-        obtained=flows.carried_out / (DENSITY * SPECIFIC_HEAT * leakage(found)),
+        obtained=flows.convected_out / (DENSITY * SPECIFIC_HEAT * leakage(found)),
         # The walls' temperature is settled to 0.05 K of some 20, at a conductance of k/c on both sides.
         relative_tolerance=1e-3,
     )
@@ -115,7 +116,7 @@ def test_walls_at_one_temperature(validation):
     found = warm(piston(), oil(THINNING, 0.0))
     root = np.sqrt(THINNING * VISCOSITY * SPEED**2 / (8.0 * CONDUCTIVITY))
     stress = np.arcsinh(root) / (root * np.sqrt(1.0 + root**2))
-    carried = found.warmth.flows.carried_out / found.warmth.flows.dissipation
+    carried = found.warmth.flows.convected_out / found.warmth.flows.dissipation
     validation(
         case="Turning piston between walls at the oil's temperature",
         source="Nahme 1940, closed form",
@@ -158,7 +159,7 @@ def test_warm_oil_rubs_less_and_leaks_more():
     assert heated.warmth is not None
     flows = heated.warmth.flows
     assert flows.balance_error < 1e-6
-    turned = float(np.mean([one.seen.heat.flow + one.seen.heat.shear for one in heated.turn.instants]))
+    turned = float(np.mean([one.report.heat.flow + one.report.heat.shear for one in heated.turn.instants]))
     assert flows.dissipation == pytest.approx(turned, rel=0.01)  # to which rounds are taken
     again = warm(film, oil(THINNING, 2e-5), heated)
     assert again.warmth is not None
@@ -178,7 +179,7 @@ def test_oil_beyond_its_law_is_told():
 def test_viscosity_between_angles():
     angles = np.array([0.0, 1.0, 3.0])
     logs = np.array([0.0, 1.0, -1.0])[:, None, None] * np.ones((3, 2, 4))
-    shares = ThinnedOver(angles, logs)
+    shares = ViscosityRatios(angles, logs)
     found = [float(np.log(shares.at(angle)[0, 0])) for angle in (0.0, 0.5, 1.0, 2.0, 3.0)]
     assert found == pytest.approx([0.0, 0.5, 1.0, 0.0, -1.0])
     assert shares.at(2.0).shape == (2, 4)

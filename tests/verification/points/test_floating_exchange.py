@@ -38,11 +38,11 @@ class Told:
 
     @property
     def turn(self):
-        return SimpleNamespace(instants=[SimpleNamespace(seen=seen, passed=seen) for seen in self.seen])
+        return SimpleNamespace(instants=[SimpleNamespace(report=seen, passed=seen) for seen in self.seen])
 
 
 def still(*position: float, steps: int = STEPS) -> Told:
-    return Told(np.tile(np.array(position), (steps, 1)), (SimpleNamespace(swollen=0.0),) * steps)
+    return Told(np.tile(np.array(position), (steps, 1)), (SimpleNamespace(chamber_growth=0.0),) * steps)
 
 
 def gaps(piston=(0.0, 0.0, 0.0, 0.0), slipper=(0.0, 0.0, 0.0), block=(0.0, 0.0, 0.0)) -> FloatingGaps:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from gaps.films.slipper import Orifice, hagen_poiseuille_conductance, supply
+from gaps.films.slipper import PocketOrifice, hagen_poiseuille_conductance, supply
 from gaps.shapes.orifice_table import OrificeTable
 from reynolds import FilmInputError
 from system import load_pump, lumped_point, operating_point
@@ -164,7 +164,7 @@ def test_a_table_of_poiseuille_flow_is_the_capillary():
     assert table.equal_length(d) == pytest.approx(length, rel=1e-12)
     capillary = hagen_poiseuille_conductance(d, length, VISCOSITY)
     assert table.conductance(d, VISCOSITY) == pytest.approx(capillary, rel=1e-12)
-    fed = supply(Orifice(d, length, None, table), VISCOSITY, DENSITY)
+    fed = supply(PocketOrifice(d, length, None, table), VISCOSITY, DENSITY)
     for drop in (-2e5, 0.0, 1e-3, 2e5):
         flow, slope = fed(drop)
         assert flow == pytest.approx(capillary * drop, rel=1e-12)

@@ -14,15 +14,23 @@ import pytest
 from scipy.integrate import quad
 from scipy.optimize import brentq, fsolve
 
-from reynolds.errors import FilmInputError
-from reynolds.fem.mesh import Cell, rectangle
-from reynolds.fem.space import FilmSpace, film_space
-from reynolds.laws.fluid import Fluid
+from reynolds import (
+    ZERO,
+    Barus,
+    Cavitation,
+    Cell,
+    FilmInputError,
+    FilmProblem,
+    FilmSolver,
+    FilmSpace,
+    Fluid,
+    Held,
+    film,
+    film_space,
+    loads,
+    rectangle,
+)
 from reynolds.laws.rheology import Carreau, Cross, Eyring
-from reynolds.laws.viscosity import Barus
-from reynolds.problem import ZERO, Cavitation, FilmProblem, Held, film
-from reynolds.solve.loads import loads
-from reynolds.solve.solver import FilmSolver
 from reynolds.thermal.shear_thinning import newtonian, solve_shear
 
 LENGTH, WIDE, GAP, VISCOSITY, SPEED = 10e-3, 2.5e-3, 1e-5, 0.03, 10.0

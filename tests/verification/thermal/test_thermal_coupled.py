@@ -10,31 +10,47 @@ import pytest
 from scipy.integrate import solve_bvp
 from scipy.optimize import brentq
 
-from reynolds.bodies.chart import Plane
+from reynolds import (
+    ISO_GRADES,
+    ZERO,
+    Adiabatic,
+    Array,
+    Asperities,
+    Barus,
+    Cavitation,
+    Cell,
+    Elastic,
+    FilmInputError,
+    FilmProblem,
+    FilmSolver,
+    FilmSpace,
+    Fluid,
+    GivenTemperature,
+    Heat,
+    Held,
+    Oil,
+    Plane,
+    Supports,
+    Surface,
+    block,
+    body_wall,
+    film,
+    film_space,
+    loads,
+    march_thermal,
+    rectangle,
+    solve_thermal,
+    winkler,
+)
 from reynolds.bodies.conduction import Convection, Thermal
-from reynolds.bodies.elasticity import Elastic
-from reynolds.bodies.foundation import winkler
-from reynolds.bodies.mesh import block
-from reynolds.bodies.supports import Supports
 from reynolds.bodies.wall import Body as SolidBody
-from reynolds.bodies.wall import body_wall, heated_wall
-from reynolds.errors import FilmInputError
-from reynolds.fem.mesh import Cell, rectangle
-from reynolds.fem.space import FilmSpace, film_space
-from reynolds.laws.contact import Asperities, boundary_shear, contact_pressure
-from reynolds.laws.fluid import Fluid
-from reynolds.laws.oil import ISO_GRADES, Oil, walther
+from reynolds.bodies.wall import heated_wall
+from reynolds.laws.contact import boundary_shear, contact_pressure
+from reynolds.laws.oil import walther
 from reynolds.laws.rheology import Carreau
-from reynolds.laws.roughness import Surface
-from reynolds.laws.viscosity import Barus, RoelandsIndex, barus
-from reynolds.numerics.arrays import Array
-from reynolds.problem import ZERO, Cavitation, FilmProblem, Held, film
-from reynolds.solve.loads import loads
-from reynolds.solve.solver import FilmSolver
-from reynolds.thermal.energy import Heat
-from reynolds.thermal.film import march_thermal, solve_thermal
+from reynolds.laws.viscosity import RoelandsIndex, barus
 from reynolds.thermal.shear_thinning import newtonian
-from reynolds.thermal.walls import Adiabatic, Body, Convecting, GivenTemperature, Wall
+from reynolds.thermal.walls import ConductingBody, Convecting, Wall
 
 DENSITY, SPECIFIC_HEAT, CONDUCTIVITY = 860.0, 2000.0, 0.13
 LENGTH, GAP, SPEED, VISCOSITY, INLET = 0.02, 1e-5, 10.0, 0.03, 313.15
@@ -236,7 +252,9 @@ def test_wall_that_opens_by_its_heat(validation):
     count = len(space.vertices)
     gain = 0.5 * GAP / (VISCOSITY * SPEED**2 / GAP)
     grown = Grown(np.full(count, -0.1 * GAP), gain * np.eye(count))
-    heat = oil_heat(Body(np.full(count, INLET), 1e-6 * np.eye(count), grown), Adiabatic(), ("bottom", "top"))
+    heat = oil_heat(
+        ConductingBody(np.full(count, INLET), 1e-6 * np.eye(count), grown), Adiabatic(), ("bottom", "top")
+    )
     found = solve_thermal(sheared(space), heat, constant, tolerance=1e-9)
     rest = 0.9 * GAP
     flux = (-rest + np.sqrt(rest**2 + 4.0 * gain * VISCOSITY * SPEED**2)) / (2.0 * gain)
@@ -249,7 +267,9 @@ def test_wall_that_opens_by_its_heat(validation):
         obtained=1e6 * float(found.film.film.thickness.mean()),
         relative_tolerance=1e-8,
     )
-    wrong = replace(heat, fixed_wall=Body(np.full(count, INLET), np.eye(count), Grown(np.zeros(2), np.eye(2))))
+    wrong = replace(
+        heat, fixed_wall=ConductingBody(np.full(count, INLET), np.eye(count), Grown(np.zeros(2), np.eye(2)))
+    )
     with pytest.raises(FilmInputError, match="opening of a warm body"):
         solve_thermal(sheared(space), wrong, constant)
 
@@ -267,18 +287,18 @@ def test_plate_that_bends_and_warms(tmp_path):
     )
     elastic = body_wall(pad, space, folder=tmp_path)
     problem = replace(wedge(space), walls=elastic)
-    body = Body(warm.temperature.reference, warm.temperature.matrix, warm.opening)
+    body = ConductingBody(warm.temperature.reference, warm.temperature.matrix, warm.deformation)
     found = solve_thermal(problem, oil_heat(body, Adiabatic()), thinning, tolerance=1e-8)
     flux = found.heat.heat_flux[0][space.vertex_dofs]
     kelvin = warm.temperature.reference + warm.temperature.matrix @ flux
-    growth = warm.opening.reference + warm.opening.matrix @ flux
+    growth = warm.deformation.reference + warm.deformation.matrix @ flux
     assert found.heat.fixed_wall[space.vertex_dofs] == pytest.approx(kelvin, abs=1e-6)
     assert found.growth == pytest.approx(growth, abs=1e-7 * GAP)
     assert found.growth.max() < 0.0  # warm steel grows into the film
     gap = problem.film.thickness + space.sample_vertices(growth + elastic.matrix @ found.film.pressure)
     assert found.film.film.thickness == pytest.approx(gap, rel=1e-6)
     assert found.heat.energy_balance_error < BALANCE
-    cold = solve_thermal(problem, oil_heat(Body(body.reference, body.matrix), Adiabatic()), thinning)
+    cold = solve_thermal(problem, oil_heat(ConductingBody(body.reference, body.matrix), Adiabatic()), thinning)
     assert loads(found.film).film_thickness_min < loads(cold.film).film_thickness_min
 
 

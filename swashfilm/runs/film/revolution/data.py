@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from gaps.revolution.reports import Active
+from gaps.films.reports import Active
 from gaps.revolution.turn import GapInstant
 from reynolds.equation.rough_overlap import vertex_thickness
 from reynolds.numerics.arrays import Array
@@ -64,13 +64,13 @@ SERIES = {
     "film_thickness_min": Series("m", lambda at: at.film_thickness_min),
     "film_thickness_mean": Series("m", lambda at: at.mean_film),
     "least_gap": Series("m", lambda at: at.least_gap),
-    "leakage_flow": Series("m3/s", lambda at: at.seen.leakage),
-    "chamber_flow": Series("m3/s", lambda at: float(at.seen.flow.sum())),
-    "contact_load": Series("N", lambda at: at.seen.contact_load),
+    "leakage_flow": Series("m3/s", lambda at: at.report.leakage),
+    "chamber_flow": Series("m3/s", lambda at: float(at.report.flow.sum())),
+    "contact_load": Series("N", lambda at: at.report.contact_load),
     "cavitated_area_fraction": Series("1", lambda at: at.cavitated_area_fraction),
     "film_pressure_max": Series("Pa", lambda at: at.pressure_max),
-    "heat": Series("W", lambda at: at.seen.heat.total),
-    "rubbing": Series("W", lambda at: at.seen.heat.rubbing),
+    "heat": Series("W", lambda at: at.report.heat.total),
+    "rubbing": Series("W", lambda at: at.report.heat.rubbing),
 }
 
 
@@ -86,7 +86,7 @@ def revolution_dataset(study: RevolutionStudy) -> xarray.Dataset:
         numbers |= {name: (values, "m") for name, values in zip(PISTON_END, piston_end(study), strict=True)}
     numbers |= {
         "tilt": (tilt(study), "rad"),
-        "friction_power": ([friction_power(study, at.seen) for at in instants], "W"),
+        "friction_power": ([friction_power(study, at.report) for at in instants], "W"),
         "chamber_pressure": (study.chamber_pressure, "Pa"),
     }  # fmt: skip
     if (warmth := found.warmth) is not None:
@@ -94,7 +94,7 @@ def revolution_dataset(study: RevolutionStudy) -> xarray.Dataset:
             "film_temperature_mean": (warmth.mean_at(found.angles), "K"),
             "film_temperature_max": (warmth.hottest_at(found.angles), "K"),
         }
-    active = {kind: [float(kind in at.seen.active) for at in instants] for kind in Active}
+    active = {kind: [float(kind in at.report.active) for at in instants] for kind in Active}
     numbers |= {f"active_{kind.value}": (values, "1") for kind, values in active.items()}
     return xarray.Dataset(
         {name: ("shaft_angle", np.array(values), {"units": unit}) for name, (values, unit) in numbers.items()}

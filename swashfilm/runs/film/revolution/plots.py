@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from gaps.revolution.reports import Active
+from gaps.films.reports import Active
 from swashfilm.output.field_maps import draw_map
 from swashfilm.output.figures import figure_of
 from swashfilm.runs.film.revolution.data import PISTON_END, POSITIONS, SHOWN

@@ -8,16 +8,9 @@ from typing import Any
 
 import numpy as np
 
-from gaps.revolution.march import GapRevolution
-from gaps.revolution.reports import (
-    Active,
-    BlockSeen,
-    GapSeen,
-    PistonSeen,
-    SlipperSeen,
-    mass_balance_error,
-)
-from gaps.revolution.warmth import Warmth
+from gaps.films.reports import Active, BlockReport, GapReport, PistonReport, SlipperReport
+from gaps.revolution.march import GapRevolution, mass_balance_error
+from gaps.revolution.warmth import GapTemperatures
 from reynolds.numerics.arrays import Array
 from swashfilm.case.gap.revolution import GapOverTurn, RevolutionCase
 from swashfilm.runs.film.revolution.validity import revolution_warnings
@@ -96,9 +89,9 @@ def revolution_course(study: RevolutionStudy) -> dict[str, list[float]]:
         "film_thickness_min_m": [instant.film_thickness_min for instant in instants],
         "film_thickness_mean_m": [instant.mean_film for instant in instants],
         "tilt_rad": tilt(study).tolist(),
-        "leakage_flow_m3_per_s": [instant.seen.leakage for instant in instants],
-        "friction_power_W": [friction_power(study, instant.seen) for instant in instants],
-        "contact_load_N": [instant.seen.contact_load for instant in instants],
+        "leakage_flow_m3_per_s": [instant.report.leakage for instant in instants],
+        "friction_power_W": [friction_power(study, instant.report) for instant in instants],
+        "contact_load_N": [instant.report.contact_load for instant in instants],
     }
 
 
@@ -109,12 +102,12 @@ def _radius(study: RevolutionStudy) -> float:
     return valve_plate_geometry(study.case.rotor.pump).land_radii[3]
 
 
-def friction_power(study: RevolutionStudy, seen: GapSeen) -> float:
+def friction_power(study: RevolutionStudy, seen: GapReport) -> float:
     """Power (W) that the parts spend on shearing the film and rubbing."""
     match seen:
-        case PistonSeen() | SlipperSeen():
+        case PistonReport() | SlipperReport():
             return seen.friction.power
-        case BlockSeen():
+        case BlockReport():
             return seen.torque * study.case.rotor.point.shaft_speed
     raise AssertionError(seen)
 
@@ -125,7 +118,7 @@ def revolution_summary(study: RevolutionStudy) -> dict[str, Any]:
     Means of flows, power and contact are over all steps of the turn; the rest is of the reported angles.
     """
     turn, closing = study.revolution.turn, study.revolution.closing
-    seen, passed = zip(*((instant.seen, instant.passed) for instant in turn.instants), strict=True)
+    seen, passed = zip(*((instant.report, instant.passed) for instant in turn.instants), strict=True)
     least = study.revolution.least_film
     contact = np.array([one.contact_load for one in seen])
     balance = mass_balance_error(study.revolution)
@@ -170,7 +163,7 @@ def revolution_summary(study: RevolutionStudy) -> dict[str, Any]:
     }
 
 
-def _warmth(warmth: Warmth | None) -> dict[str, Any]:
+def _warmth(warmth: GapTemperatures | None) -> dict[str, Any]:
     """Temperatures and heat of a gap that warms, means over the turn."""
     if warmth is None:
         return {}
@@ -183,7 +176,7 @@ def _warmth(warmth: Warmth | None) -> dict[str, Any]:
         "heat_dissipation_W": flows.dissipation,
         "heat_to_fixed_wall_W": flows.to_fixed,
         "heat_to_moving_wall_W": flows.to_moving,
-        "heat_carried_out_W": flows.carried_out,
+        "heat_carried_out_W": flows.convected_out,
         "heat_stored_W": flows.stored,
         "heat_balance_error": flows.balance_error,
         "warming_rounds": warmth.rounds,

@@ -5,30 +5,25 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from enum import Enum
-from typing import Any, assert_never
+from typing import Any
 
 import numpy as np
 
-from gaps.films.block import BlockDrive, standing_block
 from gaps.films.over_turn import constant
-from gaps.films.piston import PistonDrive, standing_piston
-from gaps.films.slipper import SlipperDrive, face_force, floating_slipper
+from gaps.films.slipper import face_force
 from gaps.loads.ball_joint import lateral_force
-from gaps.standing.gap_film import GapFilm
-from gaps.standing.reports import block_told, piston_told, rest_from, slipper_told
-from reynolds.fem.space import FilmSpace
-from reynolds.floating.problem import Floating
-from reynolds.floating.rest import held_at
-from reynolds.floating.step import Stage
+from gaps.standing.gap_film import (
+    GapFilm,
+    rest_from,
+)
 from reynolds.numerics.arrays import Array
-from reynolds.solve.solver import FilmSolver
 from swashfilm.case.gap.instant import GapCase
 from swashfilm.case.gap.position import FaceLoad, PistonLoad, rim
 from system.description.gap import Gap
-from system.films.cycle import PISTON_CELLS, RING_CELLS, SLIPPER_CELLS
+from system.films.drives import Drives
 from system.films.places import place_of
 from system.films.positions import NO_RUBBING, instant_drives
-from system.films.problems import Cells, block_film, piston_film, slipper_film
+from system.films.standing import standing_gap
 from system.points.floating_gaps import BLOCK_START, SLIPPER_START
 
 START = {
@@ -36,7 +31,6 @@ START = {
     Gap.SLIPPER: np.array([SLIPPER_START, 0.0, 0.0]),
     Gap.VALVE_PLATE: np.array([BLOCK_START, 0.0, 0.0]),
 }
-CELLS = {Gap.PISTON: PISTON_CELLS, Gap.SLIPPER: SLIPPER_CELLS, Gap.VALVE_PLATE: RING_CELLS}
 
 
 class PositionSource(Enum):
@@ -61,58 +55,30 @@ def solve_gap(case: GapCase) -> GapStudy:
     Raises FilmNotConverged where the film does not settle, and where the part finds no rest: pulled off, or
     pressed on walls that do not bear.
     """
-    driven = instant_drives(case.rotor, case.parts, case.shaft_angle, case.chamber_pressure)
-    match case.gap:
-        case Gap.PISTON:
-            found = _piston(case, driven.piston)
-        case Gap.SLIPPER:
-            found = _slipper(case, driven.slipper)
-        case Gap.VALVE_PLATE:
-            found = _block(case, driven.block)
-        case _:
-            assert_never(case.gap)
+    drives = _loaded(case, instant_drives(case.rotor, case.parts, case.shaft_angle, case.chamber_pressure))
+    gap = standing_gap(case.gap, case.rotor, case.parts, drives, case.physics, case.finer)
+    if case.position is None:
+        stage = rest_from(gap.solver, gap.floating, gap.time(case.shaft_angle), START[case.gap])
+    else:
+        stage = gap.held_at(case.shaft_angle, case.position)
+    found = gap.report(stage)
     source = PositionSource.REST if case.position is None else PositionSource.GIVEN
     return GapStudy(found, source, (NO_RUBBING, *(str(taken) for taken in case.parts.taken)))
 
 
-def _piston(case: GapCase, drive: PistonDrive) -> GapFilm:
-    if isinstance(case.load, PistonLoad):
-        force = lateral_force(case.parts.piston.guide_length, -case.load.arm, np.array(case.load.force))
-        drive = replace(drive, outer=constant(*force))
-    film = piston_film(case.rotor, case.parts, drive, case.physics, gap_cells(case))
-    time = case.shaft_angle / drive.shaft_speed
-    return piston_told(film, _stage(case, standing_piston(film), film.space_at(time), time))
-
-
-def _slipper(case: GapCase, drive: SlipperDrive) -> GapFilm:
-    if isinstance(case.load, FaceLoad):
-        pressed = np.array([-case.load.moment_y, case.load.moment_x])
-        drive = replace(drive, outer=constant(*face_force(rim(case.gap, case.rotor), case.load.force, pressed)))
-    film = slipper_film(case.rotor, case.parts, drive, case.physics, gap_cells(case))
-    time = case.shaft_angle / drive.shaft_speed
-    return slipper_told(film, _stage(case, floating_slipper(film), film.space, time))
-
-
-def _block(case: GapCase, drive: BlockDrive) -> GapFilm:
-    if isinstance(case.load, FaceLoad):
-        drive = replace(drive, press=constant(-case.load.force, -case.load.moment_x, -case.load.moment_y))
-    film = block_film(case.rotor, case.parts, drive, case.physics, gap_cells(case))
-    time = case.shaft_angle / drive.shaft_speed
-    return block_told(film, _stage(case, standing_block(film), film.space, time)).gap
-
-
-def _stage(case: GapCase, floating: Floating, space: FilmSpace, time: float) -> Stage:
-    """The film where the case puts the part, or where it comes to rest."""
-    solver = FilmSolver(space)
-    if case.position is None:
-        return rest_from(solver, floating, time, START[case.gap])
-    return held_at(solver, floating, time, case.position)
-
-
-def gap_cells(case: GapCase) -> Cells:
-    """The counts of cells that the gap's mesh is made of: the usual ones, times `case.finer`."""
-    first, second = CELLS[case.gap]
-    return first * case.finer, second * case.finer
+def _loaded(case: GapCase, drives: Drives) -> Drives:
+    """The drives with the load that the case states, if any, in place of the pump's."""
+    load = case.load
+    if isinstance(load, PistonLoad):
+        force = lateral_force(case.parts.piston.guide_length, -load.arm, np.array(load.force))
+        return replace(drives, piston=replace(drives.piston, outer=constant(*force)))
+    if not isinstance(load, FaceLoad):
+        return drives
+    if case.gap is Gap.SLIPPER:
+        outer = face_force(rim(case.gap, case.rotor), load.force, np.array([-load.moment_y, load.moment_x]))
+        return replace(drives, slipper=replace(drives.slipper, outer=constant(*outer)))
+    press = constant(-load.force, -load.moment_x, -load.moment_y)
+    return replace(drives, block=replace(drives.block, press=press))
 
 
 def true_place(case: GapCase) -> Callable[[Array], Array]:

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from reynolds.errors import FilmNotConverged
-from reynolds.floating.load_search import Carried, carry
+from reynolds.floating.load_search import LoadedFilm, carry_load
 from reynolds.problem import FilmProblem, FilmSolution
 from swashfilm.runs.film.solve.oil import Found, OilSolver, film_of, oil_solver
 
@@ -29,19 +29,19 @@ class _Warmed:
         return film_of(self.last)
 
 
-def solve_carried(stated: FilmStatement, problem: FilmProblem) -> tuple[Carried, Found]:
+def solve_carried(stated: FilmStatement, problem: FilmProblem) -> tuple[LoadedFilm, Found]:
     """The position at which the film bears what the case asks, and the film there.
 
     Raises FilmNotConverged, with what was borne at best, where there is no such position.
     """
     assert stated.load is not None
     solve = _Warmed(oil_solver(stated, problem.space))
-    carried = carry(problem, stated.load, solve)
+    carried = carry_load(problem, stated.load, solve)
     assert solve.last is not None
     return carried, solve.last
 
 
-def carried_summary(found: Carried) -> dict[str, Any]:
+def carried_summary(found: LoadedFilm) -> dict[str, Any]:
     """Where the film stands: separation m, slopes (m/m), what it bears with the contact, N."""
     position = found.position
     return {

@@ -13,7 +13,7 @@ from reynolds.fem.space import FilmSpace
 from reynolds.numerics.arrays import Array
 from reynolds.problem import FilmProblem, FilmSolution
 from reynolds.solve.solver import FilmSolver
-from reynolds.solve.transient import Instant, march_with
+from reynolds.solve.transient import FilmInstant, march_with
 from reynolds.thermal.coupling import Coupled
 from reynolds.thermal.energy import FilmTemperature, Heat
 from reynolds.thermal.film import ThermalViscosity, march_thermal, solve_thermal
@@ -64,7 +64,7 @@ class OilSolver:
 
     def march(
         self, problem_at: Callable[[float], FilmProblem], end: float, step: float, held: Array
-    ) -> Iterator[Instant[Found]]:
+    ) -> Iterator[FilmInstant[Found]]:
         """The film in time, as `reynolds.solve.transient.march_with`; its temperature begins as what flows in has
         it.
         """
@@ -77,7 +77,7 @@ class OilSolver:
             problem_at, self.heat, _viscosity(stated), end, step, temperature=stated.thermal.inlet(stated.oil),
             shear=stated.oil.shear_law or newtonian, count=stated.thermal.levels, solver=self.solver, held=held,
         )  # fmt: skip
-        return cast("Iterator[Instant[Found]]", found)
+        return cast("Iterator[FilmInstant[Found]]", found)
 
     def _step(self, problem: FilmProblem, last: Found | None) -> Found:
         try:

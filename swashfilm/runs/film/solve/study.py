@@ -6,7 +6,7 @@ import time
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from reynolds.floating.load_search import Carried
+from reynolds.floating.load_search import LoadedFilm
 from reynolds.problem import FilmSolution
 from reynolds.solve.loads import Loads, loads
 from reynolds.thermal.energy import FilmTemperature
@@ -37,7 +37,7 @@ class FilmStudy:
     solve_seconds: float
     heat: FilmTemperature | None = None
     history: tuple[Moment, ...] = ()
-    carried: Carried | None = None
+    carried: LoadedFilm | None = None
 
 
 def solve_case(case: FilmCase | GapCase, report: Report = silent) -> FilmStudy:
@@ -51,7 +51,7 @@ def solve_case(case: FilmCase | GapCase, report: Report = silent) -> FilmStudy:
         return FilmStudy(case.name, gap.film.solution, gap.film.loads, gap, time.perf_counter() - began)
     heat: FilmTemperature | None = None
     history: tuple[Moment, ...] = ()
-    carried: Carried | None = None
+    carried: LoadedFilm | None = None
     if case.stated.time:
         history = tuple(transient(case.stated, report))
         last = history[-1].solution
