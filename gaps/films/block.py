@@ -217,7 +217,7 @@ class BlockFilm:
         at_cavity = np.isclose(pressure, self.drive.cavitation_pressure, rtol=1e-12, atol=0.0)
         return np.where(at_cavity, self.drive.cavitation_pressure, pressure)
 
-    def rubbed(self, stage: FloatingStage) -> WallShear:
+    def wall_shear(self, stage: FloatingStage) -> WallShear:
         """Shear of film and contact on block (moving) and plate, webs over the ports counted as films."""
         return wall_shear(stage.solution, self.asperities, stage.gap)
 

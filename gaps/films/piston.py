@@ -193,7 +193,7 @@ class PistonFilm:
         """Outer generalised forces; they depend on the shaft's angle alone."""
         return steady(self.drive.outer(self._angle(time)))
 
-    def rubbed(self, stage: FloatingStage) -> WallShear:
+    def wall_shear(self, stage: FloatingStage) -> WallShear:
         """Shear of film and contact on piston (moving) and bore."""
         return wall_shear(stage.solution, self.asperities, stage.gap)
 

@@ -76,7 +76,7 @@ Reported = TypeVar("Reported", bound=GapReport)
 
 def piston_report(film: PistonFilm, stage: FloatingStage, *, standing: bool = False) -> PistonReport:
     """Report of a piston's film; `standing`: in a fixed mesh, walls taken as rigid in the friction."""
-    flows, by = boundary_flows(stage.solution), film.rubbed(stage)
+    flows, by = boundary_flows(stage.solution), film.wall_shear(stage)
     given = None if standing else film.deformation(stage)
     flow = film.standing_flow(stage, flows) if standing else film.chamber_flow(stage, flows, given)
     return PistonReport(
@@ -93,7 +93,7 @@ def piston_report(film: PistonFilm, stage: FloatingStage, *, standing: bool = Fa
 def slipper_report(film: SlipperFilm, stage: FloatingStage) -> SlipperReport:
     """Report of a slipper's film."""
     pocket, fed = film.supplied(stage)
-    flows, by = boundary_flows(stage.solution), film.rubbed(stage)
+    flows, by = boundary_flows(stage.solution), film.wall_shear(stage)
     return SlipperReport(
         flow=np.array([fed]),
         leakage=sum(flows[edge] for edge in film.shape.lands.open),
@@ -109,7 +109,7 @@ def slipper_report(film: SlipperFilm, stage: FloatingStage) -> SlipperReport:
 def block_report(film: BlockFilm, stage: FloatingStage) -> BlockReport:
     """Report of the block's film; webs over the ports have neither contact nor heat."""
     solution = stage.solution
-    space, flows, by = solution.problem.space, boundary_flows(solution), film.rubbed(stage)
+    space, flows, by = solution.problem.space, boundary_flows(solution), film.wall_shear(stage)
     is_film = film.is_film(space)
     chambers, suction, delivery = film.inflows(solution, flows)
     return BlockReport(

@@ -296,7 +296,7 @@ class SlipperFilm:
         retainer = self.drive.retainer
         return retainer is not None and bool(retainer_force(retainer, position).force.any())
 
-    def rubbed(self, stage: FloatingStage) -> WallShear:
+    def wall_shear(self, stage: FloatingStage) -> WallShear:
         """Shear of film and contact on slipper (moving) and plate."""
         return wall_shear(stage.solution, self.asperities, stage.gap)
 

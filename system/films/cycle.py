@@ -99,15 +99,7 @@ def gap_cycle(
     piston = standing_piston_gap(rotor, parts, driven.piston, physics.piston, finer)
     slipper = standing_slipper_gap(rotor, parts, driven.slipper, physics.slipper, finer)
     block = standing_block_gap(rotor, parts, driven.block, physics.valve_plate, finer)
-    warm = [
-        _Warm(heat(rotor, parts), rubs) if of.heat else None
-        for of, heat, rubs in zip(
-            (physics.piston, physics.slipper, physics.valve_plate),
-            (piston_heat, slipper_heat, block_heat),
-            rubbing,
-            strict=True,
-        )
-    ]
+    warm = _warming(rotor, parts, physics, rubbing)
     of_piston = _held(piston, shaft_angle, warm[0], lambda k: progress(k, "piston"))
     of_slipper = _held(slipper, shaft_angle, warm[1], lambda k: progress(count + k, "slipper"))
     of_ring = _held(block, shaft_angle[:positions], warm[2], lambda k: progress(2 * count + k, "valve-plate"))
@@ -140,6 +132,21 @@ class _Warm:
 
     heat: GapHeat
     rubbing: float
+
+
+def _warming(
+    rotor: Rotor, parts: FloatingParts, physics: GapPhysics, rubbing: tuple[float, float, float]
+) -> list[_Warm | None]:
+    """Heat of each gap, None where its physics has none."""
+    return [
+        _Warm(heat(rotor, parts), rubs) if of.heat else None
+        for of, heat, rubs in zip(
+            (physics.piston, physics.slipper, physics.valve_plate),
+            (piston_heat, slipper_heat, block_heat),
+            rubbing,
+            strict=True,
+        )
+    ]
 
 
 def _held(

@@ -61,7 +61,7 @@ def film_numbers(
             is_film = film.is_film(stage.solution.problem.space)
         case _:
             assert_never(gap)
-    return FilmNumbers(conductance, film.rubbed(stage).heat(is_film).shear)
+    return FilmNumbers(conductance, film.wall_shear(stage).heat(is_film).shear)
 
 
 def chambers_at(rotor: Rotor, shaft_angle: float, pressure: float) -> Array:

@@ -123,7 +123,7 @@ def test_a_warm_film_leaks_as_its_heat_balance_says(validation, gap, rpm, pressu
     found = warm(solver, cold, heat)
     thinned = conductance(SimpleNamespace(solution=found.film)) / conductance(cold)
     half = 1.0 if gap is Gap.SLIPPER else 0.5  # of the ring's kidneys under pressure
-    rubbed = film.rubbed(cold)
+    rubbed = film.wall_shear(cold)
     shear = (rubbed.heat() if gap is Gap.SLIPPER else rubbed.heat(film.is_film(cold.solution.problem.space))).shear
     area = float(found.film.problem.space.area.sum())
     state, rise = law_of(gap, at, pressure, half * conductance(cold) * pressure, shear, area)

@@ -51,7 +51,7 @@ def _at(
     """The parallel piston and its friction."""
     film = _piston(cells, rough)
     stage = _let_go(film, eccentricity)
-    return stage, film.friction(stage, film.rubbed(stage))
+    return stage, film.friction(stage, film.wall_shear(stage))
 
 
 @pytest.mark.parametrize("eccentricity", [0.0, 0.6])
@@ -104,7 +104,7 @@ def test_pressure_pushes_a_piston_by_its_dents():
     stage, deepest = _let_go(film, 0.0), 2e-6
     along = stage.instant.shape.space.vertices[:, 1]
     dents = deepest * (along.max() - along) / np.ptp(along)
-    by = film.rubbed(stage)
+    by = film.wall_shear(stage)
     plain, dented = (film.friction(stage, by, given) for given in (None, PistonDeformation(dents, dents, 0.0)))
     rim = np.pi * DIAMETER * deepest
     assert dented.force - plain.force == pytest.approx(-0.5 * rim * (PRESSURE - CASE), rel=1e-6)

@@ -270,7 +270,7 @@ def test_friction(validation, refine):
     def solve(n: int) -> tuple[float, float]:
         film = SlipperFilm(SHAPE, drive, physics=FULL, cells=(n, 4 * n))
         (pressed,) = _stepped(film, HEIGHT, 1e-9)
-        found = film.friction(pressed, film.rubbed(pressed))
+        found = film.friction(pressed, film.wall_shear(pressed))
         shear = VISCOSITY / pressed.q[0] * float(film.space.area.sum())
         assert found.force == pytest.approx([-3.0 * shear, -4.0 * shear], rel=1e-9)
         assert found.power == pytest.approx(25.0 * shear - 100.0 * found.torque, rel=1e-9)
@@ -296,7 +296,7 @@ def test_friction_of_contact():
     rest = _stepped(film, 1e-6, *TO_REST)[-1]
     bears = float(rest.contact_force[0])
     assert bears == pytest.approx(2e4 - rest.film_force[0], rel=1e-6)
-    found = film.friction(rest, film.rubbed(rest)).force
+    found = film.friction(rest, film.wall_shear(rest)).force
     oil = VISCOSITY * float((film.space.area / rest.solution.film.thickness).sum())
     assert found == pytest.approx([-0.6 * (0.1 * bears + 5.0 * oil), -0.8 * (0.1 * bears + 5.0 * oil)], rel=1e-6)
 
