@@ -1,6 +1,7 @@
-"""The committed picture of the rooms is the one that the contracts give; every gallery picture has its example."""
+"""Picture of the rooms, page on the architecture and gallery agree with the program."""
 
 import importlib.util
+import re
 import sys
 from pathlib import Path
 from types import ModuleType
@@ -24,6 +25,17 @@ def test_picture_of_the_rooms_is_not_stale():
     assert (ROOT / "docs" / "architecture.svg").read_text("utf-8") == _script("house").picture(), (
         "draw it anew: python docs/site/house.py"
     )
+
+
+def test_architecture_names_rooms_that_exist():
+    page = (ROOT / "docs" / "architecture.md").read_text("utf-8")
+    packages = "reynolds|gaps|system|diagnosis|swashfilm"
+    rooms = re.findall(rf"`((?:{packages})(?:\.\w+)+)`", page)
+    files = re.findall(rf"`((?:{packages}|docs)(?:/\w+)+(?:\.\w+)?)`", page)
+    places = [ROOT / room.replace(".", "/") for room in rooms] + [ROOT / file for file in files]
+    missing = [place for place in places if not place.exists() and not place.with_suffix(".py").exists()]
+    assert not [str(place) for place in missing if "NAME" not in place.parts]
+    assert len(rooms) > 20
 
 
 def test_gallery_is_not_stale():

@@ -180,7 +180,7 @@ def test_temperatures_off_are_told_as_differences(named: Diagnosis) -> None:
 
 
 def test_the_file_has_the_form_of_format_1(named: Diagnosis, tmp_path: Path) -> None:
-    """Keys, types and units of shared/recordings/README.md."""
+    """Keys, types and units of `diagnosis.json`, as docs/files.md has them."""
     path = tmp_path / "diagnosis.json"
     write_diagnosis(path, named)
     record = read_diagnosis(path)
@@ -207,7 +207,7 @@ def test_the_file_has_every_key_of_the_stated_form(named: Diagnosis) -> None:
     """The example of recordings/README.md: its keys at every level, values of its kinds."""
     form = Path(__file__).parents[4] / "shared" / "recordings" / "README.md"
     if not form.is_file():
-        pytest.skip("needs ../shared/recordings/README.md, which states the form")
+        pytest.skip(f"no shared reference material at {form.parent}")
     text = form.read_text("utf-8")
     example = json.loads(
         text[text.index("```json") + 7 : text.index("```", text.index("```json") + 7)].replace("...", "")
