@@ -23,7 +23,7 @@ from system.pump.ports.wear import PortWear
 
 @dataclass(frozen=True)
 class Affected:
-    """Effects of laws at N points, and the state that the laws see."""
+    """Changes by laws at N points, and the state that is their input."""
 
     effects: Effects
     state: BenchState
@@ -37,7 +37,7 @@ def effects_at(
     laws: Sequence[tuple[Law, Values]],
     hours: Array,
 ) -> Affected:
-    """Effects of laws with their values at N points, columns (N, 1), at chamber pressures without any effect."""
+    """Changes by laws with their values at N points, columns (N, 1), at chamber pressures without any effect."""
     courses = gap_courses(pump, point, motion, cycle, lumped_pairs(pump, point, motion, cycle))
     state = bench_state(pump, point, hours)
     return Affected(stated_effects(laws, courses, state), state)

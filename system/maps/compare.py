@@ -46,7 +46,7 @@ class Difference:
 
 
 @dataclass(frozen=True)
-class Comparison:
+class MapComparison:
     """Two maps at the same levels, and their differences."""
 
     one: MapData
@@ -54,7 +54,7 @@ class Comparison:
     differences: tuple[Difference, ...]
 
 
-def compare(one: MapData, other: MapData, errors: tuple[MapError | None, MapError | None]) -> Comparison:
+def compare(one: MapData, other: MapData, errors: tuple[MapError | None, MapError | None]) -> MapComparison:
     """Both maps at common levels: their own where these are the same, else those of the first within both boxes.
 
     Raises InputFaults for maps that are not whole or have no box in common.
@@ -63,7 +63,7 @@ def compare(one: MapData, other: MapData, errors: tuple[MapError | None, MapErro
     exact = axes == one.axes == other.axes
     here, there = (at_levels(MapInterpolant(data), axes) for data in (one, other))
     known = [] if exact else [error for error in errors if error is not None]
-    return Comparison(here, there, tuple(_differences(here, there, known)))
+    return MapComparison(here, there, tuple(_differences(here, there, known)))
 
 
 def common_axes(one: MapData, other: MapData) -> tuple[MapAxis, ...]:

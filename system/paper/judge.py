@@ -9,7 +9,7 @@ from math import inf, isfinite
 
 from reynolds.errors import FilmInputError
 from system.paper.figure import Figure, Panel, Unit
-from system.paper.points import Reading
+from system.paper.points import LossReading
 
 ROUND_OFF = 1e-6
 """Of a shown number: below it stands 0."""
@@ -124,7 +124,7 @@ class Judged:
     """A claim with the range found, in one reading of the losses (None: where they do not matter)."""
 
     claim: PaperClaim
-    reading: Reading | None
+    reading: LossReading | None
     found: Range
     verdict: StatementVerdict
     reason: str
@@ -145,7 +145,7 @@ def judge(
     claim: PaperClaim,
     found: Range,
     *,
-    reading: Reading | None = None,
+    reading: LossReading | None = None,
     reason: str = "",
     impossible: Impossibility | None = None,
 ) -> Judged:

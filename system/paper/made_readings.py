@@ -10,7 +10,7 @@ from system.bench.calibration.equation_21 import EqTwentyOne, paper_priors
 from system.bench.points import BenchPoints
 from system.estimation.observations import Channel, Observations
 from system.inputs.channels import ChannelName
-from system.paper.points import PRESSURES, RATIOS, SPEEDS, PaperPoint, PaperPoints, Reading
+from system.paper.points import PRESSURES, RATIOS, SPEEDS, LossReading, PaperPoint, PaperPoints
 from system.pump.laws.friction_pairs import Pair
 
 SEED = 13
@@ -65,6 +65,6 @@ def equation_of(model: PaperPoints) -> EqTwentyOne:
     pairs = [Pair(prior.name.rpartition(".")[2]) for prior in priors]
     stated = np.array([getattr(model.pump.friction, pair.value) for pair in pairs])
     losses = np.array([[one.coulomb[list(Pair).index(pair)] for pair in pairs] for one in rows])
-    loss = np.array([one.split(Reading.WITH_SHEAR).hydromechanical for one in rows])
+    loss = np.array([one.split(LossReading.WITH_SHEAR).hydromechanical for one in rows])
     shear = np.array([sum(one.viscous) for one in rows])
     return EqTwentyOne(loss - losses.sum(axis=1), losses / stated, shear, priors)

@@ -46,7 +46,7 @@ class PointFidelity(Enum):
     FILMS = "films"
 
 
-class Reading(Enum):
+class LossReading(Enum):
     """Reading of a pair's loss.
 
     WITH_SHEAR: a Coulomb coefficient and the shear of the film, REF90's loss model. MIXED: coefficients alone, as
@@ -85,32 +85,32 @@ class PaperPoint:
     shaft_angle: tuple[float, ...]
     chamber_pressure: tuple[float, ...]
 
-    def pair_losses(self, reading: Reading) -> Array:
+    def pair_losses(self, reading: LossReading) -> Array:
         """Losses (7,) of the pairs in W, in the order of `Pair`."""
         coulomb = np.array(self.coulomb)
-        return coulomb + np.array(self.viscous) if reading is Reading.WITH_SHEAR else coulomb
+        return coulomb + np.array(self.viscous) if reading is LossReading.WITH_SHEAR else coulomb
 
-    def loss(self, pair: Pair, reading: Reading) -> float:
+    def loss(self, pair: Pair, reading: LossReading) -> float:
         """Loss of one pair in W."""
         return float(self.pair_losses(reading)[list(Pair).index(pair)])
 
-    def share(self, pair: Pair, reading: Reading) -> float:
+    def share(self, pair: Pair, reading: LossReading) -> float:
         """Share of one pair in the loss of all seven."""
         return self.loss(pair, reading) / float(self.pair_losses(reading).sum())
 
-    def read(self, reading: Reading) -> BenchReading:
+    def read(self, reading: LossReading) -> BenchReading:
         """Bench readings; mixed coefficients alone leave the torque of the films' shear out."""
-        if reading is Reading.WITH_SHEAR:
+        if reading is LossReading.WITH_SHEAR:
             return self.bench
         return replace(
             self.bench, shaft_torque=self.bench.shaft_torque - sum(self.viscous) / self.bench.shaft_speed
         )
 
-    def overall(self, reading: Reading) -> float:
+    def overall(self, reading: LossReading) -> float:
         """Overall efficiency, the paper's Eq. (3)."""
         return paper_efficiency(self.read(reading)).overall
 
-    def split(self, reading: Reading) -> LossSplit:
+    def split(self, reading: LossReading) -> LossSplit:
         """Volumetric and hydromechanical loss, the paper's Eqs. (1), (2)."""
         return paper_losses(self.read(reading))
 

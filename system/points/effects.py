@@ -22,7 +22,7 @@ from system.work.means import mean_of
 
 
 def point_effects(pump: PumpDescription, point: OperatingPoint, cycle: ChamberCycle) -> Effects[float]:
-    """Effects of [physics] at one point, over the angles of a cycle without any effect."""
+    """Changes by [physics] at one point, over the angles of a cycle without any effect."""
     at, pressures = columns(point), Pressures(cycle.pressure[None])
     found = effects_at(pump, at, piston_motion(pump, at), pressures, stated_laws(pump), np.zeros(1))
     return found.effects.at(0)
@@ -35,7 +35,7 @@ def affected_problem(
     leaks: LeakTable,
     effects: Sequence[Effects[float]],
 ) -> ChamberProblem:
-    """One chamber of the pump at the point, with what effects change of its leaks and ports."""
+    """One chamber of the pump at the point, with the changes of its leaks and ports by effects."""
     wear = AS_DRAWN
     for one in effects:
         leaks, wear = affected_leaks(leaks, one), affected_wear(wear, one)
@@ -50,6 +50,6 @@ def with_stroke(point: OperatingPoint, effects: Sequence[Effects[float]]) -> Ope
 def mean_outside(
     pump: PumpDescription, point: OperatingPoint, effects: Sequence[Effects[float]]
 ) -> Outside[float]:
-    """Flows and torque past the chambers at a point, mean of the chambers' effects."""
+    """Contributions outside the chambers at a point, mean of the chambers' effects."""
     state = bench_state(pump, point, 0.0)
     return mean_of([outside(one, state) for one in effects]) if effects else NOTHING_OUTSIDE

@@ -224,7 +224,7 @@ def edged_leaks(pump: PumpDescription, point: OperatingPoint, gaps: GapCycle) ->
 
 
 def gap_exchange(gaps: GapCycle, cycle: ChamberCycle, pistons: int, point: OperatingPoint) -> GapExchange:
-    """Power of the oil that moving walls drag along, and what the valve plate's film takes from the ports."""
+    """Power of the oil that moving walls drag along, and the flow from the ports into the valve plate's film."""
     carried = chamber_exchange(cycle, pistons * point.shaft_speed / TURN).carried
     return GapExchange(
         carried=replace(carried, valve_plate=float(gaps.drag_power.mean())),

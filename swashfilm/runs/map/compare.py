@@ -23,7 +23,7 @@ from swashfilm.runs.map.plots import (
     shown,
     slice_of,
 )
-from system.maps.compare import Comparison
+from system.maps.compare import MapComparison
 from system.maps.data import LOSSES, MapData
 from system.maps.duty import Cycle, duty
 from system.maps.interpolation import MapError, MapInterpolant, left_out_error
@@ -46,7 +46,7 @@ SHOWN = (EfficiencyDefinition.PAPER, EfficiencyDefinition.ENERGY_RETURNED)
 
 
 def run_compare(
-    found: Comparison, names: tuple[str, str], both: tuple[Known, Known], cycle: Cycle | None, folder: Path
+    found: MapComparison, names: tuple[str, str], both: tuple[Known, Known], cycle: Cycle | None, folder: Path
 ) -> dict[str, Any]:
     """Write differences.csv, summary.json, plots and report.html of a comparison; return the summary."""
     summary = {
@@ -153,7 +153,7 @@ def write_compare_page(folder: Path) -> Path:
     )
 
 
-def compare_plots(found: Comparison) -> dict[str, Figure]:
+def compare_plots(found: MapComparison) -> dict[str, Figure]:
     """Return the pictures of a comparison by caption."""
     pictures = {}
     for up in (MapInput.RATIO, MapInput.SPEED):
@@ -167,7 +167,7 @@ def compare_plots(found: Comparison) -> dict[str, Figure]:
     return pictures
 
 
-def _slices(found: Comparison, piece: Slice) -> Figure:
+def _slices(found: MapComparison, piece: Slice) -> Figure:
     figure = figure_of(11.0, 6.8)
     panels = figure.subplots(len(SHOWN), 3)
     for row, definition in zip(panels, SHOWN, strict=True):
@@ -183,7 +183,7 @@ def _slices(found: Comparison, piece: Slice) -> Figure:
     return figure
 
 
-def _losses(found: Comparison) -> Figure:
+def _losses(found: MapComparison) -> Figure:
     sinks = {
         words: [float(np.mean(data.values[column])) * 1e-3 for data in (found.one, found.other)]
         for column, words in LOSSES.items()

@@ -13,7 +13,7 @@ from system.description.pump import PumpDescription
 from system.inputs.faults import Fault, InputFaults
 from system.paper.figures.coefficients import fig13_of
 from system.paper.judge import FigureResult
-from system.paper.points import Reading
+from system.paper.points import LossReading
 from system.work.progress import Report
 
 
@@ -39,4 +39,4 @@ def recorded_fig13(pump: PumpDescription, recording: Recording, report: Report) 
     count = len(found.points.speed)
     told = f'Tuned to the recording "{title}", {count} points; all else of the pump as it fits them.'
     notes = f"What was taken: {'; '.join(found.notes)}."
-    return fig13_of({Reading.WITH_SHEAR: found.equation, Reading.MIXED: found.mixed}, (told, notes))
+    return fig13_of({LossReading.WITH_SHEAR: found.equation, LossReading.MIXED: found.mixed}, (told, notes))

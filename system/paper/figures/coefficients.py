@@ -13,7 +13,7 @@ from system.bench.calibration.equation_21 import RANGES, EqFit, eq_fits, measure
 from system.paper.figure import Curve, Figure, FigureAxis, Panel, PanelKind, Unit
 from system.paper.judge import FigureResult, Impossibility, Judged, Range, judge, range_of
 from system.paper.made_readings import MADE, SEED, equation_of, made_readings
-from system.paper.points import PaperPoints, Reading
+from system.paper.points import LossReading, PaperPoints
 from system.paper.statements import CLAIMS
 from system.pump.laws.friction_pairs import Pair
 
@@ -28,15 +28,15 @@ def fig13(model: PaperPoints, seen: PaperPoints) -> FigureResult:
     equation, losses = equation_of(model), measured_losses(points, readings)
     rated = model.pump.pump.rated_speed
     fits = {
-        Reading.WITH_SHEAR: eq_fits(equation, losses, points, rated),
-        Reading.MIXED: eq_fits(equation.mixed, losses, points, rated),
+        LossReading.WITH_SHEAR: eq_fits(equation, losses, points, rated),
+        LossReading.MIXED: eq_fits(equation.mixed, losses, points, rated),
     }
     own = ", the model's own, so that the fit finds what it was made of" if seen.fidelity is model.fidelity else ""
     remarks = f"Readings are {MADE}: of {seen.fidelity.value} points{own}; with a bench's noise, seed {SEED}."
     return fig13_of(fits, (remarks,))
 
 
-def fig13_of(fits: Mapping[Reading, Sequence[EqFit]], remarks: Sequence[str]) -> FigureResult:
+def fig13_of(fits: Mapping[LossReading, Sequence[EqFit]], remarks: Sequence[str]) -> FigureResult:
     """The figure of fits at one speed, displacement by displacement, and of the whole map, with `remarks`.
 
     By both readings: with the films' shear separate, and with the shear in the coefficients.
@@ -44,14 +44,14 @@ def fig13_of(fits: Mapping[Reading, Sequence[EqFit]], remarks: Sequence[str]) ->
     cells = {reading: [fit for fit in own if fit.ratio is not None] for reading, own in fits.items()}
     panels = (
         *(_bounded(own, reading) for reading, own in cells.items()),
-        _printed(cells[Reading.MIXED]),
+        _printed(cells[LossReading.MIXED]),
     )
     judged = (
-        _solved(cells[Reading.MIXED]),
+        _solved(cells[LossReading.MIXED]),
         *(_in_range(own, reading) for reading, own in cells.items()),
     )
     widths = tuple(_widths(own[-1], reading) for reading, own in fits.items())
-    return FigureResult(Figure.FIG13, panels, judged, (*remarks, _rank(fits[Reading.MIXED]), *widths))
+    return FigureResult(Figure.FIG13, panels, judged, (*remarks, _rank(fits[LossReading.MIXED]), *widths))
 
 
 _DISPLACEMENT, _COEFFICIENT = (
@@ -65,7 +65,7 @@ def _names(fit: EqFit) -> list[str]:
     return [parameter.name.rpartition(".")[2] for parameter in fit.posterior.parameters]
 
 
-def _bounded(cells: Sequence[EqFit], reading: Reading) -> Panel:
+def _bounded(cells: Sequence[EqFit], reading: LossReading) -> Panel:
     """Coefficients and their sigma over displacement, with bounds and priors."""
     curves = tuple(
         Curve(
@@ -121,13 +121,13 @@ def _solved(cells: Sequence[EqFit]) -> Judged:
 
 
 _WHY = {
-    Reading.WITH_SHEAR: "that of coefficients that hold the films' shear, which is counted beside these",
-    Reading.MIXED: "shear of films of given thickness is the same at every pressure, and only pairs whose loss "
-    "hardly rises with pressure can hold it",
+    LossReading.WITH_SHEAR: "that of coefficients that hold the films' shear, which is counted beside these",
+    LossReading.MIXED: "shear of films of given thickness is the same at every pressure, and only pairs whose "
+    "loss hardly rises with pressure can hold it",
 }
 
 
-def _in_range(cells: Sequence[EqFit], reading: Reading) -> Judged:
+def _in_range(cells: Sequence[EqFit], reading: LossReading) -> Judged:
     names = _names(cells[0])
     beyond = {
         name: max(beyond_range(RANGES[Pair(name)], float(fit.posterior.values[k])) for fit in cells)
@@ -151,7 +151,7 @@ def beyond_range(ends: tuple[float, float], value: float) -> float:
     return max(1.0, low / value, value / high)
 
 
-def _widths(whole: EqFit, reading: Reading) -> str:
+def _widths(whole: EqFit, reading: LossReading) -> str:
     """Width of each coefficient from the whole map."""
     posterior, names = whole.posterior, _names(whole)
     spread = np.sqrt(np.diag(posterior.covariance))

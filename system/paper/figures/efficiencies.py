@@ -16,11 +16,11 @@ from system.paper.points import (
     PRESSURES,
     RATED,
     RATIOS,
+    LossReading,
     PaperPoint,
     PaperPoints,
     PaperWork,
     Place,
-    Reading,
     near_zero,
     paper_point,
     places_of,
@@ -38,7 +38,7 @@ def fig2(points: PaperPoints) -> FigureResult:
     if idle := _undelivered(points, Figure.FIG2):
         return FigureResult(Figure.FIG2, remarks=idle)
     panels, judged = [], []
-    for reading in Reading:
+    for reading in LossReading:
         field = _field(points, reading)
         panels.append(
             Panel(
@@ -63,7 +63,7 @@ def fig3(points: PaperPoints) -> FigureResult:
     if idle := _undelivered(points, Figure.FIG3):
         return FigureResult(Figure.FIG3, remarks=idle)
     judged: list[Judged] = []
-    for reading in Reading:
+    for reading in LossReading:
         judged += _judged_cases(points, reading)
     cases = (
         ("Case 1: 5 MPa, rated speed", FigureAxis("displacement", Unit.SHARE), np.array(RATIOS), case_one(points)),
@@ -72,7 +72,7 @@ def fig3(points: PaperPoints) -> FigureResult:
     )  # fmt: skip
     panels = [panel for words, x, at, own in cases for panel in _case_panels(words, x, at, own)]
     panels += _rated_panels(case_three(points))
-    split = case_three(points).split(Reading.WITH_SHEAR)
+    split = case_three(points).split(LossReading.WITH_SHEAR)
     near = Unit.PRESSURE.factor * near_zero(points.pump)
     remarks = (
         f"Case 3 (rated point): volumetric loss {split.volumetric:.0f} W, hydro-mechanical "
@@ -120,7 +120,7 @@ def share_with_drain(split: LossSplit, drain: float, fall: float) -> float:
     return split.hydromechanical / (split.hydromechanical + split.volumetric + drain * fall)
 
 
-def _field(points: PaperPoints, reading: Reading) -> FigureField:
+def _field(points: PaperPoints, reading: LossReading) -> FigureField:
     rows = [[points.at(RATED, p, ratio).overall(reading) for ratio in RATIOS] for p in PRESSURES]
     return FigureField(
         FigureAxis("overall efficiency", Unit.SHARE), np.array(RATIOS), np.array(PRESSURES), np.array(rows)
@@ -134,7 +134,7 @@ def _best_point(field: FigureField) -> Curve:
     return Curve(f"best {best:.1f} %", field.x[column : column + 1], field.y[row : row + 1])
 
 
-def _best_reason(points: PaperPoints, best: float, reading: Reading) -> str:
+def _best_reason(points: PaperPoints, best: float, reading: LossReading) -> str:
     """The best efficiency by the other reading, and without oil trapped at the inner dead centre."""
     at = max(
         (Place(RATED, p, ratio) for p in PRESSURES for ratio in RATIOS),
@@ -148,9 +148,9 @@ def _best_reason(points: PaperPoints, best: float, reading: Reading) -> str:
         "assumed: "
         f"then {100.0 * own:.1f} % in place of {100.0 * best:.1f} %"
     )
-    if reading is Reading.MIXED:
+    if reading is LossReading.MIXED:
         return text
-    mixed = 100.0 * open_longer.overall(Reading.MIXED)
+    mixed = 100.0 * open_longer.overall(LossReading.MIXED)
     return (
         f"{text}, and {mixed:.1f} % without the {sum(stated.viscous):.0f} W of the films' shear, which is "
         "counted "
@@ -164,7 +164,7 @@ def without_trapped_oil(pump: PumpDescription) -> PumpDescription:
     return replace(pump, ports=replace(pump.ports, kidney_end=late))
 
 
-def _judged_cases(points: PaperPoints, reading: Reading) -> Iterator[Judged]:
+def _judged_cases(points: PaperPoints, reading: LossReading) -> Iterator[Judged]:
     every = (*case_one(points), *case_two(points), case_three(points))
     found = [paper_efficiency(one.read(reading)) for one in every]
     less = range_of(one.volumetric - one.hydromechanical for one in found)
@@ -184,7 +184,7 @@ def _falls(point: PaperPoint) -> float:
     return point.bench.delivery_pressure - point.bench.drain_pressure
 
 
-def _needed_drain(points: PaperPoints, reading: Reading) -> str:
+def _needed_drain(points: PaperPoints, reading: LossReading) -> str:
     """The flow into the case that Case 1 needs, and its effect on Case 2 by its law of pressure."""
     expected = CLAIMS["fig3.case1"].expected
     needed = [
@@ -208,7 +208,7 @@ def _needed_drain(points: PaperPoints, reading: Reading) -> str:
     )
 
 
-def _steady_drain(points: PaperPoints, reading: Reading) -> str:
+def _steady_drain(points: PaperPoints, reading: LossReading) -> str:
     """The flow into the case that meets the lower end of Case 2, and its agreement with Case 1."""
     last, expected = case_two(points)[-1], CLAIMS["fig3.case2"].expected
     drain = drain_for_share(last.split(reading), expected.low, _falls(last))
@@ -231,7 +231,7 @@ def _case_panels(words: str, x: FigureAxis, at: np.ndarray, case: tuple[PaperPoi
             Curve("overall, Eq. (3)", at, np.array([one.overall for one in found])),
         ),
     )  # fmt: skip
-    splits = [one.split(Reading.WITH_SHEAR) for one in case]
+    splits = [one.split(LossReading.WITH_SHEAR) for one in case]
     yield Panel(
         f"{words}: losses", PanelKind.LINES, x, FigureAxis("loss", Unit.POWER),
         (
@@ -243,7 +243,7 @@ def _case_panels(words: str, x: FigureAxis, at: np.ndarray, case: tuple[PaperPoi
 
 def _rated_panels(rated: PaperPoint) -> Iterator[Panel]:
     """Case 3, one point."""
-    found, split = paper_efficiency(rated.bench), rated.split(Reading.WITH_SHEAR)
+    found, split = paper_efficiency(rated.bench), rated.split(LossReading.WITH_SHEAR)
     none = FigureAxis("", Unit.NUMBER)
     yield Panel(
         "Case 3: rated point, efficiencies", PanelKind.BARS, none, FigureAxis("efficiency", Unit.SHARE),

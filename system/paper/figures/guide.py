@@ -10,7 +10,7 @@ from system.inputs.units import RPM
 from system.multibody.retainer import contact_circle, guide_loss
 from system.paper.figure import Curve, Figure, FigureAxis, Panel, PanelKind, Unit
 from system.paper.judge import FigureResult, Range, judge, range_of
-from system.paper.points import FULL, PRESSURES, RATED, SPEEDS, PaperPoints, Reading
+from system.paper.points import FULL, PRESSURES, RATED, SPEEDS, LossReading, PaperPoints
 from system.paper.statements import CLAIMS
 from system.pump.laws.directions import plate_axes
 from system.pump.laws.friction_pairs import Pair, ball_guide_coulomb
@@ -104,7 +104,7 @@ def _over_pressure(points: PaperPoints) -> tuple[Curve, ...]:
             np.array(PRESSURES),
             np.array(
                 [
-                    one.loss(Pair.BALL_GUIDE_RETAINER, Reading.WITH_SHEAR)
+                    one.loss(Pair.BALL_GUIDE_RETAINER, LossReading.WITH_SHEAR)
                     for one in points.over_pressure(speed, FULL)
                 ]
             ),

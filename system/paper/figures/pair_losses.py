@@ -16,9 +16,9 @@ from system.paper.points import (
     RATED,
     RATIOS,
     SPEEDS,
+    LossReading,
     PaperPoint,
     PaperPoints,
-    Reading,
 )
 from system.paper.statements import CLAIMS
 from system.pump.laws.friction_pairs import Pair
@@ -43,7 +43,7 @@ def fig16(points: PaperPoints) -> FigureResult:
     cases = [points.over_pressure(speed, ratio) for speed, ratio in PRINTED]
     panels = tuple(_case(*each) for each in zip("abcdefgh", PRINTED, cases, strict=True))
     judged = []
-    for reading in Reading:
+    for reading in LossReading:
         rows = [(_pairs_sum(row, reading), _by_bench(row, reading)) for row in cases]
         departs = max(from_line(np.array(PRESSURES), pairs) for pairs, _ in rows)
         over = range_of(value for pairs, bench in rows for value in bench / pairs - 1.0)
@@ -61,18 +61,18 @@ def _case(letter: str, at: tuple[float, float], row: Sequence[PaperPoint]) -> Pa
     (speed, ratio), x = at, np.array(PRESSURES)
     curves = tuple(
         Curve(f"{what}, {reading.value}", x, of(row, reading))
-        for reading in Reading
+        for reading in LossReading
         for what, of in (("pairs", _pairs_sum), ("Eq. (2)", _by_bench))
     )
     words = f"({letter}) {speed / RPM:.0f} r/min, {100.0 * ratio:.0f} % of displacement"
     return Panel(words, PanelKind.LINES, _PRESSURE, FigureAxis("hydro-mechanical loss", Unit.POWER), curves)
 
 
-def _pairs_sum(row: Sequence[PaperPoint], reading: Reading) -> Array:
+def _pairs_sum(row: Sequence[PaperPoint], reading: LossReading) -> Array:
     return np.array([one.pair_losses(reading).sum() for one in row])
 
 
-def _by_bench(row: Sequence[PaperPoint], reading: Reading) -> Array:
+def _by_bench(row: Sequence[PaperPoint], reading: LossReading) -> Array:
     return np.array([one.split(reading).hydromechanical for one in row])
 
 
@@ -82,7 +82,7 @@ def from_line(x: Array, y: Array) -> float:
     return float(np.max(np.abs(line(x) - y) / np.abs(y)))
 
 
-def _bench_reason(points: PaperPoints, reading: Reading) -> str:
+def _bench_reason(points: PaperPoints, reading: LossReading) -> str:
     """The part of Eq. (2) outside the pairs at the rated point, and the distance of its loss from a line."""
     row = points.over_pressure(RATED, FULL)
     rated, bench = row[-1], _by_bench(row, reading)
@@ -100,12 +100,12 @@ def fig17(points: PaperPoints) -> FigureResult:
     rows = {speed: points.over_pressure(speed, FULL) for speed in reversed(SPEEDS)}
     panels = tuple(
         stacked(f"{speed / RPM:.0f} r/min, full displacement, {reading.value}", _PRESSURE, PRESSURES, row, reading)
-        for reading in Reading
+        for reading in LossReading
         for speed, row in rows.items()
     )
     every = [one for row in rows.values() for one in row]
     judged: list[Judged] = []
-    for reading in Reading:
+    for reading in LossReading:
         for pair in MAIN:
             found = range_of(one.share(pair, reading) for one in every)
             reason = _share_reason(points, every, pair, reading)
@@ -129,7 +129,7 @@ def fig17(points: PaperPoints) -> FigureResult:
 def fig18(points: PaperPoints) -> FigureResult:
     """Loss of each pair over pressure at rated speed and full displacement."""
     row, panels, judged = points.over_pressure(RATED, FULL), [], []
-    for reading in Reading:
+    for reading in LossReading:
         losses = np.array([one.pair_losses(reading) for one in row])
         curves = tuple(Curve(pair_words(pair), np.array(PRESSURES), losses[:, k]) for k, pair in enumerate(Pair))
         title = f"Loss of each pair, rated speed, full displacement, {reading.value}"
@@ -150,7 +150,7 @@ def fig20(points: PaperPoints) -> FigureResult:
     """Shares over displacement at the least pressure and rated speed."""
     row = [points.at(RATED, PRESSURES[0], ratio) for ratio in RATIOS]
     panels, judged = [], []
-    for reading in Reading:
+    for reading in LossReading:
         axis = FigureAxis("displacement", Unit.SHARE)
         panels.append(stacked(f"rated speed, 5 MPa, {reading.value}", axis, RATIOS, row, reading))
         steps = {pair: np.array([one.share(pair, reading) for one in row]) for pair in MAIN}
@@ -180,9 +180,9 @@ def fig22(points: PaperPoints) -> FigureResult:
 def _leading(
     figure: Figure, claim: str, words: str, axis: FigureAxis, at: Sequence[float], row: Sequence[PaperPoint]
 ) -> FigureResult:
-    panels = tuple(stacked(f"{words}, {reading.value}", axis, at, row, reading) for reading in Reading)
+    panels = tuple(stacked(f"{words}, {reading.value}", axis, at, row, reading) for reading in LossReading)
     judged = []
-    for reading in Reading:
+    for reading in LossReading:
         leads = [uppermost(one, reading, 2) == {SLIPPER, PLATE} for one in row]
         shares = (
             f"{pair_words(pair)} {_percent(np.array([one.share(pair, reading) for one in row]))} %"
@@ -193,7 +193,7 @@ def _leading(
 
 
 def stacked(
-    words: str, axis: FigureAxis, at: Sequence[float], row: Sequence[PaperPoint], reading: Reading
+    words: str, axis: FigureAxis, at: Sequence[float], row: Sequence[PaperPoint], reading: LossReading
 ) -> Panel:
     """Shares of all pairs on top of each other."""
     curves = tuple(
@@ -202,12 +202,12 @@ def stacked(
     return Panel(f"Shares, {words}", PanelKind.STACKED, axis, _SHARE, curves)
 
 
-def uppermost(point: PaperPoint, reading: Reading, count: int) -> set[Pair]:
+def uppermost(point: PaperPoint, reading: LossReading, count: int) -> set[Pair]:
     """The pairs of largest loss."""
     return set(sorted(Pair, key=lambda pair: -point.loss(pair, reading))[:count])
 
 
-def coefficient_for_share(point: PaperPoint, pair: Pair, share: float, reading: Reading) -> float:
+def coefficient_for_share(point: PaperPoint, pair: Pair, share: float, reading: LossReading) -> float:
     """Factor on a pair's Coulomb coefficient at which the pair has this share.
 
     All other losses stay: share (rest + c k + s) = c k + s, with s the pair's own shear (0 of mixed
@@ -219,7 +219,7 @@ def coefficient_for_share(point: PaperPoint, pair: Pair, share: float, reading: 
     return (share * rest / (1.0 - share) - shear) / own
 
 
-def _share_reason(points: PaperPoints, every: Sequence[PaperPoint], pair: Pair, reading: Reading) -> str:
+def _share_reason(points: PaperPoints, every: Sequence[PaperPoint], pair: Pair, reading: LossReading) -> str:
     """The part of the paper's range that ours covers, and the coefficient for its upper end."""
     expected, found = CLAIMS[f"fig17.{pair.value}"].expected, range_of(one.share(pair, reading) for one in every)
     spans = (found.high - found.low) / (expected.high - expected.low)
@@ -232,7 +232,7 @@ def _share_reason(points: PaperPoints, every: Sequence[PaperPoint], pair: Pair, 
     )
 
 
-def _others_reason(every: Sequence[PaperPoint], reading: Reading) -> str:
+def _others_reason(every: Sequence[PaperPoint], reading: LossReading) -> str:
     """Pairs among the three uppermost that are not the paper's three."""
     others = {pair for one in every for pair in uppermost(one, reading, 3)} - set(MAIN)
     text = ", ".join(sorted(pair_words(pair) for pair in others))
@@ -240,7 +240,7 @@ def _others_reason(every: Sequence[PaperPoint], reading: Reading) -> str:
 
 
 def _guide_reason(point: PaperPoint) -> str:
-    shares = ", ".join(f"{100.0 * point.share(GUIDE, reading):.1f} % {reading.value}" for reading in Reading)
+    shares = ", ".join(f"{100.0 * point.share(GUIDE, reading):.1f} % {reading.value}" for reading in LossReading)
     return f"{shares}: whether the films' shear is counted in the sum of all pairs decides"
 
 

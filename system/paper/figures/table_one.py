@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from system.paper.figure import Figure
 from system.paper.judge import FigureResult, Range, judge
-from system.paper.points import FULL, PRESSURES, RATED, PaperPoints, Reading
+from system.paper.points import FULL, PRESSURES, RATED, LossReading, PaperPoints
 from system.paper.statements import CLAIMS
 from system.pump.laws.friction_pairs import Pair
 from system.pump.laws.kinematics import displacement, stroke
@@ -46,7 +46,9 @@ def _holding_shear(points: PaperPoints, pair: Pair) -> str:
     """A pair's coefficient with the film's shear in it, as in the paper."""
     text = "a start value in the paper, to be tuned"
     ends = [points.at(RATED, pressure, FULL) for pressure in (PRESSURES[-1], PRESSURES[0])]
-    mixed, alone = ([one.loss(pair, reading) for one in ends] for reading in (Reading.WITH_SHEAR, Reading.MIXED))
+    mixed, alone = (
+        [one.loss(pair, reading) for one in ends] for reading in (LossReading.WITH_SHEAR, LossReading.MIXED)
+    )
     if mixed == alone:
         return text
     stated = getattr(points.pump.friction, pair.value)

@@ -27,7 +27,7 @@ from system.paper.figures.pair_losses import (
     zero_share,
 )
 from system.paper.judge import Impossibility, PaperClaim, Range, StatementVerdict, judge
-from system.paper.points import PRESSURES, PaperPoint, PointFidelity, Reading, places_of, solve_points
+from system.paper.points import PRESSURES, LossReading, PaperPoint, PointFidelity, places_of, solve_points
 from system.paper.statements import CLAIMS
 from system.pump.bench import LossSplit
 from system.pump.laws.friction_pairs import Pair
@@ -86,7 +86,7 @@ def test_drain_and_share_are_inverse():
 def test_the_coefficient_of_a_share_gives_that_share():
     coulomb, viscous = (300.0, 800.0, 200.0, 50.0, 60.0, 5.0, 4.0), (90.0, 400.0, 150.0, 0.0, 0.0, 0.0, 0.0)
     point = PaperPoint(None, coulomb, viscous, 0.0, (), ())
-    for reading in Reading:
+    for reading in LossReading:
         times = coefficient_for_share(point, Pair.PISTON_CYLINDER, 0.5896, reading)
         moved = PaperPoint(None, (300.0 * times, *coulomb[1:]), viscous, 0.0, (), ())
         assert moved.share(Pair.PISTON_CYLINDER, reading) == pytest.approx(0.5896, rel=1e-12)
@@ -113,7 +113,7 @@ def test_shares_move_with_the_pump(tmp_path):
     for pump in (REF90, replace(REF90, friction=friction)):
         result = fig17(_points(tmp_path, pump, Figure.FIG17))
         found = {(one.claim.id, one.reading): one for one in result.judged}
-        verdicts.append(found["fig17.piston_cylinder", Reading.WITH_SHEAR].verdict)
+        verdicts.append(found["fig17.piston_cylinder", LossReading.WITH_SHEAR].verdict)
     assert verdicts == [StatementVerdict.MISSED, StatementVerdict.REACHED]
 
 
@@ -123,7 +123,7 @@ def test_losses_without_spring_shear_and_charge_pressure_would_be_proportional(t
     judged = {one.reading: one for one in result.judged if one.claim.id == "fig18.proportional"}
     assert {one.verdict for one in judged.values()} == {StatementVerdict.CONTRADICTED}
     left = {reading: one.impossible.value for reading, one in judged.items()}
-    assert left[Reading.WITH_SHEAR] > left[Reading.MIXED] > 0.05
+    assert left[LossReading.WITH_SHEAR] > left[LossReading.MIXED] > 0.05
 
 
 def test_equations_in_print_are_contradicted(tmp_path):
