@@ -83,7 +83,7 @@ def physics_rows(physics: Physics) -> Iterator[str]:
         yield f'{key} = "{(off if effect in physics.left_out else on).value}"'
 
 
-def physics_summary(left_out: Sequence[str], seconds: Mapping[str, float]) -> list[tuple[str, ...]]:
+def effect_rows(left_out: Sequence[str], seconds: Mapping[str, float]) -> list[tuple[str, ...]]:
     """Return a row for each effect; `left_out` and `seconds` (s, by march) are those of summary.json."""
     rows: list[tuple[str, ...]] = []
     for effect, (what, switch, leg) in _SUMMARY.items():

@@ -1,4 +1,4 @@
-"""The command `swashfilm film`: a single film, a film on finer meshes, or a study of one."""
+"""Command `swashfilm film`: a single film, a film on finer meshes, or a study."""
 
 from __future__ import annotations
 
@@ -17,30 +17,26 @@ if TYPE_CHECKING:
     from swashfilm.case.gap.revolution import RevolutionCase
     from swashfilm.case.study import StudyCase
 
-SOFT_PRICE = (
-    "walls that give way take some ten times as long as with --rigid --isoviscous; a smaller 'finer' costs less"
-)
+SOFT_PRICE = "elastic walls take about ten times as long as --rigid --isoviscous; a smaller 'finer' is faster"
 
 
 def add_film_options(command: argparse.ArgumentParser) -> None:
-    """Give the command what it takes."""
+    """Add the arguments of the command to its parser."""
     command.add_argument("case", type=Path, metavar="CASE.toml", help="the film case")
     command.add_argument(
-        "--refine", metavar="N", help="solve on N meshes, each twice finer, and tell order and limit"
+        "--refine", metavar="N", help="solve on N meshes, each twice finer; report order and limit"
     )
-    command.add_argument(
-        "--resume", type=Path, metavar="DIR", help="of a study: take finished points from this folder"
-    )
+    command.add_argument("--resume", type=Path, metavar="DIR", help="of a study: run folder with finished points")
     command.add_argument("--workers", metavar="N", help="of a study: processes that solve points side by side (1)")
-    command.add_argument("--csv", action="store_true", help="write the fields as a table too, fields.csv")
+    command.add_argument("--csv", action="store_true", help="write the fields also as a table, fields.csv")
     command.add_argument(
-        "--animate", action="store_true", help="of a revolution: a moving picture, animation.gif (.mp4 by ffmpeg)"
+        "--animate", action="store_true", help="of a revolution: write animation.gif (and .mp4 by ffmpeg)"
     )
     add_switches(command)
 
 
 def run_film(options: argparse.Namespace) -> int:
-    """Run `swashfilm film` and return its exit code; raises InputFaults with what is wrong in words or file."""
+    """Run `swashfilm film` and return its exit code; raise InputFaults with every fault of options or file."""
     from swashfilm.case.gap.revolution import RevolutionCase
     from swashfilm.case.study import StudyCase
     from swashfilm.console.progress import progress
@@ -60,7 +56,7 @@ def run_film(options: argparse.Namespace) -> int:
 
 
 def film_case(options: argparse.Namespace) -> tuple[Case | StudyCase, int, int]:
-    """The case of a command line, its number of meshes and of processes; raises InputFaults with every fault."""
+    """Return the case, numbers of meshes and processes of a command line; raise InputFaults with all faults."""
     from swashfilm.case.gap.revolution import RevolutionCase
     from swashfilm.case.study import StudyCase, load_film
     from swashfilm.runs.film.refine import check_refinement

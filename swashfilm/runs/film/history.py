@@ -1,4 +1,4 @@
-"""The fields of a film for results.nc: one film, or those of a transient over time, bounded in size."""
+"""Fields of a film for results.nc: one film, or those of a transient over time, bounded in size."""
 
 from __future__ import annotations
 
@@ -15,9 +15,9 @@ if TYPE_CHECKING:
 
 
 def fields_over_time(study: FilmStudy) -> xarray.Dataset:
-    """Fields as `film_dataset`; of a transient those of the films written, over `time` (s), the last one always.
+    """Return fields as `film_dataset`; for a transient those of the written films over `time` (s), with the last.
 
-    Where they would be larger than `film_warnings.MOST_BYTES` only every so many of them are taken.
+    Where they exceed `validity.MOST_BYTES`, only every n-th film is included.
     """
     import xarray
 
@@ -33,16 +33,16 @@ def fields_over_time(study: FilmStudy) -> xarray.Dataset:
 
 
 def written(history: tuple[Moment, ...]) -> list[Moment]:
-    """The moments of which films are written."""
+    """Return the moments with written films."""
     return [moment for moment in history if moment.solution]
 
 
 def at_moment(study: FilmStudy, moment: Moment) -> FilmStudy:
-    """The study with the film of a moment that is written."""
+    """Return the study with the film of a written moment."""
     assert moment.solution is not None
     return replace(study, solution=moment.solution, heat=moment.heat)
 
 
 def last_of(fields: xarray.Dataset) -> xarray.Dataset:
-    """The fields of the end, of one film the film's own."""
+    """Return the fields at the end of a transient, or those of a single film."""
     return fields.isel(time=-1) if "time" in fields.dims else fields

@@ -1,4 +1,4 @@
-"""The page of one film: report.html with its picture and its numbers, made from the run folder's own files."""
+"""Page of one film: report.html with picture and numbers, from the files of the run folder."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ FIELDS = (
     MapField("film_thickness_cell", "film thickness / um", 1e6, colours="cividis", always=True),
     MapField("film_fraction", "film fraction", colours="Blues"),
     MapField("temperature", "film temperature, mean over the thickness / degC", zero=273.15, colours="inferno"),
-    MapField("deformation", "opening of the film by its walls / um", 1e6, colours="cividis"),
+    MapField("deformation", "deformation of the walls / um", 1e6, colours="cividis"),
     MapField("contact_pressure", "contact pressure / MPa", 1e-6, colours="magma"),
 )
 
@@ -38,7 +38,7 @@ HISTORY = ("load / N", "pressure max / Pa", "film thickness min / m", "temperatu
 def write_film_page(folder: Path) -> Path:
     """Write report.html of a film's run folder from its summary.json, resolved.toml and results.nc.
 
-    The page is one file that needs no other. Raises InputFaults where one of the three is not there.
+    The page is self-contained. Raises InputFaults where one of the three files is missing.
     """
     expect_files(folder, ("summary.json", "resolved.toml", "results.nc"), "a film's run folder")
     summary = json.loads((folder / "summary.json").read_text("utf-8"))
@@ -59,7 +59,7 @@ def write_film_page(folder: Path) -> Path:
 
 
 def summary_rows(summary: Mapping[str, Any]) -> Iterator[tuple[str, str]]:
-    """(what, value with its unit) of every number of a film's summary, in its order."""
+    """Yield (name, value with its unit) of every number of a film's summary, in its order."""
     for key, value in summary.items():
         if key in ("format", "kind", "name", "warnings", "refinement", "assumptions"):
             continue
@@ -78,7 +78,7 @@ def summary_rows(summary: Mapping[str, Any]) -> Iterator[tuple[str, str]]:
 
 
 def film_figure(fields: xarray.Dataset) -> Figure:
-    """Maps over the film plane (mm): pressure (MPa), thickness (um), and the other fields of FIELDS that vary."""
+    """Draw maps over the film plane (mm): pressure (MPa), thickness (um), and other fields of FIELDS that vary."""
     shown = [
         field
         for field in FIELDS
@@ -96,7 +96,7 @@ def film_figure(fields: xarray.Dataset) -> Figure:
 
 
 def history_picture(history: Path) -> Figure:
-    """Load, largest pressure, least film and temperature (if any) over time, from history.csv."""
+    """Draw load, largest pressure, least film and temperature (if any) over time, from history.csv."""
     with history.open(newline="", encoding="utf-8") as file:
         steps = list(csv.DictReader(file))
     shown = [name for name in HISTORY if name in steps[0]]

@@ -1,4 +1,4 @@
-"""What temperature, walls that give way and time add to a film: numbers of its summary and fields."""
+"""Numbers and fields of a film due to temperature, elastic walls, roughness and time."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 
 def physics_summary(study: FilmStudy) -> dict[str, Any]:
-    """Numbers of a summary, SI, the unit in the key, of what the case switches on."""
+    """Return the numbers of a summary for the physics of the case, SI, the unit in the key."""
     found: dict[str, Any] = {}
     if study.heat:
         found |= _heat_summary(study)
@@ -59,7 +59,7 @@ def _heat_summary(study: FilmStudy) -> dict[str, Any]:
 
 
 def _rough_summary(study: FilmStudy) -> dict[str, Any]:
-    """Least lambda ratio, and what the asperities bear: contact load N and the friction of the contacts N."""
+    """Return least lambda ratio, contact load (N) and friction (N) of the asperities."""
     problem, film = study.solution.problem, study.solution.film
     assert problem.surface is not None
     ratio = lambda_ratio(study.loads.film_thickness_min, problem.surface.composite_roughness)
@@ -83,7 +83,7 @@ def _rough_summary(study: FilmStudy) -> dict[str, Any]:
 
 
 def history_columns(history: Sequence[Moment]) -> dict[str, list[float]]:
-    """Headline numbers of every step of a transient, by key; `time_s` first."""
+    """Return headline numbers of every step of a transient, by key; `time_s` first."""
     columns = {"time_s": [step.time for step in history]}
     for key, of in (
         ("load_N", lambda loads: loads.load),
@@ -105,7 +105,7 @@ def history_columns(history: Sequence[Moment]) -> dict[str, list[float]]:
 
 
 def write_history(path: Path, history: Sequence[Moment]) -> None:
-    """A CSV of one line a step: time and headline numbers, SI, units in the titles."""
+    """Write a CSV with one line per step: time and headline numbers, SI, units in the heads."""
     columns = history_columns(history)
     with path.open("w", newline="", encoding="utf-8") as file:
         table = csv.writer(file)
@@ -114,7 +114,7 @@ def write_history(path: Path, history: Sequence[Moment]) -> None:
 
 
 def vertex_fields(study: FilmStudy) -> dict[str, tuple[np.ndarray, str]]:
-    """Fields at the vertices and their units: film fraction, temperatures, the walls' opening."""
+    """Return fields at the vertices with their units: film fraction, temperatures, deformation of the walls."""
     solution = study.solution
     at = solution.problem.space.vertex_dofs
     found = {"film_fraction": (solution.film_fraction[at], "1")}

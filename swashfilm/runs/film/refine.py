@@ -1,4 +1,4 @@
-"""Mesh convergence of a film: the same case on meshes each twice finer, and what its numbers tend to."""
+"""Mesh convergence of a film: the same case on meshes each twice finer, and the limits of its numbers."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ from system.work.progress import Report
 
 @dataclass(frozen=True)
 class Refinement:
-    """Unknowns of the meshes, coarsest (the case's own) first; orders expected; the numbers by key."""
+    """Unknowns of the meshes, coarsest (that of the case) first; expected orders; the numbers by key."""
 
     dofs: tuple[int, ...]
     expected: tuple[float, float]
@@ -33,9 +33,9 @@ class Refinement:
 
 
 def check_refinement(case: FilmCase | GapCase, meshes: int) -> None:
-    """Raise InputFaults where a case cannot be refined so often."""
+    """Raise InputFaults where the finest mesh has too many cells."""
     if isinstance(case, GapCase):
-        return  # coarse enough for as many as the command line takes
+        return  # small enough for every number of meshes of the command line
     cells = case.problem.space.area.shape[0] * 4 ** (meshes - 1)
     if cells > MOST_CELLS:
         fault = Fault("--refine", f"{meshes} meshes, the finest of {cells} cells", f"at most {MOST_CELLS} cells")
@@ -43,9 +43,9 @@ def check_refinement(case: FilmCase | GapCase, meshes: int) -> None:
 
 
 def refine_study(case: FilmCase | GapCase, study: FilmStudy, meshes: int, report: Report) -> Refinement:
-    """The case solved on `meshes` meshes, the first of which `study` is of.
+    """Solve the case on `meshes` meshes; `study` is the solution on the first.
 
-    Raises FilmNotConverged where one of the meshes does, and FilmInputError as the cases' `refined`.
+    Raises FilmNotConverged as the solver of any mesh, and FilmInputError as `refined` of the case.
     """
     studies = [study]
     for number in range(1, meshes):
@@ -63,10 +63,10 @@ def refine_study(case: FilmCase | GapCase, study: FilmStudy, meshes: int, report
 
 
 def expected_orders(study: FilmStudy) -> tuple[float, float]:
-    """Range of the orders to expect of integrals: twice the degree; less where theory leaves it open.
+    """Return the range of expected orders of integrals: twice the degree; less where theory leaves it open.
 
-    A cavity's front moves by whole cells and its oil is carried upwind, of first order, as is heat where
-    temperatures jump; quadratic pressures on the straight cells of a round film are of second order.
+    Order one: a cavity's front, which moves by whole cells, upwind transport of oil, and of heat where
+    temperatures jump. Order two: quadratic pressures on straight cells of a round film.
     """
     if study.solution.problem.space.degree == 2:
         return 2.0, 4.0
@@ -74,7 +74,7 @@ def expected_orders(study: FilmStudy) -> tuple[float, float]:
 
 
 def _natural_sizes(solution: FilmSolution) -> dict[str, float]:
-    """Sizes that moments, torques (N m) and wall forces (N) have before they cancel, as in full symmetry."""
+    """Return sizes of moments, torques (N m) and wall forces (N) without cancellation by symmetry."""
     space = solution.problem.space
     fields = point_fields(solution)
     reach = float(np.abs(space.vertices).max())
@@ -88,7 +88,7 @@ def _natural_sizes(solution: FilmSolution) -> dict[str, float]:
 
 
 def refinement_summary(found: Refinement) -> dict[str, Any]:
-    """As summary.json has it: SI, units in the keys of the numbers."""
+    """Return the entry of summary.json: SI, units in the keys of the numbers."""
     return {
         "dofs": list(found.dofs),
         "expected_order": list(found.expected),
@@ -106,7 +106,7 @@ def refinement_summary(found: Refinement) -> dict[str, Any]:
 
 
 def refinement_rows(found: Mapping[str, Any]) -> Iterator[tuple[str, ...]]:
-    """(number and unit, value on each mesh, order, limit and error bar, verdict) of a summary's `refinement`."""
+    """Yield (number and unit, value on each mesh, order, limit and error bar, verdict) of a `refinement`."""
     for key, number in found["numbers"].items():
         order = "-" if number["order"] is None else f"{number['order']:.2f}"
         values = [f"{value:.6g}" for value in number["values"]]
@@ -116,7 +116,7 @@ def refinement_rows(found: Mapping[str, Any]) -> Iterator[tuple[str, ...]]:
 
 
 def _with_bar(limit: float | None, error: float | None) -> str:
-    """The limit to the digit of its error bar."""
+    """Return the limit, rounded to the digit of its error bar."""
     if limit is None or error is None:
         return "-"
     digits = 6
@@ -126,12 +126,12 @@ def _with_bar(limit: float | None, error: float | None) -> str:
 
 
 def refinement_head(found: Mapping[str, Any]) -> tuple[str, ...]:
-    """Titles of the columns of `refinement_rows`."""
+    """Return the titles of the columns of `refinement_rows`."""
     return ("", *(f"{dofs} unknowns" for dofs in found["dofs"]), "order", "limit", "verdict")
 
 
 def write_refinement(path: Path, found: Refinement) -> None:
-    """A table (CSV) of the numbers: key, unit, value on each mesh, order, limit, error bar, verdict."""
+    """Write a CSV of the numbers: key, unit, value on each mesh, order, limit, error bar, verdict."""
     with path.open("w", newline="", encoding="utf-8") as file:
         table = csv.writer(file)
         meshes = [f"{dofs} unknowns" for dofs in found.dofs]

@@ -1,4 +1,4 @@
-"""One film as a result: numbers, tables, plots."""
+"""Result of one film: numbers, tables, plots."""
 
 from __future__ import annotations
 
@@ -22,16 +22,16 @@ class FilmRun(Result):
     files: ClassVar[tuple[str, ...]] = ("summary.json", "results.nc")
 
     def tables(self) -> list[Table]:
-        """Every number of the film, and order and error where it was solved on finer meshes."""
+        """Every number of the film; order and error where it is solved on finer meshes."""
         tables: list[Table] = [(f"Film {self.name}", list(summary_rows(self.summary)))]
         if found := self.summary.get("refinement"):
             tables.append(("On finer meshes", [refinement_head(found), *refinement_rows(found)]))
         return tables
 
     def to_pandas(self) -> pandas.DataFrame:
-        """The fields at the vertices, a row each; of a transient those at its end."""
+        """Return the fields at the vertices, one row each; of a transient those at its end."""
         return framed(last_of(self.to_xarray()).reset_coords())
 
     def plot_fields(self) -> list[Axes]:
-        """Maps of pressure, thickness, and the other fields that vary; of a transient at its end."""
+        """Draw maps of pressure, thickness, and other fields that vary; of a transient at its end."""
         return plotted(lambda: film_figure(last_of(self.to_xarray())))

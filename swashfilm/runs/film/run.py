@@ -1,4 +1,4 @@
-"""One film run: solve a case, and leave its fields, its summary and its page in a run folder."""
+"""Run of one film: solved, and written to a run folder as fields, summary and page."""
 
 from __future__ import annotations
 
@@ -38,9 +38,9 @@ def solve_film(
 ) -> FilmRun:
     """Solve a case; its run folder holds fields for ParaView, results.nc, summary.json and report.html.
 
-    With more than one of `meshes` the case is solved on finer ones too, and refinement.csv gives order and error;
-    fields and numbers stay those of the case's own mesh. `as_table`: fields.csv, the fields at the vertices.
-    Raises FilmNotConverged.
+    With more than one of `meshes` the case is solved on finer meshes too, and refinement.csv holds order and
+    error; fields and numbers are those of the case's mesh. `as_table`: write fields.csv, the fields at the
+    vertices. Raises FilmNotConverged.
     """
     if meshes > 1:
         check_refinement(case, meshes)
@@ -74,7 +74,7 @@ def solve_film(
 
 
 def _write_table(path: Path, fields: xarray.Dataset) -> None:
-    """The fields at the vertices as a table, the unit in each head."""
+    """Write the fields at the vertices as a table, the unit in each head."""
     table = fields.drop_dims(["cell", "corner"])
     units = {name: array.attrs.get("units") for name, array in table.variables.items()}
     heads = {name: f"{name} / {unit}" for name, unit in units.items() if unit and unit != "1"}
@@ -82,7 +82,7 @@ def _write_table(path: Path, fields: xarray.Dataset) -> None:
 
 
 def _write_films(folder: Path, study: FilmStudy, place: Callable[[Array], Array] | None) -> None:
-    """film.vtu, and of a transient film_NNNN.vtu over time, film.pvd of them all; history.csv of its steps."""
+    """Write film.vtu; for a transient film_NNNN.vtu over time, film.pvd and history.csv of its steps."""
     write_vtu(folder / "film.vtu", study.solution, place, {k: v for k, (v, _) in vertex_fields(study).items()})
     entries = [(0.0, 0, "film.vtu")]
     if study.history:

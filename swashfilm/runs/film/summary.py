@@ -11,20 +11,20 @@ from reynolds.problem import FilmSolution
 from reynolds.solve.loads import Loads, point_fields
 from swashfilm.runs.film.physics import physics_summary, vertex_fields
 from swashfilm.runs.film.solve.gap import gap_summary
-from swashfilm.runs.film.solve.loaded import carried_summary
+from swashfilm.runs.film.solve.loaded import load_summary
 from swashfilm.runs.film.solve.study import FilmStudy
 from swashfilm.runs.film.validity import film_warnings
 
 if TYPE_CHECKING:
     import xarray
 
-LARGEST_COEFFICIENT = 1e6  # of friction; beyond, what is carried is the solver's round-off, as of a parallel film
+LARGEST_COEFFICIENT = 1e6  # of friction; beyond, the load is round-off of the solver, as for a parallel film
 
 
 def film_summary(study: FilmStudy) -> dict[str, Any]:
-    """Every headline number of a film in SI, the unit in the key, and the solver's own checks.
+    """Return headline numbers of a film in SI, the unit in the key, and checks of the solver.
 
-    Forces and moments as `reynolds.solve.loads.Loads` has them; leakage_flow is all that leaves the film.
+    Forces and moments as in `reynolds.solve.loads.Loads`; leakage_flow is the total flow out of the film.
     """
     solution, integrals = study.solution, study.loads
     return {
@@ -53,7 +53,7 @@ def film_summary(study: FilmStudy) -> dict[str, Any]:
         "dofs": solution.problem.space.size,
         "iterations": solution.iterations,
         "solve_seconds": study.solve_seconds,
-        **(carried_summary(study.carried) if study.carried else {}),
+        **(load_summary(study.loaded) if study.loaded else {}),
         **physics_summary(study),
         **(gap_summary(study.gap) if study.gap else {}),
         "warnings": film_warnings(study),
@@ -61,34 +61,34 @@ def film_summary(study: FilmStudy) -> dict[str, Any]:
 
 
 def _stribeck(solution: FilmSolution, integrals: Loads) -> dict[str, float | None]:
-    """Friction coefficient and Hersey number mu U/p_mean (m); none where nothing slides or no load is carried.
+    """Return friction coefficient and Hersey number mu U/p_mean (m); none without sliding or load.
 
-    The friction is the walls' power over their mean sliding speed, so that it is one of turning films too; mu and
-    U are means over the film, p_mean is the load over its area.
+    The friction force is the power of the walls over their mean sliding speed, also for rotating films; mu and U
+    are means over the film, p_mean is the load over its area.
     """
     film, area = solution.film, solution.problem.space.area
     fields = point_fields(solution)
     (u1, v1), (u2, v2) = film.velocity_moving, film.velocity_fixed
     total = float(area.sum())
     speed = float(np.sum(np.hypot(u1 - u2, v1 - v2) * area)) / total
-    carried = integrals.load + integrals.contact_load
-    if speed == 0.0 or not carried > 0.0:
+    supported = integrals.load + integrals.contact_load
+    if speed == 0.0 or not supported > 0.0:
         return {"friction_coefficient": None, "hersey_number_m": None}
     power = sum(
         float(np.sum(shear * velocity * area))
         for shear, velocity in zip((*fields.shear_moving, *fields.shear_fixed), (u1, v1, u2, v2), strict=True)
     )
     viscosity = float(np.sum(film.viscosity * area)) / total
-    if abs(power) > LARGEST_COEFFICIENT * speed * carried:
+    if abs(power) > LARGEST_COEFFICIENT * speed * supported:
         return {"friction_coefficient": None, "hersey_number_m": None}
     return {
-        "friction_coefficient": abs(power) / (speed * carried),
-        "hersey_number_m": viscosity * speed * total / carried,
+        "friction_coefficient": abs(power) / (speed * supported),
+        "hersey_number_m": viscosity * speed * total / supported,
     }
 
 
 def film_dataset(study: FilmStudy) -> xarray.Dataset:
-    """Fields over vertices and cells with their units; `cells` (cell, corner) are numbers of vertices from 0."""
+    """Return fields over vertices and cells with their units; `cells` (cell, corner): vertex numbers from 0."""
     import xarray
 
     space = study.solution.problem.space

@@ -1,4 +1,4 @@
-"""What to doubt about a film that was solved: number, limit and remedy of each warning."""
+"""Validity of a solved film: warnings, each with its number, limit and remedy."""
 
 from __future__ import annotations
 
@@ -16,24 +16,26 @@ from swashfilm.runs.film.solve.gap import gap_warnings
 if TYPE_CHECKING:
     from swashfilm.runs.film.solve.study import FilmStudy
 
-LARGEST_CAVITY_FLOW = 0.01  # of the throughput; Reynolds' condition makes or swallows oil in a cavity
-LARGEST_THICKNESS_RATIO = 0.05  # of the film's extent; beyond, flow across the film counts
+LARGEST_CAVITY_FLOW = 0.01  # of the throughput; Reynolds' condition creates or removes oil in a cavity
+LARGEST_THICKNESS_RATIO = 0.05  # of the film's extent; beyond, flow across the film is not negligible
 FEW_UNKNOWNS = 8
-LARGEST_FALL = 2.0  # times, of the film within a cell
+LARGEST_FALL = 2.0  # ratio of film thicknesses within a cell
 MOST_BYTES = 200e6  # of the fields of a transient in results.nc
 MOST_FIELDS = 11  # at vertices and in cells
-LARGEST_RISE = 10.0  # K; an oil is a quarter to a third thinner there
-HOTTEST = 393.15  # K (120 degC), from which mineral oils age within hours
+LARGEST_RISE = 10.0  # K; the viscosity of oil falls by a quarter to a third
+HOTTEST = 393.15  # K (120 degC), above which mineral oils age within hours
 HEAT_CAPACITY = 1.7e6  # J/(m3 K), of mineral oils
 CONDUCTIVITY = 0.13  # W/(m K), of mineral oils
 LEAST_FILM_FRACTION = 1e-3
 VACUUM = -101325.0  # Pa, gauge
-LEAST_LAMBDA = 1.0  # h/sigma; below, contacts carry most of the load
-LARGEST_ISOVISCOUS_PRESSURE = 50e6  # Pa; a mineral oil is some three times as thick there
+LEAST_LAMBDA = 1.0  # h/sigma; below, contacts support most of the load
+LARGEST_ISOVISCOUS_PRESSURE = (
+    50e6  # Pa; the viscosity of a mineral oil is about three times its low-pressure value
+)
 
 
 def film_warnings(study: FilmStudy) -> list[dict[str, str]]:
-    """What to doubt about a film that was solved: name and text of each warning."""
+    """Return name and text of each warning of a solved film."""
     problem, integrals = study.solution.problem, study.loads
     found = [] if study.gap is None else gap_warnings(study.gap)
     through = integrals.throughput
@@ -44,7 +46,7 @@ def film_warnings(study: FilmStudy) -> list[dict[str, str]]:
             {
                 "name": "cavity_does_not_conserve_mass",
                 "text": f"Reynolds' condition {verb} oil in the cavity, {share:.2%} of the throughput "
-                f"(limit {LARGEST_CAVITY_FLOW:.0%}): what enters is not what leaves",
+                f"(limit {LARGEST_CAVITY_FLOW:.0%}): inflow and outflow differ",
             }
         )
     thick = _thickness_ratio(study.solution)
@@ -53,7 +55,7 @@ def film_warnings(study: FilmStudy) -> list[dict[str, str]]:
             {
                 "name": "film_not_thin",
                 "text": f"the mean film is {thick:.2g} of the film's extent (limit {LARGEST_THICKNESS_RATIO:.2g} "
-                "for Reynolds' equation): millimetres for micrometres, or a mesh not in metres?",
+                "for Reynolds' equation): check the unit (um, not mm?) and the mesh (in metres?)",
             }
         )
     lowest = float(study.solution.pressure.min())
@@ -77,41 +79,41 @@ def film_warnings(study: FilmStudy) -> list[dict[str, str]]:
 
 
 def _mesh_warnings(solution: FilmSolution) -> list[dict[str, str]]:
-    """A mesh on which hardly any pressure is solved for, or that does not see how the film runs."""
+    """Return a warning of a mesh with few pressure unknowns, or with large changes of the film within a cell."""
     few, thickness = int(np.count_nonzero(~solution.held)), solution.film.thickness
     fall = float(np.max(thickness.max(axis=1) / thickness.min(axis=1)))
-    told = []
+    reasons = []
     if few < FEW_UNKNOWNS:
-        told.append(f"pressure is solved for at {few} points alone (fewer than {FEW_UNKNOWNS})")
+        reasons.append(f"pressure is solved at only {few} points (fewer than {FEW_UNKNOWNS})")
     if fall > LARGEST_FALL:
-        told.append(f"the film changes {fall:.3g} times within a cell (limit {LARGEST_FALL:g})")
-    if not told:
+        reasons.append(f"the film changes {fall:.3g} times within a cell (limit {LARGEST_FALL:g})")
+    if not reasons:
         return []
-    return [{"name": "coarse_mesh", "text": f"{', '.join(told)}: --refine 3 tells how far off that is"}]
+    return [{"name": "coarse_mesh", "text": f"{', '.join(reasons)}: --refine 3 measures the error"}]
 
 
 def _heat_warnings(study: FilmStudy) -> list[dict[str, str]]:
-    """A film at one temperature that its own heat would warm, and one too hot for oil."""
+    """Return warnings of an isothermal film with notable heat, and of a film too hot for oil."""
     if study.heat is not None:
         hottest = float(study.heat.temperature.max())
         text = (
             f"the film reaches {hottest - 273.15:.0f} degC (limit {HOTTEST - 273.15:.0f} degC for mineral oils, "
-            "which age quickly beyond): more oil through the film, a thicker film, or walls that take more heat"
+            "which age quickly above it): use more flow, a thicker film, or walls with more heat transfer"
         )
         return [{"name": "film_hot", "text": text}] if hottest > HOTTEST else []
     if study.gap or study.history or (rise := _least_rise(study)) <= LARGEST_RISE:
         return []
     text = (
-        f"the film's heat warms it by some {rise:.3g} K even between walls that stay cold (limit "
-        f"{LARGEST_RISE:g} K for one temperature): the oil is much thinner there; a table [thermal]"
+        f"the film's heat raises its temperature by about {rise:.3g} K even between cold walls (limit "
+        f"{LARGEST_RISE:g} K for an isothermal film): the viscosity falls; add a table [thermal]"
     )
     return [{"name": "temperature_not_solved", "text": text}]
 
 
 def _least_rise(study: FilmStudy) -> float:
-    """Mean rise (K) of the film's oil by its heat, where both the flow and walls that stay cold carry it away.
+    """Return the mean rise (K) of the film's temperature with heat removed by both the flow and cold walls.
 
-    The flow alone: heat/(rho c Q); the walls alone: heat per area x h/(12 k), that of a parabola across the film.
+    Flow alone: heat/(rho c Q); walls alone: heat per area x h/(12 k), that of a parabola across the film.
     """
     solution = study.solution
     area, film = solution.problem.space.area, solution.film
@@ -124,7 +126,7 @@ def _least_rise(study: FilmStudy) -> float:
 
 
 def _rubbing(solution: FilmSolution) -> float:
-    """Heat of the contacts, W, which goes into the walls."""
+    """Return the heat of the contacts, W, which flows into the walls."""
     asperities, film = solution.problem.asperities, solution.film
     if asperities is None:
         return 0.0
@@ -134,7 +136,7 @@ def _rubbing(solution: FilmSolution) -> float:
 
 
 def thinned_by(study: FilmStudy) -> int:
-    """Every how many of the films of a transient are in results.nc, so that it stays below MOST_BYTES."""
+    """Return n where results.nc holds every n-th film of a transient, so that it is smaller than MOST_BYTES."""
     films = sum(moment.solution is not None for moment in study.history)
     size = films * MOST_FIELDS * 8.0 * len(study.solution.problem.space.vertices)
     return max(1, int(np.ceil(size / MOST_BYTES)))
@@ -145,8 +147,8 @@ def _size_warnings(study: FilmStudy) -> list[dict[str, str]]:
     if every == 1:
         return []
     text = (
-        f"results.nc holds one of every {every} films written, to stay below {MOST_BYTES * 1e-6:g} MB: all of "
-        "them are in film_NNNN.vtu; fewer outputs or a coarser mesh keep them all"
+        f"results.nc holds one of every {every} written films, to stay below {MOST_BYTES * 1e-6:g} MB; all are "
+        "in film_NNNN.vtu; with fewer outputs or a coarser mesh results.nc holds all of them"
     )
     return [{"name": "results_thinned", "text": text}]
 
@@ -161,8 +163,8 @@ def _rough_warnings(study: FilmStudy) -> list[dict[str, str]]:
         found.append(
             {
                 "name": "boundary_lubrication",
-                "text": f"the least lambda ratio h/sigma is {least:.3g} (limit {LEAST_LAMBDA:g}): contacts carry "
-                f"most of the load there, and the film equation is at its end{_boundary_remedy(study)}",
+                "text": f"the least lambda ratio h/sigma is {least:.3g} (limit {LEAST_LAMBDA:g}): contacts "
+                f"support most of the load there, beyond the range of the film equation{_boundary_remedy(study)}",
             }
         )
     beyond = beyond_range(solution.film.thickness, surface)
@@ -172,24 +174,24 @@ def _rough_warnings(study: FilmStudy) -> list[dict[str, str]]:
                 "name": "flow_factors_out_of_range",
                 "text": f"h/sigma is {beyond.lowest_ratio:.3g} at the least, below the {beyond.limit:g} down to "
                 f"which Patir and Cheng's flow factors are published, on {beyond.fraction:.1%} of the film: "
-                "they are continued there; a thicker film or smoother walls",
+                "they are extrapolated; use a thicker film or smoother walls",
             }
         )
     return found
 
 
 def _boundary_remedy(study: FilmStudy) -> str:
-    """What to do about contacts that carry: a free film may know none, those of a pump's gap bear already."""
+    """Return the remedy for contacts that support load, for a free film or a pump's gap."""
     if study.gap:
         return (
-            f"; the asperities bear {study.gap.film.contact_load:.4g} N in all: a thicker oil, less load, or "
-            "smoother walls (composite_roughness in [pump.surfaces.PAIR])"
+            f"; the asperities support {study.gap.film.contact_load:.4g} N in total: use an oil of higher "
+            "viscosity, less load, or smoother walls (composite_roughness in [pump.surfaces.PAIR])"
         )
-    return "" if study.solution.problem.asperities else "; a table [contact] tells what the asperities bear"
+    return "" if study.solution.problem.asperities else "; a table [contact] adds the load on the asperities"
 
 
 def _pressure_warnings(study: FilmStudy) -> list[dict[str, str]]:
-    """Isoviscous films of high pressure; gaps of pumps have a warning of their own."""
+    """Return a warning of isoviscous films of high pressure; gaps of pumps have another warning."""
     highest = study.loads.pressure_max
     if study.gap or highest <= LARGEST_ISOVISCOUS_PRESSURE or not _isoviscous(study):
         return []
@@ -197,14 +199,14 @@ def _pressure_warnings(study: FilmStudy) -> list[dict[str, str]]:
         {
             "name": "viscosity_without_pressure",
             "text": f"the film reaches {highest * 1e-6:.3g} MPa (limit {LARGEST_ISOVISCOUS_PRESSURE * 1e-6:g} "
-            "MPa for a constant viscosity): oil is several times as thick there; pressure_law in [oil], and walls "
-            "that give way, [elastic]",
+            "MPa for a constant viscosity): viscosity is several times higher; add pressure_law in [oil], and "
+            "elastic walls, [elastic]",
         }
     ]
 
 
 def _supply_warnings(study: FilmStudy) -> list[dict[str, str]]:
-    """A film that no oil reaches, and a cavity emptier than vacuum."""
+    """Return warnings of a starved film, and of a cavitation pressure below vacuum."""
     found = []
     problem, fraction = study.solution.problem, study.solution.film_fraction
     if study.gap is None and not study.history and float(fraction.min()) < LEAST_FILM_FRACTION:
@@ -212,8 +214,8 @@ def _supply_warnings(study: FilmStudy) -> list[dict[str, str]]:
             {
                 "name": "film_runs_dry",
                 "text": f"the film fraction falls to {float(fraction.min()):.2g} (limit {LEAST_FILM_FRACTION:g}): "
-                "no oil comes to a part of the film; is the edge closed through which it enters? A boundary that "
-                "is not named is",
+                "no oil reaches a part of the film; is its inflow edge closed? A boundary that is not named is "
+                "closed",
             }
         )
     if problem.cavitation is not Cavitation.NONE and problem.cavitation_pressure < VACUUM:
@@ -221,7 +223,7 @@ def _supply_warnings(study: FilmStudy) -> list[dict[str, str]]:
             {
                 "name": "cavitation_below_vacuum",
                 "text": f"the cavitation pressure is {problem.cavitation_pressure * 1e-5:.4g} bar gauge (vacuum: "
-                f"{VACUUM * 1e-5:.4g} bar): oil that is pulled so hard cavitates before; absolute for gauge?",
+                f"{VACUUM * 1e-5:.4g} bar): oil cavitates before; is the value absolute, not gauge?",
             }
         )
     return found
@@ -233,7 +235,7 @@ def _isoviscous(study: FilmStudy) -> bool:
 
 
 def _thickness_ratio(solution: FilmSolution) -> float:
-    """Mean film thickness over the root of the film's area."""
+    """Return the mean film thickness over the square root of the film's area."""
     area = solution.problem.space.area
     total = float(area.sum())
     return float(np.sum(solution.film.thickness * area)) / total**1.5

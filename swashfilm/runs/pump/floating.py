@@ -12,7 +12,7 @@ import numpy as np
 
 from gaps.revolution.march import GapRevolution, Leg
 from reynolds.solve.export import write_pvd
-from swashfilm.case.gap.physics import PHYSICS_HEAD, physics_summary
+from swashfilm.case.gap.physics import PHYSICS_HEAD, effect_rows
 from swashfilm.console.fidelity import Fidelity
 from swashfilm.output.gap_names import FIELDS, TITLES, vtu_name
 from swashfilm.output.page import inlined
@@ -229,7 +229,7 @@ def floating_view(folder: Path, summary: Mapping[str, Any]) -> dict[str, Any]:
     return {
         "head": HEAD, "rows": floating_rows(summary), "pictures": pictures, "turns": turns,
         "physics_head": PHYSICS_HEAD,
-        "physics": physics_summary(summary["physics_left_out"], summary["cost"]["physics_seconds"]),
+        "physics": effect_rows(summary["physics_left_out"], summary["cost"]["physics_seconds"]),
     }  # fmt: skip
 
 

@@ -121,9 +121,9 @@ def film_series(data: xarray.Dataset) -> Figure:
         film = data[f"{gap}_film_thickness_min"].values * 1e6
         left.plot(angle, film, label=gap)
         required = data[f"{gap}_required_load"].values
-        carried = np.full_like(required, np.nan)
-        np.divide(data[f"{gap}_carried_load"].values, required, out=carried, where=required > 0.0)
-        middle.plot(angle, np.clip(100.0 * carried, 0.0, 200.0), label=gap)
+        supported = np.full_like(required, np.nan)
+        np.divide(data[f"{gap}_carried_load"].values, required, out=supported, where=required > 0.0)
+        middle.plot(angle, np.clip(100.0 * supported, 0.0, 200.0), label=gap)
         right.plot(angle, data[f"{gap}_friction_power"].values, label=gap)
     left.set(ylabel="minimum film / um", title="given position", ylim=(0, None))
     middle.set(ylabel="supported load over required load / %", title="shown up to 200 %")

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, ClassVar
 
 import numpy as np
 
-from swashfilm.case.gap.physics import PHYSICS_HEAD, physics_summary
+from swashfilm.case.gap.physics import PHYSICS_HEAD, effect_rows
 from swashfilm.console.fidelity import Fidelity
 from swashfilm.output.result import Numbers, Result, Table, plotted
 from swashfilm.runs.pump import plots
@@ -108,7 +108,7 @@ class PumpRun(Result):
         ]
         if summary["fidelity"] == Fidelity.FLOATING.value:
             tables.append(("Floating gaps: one piston, one slipper, the block", [HEAD, *floating_rows(summary)]))
-            physics = physics_summary(summary["physics_left_out"], summary["cost"]["physics_seconds"])
+            physics = effect_rows(summary["physics_left_out"], summary["cost"]["physics_seconds"])
             tables.append(("Physics of the floating gaps", [PHYSICS_HEAD, *physics]))
         if "table" in summary:
             title = f"Gaps by a table of the {summary['table']['source']} fidelity"

@@ -68,7 +68,7 @@ def test_a_mesh_without_a_point_inside_is_refused(told, cells):
 def test_a_mesh_that_hardly_sees_the_film_is_told(tmp_path, cells):
     (tmp_path / "case.toml").write_text(CASE.replace("[16, 2]", cells), encoding="utf-8")
     warned = film_summary(solve_case(load_case(tmp_path / "case.toml")))["warnings"]
-    assert any(warning.startswith("coarse_mesh: pressure is solved for at") for warning in map(told_of, warned))
+    assert any(warning.startswith("coarse_mesh: pressure is solved at only") for warning in map(told_of, warned))
 
 
 def told_of(warning) -> str:

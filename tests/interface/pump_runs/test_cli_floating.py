@@ -4,7 +4,7 @@ import pytest
 
 from gaps.films.physics import Effect
 from swashfilm.__main__ import main
-from swashfilm.case.gap.physics import physics_summary
+from swashfilm.case.gap.physics import effect_rows
 from swashfilm.case.gap.switches import SWITCHES
 from swashfilm.cli.app import build_parser
 from swashfilm.console.floating_options import floating_faults, floating_options
@@ -68,7 +68,7 @@ def test_options_of_the_command_line():
 
 def test_physics_is_told_with_its_switches_and_what_it_took():
     """A row an effect; a time stands at the effect that ends its leg; every switch is one of the command line."""
-    rows = {row[2]: row for row in physics_summary(["heat", "roughness"], {"rigid": 3.0, "elastic": 40.0})}
+    rows = {row[2]: row for row in effect_rows(["heat", "roughness"], {"rigid": 3.0, "elastic": 40.0})}
     assert set(rows) == set(SWITCHES)
     assert rows["--rigid"][1:] == ("on", "--rigid", "40.0 s")
     assert rows["--smooth"][1:] == ("off", "--smooth", "3.0 s")

@@ -87,7 +87,7 @@ def test_the_page_shows_the_gaps_and_can_be_made_anew(folder):
     page = (folder / "report.html").read_text("utf-8")
     assert "floating fidelity" in page
     assert page.count("data:image/png") >= 16
-    for word in ("Assumed values", "Are the turns periodic?", "largest contact load"):
+    for word in ("Assumed values", "Convergence to a periodic turn", "largest contact load"):
         assert word in page
     assert write_pump_page(folder).read_text("utf-8") == page
 

@@ -1,4 +1,4 @@
-"""The films of a revolution as a moving picture: maps of the kept films under the course of the film."""
+"""Animation of the films over the turn: maps of the kept films above the film over the shaft angle."""
 
 from __future__ import annotations
 
@@ -20,9 +20,9 @@ FIELDS = {"film_pressure": ("pressure", "viridis"), "film_thickness": ("film", "
 
 
 def write_animation(folder: Path, data: xarray.Dataset, report: Report) -> None:
-    """Write animation.gif, a frame each kept film, and animation.mp4 where ffmpeg is there.
+    """Write animation.gif, one frame per kept film, and animation.mp4 where ffmpeg exists.
 
-    The colours' scales hold over the whole turn.
+    The colour scales are those of the whole turn.
     """
     from matplotlib.animation import FFMpegWriter, PillowWriter
 
@@ -47,11 +47,11 @@ def _write(path: Path, writer: Any, data: xarray.Dataset, report: Report) -> Non
             marker.set_xdata([angle, angle])
             course.set_title(f"{angle:.0f} deg", fontsize=9)
             writer.grab_frame()
-            figure.set_layout_engine("none")  # that of the first frame holds
+            figure.set_layout_engine("none")  # all frames have the layout of the first
 
 
 def _first(figure: Any, data: xarray.Dataset) -> tuple[dict[str, Any], Any, Any]:
-    """Maps of the first film by field, and under them the course with its marker: what the frames change."""
+    """Draw maps of the first film and the film over the angle; return the artists that the frames change."""
     mosaic = figure.subplot_mosaic([list(FIELDS), ["course", "course"]], height_ratios=(3, 1))
     painted = {}
     for name, (title, colours) in FIELDS.items():
@@ -72,11 +72,11 @@ def _first(figure: Any, data: xarray.Dataset) -> tuple[dict[str, Any], Any, Any]
 
 
 def _film(data: xarray.Dataset, k: int, name: str) -> tuple[tuple[np.ndarray, np.ndarray], np.ndarray, np.ndarray]:
-    """Places (mm), cells and values, in the unit that is shown, of the k-th kept film."""
+    """Return vertices (mm), cells and values, in the unit of the picture, of the k-th kept film."""
     place = data["x"].values[k] * 1e3, data["y"].values[k] * 1e3
     return place, data["cells"].values, SHOWN[data[name].attrs["units"]].of(data[name].values[k])
 
 
 def _ends(places: np.ndarray) -> tuple[float, float]:
-    """Ends (mm) of all places that the mesh takes over the turn."""
+    """Return the limits (mm) of the mesh over the turn."""
     return float(places.min()) * 1e3, float(places.max()) * 1e3

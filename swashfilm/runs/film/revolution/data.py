@@ -1,4 +1,4 @@
-"""A gap over the revolution as data: series over the shaft angle and kept films for results.nc, and its tables."""
+"""Data of a gap over the turn: series over the shaft angle and kept films for results.nc, and tables."""
 
 from __future__ import annotations
 
@@ -26,21 +26,21 @@ POSITIONS = {
     Gap.SLIPPER: ("film_thickness_under_ball", "rise_x", "rise_y"),
     Gap.VALVE_PLATE: ("film_thickness_on_axis", "rise_x", "rise_y"),
 }
-"""Names of a gap's coordinates, m; rises over the outer radius of the last land."""
+"""Names of a gap's coordinates, m; rises at the outer radius of the last land."""
 PISTON_END = ("eccentricity_x_end", "eccentricity_y_end")
 """Eccentricity of the piston's axis at the inner end of its film, m."""
 
 
 @dataclass(frozen=True)
 class Shown:
-    """How tables and pictures show numbers in SI: in a unit, (value - zero) x factor."""
+    """Unit of an SI number in tables and pictures: (value - zero) x factor."""
 
     unit: str
     factor: float = 1.0
     zero: float = 0.0
 
     def of(self, values: Array) -> Array:
-        """Values in SI in the unit that is shown."""
+        """Return SI values in the unit."""
         return (values - self.zero) * self.factor
 
 
@@ -48,13 +48,13 @@ SHOWN = {
     "m": Shown("um", 1e6), "rad": Shown("mrad", 1e3), "m3/s": Shown("L/min", 6e4), "W": Shown("W"),
     "N": Shown("N"), "Pa": Shown("MPa", 1e-6), "K": Shown("degC", 1.0, 273.15), "1": Shown("-"),
 }  # fmt: skip
-"""By the unit in SI."""
+"""Units in tables and pictures by SI unit."""
 Instant = GapInstant[Any]
 
 
 @dataclass(frozen=True)
 class Series:
-    """A number over the shaft angle: its unit (SI) and where an instant has it."""
+    """A number over the shaft angle: its SI unit and its function of an instant."""
 
     unit: str
     value: Callable[[Instant], float]
@@ -75,7 +75,7 @@ SERIES = {
 
 
 def revolution_dataset(study: RevolutionStudy) -> xarray.Dataset:
-    """Series over `shaft_angle` (rad), one variable of 0 or 1 a kind of `Active`, and films over `film_angle`."""
+    """Return series over `shaft_angle` (rad), a variable of 0 or 1 per `Active`, and films over `film_angle`."""
     import xarray
 
     found, instants = study.revolution, study.revolution.turn.instants
@@ -112,7 +112,7 @@ def revolution_dataset(study: RevolutionStudy) -> xarray.Dataset:
 
 
 def _walls(study: RevolutionStudy) -> dict[str, float]:
-    """Temperatures (K) of the walls of a gap that warms."""
+    """Return temperatures (K) of the walls of a gap with solved temperature."""
     warmth = study.revolution.warmth
     if warmth is None:
         return {}
@@ -122,7 +122,7 @@ def _walls(study: RevolutionStudy) -> dict[str, float]:
 
 
 def piston_end(study: RevolutionStudy) -> Array:
-    """Eccentricity (2, n) m of the piston's axis where its film ends inside: at its own end, or the guide's."""
+    """Return the eccentricity (2, n) m of the piston's axis at the film's inner end: of piston or guide."""
     guide = study.parts.piston.guide_length
     share = engaged_share(study.case.rotor, guide, study.revolution.angles)
     inner, case = study.revolution.positions.T[:2], study.revolution.positions.T[2:]
@@ -130,9 +130,9 @@ def piston_end(study: RevolutionStudy) -> Array:
 
 
 def _films(study: RevolutionStudy) -> dict[str, tuple[Any, ...]]:
-    """Pressure and thickness of the kept films at the vertices, whose places (m) may move with the angle.
+    """Return pressure and thickness of the kept films at the vertices (m), which may move with the angle.
 
-    Of films that warm their temperature too, mean over the thickness.
+    With solved temperature also its mean over the thickness.
     """
     films, warm = list(study.revolution.turn.films.values()), film_temperatures(study)
     spaces = [film.problem.space for film in films]
@@ -149,7 +149,7 @@ def _films(study: RevolutionStudy) -> dict[str, tuple[Any, ...]]:
 
 
 def film_temperatures(study: RevolutionStudy) -> Array | None:
-    """Temperature (k, vertices) K of the kept films, mean over the thickness; None where films do not warm."""
+    """Return the temperature (k, vertices) K of the kept films, mean over the thickness; None where not solved."""
     warmth, films = study.revolution.warmth, study.revolution.turn.films
     if warmth is None:
         return None
@@ -157,7 +157,7 @@ def film_temperatures(study: RevolutionStudy) -> Array | None:
 
 
 def write_series(path: Path, data: xarray.Dataset) -> None:
-    """A table (CSV) of the series: a line a shaft angle, the unit in each head; `active` names what limits it."""
+    """Write a CSV of the series: one line per shaft angle, units in the heads; `active` names the limits."""
     names = [str(name) for name in data.data_vars if data[name].dims == ("shaft_angle",)]
     numbers = [name for name in names if not name.startswith("active_")]
     with path.open("w", newline="", encoding="utf-8") as file:
@@ -171,12 +171,12 @@ def write_series(path: Path, data: xarray.Dataset) -> None:
 
 
 def active_at(data: xarray.Dataset, k: int) -> str:
-    """What limits the k-th instant, in words joined by +."""
+    """Return the limits of the film at the k-th instant, in words joined by +."""
     return "+".join(kind.value for kind in Active if data[f"active_{kind.value}"].values[k])
 
 
 def write_convergence(path: Path, study: RevolutionStudy) -> None:
-    """A table (CSV) of the turns: by how much each changed the position, and the multipliers of the last one."""
+    """Write a CSV of the turns: change of position in each, and the multipliers of the last one."""
     closing = study.revolution.closing
     sizes = sorted(np.abs(closing.multipliers), reverse=True)
     with path.open("w", newline="", encoding="utf-8") as file:

@@ -1,4 +1,4 @@
-"""The kept films of a revolution for ParaView: surfaces in their true place, a series over the shaft angle."""
+"""Kept films of a turn for ParaView: surfaces in their position in the pump, a series over the shaft angle."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from system.films.places import place_of
 def write_revolution_fields(folder: Path, study: RevolutionStudy) -> None:
     """Write fields/<gap>_NNN.vtu of every kept film and, over them, <gap>.pvd (time = shaft angle in degrees).
 
-    Films that warm have their temperature too, `film_temperature` (K), mean over the thickness.
+    With solved temperature the files hold `film_temperature` (K), its mean over the thickness.
     """
     (folder / FIELDS).mkdir(exist_ok=True)
     gap, entries, warm = study.case.gap.value, [], film_temperatures(study)

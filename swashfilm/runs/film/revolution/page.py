@@ -1,4 +1,4 @@
-"""The page of a gap over the revolution: report.html made from the run folder's own files."""
+"""Page of a gap over the turn: report.html from the files of the run folder."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
-from swashfilm.case.gap.physics import PHYSICS_HEAD, physics_summary
+from swashfilm.case.gap.physics import PHYSICS_HEAD, effect_rows
 from swashfilm.output.gap_names import TITLES
 from swashfilm.output.page import expect_files, inlined, write_page
 from swashfilm.runs.film.page import summary_rows
@@ -23,7 +23,7 @@ _LISTS = ("assumptions", "physics_left_out", "physics_seconds", "gap")
 def write_revolution_page(folder: Path) -> Path:
     """Write report.html from summary.json, resolved.toml, results.nc and convergence.csv of a run folder.
 
-    The page is one file that needs no other. Raises InputFaults where one of the four is not there.
+    The page is self-contained. Raises InputFaults where one of the four files is missing.
     """
     import xarray
 
@@ -41,7 +41,7 @@ def write_revolution_page(folder: Path) -> Path:
         gap=TITLES[Gap(summary["gap"]).value],
         pictures={name: inlined(png) for name, png in pictures.items()},
         rows=list(revolution_rows(summary)),
-        physics=[PHYSICS_HEAD, *physics_summary(summary["physics_left_out"], summary["physics_seconds"])],
+        physics=[PHYSICS_HEAD, *effect_rows(summary["physics_left_out"], summary["physics_seconds"])],
         refinement=[refinement_head(refinement), *refinement_rows(refinement)] if refinement else [],
         convergence=convergence,
         case=(folder / "resolved.toml").read_text("utf-8"),
@@ -49,5 +49,5 @@ def write_revolution_page(folder: Path) -> Path:
 
 
 def revolution_rows(summary: Mapping[str, Any]) -> Iterator[tuple[str, str]]:
-    """(what, value with its unit) of every number of a revolution's summary."""
+    """Yield (name, value with its unit) of every number of a turn's summary."""
     return summary_rows({key: value for key, value in summary.items() if key not in _LISTS})

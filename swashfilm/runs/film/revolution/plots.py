@@ -1,4 +1,4 @@
-"""Pictures of a gap over the revolution, drawn from results.nc alone."""
+"""Pictures of a gap over the turn, drawn from results.nc."""
 
 from __future__ import annotations
 
@@ -16,29 +16,29 @@ if TYPE_CHECKING:
     import xarray
     from matplotlib.figure import Figure
 
-EDGES = (0.15, 0.85)  # of the span, beyond which a label stands beside its place
-THINNEST = 0.01  # um: a film below it is not told in figures
+EDGES = (0.15, 0.85)  # of the span; beyond, a label is beside its point
+THINNEST = 0.01  # um; a thinner film has no figures in its label
 MAPS = 4  # kept films shown as maps
 TEMPERATURE = "film_temperature"
 MAPPED = {
     "film_pressure": ("pressure", "viridis"), "film_thickness": ("film", "cividis"),
     TEMPERATURE: ("temperature", "inferno"),
 }  # fmt: skip
-"""Fields of the maps, their words and colours."""
+"""Fields of the maps, their titles and colours."""
 LEAST_SHOWN = {"contact_load": 1.0, "cavitated_area_fraction": 0.01, "film_pressure_max": 0.1}
-"""Ends of axes where there is less: what is next to nothing looks so."""
+"""Least upper ends of axes, so that negligible values look negligible."""
 INK, FILM, SECOND, THIRD = "#1c2328", "#3c7a8c", "#b8862b", "#8c5a3c"
 BANDS = {
     Active.CONTACT: "#b33a3a", Active.CAVITATION: "#7fb2d6", Active.RETAINER: "#b8862b", Active.LIFT: "#5b9a5b",
 }  # fmt: skip
 MEANING = {
-    Active.CONTACT: "contact bears", Active.CAVITATION: "film cavitates", Active.RETAINER: "retainer presses",
-    Active.LIFT: "the film alone",
+    Active.CONTACT: "contact", Active.CAVITATION: "cavitation", Active.RETAINER: "retainer force",
+    Active.LIFT: "full film only",
 }  # fmt: skip
 
 
 def revolution_plots(data: xarray.Dataset) -> dict[str, Figure]:
-    """A PNG of each picture, by its name: film, path, losses, contact, maps; temperature of films that warm."""
+    """Return the pictures by name: film, path, losses, contact, maps; temperature where it is solved."""
     warm = {"temperature": _temperature(data)} if TEMPERATURE in data else {}
     return warm | {
         "film": film_plot(data),
@@ -50,12 +50,12 @@ def revolution_plots(data: xarray.Dataset) -> dict[str, Figure]:
 
 
 def film_text(thickness: float) -> str:
-    """A film (um) in words; between rough walls pressed together hardly any is left."""
+    """Return a film thickness (um) in words."""
     return f"{thickness:.3g} um" if thickness >= THINNEST else f"under {THINNEST:g} um"
 
 
 def film_plot(data: xarray.Dataset) -> Figure:
-    """Least to mean film (um) over the shaft angle, the chamber's pressure beside it, what limits it below."""
+    """Draw least and mean film (um) over the shaft angle with chamber pressure, and the limits of the film."""
     figure = figure_of(9.0, 4.6)
     axes, bands = figure.subplots(2, 1, sharex=True, height_ratios=(5, 1))
     angle = degrees(data)
@@ -79,7 +79,7 @@ def film_plot(data: xarray.Dataset) -> Figure:
 
 
 def draw_bands(axes: Any, data: xarray.Dataset) -> None:
-    """A row for each limit that is active somewhere, coloured where it is."""
+    """Draw a row for each limit that is active somewhere, coloured where it is active."""
     ends = degrees(data)[1:]
     steps = np.diff(degrees(data))
     kinds = [kind for kind in BANDS if data[f"active_{kind.value}"].values.any()]
@@ -92,7 +92,7 @@ def draw_bands(axes: Any, data: xarray.Dataset) -> None:
 
 
 def path_plot(data: xarray.Dataset) -> Figure:
-    """The piston's two ends in the clearance circle (um), or the tilt of slipper or block as rises (um)."""
+    """Draw the piston's two ends in the clearance circle (um), or the tilt of slipper or block as rises (um)."""
     figure = figure_of(9.0, 4.4)
     gap, angle = Gap(data.attrs["gap"]), degrees(data)
     names = POSITIONS[gap]
@@ -116,7 +116,7 @@ def path_plot(data: xarray.Dataset) -> Figure:
 
 
 def _orbit(axes: Any, x: np.ndarray, y: np.ndarray, angle: np.ndarray) -> None:
-    """A closed path with its angle as colour and four of them written on it."""
+    """Draw a closed path with its angle as colour and four angles as labels."""
     axes.plot(x, y, color="#c9d0d5", linewidth=0.8)
     dots = axes.scatter(x, y, c=angle, cmap="twilight_shifted", s=9, vmin=0.0, vmax=angle[-1])
     for at in angle[-1] * np.array([0.25, 0.5, 0.75, 1.0]):
@@ -129,7 +129,7 @@ def _orbit(axes: Any, x: np.ndarray, y: np.ndarray, angle: np.ndarray) -> None:
 
 
 def _losses(data: xarray.Dataset) -> Figure:
-    """Tilt (mrad), leakage (L/min) and friction (W) over the shaft angle."""
+    """Draw tilt (mrad), leakage (L/min) and friction power (W) over the shaft angle."""
     figure = figure_of(9.0, 5.6)
     tilt, leakage, friction = figure.subplots(3, 1, sharex=True)
     angle = degrees(data)
@@ -139,16 +139,16 @@ def _losses(data: xarray.Dataset) -> Figure:
     leakage.plot(angle, shown(data, "chamber_flow"), color=SECOND, linewidth=0.9, label="out of the chambers")
     leakage.set_ylabel("flow / L/min")
     leakage.legend(fontsize=8)
-    friction.plot(angle, shown(data, "friction_power"), color=THIRD, label="walls' power")
-    friction.plot(angle, shown(data, "rubbing"), color="#b33a3a", linewidth=0.9, label="of it contact")
-    friction.set_ylabel("friction / W")
+    friction.plot(angle, shown(data, "friction_power"), color=THIRD, label="friction power")
+    friction.plot(angle, shown(data, "rubbing"), color="#b33a3a", linewidth=0.9, label="of which contact")
+    friction.set_ylabel("friction power / W")
     friction.legend(fontsize=8)
     friction.set(xlabel="shaft angle / deg", xlim=(0.0, span(data)))
     return figure
 
 
 def _contact(data: xarray.Dataset) -> Figure:
-    """Contact load (N), cavitated share of the area and largest film pressure (MPa) over the shaft angle."""
+    """Draw contact load (N), cavitated share of the area and largest film pressure (MPa) over the shaft angle."""
     figure = figure_of(9.0, 5.0)
     rows = {
         "contact_load": ("contact / N", "#b33a3a"),
@@ -165,7 +165,7 @@ def _contact(data: xarray.Dataset) -> Figure:
 
 
 def _maps(data: xarray.Dataset) -> Figure:
-    """Film pressure (MPa), thickness (um) and, of films that warm, temperature (degC) at some kept angles."""
+    """Draw film pressure (MPa), thickness (um) and, where solved, temperature (degC) at some kept angles."""
     count = data.sizes["film_angle"]
     chosen = np.unique(np.linspace(0, count - 1, min(MAPS, count)).round().astype(int))
     fields = [name for name in MAPPED if name in data]
@@ -178,10 +178,10 @@ def _maps(data: xarray.Dataset) -> Figure:
 
 
 def _temperature(data: xarray.Dataset) -> Figure:
-    """Mean and highest temperature of the film (degC) over the shaft angle, and the walls', which stay."""
+    """Draw mean and highest temperature of the film (degC) over the shaft angle, and constant ones of walls."""
     figure = figure_of(9.0, 3.4)
     axes, angle = figure.subplots(), degrees(data)
-    axes.plot(angle, shown(data, "film_temperature_max"), color=BANDS[Active.CONTACT], label="hottest place")
+    axes.plot(angle, shown(data, "film_temperature_max"), color=BANDS[Active.CONTACT], label="maximum of the film")
     axes.plot(angle, shown(data, "film_temperature_mean"), color=FILM, label="mean of the film")
     for wall, style in (("fixed", "--"), ("moving", ":")):
         at = float(SHOWN["K"].of(data.attrs[f"{wall}_wall_temperature_K"]))
@@ -193,7 +193,7 @@ def _temperature(data: xarray.Dataset) -> Figure:
 
 
 def draw_film(axes: Any, data: xarray.Dataset, k: int, name: str) -> None:
-    """Map of a field of the k-th kept film."""
+    """Draw the map of a field of the k-th kept film."""
     place = data["x"].values[k] * 1e3, data["y"].values[k] * 1e3
     how, (words, colours) = SHOWN[data[name].attrs["units"]], MAPPED[name]
     title = f"{words} / {how.unit}, {np.degrees(data['film_angle'].values[k]):.0f} deg"
@@ -201,16 +201,16 @@ def draw_film(axes: Any, data: xarray.Dataset, k: int, name: str) -> None:
 
 
 def shown(data: xarray.Dataset, name: str) -> np.ndarray:
-    """A series in the unit that people read it in, from 0 to the end of the turn, where it begins again."""
+    """Return a series in its customary unit, from angle 0 to the end of the turn (both ends are equal)."""
     values = SHOWN[data[name].attrs["units"]].of(data[name].values)
     return np.append(values[-1], values)
 
 
 def degrees(data: xarray.Dataset) -> np.ndarray:
-    """Shaft angles of `shown`, deg: 0 and the reported ones."""
+    """Return the shaft angles of `shown`, deg: 0 and the reported ones."""
     return np.append(0.0, np.degrees(data["shaft_angle"].values))
 
 
 def span(data: xarray.Dataset) -> float:
-    """Shaft angle after which all repeats, deg."""
+    """Return the period in shaft angle, deg."""
     return float(degrees(data)[-1])

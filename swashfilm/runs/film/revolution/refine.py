@@ -1,4 +1,4 @@
-"""Mesh convergence of a gap over the revolution: the same turn on meshes each twice finer."""
+"""Mesh convergence of a gap over the turn: the same turn on meshes each twice finer."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from swashfilm.runs.film.revolution.solve import RevolutionStudy, revolution_sum
 from system.work.progress import Report
 
 EXPECTED = (1.0, 2.0)
-"""Orders to expect: second of the film, first of a cavity's front; a least value is no smooth one."""
+"""Expected orders: two for the film, one for a cavity's front; a least value is not smooth."""
 NUMBERS = (
     "film_thickness_min_m", "film_thickness_mean_m", "leakage_flow_m3_per_s", "friction_power_W",
     "contact_load_mean_N", "tilt_max_rad",
@@ -17,19 +17,19 @@ NUMBERS = (
 
 
 def refine_revolution(case: RevolutionCase, study: RevolutionStudy, meshes: int, report: Report) -> Refinement:
-    """The case on `meshes` meshes, the first of which `study` is of; steps in time stay as they are.
+    """Solve the case on `meshes` meshes with the same time steps; `study` is the solution on the first.
 
-    Raises FilmNotConverged where one of the meshes does.
+    Raises FilmNotConverged as the solver of any mesh.
     """
     rows = [revolution_summary(study)]
     for number in range(2, meshes + 1):
         case = case.refined()
         label = f"mesh {number} of {meshes}"
 
-        def told(done: int, steps: int, what: str, label: str = label) -> None:
+        def report_mesh(done: int, steps: int, what: str, label: str = label) -> None:
             report(done, steps, f"{label}: {what}")
 
-        rows.append(revolution_summary(solve_revolution(case, told)))
+        rows.append(revolution_summary(solve_revolution(case, report_mesh)))
     return Refinement(
         tuple(row["dofs"] for row in rows),
         EXPECTED,

@@ -1,4 +1,4 @@
-"""A gap over the turn as a result: numbers, tables, plots."""
+"""Result of a gap over the turn: numbers, tables, plots."""
 
 from __future__ import annotations
 
@@ -21,16 +21,16 @@ class RevolutionRun(Result):
     files: ClassVar[tuple[str, ...]] = FILES
 
     def tables(self) -> list[Table]:
-        """Every number of the turn, and order and error where it was solved on finer meshes."""
+        """Every number of the turn; order and error where it is solved on finer meshes."""
         tables: list[Table] = [(f"Film {self.name}", list(revolution_rows(self.summary)))]
         if found := self.summary.get("refinement"):
             tables.append(("On finer meshes", [refinement_head(found), *refinement_rows(found)]))
         return tables
 
     def plot_film(self) -> list[Axes]:
-        """Film thickness and chamber pressure over the shaft angle."""
+        """Draw film thickness and chamber pressure over the shaft angle."""
         return plotted(lambda: film_plot(self.to_xarray()))
 
     def plot_path(self) -> list[Axes]:
-        """Position of the part over the shaft angle."""
+        """Draw the position of the part over the shaft angle."""
         return plotted(lambda: path_plot(self.to_xarray()))

@@ -1,4 +1,4 @@
-"""One gap over the revolution as a run: solved, and left in a run folder as tables, fields and a page."""
+"""Run of one gap over the turn: solved, and written to a run folder as tables, fields and a page."""
 
 from __future__ import annotations
 
@@ -20,10 +20,10 @@ def run_revolution_case(
 ) -> dict[str, Any]:
     """Solve a case and write its tables (<gap>.csv, convergence.csv), results.nc, fields/, <gap>.pvd and its page.
 
-    With more than one of `meshes` the case is solved on finer ones too, and refinement.csv tells what its numbers
-    tend to; fields and numbers stay those of the case's own mesh. `animated`: animation.gif of the kept films, and
-    animation.mp4 where ffmpeg is there. Returns the summary. Raises FilmNotConverged; then only input.toml and
-    resolved.toml are there.
+    With more than one of `meshes` the case is solved on finer meshes too, and refinement.csv holds the limits of
+    its numbers; fields and numbers are those of the case's mesh. `animated`: write animation.gif of the kept
+    films, and animation.mp4 where ffmpeg exists. Returns the summary. Raises FilmNotConverged; the folder then
+    holds only input.toml and resolved.toml.
     """
     (folder / "input.toml").write_text(case.text, encoding="utf-8")
     (folder / "resolved.toml").write_text(case.resolved, encoding="utf-8")

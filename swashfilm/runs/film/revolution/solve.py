@@ -1,4 +1,4 @@
-"""One gap over the revolution solved: what it is of, its films, and its headline numbers."""
+"""Solution of one gap over the turn: its films and headline numbers."""
 
 from __future__ import annotations
 
@@ -22,15 +22,15 @@ from system.films.rotor import valve_plate_geometry
 from system.points.floating_gaps import block_revolution, piston_revolution, slipper_revolution
 from system.work.progress import Report, silent
 
-NO_RUBBING = "friction of the films on the parts: left out of the forces between them (one gap alone)"
+NO_RUBBING = "forces between the parts neglect the friction of the films on them (one gap alone)"
 
 
 @dataclass(frozen=True)
 class RevolutionStudy:
-    """A gap's periodic motion, the parts with every value taken, its chamber's pressure, and the seconds it took.
+    """Periodic motion of a gap, the parts with their assumed values, chamber pressure, and computing time (s).
 
-    left_out: what the forces between the parts leave out, in words; chamber_pressure (n,) Pa at the reported
-    angles; of the block, that of the chamber at shaft angle 0.
+    left_out: neglected forces between the parts, in words; chamber_pressure (n,) Pa at the reported angles; for
+    the block that of the chamber at shaft angle 0.
     """
 
     case: GapOverTurn
@@ -42,14 +42,14 @@ class RevolutionStudy:
 
     @property
     def span(self) -> float:
-        """Shaft angle (rad) after which all repeats: a turn, or a piston pitch."""
+        """Period in shaft angle (rad): a turn, or a piston pitch."""
         return float(self.revolution.angles[-1])
 
 
 def solve_revolution(case: RevolutionCase, report: Report = silent) -> RevolutionStudy:
-    """The gap over the turn under its chamber's pressure, from rest until the turn repeats.
+    """Solve the gap over the turn under its chamber pressure, from equilibrium until the turn is periodic.
 
-    Raises FilmNotConverged with the angle and a remedy where it does not, NotConverged for the pump's own cycle.
+    Raises FilmNotConverged with the angle and a remedy, and NotConverged for the pump's own cycle.
     """
     began = time.perf_counter()
     rotor, parts = case.rotor, floating_parts(case.rotor.pump)
@@ -62,7 +62,7 @@ def solve_revolution(case: RevolutionCase, report: Report = silent) -> Revolutio
 
 
 def _revolved(case: RevolutionCase, parts: FloatingParts, driven: Drives, report: Report) -> GapRevolution[Any]:
-    """The revolution of the case's gap."""
+    """Return the turn of the case's gap."""
     rotor, options = case.rotor, case.options
     match case.gap:
         case Gap.PISTON:
@@ -74,7 +74,7 @@ def _revolved(case: RevolutionCase, parts: FloatingParts, driven: Drives, report
 
 
 def tilt(study: RevolutionStudy) -> Array:
-    """Angle (n,) rad between the axes of piston and bore, or the two faces."""
+    """Return the angle (n,) rad between the axes of piston and bore, or between the two faces."""
     q = study.revolution.positions
     if study.case.gap is Gap.PISTON:
         return np.asarray(np.hypot(*(q[:, 2:] - q[:, :2]).T) / study.parts.piston.guide_length)
@@ -82,7 +82,7 @@ def tilt(study: RevolutionStudy) -> Array:
 
 
 def revolution_course(study: RevolutionStudy) -> dict[str, list[float]]:
-    """The numbers over the shaft angle that a study compares, the unit in each key."""
+    """Return the series over the shaft angle that a study compares, the unit in each key."""
     instants = study.revolution.turn.instants
     return {
         "shaft_angle_deg": [float(np.degrees(instant.angle)) for instant in instants],
@@ -96,7 +96,7 @@ def revolution_course(study: RevolutionStudy) -> dict[str, list[float]]:
 
 
 def _radius(study: RevolutionStudy) -> float:
-    """Radius (m) over which the rises of slipper or block are counted."""
+    """Return the radius (m) at which the rises of slipper or block are measured."""
     if study.case.gap is Gap.SLIPPER:
         return slipper_shape(study.case.rotor, study.parts).outer_radius
     return valve_plate_geometry(study.case.rotor.pump).land_radii[3]
@@ -113,9 +113,9 @@ def friction_power(study: RevolutionStudy, seen: GapReport) -> float:
 
 
 def revolution_summary(study: RevolutionStudy) -> dict[str, Any]:
-    """Every headline number in SI, the unit in the key, the solver's own checks, and what was taken.
+    """Return headline numbers in SI, the unit in the key, checks of the solver, and assumptions.
 
-    Means of flows, power and contact are over all steps of the turn; the rest is of the reported angles.
+    Means of flows, power and contact are over all steps of the turn, other numbers over the reported angles.
     """
     turn, closing = study.revolution.turn, study.revolution.closing
     seen, passed = zip(*((instant.report, instant.passed) for instant in turn.instants), strict=True)

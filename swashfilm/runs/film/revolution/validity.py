@@ -1,4 +1,4 @@
-"""What to doubt about a gap over the revolution: number, limit and remedy of each warning."""
+"""Validity of a gap over the turn: warnings, each with its number, limit and remedy."""
 
 from __future__ import annotations
 
@@ -18,8 +18,8 @@ from system.films.parts import FloatingParts
 from system.pump_file.check import run_checks
 from system.pump_file.floating import block_tips, slipper_has_a_wedge
 
-LARGEST_OVERLAP = 3.0  # standard deviations of the summits: beyond, asperities would be pressed flat
-LARGEST_STEP_ERROR = 2.0  # of what a step is allowed
+LARGEST_OVERLAP = 3.0  # standard deviations of the summits; beyond, asperities flatten completely
+LARGEST_STEP_ERROR = 2.0  # relative to the tolerance of a step
 LARGEST_BALANCE_ERROR = 0.01
 _CHECKS = {Gap.SLIPPER: (slipper_has_a_wedge,), Gap.VALVE_PLATE: (block_tips,), Gap.PISTON: ()}
 
@@ -27,7 +27,7 @@ _CHECKS = {Gap.SLIPPER: (slipper_has_a_wedge,), Gap.VALVE_PLATE: (block_tips,), 
 def revolution_warnings(
     case: GapOverTurn, parts: FloatingParts, found: GapRevolution[Any], balance: float
 ) -> list[dict[str, str]]:
-    """Name and text of each warning; `balance` is the turn's mass balance error."""
+    """Return name and text of each warning; `balance` is the turn's mass balance error."""
     told = [
         (check.name, str(warning))
         for check in _CHECKS[case.gap]
@@ -40,7 +40,7 @@ def revolution_warnings(
 
 
 def _contact(case: GapOverTurn, parts: FloatingParts, found: GapRevolution[Any]) -> Iterator[tuple[str, str]]:
-    """Mean planes that overlap by more than roughness can be pressed together."""
+    """Yield a warning of mean planes that overlap by more than roughness can be compressed."""
     laws = {
         Gap.PISTON: parts.piston.laws, Gap.SLIPPER: parts.slipper.laws, Gap.VALVE_PLATE: parts.block.laws,
     }[case.gap]  # fmt: skip
@@ -52,15 +52,15 @@ def _contact(case: GapOverTurn, parts: FloatingParts, found: GapRevolution[Any])
         yield (
             "contact_beyond_roughness",
             f"the mean planes of the walls overlap by {-least * 1e6:.2g} um (limit {limit * 1e6:.2g} um, "
-            f"{LARGEST_OVERLAP:g} times the composite roughness): such contact wears or bends the parts; "
-            "elastic walls, or a shape that is run in",
+            f"{LARGEST_OVERLAP:g} times the composite roughness): such contact wears or deforms the parts; "
+            "use elastic walls, or a run-in shape",
         )
 
 
 def pulled_together(
     case: GapOverTurn, parts: FloatingParts, found: GapRevolution[Any]
 ) -> Iterator[tuple[str, str]]:
-    """Slippers that together pull at a plate that the spring presses with more than tips it."""
+    """Yield a warning of slippers whose common pull tips the retainer."""
     retainer, z = slipper_retainer(case.rotor, parts), case.rotor.pump.pump.pistons
     angles, span = found.angles, float(found.angles[-1])
     pulls = [-float(retainer_force(retainer, instant.position).force[0]) for instant in found.turn.instants]
@@ -68,21 +68,21 @@ def pulled_together(
     if (most := float(np.max(together))) > retainer.limit:
         yield (
             "retainer_gives_way",
-            f"slippers that leave their plate pull at the retainer with {most:.4g} N beyond their shares (limit "
-            f"{retainer.limit:.4g} N: one that pulls so tips it): the spring holds less than it was counted for; "
-            "a stiffer spring, or retainer.kind = 'clearance'",
+            f"slippers that lift pull the retainer with {most:.4g} N beyond their parts of the spring force "
+            f"(limit {retainer.limit:.4g} N, at which the retainer tips): the spring supports less than assumed; "
+            "use a stiffer spring, or retainer.kind = 'clearance'",
         )
 
 
 def _pressures(case: GapOverTurn, found: GapRevolution[Any]) -> Iterator[tuple[str, str]]:
-    """Pressures that rigid walls and constant viscosity may not claim, and those below a cavity's."""
+    """Yield warnings of pressures beyond rigid walls and constant viscosity, and of those below a cavity's."""
     left_out, turn = case.options.physics.left_out, found.turn
     peak = max(instant.pressure_max for instant in turn.instants)
     if Effect.ELASTIC_WALLS in left_out and peak > LARGEST_RIGID_PRESSURE:
         yield (
             "film_pressure_beyond_rigid",
             f"film pressure up to {peak * 1e-6:.0f} MPa (limit {LARGEST_RIGID_PRESSURE * 1e-6:.0f} MPa for rigid "
-            "walls: they give way by micrometres); elastic walls",
+            "walls: they deform by micrometres); use elastic walls",
         )
     lowest = min(float(film.pressure.min()) for film in turn.films.values())
     cavity = next(iter(turn.films.values())).problem.cavitation_pressure
@@ -95,22 +95,22 @@ def _pressures(case: GapOverTurn, found: GapRevolution[Any]) -> Iterator[tuple[s
 
 
 def _motion(case: GapOverTurn, found: GapRevolution[Any], balance: float) -> Iterator[tuple[str, str]]:
-    """A motion that a disturbance would leave, steps that are too long, and oil that is lost between angles."""
+    """Yield warnings of unstable motion, of too long steps, and of oil lost between reported angles."""
     if (grows := found.closing.largest_multiplier) > 1.0:
         yield (
             "motion_unstable",
-            f"of a small disturbance a turn leaves {grows:.3g} times as much (limit 1): the part would not stay "
-            "on this motion; another one may exist beside it",
+            f"a small disturbance grows {grows:.3g} times per turn (limit 1): the motion is unstable; another, "
+            "stable one may exist",
         )
     if (error := found.turn.step_error) > LARGEST_STEP_ERROR:
         yield (
             "steps_too_long",
-            f"a step's error is {error:.2g} times what it is allowed (limit {LARGEST_STEP_ERROR:g}, of "
-            f"{case.options.accuracy.step:g} of the least film); more steps",
+            f"the error of a step is {error:.2g} times its tolerance (limit {LARGEST_STEP_ERROR:g}; tolerance "
+            f"{case.options.accuracy.step:g} of the least film); use more steps",
         )
     if balance > LARGEST_BALANCE_ERROR:
         yield (
             "coarse_angles",
-            f"by the reported angles {balance:.2%} of the oil is lost over the turn (limit "
-            f"{LARGEST_BALANCE_ERROR:.0%}; the march itself loses none); more steps",
+            f"at the reported angles {balance:.2%} of the oil is lost over the turn (limit "
+            f"{LARGEST_BALANCE_ERROR:.0%}; the time steps themselves lose none); use more steps",
         )

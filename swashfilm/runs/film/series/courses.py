@@ -1,4 +1,4 @@
-"""What a study of revolutions has over the shaft angle: a curve of each point, as data and as pictures."""
+"""Series over the shaft angle in a study of gaps over the turn: one curve per point, data and pictures."""
 
 from __future__ import annotations
 
@@ -12,23 +12,23 @@ from swashfilm.case.study import StudyCase
 from swashfilm.output.headline import named
 from swashfilm.runs.film.revolution.data import SHOWN
 from swashfilm.runs.film.series.plots import COURSES, MOST_LINES, figure_axes, where
-from swashfilm.runs.film.series.points import COURSE, Outcome
+from swashfilm.runs.film.series.points import COURSE, StudyOutcome
 
 if TYPE_CHECKING:
     import xarray
     from matplotlib.figure import Figure
 
 ANGLE = "shaft_angle_deg"
-LEGEND_LINE = 0.17  # inches a line of the legend takes
+LEGEND_LINE = 0.17  # height of a line of the legend, inches
 
 
 def course_variables(
-    study: StudyCase, outcomes: Sequence[Outcome], dims: Sequence[str]
+    study: StudyCase, outcomes: Sequence[StudyOutcome], dims: Sequence[str]
 ) -> dict[str, tuple[Any, ...]]:
-    """Variables `course_KEY` over the study's dimensions and the shaft angle (deg); none of other films.
+    """Return variables `course_KEY` over the study's dimensions and the shaft angle (deg); none for other films.
 
-    The angles are those of the first point that has a course; another point's are interpolated to them, linear
-    and periodic. NaN where a point has no course.
+    The angles are those of the first point with a series; other points are interpolated to them, linearly and
+    periodically. NaN where a point has no series.
     """
     courses: list[Mapping[str, Any]] = [outcome.summary.get(COURSE, {}) for outcome in outcomes]
     first = next((course for course in courses if course), None)
@@ -52,7 +52,7 @@ def _at(angles: np.ndarray, course: Mapping[str, Any], key: str) -> np.ndarray:
 
 
 def course_plots(data: xarray.Dataset) -> dict[str, Figure]:
-    """A figure of each course by its key: a line over the shaft angle for each point, up to MOST_LINES of them."""
+    """Return a figure of each series by its key: a line over the shaft angle per point, at most MOST_LINES."""
     names = [str(name) for name in data.data_vars if str(name).startswith(COURSES)]
     return {name: _picture(data, name) for name in names}
 

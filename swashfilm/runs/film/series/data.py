@@ -1,4 +1,4 @@
-"""The results of a study as tables: NetCDF over the varied keys, CSV by point, and a summary."""
+"""Results of a study: NetCDF over the varied keys, CSV by point, and a summary."""
 
 from __future__ import annotations
 
@@ -13,17 +13,17 @@ import numpy as np
 from swashfilm.case.study import Combine, StudyCase
 from swashfilm.output.headline import headline_numbers, named, titled
 from swashfilm.runs.film.series.courses import course_variables
-from swashfilm.runs.film.series.points import Outcome
+from swashfilm.runs.film.series.points import StudyOutcome
 from system.work.tasks import PartStatus
 
 if TYPE_CHECKING:
     import xarray
 
 
-def study_dataset(study: StudyCase, outcomes: Sequence[Outcome]) -> xarray.Dataset:
-    """Every headline number over the varied keys (over `point` where they vary together); NaN where none is.
+def study_dataset(study: StudyCase, outcomes: Sequence[StudyOutcome]) -> xarray.Dataset:
+    """Return headline numbers over the varied keys (over `point` where they vary together); NaN where missing.
 
-    Coordinates are SI numbers with their unit, or texts; `status` and `reason` tell of each point.
+    Coordinates are SI numbers with their unit, or texts; `status` and `reason` describe each point.
     """
     import xarray
 
@@ -54,8 +54,8 @@ def study_dataset(study: StudyCase, outcomes: Sequence[Outcome]) -> xarray.Datas
     return xarray.Dataset(variables, coords=coordinates, attrs=attributes)
 
 
-def study_summary(study: StudyCase, outcomes: Sequence[Outcome]) -> dict[str, Any]:
-    """What varied, what was solved, the span of every number, the points without a result and the warnings."""
+def study_summary(study: StudyCase, outcomes: Sequence[StudyOutcome]) -> dict[str, Any]:
+    """Return varied keys, solved points, span of every number, points without a result, and warnings."""
     solved = [outcome for outcome in outcomes if outcome.status is PartStatus.SOLVED]
     rows = [headline_numbers(outcome.summary) for outcome in solved]
     keys = list(dict.fromkeys(key for row in rows for key in row))
@@ -85,7 +85,7 @@ def study_summary(study: StudyCase, outcomes: Sequence[Outcome]) -> dict[str, An
     }
 
 
-def _span(found: list[tuple[float, int]], study: StudyCase, solved: Sequence[Outcome]) -> dict[str, Any]:
+def _span(found: list[tuple[float, int]], study: StudyCase, solved: Sequence[StudyOutcome]) -> dict[str, Any]:
     (least, at_least), (most, at_most) = min(found), max(found)
     return {
         "min": least,
@@ -95,8 +95,8 @@ def _span(found: list[tuple[float, int]], study: StudyCase, solved: Sequence[Out
     }
 
 
-def _warnings(solved: Sequence[Outcome]) -> list[dict[str, str]]:
-    """Each warning once, with the text of the first point it stands at."""
+def _warnings(solved: Sequence[StudyOutcome]) -> list[dict[str, str]]:
+    """Return each warning once, with the text of its first point."""
     texts: dict[str, str] = {}
     count = Counter(warning["name"] for outcome in solved for warning in outcome.summary["warnings"])
     for outcome in solved:
@@ -107,8 +107,8 @@ def _warnings(solved: Sequence[Outcome]) -> list[dict[str, str]]:
     ]
 
 
-def write_study_table(path: Path, study: StudyCase, outcomes: Sequence[Outcome]) -> None:
-    """A CSV of one line a point: varied keys, headline numbers (SI, units in the titles), status and reason."""
+def write_study_table(path: Path, study: StudyCase, outcomes: Sequence[StudyOutcome]) -> None:
+    """Write a CSV with one line per point: varied keys, headline numbers (SI), status and reason."""
     rows: list[Mapping[str, float]] = [headline_numbers(outcome.summary) for outcome in outcomes]
     keys = list(dict.fromkeys(key for row in rows for key in row))
     with path.open("w", newline="", encoding="utf-8") as file:

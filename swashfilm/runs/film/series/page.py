@@ -1,4 +1,4 @@
-"""A study's run folder: run it, write its tables and plots, and make its page."""
+"""Run folder of a study: its run, tables, plots and page."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ def run_study(
 ) -> dict[str, Any]:
     """Run a study and write input.toml, points/, study.csv, study.nc, summary.json, plots/ and report.html.
 
-    Returns the summary. Raises InputFaults as `run_points`; a point that fails is told in the tables.
+    Returns the summary. Raises InputFaults as `run_points`; the tables list points that fail.
     """
     (folder / "input.toml").write_text(study.text, encoding="utf-8")
     outcomes = run_points(study, folder, report, resumed=resumed, workers=workers)
@@ -62,7 +62,7 @@ def write_study_page(folder: Path) -> Path:
 
 
 def span_rows(summary: Mapping[str, Any]) -> Iterator[tuple[str, ...]]:
-    """(number, least with its unit, where, largest, where) of every number of a study."""
+    """Yield (number, least with its unit, point, largest, point) of every number of a study."""
     for key, span in summary["numbers"].items():
         words, unit = named(key)
         yield (
@@ -76,7 +76,7 @@ def span_rows(summary: Mapping[str, Any]) -> Iterator[tuple[str, ...]]:
 
 
 def failed_rows(summary: Mapping[str, Any]) -> Iterator[tuple[str, ...]]:
-    """(where, what became of it, why) of every point without a result."""
+    """Yield (point, state, reason) of every point without a result."""
     for point in summary["failed"]:
         yield _where(point["values"]), point["status"], point["reason"]
 

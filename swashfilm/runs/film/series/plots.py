@@ -1,4 +1,4 @@
-"""Plots of a study: each number over what varied, and the Stribeck curve."""
+"""Plots of a study: each number over the varied keys, and the Stribeck curve."""
 
 from __future__ import annotations
 
@@ -16,19 +16,19 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-LEAST_CHANGE = 1e-5  # of the size of such numbers: one that varies less is not drawn
-LOG_FROM = 30.0  # ratio of an axis' ends from which it is drawn in logarithms
-LOG_TO = 1e6  # ratio beyond which the small end is nothing
+LEAST_CHANGE = 1e-5  # relative variation below which a number is not drawn
+LOG_FROM = 30.0  # ratio of an axis' ends above which the axis is logarithmic
+LOG_TO = 1e6  # ratio of an axis' ends above which the small end counts as zero
 MOST_LINES = 12
 STRIBECK = ("friction_coefficient", "hersey_number_m")
 CONTACT = "contact_load_fraction"
-COURSES = "course_"  # curves over the shaft angle, drawn by `series_courses`
+COURSES = "course_"  # series over the shaft angle, drawn by `courses`
 
 
 def study_plots(data: xarray.Dataset) -> dict[str, Figure]:
-    """A figure of every number that varies, by its key: lines over one key, maps over two that are numbers.
+    """Return a figure of every number that varies, by its key: lines over one key, maps over two numeric keys.
 
-    Three keys and more are lines over the first, one for each value of the others. `stribeck`, where the Hersey
+    Three keys and more yield lines over the first, one for each value of the others. `stribeck`, where the Hersey
     number varies, is the friction coefficient over it.
     """
     ordered = data.sortby([dim for dim in data.dims if dim in data.coords and _is_numeric(data[dim].values)])
@@ -47,7 +47,7 @@ def _is_numeric(values: np.ndarray) -> bool:
 
 
 def number_plot(data: xarray.Dataset, key: str) -> Figure:
-    """A number of a study over what varies: a map over two keys that are numbers, else lines."""
+    """Draw a number of a study: a map over two numeric keys, lines otherwise."""
     figure, axes = figure_axes()
     field = data[key]
     numeric = [_is_numeric(data[dim].values) for dim in field.dims if dim in data.coords]
@@ -80,7 +80,7 @@ def _lines(axes: Any, data: xarray.Dataset, key: str) -> None:
 
 
 def _map(figure: Any, axes: Any, data: xarray.Dataset, key: str) -> None:
-    """Colours over two keys, in logarithms where the number spans so much, with lines of equal value."""
+    """Draw colours and contours over two keys, logarithmic for a number with a large span."""
     across, along = (str(dim) for dim in data[key].dims)
     x, y, values = data[across].values, data[along].values, data[key].values.T
     for places, scale in ((x, axes.set_xscale), (y, axes.set_yscale)):
@@ -98,7 +98,7 @@ def _map(figure: Any, axes: Any, data: xarray.Dataset, key: str) -> None:
 
 
 def _levels(values: np.ndarray) -> np.ndarray:
-    """Some seven round values within."""
+    """Return about seven round values within the range."""
     from matplotlib.ticker import LogLocator, MaxNLocator
 
     least, most = float(values.min()), float(values.max())
@@ -110,7 +110,7 @@ def _levels(values: np.ndarray) -> np.ndarray:
 
 
 def _stribeck(data: xarray.Dataset) -> Figure:
-    """Friction coefficient over the Hersey number: one line with the contact's share, or many."""
+    """Draw the friction coefficient over the Hersey number: one line with the contact's share, or many."""
     figure, axes = figure_axes()
     friction, hersey = (data[key].transpose(*data[STRIBECK[0]].dims) for key in STRIBECK)
     along, *others = (str(dim) for dim in friction.dims)
@@ -151,14 +151,14 @@ def _with_least_and_contact(axes: Any, data: xarray.Dataset, along: str) -> None
 
 
 def where(data: xarray.Dataset, at: Mapping[Any, int]) -> str:
-    """The values of the keys that a line is of, with their units."""
+    """Return the values of a line's keys, with their units."""
     return ", ".join(
         f"{dim} = {_text(data[dim].values[k])} {data[dim].attrs.get('units', '')}".strip() for dim, k in at.items()
     )
 
 
 def _places(data: xarray.Dataset, dim: str) -> tuple[np.ndarray, list[str]]:
-    """Where a dimension's points are drawn, and the labels they need where they are texts."""
+    """Return the positions of a dimension's points, and their labels where they are texts."""
     values = data[dim].values if dim in data.coords else None
     if values is not None and _is_numeric(values):
         return values, []
@@ -189,13 +189,13 @@ def _is_wide(values: np.ndarray) -> bool:
 
 
 def _is_geometric(places: np.ndarray) -> bool:
-    """True for places of equal ratio, and for any that span much."""
+    """Return True for positions of equal ratio or with a large span."""
     if len(places) < 3 or not places.min() > 0.0:
         return _is_wide(places)
     return _is_wide(places) or bool(np.ptp(np.diff(np.log(places))) < 1e-6)
 
 
 def figure_axes() -> tuple[Figure, Axes]:
-    """A figure of a study's size, with its axes."""
+    """Return a figure of a study's size, with its axes."""
     figure = figure_of(5.2, 3.7)
     return figure, figure.subplots()

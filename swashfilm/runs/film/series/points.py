@@ -1,4 +1,4 @@
-"""A study run: every point a film of its own, kept as it is done, told of where it fails."""
+"""Points of a study: each a separate film, stored when it is solved, with the reason of a failure."""
 
 from __future__ import annotations
 
@@ -25,12 +25,12 @@ from system.work.progress import Report
 from system.work.tasks import PartOutcome, PartStatus
 
 COURSE = "course"
-"""Of a revolution, beside its summary: what a study compares over the shaft angle."""
+"""Key of the series over the shaft angle beside the summary of a turn."""
 
 
 @dataclass(frozen=True)
-class Outcome:
-    """A point of a study: its film's summary, or why there is none."""
+class StudyOutcome:
+    """A point of a study: the summary of its film, or the reason of its failure."""
 
     point: Point
     status: PartStatus
@@ -45,39 +45,39 @@ class StudyWork:
     study: StudyCase
 
     def key(self, point: Point) -> str:
-        """The digest of the point's case; raises InputFaults where it is none."""
+        """Return the digest of the point's case; raise InputFaults for an invalid case."""
         return digest(self.study.case(point))
 
     def solve(self, point: Point) -> dict[str, Any]:
-        """The summary of the point's film; raises as its solver."""
+        """Return the summary of the point's film; raise as its solver."""
         return solved_summary(self.study.case(point))
 
-    def told(self, point: Point, outcome: PartOutcome) -> str:
-        """Where the point is, and what became of it."""
+    def text(self, point: Point, outcome: PartOutcome) -> str:
+        """Return the point and its state in words."""
         values = ", ".join(f"{key} = {value}" for key, value in self.study.values(point).items())
         return f"{values}: {outcome.status.value}"
 
 
 def run_points(
     study: StudyCase, folder: Path, report: Report, *, resumed: Path | None = None, workers: int = 1
-) -> list[Outcome]:
-    """All points, in their order; each is kept in `folder`/points as soon as it is done.
+) -> list[StudyOutcome]:
+    """Return all points, in their order; each is stored in `folder`/points as soon as it is solved.
 
-    Points that `resumed`/points holds already, of the very same resolved case, are taken from there. Raises
-    InputFaults where `resumed` holds no points.
+    Points of the same resolved case in `resumed`/points are read from there. Raises InputFaults where `resumed`
+    holds no points.
     """
     work, store = StudyWork(study), KeptPoints(folder / POINTS)
     earlier = points_of_run(resumed) if resumed else None
     with process_pool(workers) as executor:
-        kept = run_kept(work, study.points, store, executor, earlier=earlier, described=work.told, report=report)
+        kept = run_kept(work, study.points, store, executor, earlier=earlier, described=work.text, report=report)
     return [
-        Outcome(point, found.status, found.reason, found.record)
+        StudyOutcome(point, found.status, found.reason, found.record)
         for point, found in zip(study.points, kept.outcomes, strict=True)
     ]
 
 
 def solved_summary(case: Case) -> dict[str, Any]:
-    """The summary of a case solved here, that of a revolution with its course; raises as its solver."""
+    """Solve a case and return its summary, for a turn with its series; raise as its solver."""
     if isinstance(case, RevolutionCase):
         study = solve_revolution(case)
         return revolution_summary(study) | {COURSE: revolution_course(study)}
@@ -85,7 +85,7 @@ def solved_summary(case: Case) -> dict[str, Any]:
 
 
 def digest(case: Case) -> str:
-    """A name for the content of a case: its resolved text, and what that takes from other files."""
+    """Return a name for the content of a case: its resolved text, and the data of other files."""
     content = hashlib.sha256(case.resolved.encode())
     if isinstance(case, GapCase):
         content.update(repr((case.rotor.pump, case.position, case.load)).encode())

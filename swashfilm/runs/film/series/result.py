@@ -1,4 +1,4 @@
-"""A study of films as a result: spans of numbers, tables, plots."""
+"""Result of a study of films: spans of numbers, tables, plots."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ class StudyRun(Result):
 
     @staticmethod
     def read_data(folder: Path) -> xarray.Dataset:
-        """study.nc of a run folder."""
+        """Return study.nc of a run folder."""
         expect_files(folder, ("study.nc",), "a study's run folder")
         return read_netcdf(folder / "study.nc")
 
@@ -41,12 +41,12 @@ class StudyRun(Result):
         return tables
 
     def to_pandas(self) -> pandas.DataFrame:
-        """A row a point, the varied keys as index; units in the data set's attributes."""
+        """Return one row per point, the varied keys as index; units in the data set's attributes."""
         data = self.to_xarray()
         return data[[name for name in data.data_vars if "shaft_angle_deg" not in data[name].dims]].to_dataframe()
 
     def plot_number(self, key: str) -> list[Axes]:
-        """A number by its key, such as "load_N", over the varied keys; raises InputFaults for another key."""
+        """Draw a number by its key, such as "load_N", over the varied keys; raise InputFaults for another key."""
         data = self.to_xarray()
         keys = [str(name) for name in data.data_vars if name not in ("status", "reason")]
         if key not in keys:

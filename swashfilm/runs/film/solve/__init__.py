@@ -1,1 +1,1 @@
-"""A film case solved: free, loaded, in time, gap of a pump."""
+"""Solution of a film case: free, loaded, in time, gap of a pump."""

@@ -1,4 +1,4 @@
-"""A pump gap's film at one instant solved: at its position or at rest, and its true place in the pump."""
+"""Solution of a pump gap's film at one instant: at a given position or at equilibrium."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ START = {
 
 
 class PositionSource(Enum):
-    """Where a part stands: where the case puts it, or where it comes to rest."""
+    """Origin of a part's position: given by the case, or found as equilibrium."""
 
     GIVEN = "given"
     REST = "rest"
@@ -42,7 +42,7 @@ class PositionSource(Enum):
 
 @dataclass(frozen=True)
 class GapStudy:
-    """A gap's film and where its position comes from; assumptions: what the forces leave out, and values taken."""
+    """A gap's film and the origin of its position; assumptions: neglected forces and assumed values."""
 
     film: GapFilm
     source: PositionSource
@@ -50,10 +50,10 @@ class GapStudy:
 
 
 def solve_gap(case: GapCase) -> GapStudy:
-    """The gap's film at its position, or at rest.
+    """Solve the gap's film at its position, or at equilibrium.
 
-    Raises FilmNotConverged where the film does not settle, and where the part finds no rest: pulled off, or
-    pressed on walls that do not bear.
+    Raises FilmNotConverged where the film does not converge, and where the part has no equilibrium: pulled off, or
+    pressed on walls that do not support it.
     """
     drives = _loaded(case, instant_drives(case.rotor, case.parts, case.shaft_angle, case.chamber_pressure))
     gap = standing_gap(case.gap, case.rotor, case.parts, drives, case.physics, case.finer)
@@ -82,12 +82,12 @@ def _loaded(case: GapCase, drives: Drives) -> Drives:
 
 
 def true_place(case: GapCase) -> Callable[[Array], Array]:
-    """Map of the gap's film plane (n, 2) m to its place in the pump (n, 3) m."""
+    """Return the map of the gap's film plane (n, 2) m to its position in the pump (n, 3) m."""
     return place_of(case.gap, case.rotor, case.parts, case.shaft_angle)
 
 
 def gap_summary(study: GapStudy) -> dict[str, Any]:
-    """What a gap adds to a film's summary, SI with the unit in the key; position as the gap's film counts it."""
+    """Return the gap's entries in a film's summary, SI with units in keys; position in the film's coordinates."""
     film = study.film
     return {
         "position_source": study.source.value,
@@ -105,9 +105,9 @@ def gap_summary(study: GapStudy) -> dict[str, Any]:
 
 
 def gap_warnings(study: GapStudy) -> list[dict[str, str]]:
-    """A load that the film at the given position does not carry: name and text."""
+    """Return a warning, name and text, where the film does not support its load at the given position."""
     film = study.film
     if study.source is PositionSource.REST or film.holds_its_load:
         return []
-    text = f"the film carries {film.carried_load:.0f} N of {film.required_load:.0f} N at the position given"
+    text = f"the film supports {film.carried_load:.0f} N of {film.required_load:.0f} N at the given position"
     return [{"name": "load_not_carried", "text": text}]

@@ -1,4 +1,4 @@
-"""A film that is asked to bear a load: from what a case states to the core's search for its position."""
+"""Film under a given load: search for the position at which it supports the load of a case."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 @dataclass
 class _Warmed:
-    """Films with what their oil does, each warming the next; `last` is the one solved last."""
+    """Solver of films with their oil, each started from the one before; `last` is the latest solution."""
 
     solver: OilSolver
     last: Found | None = None
@@ -24,25 +24,25 @@ class _Warmed:
     def __call__(self, problem: FilmProblem) -> FilmSolution:
         try:
             self.last = self.solver.solve(problem, self.last)
-        except FilmNotConverged:  # from nothing it may be nearer
+        except FilmNotConverged:  # a start without a previous film may be nearer
             self.last = self.solver.solve(problem)
         return film_of(self.last)
 
 
-def solve_carried(stated: FilmStatement, problem: FilmProblem) -> tuple[LoadedFilm, Found]:
-    """The position at which the film bears what the case asks, and the film there.
+def solve_loaded(stated: FilmStatement, problem: FilmProblem) -> tuple[LoadedFilm, Found]:
+    """Return the position at which the film supports the load of the case, and the film there.
 
-    Raises FilmNotConverged, with what was borne at best, where there is no such position.
+    Raises FilmNotConverged, with the largest supported load, where there is no such position.
     """
     assert stated.load is not None
     solve = _Warmed(oil_solver(stated, problem.space))
-    carried = carry_load(problem, stated.load, solve)
+    loaded = carry_load(problem, stated.load, solve)
     assert solve.last is not None
-    return carried, solve.last
+    return loaded, solve.last
 
 
-def carried_summary(found: LoadedFilm) -> dict[str, Any]:
-    """Where the film stands: separation m, slopes (m/m), what it bears with the contact, N."""
+def load_summary(found: LoadedFilm) -> dict[str, Any]:
+    """Return position (separation m, slopes m/m) and supported load with contact, N."""
     position = found.position
     return {
         "separation_m": position.separation,

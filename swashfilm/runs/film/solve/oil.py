@@ -1,4 +1,4 @@
-"""A film solved with the oil that its case states: its temperature and its thinning by shear."""
+"""Solution of a film with the oil of its case: temperature and shear thinning."""
 
 from __future__ import annotations
 
@@ -28,27 +28,27 @@ _OIL_REMEDY = "a thicker film, a lower speed or load, walls that take more heat,
 
 
 def film_of(found: Found) -> FilmSolution:
-    """The film of what was solved."""
+    """Return the film of a solution."""
     return found.film if isinstance(found, Coupled) else found
 
 
 def heat_of(found: Found) -> FilmTemperature | None:
-    """Its temperature; None where none was solved for."""
+    """Return the temperature of a solution; None where it is not solved."""
     return found.heat if isinstance(found, Coupled) else None
 
 
 @dataclass(frozen=True)
 class OilSolver:
-    """Solves films of one case on one space, with what its oil does there; `heat` None: at one temperature."""
+    """Solver of films of one case on one space with its oil; `heat` None: isothermal."""
 
     stated: FilmStatement
     solver: FilmSolver
     heat: Heat | None
 
     def solve(self, problem: FilmProblem, start: Found | None = None) -> Found:
-        """The film of `problem`, warmed by `start`.
+        """Return the film of `problem`, started from `start`.
 
-        Raises FilmNotConverged, and FilmInputError where the oil leaves the range of its laws.
+        Raises FilmNotConverged, and FilmInputError where the oil is beyond the range of its laws.
         """
         stated, warm = self.stated, start if isinstance(start, Coupled) else None
         shear = stated.oil.shear_law if stated.oil else None
@@ -82,14 +82,12 @@ class OilSolver:
     def _step(self, problem: FilmProblem, last: Found | None) -> Found:
         try:
             return self.solve(problem, last)
-        except (
-            FilmNotConverged
-        ):  # a cavity that opens everywhere at once is nearer to nothing than to the last film
+        except FilmNotConverged:  # a cavity over the whole film converges better without the last film as start
             return self.solve(problem)
 
 
 def oil_solver(stated: FilmStatement, space: FilmSpace) -> OilSolver:
-    """What solves the films of a case; raises FilmInputError for a body that does not lie under the film."""
+    """Return the solver of a case's films; raise FilmInputError for a body that does not lie under the film."""
     heat = None
     if stated.thermal is not None:
         assert stated.oil is not None
@@ -99,7 +97,7 @@ def oil_solver(stated: FilmStatement, space: FilmSpace) -> OilSolver:
 
 
 def _viscosity(stated: FilmStatement) -> ThermalViscosity:
-    """Viscosity (Pa s) at temperature (K) and pressure (Pa) by the oil's laws."""
+    """Return the viscosity (Pa s) as function of temperature (K) and pressure (Pa) by the oil's laws."""
     oil = stated.oil
     assert oil is not None
     assert isinstance(stated.viscosity, Uniform)

@@ -1,4 +1,4 @@
-"""One film study: a case solved, its summary, its warnings and its fields."""
+"""Solution of a film case."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from reynolds.thermal.energy import FilmTemperature
 from swashfilm.case.file import FilmCase
 from swashfilm.case.gap.instant import GapCase
 from swashfilm.runs.film.solve.gap import GapStudy, solve_gap
-from swashfilm.runs.film.solve.loaded import solve_carried
+from swashfilm.runs.film.solve.loaded import solve_loaded
 from swashfilm.runs.film.solve.oil import film_of, heat_of, oil_solver
 from swashfilm.runs.film.solve.transient import Moment, transient
 from system.work.progress import Report, silent
@@ -24,10 +24,10 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class FilmStudy:
-    """A solved case: its solution and integrals, and the seconds it took; None what the case has not.
+    """A solved case: solution, integrals and computing time (s); None for parts that the case does not have.
 
-    gap: the pump's gap that it is of; heat: its temperature; history: the steps of a transient, whose end
-    `solution` is; carried: the position at which it bears a load.
+    gap: gap of a pump; heat: temperature; history: steps of a transient, with `solution` at its end; loaded:
+    position at which the film supports its load.
     """
 
     name: str
@@ -37,13 +37,13 @@ class FilmStudy:
     solve_seconds: float
     heat: FilmTemperature | None = None
     history: tuple[Moment, ...] = ()
-    carried: LoadedFilm | None = None
+    loaded: LoadedFilm | None = None
 
 
 def solve_case(case: FilmCase | GapCase, report: Report = silent) -> FilmStudy:
-    """Solve a case; raises FilmNotConverged rather than give a number that is none.
+    """Solve a case; raise FilmNotConverged without a converged solution.
 
-    `report` hears of the steps of a transient.
+    `report` receives the steps of a transient.
     """
     began = time.perf_counter()
     if isinstance(case, GapCase):
@@ -51,17 +51,17 @@ def solve_case(case: FilmCase | GapCase, report: Report = silent) -> FilmStudy:
         return FilmStudy(case.name, gap.film.solution, gap.film.loads, gap, time.perf_counter() - began)
     heat: FilmTemperature | None = None
     history: tuple[Moment, ...] = ()
-    carried: LoadedFilm | None = None
+    loaded: LoadedFilm | None = None
     if case.stated.time:
         history = tuple(transient(case.stated, report))
         last = history[-1].solution
         assert last is not None
         solution, heat = last, history[-1].heat
     elif case.stated.load:
-        carried, found = solve_carried(case.stated, case.problem)
+        loaded, found = solve_loaded(case.stated, case.problem)
         solution, heat = film_of(found), heat_of(found)
     else:
         found = oil_solver(case.stated, case.problem.space).solve(case.problem)
         solution, heat = film_of(found), heat_of(found)
     seconds = time.perf_counter() - began
-    return FilmStudy(case.name, solution, loads(solution), None, seconds, heat, history, carried)
+    return FilmStudy(case.name, solution, loads(solution), None, seconds, heat, history, loaded)

@@ -1,4 +1,4 @@
-"""A film in time: implicit Euler steps of what it holds, from a state that its case gives."""
+"""Film in time: implicit Euler steps of the oil held, from the initial state of the case."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Moment:
-    """The film at a time (s): its integrals, and, only where it is written, its solution and temperature."""
+    """The film at a time (s): its integrals; for a written film its solution and temperature."""
 
     time: float
     solution: FilmSolution | None
@@ -32,12 +32,12 @@ class Moment:
 
 
 def transient(stated: FilmStatement, report: Report) -> list[Moment]:
-    """Every step of a transient, in time; the last one has its solution.
+    """Return every step of a transient, in time; the last one has its solution.
 
-    Each step meets d(oil held)/dt + outflow = 0 with the film and the boundaries at its end (implicit Euler, first
-    order in the step). At the start the film holds film.initial_film_fraction of its thickness. A step that does
-    not settle is taken as shorter ones. Raises FilmNotConverged with the time that was reached, FilmInputError
-    where a field has no possible value or a law does not hold.
+    Each step satisfies d(oil held)/dt + outflow = 0 with the film and the boundaries at its end (implicit Euler,
+    first order in the step). At the start the film holds film.initial_film_fraction of its thickness. A step that
+    does not converge is divided. Raises FilmNotConverged with the time reached, and FilmInputError where a field
+    has no valid value or a law does not hold.
     """
     assert stated.time is not None
     first = film_problem(stated)
@@ -52,7 +52,7 @@ def transient(stated: FilmStatement, report: Report) -> list[Moment]:
     filled = space.to_unknowns(np.broadcast_to(stated.initial_film_fraction.sample(space), space.area.shape))
     found: list[Moment] = []
     try:
-        held = oil_held(first, np.minimum(filled, 1.0))  # a mean of ones may be above one by round-off
+        held = oil_held(first, np.minimum(filled, 1.0))  # the mean of ones may exceed one by round-off
         for instant in oil_solver(stated, space).march(problem_at, stated.time.end, stated.time.step_taken, held):
             film, heat = film_of(instant.solution), heat_of(instant.solution)
             hottest = None if heat is None else float(heat.temperature.max())
