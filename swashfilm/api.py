@@ -1,7 +1,7 @@
-"""The front door: each command as a function that returns its result.
+"""Front door: each command as a function that returns its result.
 
-Words are those of the command line (`swashfilm COMMAND --help`): text with a unit ("350 bar") or a number in SI;
-pressures are gauge. Every fault of the input is raised at once, as InputFaults.
+Arguments are those of the command line (`swashfilm COMMAND --help`): text with a unit ("350 bar") or a number in
+SI; pressures are gauge. InputFaults lists every fault of the input.
 """
 
 from __future__ import annotations
@@ -88,10 +88,10 @@ def run(
     report: Report = silent,
     **options: object,
 ) -> PumpRun:
-    """One operating point of a pump, as `swashfilm run`.
+    """Solve one operating point of a pump, as `swashfilm run`.
 
-    set: other values of keys of the pump file, {"slipper.orifice_diameter": "0.8 mm"}. options: steps, finer,
-    rigid, isoviscous, smooth, no_cavitation, heat, of floating gaps. Raises InputFaults and NotConverged.
+    set: values that replace those of the pump file, {"slipper.orifice_diameter": "0.8 mm"}. options of floating
+    gaps: steps, finer, rigid, isoviscous, smooth, no_cavitation, heat. Raises InputFaults and NotConverged.
     """
     given = {
         "speed": speed,
@@ -114,7 +114,7 @@ def run(
 def film(
     case: Case, *, refine: int | None = None, report: Report = silent, **options: object
 ) -> FilmRun | RevolutionRun:
-    """One film, free or a gap of a pump, at an instant or over the turn, as `swashfilm film`.
+    """Solve one film, free or a gap of a pump, at an instant or over the turn, as `swashfilm film`.
 
     refine: number of meshes, for order and error. options: rigid, isoviscous, heat, smooth, no_cavitation. Raises
     InputFaults and FilmNotConverged.
@@ -138,10 +138,10 @@ def film(
 def study(
     case: Case, *, workers: int = 1, resume: str | Path | None = None, report: Report = silent, **options: object
 ) -> StudyRun:
-    """A study: a film case whose [study] table varies keys, as `swashfilm film`; raises InputFaults.
+    """Solve a study, a film case whose [study] table varies keys, as `swashfilm film`; raise InputFaults.
 
-    workers: processes side by side; resume: run folder with finished points. A point without a result carries
-    its reason.
+    workers: number of processes; resume: run folder with finished points. A point without a result has its
+    reason.
     """
     with _door("study"), _case_file(case) as path:
         from swashfilm.case.study import StudyCase
@@ -152,9 +152,7 @@ def study(
         words = _words("film", [path], {"workers": workers if workers > 1 else None, "resume": resume} | options)
         found, _, count = film_case(words)
         if not isinstance(found, StudyCase):
-            raise InputFaults(
-                str(path), [Fault("study", "no such table", "a case with [study]", "swashfilm.film()")]
-            )
+            raise InputFaults(str(path), [Fault("study", "missing", "a case with [study]", "swashfilm.film()")])
         return StudyRun.ran(lambda folder: run_study(found, folder, report, resumed=words.resume, workers=count))
 
 
@@ -170,7 +168,7 @@ def map(
     report: Report = silent,
     **options: object,
 ) -> MapRun:
-    """An operating map, as `swashfilm map`; levels as text ("5..35MPa:7") or a list.
+    """Solve an operating map, as `swashfilm map`; levels are text ("5..35MPa:7") or a list.
 
     options: plan, table, direct, check, workers, cluster, resume. Raises InputFaults.
     """
@@ -194,7 +192,7 @@ def map(
 
 
 def table(pump: str | Path | PumpDescription, *, report: Report = silent, **options: object) -> TableRun:
-    """A response table of a pump's gaps, or of one gap by its case, as `swashfilm table`.
+    """Build a response table of a pump's gaps, or of one gap by its case, as `swashfilm table`.
 
     options: speed, pressure, displacement, temperature (ranges "MIN..MAX" or one value), inlet_pressure,
     case_pressure, source, points, held_out, workers, steps, finer, rigid, isoviscous, heat. Raises InputFaults.
@@ -208,7 +206,7 @@ def table(pump: str | Path | PumpDescription, *, report: Report = silent, **opti
 
 
 def duty(of: MapRun | str | Path, cycle: str | Path) -> DutyRun:
-    """Energies and losses over a duty cycle (CSV) by a map: a MapRun, its run folder, or its map.nc."""
+    """Return energies and losses over a duty cycle (CSV) by a map: a MapRun, its run folder, or its map.nc."""
     with _door("duty"), _map_file(of) as path:
         from swashfilm.runs.map.cycle_file import read_cycle
         from swashfilm.runs.map.duty import run_duty
@@ -225,7 +223,7 @@ def compare(
     other: MapRun | str | Path | PumpDescription,
     cycle: str | Path | None = None,
 ) -> CompareRun:
-    """Two maps or pumps side by side, over a duty cycle too, as `swashfilm compare`; raises InputFaults."""
+    """Compare two maps or pumps, also over a duty cycle, as `swashfilm compare`; raise InputFaults."""
     with _door("compare"), _map_or_pump(one) as first, _map_or_pump(other) as second:
         from swashfilm.runs.map.compare_command import compare_case
         from swashfilm.runs.map.result import CompareRun
@@ -234,7 +232,7 @@ def compare(
 
 
 def transient(case: Case) -> TransientRun:
-    """Displacement in time, as `swashfilm transient`; raises InputFaults and NotConverged."""
+    """Solve displacement in time, as `swashfilm transient`; raise InputFaults and NotConverged."""
     with _door("transient"), _case_file(case) as path:
         from swashfilm.runs.transient.case import load_transient
         from swashfilm.runs.transient.run import solve_transient
@@ -243,7 +241,7 @@ def transient(case: Case) -> TransientRun:
 
 
 def reference(case: Case, *, report: Report = silent) -> ReferenceRun:
-    """Coefficients from the Navier-Stokes equations, as `swashfilm reference`; raises InputFaults."""
+    """Solve coefficients from the Navier-Stokes equations, as `swashfilm reference`; raise InputFaults."""
     with _door("reference"), _case_file(case) as path:
         from swashfilm.runs.reference.case import load_reference
         from swashfilm.runs.reference.result import ReferenceRun
@@ -305,7 +303,7 @@ def calibrate(
 
 
 def reproduce(figure: str = "all", *, report: Report = silent, **options: object) -> Reproduction:
-    """The paper's figures and tables, as `swashfilm reproduce`.
+    """Reproduce the paper's figures and tables, as `swashfilm reproduce`.
 
     options: fidelity, pump, recording, workers, steps, finer, rigid, isoviscous, heat. Raises InputFaults.
     """
@@ -321,7 +319,7 @@ def reproduce(figure: str = "all", *, report: Report = silent, **options: object
 
 
 def open(folder: str | Path) -> Result:
-    """The result of a finished run folder, of the class of its kind; raises InputFaults where there is none."""
+    """Return the result of a finished run folder, of the class of its kind; raise InputFaults without one."""
     import json
 
     place = Path(folder)
@@ -345,7 +343,7 @@ def _result_classes() -> Iterator[type[Result]]:
 
 
 def _words(command: str, positional: Sequence[object], given: Mapping[str, object]) -> argparse.Namespace:
-    """The options of a command line; raises InputFaults for names that the command does not have."""
+    """Return the options of a command line; raise InputFaults for names that the command does not have."""
     known = [option[2:].replace("-", "_") for option in options_of(command) if option not in _OF_COMMAND_LINE]
     if unknown := [name for name in given if name not in known]:
         expected = f"one of {', '.join(known)}"
@@ -364,7 +362,7 @@ def _words(command: str, positional: Sequence[object], given: Mapping[str, objec
 
 
 def _text(name: str, value: object) -> str:
-    """A value as the command line has it: numbers of a quantity in SI get their unit."""
+    """Return a value as text of the command line: numbers of a quantity in SI get their unit."""
     if isinstance(value, (str, Path)):
         return str(value)
     if isinstance(value, Iterable):
@@ -374,7 +372,7 @@ def _text(name: str, value: object) -> str:
 
 @contextmanager
 def _door(name: str) -> Iterator[None]:
-    """Faults of a command line as those of a call: options are its arguments, the source its name."""
+    """Convert faults of a command line to those of a call: options are its arguments, the source its name."""
     try:
         yield
     except InputFaults as reason:
@@ -400,7 +398,7 @@ def _argument(text: str) -> str:
 
 @contextmanager
 def _pump_file(pump: str | Path | PumpDescription) -> Iterator[str]:
-    """The name or path of a pump; a description is written to a file meanwhile."""
+    """Yield the name or path of a pump; a description is written to a temporary file."""
     if isinstance(pump, (str, Path)):
         yield str(pump)
         return
@@ -412,7 +410,7 @@ def _pump_file(pump: str | Path | PumpDescription) -> Iterator[str]:
 
 @contextmanager
 def _case_file(case: Case) -> Iterator[Path]:
-    """The path of a case; text and tables are written to a file meanwhile."""
+    """Yield the path of a case; text and tables are written to a temporary file."""
     if isinstance(case, Mapping):
         import tomli_w
 
@@ -426,7 +424,7 @@ def _case_file(case: Case) -> Iterator[Path]:
 
 @contextmanager
 def _map_file(of: MapRun | str | Path) -> Iterator[Path]:
-    """The path of a map; a result is written to a folder meanwhile."""
+    """Yield the path of a map; a result is written to a temporary folder."""
     if isinstance(of, (str, Path)):
         yield Path(of)
         return

@@ -39,8 +39,8 @@ def solve_film(
     """Solve a case; its run folder holds fields for ParaView, results.nc, summary.json and report.html.
 
     With more than one of `meshes` the case is solved on finer meshes too, and refinement.csv holds order and
-    error; fields and numbers are those of the case's mesh. `as_table`: write fields.csv, the fields at the
-    vertices. Raises FilmNotConverged.
+    error; fields and numbers are those of the case's mesh. `as_table`: write fields.csv, fields at the vertices.
+    Raises FilmNotConverged.
     """
     if meshes > 1:
         check_refinement(case, meshes)

@@ -1,4 +1,4 @@
-"""The case file of `swashfilm reference`: which passage, of what sizes, at which Reynolds numbers."""
+"""Case file of `swashfilm reference`: kind of passage, its sizes, and Reynolds numbers."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from itertools import product
 from pathlib import Path
 from typing import Annotated
 
-from swashfilm.runs.reference.passages import Groove, Orifice, Passage, Slot, Step
+from swashfilm.runs.reference.passages import GroovePassage, OrificePassage, Passage, SlotPassage, StepPassage
 from system.inputs.faults import Fault, InputFaults
 from system.inputs.sections.fields import Length, Limits, Positive, Several
 from system.inputs.sections.json_schema import Schema, file_schema, section_schema
@@ -19,16 +19,16 @@ from system.inputs.units import Dimension
 FORMAT = 1
 CELLS, FEWEST_CELLS, MOST_CELLS = 6, 2, 24
 MOST_REYNOLDS = 2000.0
-"""Flows are laminar and steady: what is asked beyond is refused; most passages end earlier by themselves."""
+"""Largest Reynolds number: flows are laminar and steady; most passages have a lower limit of convergence."""
 WIDEST = 100.0
-"""Ratio of two sizes of a passage, at most: cells across the smaller one stand over the whole mesh."""
+"""Largest ratio of two sizes of a passage: the cell size across the smaller one applies to the whole mesh."""
 Numbers = tuple[float, ...]
 Ratios = Annotated[Numbers, Several.OF_THEM, Limits(least=1.0 / WIDEST, most=WIDEST)]
 Sizes = Annotated[Numbers, Several.OF_THEM, Dimension.LENGTH, Positive]
 
 
 class ReferenceKind(Enum):
-    """The passages whose flow is solved."""
+    """Kinds of passages."""
 
     STEP = "step"
     GROOVE = "groove"
@@ -93,7 +93,7 @@ SECTIONS: dict[ReferenceKind, type[PassageSection]] = {
 
 @dataclass(frozen=True)
 class ReferenceCase:
-    """Passages of one kind to be solved at ascending Reynolds numbers u h/nu, `cells` across the passage.
+    """Passages of one kind, to be solved at ascending Reynolds numbers u h/nu, with `cells` across the passage.
 
     `text`: of the file.
     """
@@ -107,7 +107,7 @@ class ReferenceCase:
 
 
 def load_reference(path: Path) -> ReferenceCase:
-    """The case of a file; raises InputFaults with everything that is wrong with it."""
+    """Return the case of a file; raise InputFaults with every fault."""
     text, tables = read_toml(path)
     faults: list[Fault] = []
     root = Table("", tables, faults)
@@ -120,7 +120,7 @@ def load_reference(path: Path) -> ReferenceCase:
         None if kind is None else read_section("reference", SECTIONS[kind], table.values, Reading(faults=faults))
     )
     if isinstance(section, StepSection) and 1.0 in getattr(section, "film_ratio", ()):
-        table.fault("film_ratio", "1, which is no step", "ratios other than one")
+        table.fault("film_ratio", "1, which is not a step", "ratios other than one")
     if faults or section is None:
         raise InputFaults(str(path), faults, fault_lines(text, faults))
     reynolds = tuple(sorted(set(section.reynolds)))
@@ -146,15 +146,15 @@ def reference_schema() -> Schema:
 
 
 def _passages(section: PassageSection) -> tuple[Passage, ...]:
-    """Every passage of the kind: each value of one key with each of the others."""
+    """Return every passage of the kind: each value of one key with each of the others."""
     match section:
         case StepSection(film_ratio=ratios):
-            return tuple(Step(ratio) for ratio in ratios)
+            return tuple(StepPassage(ratio) for ratio in ratios)
         case GrooveSection(film_ratio=deep, width_ratio=wide):
-            return tuple(Groove(*sizes) for sizes in product(deep, wide))
+            return tuple(GroovePassage(*sizes) for sizes in product(deep, wide))
         case OrificeSection(diameter=diameters, length=length, pipe_ratio=ratio):
-            return tuple(Orifice(diameter, length, ratio) for diameter in diameters)
+            return tuple(OrificePassage(diameter, length, ratio) for diameter in diameters)
         case SlotSection(width=width, height=heights, length=length, pipe_ratio=ratio):
-            return tuple(Slot(width, height, length, ratio) for height in heights)
+            return tuple(SlotPassage(width, height, length, ratio) for height in heights)
         case _:
-            raise TypeError(f"{section.kind} is no kind of passage")
+            raise TypeError(f"{section.kind} is not a kind of passage")

@@ -1,4 +1,4 @@
-"""Rows of coefficient files made from computed flows: each below a comment with its case."""
+"""Rows of coefficient files from computed flows, each below a comment with its case."""
 
 from __future__ import annotations
 
@@ -17,27 +17,27 @@ from system.inputs.faults import Fault, InputFaults
 from system.inputs.units import Dimension
 
 IN_UNIT = {"opening": ("mm2", 1e6)}
-"""Unit in which a column is written, and what makes it of SI; all else are bare numbers."""
+"""Unit of a column in files, and its factor on SI; other columns are bare numbers."""
 SAME = 1e-5
 PRESSURES = "pressures: static, means over the patches of inlet and outlet"
-"""Where a row's pressure drop was taken: a coefficient means nothing without it."""
+"""Definition of a row's pressure drop, on which its coefficient depends."""
 
 
 def port_row(path: Path, case: Path, opening: float, reynolds: float, coefficient: float) -> None:
-    """Add a row to a file of flow coefficients, opening in m2; raises as `append_row`."""
+    """Add a row to a file of flow coefficients, opening in m2; raise as `append_row`."""
     values = {"opening": opening, "reynolds": reynolds, "flow_coefficient": coefficient}
     append_row(path, case, PORT_HEADS, values, ("opening", "reynolds"))
 
 
 def loss_row(path: Path, case: Path, passage: FilmPassage, found: FilmLoss) -> None:
-    """Add a row to a file of what steps or grooves lose; raises as `append_row`."""
+    """Add a row to a file of losses of steps or grooves; raise as `append_row`."""
     own = {"extra_length": found.extra_length, "loss_factor": found.loss_factor}
     values = sizes_of(passage) | {"reynolds": found.reynolds} | own
     append_row(path, case, _heads(passage), values, (*sizes_of(passage), "reynolds"))
 
 
 def known_extra_length(path: Path | None, passage: FilmPassage) -> float | None:
-    """The extra length that a file has of a passage; None where it has none, or is not there yet."""
+    """Return the extra length of a passage in a file; None where it has none, or does not exist."""
     if path is None or not path.exists():
         return None
     columns = read_table(path, _heads(passage)).columns
@@ -46,15 +46,15 @@ def known_extra_length(path: Path | None, passage: FilmPassage) -> float | None:
 
 
 def sizes_of(passage: FilmPassage) -> dict[str, float]:
-    """The columns that say which passage it is."""
+    """Return the columns that identify the passage."""
     wide = {} if passage.width_ratio is None else {"width_ratio": passage.width_ratio}
     return {"film_ratio": passage.film_ratio} | wide
 
 
 def append_row(path: Path, case: Path, heads: Heads, values: Mapping[str, float], key: tuple[str, ...]) -> None:
-    """Add a row of SI values below a comment with its case; a file that is absent gets source, pressures and head.
+    """Add a row of SI values below a comment with its case; a new file gets source, pressures and head.
 
-    Raises InputFaults for a file of other columns, order or units, and for a row that it has by its `key`.
+    Raises InputFaults for a file with other columns, order or units, and for a row whose `key` it has already.
     """
     head = ", ".join(f"{name} [{_unit(heads, name)[0]}]" for name in heads)
     cells = (f"{values[name] * _unit(heads, name)[1]:.6g}" for name in heads)
@@ -79,12 +79,12 @@ def _heads(passage: FilmPassage) -> Heads:
 
 
 def _unit(heads: Heads, name: str) -> tuple[str, float]:
-    """Unit of a column, and what makes it of SI."""
+    """Return the unit of a column, and its factor on SI."""
     return IN_UNIT[name] if isinstance(heads[name], Dimension) else ("1", 1.0)
 
 
 def _alike(columns: Mapping[str, Array], values: Mapping[str, float]) -> Array:
-    """Rows that have these values."""
+    """Return the rows with these values."""
     return np.asarray(
         np.logical_and.reduce([np.isclose(columns[name], own, rtol=SAME) for name, own in values.items()])
     )

@@ -1,4 +1,4 @@
-"""The command `swashfilm coefficients`: what an OpenFOAM case says of a port, bore, step or groove, as a row."""
+"""Command `swashfilm coefficients`: coefficients of a port, bore, step or groove from an OpenFOAM case."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 SIZES = {
     "--throat-area": (Dimension.AREA, "narrowest section of the flow; of a film, that of the thinner one"),
     "--density": (Dimension.DENSITY, "density of the liquid"),
-    "--viscosity": (Dimension.KINEMATIC_VISCOSITY, "its kinematic viscosity"),
+    "--viscosity": (Dimension.KINEMATIC_VISCOSITY, "kinematic viscosity of the liquid"),
 }
 FILM_SIZES = {
     "--film": (Dimension.LENGTH, "of a step or groove: thickness of the thinner film"),
@@ -33,10 +33,10 @@ FILM_RATIOS = {
 
 
 def add_coefficient_options(command: argparse.ArgumentParser) -> None:
-    """Give the command what it takes."""
+    """Add the arguments of the command to its parser."""
     command.add_argument("folder", type=Path, metavar="CASE", help="folder of an OpenFOAM case that has been run")
     command.add_argument("--inlet", required=True, metavar="PATCH", help="patch where the flow enters")
-    command.add_argument("--outlet", required=True, metavar="PATCH", help="patch where it leaves")
+    command.add_argument("--outlet", required=True, metavar="PATCH", help="patch where the flow leaves")
     for option, (dimension, what) in SIZES.items():
         command.add_argument(option, required=True, metavar=f"'{dimension.example}'", help=what)
     for option, (dimension, what) in FILM_SIZES.items():
@@ -48,12 +48,12 @@ def add_coefficient_options(command: argparse.ArgumentParser) -> None:
         "--output",
         type=Path,
         metavar="FILE.csv",
-        help="coefficient file that gets the row, made where absent",
+        help="coefficient file to which the row is added; created where absent",
     )
 
 
 def run_coefficients_command(options: argparse.Namespace) -> int:
-    """Run `swashfilm coefficients` and return its exit code; raises InputFaults with what is wrong."""
+    """Run `swashfilm coefficients` and return its exit code; raise InputFaults with every fault."""
     from system.inputs.coefficients.openfoam_case import read_case_flow
 
     area, density, viscosity = _sizes(options, SIZES)
@@ -63,16 +63,16 @@ def run_coefficients_command(options: argparse.Namespace) -> int:
         ("time", f"{found.time:g}"),
         ("flow", f"{6e4 * found.flow:.5g} L/min"),
         ("pressure drop", f"{1e-5 * found.pressure_drop:.5g} bar"),
-        ("outflow less inflow", f"{found.balance_error:.1e} of the inflow"),
+        ("outflow minus inflow", f"{found.balance_error:.1e} of the inflow"),
     ]
     if passage is None:
-        _tell_port(options, found, rows, area, density, viscosity)
+        _write_port(options, found, rows, area, density, viscosity)
     else:
-        _tell_film(options, found, rows, passage, density, viscosity)
+        _write_film(options, found, rows, passage, density, viscosity)
     return 0
 
 
-def _tell_port(
+def _write_port(
     options: argparse.Namespace,
     found: CaseFlow,
     rows: list[tuple[str, str]],
@@ -80,17 +80,17 @@ def _tell_port(
     density: float,
     viscosity: float,
 ) -> None:
-    """Show and write the flow coefficient of a port or bore."""
+    """Print and write the flow coefficient of a port or bore."""
     from swashfilm.runs.reference.coefficient_rows import port_row
 
     coefficient, number = found.flow_coefficient(area, density), found.reynolds(area, viscosity)
-    told = [("Reynolds number", f"{number:.5g}"), ("flow coefficient", f"{coefficient:.4f}")]
-    show_table(f"OpenFOAM case {options.folder}", [*rows, *told])
+    numbers = [("Reynolds number", f"{number:.5g}"), ("flow coefficient", f"{coefficient:.4f}")]
+    show_table(f"OpenFOAM case {options.folder}", [*rows, *numbers])
     if options.output is not None:
         port_row(options.output, options.folder, area, number, coefficient)
 
 
-def _tell_film(
+def _write_film(
     options: argparse.Namespace,
     found: CaseFlow,
     rows: list[tuple[str, str]],
@@ -98,25 +98,25 @@ def _tell_film(
     density: float,
     viscosity: float,
 ) -> None:
-    """Show and write extra length and loss factor of a step or groove."""
+    """Print and write extra length and loss factor of a step or groove."""
     from swashfilm.runs.reference.coefficient_rows import known_extra_length, loss_row
     from system.inputs.coefficients.film_passages import film_loss
 
     known = known_extra_length(options.output, passage)
     loss = film_loss(passage, found, density, viscosity, known)
-    source = "of this flow" if known is None else "of the file"
-    told = [
+    source = "from this flow" if known is None else "from the file"
+    numbers = [
         ("Reynolds number", f"{loss.reynolds:.5g}"),
         ("extra length / film", f"{loss.extra_length:.4f}, {source}"),
         ("loss factor", f"{loss.loss_factor:.4f}" + (", of first order in Re" if known is None else "")),
     ]
-    show_table(f"OpenFOAM case {options.folder}", [*rows, *told])
+    show_table(f"OpenFOAM case {options.folder}", [*rows, *numbers])
     if options.output is not None:
         loss_row(options.output, options.folder, passage, loss)
 
 
 def _passage(options: argparse.Namespace, area: float) -> FilmPassage | None:
-    """The step or groove that the options state, None where they state a port; raises InputFaults for a part."""
+    """Return the step or groove of the options, None for a port; raise InputFaults for missing options."""
     from system.inputs.coefficients.film_passages import FilmPassage
 
     needed = (*FILM_SIZES, "--film-ratio")
@@ -124,7 +124,7 @@ def _passage(options: argparse.Namespace, area: float) -> FilmPassage | None:
     if not stated:
         return None
     faults = [
-        Fault(option, "nothing", f"a value, as {stated[0]} is there") for option in needed if option not in stated
+        Fault(option, "missing", f"a value, needed with {stated[0]}") for option in needed if option not in stated
     ]
     ratio, width = options.film_ratio, options.width_ratio
     if ratio is not None and not (ratio > 1.0 if width is not None else ratio > 0.0 and ratio != 1.0):
@@ -143,7 +143,7 @@ def _given(options: argparse.Namespace, option: str) -> object:
 
 
 def _sizes(options: argparse.Namespace, sizes: dict[str, tuple[Dimension, str]]) -> list[float]:
-    """The options' values in SI; raises InputFaults with every fault at once."""
+    """Return the options' values in SI; raise InputFaults with every fault."""
     found, faults = [], []
     for option, (dimension, _) in sizes.items():
         text = _given(options, option)
@@ -160,7 +160,7 @@ def _sizes(options: argparse.Namespace, sizes: dict[str, tuple[Dimension, str]])
 
 COMMAND = Command(
     "coefficients",
-    "a port's flow coefficient out of a computed flow",
+    "coefficients of a port, bore, step or groove from a computed flow",
     add_coefficient_options,
     run_coefficients_command,
     in_folder=False,

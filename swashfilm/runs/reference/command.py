@@ -1,4 +1,4 @@
-"""The command `swashfilm reference`: what it takes, and what it prints."""
+"""Command `swashfilm reference`: its options, its output."""
 
 from __future__ import annotations
 
@@ -10,12 +10,12 @@ from swashfilm.console.terminal import show, show_result
 
 
 def add_reference_options(command: argparse.ArgumentParser) -> None:
-    """Give the command what it takes."""
+    """Add the arguments of the command to its parser."""
     command.add_argument("case", type=Path, metavar="CASE.toml", help="a step, groove, orifice or slot")
 
 
 def run_reference_command(options: argparse.Namespace) -> int:
-    """Run `swashfilm reference` and return its exit code; raises InputFaults with what is wrong in the file."""
+    """Run `swashfilm reference` and return its exit code; raise InputFaults with every fault of the file."""
     from swashfilm.console.progress import progress
     from swashfilm.output.run_folder import final_folder, run_folder
     from swashfilm.runs.reference.case import load_reference
@@ -36,7 +36,7 @@ def run_reference_command(options: argparse.Namespace) -> int:
 
 COMMAND = Command(
     "reference",
-    "what the film equation leaves out at steps, grooves and orifices",
+    "flow through steps, grooves and orifices beyond the film equation",
     add_reference_options,
     run_reference_command,
 )

@@ -1,4 +1,4 @@
-"""The page of `swashfilm reference`: report.html made from the run folder's own files."""
+"""Page of `swashfilm reference`: report.html from the files of the run folder."""
 
 from __future__ import annotations
 
@@ -16,13 +16,13 @@ HEAD = (
     "extra length / h",
     "loss factor",
     "flow coefficient",
-    "drop / film equation's",
+    "drop / drop by film equation",
     "mesh error",
 )
 
 
 def write_reference_page(folder: Path) -> Path:
-    """Write report.html of a run folder; raises InputFaults where one of its files is not there."""
+    """Write report.html of a run folder; raise InputFaults where one of its files is missing."""
     expect_files(folder, ("summary.json", "input.toml"), "a reference's run folder")
     summary = json.loads((folder / "summary.json").read_text("utf-8"))
     flows = [inlined(path.read_bytes()) for path in sorted(folder.glob("flow_*.png"))]
@@ -39,7 +39,7 @@ def write_reference_page(folder: Path) -> Path:
 
 
 def reference_rows(summary: Mapping[str, Any]) -> Iterator[tuple[str, ...]]:
-    """Rows of HEAD as text."""
+    """Yield the rows of HEAD as text."""
     for passage in summary["passages"]:
         for row in passage["rows"]:
             over, coefficient = row["pressure_drop_over_film_equation"], row["flow_coefficient"]

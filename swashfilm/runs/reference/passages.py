@@ -1,4 +1,4 @@
-"""The passages that `swashfilm reference` solves: what each is called, how it is solved, what its table holds."""
+"""Passages of `swashfilm reference`: sizes in words, solution, and columns of the coefficient table."""
 
 from __future__ import annotations
 
@@ -27,15 +27,15 @@ class Passage(Protocol):
 
     @property
     def scale(self) -> float:
-        """What makes of u h/nu, at which it is solved, the Reynolds number of its table."""
+        """Ratio of the Reynolds number of its table to u h/nu, at which it is solved."""
 
     def solve(self, reynolds: Sequence[float], cells: int) -> Correction:
-        """Its flow at ascending Reynolds numbers u h/nu; raises FilmNotConverged."""
+        """Return its flow at ascending Reynolds numbers u h/nu; raise FilmNotConverged."""
 
 
 @dataclass(frozen=True)
-class Step:
-    """A film that ends at one film_ratio times as thick."""
+class StepPassage:
+    """A step from a film to one film_ratio times as thick."""
 
     film_ratio: float
     scale: float = 1.0
@@ -58,8 +58,8 @@ class Step:
 
 
 @dataclass(frozen=True)
-class Groove:
-    """A groove across a film: film_ratio times as thick there, width_ratio films wide."""
+class GroovePassage:
+    """A groove across a film: thickness in it film_ratio films, width width_ratio films."""
 
     film_ratio: float
     width_ratio: float
@@ -83,7 +83,7 @@ class Groove:
 
 
 @dataclass(frozen=True)
-class Orifice:
+class OrificePassage:
     """A sharp-edged bore, m, between pipes pipe_ratio times as wide."""
 
     diameter: float
@@ -112,10 +112,10 @@ class Orifice:
 
 
 @dataclass(frozen=True)
-class Slot:
+class SlotPassage:
     """A plane slot of given width, m, between channels pipe_ratio times as high.
 
-    Its table has the Reynolds number of ports, with the diameter of a circle of the opening's area in place of h.
+    Its table has the Reynolds number of ports: the diameter of a circle of the opening's area replaces h.
     """
 
     width: float
@@ -156,10 +156,10 @@ class Slot:
 
 
 @dataclass(frozen=True)
-class Solved:
-    """A passage, its correction, and how far the pressure drops (K,) of half the cells are from its own.
+class SolvedPassage:
+    """A passage, its correction, and the mesh error (K,): change of the pressure drop with half the cells.
 
-    mesh_error: over friction and inertia added up, which may cancel in a drop.
+    mesh_error is relative to the sum of friction and inertia, which may cancel in the drop.
     """
 
     passage: Passage

@@ -1,4 +1,4 @@
-"""Pictures of `swashfilm reference`: the flow through a passage, and its coefficients over the Reynolds number."""
+"""Pictures of `swashfilm reference`: flow through a passage, and its coefficients over the Reynolds number."""
 
 from __future__ import annotations
 
@@ -15,27 +15,27 @@ if TYPE_CHECKING:
     from matplotlib.tri import Triangulation
 
     from reynolds.stokes.flow import Flow
-    from swashfilm.runs.reference.passages import Solved
+    from swashfilm.runs.reference.passages import SolvedPassage
 
 MOST_PICTURES = 4
 NEAR = 5.0
-"""Film thicknesses or diameters either side of the passage that a picture shows."""
+"""Film thicknesses or diameters on either side of the passage in a picture."""
 GRID = 240
 MOST_NAMED = 12
 RIGHT = {
     "flow_coefficient": "flow coefficient / 1",
     "whole_extra_length": "whole extra length / h",
 }
-"""What the right picture shows of a port, and of a film."""
+"""Quantity in the right picture, for a port and for a film."""
 
 
-def flow_plots(solved: Sequence[Solved]) -> dict[str, Figure]:
-    """PNGs by file name, of at most MOST_PICTURES passages at their last Reynolds number."""
+def flow_plots(solved: Sequence[SolvedPassage]) -> dict[str, Figure]:
+    """Return pictures by file name, of at most MOST_PICTURES passages at their last Reynolds number."""
     return {f"flow_{number}.png": _flow(one) for number, one in enumerate(solved[:MOST_PICTURES], start=1)}
 
 
 def coefficient_plot(summary: Mapping[str, Any]) -> Figure:
-    """What the passages' coefficients are over the Reynolds number."""
+    """Draw the passages' coefficients over the Reynolds number."""
     named = len(summary["passages"]) <= MOST_NAMED
     figure = figure_of(9.0, 3.0 + 0.16 * named * len(summary["passages"]))
     left, right = figure.subplots(1, 2)
@@ -56,8 +56,8 @@ def coefficient_plot(summary: Mapping[str, Any]) -> Figure:
     return figure
 
 
-def _flow(one: Solved) -> Figure:
-    """Speed and stream lines near the passage, lengths over its film thickness or diameter."""
+def _flow(one: SolvedPassage) -> Figure:
+    """Draw speed and stream lines near the passage, lengths over its film thickness or diameter."""
     flow = one.correction.flow
     x, y, across, along = _window(flow)
     places, u, v = _velocity(flow)
@@ -75,7 +75,7 @@ def _flow(one: Solved) -> Figure:
 
 
 def _window(flow: Flow) -> tuple[Array, Array, float, float]:
-    """Places of the picture's grid along x and y, and its size across and along."""
+    """Return the picture's grid along x and y, and its size across and along."""
     low, high = flow.problem.space.mesh.p.min(axis=1), flow.problem.space.mesh.p.max(axis=1)
     across = high[1] - low[1]
     start, end = max(low[0], -NEAR - across), min(high[0], NEAR + 2.0 * across)
@@ -83,7 +83,7 @@ def _window(flow: Flow) -> tuple[Array, Array, float, float]:
 
 
 def _velocity(flow: Flow) -> tuple[Triangulation, Array, Array]:
-    """The mesh's vertices as triangles, and the velocity there."""
+    """Return the mesh's vertices as triangles, and the velocity there."""
     from matplotlib.tri import Triangulation
 
     mesh, basis = flow.problem.space.mesh, flow.problem.space.velocity
@@ -93,7 +93,7 @@ def _velocity(flow: Flow) -> tuple[Triangulation, Array, Array]:
 
 
 def _on_grid(places: Triangulation, values: Array, x: Array, y: Array) -> Array:
-    """A value at vertices, on a grid (len(y), len(x)); masked outside the mesh."""
+    """Return values at vertices on a grid (len(y), len(x)), masked outside the mesh."""
     from matplotlib.tri import LinearTriInterpolator
 
     found: Array = LinearTriInterpolator(places, values)(*np.meshgrid(x, y))

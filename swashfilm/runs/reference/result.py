@@ -1,4 +1,4 @@
-"""Navier-Stokes references as results."""
+"""Result of a Navier-Stokes reference."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ class ReferenceRun(Result):
 
     @staticmethod
     def read_data(folder: Path) -> xarray.Dataset:
-        """The table of coefficients of a run folder."""
+        """Return the table of coefficients of a run folder."""
         return read_table(folder / json.loads((folder / "summary.json").read_text("utf-8"))["table"])
 
     def tables(self) -> list[Table]:
@@ -33,5 +33,5 @@ class ReferenceRun(Result):
         return [(title, [HEAD, *reference_rows(self.summary)])]
 
     def plot_coefficients(self) -> list[Axes]:
-        """Flow coefficient or loss factor over the Reynolds number."""
+        """Draw flow coefficient or loss factor over the Reynolds number."""
         return plotted(lambda: coefficient_plot(self.summary))

@@ -1,4 +1,4 @@
-"""`swashfilm reference` as a run: flows solved, coefficients written with the range in which they hold."""
+"""Run of `swashfilm reference`: flows solved, coefficients written with their range of validity."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ import numpy as np
 from swashfilm.output.figures import png_of
 from swashfilm.output.run_folder import write_json
 from swashfilm.runs.reference.case import FEWEST_CELLS, ReferenceCase, ReferenceKind
-from swashfilm.runs.reference.passages import Passage, Solved
+from swashfilm.runs.reference.passages import Passage, SolvedPassage
 from system.inputs.csv_table import write_table
 from system.work.progress import Report
 
@@ -21,20 +21,20 @@ if TYPE_CHECKING:
 
 OF_PORTS = (ReferenceKind.ORIFICE, ReferenceKind.SLOT)
 FILES = {kind: "port_coefficient.csv" if kind in OF_PORTS else "loss_factor.csv" for kind in ReferenceKind}
-"""The table of coefficients that a kind writes."""
+"""Name of the coefficient table of each kind."""
 LIMITS = {
     ReferenceKind.STEP: "plane, laminar, steady flow; walls at rest; films developed on either side",
     ReferenceKind.GROOVE: "plane, laminar, steady flow across; walls at rest; films developed on either side",
-    ReferenceKind.ORIFICE: "laminar, steady, even flow (jets waver from Re of some hundreds); sharp edges",
-    ReferenceKind.SLOT: "plane, laminar, steady, even flow (jets lean from Re of some tens); sharp edges",
+    ReferenceKind.ORIFICE: "laminar, steady, symmetric flow (jets oscillate above Re of some 100); sharp edges",
+    ReferenceKind.SLOT: "plane, laminar, steady, symmetric flow (jets bend above Re of some tens); sharp edges",
 }
-"""For what flow the numbers hold."""
+"""Flow for which the numbers hold."""
 
 
 def run_reference(case: ReferenceCase, folder: Path, report: Report) -> dict[str, Any]:
     """Solve every passage and write input.toml, its table of coefficients, summary.json and report.html.
 
-    Returns the summary. Raises FilmNotConverged where a flow has no steady state that Newton's method finds.
+    Returns the summary. Raises FilmNotConverged where Newton's method finds no steady flow.
     """
     (folder / "input.toml").write_text(case.text, encoding="utf-8")
     solved = []
@@ -54,17 +54,17 @@ def run_reference(case: ReferenceCase, folder: Path, report: Report) -> dict[str
     return summary
 
 
-def _solved(case: ReferenceCase, passage: Passage) -> Solved:
+def _solved(case: ReferenceCase, passage: Passage) -> SolvedPassage:
     coarse = passage.solve(case.reynolds, max(FEWEST_CELLS, case.cells // 2))
     fine = passage.solve(case.reynolds, case.cells)
     size = fine.resistance * (fine.length + fine.extra_length) + 0.5 * np.abs(fine.loss_factor) * fine.reynolds
-    return Solved(passage, fine, np.abs(coarse.drop - fine.drop) / size)
+    return SolvedPassage(passage, fine, np.abs(coarse.drop - fine.drop) / size)
 
 
-def write_coefficients(path: Path, case: ReferenceCase, solved: Sequence[Solved]) -> None:
-    """Write the table that pump files read, below what it comes from and where it holds.
+def write_coefficients(path: Path, case: ReferenceCase, solved: Sequence[SolvedPassage]) -> None:
+    """Write the table for pump files, headed by its source and its range of validity.
 
-    Of ports without the row of Re = 0, where the coefficient is zero.
+    Tables of ports have no row at Re = 0, where the coefficient is zero.
     """
     columns: dict[str, list[float]] = {}
     for row in _rows(case, solved):
@@ -79,7 +79,7 @@ def write_coefficients(path: Path, case: ReferenceCase, solved: Sequence[Solved]
     write_table(path, comments, {head: np.array(values) for head, values in columns.items()})
 
 
-def _rows(case: ReferenceCase, solved: Sequence[Solved]) -> Iterator[dict[str, float]]:
+def _rows(case: ReferenceCase, solved: Sequence[SolvedPassage]) -> Iterator[dict[str, float]]:
     for one in solved:
         found = one.correction
         for k, number in enumerate(found.reynolds):
@@ -93,8 +93,8 @@ def _rows(case: ReferenceCase, solved: Sequence[Solved]) -> Iterator[dict[str, f
                 yield row | {"flow_coefficient [1]": float(found.flow_coefficient[k])}
 
 
-def reference_summary(case: ReferenceCase, solved: Sequence[Solved]) -> dict[str, Any]:
-    """Every solved number: of each passage its sizes, extra length, and rows over the Reynolds number."""
+def reference_summary(case: ReferenceCase, solved: Sequence[SolvedPassage]) -> dict[str, Any]:
+    """Return all results: sizes, extra length, and rows over the Reynolds number of each passage."""
     return {
         "format": 1,
         "kind": "reference",
@@ -108,7 +108,7 @@ def reference_summary(case: ReferenceCase, solved: Sequence[Solved]) -> dict[str
     }
 
 
-def _passage_record(one: Solved, of_port: bool) -> dict[str, Any]:
+def _passage_record(one: SolvedPassage, of_port: bool) -> dict[str, Any]:
     found = one.correction
     drops, film = found.drop, found.resistance * found.length
     return {

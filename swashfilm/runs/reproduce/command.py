@@ -1,4 +1,4 @@
-"""The command `swashfilm reproduce`: the paper's figures and tables, its statements beside our numbers."""
+"""Command `swashfilm reproduce`: figures and tables of the paper, its statements beside computed numbers."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from system.inputs.faults import Fault, InputFaults, nearest_choice
 
 if TYPE_CHECKING:
     from diagnosis.recording.model import Recording
-    from swashfilm.runs.reproduce.run import ReproduceAsked
+    from swashfilm.runs.reproduce.run import ReproduceCase
 
 ALL, LIST = "all", "list"
 _LUMPED, _FLOATING = "lumped", "floating"
@@ -22,7 +22,7 @@ _TUNED = "fig13"
 
 
 def add_reproduce_options(command: argparse.ArgumentParser) -> None:
-    """The words that `swashfilm reproduce` takes."""
+    """Add the arguments of the command to its parser."""
     command.add_argument(
         "figure", nargs="?", default=ALL, metavar="FIGURE", help="fig2, table1, .., all of them (all), or list"
     )
@@ -31,21 +31,23 @@ def add_reproduce_options(command: argparse.ArgumentParser) -> None:
         help="films of given thickness (seconds), solved at given positions (minutes), or floating (fig8, fig9)",
     )  # fmt: skip
     command.add_argument(
-        "--pump", metavar="PUMP", help="built-in name or pump file (ref90; whose gaps float: ref90_floating)"
+        "--pump", metavar="PUMP", help="built-in name or pump file (ref90; --fidelity floating: ref90_floating)"
     )
     command.add_argument(
         "--recording", type=Path, metavar="RECORDING",
-        help="fig13: tune to this bench's readings (folder of a recording.toml), not to made ones",
+        help="fig13: fit to readings of a bench (folder of a recording.toml), not to computed ones",
     )  # fmt: skip
-    command.add_argument("--page", type=Path, metavar="FILE.md", help="write the page there as Markdown too")
+    command.add_argument(
+        "--page", type=Path, metavar="FILE.md", help="write the page to this file as Markdown too"
+    )
     command.add_argument("--workers", metavar="N", help="processes that solve points side by side (1)")
-    command.add_argument("--steps", metavar="N", help="floating gaps: angles of a turn that are reported (360)")
-    command.add_argument("--finer", metavar="X", help="floating gaps: times the usual cells (.5; --rigid: 1)")
+    command.add_argument("--steps", metavar="N", help="floating gaps: reported angles per turn (360)")
+    command.add_argument("--finer", metavar="X", help="floating gaps: factor on the cells (.5; --rigid: 1)")
     add_switches(command)
 
 
 def run_reproduce_command(options: argparse.Namespace) -> int:
-    """Run `swashfilm reproduce` and return its exit code; raises InputFaults with what is wrong in the words."""
+    """Run `swashfilm reproduce` and return its exit code; raise InputFaults with every fault of the options."""
     if options.figure == LIST:
         return _list()
     asked, workers = reproduce_case(options)
@@ -83,10 +85,10 @@ def _list() -> int:
     return 0
 
 
-def reproduce_case(options: argparse.Namespace) -> tuple[ReproduceAsked, int]:
-    """What a command line means, and how many workers; raises InputFaults with every fault at once."""
+def reproduce_case(options: argparse.Namespace) -> tuple[ReproduceCase, int]:
+    """Return the case of a command line, and the number of workers; raise InputFaults with every fault."""
     from swashfilm.console.floating_options import alike_faults, floating_faults, floating_options
-    from swashfilm.runs.reproduce.run import ReproduceAsked
+    from swashfilm.runs.reproduce.run import ReproduceCase
     from system.paper.figure import Figure
     from system.paper.reproduce import PaperFidelity
     from system.pump_file.file import load_pump
@@ -103,12 +105,12 @@ def reproduce_case(options: argparse.Namespace) -> tuple[ReproduceAsked, int]:
         raise InputFaults(COMMAND_LINE, faults)
     fidelity, recording = PaperFidelity(options.fidelity), _recording_of(options)
     figures = fidelity.figures if options.figure == ALL else (Figure.named(options.figure),)
-    asked = ReproduceAsked(pump, figures, fidelity, floating_options(options), recording)
+    asked = ReproduceCase(pump, figures, fidelity, floating_options(options), recording)
     return asked, int(options.workers or 1)
 
 
 def _recording_of(options: argparse.Namespace) -> Recording | None:
-    """The recording that Fig. 13 is tuned to, checked; raises InputFaults where nothing can be made of it."""
+    """Return the checked recording to which Fig. 13 is fitted; raise InputFaults where it is not suitable."""
     if options.recording is None:
         return None
     from swashfilm.runs.reproduce.recorded_coefficients import recording_for_fig13
@@ -117,20 +119,20 @@ def _recording_of(options: argparse.Namespace) -> Recording | None:
 
 
 def _pump_of(options: argparse.Namespace) -> str:
-    """The pump that is named, else the reference pump, of which floating takes the one whose parts can float."""
+    """Return the named pump, by default the reference pump, in floating fidelity the one with floating parts."""
     return options.pump or ("ref90_floating" if options.fidelity == _FLOATING else "ref90")
 
 
 def _word_faults(options: argparse.Namespace) -> list[Fault]:
-    """What is wrong with the words, whatever the pump."""
+    """Return the faults of options that do not depend on the pump."""
     from system.paper.figure import DRAWINGS, Figure
     from system.paper.reproduce import PaperFidelity
 
     faults: list[Fault] = []
     figures = [ALL, LIST, *(figure.value for figure in Figure)]
     if options.figure in DRAWINGS:
-        told = f"one of {', '.join(figures)}"
-        faults.append(Fault("FIGURE", f"{options.figure}, a drawing ({DRAWINGS[options.figure]})", told))
+        expected = f"one of {', '.join(figures)}"
+        faults.append(Fault("FIGURE", f"{options.figure}, a drawing ({DRAWINGS[options.figure]})", expected))
     elif options.figure not in figures:
         near = nearest_choice(options.figure, figures)
         faults.append(Fault("FIGURE", repr(options.figure), f"one of {', '.join(figures)}", near))
@@ -139,8 +141,8 @@ def _word_faults(options: argparse.Namespace) -> list[Fault]:
         near = nearest_choice(options.fidelity, fidelities)
         faults.append(Fault("--fidelity", repr(options.fidelity), f"one of {', '.join(fidelities)}", near))
     if options.recording is not None and (options.figure not in (ALL, _TUNED) or options.fidelity != _LUMPED):
-        asked = f"with {options.figure}, --fidelity {options.fidelity}"
-        faults.append(Fault("--recording", asked, f"{_TUNED} or {ALL}, --fidelity {_LUMPED}: what is tuned to it"))
+        found = f"with {options.figure}, --fidelity {options.fidelity}"
+        faults.append(Fault("--recording", found, f"{_TUNED} or {ALL}, --fidelity {_LUMPED}: only they use it"))
     workers = options.workers
     if workers is not None and not (workers.isdecimal() and 1 <= int(workers) <= 256):
         faults.append(Fault("--workers", repr(workers), "a number, 1 to 256"))
@@ -148,12 +150,12 @@ def _word_faults(options: argparse.Namespace) -> list[Fault]:
 
 
 def _command(options: argparse.Namespace) -> str:
-    """The command that makes the same page again."""
-    words = ("--fidelity", "--pump", "--recording", "--steps", "--finer")
-    given = {name: getattr(options, name[2:]) for name in words}
-    said = [f" {name} {text}" for name, text in given.items() if text not in (None, _LUMPED)]
-    said += [f" {switch}" for switch in SWITCHES if getattr(options, switch[2:].replace("-", "_"))]
-    return f"swashfilm reproduce {options.figure}{''.join(said)} --page {options.page}"
+    """Return the command that writes the same page."""
+    names = ("--fidelity", "--pump", "--recording", "--steps", "--finer")
+    given = {name: getattr(options, name[2:]) for name in names}
+    words = [f" {name} {text}" for name, text in given.items() if text not in (None, _LUMPED)]
+    words += [f" {switch}" for switch in SWITCHES if getattr(options, switch[2:].replace("-", "_"))]
+    return f"swashfilm reproduce {options.figure}{''.join(words)} --page {options.page}"
 
 
 def _write_page(path: Path, text: str) -> None:
@@ -167,7 +169,7 @@ def _write_page(path: Path, text: str) -> None:
 
 COMMAND = Command(
     "reproduce",
-    "the paper's figures: its statements beside the same numbers here",
+    "figures of the paper: its statements beside computed numbers",
     add_reproduce_options,
     run_reproduce_command,
 )

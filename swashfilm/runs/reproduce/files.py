@@ -1,4 +1,4 @@
-"""Files of a reproduction: claims as JSON and table, the curves' numbers, and pictures."""
+"""Files of a reproduction: claims as JSON and table, numbers of the curves, and pictures."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ def write_reproduction(folder: Path, results: Sequence[FigureResult], summary: R
 
 
 def claim_rows(results: Sequence[FigureResult], fidelity: str) -> list[Row]:
-    """Each judged statement as claims.json has it, its readings together; an end that is none is null."""
+    """Return each judged statement for claims.json, its readings together; a missing end of a range is null."""
     by_claim: dict[str, list[Judged]] = {}
     for result in results:
         for one in result.judged:
@@ -75,7 +75,7 @@ def _ends(of: Range) -> list[float | None]:
 
 
 def figure_row(result: FigureResult) -> Row:
-    """A figure as summary.json has it."""
+    """Return the entry of a figure in summary.json."""
     figure = result.figure
     return {
         "name": figure.value,
@@ -86,7 +86,7 @@ def figure_row(result: FigureResult) -> Row:
 
 
 def _write_table(path: Path, rows: Sequence[Row]) -> None:
-    """One row a statement and reading; ranges as two columns in SI."""
+    """Write one row per statement and reading; ranges as two columns in SI."""
     head = ["id", "figure", "words", "quantity", "unit", "expected low", "expected high", "fidelity", "reading",
             "found low", "found high", "verdict", "reason", "impossible"]  # fmt: skip
     with path.open("w", encoding="utf-8", newline="") as file:
@@ -100,7 +100,7 @@ def _write_table(path: Path, rows: Sequence[Row]) -> None:
 
 
 def _write_curves(path: Path, panels: Sequence[Panel]) -> None:
-    """All points of all curves and fields, in the units they are drawn in."""
+    """Write all points of all curves and fields, in the units of their axes."""
     with path.open("w", encoding="utf-8", newline="") as file:
         writer = csv.writer(file)
         writer.writerow(["panel", "curve", "x", "x unit", "y", "y unit", "one sigma of y", "value", "value unit"])

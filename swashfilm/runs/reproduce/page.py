@@ -1,4 +1,4 @@
-"""Pages of a reproduction, from its run folder's own files: report.html, and the same in Markdown."""
+"""Pages of a reproduction from the files of its run folder: report.html, and the same in Markdown."""
 
 from __future__ import annotations
 
@@ -15,16 +15,16 @@ from system.paper.judge import StatementVerdict
 
 FILES = ("summary.json", CLAIMS, "resolved.toml")
 HEAD = """
-Each statement of the paper's text stands with the range that it is held to (a number in print is met where it
-agrees in its last digit; what a word without a number is taken for is said), what is found here, and the
-verdict: reached, missed, or contradicted by physics, which takes an impossibility that is computed anew.
-Losses are read two ways: with the films' shear beside Coulomb coefficients, REF90's loss model, and by mixed
-coefficients alone, as the paper has them. Pressures are gauge pressures at the delivery port."""
+Each statement of the paper's text is listed with its expected range, the computed number, and the verdict:
+reached, missed, or contradicted by physics, which requires a computed impossibility. A printed number is reached
+where its last digit agrees; for a word without a number the assumed range is stated. Losses have two readings:
+Coulomb coefficients with the films' shear (REF90's loss model), and mixed coefficients alone (the paper's).
+Pressures are gauge pressures at the delivery port."""
 Row = Mapping[str, Any]
 
 
 def write_reproduce_page(folder: Path) -> Path:
-    """Write report.html of a reproduction; raises InputFaults where one of its files is not there."""
+    """Write report.html of a reproduction; raise InputFaults where one of its files is missing."""
     expect_files(folder, FILES, "a reproduction's run folder")
     summary, rows = _read(folder)
     return write_page(
@@ -48,7 +48,7 @@ def _read(folder: Path) -> tuple[Row, list[Row]]:
 
 
 def statements(rows: Sequence[Row], figure: str) -> Iterator[tuple[Row, list[Row]]]:
-    """The statements of a figure, each with what was found in each reading."""
+    """Yield the statements of a figure, each with its result in each reading."""
     own = (row for row in rows if row["figure"] == figure)
     for _, found in groupby(own, key=lambda row: row["id"]):
         listed = list(found)
@@ -56,34 +56,34 @@ def statements(rows: Sequence[Row], figure: str) -> Iterator[tuple[Row, list[Row
 
 
 def verdict_rows(rows: Sequence[Row]) -> Iterator[tuple[str, ...]]:
-    """(statement, reading, what the paper says, what was found, verdict) for a terminal."""
+    """Yield (statement, reading, range of the paper, computed number, verdict) for a terminal."""
     for row in rows:
         yield row["id"], row["reading"], row["expected_text"], row["found_text"], row["verdict"]
 
 
 def count_words(rows: Sequence[Row]) -> str:
-    """How many statements came out how, each reading by itself."""
+    """Return the number of statements with each verdict, each reading counted separately."""
     found = Counter(row["verdict"] for row in rows)
     return ", ".join(f"{found[verdict.value]} {verdict.value}" for verdict in StatementVerdict)
 
 
 def why(row: Row) -> str:
-    """Reason and impossibility of a verdict, in words."""
+    """Return reason and impossibility of a verdict, in words."""
     impossible = row["impossible"]["text"] if row["impossible"] else ""
     return "; ".join(text for text in (row["reason"], impossible) if text)
 
 
 def markdown_page(folder: Path, command: str) -> str:
-    """The page in Markdown, without pictures; `command` is what made it."""
+    """Return the page in Markdown, without pictures; `command` is the command that wrote it."""
     summary, rows = _read(folder)
     lines = [
         f"# Xu, Hu, Zhang and Mao (2017), figure by figure: {summary['pump']}, {summary['fidelity']}",
         "",
-        f"Written by `{command}`; nothing in it is typed by hand.",
+        f"Written by `{command}`, not by hand.",
         HEAD,
         *(["", summary["about"]] if summary["about"] else []),
         "",
-        f"{count_words(rows)}; each reading counts by itself.",
+        f"{count_words(rows)}; each reading counts separately.",
     ]
     for figure in summary["figures"]:
         lines += ["", f"## {figure['name']}: {figure['title']}", ""]
@@ -96,7 +96,7 @@ def markdown_page(folder: Path, command: str) -> str:
 
 def _statement(claim: Row, found: Sequence[Row]) -> Iterator[str]:
     taken = f" ({claim['taken']})" if claim["taken"] else ""
-    yield f'**{claim["id"]}** "{claim["words"]}" - {claim["quantity"]}: held to {claim["expected_text"]}{taken}.'
+    yield f'**{claim["id"]}** "{claim["words"]}" - {claim["quantity"]}: expected {claim["expected_text"]}{taken}.'
     yield ""
     for row in found:
         reading = f"{row['reading']}: " if row["reading"] else ""

@@ -1,4 +1,4 @@
-"""Pictures of the paper's figures: one a figure, its panels side by side."""
+"""Pictures of the paper's figures: one per figure, its panels side by side."""
 
 from __future__ import annotations
 
@@ -16,13 +16,13 @@ if TYPE_CHECKING:
 COLOURS = ("#3c7a8c", "#b55a00", "#5b9a5b", "#b8862b", "#6d5a9c", "#8c5a3c", "#9aa4ab")
 COLUMNS = 2
 LEVELS = 12
-"""Contour lines of a field."""
+"""Number of contour lines of a field."""
 MANY = 6
-"""Curves that leave no room for a legend among them."""
+"""Number of curves from which the legend is beside them."""
 
 
 def figure_picture(panels: Sequence[Panel]) -> Figure:
-    """The panels of a figure as one PNG."""
+    """Draw the panels of a figure."""
     columns = min(COLUMNS, len(panels))
     lines = -(-len(panels) // columns)
     figure = figure_of(5.6 * columns, 3.9 * lines)
@@ -72,7 +72,7 @@ def _lines(axes: Any, panel: Panel) -> None:
 
 
 def _legend(axes: Any, panel: Panel) -> None:
-    """Where it hides nothing: beside many curves, under a locus."""
+    """Draw the legend where it hides nothing: beside many curves, under a locus."""
     if len(panel.curves) >= MANY:
         axes.legend(fontsize=7, loc="center left", bbox_to_anchor=(1.0, 0.5))
     elif panel.kind is PanelKind.TRUE_SCALE:

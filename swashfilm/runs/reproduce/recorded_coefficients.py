@@ -1,4 +1,4 @@
-"""Fig. 13 of the paper by a recording: coefficients tuned to what a bench has read."""
+"""Fig. 13 of the paper by a recording: coefficients fitted to readings of a bench."""
 
 from __future__ import annotations
 
@@ -18,25 +18,25 @@ from system.work.progress import Report
 
 
 def recording_for_fig13(path: Path, pump: str) -> Recording:
-    """The recording of a path, checked against a pump by name or file; raises InputFaults where it will not do."""
+    """Return the recording of a path, checked against a pump by name or file; raise InputFaults if unsuitable."""
     recording = checked_recording(path, load_known_pump(pump))
     missing = [one.value for one in LOSS_CHANNELS if recording.channel(one) is None]
     if missing:
-        needed = f"{', '.join(one.value for one in LOSS_CHANNELS)}: Eq. (2) is made of them"
+        needed = f"{', '.join(one.value for one in LOSS_CHANNELS)}: Eq. (2) contains them"
         raise InputFaults(str(path), [Fault("[channel]", f"no {', '.join(missing)}", needed)])
     return recording
 
 
 def recorded_fig13(pump: PumpDescription, recording: Recording, report: Report) -> FigureResult:
-    """Eq. (21) tuned to a checked recording as `swashfilm calibrate` does, all else of the pump as fitted.
+    """Return Eq. (21) fitted to a checked recording as by `swashfilm calibrate`, other parameters as fitted.
 
-    Raises InputFaults where Eq. (2) cannot be had of it or it has too few readings, NotConverged.
+    Raises InputFaults where it lacks readings of Eq. (2) or has too few readings, and NotConverged.
     """
     found = calibrate(pump, recording, report, models=(), with_hersey=False)
     title = recording.title or "recording"
     if not found.equation:
-        raise InputFaults(title, [Fault("--recording", "; ".join(found.notes), "what Eq. (2) is made of")])
+        raise InputFaults(title, [Fault("--recording", "; ".join(found.notes), "the readings of Eq. (2)")])
     count = len(found.points.speed)
-    told = f'Tuned to the recording "{title}", {count} points; all else of the pump as it fits them.'
-    notes = f"What was taken: {'; '.join(found.notes)}."
-    return fig13_of({LossReading.WITH_SHEAR: found.equation, LossReading.MIXED: found.mixed}, (told, notes))
+    fitted = f'Fitted to the recording "{title}", {count} points, together with all other parameters of the pump.'
+    notes = f"Assumed: {'; '.join(found.notes)}."
+    return fig13_of({LossReading.WITH_SHEAR: found.equation, LossReading.MIXED: found.mixed}, (fitted, notes))

@@ -1,4 +1,4 @@
-"""A reproduction of the paper as a result."""
+"""Result of a reproduction of the paper."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ HEAD = ("statement", "reading", "the paper", "here", "verdict")
 
 
 class Reproduction(Result):
-    """The paper's statements beside the same numbers here, with a judgement on each."""
+    """The paper's statements beside computed numbers, with a verdict on each."""
 
     kinds: ClassVar[tuple[str, ...]] = ("reproduction",)
     files: ClassVar[tuple[str, ...]] = FILES
@@ -26,7 +26,7 @@ class Reproduction(Result):
 
     @classmethod
     def opened(cls, folder: Path) -> Reproduction:
-        """The reproduction of a run folder; raises InputFaults where one of its files is missing."""
+        """Return the reproduction of a run folder; raise InputFaults where one of its files is missing."""
         found = super().opened(folder)
         found.claims = json.loads((folder / CLAIMS).read_text("utf-8"))["claims"]
         return found
@@ -38,10 +38,10 @@ class Reproduction(Result):
 
     @staticmethod
     def read_data(folder: Path) -> xarray.Dataset:
-        """claims.csv of a run folder."""
+        """Return claims.csv of a run folder."""
         return read_table(folder / "claims.csv")
 
     def tables(self) -> list[Table]:
-        """Every statement with its reading, the paper's range, the number here and the judgement."""
+        """Every statement with its reading, the paper's range, the computed number and the verdict."""
         title = f"The paper by {self.summary['pump']}, {self.summary['fidelity']}"
         return [(title, [HEAD, *verdict_rows(self.claims)])]

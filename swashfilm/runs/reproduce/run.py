@@ -1,4 +1,4 @@
-"""The paper's figures as a run: made, judged and left in a run folder."""
+"""Run of the paper's figures: computed, judged and written to a run folder."""
 
 from __future__ import annotations
 
@@ -23,14 +23,14 @@ from system.work.progress import Report
 from system.work.tasks import Executor
 
 PAPERS_OWN = ("ref90", "ref90_floating")
-"""Built-in pumps that stand for the paper's."""
+"""Built-in pumps that represent the paper's."""
 
 
 @dataclass(frozen=True)
-class ReproduceAsked:
-    """What is asked for: pump, figures, fidelity, how gaps float where they do, what Fig. 13 is tuned to.
+class ReproduceCase:
+    """A reproduction to run: pump, figures, fidelity, options of floating gaps, recording of Fig. 13.
 
-    recording: checked; None where readings are made.
+    recording: checked; None for computed readings.
     """
 
     pump: PumpDescription
@@ -41,24 +41,24 @@ class ReproduceAsked:
 
 
 def paper_points() -> KeptPoints:
-    """Where points of the costly fidelities are kept between runs."""
+    """Return the store of points of the costly fidelities, kept between runs."""
     return KeptPoints(cache_folder() / "paper" / "points")
 
 
 def about(pump: PumpDescription) -> str:
-    """What the paper's statements are to a pump that does not stand for the paper's own; else nothing."""
+    """Return a remark for a pump that does not represent the paper's; empty otherwise."""
     if any(pump == load_pump(name) for name in PAPERS_OWN):
         return ""
     return (
-        f"The statements are of the paper's own pump, for which ref90 stands: against {pump.name} they tell how "
-        "far another pump goes with them, not whether they hold."
+        f"The statements are about the paper's pump, which ref90 represents. For {pump.name} the verdicts compare "
+        "two different pumps; they do not test the statements."
     )
 
 
-def run_reproduce(asked: ReproduceAsked, executor: Executor, folder: Path, report: Report) -> dict[str, Any]:
-    """Make the figures and write claims, data, pictures, resolved.toml, summary.json and report.html.
+def run_reproduce(asked: ReproduceCase, executor: Executor, folder: Path, report: Report) -> dict[str, Any]:
+    """Compute the figures and write claims, data, pictures, resolved.toml, summary.json and report.html.
 
-    Returns the summary. Points of films and floating gaps are kept, so that a run that breaks off goes on with
+    Returns the summary. Points of films and floating gaps are kept, so that an interrupted run continues from
     them. Raises as `system.paper.reproduce.reproduce`.
     """
     began = process_time()
@@ -84,8 +84,8 @@ def run_reproduce(asked: ReproduceAsked, executor: Executor, folder: Path, repor
     return summary
 
 
-def _results(asked: ReproduceAsked, means: Means) -> tuple[FigureResult, ...]:
-    """The figures in the order asked for, Fig. 13 by the recording where there is one."""
+def _results(asked: ReproduceCase, means: Means) -> tuple[FigureResult, ...]:
+    """Return the figures in their order, Fig. 13 by the recording where there is one."""
     if asked.recording is None:
         return reproduce(asked.pump, asked.figures, asked.fidelity, means)
     others = tuple(figure for figure in asked.figures if figure is not Figure.FIG13)
@@ -95,7 +95,7 @@ def _results(asked: ReproduceAsked, means: Means) -> tuple[FigureResult, ...]:
 
 
 def _verdicts(results: Sequence[FigureResult], fidelity: PaperFidelity) -> dict[str, int]:
-    """How many statements came out how."""
+    """Return the number of statements with each verdict."""
     found: dict[str, int] = {}
     for row in claim_rows(results, fidelity.value):
         found[row["verdict"]] = found.get(row["verdict"], 0) + 1

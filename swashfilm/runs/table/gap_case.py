@@ -101,7 +101,7 @@ def load_gap_table(path: Path, switched: Mapping[str, str] | None = None) -> Gap
     given = tables.get(TABLE)
     ranges = Table(TABLE, given if isinstance(given, dict) else {}, [])
     if not ranges.values:
-        ranges.faults.append(Fault(TABLE, repr(given) if given else "no such table", _EXAMPLE))
+        ranges.faults.append(Fault(TABLE, repr(given) if given else "missing", _EXAMPLE))
     if "study" in tables:
         ranges.faults.append(Fault("study", "a study beside [table]", "one of the two"))
     ends = {key: found for key in ranges.values if (found := _ends(ranges, key))}

@@ -87,9 +87,9 @@ def test_what_means_nothing_in_a_fidelity_says_so(tmp_path, capsys):
 def test_a_pump_that_is_not_the_papers_is_told_so(tmp_path, capsys):
     pump, folder, page = ROOT / "examples" / "pumps" / "ref90_worn.toml", tmp_path / "run", tmp_path / "page.md"
     assert main(["reproduce", "fig15", "--pump", str(pump), "-o", str(folder), "--page", str(page)]) == 0
-    assert "of the paper's own pump" in capsys.readouterr().out
+    assert "about the paper's pump" in capsys.readouterr().out
     assert f"--pump {pump}" in page.read_text("utf-8")
-    assert "of the paper's own pump" in page.read_text("utf-8")
+    assert "about the paper's pump" in page.read_text("utf-8")
     assert about(load_pump("ref90")) == about(load_pump("ref90_floating")) == ""
 
 
