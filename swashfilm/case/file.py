@@ -151,7 +151,7 @@ def _order(film: Table) -> int | None:
 
 
 def _viscosity(top: Table, film: Table, reader: FieldReader) -> tuple[Field | None, OilStatement | None]:
-    """Viscosity without pressure at the oil's temperature, and the oil; None with the faults listed."""
+    """Return viscosity at zero pressure and the oil's temperature, and the oil; None with the faults listed."""
     table = top.table("oil")
     given = film.get("viscosity") is not None
     with_heat = top.get("thermal") is not None

@@ -159,9 +159,9 @@ def read_study(path: Path, text: str, tables: Mapping[str, Any]) -> StudyCase:
 
 def hold_to_case(study: StudyCase, faults: list[Fault]) -> None:
     """Raise InputFaults with `faults`; where there are none, for unknown keys, or where no point is valid."""
-    told = [*faults, *_unknown_constants(study), *_beyond_lists(study)] or _case_faults(study)
-    if told:
-        raise InputFaults(str(study.path), told, fault_lines(study.text, told))
+    found = [*faults, *_unknown_constants(study), *_beyond_lists(study)] or _case_faults(study)
+    if found:
+        raise InputFaults(str(study.path), found, fault_lines(study.text, found))
 
 
 def _axis(table: Table, key: str) -> StudyAxis | None:
@@ -302,10 +302,10 @@ def _case_faults(study: StudyCase) -> list[Fault]:
         try:
             study.case(point)
         except InputFaults as reason:
-            told = [_at_study(fault, study) for fault in reason.faults]
-            first = first or told
-            if any(fault.found == "unknown key" and fault.path.startswith(f"{study.where}.") for fault in told):
-                return told
+            found = [_at_study(fault, study) for fault in reason.faults]
+            first = first or found
+            if any(fault.found == "unknown key" and fault.path.startswith(f"{study.where}.") for fault in found):
+                return found
             continue
         return []
     return first

@@ -65,9 +65,9 @@ def parse(words: Sequence[str]) -> argparse.Namespace:
     options, unknown = build_parser().parse_known_args(list(words))
     if unknown:
         # A word after an unknown option is most likely its value: not a second fault.
-        told = [word for word in unknown if word.startswith("-")] or unknown
+        reported = [word for word in unknown if word.startswith("-")] or unknown
         known = options_of(options.command)
-        faults = [_unknown(known, word) for word in told]
+        faults = [_unknown(known, word) for word in reported]
         more = COMMANDS[options.command].faults(options, words) if options.command else []
         raise InputFaults(COMMAND_LINE, faults + more)
     return options

@@ -1,4 +1,4 @@
-"""The command `swashfilm schema`: the JSON Schema of a kind of file, for editors."""
+"""Command `swashfilm schema`: JSON Schema of a kind of file, for editors."""
 
 from __future__ import annotations
 

@@ -136,15 +136,15 @@ class Result:
         ]
 
     def tables(self) -> list[Table]:
-        """Tables of the run's numbers as the command prints them."""
+        """Return tables of the run's numbers as the command prints them."""
         raise NotImplementedError
 
     def to_xarray(self) -> xarray.Dataset:
-        """The run's fields and series; units in the attributes."""
+        """Return the run's fields and series; units in the attributes."""
         return self._data()
 
     def to_pandas(self) -> pandas.DataFrame:
-        """The run's series or rows, a column each, SI units in brackets."""
+        """Return the run's series or rows, a column each, SI units in brackets."""
         return framed(self.to_xarray())
 
     def save(self, folder: str | Path | None = None) -> Path:

@@ -37,7 +37,7 @@ class MeshData:
     cell: Mapping[str, Array] = field(default_factory=dict)
 
     def refined(self, finer: RefinedMesh) -> MeshData:
-        """The same data on a finer mesh: interpolated at points, inherited by cells."""
+        """Return the same data on a finer mesh: interpolated at points, inherited by cells."""
         return MeshData(
             {name: finer.point_data(values) for name, values in self.point.items()},
             {name: finer.cell_data(values) for name, values in self.cell.items()},
@@ -52,23 +52,23 @@ class Uniform:
     dimension: Dimension
 
     def sample(self, space: FilmSpace, t: float = 0.0) -> Array:
-        """(1, 1)."""
+        """Return the value, (1, 1)."""
         return space.sample(self.value)
 
     def at_vertices(self, space: FilmSpace, t: float = 0.0) -> Array | None:
-        """The value, (vertices,)."""
+        """Return the value, (vertices,)."""
         return np.full(len(space.vertices), self.value)
 
     def at_time(self, t: float) -> float:
-        """The value at any time."""
+        """Return the value at any time."""
         return self.value
 
     def on(self, data: MeshData) -> Uniform:
-        """The same on any mesh."""
+        """Return the same field, which holds on any mesh."""
         return self
 
     def __str__(self) -> str:
-        """As a case file writes it."""
+        """Return the entry of a case file."""
         return format_quantity(self.value, self.dimension)
 
 
@@ -79,24 +79,24 @@ class Formula:
     expression: Expression
 
     def sample(self, space: FilmSpace, t: float = 0.0) -> Array:
-        """At the quadrature points, (cells, points)."""
+        """Return the values at the quadrature points, (cells, points)."""
         return space.sample_ruled(lambda x, y: self.expression(x, y, t))
 
     def at_vertices(self, space: FilmSpace, t: float = 0.0) -> Array | None:
-        """At the vertices, (vertices,)."""
+        """Return the values at the vertices, (vertices,)."""
         x, y = space.vertices.T
         return self.expression(x, y, t)
 
     def at_time(self, t: float) -> float:
-        """The value at a time (s) of a formula without position."""
+        """Return the value at a time (s) of a formula without position."""
         return float(self.expression(np.zeros(1), np.zeros(1), t)[0])
 
     def on(self, data: MeshData) -> Formula:
-        """The same on any mesh."""
+        """Return the same field, which holds on any mesh."""
         return self
 
     def __str__(self) -> str:
-        """As a case file writes it."""
+        """Return the entry of a case file."""
         return self.expression.text
 
 
@@ -108,19 +108,19 @@ class PointData:
     values: Array = field(repr=False)
 
     def sample(self, space: FilmSpace, t: float = 0.0) -> Array:
-        """Interpolated to the quadrature points, (cells, points)."""
+        """Return the values interpolated to the quadrature points, (cells, points)."""
         return space.sample_vertices(self.values)
 
     def at_vertices(self, space: FilmSpace, t: float = 0.0) -> Array | None:
-        """The file's values, (vertices,)."""
+        """Return the file's values, (vertices,)."""
         return self.values
 
     def on(self, data: MeshData) -> PointData:
-        """The same name's data on another mesh."""
+        """Return the data of the same name on another mesh."""
         return PointData(self.name, data.point[self.name])
 
     def __str__(self) -> str:
-        """As a case file writes it."""
+        """Return the entry of a case file."""
         return self.name
 
 
@@ -132,19 +132,19 @@ class CellData:
     values: Array = field(repr=False)
 
     def sample(self, space: FilmSpace, t: float = 0.0) -> Array:
-        """(cells, 1)."""
+        """Return the values, (cells, 1)."""
         return space.sample_cells(self.values)
 
     def at_vertices(self, space: FilmSpace, t: float = 0.0) -> Array | None:
-        """None: the value is not unique where cells meet."""
+        """Return None: the value is not unique where cells meet."""
         return None
 
     def on(self, data: MeshData) -> CellData:
-        """The same name's data on another mesh."""
+        """Return the data of the same name on another mesh."""
         return CellData(self.name, data.cell[self.name])
 
     def __str__(self) -> str:
-        """As a case file writes it."""
+        """Return the entry of a case file."""
         return self.name
 
 

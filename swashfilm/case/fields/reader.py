@@ -30,12 +30,12 @@ class FieldReader:
     def field(
         self, table: Table, key: str, dimension: Dimension, default: str | None = None, *, positive: bool = False
     ) -> Field | None:
-        """The field under a key, SI; None with its fault listed."""
+        """Return the field under a key, SI; None with its fault listed."""
         raw = table.get(key)
         return self.entry(table, key, default if raw is None else raw, dimension, positive=positive)
 
     def vector(self, table: Table, key: str, dimension: Dimension, default: str) -> tuple[Field, Field] | None:
-        """Two fields, along x and y, SI; None with the faults listed."""
+        """Return two fields, along x and y, SI; None with the faults listed."""
         raw = table.get(key)
         parts = [default, default] if raw is None else raw
         if not isinstance(parts, list) or len(parts) != 2:

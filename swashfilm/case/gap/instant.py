@@ -56,7 +56,7 @@ class GapCase:
     finer: int = 1
 
     def refined(self) -> GapCase:
-        """The same gap on a mesh twice finer."""
+        """Return the same gap on a mesh twice finer."""
         return replace(self, finer=2 * self.finer)
 
 

@@ -40,7 +40,7 @@ Load = PistonLoad | FaceLoad
 def read_position(
     table: Table, gap: Gap, rotor: Rotor, parts: FloatingParts, angle: float, pressures: Array
 ) -> Array | None:
-    """Position (k,) m that a table [position] states; None with its faults listed."""
+    """Return position (k,) m that a table [position] states; None with its faults listed."""
     if gap is not Gap.PISTON:
         return _tilted(table, rim(gap, rotor))
     if "eccentricity_ratio" in table.values:
@@ -61,7 +61,7 @@ def _tilted(table: Table, radius: float) -> Array | None:
 
 
 def read_load(table: Table, gap: Gap, rotor: Rotor, angle: float) -> Load | None:
-    """The load that a table [load] states; None with its faults listed."""
+    """Return the load that a table [load] states; None with its faults listed."""
     if gap is Gap.PISTON:
         force = table.pair("force", Dimension.FORCE)
         arm = table.quantity("arm", Dimension.LENGTH, rotor.pump.piston.overhang + travel(rotor, angle))

@@ -71,7 +71,7 @@ def own_rows(stated: Mapping[str, Any]) -> list[str]:
 
 
 def pump_tables_schema() -> Schema:
-    """JSON Schemas of the tables [pump] and [operating] of a case, by name: any key of a pump file."""
+    """Return JSON Schemas of the tables [pump] and [operating] of a case, by name: any key of a pump file."""
     tables = {
         name: section_schema(own.table, complete=False, inner_complete=False)
         for name, own in fields_of(PumpDescription).items()

@@ -60,7 +60,7 @@ class RevolutionCase:
     options: FloatingOptions
 
     def refined(self) -> RevolutionCase:
-        """The same gap on a mesh twice finer."""
+        """Return the same gap on a mesh twice finer."""
         return replace(self, options=replace(self.options, finer=2 * self.options.finer))
 
 

@@ -48,7 +48,7 @@ class Around(Enum):
 
 
 def built_body(entry: Table, kind: BodyKind, elastic: Elastic | None, mesh: CaseMesh) -> Body | None:
-    """A body of one of the named kinds under the film of `mesh`; None, its faults listed."""
+    """Return a body of one of the named kinds under the film of `mesh`; None, its faults listed."""
     points = mesh.film_mesh.mesh.p
     if kind is BodyKind.PLATE:
         return _plate(entry, elastic, points)

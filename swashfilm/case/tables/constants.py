@@ -42,5 +42,5 @@ def _value(table: Table, name: str) -> float | None:
 
 
 def constant_rows(constants: Mapping[str, float]) -> list[str]:
-    """The table as a case file writes it, SI."""
+    """Return the table as text of a case file, SI."""
     return ["[constants]  # SI", *(f"{name} = {value!r}" for name, value in constants.items())]

@@ -57,7 +57,7 @@ def _under(wall: WallStatement, key: str, space: FilmSpace) -> ElasticWalls:
 
 
 def read_elastic(top: Table, mesh: CaseMesh | None, folder: Path) -> ElasticStatement | None:
-    """The [elastic] table; None where there is none or, listed, where it has a fault."""
+    """Return the [elastic] table; None where there is none, or with its faults listed."""
     table = top.table("elastic")
     if table is None:
         return None
@@ -115,7 +115,7 @@ def _text(entry: Table, folder: Path) -> str:
 
 
 def elastic_rows(stated: ElasticStatement) -> list[str]:
-    """The table as a case file writes it."""
+    """Return the table as text of a case file."""
     rows = ["[elastic]"]
     if stated.stiffness is not None:
         rows.append(f'winkler = "{format_quantity(stated.stiffness, Dimension.FOUNDATION)}"')

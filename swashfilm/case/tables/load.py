@@ -10,7 +10,7 @@ _MOMENTS = ("moment_x", "moment_y")
 
 
 def read_load(top: Table, film: Table) -> RigidLoad | None:
-    """The load of a [film] table, SI; None where there is none or, listed, where it has a fault."""
+    """Return the load of a [film] table, SI; None where there is none, or with its faults listed."""
     if top.get("load") is not None:
         top.fault("load", "a table [load] of a free film", "keys of [film]", 'load = "1 kN" in [film]')
     stated = [key for key in _MOMENTS if film.get(key) is not None]
@@ -26,7 +26,7 @@ def read_load(top: Table, film: Table) -> RigidLoad | None:
 
 
 def load_rows(load: RigidLoad) -> dict[str, str]:
-    """The keys as a case file writes them."""
+    """Return the keys as text of a case file."""
     moments = ((key, getattr(load, key)) for key in _MOMENTS)
     return {"load": f'"{format_quantity(load.force, Dimension.FORCE)}"'} | {
         key: f'"{format_quantity(value, Dimension.TORQUE)}"' for key, value in moments if value is not None

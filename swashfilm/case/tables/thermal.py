@@ -131,7 +131,7 @@ def _wall(table: Table, key: str) -> Wall | WarmBody | None:
 
 
 def thermal_rows(stated: ThermalStatement) -> list[str]:
-    """The table as a case file writes it."""
+    """Return the table as text of a case file."""
     rows = [
         "[thermal]",
         f"fixed_wall = {_written(stated.fixed_wall)}",

@@ -33,7 +33,7 @@ class TimeStatement:
         return self.end / self.steps
 
     def number(self, time: float) -> int:
-        """Number of whole steps up to a time (s)."""
+        """Return number of whole steps up to a time (s)."""
         return int(time / self.step_taken + 1e-6)
 
     def is_output(self, time: float, step: float) -> bool:
@@ -64,7 +64,7 @@ def read_time(top: Table) -> TimeStatement | None:
 
 
 def time_rows(stated: TimeStatement) -> list[str]:
-    """The table as a case file writes it."""
+    """Return the table as text of a case file."""
     end, step = (format_quantity(value, Dimension.TIME) for value in (stated.end, stated.step))
     return ["[time]", f'end = "{end}"', f'step = "{step}"', f"outputs = {stated.outputs}"]
 

@@ -65,7 +65,7 @@ def _face(table: Table, name: str) -> Convection | HeldTemperature | None:
 
 
 def _written(value: object) -> str:
-    """An entry as a case file writes it on one line."""
+    """Return an entry as one line of a case file."""
     if isinstance(value, dict):
         return "{ " + ", ".join(f"{key} = {_written(part)}" for key, part in value.items()) + " }"
     return quoted(value) if isinstance(value, str) else str(value)

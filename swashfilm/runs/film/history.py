@@ -23,11 +23,11 @@ def fields_over_time(study: FilmStudy) -> xarray.Dataset:
 
     moments = written(study.history)
     every = thinned_by(study)
-    taken = moments[::-1][::every][::-1]
-    if len(taken) < 2:
+    kept = moments[::-1][::every][::-1]
+    if len(kept) < 2:
         return film_dataset(study)
-    films = [film_dataset(at_moment(study, moment)) for moment in taken]
-    time = xarray.IndexVariable("time", [moment.time for moment in taken], {"units": "s"})
+    films = [film_dataset(at_moment(study, moment)) for moment in kept]
+    time = xarray.IndexVariable("time", [moment.time for moment in kept], {"units": "s"})
     varying = [name for name in films[0].data_vars if name != "cells"]
     return xarray.concat(films, time, data_vars=varying, coords="minimal", compat="override")
 

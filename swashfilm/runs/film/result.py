@@ -22,7 +22,7 @@ class FilmRun(Result):
     files: ClassVar[tuple[str, ...]] = ("summary.json", "results.nc")
 
     def tables(self) -> list[Table]:
-        """Every number of the film; order and error where it is solved on finer meshes."""
+        """Return every number of the film; order and error where it is solved on finer meshes."""
         tables: list[Table] = [(f"Film {self.name}", list(summary_rows(self.summary)))]
         if found := self.summary.get("refinement"):
             tables.append(("On finer meshes", [refinement_head(found), *refinement_rows(found)]))

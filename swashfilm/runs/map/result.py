@@ -49,7 +49,7 @@ class MapRun(Result):
         return map_of(self.to_xarray())
 
     def tables(self) -> list[Table]:
-        """Axes and computing time, best points, displacement, points without a result."""
+        """Return axes and computing time, best points, displacement, points without a result."""
         summary = self.summary
         tables: list[Table] = [(f"Map of {self.name}, {summary['solver']}", list(axis_rows(summary)))]
         if summary["best"]:
@@ -113,7 +113,7 @@ class DutyRun(Result):
         return read_table(folder / COURSE)
 
     def tables(self) -> list[Table]:
-        """Energies, mean efficiencies, and the time between points with a warning."""
+        """Return energies, mean efficiencies, and the time between points with a warning."""
         summary = self.summary
         tables: list[Table] = [
             (f"Duty of {self.name}, {summary['duration_s']:.6g} s", [ENERGY_HEAD, *energy_rows(summary)]),
@@ -145,7 +145,7 @@ class CompareRun(Result):
         return read_table(folder / "differences.csv")
 
     def tables(self) -> list[Table]:
-        """Differences by number, and over the cycle where there is one."""
+        """Return differences by number, and over the cycle where there is one."""
         summary = self.summary
         title = " and ".join(str(name) for name in summary["names"])
         tables: list[Table] = [(title, [DIFFERENCE_HEAD, *difference_rows(summary)])]

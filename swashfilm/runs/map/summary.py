@@ -134,12 +134,12 @@ def _assumptions(work: MapWork) -> list[str]:
         return []
     pump, parts = work.pump, floating_parts(work.pump)
     if not pump.physics.on:
-        return [str(taken) for taken in parts.taken]
+        return [str(one) for one in parts.taken]
     solved, laws = (", ".join(one.value for one in ids) or "none" for ids in effects_in_films(pump))
     films = film_effects(rotor(pump, operating_point(pump)), parts, pump, PLAIN)
     return [
         f"[physics]: solved in the films: {solved}; by closed laws: {laws}",
-        *(str(taken) for taken in films.parts.taken),
+        *(str(one) for one in films.parts.taken),
     ]
 
 

@@ -25,11 +25,11 @@ def loss_records(pump: PumpDescription) -> list[dict[str, Any]]:
     """Return key, path, source and range of each file of losses, with those of single slippers."""
     stated = [("slipper", pump.slipper), *((f"slipper.{n}", part) for n, part in pump.single_slippers)]
     found: list[dict[str, Any]] = []
-    seen: set[tuple[str, Path]] = set()
+    listed: set[tuple[str, Path]] = set()
     for table, part in stated:
         for key, own, words in _of_slipper(part):
-            if (key, own.path) not in seen:
-                seen.add((key, own.path))
+            if (key, own.path) not in listed:
+                listed.add((key, own.path))
                 found.append(
                     {"key": f"{table}.{key}", "file": str(own.path), "source": own.source, "range": words}
                 )
@@ -41,7 +41,7 @@ def loss_records(pump: PumpDescription) -> list[dict[str, Any]]:
 
 
 def _of_slipper(part: SlipperSection) -> Iterator[tuple[str, FileTable, str]]:
-    """Keys of a slipper's files, their tables and ranges."""
+    """Return keys of a slipper's files, their tables and ranges."""
     if part.orifice_file is not None:
         table = part.orifice_file
         own = format_quantity(0.25 * np.pi * part.orifice_diameter**2, Dimension.AREA, digits=4)
@@ -58,7 +58,7 @@ def _of_slipper(part: SlipperSection) -> Iterator[tuple[str, FileTable, str]]:
 
 
 def _steps(losses: LossFactors) -> str:
-    """Range of a file of steps, in words."""
+    """Return range of a file of steps, in words."""
     into, out = deepest(losses)
     lengths = f"extra length {losses.extra_length[into]:.3g} and {losses.extra_length[out]:.3g}"
     ratios = f"film_ratio {losses.sizes[into, 0]:g} and {losses.sizes[out, 0]:g} used"

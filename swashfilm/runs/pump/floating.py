@@ -115,7 +115,7 @@ def floating_summary(found: FloatingPoint, warnings: list[str]) -> dict[str, Any
         "coupling_pressure_change": last.pressure_change,
         "coupling_friction_change": last.friction_change,
         "coupling_spin_change": last.spin_change,
-        "films_solved": sum(taken.films_solved for taken in found.rounds),
+        "films_solved": sum(one.films_solved for one in found.rounds),
     }
     return summary | {
         "fidelity": Fidelity.FLOATING.value,
@@ -127,16 +127,16 @@ def floating_summary(found: FloatingPoint, warnings: list[str]) -> dict[str, Any
         },
         "checks": summary["checks"] | checks,
         "cost": {
-            "solve_seconds": sum(taken.seconds for taken in found.rounds),
-            "rounds_seconds": [taken.seconds for taken in found.rounds],
+            "solve_seconds": sum(one.seconds for one in found.rounds),
+            "rounds_seconds": [one.seconds for one in found.rounds],
             "physics_seconds": {leg.value: time for leg, time in _spent(found).items() if time > 0.0},
         },
         "physics_left_out": [effect.value for effect in found.options.physics.left_out],
         "assumptions": list(
             dict.fromkeys(
-                str(taken)
+                str(one)
                 for kind in found.kinds
-                for taken in all_taken(kind.rotor, kind.parts, found.options.physics)
+                for one in all_taken(kind.rotor, kind.parts, found.options.physics)
             )
         ),
     }
@@ -149,7 +149,7 @@ def _spin_ratios(rotor: Rotor) -> dict[str, float]:
 
 def _spent(found: FloatingPoint) -> dict[Leg, float]:
     """Return the time (s) of the gaps for each march, in all rounds."""
-    return {leg: sum(taken.spent[leg] for taken in found.rounds) for leg in Leg}
+    return {leg: sum(one.spent[leg] for one in found.rounds) for leg in Leg}
 
 
 def write_floating(folder: Path, found: FloatingPoint) -> dict[Path, list[Path]]:
@@ -185,7 +185,7 @@ def write_floating(folder: Path, found: FloatingPoint) -> dict[Path, list[Path]]
 
 
 def _write_gap(folder: Path, path: Path, study: RevolutionStudy) -> None:
-    """Series, turns and fields of one gap at folder/path."""
+    """Write series, turns and fields of one gap to folder/path."""
     data = revolution_dataset(study)
     data.to_netcdf(folder / RESULTS, mode="a", group=path.as_posix(), engine="h5netcdf")
     write_series(folder / f"{path}.csv", data)

@@ -55,7 +55,7 @@ def coefficient_warnings(pump: PumpDescription, point: PumpPoint) -> list[str]:
 def share_beyond(
     table: FlowCoefficients, area: Array, pressure_drop: Array, density: float, viscosity: float
 ) -> float:
-    """Share of the places with an open port (areas (N,) m2, drops (N,) Pa) that lie beyond a file's rows.
+    """Return the fraction of angles with an open port (areas (N,) m2, drops (N,) Pa) beyond a file's rows.
 
     Laminar flow below its least flow number does not count. 0 where the port is never open.
     """
@@ -72,7 +72,7 @@ def share_beyond(
 
 
 def _range(table: FlowCoefficients) -> str:
-    """The openings and Reynolds numbers of a file, in words."""
+    """Return the openings and Reynolds numbers of a file, in words."""
     ends = [format_quantity(float(size), Dimension.AREA, digits=4) for size in table.opening[[0, -1]]]
     opening = " .. ".join(ends) if ends[0] != ends[1] else f"{ends[0]} for all"
     return f"opening {opening}, Re {table.reynolds.min():.3g} .. {table.reynolds.max():.3g}"

@@ -32,10 +32,10 @@ Rows = Sequence[tuple[str, ...]]
 
 
 def force_columns(joints: JointForces) -> Columns:
-    """Every joint over the shaft angle, by name: unit and values (N,); what belongs to a chamber is chamber 1's.
+    """Return every joint over the shaft angle, by name: unit and values (N,); forces of a chamber are chamber 1's.
 
-    A name says which part acts on which; x, y, z of the pump's frame, moments of the valve plate about the
-    middle of its face, of the trunnion about the pivot.
+    A name contains the acting part and the part acted on; x, y, z are those of the pump's frame. Moments of the
+    valve plate are about the middle of its face, those of the trunnion about the pivot.
     """
     one, held, axes = joints.sets[0], joints.hold, joints.group.plate_axes
     rubbing = axes[:2] @ one.plate
@@ -215,7 +215,7 @@ def _shown(key: str, value: float) -> str:
 
 
 def forces_plot(data: Mapping[str, Array]) -> Figure:
-    """Forces of one piston and slipper, of splines and bearings (kN), and moments (N m) over the shaft angle."""
+    """Draw forces of one piston and slipper, of splines and bearings (kN), moments (N m) over the shaft angle."""
     figure = figure_of(10.0, 3.6)
     left, middle, right = figure.subplots(1, 3)
     angle = data["shaft_angle"]

@@ -99,7 +99,7 @@ class PumpRun(Result):
         )
 
     def tables(self) -> list[Table]:
-        """Operating point, efficiencies, friction pairs; gaps that float or come from a response table."""
+        """Return operating point, efficiencies, friction pairs; gaps that float or come from a response table."""
         summary = self.summary
         tables: list[Table] = [
             (f"Pump {self.name}", headline_rows(summary)),

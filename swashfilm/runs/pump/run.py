@@ -80,7 +80,7 @@ def _lumped(case: PumpCase) -> PumpRun:
 
 
 def lumped_run(case: PumpCase, point: PumpPoint) -> PumpRun:
-    """The run of a lumped point of the case's pump that is already solved."""
+    """Return the run of a solved lumped point of the case's pump."""
     pump = case.pump
     summary = pump_summary(pump, point, None, _warnings(pump, point) + loss_warnings(pump, point))
     return _run(case, point, summary, joint_forces(pump, point))
@@ -135,8 +135,8 @@ def _run(
     """Return the run of a solved point: summary with forces, data with those of films, and files."""
     summary["forces"] = forces_summary(joints, point)
     summary["warnings"] += force_warnings(joints)
-    places = [str(taken) for taken in joints.group.places.taken]
-    summary["assumptions"] += [taken for taken in places if taken not in summary["assumptions"]]
+    places = [str(one) for one in joints.group.places.taken]
+    summary["assumptions"] += [one for one in places if one not in summary["assumptions"]]
 
     def data() -> xarray.Dataset:
         of_point = point_dataset(point, case.pump.name)

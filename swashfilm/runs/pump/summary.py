@@ -77,7 +77,7 @@ def pump_summary(
         "gaps": {gap: gap_report(series) for gap, series in gap_films(films).items()} if films else {},
         "checks": _checks(point, films),
         "coefficients": [*coefficient_records(pump), *loss_records(pump)],
-        "assumptions": [str(taken) for taken in films.parts.taken] if films else [],
+        "assumptions": [str(one) for one in films.parts.taken] if films else [],
         "warnings": list(warnings),
     }
 

@@ -13,13 +13,13 @@ LARGEST_SAMPLING_ERROR = 0.02
 def films_warnings(films: FilmsPoint) -> list[str]:
     """Return all warnings of a films point, `name: text` each."""
     return [
-        *uncarried_loads(films),
+        *unsupported_loads(films),
         *impossible_pressures(films),
-        *coarse_angles(films),
+        *few_angles(films),
     ]
 
 
-def uncarried_loads(films: FilmsPoint) -> list[str]:
+def unsupported_loads(films: FilmsPoint) -> list[str]:
     """Return a warning for each gap whose film, at some angle, does not support its load at the given position."""
     return [
         f"load_not_carried: {gap.replace('_', ' ')}: {gap_statement(series)}; contact, squeeze or another "
@@ -47,7 +47,7 @@ def impossible_pressures(films: FilmsPoint) -> list[str]:
     return found
 
 
-def coarse_angles(films: FilmsPoint) -> list[str]:
+def few_angles(films: FilmsPoint) -> list[str]:
     """Return a warning where the leakage depends on the number of film angles."""
     if films.sampling_error <= LARGEST_SAMPLING_ERROR:
         return []

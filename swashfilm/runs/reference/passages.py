@@ -51,7 +51,7 @@ class StepPassage:
         return {"film_ratio [1]": self.film_ratio}
 
     def solve(self, reynolds: Sequence[float], cells: int) -> Correction:
-        """Its flow."""
+        """Return its flow."""
         from reynolds.stokes.corrections import step_correction
 
         return step_correction(self.film_ratio, reynolds, cells)
@@ -76,7 +76,7 @@ class GroovePassage:
         return {"film_ratio [1]": self.film_ratio, "width_ratio [1]": self.width_ratio}
 
     def solve(self, reynolds: Sequence[float], cells: int) -> Correction:
-        """Its flow."""
+        """Return its flow."""
         from reynolds.stokes.corrections import groove_correction
 
         return groove_correction(self.film_ratio, self.width_ratio, reynolds, cells)
@@ -103,7 +103,7 @@ class OrificePassage:
         return {"opening [mm2]": 0.25e6 * np.pi * self.diameter**2}
 
     def solve(self, reynolds: Sequence[float], cells: int) -> Correction:
-        """Its flow; `cells` across the diameter."""
+        """Return its flow; `cells` across the diameter."""
         from reynolds.stokes.corrections import orifice_correction
         from reynolds.stokes.space import Symmetry
 
@@ -147,7 +147,7 @@ class SlotPassage:
         return float(np.sqrt(4.0 * self.opening / np.pi) / self.height)
 
     def solve(self, reynolds: Sequence[float], cells: int) -> Correction:
-        """Its flow; `cells` across the height."""
+        """Return its flow; `cells` across the height."""
         from reynolds.stokes.corrections import orifice_correction
         from reynolds.stokes.space import Symmetry
 

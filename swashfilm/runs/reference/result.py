@@ -28,7 +28,7 @@ class ReferenceRun(Result):
         return read_table(folder / json.loads((folder / "summary.json").read_text("utf-8"))["table"])
 
     def tables(self) -> list[Table]:
-        """Coefficients by Reynolds number."""
+        """Return coefficients by Reynolds number."""
         title = f"Reference {self.name}: {self.summary['holds_for']}"
         return [(title, [HEAD, *reference_rows(self.summary)])]
 

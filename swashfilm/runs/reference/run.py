@@ -55,10 +55,10 @@ def run_reference(case: ReferenceCase, folder: Path, report: Report) -> dict[str
 
 
 def _solved(case: ReferenceCase, passage: Passage) -> SolvedPassage:
-    coarse = passage.solve(case.reynolds, max(FEWEST_CELLS, case.cells // 2))
+    halved = passage.solve(case.reynolds, max(FEWEST_CELLS, case.cells // 2))
     fine = passage.solve(case.reynolds, case.cells)
     size = fine.resistance * (fine.length + fine.extra_length) + 0.5 * np.abs(fine.loss_factor) * fine.reynolds
-    return SolvedPassage(passage, fine, np.abs(coarse.drop - fine.drop) / size)
+    return SolvedPassage(passage, fine, np.abs(halved.drop - fine.drop) / size)
 
 
 def write_coefficients(path: Path, case: ReferenceCase, solved: Sequence[SolvedPassage]) -> None:

@@ -95,8 +95,9 @@ def markdown_page(folder: Path, command: str) -> str:
 
 
 def _statement(claim: Row, found: Sequence[Row]) -> Iterator[str]:
-    taken = f" ({claim['taken']})" if claim["taken"] else ""
-    yield f'**{claim["id"]}** "{claim["words"]}" - {claim["quantity"]}: expected {claim["expected_text"]}{taken}.'
+    assumed = f" ({claim['taken']})" if claim["taken"] else ""
+    words = f'"{claim["words"]}" - {claim["quantity"]}'
+    yield f"**{claim['id']}** {words}: expected {claim['expected_text']}{assumed}."
     yield ""
     for row in found:
         reading = f"{row['reading']}: " if row["reading"] else ""

@@ -42,6 +42,6 @@ class Reproduction(Result):
         return read_table(folder / "claims.csv")
 
     def tables(self) -> list[Table]:
-        """Every statement with its reading, the paper's range, the computed number and the verdict."""
+        """Return every statement with its reading, the paper's range, the computed number and the verdict."""
         title = f"The paper by {self.summary['pump']}, {self.summary['fidelity']}"
         return [(title, [HEAD, *verdict_rows(self.claims)])]

@@ -128,7 +128,7 @@ _EXAMPLE = 'a table [table] of ranges, such as "operating.pressure" = { from = "
 
 
 def _ends(ranges: Table, key: str) -> Ends | None:
-    """The range of one key; None with its fault listed."""
+    """Return the range of one key; None with its fault listed."""
     raw = ranges.get(key)
     if not is_key_of_case(ranges, key):
         return None

@@ -73,14 +73,14 @@ def _parity(response: Response, record: Mapping[str, Any]) -> Figure:
     groups = _groups(response)
     lines = -(-len(groups) // COLUMNS)
     figure = figure_of(11.0, 2.6 * lines)
-    solved, told = response.held_out.values, response.at(response.held_out.points)
+    solved, by_table = response.held_out.values, response.at(response.held_out.points)
     places = figure.subplots(lines, COLUMNS, squeeze=False).ravel()
     for axes, (what, members) in zip(places, groups.items(), strict=False):
         title, factor = _shown(what, members, record)
         for whose, k in members:
             axes.plot(
-                factor * solved[:, k], factor * told[:, k], "o", markersize=3.5, alpha=0.8, color=COLOURS[whose],
-                label=_words(whose),
+                factor * solved[:, k], factor * by_table[:, k], "o", markersize=3.5, alpha=0.8,
+                color=COLOURS[whose], label=_words(whose),
             )  # fmt: skip
         ends = [*axes.get_xlim(), *axes.get_ylim()]
         axes.plot([min(ends), max(ends)], [min(ends), max(ends)], color="#1c2328", linewidth=0.8)
@@ -103,13 +103,13 @@ def _courses(response: Response, record: Mapping[str, Any]) -> Figure:
     for j, (axis, row) in enumerate(zip(response.axes, record["axes"], strict=True)):
         along = np.tile(middle, (COURSE, 1))
         along[:, j] = axis.from_unit(np.linspace(0.0, 1.0, COURSE))
-        told, label = response.at(along), _axis_words(axis, row)
+        by_table, label = response.at(along), _axis_words(axis, row)
         places, dots = (_places(row, values[:, j]) for values in (along, response.held_out.points))
         for i, (what, members) in enumerate(groups.items()):
             title, factor = _shown(what, members, record)
             axes = grid[i, j]
             for whose, k in members:
-                axes.plot(places, factor * told[:, k], color=COLOURS[whose], label=_words(whose))
+                axes.plot(places, factor * by_table[:, k], color=COLOURS[whose], label=_words(whose))
                 axes.plot(dots, factor * response.held_out.values[:, k], ".", color=COLOURS[whose], alpha=0.35)
             if axis.spacing is Spacing.LOGARITHMIC:
                 _logarithmic(axes)

@@ -25,7 +25,7 @@ class TableRun(Result):
         return read_table(folder / "points.csv")
 
     def tables(self) -> list[Table]:
-        """The box, errors of runs by the table, errors of its outputs."""
+        """Return the box, errors of runs by the table, errors of its outputs."""
         tables: list[Table] = [(f"Table of {self.name}", list(held_rows(self.summary)))]
         if numbers := [*number_rows(self.summary)]:
             head = ("number", "rms", "largest", "at")

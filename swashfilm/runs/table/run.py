@@ -36,7 +36,7 @@ def run_table(case: TableCase, folder: Path, report: Report, *, workers: int = 1
         table = build_table(case, executor=executor, report=report)
     (folder / "resolved.toml").write_text(resolved_toml(case.pump), encoding="utf-8")
     keep_table(table, folder / TABLE)
-    summary = table_summary(table) | {"assumptions": [str(taken) for taken in floating_parts(case.pump).taken]}
+    summary = table_summary(table) | {"assumptions": [str(one) for one in floating_parts(case.pump).taken]}
     write_table_files(folder, table.response, summary)
     return summary
 

@@ -30,7 +30,7 @@ def table_point_summary(pump: PumpDescription, found: TablePoint) -> dict[str, A
     error = response.held_out_error
     return {
         "fidelity": Fidelity.TABLE.value,
-        "assumptions": [str(taken) for taken in floating_parts(pump).taken],
+        "assumptions": [str(one) for one in floating_parts(pump).taken],
         "table": {
             "source": origin.source.value,
             "stated": dict(origin.stated),

@@ -88,14 +88,14 @@ def transient_schema() -> Schema:
 
 
 def _section(table: Table) -> TransientSection:
-    """The table as its section; with faults, one that has the good values only."""
+    """Return the section of the table; with faults, a section of the valid values only."""
     special = {"transient.control_pressure": _control_pressure, "transient.pump": lambda raw, *_: {"pump": raw}}
     reading = Reading(special=special, faults=table.faults, faulty={"transient.pump"})
     return read_section("transient", TransientSection, table.values, reading)
 
 
 def _control_pressure(raw: object, _: Mapping[str, object], reading: Reading) -> Mapping[str, object]:
-    """The rows of the control pressure; none with the faults noted."""
+    """Return the rows of the control pressure; none with the faults listed."""
     key = "transient.control_pressure"
     rows = [["0 s", raw]] if isinstance(raw, str) else raw
     if not isinstance(rows, list) or not rows or not all(isinstance(row, list) and len(row) == 2 for row in rows):
@@ -121,7 +121,7 @@ def _asked(section: TransientSection, pump: CasePump) -> TransientCase:
 
 
 def _hold_pump(table: Table, pump: CasePump, section: TransientSection) -> None:
-    """Note what of pump and point no transient can have."""
+    """List faults of pump and operating point that a transient excludes."""
     whole, point = pump.rotor.pump, pump.rotor.point
     if not kinds(whole).alike:
         table.fault("pump", "chambers that differ", "identical chambers")
@@ -140,7 +140,7 @@ def _hold_pump(table: Table, pump: CasePump, section: TransientSection) -> None:
 
 
 def _resolved(section: TransientSection, pump: CasePump) -> str:
-    """A case file that gives this very case."""
+    """Return the text of this case."""
     rows = section_rows("transient", replace(section, pump=pump.source))
     operating = section_rows("operating", pump.rotor.pump.operating)
     return "\n".join([f"format = {FORMAT}", *rows, *own_rows(pump.stated), *operating]) + "\n"

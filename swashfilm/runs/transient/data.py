@@ -116,7 +116,7 @@ def transient_summary(found: Transient, name: str, data: xarray.Dataset) -> dict
         "step_s": found.step,
         "steps": int(found.time.size - 1),
         "checks": asdict(found.checks),
-        "assumptions": [str(taken) for taken in found.mechanism.taken],
+        "assumptions": [str(one) for one in found.mechanism.taken],
         "warnings": _warnings(found),
     }
 
@@ -142,17 +142,17 @@ def _turn(data: xarray.Dataset, within: NDArray[np.bool_]) -> Mapping[str, float
 
 
 def _warnings(found: Transient) -> list[str]:
-    told = []
+    warnings = []
     low = found.pressure.min(axis=1) <= CAVITY_PRESSURE
     if low.any():
         first = float(found.time[np.argmax(low)])
-        told.append(
+        warnings.append(
             f"chamber_cavitates: a cavity opens in a chamber at {np.count_nonzero(low)} of {low.size} instants, "
             f"first at {first * 1e3:.4g} ms; raise the inlet pressure, or open the ports earlier"
         )
     if found.rows[:, kernel.ACTUATOR].min() <= CAVITY_PRESSURE:
-        told.append(
+        warnings.append(
             "actuator_cavitates: the swash plate moves the actuator's piston faster than its orifice fills it; "
             "choose a larger orifice, or a higher control pressure"
         )
-    return told
+    return warnings

@@ -20,13 +20,13 @@ class TransientRun(Result):
     files: ClassVar[tuple[str, ...]] = FILES
 
     def tables(self) -> list[Table]:
-        """The plate's motion, means over the first and the last turn, assumptions."""
+        """Return the plate's motion, means over the first and the last turn, assumptions."""
         tables: list[Table] = [
             (f"Transient {self.name}", transient_rows(self.summary)),
             ("Means over a turn", [("", "the first", "the last"), *turn_rows(self.summary)]),
         ]
-        if taken := self.summary["assumptions"]:
-            tables.append(("Assumed", [(one,) for one in taken]))
+        if assumed := self.summary["assumptions"]:
+            tables.append(("Assumed", [(one,) for one in assumed]))
         return tables
 
     def plot_plate(self) -> list[Axes]:

@@ -11,7 +11,7 @@ from gaps.films.piston import PistonDrive, PistonFilm, PistonShape, standing_pis
 from gaps.standing.gap_film import standing_piston_film
 from reynolds.floating.rest import held_at
 from reynolds.solve.solver import FilmSolver
-from swashfilm.runs.pump.validity import coarse_angles, impossible_pressures, uncarried_loads
+from swashfilm.runs.pump.validity import few_angles, impossible_pressures, unsupported_loads
 from system.films.cycle import PLAIN, SMOOTH, GapPhysics
 
 
@@ -38,7 +38,7 @@ def films(piston, other, physics=PLAIN):
 @pytest.mark.parametrize(("share", "count"), [(0.5, 1), (1.0, 0), (2.0, 1)])
 def test_a_load_that_is_not_the_films_is_told_whether_larger_or_smaller(share, count):
     held = film(100e6, 1.0).carried_load
-    told = uncarried_loads(films(film(100e6, share * held), film(100e6)))
+    told = unsupported_loads(films(film(100e6, share * held), film(100e6)))
     assert len(told) == count
 
 
@@ -64,6 +64,6 @@ def test_walls_that_give_way_and_oil_that_thickens_may_bear_such_pressures(effec
 
 @pytest.mark.parametrize(("error", "count"), [(0.005, 0), (0.3, 1)])
 def test_too_few_film_angles_are_told(error, count):
-    told = coarse_angles(SimpleNamespace(sampling_error=error))
+    told = few_angles(SimpleNamespace(sampling_error=error))
     assert len(told) == count
     assert all("30.0%" in text for text in told)

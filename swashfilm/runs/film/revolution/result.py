@@ -21,7 +21,7 @@ class RevolutionRun(Result):
     files: ClassVar[tuple[str, ...]] = FILES
 
     def tables(self) -> list[Table]:
-        """Every number of the turn; order and error where it is solved on finer meshes."""
+        """Return every number of the turn; order and error where it is solved on finer meshes."""
         tables: list[Table] = [(f"Film {self.name}", list(revolution_rows(self.summary)))]
         if found := self.summary.get("refinement"):
             tables.append(("On finer meshes", [refinement_head(found), *refinement_rows(found)]))

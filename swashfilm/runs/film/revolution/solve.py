@@ -102,14 +102,14 @@ def _radius(study: RevolutionStudy) -> float:
     return valve_plate_geometry(study.case.rotor.pump).land_radii[3]
 
 
-def friction_power(study: RevolutionStudy, seen: GapReport) -> float:
-    """Power (W) that the parts spend on shearing the film and rubbing."""
-    match seen:
+def friction_power(study: RevolutionStudy, gap: GapReport) -> float:
+    """Return the power (W) of viscous friction and contact friction."""
+    match gap:
         case PistonReport() | SlipperReport():
-            return seen.friction.power
+            return gap.friction.power
         case BlockReport():
-            return seen.torque * study.case.rotor.point.shaft_speed
-    raise AssertionError(seen)
+            return gap.torque * study.case.rotor.point.shaft_speed
+    raise AssertionError(gap)
 
 
 def revolution_summary(study: RevolutionStudy) -> dict[str, Any]:
@@ -118,12 +118,12 @@ def revolution_summary(study: RevolutionStudy) -> dict[str, Any]:
     Means of flows, power and contact are over all steps of the turn, other numbers over the reported angles.
     """
     turn, closing = study.revolution.turn, study.revolution.closing
-    seen, passed = zip(*((instant.report, instant.passed) for instant in turn.instants), strict=True)
+    reports, passed = zip(*((instant.report, instant.passed) for instant in turn.instants), strict=True)
     least = study.revolution.least_film
-    contact = np.array([one.contact_load for one in seen])
+    contact = np.array([one.contact_load for one in reports])
     balance = mass_balance_error(study.revolution)
     physics = study.case.options.physics
-    tilts, friction = tilt(study), np.array([friction_power(study, one) for one in seen])
+    tilts, friction = tilt(study), np.array([friction_power(study, one) for one in reports])
     return {
         "format": 1,
         "kind": "film_revolution",
@@ -136,13 +136,13 @@ def revolution_summary(study: RevolutionStudy) -> dict[str, Any]:
         "least_gap_m": min(instant.least_gap for instant in turn.instants),
         "tilt_max_rad": float(tilts.max()),
         "leakage_flow_m3_per_s": float(np.mean([one.leakage for one in passed])),
-        "leakage_flow_max_m3_per_s": max(one.leakage for one in seen),
+        "leakage_flow_max_m3_per_s": max(one.leakage for one in reports),
         "friction_power_W": float(np.mean([friction_power(study, one) for one in passed])),
         "friction_power_max_W": float(friction.max()),
         "rubbing_power_W": float(np.mean([one.heat.rubbing for one in passed])),
         "contact_load_max_N": float(contact.max()),
         "contact_load_mean_N": float(np.mean([one.contact_load for one in passed])),
-        "share_of_turn": {kind.value: float(np.mean([kind in one.active for one in seen])) for kind in Active},
+        "share_of_turn": {kind.value: float(np.mean([kind in one.active for one in reports])) for kind in Active},
         "cavitated_area_fraction_max": max(instant.cavitated_area_fraction for instant in turn.instants),
         "pressure_max_Pa": max(instant.pressure_max for instant in turn.instants),
         "span_deg": float(np.degrees(study.span)),

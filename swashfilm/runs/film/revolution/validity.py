@@ -28,15 +28,15 @@ def revolution_warnings(
     case: GapOverTurn, parts: FloatingParts, found: GapRevolution[Any], balance: float
 ) -> list[dict[str, str]]:
     """Return name and text of each warning; `balance` is the turn's mass balance error."""
-    told = [
+    warnings = [
         (check.name, str(warning))
         for check in _CHECKS[case.gap]
         for warning in run_checks((check,), case.rotor.pump).warnings
     ]
-    told += [*_contact(case, parts, found), *_pressures(case, found), *_motion(case, found, balance)]
+    warnings += [*_contact(case, parts, found), *_pressures(case, found), *_motion(case, found, balance)]
     if case.gap is Gap.SLIPPER:
-        told += pulled_together(case, parts, found)
-    return [{"name": name, "text": text} for name, text in told]
+        warnings += pulled_together(case, parts, found)
+    return [{"name": name, "text": text} for name, text in warnings]
 
 
 def _contact(case: GapOverTurn, parts: FloatingParts, found: GapRevolution[Any]) -> Iterator[tuple[str, str]]:

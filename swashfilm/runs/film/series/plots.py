@@ -32,8 +32,8 @@ def study_plots(data: xarray.Dataset) -> dict[str, Figure]:
     number varies, is the friction coefficient over it.
     """
     ordered = data.sortby([dim for dim in data.dims if dim in data.coords and _is_numeric(data[dim].values)])
-    told = [str(key) for key in data.data_vars if key not in ("status", "reason")]
-    numbers = {key: data[key].values for key in told if not key.startswith(COURSES)}
+    variables = [str(key) for key in data.data_vars if key not in ("status", "reason")]
+    numbers = {key: data[key].values for key in variables if not key.startswith(COURSES)}
     size = sizes({key: float(np.nanmax(np.abs(values))) for key, values in numbers.items()}, {})
     keys = [
         key for key, values in numbers.items() if np.nanmax(values) - np.nanmin(values) > LEAST_CHANGE * size[key]

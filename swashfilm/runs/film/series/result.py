@@ -32,7 +32,7 @@ class StudyRun(Result):
         return read_netcdf(folder / "study.nc")
 
     def tables(self) -> list[Table]:
-        """Least and largest value of every number with their points, and points without a result."""
+        """Return least and largest value of every number with their points, and points without a result."""
         summary, head = self.summary, ("", "least", "at", "largest", "at")
         title = f"Study {self.name}: {summary['solved']} of {summary['points']} points"
         tables: list[Table] = [(title, [head, *span_rows(summary)])]

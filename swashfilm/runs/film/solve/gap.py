@@ -63,7 +63,7 @@ def solve_gap(case: GapCase) -> GapStudy:
         stage = gap.held_at(case.shaft_angle, case.position)
     found = gap.report(stage)
     source = PositionSource.REST if case.position is None else PositionSource.GIVEN
-    return GapStudy(found, source, (NO_RUBBING, *(str(taken) for taken in case.parts.taken)))
+    return GapStudy(found, source, (NO_RUBBING, *(str(one) for one in case.parts.taken)))
 
 
 def _loaded(case: GapCase, drives: Drives) -> Drives:
