@@ -50,7 +50,7 @@ PARTS = {
     "linear solves": ("linear.py", "carried", "multigrid", "band", "qdldl", "superlu", "line_kernels", "coars"),
     "laws of oil, roughness and contact": ("roughness.py", "patir_cheng.py", "contact", "overlap", "transport"),
     "assembly": ("balance.py", "kernels.py", "newton.py", "space.py", "pattern.py", "tensors.py", "sensitivity"),
-    "iteration of a film": ("solve.py", "iterate.py", "film.py", "setting.py", "opening.py"),
+    "iteration of a film": ("solver.py", "iterate.py", "problem.py", "boundary.py", "deformation.py"),
     "motion": ("floating", "dirk.py", "generalised", "periodic.py", "gaps/"),
     "loads": ("loads.py", "rubbing.py"),
 }

@@ -35,8 +35,8 @@ Row = tuple[float, ...]
 class ChamberPressure:
     """Rows of shaft angle (rad) and pressure (Pa) of one chamber; no rows: the pump's own lumped cycle.
 
-    `text`: its entry in a case. Between rows the pressure is a `gaps.films.over_turn.PeriodicCurve`; a single row
-    is constant over the turn.
+    `text`: its entry in a case. Between rows the pressure is a `PeriodicCurve` (`gaps.films.over_turn`); one is
+    constant over the turn.
     """
 
     text: str
