@@ -36,6 +36,7 @@ python_maximum_signature_line_length = 100
 
 html_theme = "furo"
 html_title = f"Swashfilm {release}"
-html_static_path: list[str] = []
+html_static_path = ["static"]
+html_css_files = ["site.css"]
 html_show_sphinx = False
 html_copy_source = False

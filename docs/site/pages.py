@@ -11,10 +11,11 @@ PACKAGES = ("reynolds", "gaps", "system", "diagnosis", "swashfilm")
 CONTENTS = {
     "Start": ("/README", "tutorial", "gallery", "notebooks/film", "notebooks/pump", "wrong_results"),
     "Reference": ("files", "conventions", "/examples/README", "/meshes/README", "cluster", "api/index"),
-    "Background": ("theory", "architecture", "validation", "proof", "reproduction", "reproduction_films",
-                   "reproduction_floating", "benchmarks", "/CHANGELOG"),
+    "Background": ("theory", "architecture", "validation", "proof", "Reproduction <reproduction>",
+                   "Reproduction with films <reproduction_films>",
+                   "Reproduction with floating films <reproduction_floating>", "benchmarks", "/CHANGELOG"),
 }  # fmt: skip
-"""Pages by their place in the menu, relative to docs/."""
+"""Pages by their place in the menu, relative to docs/; a title in front of <page> stands for the page's own."""
 FRONT = '<!doctype html><meta charset="utf-8"><meta http-equiv="refresh" content="0; url=docs/index.html">'
 
 
@@ -66,10 +67,17 @@ def _index() -> str:
 
 
 def _package(name: str, rooms: dict[str, list[str]]) -> str:
-    """The page of a package: its purpose, public names, rooms."""
+    """The page of a package: its purpose, public names, rooms; a name of a package below is in that one's page."""
     listed = "\n".join(f"   {room}" for room in rooms)
+    package = importlib.import_module(name)
+    homes = {one: getattr(getattr(package, one), "__module__", f"{name}.") for one in package.__all__}
+    below = [one for one, home in homes.items() if not home.startswith(f"{name}.")]
+    left_out = f"   :exclude-members: {', '.join(below)}\n" if below else ""
+    borrowed = (
+        f"Also here, from the packages below: {', '.join(f'``{one}``' for one in below)}.\n\n" if below else ""
+    )
     return (
-        f"{_title(name)}\n.. automodule:: {name}\n   :members:\n\n"
+        f"{_title(name)}\n.. automodule:: {name}\n   :members:\n{left_out}\n{borrowed}"
         f"{_title('Rooms', '-')}\n.. toctree::\n   :maxdepth: 1\n\n{listed}\n"
     )
 
