@@ -23,8 +23,8 @@ def coefficient_records(pump: PumpDescription) -> list[dict[str, Any]]:
     found = []
     for key, table in stated.items():
         if table is not None:
-            told = {"file": str(table.path), "source": table.source, "range": _range(table)}
-            found.append({"key": key, **told})
+            record = {"file": str(table.path), "source": table.source, "range": _range(table)}
+            found.append({"key": key, **record})
     return found
 
 

@@ -53,7 +53,7 @@ class StepSection(PassageSection):
 
 
 @dataclass(frozen=True, kw_only=True)
-class GrooveSection(PassageSection):
+class FilmGrooveSection(PassageSection):
     """[reference]: a groove across a film."""
 
     film_ratio: Annotated[Numbers, Several.OF_THEM, Limits(above=1.0, most=WIDEST)]  # film in the groove / film
@@ -85,7 +85,7 @@ class SlotSection(PipeSection):
 
 SECTIONS: dict[ReferenceKind, type[PassageSection]] = {
     ReferenceKind.STEP: StepSection,
-    ReferenceKind.GROOVE: GrooveSection,
+    ReferenceKind.GROOVE: FilmGrooveSection,
     ReferenceKind.ORIFICE: OrificeSection,
     ReferenceKind.SLOT: SlotSection,
 }
@@ -150,7 +150,7 @@ def _passages(section: PassageSection) -> tuple[Passage, ...]:
     match section:
         case StepSection(film_ratio=ratios):
             return tuple(StepPassage(ratio) for ratio in ratios)
-        case GrooveSection(film_ratio=deep, width_ratio=wide):
+        case FilmGrooveSection(film_ratio=deep, width_ratio=wide):
             return tuple(GroovePassage(*sizes) for sizes in product(deep, wide))
         case OrificeSection(diameter=diameters, length=length, pipe_ratio=ratio):
             return tuple(OrificePassage(diameter, length, ratio) for diameter in diameters)

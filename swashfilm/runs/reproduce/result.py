@@ -14,7 +14,7 @@ from swashfilm.runs.reproduce.page import FILES, verdict_rows
 if TYPE_CHECKING:
     import xarray
 
-HEAD = ("statement", "reading", "the paper", "here", "verdict")
+HEAD = ("statement", "reading", "the paper", "computed", "verdict")
 
 
 class Reproduction(Result):
