@@ -18,7 +18,7 @@ from diagnosis.study.model import Study, study_of
 from diagnosis.study.prepare import prepare
 from diagnosis.study.scaled_pump import KnownPump, known_pump
 from diagnosis.thresholds import Thresholds, load_thresholds
-from reynolds.errors import FilmInputError
+from reynolds.errors import InputError, NotConverged
 from system.bench.calibration.equation_21 import (
     EqFit,
     eq_fits,
@@ -40,7 +40,6 @@ from system.effects.extension import Extension
 from system.estimation.determined import Combination, undetermined
 from system.estimation.posterior import Posterior
 from system.inputs.channels import ChannelName
-from system.inputs.errors import NotConverged
 from system.work.progress import Report, silent
 
 
@@ -184,7 +183,7 @@ def _equations(
         return (), ()
     try:
         readings = measured_losses(bench.points, study.observations)
-    except FilmInputError as reason:
+    except InputError as reason:
         notes.append(f"Eq. (21) by itself: {reason}")
         return (), ()
     eq, rated = eq_twenty_one(bench, fit.values, own), pump.pump.rated_speed
@@ -209,7 +208,7 @@ def _compared(
         for at, name in enumerate(models):
             report(4 + at, 4 + len(models), f"loss model {name.value}")
             rows += model_rows(name, pump, bench.points, bench.inputs, study.observations)
-    except FilmInputError as reason:
+    except InputError as reason:
         notes.append(f"loss models: {reason}")
         return ()
     return tuple(rows)

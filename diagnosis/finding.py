@@ -17,14 +17,13 @@ from diagnosis.study.scaled_pump import KnownPump, known_pump
 from diagnosis.thresholds import Thresholds, load_thresholds
 from diagnosis.verdict.diagnosis import Diagnosis, VerdictStatus
 from diagnosis.verdict.row_numbers import by_table_rows
-from reynolds.errors import FilmInputError
+from reynolds.errors import InputError, NotConverged
 from reynolds.laws.oil import walther
 from system.description.pump import PumpDescription
 from system.description.tolerances import tolerances
 from system.effects.catalogue.entries import CATALOGUE
 from system.effects.effect import Kind
 from system.effects.extension import Entry
-from system.inputs.errors import NotConverged
 from system.work.progress import Report, silent
 
 NO_NEXT_POINT = "no next point can be proposed"
@@ -88,5 +87,5 @@ def _with_next_point(study: Study, pump: PumpDescription, found: Diagnosis, thre
         return found
     try:
         return with_next_point(study, pump, found, thresholds)
-    except (NotConverged, FilmInputError) as reason:
+    except (NotConverged, InputError) as reason:
         return replace(found, notes=(*found.notes, f"{NO_NEXT_POINT}: {reason}"))

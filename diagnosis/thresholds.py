@@ -10,7 +10,7 @@ from math import log, radians
 from pathlib import Path
 from typing import Any
 
-from reynolds.errors import FilmInputError
+from reynolds.errors import InputError
 
 FILE = Path(__file__).with_name("thresholds.toml")
 
@@ -188,7 +188,7 @@ class Thresholds:
 
 @cache
 def load_thresholds(path: Path = FILE) -> Thresholds:
-    """The thresholds of a file. Raises FilmInputError for keys that are missing or that nothing reads."""
+    """The thresholds of a file. Raises InputError for keys that are missing or that nothing reads."""
     content = path.read_bytes()
     tables = tomllib.loads(content.decode())
 
@@ -214,5 +214,5 @@ def _table(kind: type, name: str, tables: dict[str, Any], path: Path) -> dict[st
     found = tables.get(name, {})
     expected = [field.name for field in fields(kind)]
     if sorted(found) != sorted(expected):
-        raise FilmInputError(f"{path}: [{name}]", ", ".join(found) or "nothing", ", ".join(expected))
+        raise InputError(f"{path}: [{name}]", ", ".join(found) or "nothing", ", ".join(expected))
     return {key: tuple(value) if isinstance(value, list) else value for key, value in found.items()}

@@ -13,6 +13,8 @@ from .bodies.wall import Body as Body
 from .bodies.wall import body_wall as body_wall
 from .errors import FilmInputError as FilmInputError
 from .errors import FilmNotConverged as FilmNotConverged
+from .errors import InputError as InputError
+from .errors import NotConverged as NotConverged
 from .fem.mesh import (
     Cell as Cell,
 )

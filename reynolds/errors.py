@@ -1,25 +1,38 @@
-"""Errors of a film that gives no number."""
+"""Errors of the program: an input that cannot be used, and a solution that was not found."""
+
+from __future__ import annotations
 
 
-class FilmInputError(ValueError):
-    """A film problem that cannot be posed: where, what was found, what was expected."""
+class InputError(ValueError):
+    """An input that cannot be used: where, what was found, what was expected."""
 
     def __init__(self, where: str, found: str, expected: str) -> None:
         super().__init__(f"{where}: {found}; expected {expected}")
         self.where, self.found, self.expected = where, found, expected
 
     def __reduce__(self) -> tuple[type, tuple[str, str, str]]:
-        """Arguments from which another process rebuilds the error (pickle)."""
+        """Arguments from which another process makes the same error."""
         return type(self), (self.where, self.found, self.expected)
 
 
-class FilmNotConverged(RuntimeError):
-    """The solve stopped short of its tolerance: what was reached, and what to try."""
+class FilmInputError(InputError):
+    """A film problem that cannot be posed."""
+
+
+class NotConverged(RuntimeError):
+    """A solve ended without meeting its stated tolerance.
+
+    The message says which solve, how far it got, what was demanded, and what to try.
+    """
+
+
+class FilmNotConverged(NotConverged):
+    """The solve of a film stopped short of its tolerance: what was reached, and what to try."""
 
     def __init__(self, what: str, remedy: str) -> None:
         super().__init__(f"{what}. Try: {remedy}")
         self.what, self.remedy = what, remedy
 
     def __reduce__(self) -> tuple[type, tuple[str, str]]:
-        """Arguments from which another process rebuilds the error (pickle)."""
+        """Arguments from which another process makes the same error."""
         return type(self), (self.what, self.remedy)

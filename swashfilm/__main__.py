@@ -26,17 +26,16 @@ def main(arguments: Sequence[str] | None = None) -> int:
         sys.excepthook = _internal_error
     for name in _THREADS:  # films are small: threads cost more than they gain, and several runs share the cores
         os.environ.setdefault(name, "1")
-    from reynolds.errors import FilmInputError, FilmNotConverged
+    from reynolds.errors import InputError, NotConverged
     from swashfilm.cli.app import run_command
     from swashfilm.output.run_folder import Interrupted
-    from system.inputs.errors import NotConverged
     from system.inputs.faults import InputFaults
 
     try:
         return run_command(words)
-    except (InputFaults, FilmInputError) as reason:
+    except (InputFaults, InputError) as reason:
         return _end(str(reason), EXIT_BAD_INPUT)
-    except (FilmNotConverged, NotConverged) as reason:
+    except NotConverged as reason:
         return _end(f"not converged: {reason}\nNo result was written.", EXIT_NOT_CONVERGED)
     except Interrupted as stop:
         if stop.again:

@@ -16,10 +16,10 @@ from importlib import import_module
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from reynolds.errors import FilmInputError
+from reynolds.errors import InputError
+from reynolds.errors import NotConverged as NotConverged
 from swashfilm.cli.app import options_of, parse
 from swashfilm.console.inputs import COMMAND_LINE
-from system.inputs.errors import NotConverged as NotConverged
 from system.inputs.faults import Fault, InputFaults, nearest_choice, nearest_path
 from system.pump_file.file import load_pump as load_pump
 from system.work.progress import Report, silent
@@ -387,7 +387,7 @@ def _door(name: str) -> Iterator[None]:
             for fault in reason.faults
         ]
         raise InputFaults(source, faults, reason.lines) from None
-    except FilmInputError as reason:
+    except InputError as reason:
         fault = Fault(reason.where, reason.found, reason.expected)
         raise InputFaults(f"swashfilm.{name}()", [fault]) from reason
 

@@ -1,6 +1,5 @@
 from .description.gap import Gap as Gap
 from .description.pump import PumpDescription as PumpDescription
-from .inputs.errors import NotConverged as NotConverged
 from .inputs.faults import Fault as Fault
 from .inputs.faults import InputFaults as InputFaults
 from .maps.data import MapData as MapData

@@ -18,7 +18,7 @@ from pathlib import Path
 import numpy as np
 
 from gaps.films.physics import Effect
-from reynolds.errors import FilmInputError, FilmNotConverged
+from reynolds.errors import FilmNotConverged, InputError
 from reynolds.laws.oil import walther
 from system.films.cycle import PLAIN, SMOOTH, GapPhysics
 from system.points.films import films_point
@@ -114,7 +114,7 @@ def made(plant: FilmPlant) -> Iterator[tuple[float, ...]]:
     for row in set_points(plant.points):
         try:
             yield *map(float, row), *solved(plant, row)
-        except (FilmInputError, FilmNotConverged) as reason:
+        except (InputError, FilmNotConverged) as reason:
             print(f"{plant.case.value}: left out {row}: {reason}", flush=True)
 
 

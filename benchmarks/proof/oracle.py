@@ -13,7 +13,7 @@ from diagnosis.explain.refit import refit
 from diagnosis.study.model import Study
 from diagnosis.thresholds import Thresholds
 from diagnosis.verdict.diagnosis import Diagnosis
-from system.inputs.errors import NotConverged
+from reynolds.errors import NotConverged
 
 from .outcome import Outcome
 

@@ -22,12 +22,11 @@ from diagnosis.study.scaled_pump import load_known_pump
 from diagnosis.thresholds import load_thresholds
 from diagnosis.verdict.diagnosis import ClaimedEffect, Diagnosis
 from diagnosis.verdict.locate import Location
-from reynolds.errors import FilmInputError
+from reynolds.errors import InputError, NotConverged
 from reynolds.laws.oil import walther
 from system.description.pump import PumpDescription
 from system.description.tolerances import tolerances
 from system.effects.effect import EffectId, Kind
-from system.inputs.errors import NotConverged
 from system.inputs.faults import InputFaults
 
 from .campaigns import campaigns
@@ -98,7 +97,7 @@ def _tried(folder: Path, expected: Outcome) -> tuple[Outcome, Diagnosed | None]:
     begun = process_time()
     try:
         diagnosed = diagnose_folder(folder)
-    except (InputFaults, NotConverged, FilmInputError) as reason:
+    except (InputFaults, NotConverged, InputError) as reason:
         spent = process_time() - begun
         return replace(expected, failed=str(reason), status="failed", seconds=spent, program=program()), None
     return _outcome(expected, diagnosed, process_time() - begun), diagnosed

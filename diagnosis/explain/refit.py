@@ -16,13 +16,13 @@ from diagnosis.explain.ranked import Explanation
 from diagnosis.explain.screen import joint_evidence
 from diagnosis.study.model import Study
 from diagnosis.thresholds import Thresholds
+from reynolds.errors import NotConverged
 from reynolds.numerics.arrays import Array
 from system.estimation.bounded_step import Bounds
 from system.estimation.fit import FitLimits, maximum_posterior
 from system.estimation.parameters import Parameter
 from system.estimation.posterior import Posterior, values_at
 from system.estimation.simulator import Simulator
-from system.inputs.errors import NotConverged
 from system.work.processes import ProcessPool
 from system.work.progress import Report
 

@@ -11,8 +11,8 @@ from diagnosis.explain.ranked import Explanation, with_probabilities
 from diagnosis.explain.refit import FirstLook, first_look
 from diagnosis.study.model import Study
 from diagnosis.thresholds import Thresholds
+from reynolds.errors import NotConverged
 from system.effects.effect import Kind
-from system.inputs.errors import NotConverged
 
 
 def is_settled(detection: Detection, null: Explanation, thresholds: Thresholds) -> bool:

@@ -15,9 +15,8 @@ from diagnosis.report.text import explanation_words
 from diagnosis.study.model import Study
 from diagnosis.thresholds import NextPointLimits, Thresholds
 from diagnosis.verdict.diagnosis import Diagnosis
-from reynolds.errors import FilmInputError
+from reynolds.errors import InputError, NotConverged
 from system.description.pump import PumpDescription
-from system.inputs.errors import NotConverged
 
 
 def with_next_point(study: Study, pump: PumpDescription, found: Diagnosis, thresholds: Thresholds) -> Diagnosis:
@@ -46,7 +45,7 @@ def proposed_point(
         return point
     try:
         farther = next_point(study, pump, ordinary_box(study.recording, pump), first, second, limits)
-    except (NotConverged, FilmInputError) as reason:
+    except (NotConverged, InputError) as reason:
         return replace(point, instead=f"Farther out nothing can be predicted: {reason}.")
     if farther.settles:
         return replace(farther, beyond=True)

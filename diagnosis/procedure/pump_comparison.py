@@ -13,7 +13,7 @@ from diagnosis.study.inputs import bench_points
 from diagnosis.study.model import Study
 from diagnosis.verdict.diagnosis import Diagnosis
 from diagnosis.verdict.row_numbers import table_rows
-from reynolds.errors import FilmInputError, FilmNotConverged
+from reynolds.errors import InputError, NotConverged
 from system.bench.calibration.extended_pump import extended_pump, values_by_name
 from system.bench.points import operating_at
 from system.description.gap import Gap
@@ -23,7 +23,6 @@ from system.effects.effect import EffectId, Kind
 from system.effects.friction import OF_GAP
 from system.estimation.posterior import values_at
 from system.inputs.channels import ChannelName
-from system.inputs.errors import NotConverged
 from system.inputs.units import LPM
 from system.points.film_effects import SOLVED
 from system.points.films import FilmsPoint, films_point
@@ -120,7 +119,7 @@ def compare_pumps(pump: PumpDescription, study: Study, found: Diagnosis, report:
     try:
         pumps = {name: _at(each, point) for name, each in fitted.items()}
         points = {name: lumped_point(each, operating_point(each)) for name, each in pumps.items()}
-    except (NotConverged, FilmInputError) as reason:
+    except (NotConverged, InputError) as reason:
         text = f"Point {number}, where the finding adds most, could not be run: {reason}"
         return replace(NO_COMPARISON, text=text)
     films = compare_films(pumps, points, {claim.effect for claim in found.effects}, report)
@@ -150,7 +149,7 @@ def compare_films(
                 pump, operating_point(pump), positions_per_pitch=POSITIONS, finer=FINER, tolerance=AGREED,
                 report=_of(report, name),
             )  # fmt: skip
-    except (FilmInputError, FilmNotConverged, NotConverged) as reason:
+    except (InputError, NotConverged) as reason:
         return FilmComparison(text=f"The films could not be solved: {reason}")
     return FilmComparison(solved, tuple(_film_changes(points, solved)), _accuracy(solved))
 

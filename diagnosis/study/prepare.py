@@ -15,7 +15,7 @@ from diagnosis.study.readings import observations
 from diagnosis.study.trace_misfits import port_events, trace_misfits, trace_parameters
 from diagnosis.study.traced_bench import traced_bench
 from diagnosis.thresholds import Thresholds
-from reynolds.errors import FilmInputError
+from reynolds.errors import InputError
 from system.bench.outputs import SIMULATED
 from system.bench.parameters import base_parameters
 from system.bench.sensors import drift_parameter, lag_parameter, sensor_parameters
@@ -40,14 +40,14 @@ def prepare(
     """The study of a recording of a pump, by the lumped fidelity, with the whole catalogue as candidates.
 
     Chamber traces are readings like the steady ones, some tens of numbers each (`TracedBench`). Inputs that the
-    recording lacks are assumed, with notes in the study's recording. Raises FilmInputError for a recording without
+    recording lacks are assumed, with notes in the study's recording. Raises InputError for a recording without
     a simulated output, NotConverged where a point cannot be simulated.
     """
     usable = complete(recording)
     channels, inputs = measured(usable, SIMULATED), measured(usable, INPUTS)
     if not channels:
         names = ", ".join(channel.value for channel in SIMULATED)
-        raise FilmInputError("recording", "none of the simulated outputs", f"at least one of {names}")
+        raise InputError("recording", "none of the simulated outputs", f"at least one of {names}")
     points, taken = bench_points(usable, pump)
     unused = tuple(
         DataNote(NoteKind.NOTED, name, (), f"{name.value} is recorded, but the simulation does not give it")

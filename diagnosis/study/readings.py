@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 
 from diagnosis.recording.model import RecordedChannel, Recording, reading_sigma
 from diagnosis.study.map_axes import scaled_axes
-from reynolds.errors import FilmInputError
+from reynolds.errors import InputError
 from reynolds.numerics.arrays import Array
 from system.estimation.observations import Channel, Observations
 from system.inputs.channels import ChannelName
@@ -21,7 +21,7 @@ def observations(
     """The readings of some channels with their repeatability, and the noise of the inputs.
 
     Blocks are the cells of thirds of the map's axes: points of one block are near each other. Raises
-    FilmInputError for a channel that was not measured.
+    InputError for a channel that was not measured.
     """
     steady = recording.steady
     stated = [_channel(recording, name) for name in channels]
@@ -45,7 +45,7 @@ def observations(
 def _channel(recording: Recording, name: ChannelName) -> RecordedChannel:
     found = recording.channel(name)
     if found is None:
-        raise FilmInputError("recording", f"no channel {name.value}", "a channel that was measured")
+        raise InputError("recording", f"no channel {name.value}", "a channel that was measured")
     return found
 
 

@@ -7,12 +7,12 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from diagnosis.study.traced_bench import TracedBench
+from reynolds.errors import NotConverged
 from reynolds.numerics.arrays import Array
 from system.bench.parameters import GROOVE_NAMES
 from system.bench.sensors import TRACE_NAMES
 from system.estimation.fit import FitLimits, maximum_posterior
 from system.estimation.parameters import Parameter
-from system.inputs.errors import NotConverged
 
 MOVING = frozenset({
     "bulk_modulus", "dead_volume", "flow_coefficient", "stand_out_share", "p_out.zero", "film_thickness.piston",

@@ -18,11 +18,11 @@ from diagnosis.study.map_axes import axis_values
 from diagnosis.study.model import Study
 from diagnosis.thresholds import Thresholds
 from diagnosis.verdict.trend import power_errors
+from reynolds.errors import NotConverged
 from reynolds.numerics.arrays import Array
 from system.estimation.evidence import multiplier_evidence
 from system.estimation.parameters import Role
 from system.estimation.posterior import Posterior, settled
-from system.inputs.errors import NotConverged
 
 BROADER = 5.44  # n times the variance of a squared scale from the median (Rousseeuw and Croux 1993)
 MEDIAN = float(norm.isf(0.25))  # of |r| in sigma

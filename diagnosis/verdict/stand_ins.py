@@ -20,11 +20,11 @@ from diagnosis.explain.ranked import Explanation
 from diagnosis.study.map_axes import smooth_shapes
 from diagnosis.study.model import Study
 from diagnosis.thresholds import FormLimits, Thresholds
+from reynolds.errors import NotConverged
 from reynolds.numerics.arrays import Array
 from system.effects.effect import EffectId, Kind
 from system.estimation.evidence import multiplier_evidence
 from system.estimation.posterior import Posterior, settled
-from system.inputs.errors import NotConverged
 
 Evidence = Callable[[Explanation], float | None]
 

@@ -14,11 +14,11 @@ from diagnosis.explain.scaling import moves
 from diagnosis.study.map_axes import AXES
 from diagnosis.study.model import Study
 from diagnosis.thresholds import Thresholds
+from reynolds.errors import NotConverged
 from reynolds.numerics.arrays import Array
 from system.estimation.evidence import score
 from system.estimation.posterior import settled
 from system.inputs.channels import ChannelName
-from system.inputs.errors import NotConverged
 
 
 @dataclass(frozen=True)

@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
-from reynolds.errors import FilmInputError
+from reynolds.errors import InputError
 from reynolds.fem.space import film_space
 from reynolds.problem import Cavitation, FilmProblem
 from reynolds.solve.boundary import check_pressures
@@ -44,7 +44,7 @@ class FilmCase:
     problem: FilmProblem
 
     def refined(self) -> FilmCase:
-        """Return the case on a mesh twice finer; raise FilmInputError where a field has no valid value there."""
+        """Return the case on a mesh twice finer; raise InputError where a field has no valid value there."""
         stated = self.stated.refined()
         return replace(self, stated=stated, problem=film_problem(stated), resolved=resolved_text(stated))
 
@@ -100,7 +100,7 @@ def _free_film(path: Path, text: str, top: Table, film: Table) -> FilmCase | Non
     try:
         problem = film_problem(stated, space)
         check_pressures(problem)
-    except FilmInputError as reason:
+    except InputError as reason:
         top.fault(reason.where, reason.found, reason.expected)
         return None
     return FilmCase(path.stem, text, resolved_text(stated), stated, problem)

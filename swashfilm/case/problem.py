@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from reynolds.errors import FilmInputError
+from reynolds.errors import InputError
 from reynolds.fem.space import FilmSpace, film_space
 from reynolds.laws.fluid import CONSTANT, Fluid
 from reynolds.numerics.arrays import Array
@@ -15,7 +15,7 @@ from swashfilm.case.statement import FilmStatement
 def film_problem(stated: FilmStatement, space: FilmSpace | None = None, t: float = 0.0) -> FilmProblem:
     """Return the problem of a case at a time (s); `space`: the space on its mesh, where it exists already.
 
-    Raises FilmInputError for a field without a value somewhere, for a thickness or viscosity not above zero, and
+    Raises InputError for a field without a value somewhere, for a thickness or viscosity not above zero, and
     for an elastic body that does not lie under the film.
     """
     space = space or film_space(stated.mesh.film_mesh, degree=stated.order)
@@ -56,7 +56,7 @@ def _fluid(stated: FilmStatement) -> Fluid:
 
 
 def _sampled(where: str, field: Field, space: FilmSpace, t: float, *, positive: bool = False) -> Array:
-    """Return a field at the quadrature points; raise FilmInputError where its value is invalid."""
+    """Return a field at the quadrature points; raise InputError where its value is invalid."""
     if fault := field_fault(field, space, t, positive=positive):
-        raise FilmInputError(where, *fault)
+        raise InputError(where, *fault)
     return field.sample(space, t)

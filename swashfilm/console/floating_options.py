@@ -6,7 +6,7 @@ import argparse
 from dataclasses import replace
 
 from gaps.films.physics import Effect
-from reynolds.errors import FilmInputError
+from reynolds.errors import InputError
 from swashfilm.case.gap.revolution import FINER
 from swashfilm.case.gap.switches import SWITCHES
 from swashfilm.console.fidelity import Fidelity
@@ -58,7 +58,7 @@ def floating_faults(
 def _physics_faults(pump: PumpDescription) -> list[Fault]:
     try:
         hold_plain(pump)
-    except FilmInputError as reason:
+    except InputError as reason:
         return [Fault(reason.where, reason.found, reason.expected)]
     return []
 

@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from reynolds.errors import FilmInputError
+from reynolds.errors import InputError, NotConverged
 from reynolds.numerics.arrays import Array
 from system.bench.chamber_map import Courses, beside, other_gaps, solve_map
 from system.bench.components import WARMER, components
@@ -25,7 +25,6 @@ from system.effects.extension import Extension
 from system.effects.switched import stated_laws
 from system.estimation.parameters import Parameter, Scale
 from system.inputs.channels import INPUTS, ChannelName
-from system.inputs.errors import NotConverged
 from system.pump.chamber_kinds import kinds
 
 SAMPLES_PER_PITCH = 10
@@ -57,7 +56,7 @@ class LumpedBench:
     observations. Parameters: of `base_parameters`, `sensor_parameters` and those of the extensions in `physics`,
     which join where they are not among them; what none of them names is as the pump states it, its own
     [physics] too. Ports are held at their mean pressures: lines behind them and their ripple are left out. Raises
-    FilmInputError for a channel it does not know, a parameter that is none of these, chambers that differ, and
+    InputError for a channel it does not know, a parameter that is none of these, chambers that differ, and
     points at which the oil's law is void.
     """
 
@@ -75,9 +74,9 @@ class LumpedBench:
         for channel in channels:
             if channel not in SIMULATED:
                 names = ", ".join(known.value for known in SIMULATED)
-                raise FilmInputError("bench.channels", channel.value, f"one of {names}")
+                raise InputError("bench.channels", channel.value, f"one of {names}")
         if not kinds(pump).alike:
-            raise FilmInputError("bench.pump", "single pistons or slippers", "chambers that are alike")
+            raise InputError("bench.pump", "single pistons or slippers", "chambers that are alike")
         self.pump, self.points, self.channels, self.inputs = pump, points, channels, inputs
         self.physics, self.samples_per_pitch, self.tolerance = physics, samples_per_pitch, tolerance
         own = {parameter.name for parameter in parameters}
@@ -256,11 +255,11 @@ class LumpedBench:
 
 
 def _hold_known(parameters: tuple[Parameter, ...], physics: tuple[Extension, ...]) -> None:
-    """Raise FilmInputError for a parameter that nothing listens to."""
+    """Raise InputError for a parameter that nothing listens to."""
     laws = {parameter.name for law in physics for parameter in law.free}
     for parameter in parameters:
         if parameter.name not in BASE_NAMES | laws | SENSOR_NAMES:
-            raise FilmInputError(
+            raise InputError(
                 "bench.parameters",
                 parameter.name,
                 "a parameter of the pump, of its sensors or of a law switched on",

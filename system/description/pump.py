@@ -137,7 +137,7 @@ class SlipperSection:
 
     @property
     def lands(self) -> SlipperLands:
-        """The sealing lands that the grooves leave; raises FilmInputError for grooves that do not lie apart."""
+        """The sealing lands that the grooves leave; raises InputError for grooves that do not lie apart."""
         grooves, vented = self.grooves or (), self.vented_grooves or ()
         return lands_between(self.land_inner_radius, self.land_outer_radius, grooves, vented)
 
@@ -172,7 +172,7 @@ class ValvePlateSection:
 
     @property
     def bearing_pads(self) -> tuple[BearingPads, ...]:
-        """The pads as films take them; raises FilmInputError for those that run into each other."""
+        """The pads as films take them; raises InputError for those that run into each other."""
         return tuple(BearingPads(pad.inner, pad.outer, pad.arc, pad.number) for pad in self.pads)
 
     @property

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from functools import reduce
 
-from reynolds.errors import FilmInputError
+from reynolds.errors import InputError
 from system.description.gap import Gap
 from system.description.pump import PumpDescription
 from system.effects.catalogue.entries import EXTENSIONS
@@ -37,10 +37,10 @@ def _law(pump: PumpDescription, extension: Extension, values: Values) -> Law:
 
 
 def hold_plain(pump: PumpDescription) -> None:
-    """Raise FilmInputError where a pump has effects switched on that a fidelity does not read."""
+    """Raise InputError where a pump has effects switched on that a fidelity does not read."""
     if pump.physics.on:
         found = ", ".join(dict.fromkeys(extension.id.value for extension, _ in switched_on(pump)))
-        raise FilmInputError("physics", found, "no effects, or the lumped or the films fidelity, which read them")
+        raise InputError("physics", found, "no effects, or the lumped or the films fidelity, which read them")
 
 
 def stated_effects(

@@ -8,9 +8,9 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.linalg import solve_triangular
 
+from reynolds.errors import NotConverged
 from reynolds.numerics.arrays import Array
 from system.estimation.parameters import Parameter
-from system.inputs.errors import NotConverged
 
 
 @dataclass(frozen=True)

@@ -15,6 +15,7 @@ from time import process_time
 
 import numpy as np
 
+from reynolds.errors import NotConverged
 from reynolds.numerics.arrays import Array
 from system.estimation.bounded_step import Bounds, Quadratic, bounded_step
 from system.estimation.laplace import laplace, log_mass
@@ -22,7 +23,6 @@ from system.estimation.observations import Observations
 from system.estimation.posterior import FitEffort, Posterior, standard_slopes, values_at
 from system.estimation.simulator import Simulator
 from system.estimation.whitening import Whitening, whitener
-from system.inputs.errors import NotConverged
 
 HARDER, EASIER = 4.0, 1.0 / 3.0  # the damping after a trial that failed, that kept its promise
 LEAST_DAMPING, FIRST_DAMPING, MOST_DAMPING = 1e-6, 1e-2, 1e6

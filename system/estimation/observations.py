@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from reynolds.errors import FilmInputError
+from reynolds.errors import InputError
 from reynolds.numerics.arrays import Array
 from system.inputs.units import Dimension
 
@@ -41,7 +41,7 @@ class Observations:
     memory: tuple[float, ...] = ()
 
     def __post_init__(self) -> None:
-        """Raise FilmInputError for arrays that do not fit each other and for a reading without a noise."""
+        """Raise InputError for arrays that do not fit each other and for a reading without a noise."""
         points, channels = len(self.values), len(self.channels)
         shapes = (
             ("values", self.values.shape, (points, channels)),
@@ -52,9 +52,9 @@ class Observations:
         )
         for name, found, expected in shapes:
             if found != expected:
-                raise FilmInputError(f"observations.{name}", f"shape {found}", f"shape {expected}")
+                raise InputError(f"observations.{name}", f"shape {found}", f"shape {expected}")
         if not np.all(self.sigma[self.measured] > 0):
-            raise FilmInputError(
+            raise InputError(
                 "observations.sigma", "a reading without a positive sigma", "one sigma for each reading"
             )
 

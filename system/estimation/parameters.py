@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 from enum import Enum
 from math import exp, inf, log
 
-from reynolds.errors import FilmInputError
+from reynolds.errors import InputError
 from system.inputs.units import Dimension
 
 
@@ -46,16 +46,14 @@ class Parameter:
     source: str
 
     def __post_init__(self) -> None:
-        """Raise FilmInputError for a prior that is none."""
+        """Raise InputError for a prior that is none."""
         where = f"parameter {self.name}"
         if not 0 < self.spread < inf:
-            raise FilmInputError(where, f"a spread of {self.spread}", "a positive number")
+            raise InputError(where, f"a spread of {self.spread}", "a positive number")
         if not self.lower <= self.centre <= self.upper or self.lower == self.upper:
-            raise FilmInputError(where, f"centre {self.centre}", f"one within [{self.lower}, {self.upper}]")
+            raise InputError(where, f"centre {self.centre}", f"one within [{self.lower}, {self.upper}]")
         if self.scale is Scale.LOG and not self.lower >= 0 < self.centre:
-            raise FilmInputError(
-                where, f"centre {self.centre}, lower {self.lower}", "positive values on a log scale"
-            )
+            raise InputError(where, f"centre {self.centre}, lower {self.lower}", "positive values on a log scale")
 
     @property
     def lowest(self) -> float:

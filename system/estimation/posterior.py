@@ -9,7 +9,7 @@ from time import process_time
 import numpy as np
 from scipy.linalg import cho_factor, cho_solve
 
-from reynolds.errors import FilmInputError
+from reynolds.errors import InputError
 from reynolds.numerics.arrays import Array
 from system.estimation.bounded_step import Bounds
 from system.estimation.laplace import laplace
@@ -67,10 +67,10 @@ class Posterior:
         return pulls
 
     def index(self, name: str) -> int:
-        """The place of a parameter in every vector. Raises FilmInputError for a name that is none."""
+        """The place of a parameter in every vector. Raises InputError for a name that is none."""
         names = [parameter.name for parameter in self.parameters]
         if name not in names:
-            raise FilmInputError("posterior", f"parameter {name!r}", f"one of {', '.join(names)}")
+            raise InputError("posterior", f"parameter {name!r}", f"one of {', '.join(names)}")
         return names.index(name)
 
     def sigma(self, name: str) -> float:

@@ -21,7 +21,7 @@ class Simulator(Protocol):
         ...
 
     def predict(self, values: Array) -> Array:
-        """Readings (N, C) at the values (k,). Raises system.inputs.errors.NotConverged."""
+        """Readings (N, C) at the values (k,). Raises NotConverged."""
         ...
 
     def slopes(self, values: Array, names: tuple[str, ...]) -> Array:

@@ -86,7 +86,7 @@ def gap_cycle(
 
     Meshes have `finer` times the usual cells each way. Parts have the positions of the pump file. With heat in
     a gap's physics its walls are warmed by films and `rubbing`, the mean loss of contact of one piston,
-    one slipper and the ring (W). Raises FilmInputError where parts touch, FilmNotConverged.
+    one slipper and the ring (W). Raises InputError where parts touch, FilmNotConverged.
     """
     count = len(shaft_angle)
     driven = drives(rotor, parts, shaft_angle, chamber_pressure, no_rubbing(count))

@@ -8,7 +8,7 @@ from pathlib import Path
 
 from reynolds.bodies.mesh import BodyMesh
 from reynolds.bodies.mesh_file import body_from_file
-from reynolds.errors import FilmInputError
+from reynolds.errors import InputError
 from system.inputs.units import QuantityError
 
 
@@ -25,6 +25,6 @@ def read_body_file(path: Path) -> BodyFile:
     """The body of a mesh file; raises QuantityError for one that holds none."""
     try:
         body = body_from_file(path)
-    except FilmInputError as reason:
+    except InputError as reason:
         raise QuantityError(reason.found, reason.expected) from None
     return BodyFile(path, hashlib.sha256(path.read_bytes()).hexdigest(), body)

@@ -9,7 +9,7 @@ from math import nan
 
 import numpy as np
 
-from reynolds.errors import FilmInputError
+from reynolds.errors import InputError
 from reynolds.numerics.arrays import Array
 from system.maps.displacement import Derived, toet_displacement
 from system.maps.plan import MapAxis, MapInput, MapPlan
@@ -104,7 +104,7 @@ class MapData:
             taken = (values[:, :, *index][good] for values in (speed, difference, self.values["delivery_flow"]))
             try:
                 found[index] = toet_displacement(*taken)
-            except FilmInputError:
+            except InputError:
                 continue  # void: nan, and by `toet_notes`
         return found
 

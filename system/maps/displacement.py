@@ -7,7 +7,7 @@ from math import nan
 
 import numpy as np
 
-from reynolds.errors import FilmInputError
+from reynolds.errors import InputError
 from reynolds.numerics.arrays import Array
 from system.estimation.folds import levels
 from system.inputs.units import TURN
@@ -36,7 +36,7 @@ def toet_displacement(shaft_speed: Array, pressure_difference: Array, delivery_f
 
     rad/s, Pa, m3/s (N,) of one displacement setting, each pump turn wholly filled: points with a starved inlet are
     the caller's to leave out. First the slope V(dp) of flow over speed at each level of the pressure difference:
-    leakage, the same at every speed, is no part of it; then the line V(dp), read at dp = 0. Raises FilmInputError
+    leakage, the same at every speed, is no part of it; then the line V(dp), read at dp = 0. Raises InputError
     for fewer than two pressure differences with two speeds each.
     """
     level, speed_level = levels(pressure_difference), levels(shaft_speed)
@@ -44,7 +44,7 @@ def toet_displacement(shaft_speed: Array, pressure_difference: Array, delivery_f
     own = [points for points in own if np.unique(speed_level[points]).size > 1]
     if len(own) < 2:
         found = f"{len(own)} pressure differences with two speeds"
-        raise FilmInputError("readings", found, "flows at two speeds and two pressure differences at least")
+        raise InputError("readings", found, "flows at two speeds and two pressure differences at least")
     slopes = [TURN * _line(shaft_speed[points], delivery_flow[points])[1] for points in own]
     at = [float(np.mean(pressure_difference[points])) for points in own]
     speeds = min(np.unique(speed_level[points]).size for points in own)
@@ -55,13 +55,13 @@ def toet_displacement(shaft_speed: Array, pressure_difference: Array, delivery_f
 def intercept_displacement(shaft_speed: Array, pressure_difference: Array, delivery_flow: Array) -> Derived:
     """The zero-pressure intercept of Q/n over dp at one speed (ISO 8426-2:2025), arguments as `toet_displacement`.
 
-    A loss that is there without pressure counts as lacking displacement. Raises FilmInputError for readings of
+    A loss that is there without pressure counts as lacking displacement. Raises InputError for readings of
     several speeds or of fewer than two pressure differences.
     """
     if np.unique(levels(shaft_speed)).size > 1:
-        raise FilmInputError("readings", "several shaft speeds", "readings of one")
+        raise InputError("readings", "several shaft speeds", "readings of one")
     if np.ptp(pressure_difference) == 0.0:
-        raise FilmInputError("readings", "one pressure difference", "two at least")
+        raise InputError("readings", "one pressure difference", "two at least")
     return _at_no_pressure(pressure_difference, TURN * delivery_flow / shaft_speed, 1)
 
 

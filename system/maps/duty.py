@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from reynolds.errors import FilmInputError
+from reynolds.errors import InputError
 from reynolds.numerics.arrays import Array
 from system.inputs.faults import Fault, InputFaults
 from system.maps.data import LOSSES, MapData
@@ -24,7 +24,7 @@ class Cycle:
     """Inputs of a map over time (s), SI, (N,) each and linear between rows; inputs that the map holds may be left
     out.
 
-    A repeated time is a step. Raises FilmInputError for fewer than two rows, and for times that fall or do not
+    A repeated time is a step. Raises InputError for fewer than two rows, and for times that fall or do not
     pass.
     """
 
@@ -34,7 +34,7 @@ class Cycle:
     def __post_init__(self) -> None:
         if len(self.time) < 2 or np.any(np.diff(self.time) < 0.0) or not self.time[-1] > self.time[0]:
             found = f"{len(self.time)} rows" if len(self.time) < 2 else "times that fall, or do not pass"
-            raise FilmInputError("cycle", found, "two rows or more, in the order of their time")
+            raise InputError("cycle", found, "two rows or more, in the order of their time")
 
     @property
     def duration(self) -> float:

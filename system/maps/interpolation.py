@@ -8,7 +8,7 @@ from functools import cached_property
 
 import numpy as np
 
-from reynolds.errors import FilmInputError
+from reynolds.errors import InputError
 from reynolds.numerics.arrays import Array
 from system.inputs.faults import Fault, InputFaults
 from system.maps.data import MapData
@@ -49,7 +49,7 @@ class MapInterpolant:
     def at(self, inputs: Mapping[MapInput, Array]) -> dict[str, Array]:
         """Every number (N,) of the map at N points, SI; inputs of single level may be left out.
 
-        Raises FilmInputError with every input that lies outside the box: nothing is extrapolated.
+        Raises InputError with every input that lies outside the box: nothing is extrapolated.
         """
         given = {axis.input: axis.values[0] for axis in self.data.axes if len(axis.values) == 1} | dict(inputs)
         places = {axis.input: np.atleast_1d(np.asarray(given[axis.input], float)) for axis in self.data.axes}
@@ -117,7 +117,7 @@ def _hold_inside(axes: Sequence[MapAxis], places: Mapping[MapInput, Array]) -> N
             box = f"{axis.input.text(axis.values[0])} .. {axis.input.text(axis.values[-1])}"
             out.append((axis.input, float(wrong[0]), box))
     if out:
-        raise FilmInputError(
+        raise InputError(
             ", ".join(given.words for given, _, _ in out),
             ", ".join(given.text(value) for given, value, _ in out),
             ", ".join(box for _, _, box in out) + ", the map's box: nothing is extrapolated",

@@ -9,7 +9,7 @@ from enum import Enum
 from functools import cached_property
 from itertools import product
 
-from reynolds.errors import FilmInputError
+from reynolds.errors import InputError
 from system.description.pump import PumpDescription
 from system.inputs.faults import Fault
 from system.inputs.units import RPM, Dimension, format_quantity, in_unit, reading_unit
@@ -63,7 +63,7 @@ _DIMENSIONS = {
 
 @dataclass(frozen=True)
 class MapAxis:
-    """The levels of one input, SI, rising; a single level holds the input. Raises FilmInputError for others."""
+    """The levels of one input, SI, rising; a single level holds the input. Raises InputError for others."""
 
     input: MapInput
     values: tuple[float, ...]
@@ -72,7 +72,7 @@ class MapAxis:
         rising = all(low < high for low, high in zip(self.values, self.values[1:], strict=False))
         if not self.values or not rising:
             found = ", ".join(self.input.text(value) for value in self.values) or "no level"
-            raise FilmInputError(f"levels of {self.input.words}", found, "levels that rise, each once")
+            raise InputError(f"levels of {self.input.words}", found, "levels that rise, each once")
 
 
 @dataclass(frozen=True)
@@ -89,7 +89,7 @@ class MapPlan:
 
     @cached_property
     def points(self) -> tuple[OperatingPoint, ...]:
-        """All points, the last axis' level changing first; raises FilmInputError where the oil's law is void."""
+        """All points, the last axis' level changing first; raises InputError where the oil's law is void."""
         names = [axis.input.value for axis in self.axes]
         levels = product(*(axis.values for axis in self.axes))
         return tuple(operating_point(self.pump, **dict(zip(names, level, strict=True))) for level in levels)

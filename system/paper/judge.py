@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from enum import Enum
 from math import inf, isfinite
 
-from reynolds.errors import FilmInputError
+from reynolds.errors import InputError
 from system.paper.figure import Figure, Panel, Unit
 from system.paper.points import LossReading
 
@@ -25,14 +25,14 @@ class StatementVerdict(Enum):
 
 @dataclass(frozen=True)
 class Range:
-    """From low to high, both within; -inf or inf: no end. Raises FilmInputError for a range that is none."""
+    """From low to high, both within; -inf or inf: no end. Raises InputError for a range that is none."""
 
     low: float = -inf
     high: float = inf
 
     def __post_init__(self) -> None:
         if not self.low <= self.high:
-            raise FilmInputError("range", f"{self.low} to {self.high}", "a low end below the high one")
+            raise InputError("range", f"{self.low} to {self.high}", "a low end below the high one")
 
     def holds(self, other: Range) -> bool:
         """True if all of another range lies within."""

@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from reynolds.errors import FilmInputError
+from reynolds.errors import InputError
 from reynolds.numerics.arrays import Array
 from reynolds.numerics.cache import content_key
 from system.description.pump import PumpDescription
@@ -220,7 +220,7 @@ def solve_points(
     executor: Executor,
     report: Report = silent,
 ) -> PaperPoints:
-    """The places solved, or taken from `store`. Raises FilmInputError for the first that has no solution."""
+    """The places solved, or taken from `store`. Raises InputError for the first that has no solution."""
     work = PaperWork(pump, fidelity)
     if fidelity is PointFidelity.LUMPED:  # dearer to keep than to solve
         solved = {}
@@ -231,7 +231,7 @@ def solve_points(
     kept = run_kept(work, places, store, executor, report=report)
     for place, outcome in zip(places, kept.outcomes, strict=True):
         if outcome.status is not PartStatus.SOLVED:
-            raise FilmInputError(f"paper's point {place.text}", outcome.reason, "a point that can be solved")
+            raise InputError(f"paper's point {place.text}", outcome.reason, "a point that can be solved")
     points = {place: _point(one.record) for place, one in zip(places, kept.outcomes, strict=True)}
     return PaperPoints(pump, fidelity, points)
 

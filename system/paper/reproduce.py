@@ -74,7 +74,7 @@ def reproduce(
 ) -> tuple[FigureResult, ...]:
     """The figures, in the given order; for those without meaning in this fidelity the reason alone.
 
-    Raises FilmInputError where a point has no solution, as the fidelity where the pump is unsuitable for it.
+    Raises InputError where a point has no solution, as the fidelity where the pump is unsuitable for it.
     """
     if fidelity is PaperFidelity.FLOATING:
         made = {

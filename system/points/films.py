@@ -13,7 +13,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from reynolds.errors import FilmInputError
+from reynolds.errors import InputError, NotConverged
 from reynolds.numerics.arrays import Array
 from system.description.effects import PhysicsSection
 from system.description.pump import PumpDescription
@@ -23,7 +23,6 @@ from system.effects.friction import rubbed
 from system.films.cycle import PLAIN, GapCycle, GapPhysics, gap_cycle
 from system.films.parts import FloatingParts, floating_parts
 from system.films.rotor import Rotor, rotor
-from system.inputs.errors import NotConverged
 from system.inputs.units import TURN
 from system.points.effects import affected_problem, mean_outside, point_effects, with_stroke
 from system.points.film_effects import FilmEffects, closed_laws, film_effects
@@ -94,7 +93,7 @@ def films_point(
 
     Raises NotConverged when chamber pressure and films do not converge within ROUND_LIMIT rounds, or viscosity
     grows without bound, ValueError when `positions_per_pitch` is no even divisor of SAMPLES_PER_PITCH or chambers
-    differ, FilmInputError where parts touch at a given position. Films have no history; they are smooth, and
+    differ, InputError where parts touch at a given position. Films have no history; they are smooth, and
     rigid and isothermal except for [physics].
     """
     kinds(pump).hold_alike()
@@ -112,7 +111,7 @@ def films_point(
                 at, work.films.parts, cycle.shaft_angle[::every], cycle.pressure[::every], report,
                 physics=work.films.physics, rubbing=_rubbing(work.losses(cycle)), finer=finer,
             )  # fmt: skip
-        except FilmInputError as reason:
+        except InputError as reason:
             raise _run_away(pump, reason) from None
         ported, leaks = _ported(work, gaps, at.point)
         at = rotor(at.pump, met_point(work.point, ported))
@@ -130,7 +129,7 @@ def films_point(
     return FilmsPoint(at, films.parts, films.physics, told, gaps, rounds, change, sampled)
 
 
-def _run_away(pump: PumpDescription, reason: FilmInputError) -> FilmInputError | NotConverged:
+def _run_away(pump: PumpDescription, reason: InputError) -> InputError | NotConverged:
     """The reason itself, or in the pump's words that its oil stiffens without bound, beyond Barus' law.
 
     Where plain oil would come to 1/a, (1 - exp(-a p))/a of the stiffening oil does at no pressure.

@@ -16,12 +16,12 @@ from time import perf_counter
 import numpy as np
 
 from gaps.revolution.march import Leg, mass_balance_error
+from reynolds.errors import NotConverged
 from system.description.pump import PumpDescription
 from system.effects.switched import hold_plain
 from system.films.drives import Drives, Rubbing, no_rubbing
 from system.films.parts import FloatingParts
 from system.films.rotor import Rotor, rotor
-from system.inputs.errors import NotConverged
 from system.points.floating_exchange import (
     FloatingGaps,
     block_torque,
@@ -133,7 +133,7 @@ def floating_point(
     """One periodic operating point with the three gaps floating; side by side: the pistons in a second process.
 
     Raises NotConverged where gaps and chamber pressure do not settle within ROUND_LIMIT rounds, FilmNotConverged
-    where a film does not, ValueError for steps that do not divide among the pistons, FilmInputError where
+    where a film does not, ValueError for steps that do not divide among the pistons, InputError where
     [physics] switches effects on.
     """
     hold_plain(pump)

@@ -6,10 +6,10 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from reynolds.errors import NotConverged
 from system.description.pump import PumpDescription
 from system.effects.effect import Effects
 from system.effects.friction import rubbed
-from system.inputs.errors import NotConverged
 from system.inputs.units import TURN
 from system.points.effects import affected_problem, mean_outside, point_effects, with_stroke
 from system.pump.assembly import PumpPoint, assemble, met_point
@@ -41,7 +41,7 @@ def lumped_point(pump: PumpDescription, point: OperatingPoint, tolerance: float 
 
     Chambers that differ have each its own cycle; what rubs about the shaft takes the mean of pumps with chambers
     like each. Effects of [physics] see the gaps as they are without any; then chambers are solved once more.
-    Raises NotConverged when the chamber pressure does not become periodic, FilmInputError for a film that warmth
+    Raises NotConverged when the chamber pressure does not become periodic, InputError for a film that warmth
     closes. Valid for films thick against their
     roughness at the viscosity of the case; docs/theory.md, What is left out, lists the rest.
     """

@@ -15,11 +15,11 @@ from multiprocessing.connection import Connection
 
 from gaps.films.reports import PistonReport
 from gaps.revolution.march import GapRevolution
+from reynolds.errors import NotConverged
 from reynolds.numerics.arrays import Array
 from system.films.drives import Rubbing, drives
 from system.films.parts import FloatingParts
 from system.films.rotor import Rotor
-from system.inputs.errors import NotConverged
 from system.points.floating_gaps import FloatingOptions, piston_revolution
 from system.work.progress import Report
 

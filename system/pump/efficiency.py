@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from enum import Enum
 from math import nan
 
-from reynolds.errors import FilmInputError
+from reynolds.errors import InputError
 from system.pump.bench import BenchReading, Efficiency, energy_split, iso_efficiency, paper_efficiency
 
 
@@ -55,7 +55,7 @@ def efficiency(definition: EfficiencyDefinition, basis: EfficiencyBasis) -> Effi
     """The efficiencies of a definition; volumetric and hydromechanical are nan where it has none.
 
     The two by energy differ by E/(w T): the share of the shaft power that the oil takes along as compression.
-    Raises ValueError where a ratio is void, FilmInputError for Toet's without its displacement.
+    Raises ValueError where a ratio is void, InputError for Toet's without its displacement.
     """
     reading = basis.reading
     match definition:
@@ -65,7 +65,7 @@ def efficiency(definition: EfficiencyDefinition, basis: EfficiencyBasis) -> Effi
             return iso_efficiency(reading, basis.swept)
         case EfficiencyDefinition.ISO_TOET:
             if basis.toet is None:
-                raise FilmInputError("efficiency", "no displacement by Toet", "one derived from a map's readings")
+                raise InputError("efficiency", "no displacement by Toet", "one derived from a map's readings")
             return iso_efficiency(reading, basis.toet)
         case _:
             return _by_energy(reading, basis.bulk_modulus, definition is EfficiencyDefinition.ENERGY_RETURNED)

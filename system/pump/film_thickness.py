@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import replace
 from typing import Any
 
-from reynolds.errors import FilmInputError
+from reynolds.errors import InputError
 from system.description.effects import OpeningSection
 from system.description.gap import Gap
 from system.description.pump import OperatingSection, PumpDescription
@@ -27,7 +27,7 @@ def given_film(pump: PumpDescription, gap: Gap) -> float:
 def at_temperature(pump: PumpDescription, temperature: float) -> PumpDescription:
     """The pump with films as [physics.thermal_clearance] leaves them at a temperature (K), without such a table.
 
-    Raises FilmInputError as `expansion`.
+    Raises InputError as `expansion`.
     """
     if pump.physics.thermal_clearance is None:
         return pump
@@ -39,7 +39,7 @@ def at_temperature(pump: PumpDescription, temperature: float) -> PumpDescription
 def expansion(pump: PumpDescription, temperature: float) -> dict[Gap, float]:
     """Films at a temperature (K) over those stated: 1 + rate (T - T0), T0 the pump's own of [operating].
 
-    Raises FilmInputError where a film would close, to less than LEAST_FILM of itself.
+    Raises InputError where a film would close, to less than LEAST_FILM of itself.
     """
     warmer, times = temperature - pump.operating.temperature, {}
     for gap in Gap:
@@ -49,7 +49,7 @@ def expansion(pump: PumpDescription, temperature: float) -> dict[Gap, float]:
         if times[gap] < LEAST_FILM:
             where, limit = f"physics.thermal_clearance.{gap.value}.rate", (LEAST_FILM - 1.0) / warmer
             found = f"{rate:g} 1/K, a film that is closed at {warmer:+.3g} K"
-            raise FilmInputError(where, found, f"{'above' if warmer > 0.0 else 'below'} {limit:.3g} 1/K")
+            raise InputError(where, found, f"{'above' if warmer > 0.0 else 'below'} {limit:.3g} 1/K")
     return times
 
 

@@ -84,7 +84,7 @@ def with_inertia(
     """Leaks of creeping flow with what inertia takes at pressures over the case's, drop (N,) in Pa.
 
     Conductances are those of chords: flow over pressure. `bore`: of the slipper's bore too, where the leaks have
-    not got it from a film that is fed through it. Raises FilmInputError as `secant_conductance`.
+    not got it from a film that is fed through it. Raises InputError as `secant_conductance`.
     """
     losses, density = land_losses(pump), pump.oil.density
 

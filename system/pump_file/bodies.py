@@ -15,7 +15,7 @@ from gaps.walls.user_mesh import OwnMesh
 from reynolds.bodies.chart import Chart, Cylinder, OnSphere, Side
 from reynolds.bodies.space import BodySpace, Face, body_space
 from reynolds.bodies.transfer import transfer
-from reynolds.errors import FilmInputError
+from reynolds.errors import InputError
 from reynolds.fem.mesh import Cell, annulus, rectangle
 from reynolds.fem.space import FilmSpace, film_space
 from reynolds.fem.sphere import PLANE, Sphere
@@ -144,7 +144,7 @@ def _fits(path: str, body: BodySection, place: _Place, wanted: tuple[str, ...]) 
     yield from _names(path, body, own, names)
     try:
         space = body_space(own.body)
-    except FilmInputError as reason:
+    except InputError as reason:
         yield Fault(f"{path}.mesh", reason.found, reason.expected)
         return
     yield from _missing(path, own, wanted)
@@ -185,7 +185,7 @@ def _lies(path: str, body: BodySection, space: BodySpace, face: Face, place: _Pl
         return
     try:
         transfer(place.film, face, place.chart)
-    except FilmInputError as reason:
+    except InputError as reason:
         where = f"a face over {_box(face.places)}; {reason.found}"
         yield Fault(f"{path}.film", where, place.shape, _remedy(face, place))
         return

@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterator
 from dataclasses import replace
 
-from reynolds.errors import FilmInputError
+from reynolds.errors import InputError
 from reynolds.laws.oil import walther
 from system.description.lines import LineKind, ripple_faults
 from system.description.parts import RetainerKind
@@ -166,12 +166,12 @@ def oil_has_a_viscosity(pump: PumpDescription) -> Iterator[Finding]:
     temperature = pump.operating.temperature
     try:
         fluid = pump.oil.fluid
-    except FilmInputError as reason:
+    except InputError as reason:
         yield Fault("oil.kinematic_viscosity_100C", f"no oil: {reason}", "an oil that thins from 40 to 100 degC")
         return
     try:
         walther(temperature, fluid)
-    except FilmInputError as reason:
+    except InputError as reason:
         shown = format_quantity(temperature, Dimension.TEMPERATURE, digits=4)
         yield Fault("operating.temperature", shown, f"where the oil's law holds: {reason.expected}")
 

@@ -12,7 +12,7 @@ from importlib.metadata import version
 from pathlib import Path
 from typing import TypeVar
 
-from reynolds.errors import FilmInputError
+from reynolds.errors import InputError
 from system.inputs.faults import Fault, InputFaults, nearest_path
 from system.work.processes import WorkerDied
 from system.work.progress import Report, silent
@@ -51,7 +51,7 @@ class KeptPoints:
         """Keep an outcome of a kind that is kept. The file is written elsewhere and moved, so no reader meets a
         part of it.
 
-        Raises FilmInputError where the folder cannot be written.
+        Raises InputError where the folder cannot be written.
         """
         if outcome.status not in self.keeps:
             return
@@ -63,9 +63,7 @@ class KeptPoints:
             beside.write_text(text + "\n", encoding="utf-8")
             beside.replace(self.folder / f"{outcome.key}.json")
         except OSError as fault:
-            raise FilmInputError(
-                "kept points", f"{self.folder}: {fault.strerror}", "a folder to write in"
-            ) from fault
+            raise InputError("kept points", f"{self.folder}: {fault.strerror}", "a folder to write in") from fault
 
 
 def points_of_run(folder: Path) -> KeptPoints:
@@ -118,7 +116,7 @@ def _known(work: Work[Part], part: Part, store: KeptPoints, earlier: KeptPoints 
         return None
     try:
         key = work.key(part)
-    except (InputFaults, FilmInputError):
+    except (InputFaults, InputError):
         return None  # raised again when the part is tried
     if (own := store.get(key)) is not None or earlier is None:
         return own

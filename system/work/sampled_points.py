@@ -10,9 +10,9 @@ from typing import Protocol
 import numpy as np
 
 from gaps.response import Axis, Samples, fewest_learnt, held_out_points, learnt_points
+from reynolds.errors import NotConverged
 from reynolds.numerics.arrays import Array
 from reynolds.numerics.cache import cache_folder
-from system.inputs.errors import NotConverged
 from system.work.kept_results import POINTS, KeptPoints, run_kept
 from system.work.processes import HERE
 from system.work.progress import Report, silent
@@ -46,7 +46,7 @@ class SamplingTask(Protocol):
         ...
 
     def solve(self, x: Array) -> Array:
-        """The outputs (m,) there; raises NotConverged, FilmNotConverged, FilmInputError or InputFaults."""
+        """The outputs (m,) there; raises NotConverged, FilmNotConverged, InputError or InputFaults."""
         ...
 
 

@@ -12,8 +12,7 @@ from dataclasses import dataclass
 from enum import Enum
 from typing import Any, Protocol, TypeVar
 
-from reynolds.errors import FilmInputError, FilmNotConverged
-from system.inputs.errors import NotConverged
+from reynolds.errors import InputError, NotConverged
 from system.inputs.faults import InputFaults
 from system.work.processes import Attempt
 
@@ -58,7 +57,7 @@ class Work(Protocol[GivenPart]):
         ...
 
     def solve(self, part: GivenPart) -> Record:
-        """The part's record; raises NotConverged, FilmNotConverged, FilmInputError or InputFaults."""
+        """The part's record; raises NotConverged, FilmNotConverged, InputError or InputFaults."""
         ...
 
 
@@ -87,9 +86,9 @@ def done_part(work: Work[Part], part: Part) -> PartOutcome:
         key = work.key(part)
         record = work.solve(part)
         json.dumps(record, allow_nan=False)
-    except (InputFaults, FilmInputError) as reason:
+    except (InputFaults, InputError) as reason:
         return ended(PartStatus.FAULTY, _line(reason))
-    except (FilmNotConverged, NotConverged) as reason:
+    except NotConverged as reason:
         return ended(PartStatus.NOT_CONVERGED, str(reason))
     except Exception as error:  # an error of the program: it must not cost the parts that are good
         return ended(PartStatus.INTERNAL, internal_reason(error))
@@ -102,7 +101,7 @@ def internal_reason(error: BaseException) -> str:
     return f"{type(error).__name__}: {error}" + (f" ({frames[-1].filename}:{frames[-1].lineno})" if frames else "")
 
 
-def _line(reason: InputFaults | FilmInputError) -> str:
+def _line(reason: InputFaults | InputError) -> str:
     if isinstance(reason, InputFaults):
         return "; ".join(f"{fault.path}: {fault.found}, expected {fault.expected}" for fault in reason.faults)
     return str(reason)

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from enum import Enum
 from pathlib import Path
 
-from reynolds.errors import FilmInputError
+from reynolds.errors import InputError
 from reynolds.fem.mesh import Cell, FilmMesh, annulus, mesh_from_file, rectangle
 from reynolds.fem.refine import refine_mesh
 from swashfilm.case.fields.field import MeshData, mesh_data
@@ -70,7 +70,7 @@ def _from_file(film: Table, folder: Path) -> CaseMesh | None:
     try:
         film_mesh = mesh_from_file(path)
         data = mesh_data(path, film_mesh)
-    except FilmInputError as reason:
+    except InputError as reason:
         film.fault("mesh", reason.found, reason.expected)
         return None
     return _of_file(film_mesh, data, quoted(str(path.resolve())))

@@ -14,7 +14,7 @@ from reynolds.bodies.mesh import BodyMesh, block, disc, hollow_cylinder
 from reynolds.bodies.mesh_file import body_from_file
 from reynolds.bodies.supports import Supports
 from reynolds.bodies.wall import Body
-from reynolds.errors import FilmInputError
+from reynolds.errors import InputError
 from swashfilm.case.fields.mesh import MESH_FILE, CaseMesh
 from system.description.parts import MeshUnit
 from system.inputs.toml_table import Table
@@ -115,7 +115,7 @@ def file_body(entry: Table, elastic: Elastic | None, folder: Path) -> Body | Non
         return None
     try:
         mesh = body_from_file(path, unit.metres)
-    except FilmInputError as reason:
+    except InputError as reason:
         entry.fault("mesh", reason.found, reason.expected)
         return None
     for key, wanted in (("face", [face]), ("clamped", clamped if isinstance(clamped, list) else [clamped])):
@@ -136,7 +136,7 @@ def _body(
         return None
     try:
         return Body(build(), elastic, Supports(clamped=clamped), face, chart)
-    except FilmInputError as reason:
+    except InputError as reason:
         entry.fault("cells", reason.found, reason.expected)
         return None
 

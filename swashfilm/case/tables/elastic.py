@@ -10,7 +10,7 @@ from reynolds.bodies.compliance import ElasticWalls
 from reynolds.bodies.elasticity import Elastic
 from reynolds.bodies.foundation import both, half_space, winkler
 from reynolds.bodies.wall import Body, body_wall
-from reynolds.errors import FilmInputError
+from reynolds.errors import InputError
 from reynolds.fem.space import FilmSpace
 from swashfilm.case.fields.mesh import CaseMesh
 from swashfilm.case.tables.bodies import BodyKind, built_body, file_body
@@ -27,7 +27,7 @@ class WallStatement:
     text: str
 
     def compliance(self, space: FilmSpace) -> ElasticWalls:
-        """Return the compliance of the wall; raise FilmInputError where it does not lie under the film."""
+        """Return the compliance of the wall; raise InputError where it does not lie under the film."""
         return half_space(space, self.elastic) if self.body is None else body_wall(self.body, space)
 
 
@@ -40,7 +40,7 @@ class ElasticStatement:
     fixed: WallStatement | None
 
     def walls(self, space: FilmSpace) -> ElasticWalls:
-        """Return the compliance of all walls; raise FilmInputError as `WallStatement.compliance`."""
+        """Return the compliance of all walls; raise InputError as `WallStatement.compliance`."""
         parts: list[ElasticWalls] = [] if self.stiffness is None else [winkler(space, self.stiffness)]
         parts += [
             _under(wall, key, space) for key, wall in (("moving", self.moving), ("fixed", self.fixed)) if wall
@@ -52,8 +52,8 @@ def _under(wall: WallStatement, key: str, space: FilmSpace) -> ElasticWalls:
     """Return the compliance of a wall; its fault is reported at `elastic.moving` or `elastic.fixed`."""
     try:
         return wall.compliance(space)
-    except FilmInputError as reason:
-        raise FilmInputError(f"elastic.{key}", f"{reason.where}: {reason.found}", reason.expected) from None
+    except InputError as reason:
+        raise InputError(f"elastic.{key}", f"{reason.where}: {reason.found}", reason.expected) from None
 
 
 def read_elastic(top: Table, mesh: CaseMesh | None, folder: Path) -> ElasticStatement | None:
@@ -96,7 +96,7 @@ def _elastic(entry: Table) -> Elastic | None:
         return None
     try:
         return Elastic(modulus, poisson)
-    except FilmInputError as reason:
+    except InputError as reason:
         entry.fault("poissons_ratio", reason.found, reason.expected)
         return None
 

@@ -7,7 +7,7 @@ from enum import Enum
 
 import numpy as np
 
-from reynolds.errors import FilmInputError
+from reynolds.errors import InputError
 from reynolds.laws.density import DOWSON_HIGGINSON, BulkModulus, RationalDensity, Tait, tait_modulus
 from reynolds.laws.fluid import DensityLaw, Fluid, ViscosityLaw, incompressible, isoviscous
 from reynolds.laws.oil import ISO_GRADES, Oil, dynamic_viscosity, walther
@@ -82,7 +82,7 @@ class OilStatement:
     def at_temperature(self, temperature: Array, viscosity: float) -> Array:
         """Return the viscosity (Pa s) at zero pressure at temperatures (K); `viscosity`: that of the case, Pa s.
 
-        Raises FilmInputError where the law of the viscosity over temperature does not hold.
+        Raises InputError where the law of the viscosity over temperature does not hold.
         """
         if self.kinematic is None or self.density is None:
             cooler = (self.temperature or 0.0) - temperature
@@ -174,7 +174,7 @@ def oil_viscosity(oil: Table, stated: OilStatement) -> float | None:
     try:
         # An isothermal film needs neither bulk modulus nor specific heat: both are set to 1.
         return dynamic_viscosity(Oil(*stated.kinematic, stated.density, 1.0, 1.0), stated.temperature)
-    except FilmInputError as reason:
+    except InputError as reason:
         oil.fault("temperature", reason.found, f"{reason.expected} of {reason.where}")
         return None
 

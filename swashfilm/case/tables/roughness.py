@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from reynolds.errors import FilmInputError
+from reynolds.errors import InputError
 from reynolds.laws.contact import Asperities, composite_modulus
 from reynolds.laws.roughness import Surface
 from system.inputs.toml_table import Table
@@ -57,7 +57,7 @@ def _surface(table: Table) -> tuple[Surface | None, list[str]]:
         return None, []
     try:
         surface = Surface(moving, fixed, float(gammas[0] or 0.0), float(gammas[1] or 0.0), lay)
-    except FilmInputError as reason:
+    except InputError as reason:
         key = "peklenik" if "eklenik" in reason.where else "moving"
         table.fault(key, reason.found, reason.expected)
         return None, []
@@ -97,7 +97,7 @@ def _asperities(table: Table, surface: Surface) -> tuple[Asperities | None, list
         return None, []
     try:
         asperities = Asperities(density, radius, height, modulus, friction, summit)
-    except FilmInputError as reason:
+    except InputError as reason:
         table.fault("friction_coefficient", reason.found, reason.expected)
         return None, []
     rows = ["[contact]"]

@@ -51,7 +51,7 @@ class ThermalStatement:
     ) -> Heat:
         """Return the heat problem; `temperatures` (K) by boundary, None where the inlet temperature holds.
 
-        Raises FilmInputError for a body that does not lie under the film or that loses no heat anywhere.
+        Raises InputError for a body that does not lie under the film or that loses no heat anywhere.
         """
         assert oil.density is not None
         assert oil.specific_heat is not None

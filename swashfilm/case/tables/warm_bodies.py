@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 from reynolds.bodies.conduction import Convection, HeldTemperature, Surroundings, Thermal
 from reynolds.bodies.wall import Body, heated_wall
-from reynolds.errors import FilmInputError
+from reynolds.errors import InputError
 from reynolds.fem.space import FilmSpace
 from reynolds.thermal.walls import ConductingBody as HeatedBody
 from system.inputs.toml_table import Table, quoted
@@ -22,11 +22,9 @@ class WarmBody:
     text: str
 
     def under(self, body: Body, space: FilmSpace) -> HeatedBody:
-        """Return the wall for the film's heat problem; raise FilmInputError for an unknown face."""
+        """Return the wall for the film's heat problem; raise InputError for an unknown face."""
         if unknown := [name for name in self.faces if name not in body.mesh.face_names]:
-            raise FilmInputError(
-                "thermal wall, faces", f"'{unknown[0]}'", f"one of {', '.join(body.mesh.face_names)}"
-            )
+            raise InputError("thermal wall, faces", f"'{unknown[0]}'", f"one of {', '.join(body.mesh.face_names)}")
         found = heated_wall(body, space, self.thermal, self.faces)
         return HeatedBody(found.temperature.reference, found.temperature.matrix, found.deformation)
 

@@ -45,7 +45,7 @@ def check_refinement(case: FilmCase | GapCase, meshes: int) -> None:
 def refine_study(case: FilmCase | GapCase, study: FilmStudy, meshes: int, report: Report) -> Refinement:
     """Solve the case on `meshes` meshes; `study` is the solution on the first.
 
-    Raises FilmNotConverged as the solver of any mesh, and FilmInputError as `refined` of the case.
+    Raises FilmNotConverged as the solver of any mesh, and InputError as `refined` of the case.
     """
     studies = [study]
     for number in range(1, meshes):

@@ -10,7 +10,7 @@ from pathlib import Path
 
 import numpy as np
 
-from reynolds.errors import FilmInputError
+from reynolds.errors import InputError
 from reynolds.numerics.arrays import Array
 from system.inputs.faults import Fault, InputFaults, nearest_choice, nearest_path
 from system.inputs.units import Dimension, QuantityError, unit_scale, with_point
@@ -70,7 +70,7 @@ def read_cycle(path: Path, axes: tuple[MapAxis, ...]) -> Cycle:
         raise InputFaults(str(path), faults)
     try:
         return Cycle(values[TIME], {HEADS[name]: array for name, array in values.items() if name != TIME})
-    except FilmInputError as reason:
+    except InputError as reason:
         raise InputFaults(str(path), [Fault(TIME, reason.found, reason.expected)]) from None
 
 

@@ -62,7 +62,7 @@ class GapTable:
     def at(self, values: Mapping[str, Any]) -> dict[str, float]:
         """Return the numbers by key, SI, at these values of the box's keys, written as in a case.
 
-        Raises FilmInputError outside the box, QuantityError for a value of another dimension, KeyError where a key
+        Raises InputError outside the box, QuantityError for a value of another dimension, KeyError where a key
         of the box is missing.
         """
         x = [

@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from reynolds.errors import FilmInputError
+from reynolds.errors import InputError
 from reynolds.numerics.arrays import Array
 from system.bench.outputs import losses, truth
 from system.bench.points import BenchPoints
@@ -97,11 +97,11 @@ class EqTwentyOne:
         return np.zeros((len(self.rest), 1, 0))
 
     def with_parameters(self, parameters: tuple[Parameter, ...]) -> EqTwentyOne:
-        """The same with other priors; raises FilmInputError for a name that is no coefficient of it."""
+        """The same with other priors; raises InputError for a name that is no coefficient of it."""
         new = {parameter.name: parameter for parameter in parameters}
         own = tuple(new.pop(parameter.name, parameter) for parameter in self.parameters)
         if new:
-            raise FilmInputError("Eq. (21)", ", ".join(new), f"{', '.join(one.name for one in own)}")
+            raise InputError("Eq. (21)", ", ".join(new), f"{', '.join(one.name for one in own)}")
         return replace(self, parameters=own)
 
 
@@ -129,12 +129,12 @@ def measured_losses(points: BenchPoints, observations: Observations) -> Observat
     """Eq. (2) of the readings, (N, 1) W, with the joint sigma of readings and inputs.
 
     The effect of an input's noise on the simulated loss is neglected: a small part of that on the power.
-    Raises FilmInputError where a flow or the torque was not measured.
+    Raises InputError where a flow or the torque was not measured.
     """
     names = [channel.name for channel in observations.channels]
     missing = [channel.value for channel in LOSS_CHANNELS if channel.value not in names]
     if missing:
-        raise FilmInputError("Eq. (21)", f"no {', '.join(missing)}", "both port flows, the drain and the torque")
+        raise InputError("Eq. (21)", f"no {', '.join(missing)}", "both port flows, the drain and the torque")
     own = {channel: observations.values[:, names.index(channel.value)] for channel in LOSS_CHANNELS}
     loss = _hydromechanical(points, own)
     variance = np.zeros_like(loss)

@@ -65,7 +65,7 @@ def split_levels(points: BenchPoints) -> Mapping[Split, NDArray[np.int64]]:
 def physics_rows(posterior: Posterior, observations: Observations, points: BenchPoints) -> tuple[HeldOutRow, ...]:
     """The fitted pump's rows in the channels that loss models give; fits repeated by one linear step.
 
-    Raises FilmInputError where delivery flow or torque was not measured.
+    Raises InputError where delivery flow or torque was not measured.
     """
     modelled(observations)
     misses = {Split.NONE: observations.values - posterior.predictions}
@@ -90,7 +90,7 @@ def model_rows(
 ) -> tuple[HeldOutRow, ...]:
     """A loss model's rows: fitted anew without each level, Polymod's orders chosen anew too.
 
-    Raises FilmInputError where delivery flow or torque was not measured.
+    Raises InputError where delivery flow or torque was not measured.
     """
     own = modelled(observations)
 

@@ -7,7 +7,7 @@ from math import inf
 
 import numpy as np
 
-from reynolds.errors import FilmInputError
+from reynolds.errors import InputError
 from reynolds.numerics.arrays import Array
 from system.bench.loss_models.model import LossModel, Term, columns
 from system.bench.loss_models.points import LossPoints, loss_points
@@ -56,12 +56,12 @@ class LossModelBench:
         return found
 
     def with_parameters(self, parameters: tuple[Parameter, ...]) -> LossModelBench:
-        """The same model with other priors; raises FilmInputError for a name that is no coefficient of it."""
+        """The same model with other priors; raises InputError for a name that is no coefficient of it."""
         new = {parameter.name: parameter for parameter in parameters}
         own = tuple(new.pop(parameter.name, parameter) for parameter in self.parameters)
         if new:
             known = ", ".join(parameter.name for parameter in own)
-            raise FilmInputError("loss model", ", ".join(new), f"coefficients among {known}")
+            raise InputError("loss model", ", ".join(new), f"coefficients among {known}")
         return replace(self, parameters=own)
 
     def _columns(self, points: LossPoints) -> Array:
@@ -89,12 +89,12 @@ def loss_model_bench(
 
 
 def modelled(observations: Observations) -> Observations:
-    """The readings that loss models give; raises FilmInputError where one of the two channels was not measured."""
+    """The readings that loss models give; raises InputError where one of the two channels was not measured."""
     names = [channel.name for channel in observations.channels]
     missing = [channel.value for channel in MODELLED if channel.value not in names]
     if missing:
         wanted = " and ".join(channel.value for channel in MODELLED)
-        raise FilmInputError("loss models", f"no {' and no '.join(missing)}", f"{wanted} as measured")
+        raise InputError("loss models", f"no {' and no '.join(missing)}", f"{wanted} as measured")
     own = [names.index(channel.value) for channel in MODELLED]
     return replace(
         observations,

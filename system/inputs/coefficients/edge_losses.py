@@ -15,7 +15,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from reynolds.errors import FilmInputError
+from reynolds.errors import InputError
 from reynolds.numerics.arrays import Array
 
 KINETIC = 54.0 / 35.0
@@ -89,7 +89,7 @@ class LandPath:
 def secant_conductance(conductance: Array, excess: Excess, drop: Array, where: str) -> Array:
     """Flow over pressure drop (N,), m3/(s Pa), of dp = q/G + excess(q) at drops (N,) in Pa; G itself at none.
 
-    By halving: the drop rises with the flow. Raises FilmInputError, told `where`, for an excess that gives back
+    By halving: the drop rises with the flow. Raises InputError, told `where`, for an excess that gives back
     more than twice the drop at twice the flow: losses that are none.
     """
     size = np.where(drop == 0.0, 1.0, drop)
@@ -99,7 +99,7 @@ def secant_conductance(conductance: Array, excess: Excess, drop: Array, where: s
         return share - 1.0 + excess(share * conductance * size) / size
 
     if np.any(missing(high) < 0.0):
-        raise FilmInputError(where, "a pressure that falls as the flow grows", "losses that grow with the flow")
+        raise InputError(where, "a pressure that falls as the flow grows", "losses that grow with the flow")
     for _ in range(HALVINGS):
         middle = 0.5 * (low + high)
         short = missing(middle) < 0.0

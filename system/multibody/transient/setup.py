@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from reynolds.errors import FilmInputError
+from reynolds.errors import InputError
 from reynolds.numerics.arrays import Array
 from system.description.pump import PumpDescription
 from system.inputs.units import TURN, Dimension, format_quantity
@@ -152,7 +152,7 @@ def natural_frequency(pump: PumpDescription, parts: Mechanism, angle: float) -> 
 def steps_a_pitch(asked: float | None, shaft_speed: float, pistons: int, swing: float, parts: Mechanism) -> int:
     """Steps in a piston pitch: of about `asked` rad each, or of USUAL_STEP and no more than the plate allows.
 
-    Raises FilmInputError for a step that is too long for a plate that swings by `swing` (rad/s).
+    Raises InputError for a step that is too long for a plate that swings by `swing` (rad/s).
     """
     longest = SHARE_OF_SWING / (swing + parts.plate.damping / parts.plate.inertia) * shaft_speed
     pitch = TURN / pistons
@@ -161,5 +161,5 @@ def steps_a_pitch(asked: float | None, shaft_speed: float, pistons: int, swing: 
     if asked > longest:
         limit, shown = (format_quantity(one, Dimension.ANGLE, digits=3) for one in (longest, asked))
         found = f"{shown}, with a plate that swings at {swing / TURN:.0f} Hz on its oil"
-        raise FilmInputError("transient.step", found, f"at most {limit} of shaft angle")
+        raise InputError("transient.step", found, f"at most {limit} of shaft angle")
     return max(1, round(pitch / asked))

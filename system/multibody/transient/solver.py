@@ -7,10 +7,10 @@ from enum import Enum
 
 import numpy as np
 
+from reynolds.errors import NotConverged
 from reynolds.numerics.arrays import Array
 from system.description.pump import PumpDescription
 from system.effects.switched import hold_plain
-from system.inputs.errors import NotConverged
 from system.inputs.units import TURN
 from system.multibody.kinematics import swash_angle
 from system.multibody.plate_motion import Mechanism, mechanism
@@ -139,7 +139,7 @@ class _Filled:
 def run_transient(case: TransientCase) -> Transient:
     """The solution of a case, at held ports and shaft speed, films of given thickness, equal chambers.
 
-    Raises FilmInputError for a step too long and for [physics], ValueError for chambers that differ, NotConverged
+    Raises InputError for a step too long and for [physics], ValueError for chambers that differ, NotConverged
     where a chamber finds no pressure.
     """
     pump, point = case.pump, case.point

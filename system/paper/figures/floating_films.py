@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from gaps.revolution.march import GapRevolution
-from reynolds.errors import FilmInputError
+from reynolds.errors import InputError
 from reynolds.numerics.arrays import Array
 from reynolds.numerics.cache import content_key
 from system.description.pump import PumpDescription
@@ -66,7 +66,7 @@ class FloatingWork:
     def solve(self, part: Place) -> Record:
         """Films of both gaps, as `_films_told` and `_piston_told` have them.
 
-        Raises FilmNotConverged, and FilmInputError for a pump with effects of [physics].
+        Raises FilmNotConverged, and InputError for a pump with effects of [physics].
         """
         hold_plain(self.pump)
         lumped = lumped_point(self.pump, PaperWork(self.pump, PointFidelity.LUMPED).at(part))
@@ -110,13 +110,13 @@ def _piston_told(found: GapRevolution[Any], engaged: Array) -> Record:
 def floating_figures(
     pump: PumpDescription, options: FloatingOptions, store: KeptPoints, executor: Executor, report: Report = silent
 ) -> tuple[FigureResult, FigureResult]:
-    """Figs. 8 and 9 of floating gaps. Raises FilmInputError for the first point that has no solution."""
+    """Figs. 8 and 9 of floating gaps. Raises InputError for the first point that has no solution."""
     work = FloatingWork(pump, options)
     places = [Place(RATED, PRESSURES[-1], ratio) for ratio in FLOATING_RATIOS]
     kept = run_kept(work, places, store, executor, report=report)
     for place, outcome in zip(places, kept.outcomes, strict=True):
         if outcome.status is not PartStatus.SOLVED:
-            raise FilmInputError(f"floating gaps at {place.text}", outcome.reason, "a point that can be solved")
+            raise InputError(f"floating gaps at {place.text}", outcome.reason, "a point that can be solved")
     records = [outcome.record for outcome in kept.outcomes]
     doubts = tuple(f"{one}." for one in run_checks((slipper_has_a_wedge,), pump).warnings)
     remarks = (ALONE, work.stated, *doubts)

@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 
 from gaps.response import Axis, Response, Samples, Spacing
-from reynolds.errors import FilmInputError
+from reynolds.errors import InputError
 from reynolds.laws.oil import dynamic_viscosity, temperature_of
 from reynolds.numerics.arrays import Array
 from reynolds.numerics.cache import content_key
@@ -94,7 +94,7 @@ def table_axes(
     """The box of a pump's table, SI, with temperatures for the viscosities of its oil, without the inputs `held`.
 
     None takes the default: from the rating (SPEEDS, PRESSURES) or as RATIOS and TEMPERATURES. Raises
-    FilmInputError for an empty range, where the oil's law is void, and where no pump runs: a delivery pressure
+    InputError for an empty range, where the oil's law is void, and where no pump runs: a delivery pressure
     that is not above inlet and case, a displacement ratio above 1.
     """
     rated = pump.pump
@@ -103,9 +103,9 @@ def table_axes(
     floor = max(pump.operating.inlet_pressure, pump.operating.case_pressure)
     if pressures and pressures[0] <= floor:
         found, least = (format_quantity(value, Dimension.PRESSURE, digits=4) for value in (pressures[0], floor))
-        raise FilmInputError("range of delivery pressure", f"from {found}", f"more than inlet and case, {least}")
+        raise InputError("range of delivery pressure", f"from {found}", f"more than inlet and case, {least}")
     if ratios and ratios[1] > 1.0:
-        raise FilmInputError("range of displacement ratio", f"to {ratios[1]:g}", "at most 1")
+        raise InputError("range of displacement ratio", f"to {ratios[1]:g}", "at most 1")
     lowest = max(floor, 0.0) + PRESSURES[0] * rated.rated_pressure
     box = (
         Axis(SPEED, low, high, Spacing.LOGARITHMIC),
@@ -127,7 +127,7 @@ def build_table(
     """The table of a case, kept in the cache; its points as `solved_points`.
 
     Held-out points are also run by the table, for its error in the pump's numbers. Raises NotConverged where too
-    few points have a result, FilmInputError for a pump with effects of [physics], and as `table_point`.
+    few points have a result, InputError for a pump with effects of [physics], and as `table_point`.
     """
     hold_plain(case.pump)
     found = solved_points(case, executor=executor, report=report, folder=folder)

@@ -7,10 +7,10 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from reynolds.errors import NotConverged
 from reynolds.numerics.arrays import Array
 from system.description.pump import PumpDescription
 from system.effects.switched import hold_plain
-from system.inputs.errors import NotConverged
 from system.inputs.units import TURN
 from system.points.table.means import GAP_PAIRS, given_films, law_moments, plate_flow
 from system.points.table.response_table import ResponseTable
@@ -54,7 +54,7 @@ class TablePoint:
 def table_point(pump: PumpDescription, point: OperatingPoint, table: ResponseTable) -> TablePoint:
     """One periodic operating point by the lumped kernel, with leakage and friction of its gaps from the table.
 
-    Raises FilmInputError outside the table's box or at another inlet or case pressure, NotConverged as
+    Raises InputError outside the table's box or at another inlet or case pressure, NotConverged as
     `ported_cycle` and where an orifice line does not converge, ValueError where chambers differ.
     """
     kinds(pump).hold_alike()

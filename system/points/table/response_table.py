@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from gaps.response import Response, unit_places
-from reynolds.errors import FilmInputError
+from reynolds.errors import InputError
 from system.inputs.units import Dimension, format_quantity
 from system.points.table.pump_numbers import NumbersError
 from system.points.table.sources import Source
@@ -77,7 +77,7 @@ class ResponseTable:
     def at(self, point: OperatingPoint) -> dict[str, float]:
         """The outputs by name at an operating point; shares of contact are limited to 0 .. 1.
 
-        Raises FilmInputError for a point outside the box or at another value of a held input.
+        Raises InputError for a point outside the box or at another value of a held input.
         """
         self._check_held(point)
         values = self.response.at(np.array([[getattr(point, axis.name) for axis in self.response.axes]]))[0]
@@ -107,12 +107,12 @@ class ResponseTable:
         for name, own in self.origin.held.items():
             if not _same(own, getattr(point, name)):
                 found, expected = axis_value(name, getattr(point, name)), axis_value(name, own)
-                raise FilmInputError(name.replace("_", " "), found, f"{expected}, at which the table is held")
+                raise InputError(name.replace("_", " "), found, f"{expected}, at which the table is held")
         for name in ("inlet_pressure", "case_pressure"):
             own, asked = getattr(self.origin, name), getattr(point, name)
             if abs(asked - own) > 1.0:
                 shown = (format_quantity(value, Dimension.PRESSURE, digits=5) for value in (asked, own))
-                raise FilmInputError(name.replace("_", " "), *shown)
+                raise InputError(name.replace("_", " "), *shown)
 
 
 def _same(one: float, other: float) -> bool:

@@ -15,8 +15,8 @@ from typing import Any
 
 import numpy as np
 
+from reynolds.errors import NotConverged
 from reynolds.numerics.arrays import Array
-from system.inputs.errors import NotConverged
 from system.inputs.units import TURN
 from system.pump.chamber import kernels as kernel
 from system.pump.chamber.layout import CAVITY_PRESSURE, INTEGRALS, PORTS, WORK

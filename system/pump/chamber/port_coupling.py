@@ -13,9 +13,9 @@ from functools import cached_property
 
 import numpy as np
 
+from reynolds.errors import NotConverged
 from reynolds.numerics.anderson import History
 from reynolds.numerics.arrays import Array
-from system.inputs.errors import NotConverged
 from system.inputs.units import TURN
 from system.pump.chamber.cycle import TOLERANCE, ChamberCycle, flow_energy, solve_cycle
 from system.pump.chamber.layout import CAVITY_PRESSURE

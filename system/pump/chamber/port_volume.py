@@ -16,8 +16,8 @@ from typing import assert_never
 import numpy as np
 from numpy.typing import NDArray
 
+from reynolds.errors import NotConverged
 from reynolds.numerics.arrays import Array
-from system.inputs.errors import NotConverged
 from system.inputs.units import TURN
 from system.pump.chamber.cycle import flow_energy
 from system.pump.chamber.problem import ChamberProblem

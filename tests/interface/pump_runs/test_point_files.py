@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from gaps.shapes.profiles import PointsAround, measured
-from reynolds.errors import FilmInputError
+from reynolds.errors import InputError
 from system.films.parts import floating_parts
 from system.inputs.faults import InputFaults
 from system.points.lumped import lumped_point
@@ -108,7 +108,7 @@ def test_measured_nets_have_no_holes():
     net = [(0.0, 0.0, 1e-6), (0.0, 1.0, 2e-6), (1e-2, 0.0, 3e-6), (1e-2, 1.0, 4e-6)]
     assert measured(net[::-1]) == PointsAround((0.0, 1e-2), (0.0, 1.0), ((1e-6, 2e-6), (3e-6, 4e-6)))
     for rows in (net[:3], [*net, net[0]]):
-        with pytest.raises(FilmInputError, match="each place with each angle once"):
+        with pytest.raises(InputError, match="each place with each angle once"):
             measured(rows)
 
 

@@ -16,6 +16,7 @@ import pytest
 from recording_heads import HEAD
 
 import diagnosis.finding
+from reynolds.errors import NotConverged
 from reynolds.numerics.arrays import Array
 from swashfilm.__main__ import main
 from swashfilm.runs.diagnose.files import read_rows
@@ -24,7 +25,6 @@ from system.bench.simulator import LumpedBench
 from system.effects.catalogue.entries import entry_of
 from system.effects.effect import EffectId
 from system.inputs.channels import ChannelName
-from system.inputs.errors import NotConverged
 from system.points.lumped import lumped_point
 from system.pump.operating import operating_point
 from system.pump_file.file import load_pump

@@ -17,7 +17,7 @@ from diagnosis.report.tables import steady_rows
 from diagnosis.study.inputs import assumed_parameters, bench_points, complete, measured
 from diagnosis.study.readings import observations
 from diagnosis.verdict.row_numbers import table_rows
-from reynolds.errors import FilmInputError
+from reynolds.errors import InputError
 from system.bench.sensors import actual
 from system.description.pump import PumpDescription
 from system.inputs.channels import INPUTS, ChannelName
@@ -100,5 +100,5 @@ def test_readings_carry_their_noise_and_that_of_the_inputs() -> None:
     assert found.sigma[:, 0] == pytest.approx(2.5e-7 + 1e-3 * found.values[:, 0])
     assert found.input_sigma[:, 1] == pytest.approx(1.5e4 + 1e-3 * recording.steady.column(C.P_OUT))
     assert len(set(found.blocks)) > 1
-    with pytest.raises(FilmInputError, match="torque"):
+    with pytest.raises(InputError, match="torque"):
         observations(recording, (C.TORQUE,), inputs)

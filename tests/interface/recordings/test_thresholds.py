@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 from diagnosis.thresholds import FILE, load_thresholds
-from reynolds.errors import FilmInputError
+from reynolds.errors import InputError
 
 
 def test_the_digest_is_that_of_the_file() -> None:
@@ -48,5 +48,5 @@ def test_the_head_of_the_file_names_numbers_that_are_there() -> None:
 def test_a_key_that_is_missing_or_not_known_is_refused(before: str, after: str, tmp_path: Path) -> None:
     file = tmp_path / "thresholds.toml"
     file.write_text(FILE.read_text(encoding="utf-8").replace(before, after), encoding="utf-8")
-    with pytest.raises(FilmInputError, match=r"mismatch|held"):
+    with pytest.raises(InputError, match=r"mismatch|held"):
         load_thresholds(file)

@@ -9,9 +9,8 @@ import numpy as np
 import pytest
 from scipy.optimize import least_squares
 
-from reynolds import FilmInputError
+from reynolds import InputError, NotConverged
 from reynolds.numerics.arrays import Array
-from system import NotConverged
 from system.estimation.fit import FitLimits, best_posterior, maximum_posterior
 from system.estimation.observations import Channel, Observations
 from system.estimation.parameters import Parameter, Role, Scale
@@ -261,15 +260,15 @@ def test_scales(scale: Scale) -> None:
 def test_priors_that_are_none(
     centre: float, spread: float, bounds: tuple[float, float], scale: Scale, told: str
 ) -> None:
-    with pytest.raises(FilmInputError, match=told):
+    with pytest.raises(InputError, match=told):
         _parameter("p", centre, spread, bounds, scale)
 
 
 def test_readings_that_do_not_fit() -> None:
     whole = _readings(np.zeros(3), 0.1)
-    with pytest.raises(FilmInputError, match="input_sigma"):
+    with pytest.raises(InputError, match="input_sigma"):
         replace(whole, input_sigma=np.zeros((2, 0)))
-    with pytest.raises(FilmInputError, match="positive sigma"):
+    with pytest.raises(InputError, match="positive sigma"):
         replace(whole, sigma=np.zeros((3, 1)))
     assert not whole.without(np.array([True, False, False])).measured[0, 0]
 

@@ -8,7 +8,7 @@ from itertools import product
 import numpy as np
 import pytest
 
-from reynolds import FilmInputError
+from reynolds import InputError
 from reynolds.numerics.arrays import Array
 from system import load_pump
 from system.bench.calibration.held_out import Split, model_rows, split_levels
@@ -152,5 +152,5 @@ def test_levels_of_a_bench() -> None:
 def test_a_missing_channel_is_told() -> None:
     readings = _readings(np.ones((len(GRID), 2)))
     other = replace(readings, channels=(readings.channels[0], Channel("Q_in", None)))
-    with pytest.raises(FilmInputError, match="no torque"):
+    with pytest.raises(InputError, match="no torque"):
         model_rows(LossModelName.WILSON, PUMP, POINTS, INPUTS, other)

@@ -25,6 +25,7 @@ from diagnosis.verdict.diagnosis import Diagnosis, VerdictStatus
 from diagnosis.verdict.judge import judge
 from diagnosis.verdict.residue import residue_notes
 from diagnosis.verdict.trend import power_errors
+from reynolds.errors import NotConverged
 from reynolds.numerics.arrays import Array
 from system.description.gap import Gap
 from system.effects.components import Component
@@ -33,7 +34,6 @@ from system.effects.extension import Entry, Extension
 from system.estimation.evidence import mixture_evidence, score
 from system.estimation.parameters import Parameter, Role, Scale
 from system.inputs.channels import ChannelName
-from system.inputs.errors import NotConverged
 
 POINTS = 96
 

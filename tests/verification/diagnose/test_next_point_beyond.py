@@ -15,6 +15,7 @@ from diagnosis.next_point.operating_box import BenchBox, ordinary_box, rig_box
 from diagnosis.procedure.gap_leak_test import LEAKS, gap_leak_test
 from diagnosis.recording.model import Circuit, RecordedChannel, Recording, SteadyTable
 from diagnosis.thresholds import load_thresholds
+from reynolds.errors import NotConverged
 from reynolds.numerics.arrays import Array
 from system.bench.points import BenchPoints
 from system.description.gap import Gap
@@ -22,7 +23,6 @@ from system.effects.components import Component
 from system.effects.effect import EffectId
 from system.estimation.parameters import Parameter, Role, Scale
 from system.inputs.channels import ChannelName
-from system.inputs.errors import NotConverged
 from system.pump_file.file import load_pump
 
 BAR, LPM, RPM = 1e5, 1.0 / 60000.0, 2.0 * np.pi / 60.0

@@ -16,7 +16,7 @@ from diagnosis.study.prepare import prepare
 from diagnosis.study.trace_misfits import port_events
 from diagnosis.thresholds import load_thresholds
 from diagnosis.verdict.locate import locate
-from reynolds.errors import FilmInputError
+from reynolds.errors import InputError
 from system.description.tolerances import tolerances
 from system.inputs.channels import ChannelName
 from system.pump_file.file import load_pump
@@ -64,7 +64,7 @@ def test_a_short_circuit_lies_in_the_cross_flow() -> None:
 def test_a_recording_without_simulated_outputs_is_refused() -> None:
     recording = read_recording(RECORDINGS / "open-01")
     bare = replace(recording, channels=tuple(one for one in recording.channels if one.name is ChannelName.SPEED))
-    with pytest.raises(FilmInputError, match="Q_case"):
+    with pytest.raises(InputError, match="Q_case"):
         prepare(PUMP, bare, tolerances(PUMP)[0], LIMITS)
 
 

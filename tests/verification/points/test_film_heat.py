@@ -17,7 +17,7 @@ from gaps.revolution.march import GapRevolution
 from gaps.revolution.schedule import evenly
 from gaps.revolution.warmth import ViscosityRatios
 from gaps.walls.parts import PistonPart
-from reynolds import Elastic, FilmInputError, FilmNotConverged, FilmSolver
+from reynolds import Elastic, FilmNotConverged, FilmSolver, InputError
 from system.films.heat import rod, slab, tube
 
 DIAMETER, CLEARANCE, LENGTH, VISCOSITY = 22e-3, 15e-6, 40e-3, 0.03
@@ -168,7 +168,7 @@ def test_warm_oil_rubs_less_and_leaks_more():
 
 def test_oil_beyond_its_law_is_told():
     def ends(temperature: np.ndarray) -> np.ndarray:
-        raise FilmInputError("oil temperature", f"{temperature.max():.0f} K", "at most 300 K")
+        raise InputError("oil temperature", f"{temperature.max():.0f} K", "at most 300 K")
 
     with pytest.raises(
         FilmNotConverged, match="temperature of the piston at 30 deg: oil temperature: 313 K; expected"

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from gaps import Accuracy
-from reynolds import FilmInputError, FilmNotConverged
+from reynolds import FilmNotConverged, InputError
 from system import load_pump, lumped_point, operating_point
 from system.films.drives import drives, no_rubbing
 from system.films.parts import floating_parts
@@ -45,12 +45,12 @@ def test_a_process_of_its_own_finds_the_same_piston():
         (again,) = beside.fetch(lambda *_: None)
         assert again.closing.turns <= found.closing.turns
         beside.start((asked(FloatingOptions(RIGID, steps=0)),))
-        with pytest.raises(FilmInputError, match="revolution"):
+        with pytest.raises(InputError, match="revolution"):
             beside.fetch(lambda *_: None)
 
 
 @pytest.mark.parametrize(
-    "error", [FilmNotConverged("walls that touch", "less load"), FilmInputError("slipper", "2", "3")]
+    "error", [FilmNotConverged("walls that touch", "less load"), InputError("slipper", "2", "3")]
 )
 def test_errors_come_over_as_they_were(error):
     import pickle

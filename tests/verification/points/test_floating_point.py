@@ -5,7 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from system import NotConverged, PumpDescription, floating_point, load_pump, operating_point
+from reynolds import NotConverged
+from system import PumpDescription, floating_point, load_pump, operating_point
 from system.films.problems import RIGID
 from system.points.floating import FRICTION_TOLERANCE, PRESSURE_TOLERANCE, FloatingPoint
 from system.points.floating_exchange import leak_table, leakage_heat

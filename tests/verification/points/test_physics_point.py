@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from reynolds import FilmInputError
+from reynolds import InputError
 from reynolds.numerics.arrays import Array
 from system import (
     PumpDescription,
@@ -177,9 +177,7 @@ def test_a_fit_makes_a_pump_file_that_runs_to_its_readings(tmp_path):
 
 def test_floating_gaps_refuse_a_pump_with_effects():
     pump = with_effect(EXTENSIONS[0])
-    with pytest.raises(
-        FilmInputError, match="physics: film_heating; expected no effects, or the lumped or the films"
-    ):
+    with pytest.raises(InputError, match="physics: film_heating; expected no effects, or the lumped or the films"):
         floating_point(pump, operating_point(pump))
 
 

@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from reynolds import FilmInputError
+from reynolds import InputError
 from system import joint_forces, load_pump, lumped_point, operating_point
 from system.multibody.transient import kernels as kernel
 from system.multibody.transient.solver import (
@@ -235,7 +235,7 @@ def test_a_light_plate_that_hammers_its_stop_is_followed():
 
 
 def test_steps_too_long_for_the_plate_are_refused():
-    with pytest.raises(FilmInputError, match="at most"):
+    with pytest.raises(InputError, match="at most"):
         run({"swash_plate.inertia": "1e-5 kg m2"} | FIRM, held_at(10e6), 0.01, 2.0)
 
 

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
-from system import NotConverged
+from reynolds import NotConverged
 from system.pump.chamber import kernels as kernel
 from system.pump.chamber.cycle import solve_cycle
 from system.pump.chamber.layout import CAVITY_PRESSURE

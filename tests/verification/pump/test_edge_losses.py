@@ -7,7 +7,7 @@ import pytest
 
 from gaps.films.slipper import PocketOrifice, hagen_poiseuille_conductance, supply
 from gaps.shapes.orifice_table import OrificeTable
-from reynolds import FilmInputError
+from reynolds import InputError
 from system import load_pump, lumped_point, operating_point
 from system.inputs.coefficients.edge_losses import (
     KINETIC,
@@ -77,7 +77,7 @@ def test_a_constant_factor_solves_the_quadratic():
 
 
 def test_a_drop_that_falls_with_the_flow_is_refused():
-    with pytest.raises(FilmInputError, match="grow with the flow"):
+    with pytest.raises(InputError, match="grow with the flow"):
         secant_conductance(np.array([1e-13]), lambda q: -1e19 * q * np.abs(q), np.array([3e7]), "slipper")
 
 

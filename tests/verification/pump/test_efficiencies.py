@@ -7,7 +7,7 @@ from math import isnan, pi
 import numpy as np
 import pytest
 
-from reynolds import FilmInputError
+from reynolds import InputError
 from system import load_pump
 from system.pump.bench import BenchReading
 from system.pump.efficiency import EfficiencyBasis, EfficiencyDefinition, efficiency
@@ -45,7 +45,7 @@ def test_the_two_by_energy_differ_by_compression():
 
 
 def test_toet_needs_its_displacement():
-    with pytest.raises(FilmInputError, match="no displacement by Toet"):
+    with pytest.raises(InputError, match="no displacement by Toet"):
         efficiency(EfficiencyDefinition.ISO_TOET, EfficiencyBasis(READING, 1.6e9, 52e-6))
 
 

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
-from system import NotConverged
+from reynolds import NotConverged
 from system.pump.chamber.port_coupling import SETTLED, PortedCycle, ported_cycle
 from system.pump.chamber.port_volume import Supply, line_power, port_balance
 from system.pump.chamber.problem import ChamberProblem, LeakTable

@@ -7,7 +7,7 @@ from itertools import product
 import numpy as np
 import pytest
 
-from reynolds.errors import FilmInputError
+from reynolds.errors import InputError
 from system.maps.displacement import intercept_displacement, toet_displacement
 from system.points.lumped import lumped_point
 from system.pump.operating import operating_point
@@ -69,9 +69,9 @@ def test_too_few_levels_are_refused_or_told():
     few = MAP[MAP[:, 0] <= SPEEDS[1]]
     assert any("2 speeds" in note for note in toet_displacement(*few.T, _flow(*few.T)).notes)
     one_pressure = MAP[MAP[:, 1] == DIFFERENCES[0]].T
-    with pytest.raises(FilmInputError, match="two pressure differences"):
+    with pytest.raises(InputError, match="two pressure differences"):
         toet_displacement(*one_pressure, _flow(*one_pressure))
-    with pytest.raises(FilmInputError, match="several shaft speeds"):
+    with pytest.raises(InputError, match="several shaft speeds"):
         intercept_displacement(*MAP.T, _flow(*MAP.T))
 
 

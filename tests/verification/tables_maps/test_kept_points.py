@@ -11,7 +11,7 @@ from pathlib import Path
 
 import pytest
 
-from reynolds.errors import FilmInputError, FilmNotConverged
+from reynolds.errors import FilmNotConverged, InputError
 from system.work.kept_results import KeptPoints, points_of_run, run_kept
 from system.work.processes import ProcessPool, WorkerDied, process_pool
 from system.work.tasks import PartStatus
@@ -39,7 +39,7 @@ class Squares:
         (self.folder / f"{part}-{tries}").touch()
         time.sleep(self.seconds)
         if part == self.faulty:
-            raise FilmInputError("part", str(part), "another")
+            raise InputError("part", str(part), "another")
         if part == self.stalls:
             raise FilmNotConverged("it stalls", "nothing")
         if part == self.breaks:

@@ -7,7 +7,7 @@ from itertools import product
 import numpy as np
 import pytest
 
-from reynolds.errors import FilmInputError
+from reynolds.errors import InputError
 from system.inputs.faults import InputFaults
 from system.inputs.sections.fields import fields_of
 from system.maps.compare import compare
@@ -66,7 +66,7 @@ def test_faults_of_points_are_told_once_before_any_is_solved():
     assert [fault.path for fault in found.faults] == ["operating.pressure"]
     assert any("at 2 points" in text and "rated_speed" in text for text in found.warnings.values())
     for values in ((), (2.0, 1.0), (1.0, 1.0)):
-        with pytest.raises(FilmInputError, match="rise"):
+        with pytest.raises(InputError, match="rise"):
             MapAxis(MapInput.RATIO, values)
 
 
@@ -102,7 +102,7 @@ def test_what_changes_a_point_changes_its_name():
         other = with_number(pump, path, value * 0.99 if value else 1e-3)
         try:
             other_key, other_result = told(other)
-        except (ValueError, FilmInputError):
+        except (ValueError, InputError):
             continue  # no pump any more
         if not np.array_equal(other_result, result):
             changed += 1
@@ -172,7 +172,7 @@ def test_between_levels_the_stated_error_holds():
         assert left_out_error(solved()).largest[name] >= error.rms[name]
     at_level = interpolant.at({MapInput.SPEED: 1400 * RPM, MapInput.PRESSURE: 12e6, MapInput.RATIO: 0.75})
     assert at_level["shaft_torque"][0] == pytest.approx(solved().values["shaft_torque"][1, 1, 1, 0, 0], rel=1e-12)
-    with pytest.raises(FilmInputError, match="nothing is extrapolated"):
+    with pytest.raises(InputError, match="nothing is extrapolated"):
         interpolant.at({MapInput.SPEED: 1400 * RPM, MapInput.PRESSURE: 45e6, MapInput.RATIO: 0.75})
 
 
@@ -225,7 +225,7 @@ def test_a_cycle_with_steps_and_ramps_is_within_its_error():
     assert abs(found.energies["loss"].value - truth) <= found.energies["loss"].error
     with pytest.raises(InputFaults, match="40 MPa at 3 s"):
         duty(interpolant, cycle_of([0, 3], [150, 150], [20e6, 40e6], [0.6, 0.6]), left_out_error(solved()))
-    with pytest.raises(FilmInputError, match="two rows"):
+    with pytest.raises(InputError, match="two rows"):
         cycle_of([0], [150], [20e6], [0.6])
 
 

@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from reynolds.errors import FilmInputError
+from reynolds.errors import InputError
 from system.paper.figure import Figure, Unit
 from system.paper.figures.efficiencies import (
     drain_for_share,
@@ -67,7 +67,7 @@ def test_ranges_tell_their_ends():
     assert Range(low=1.0).text(Unit.NUMBER) == "at least 1"
     assert Range(high=1e6).text(Unit.PRESSURE) == "at most 1 MPa"
     assert Range(0.0, 1e-17).text(Unit.SHARE) == "0 %"
-    with pytest.raises(FilmInputError):
+    with pytest.raises(InputError):
         Range(1.0, 0.0)
 
 

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, cast
 
 import numpy as np
 
-from reynolds.errors import FilmInputError, FilmNotConverged
+from reynolds.errors import FilmNotConverged, InputError
 from reynolds.fem.space import FilmSpace
 from reynolds.numerics.arrays import Array
 from reynolds.problem import FilmProblem, FilmSolution
@@ -48,7 +48,7 @@ class OilSolver:
     def solve(self, problem: FilmProblem, start: Found | None = None) -> Found:
         """Return the film of `problem`, started from `start`.
 
-        Raises FilmNotConverged, and FilmInputError where the oil is beyond the range of its laws.
+        Raises FilmNotConverged, and InputError where the oil is beyond the range of its laws.
         """
         stated, warm = self.stated, start if isinstance(start, Coupled) else None
         shear = stated.oil.shear_law if stated.oil else None
@@ -87,7 +87,7 @@ class OilSolver:
 
 
 def oil_solver(stated: FilmStatement, space: FilmSpace) -> OilSolver:
-    """Return the solver of a case's films; raise FilmInputError for a body that does not lie under the film."""
+    """Return the solver of a case's films; raise InputError for a body that does not lie under the film."""
     heat = None
     if stated.thermal is not None:
         assert stated.oil is not None
@@ -107,7 +107,7 @@ def _viscosity(stated: FilmStatement) -> ThermalViscosity:
         try:
             cold = oil.at_temperature(temperature, at_oil_temperature)
             return np.asarray(oil.viscosity_law(pressure, cold)[0])
-        except FilmInputError as reason:
-            raise FilmInputError(reason.where, reason.found, f"{reason.expected}: {_OIL_REMEDY}") from None
+        except InputError as reason:
+            raise InputError(reason.where, reason.found, f"{reason.expected}: {_OIL_REMEDY}") from None
 
     return viscosity

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from reynolds.errors import FilmInputError, FilmNotConverged
+from reynolds.errors import FilmNotConverged, InputError
 from reynolds.problem import FilmProblem, FilmSolution
 from reynolds.solve.loads import Loads, loads
 from reynolds.solve.transient import oil_held
@@ -36,7 +36,7 @@ def transient(stated: FilmStatement, report: Report) -> list[Moment]:
 
     Each step satisfies d(oil held)/dt + outflow = 0 with the film and the boundaries at its end (implicit Euler,
     first order in the step). At the start the film holds film.initial_film_fraction of its thickness. A step that
-    does not converge is divided. Raises FilmNotConverged with the time reached, and FilmInputError where a field
+    does not converge is divided. Raises FilmNotConverged with the time reached, and InputError where a field
     has no valid value or a law does not hold.
     """
     assert stated.time is not None
@@ -63,6 +63,6 @@ def transient(stated: FilmStatement, report: Report) -> list[Moment]:
             report(stated.time.number(instant.time), stated.time.steps, f"t = {instant.time:.4g} s")
     except FilmNotConverged as reason:
         raise FilmNotConverged(f"at t = {now:.6g} s: {reason.what}", f"a smaller step; {reason.remedy}") from None
-    except FilmInputError as reason:
-        raise FilmInputError(f"at t = {now:.6g} s, {reason.where}", reason.found, reason.expected) from None
+    except InputError as reason:
+        raise InputError(f"at t = {now:.6g} s, {reason.where}", reason.found, reason.expected) from None
     return found
