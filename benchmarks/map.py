@@ -19,7 +19,7 @@ from rich.console import Console
 from rich.table import Table
 
 from swashfilm.console.fidelity import Fidelity
-from swashfilm.runs.map.run import MapAsked, run_map
+from swashfilm.runs.map.run import MapCase, run_map
 from system.maps.plan import MapAxis, MapInput, MapPlan, map_plan, paper_axes
 from system.pump_file.file import load_pump
 from system.work.processes import process_pool
@@ -70,7 +70,7 @@ def timed(
         run.mkdir()
         wall, processor = time.perf_counter(), processor_seconds()
         with maker() as executor:
-            summary = run_map(MapAsked(plan, fidelity), run, executor, lambda *_: None)
+            summary = run_map(MapCase(plan, fidelity), run, executor, lambda *_: None)
             by = f"{type(executor).__name__.lower()} of {executor.workers}"
         assert summary["solved"] == summary["points"], summary["failed"]
         wall, processor = time.perf_counter() - wall, processor_seconds() - processor
