@@ -4,8 +4,8 @@ from enum import Enum
 
 
 class Fidelity(Enum):
-    """Films of given thickness (lumped), solved at given positions (films), found by balance of forces (floating),
-    or as a table of solved points has learnt them (table).
+    """Films of given thickness (lumped), solved at given positions (films), at positions by balance of forces
+    (floating), or by a response table (table).
     """
 
     LUMPED = "lumped"

@@ -42,7 +42,8 @@ def add_run_options(command: argparse.ArgumentParser) -> None:
         "--fidelity",
         metavar=f"{{{','.join(_FIDELITIES)}}}",
         default=Fidelity.FILMS.value,
-        help="lumped: films of given thickness; table: response table; films: solved at given positions; floating",
+        help="films of given thickness (lumped), solved at given positions (films), at positions by balance of "
+        "forces (floating), or by a response table (table)",
     )
     command.add_argument(
         "--table", type=Path, metavar="FILE.json", help="response table in place of the stored one of this pump"

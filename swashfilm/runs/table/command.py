@@ -58,7 +58,7 @@ def add_table_options(command: argparse.ArgumentParser) -> None:
     for option, (_, example, what) in HELD.items():
         command.add_argument(option, metavar=example, help=f"{what}; default: that of the pump file")
     command.add_argument(
-        "--source", metavar="{films,floating}", default=_SOURCE, help="fidelity to condense (films)"
+        "--source", metavar="{films,floating}", default=_SOURCE, help="fidelity of the solved points (films)"
     )
     command.add_argument("--steps", metavar="N", help="floating gaps: steps per turn (360)")
     command.add_argument("--finer", metavar="X", help="floating gaps: factor on the cells (.5; --rigid: 1)")
@@ -251,7 +251,7 @@ def _given(options: argparse.Namespace, option: str) -> str | None:
 
 COMMAND = Command(
     "table",
-    "condense a pump's gaps into a response table, for runs of --fidelity table",
+    "response table of a pump's gaps, for runs of --fidelity table",
     add_table_options,
     run_table_command,
 )
