@@ -254,9 +254,9 @@ def reference(case: Case, *, report: Report = silent) -> ReferenceRun:
 def diagnose(
     pump: str | Path | PumpDescription, recording: str | Path, *, report: Report = silent, **options: object
 ) -> DiagnosisRun:
-    """A recording against the simulation of its pump, as `swashfilm diagnose`.
+    """Compare a recording with the simulation of its pump, as `swashfilm diagnose`.
 
-    pump: name, file (which may know little) or description; recording: folder, or table beside a recording.toml.
+    pump: name, file (which may be incomplete) or description; recording: folder, or table beside a recording.toml.
     options: workers, film_tables. Raises InputFaults and NotConverged.
     """
     with _door("diagnose"), _pump_file(pump) as name:
@@ -280,7 +280,7 @@ def diagnose(
 def calibrate(
     pump: str | Path | PumpDescription, recording: str | Path, *, report: Report = silent, **options: object
 ) -> CalibrationRun:
-    """Coefficients of a pump by a recording, as `swashfilm calibrate`.
+    """Fit coefficients of a pump to a recording, as `swashfilm calibrate`.
 
     options: laws ("mixed_friction" or "none"), models ("all", "none" or names). Raises InputFaults and
     NotConverged.

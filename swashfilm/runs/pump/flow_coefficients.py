@@ -46,8 +46,8 @@ def coefficient_warnings(pump: PumpDescription, point: PumpPoint) -> list[str]:
         if share > LARGEST_SHARE_BEYOND:
             found.append(
                 f"coefficients_beyond_file: {name} port: {share:.0%} of the time in which it is open lies beyond "
-                f"{table.path.name} ({_range(table)}), where its edge is taken (limit "
-                f"{LARGEST_SHARE_BEYOND:.0%}); give rows for it"
+                f"{table.path.name} ({_range(table)}), where its end value is used (limit "
+                f"{LARGEST_SHARE_BEYOND:.0%}); add rows for it"
             )
     return found
 

@@ -164,7 +164,7 @@ def revolution_summary(study: RevolutionStudy) -> dict[str, Any]:
 
 
 def _warmth(warmth: GapTemperatures | None) -> dict[str, Any]:
-    """Temperatures and heat of a gap that warms, means over the turn."""
+    """Return temperatures and heat of a gap with solved temperature, means over the turn."""
     if warmth is None:
         return {}
     flows = warmth.flows

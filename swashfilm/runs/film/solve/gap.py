@@ -67,7 +67,7 @@ def solve_gap(case: GapCase) -> GapStudy:
 
 
 def _loaded(case: GapCase, drives: Drives) -> Drives:
-    """The drives with the load that the case states, if any, in place of the pump's."""
+    """Return the drives, with the load of the case, if stated, in place of the pump's."""
     load = case.load
     if isinstance(load, PistonLoad):
         force = lateral_force(case.parts.piston.guide_length, -load.arm, np.array(load.force))

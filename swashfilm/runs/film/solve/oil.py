@@ -65,9 +65,7 @@ class OilSolver:
     def march(
         self, problem_at: Callable[[float], FilmProblem], end: float, step: float, held: Array
     ) -> Iterator[FilmInstant[Found]]:
-        """The film in time, as `reynolds.solve.transient.march_with`; its temperature begins as what flows in has
-        it.
-        """
+        """Yield the film in time, as `reynolds.solve.transient.march_with`; it starts at the inlet temperature."""
         if self.heat is None:
             return march_with(self._step, problem_at, end, step, held=held)
         stated = self.stated
