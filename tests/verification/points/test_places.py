@@ -6,14 +6,13 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from system.films.frames import Frame
 
 from gaps.shapes.slipper_lands import slipper_mesh
 from reynolds import film_space
 from reynolds.fem.sphere import PLANE
 from system import Gap, load_pump, operating_point
 from system.films.parts import floating_parts
-from system.films.places import face_frame, guide_frame, place_of
+from system.films.places import Frame, face_frame, guide_frame, place_of
 from system.films.positions import instant_drives
 from system.films.problems import RIGID, piston_film
 from system.films.rotor import Rotor, rotor, travel
