@@ -21,7 +21,7 @@ from gaps.revolution.march import GapRevolution, Leg, TurnReport, no_report, run
 from gaps.revolution.schedule import Accuracy, Schedule
 from gaps.revolution.warmth import GapTemperatures, HeatFlows, ViscosityRatios, thinned
 from reynolds.equation.coefficients import at_points
-from reynolds.errors import FilmInputError, FilmNotConverged
+from reynolds.errors import FilmNotConverged, InputError
 from reynolds.floating.problem import Floating
 from reynolds.floating.start import seats_of
 from reynolds.floating.step import FloatingStage
@@ -220,7 +220,7 @@ class _Warming(Generic[Reported]):
         posed = ThermalCase(problem, local_law(problem, heat), heat.of(problem, self._walls), at_once=True)
         try:
             return _with_heat(agree(posed, levels(), AGREED, self._solver, self._warm.get(time)))
-        except (FilmInputError, FilmNotConverged) as reason:
+        except (InputError, FilmNotConverged) as reason:
             angle = np.degrees(self._angles[self._times == time][0])
             why = reason.what if isinstance(reason, FilmNotConverged) else str(reason)
             raise FilmNotConverged(

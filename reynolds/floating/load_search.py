@@ -10,7 +10,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from reynolds.errors import FilmInputError, FilmNotConverged
+from reynolds.errors import FilmInputError, FilmNotConverged, InputError
 from reynolds.laws.contact import contact_pressure
 from reynolds.numerics.arrays import Array
 from reynolds.problem import FilmProblem, FilmSolution
@@ -242,7 +242,7 @@ class _LoadSearch:
         """The film there; None where it does not converge or its walls are beyond their contact's law."""
         try:
             return self.at(position)
-        except (FilmNotConverged, FilmInputError):
+        except (FilmNotConverged, InputError):
             return None
 
     def newton(self, start: Position) -> _Tried:

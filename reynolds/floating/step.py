@@ -9,7 +9,7 @@ from functools import cached_property
 import numpy as np
 
 from reynolds.equation.rough_overlap import as_shaped
-from reynolds.errors import FilmInputError, FilmNotConverged
+from reynolds.errors import FilmInputError, FilmNotConverged, InputError
 from reynolds.floating.coordinates import SoftContact, modes_on
 from reynolds.floating.pose import lowest_gap, posed
 from reynolds.floating.problem import Floating, Outer
@@ -297,7 +297,7 @@ class _Search:
             self._failed += 1
             self.why, self.remedy = reason.what, reason.remedy
             return None
-        except FilmInputError as reason:  # a law of oil or contact ends before; a shorter step may do
+        except InputError as reason:  # a law of oil or contact ends before; a shorter step may do
             self._failed += 1
             self.why = str(reason)
             return None

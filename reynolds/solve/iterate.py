@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from reynolds.equation.balance import Balance, FilmState, Operators, flow_balance, operators
 from reynolds.equation.deformation import deformation
-from reynolds.errors import FilmInputError, FilmNotConverged
+from reynolds.errors import FilmInputError, FilmNotConverged, InputError
 from reynolds.fem import kernels
 from reynolds.laws.fluid import CONSTANT
 from reynolds.numerics.array_kernels import all_finite, largest_share
@@ -94,7 +94,7 @@ def advanced(
         share = 0.5**halvings
         try:
             new = iterate_at(problem, setting, at, at.signed + share * (signed - at.signed))
-        except (FilmInputError, FilmNotConverged) as reason:
+        except (InputError, FilmNotConverged) as reason:
             fault = reason
             continue
         if not downhill:

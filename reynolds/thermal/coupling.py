@@ -14,7 +14,7 @@ from typing import Generic, NamedTuple, TypeVar
 
 import numpy as np
 
-from reynolds.errors import FilmInputError, FilmNotConverged
+from reynolds.errors import FilmInputError, FilmNotConverged, InputError
 from reynolds.laws.fluid import Fluid, ViscosityLaw, isoviscous
 from reynolds.numerics.anderson import History
 from reynolds.numerics.arrays import Array
@@ -162,12 +162,12 @@ def _film(
 ) -> tuple[FilmSolution, _Guess]:
     """The film of a guess, or of one nearer to the last with a solution; without one, of a thinner oil."""
     problem = work.posed.problem
-    fault: FilmInputError | FilmNotConverged | None = None
+    fault: InputError | FilmNotConverged | None = None
     for _ in range(MOST_HALVINGS):
         posed = _with_growth(with_profile(problem, dowson(work.across, guess.share)), guess.opened * work.given)
         try:
             return work.solver.solve(posed, warm), guess
-        except (FilmInputError, FilmNotConverged) as reason:
+        except (InputError, FilmNotConverged) as reason:
             fault = reason if fault is None else fault
         if solved is not None:
             guess = guess.at(0.5 * (guess.point + solved.point))
@@ -264,13 +264,13 @@ def _image(
     flux = np.zeros((2, posed.problem.space.size)) if heat is None else heat.heat_flux
     opened = _growth(posed.heat, posed.problem, flux) / work.given
     reached = _Conditions(temperature, shear_rate(film, profile))
-    fault: FilmInputError | None = None
+    fault: InputError | None = None
     for halvings in range(MOST_HALVINGS):
         part = 0.5**halvings
         there = _Conditions(*(old + part * (new - old) for old, new in zip(last, reached, strict=True)))
         try:
             return _Guess(_share(posed, there, film.pressure), opened), there, fault
-        except FilmInputError as reason:
+        except InputError as reason:
             fault = reason if fault is None else fault
     assert fault is not None
     raise fault

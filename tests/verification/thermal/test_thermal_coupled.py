@@ -270,7 +270,7 @@ def test_wall_that_opens_by_its_heat(validation):
     wrong = replace(
         heat, fixed_wall=ConductingBody(np.full(count, INLET), np.eye(count), Grown(np.zeros(2), np.eye(2)))
     )
-    with pytest.raises(FilmInputError, match="opening of a warm body"):
+    with pytest.raises(FilmInputError, match="deformation of a warm body"):
         solve_thermal(sheared(space), wrong, constant)
 
 
