@@ -254,7 +254,7 @@ def _heat(posed: ThermalCase, film: FilmSolution, profile: FlowProfile, last: ob
 
 def _image(
     work: _Work, film: FilmSolution, profile: FlowProfile, heat: FilmTemperature | None, last: _Conditions
-) -> tuple[_Guess, _Conditions, FilmInputError | None]:
+) -> tuple[_Guess, _Conditions, InputError | None]:
     """The oil's viscosity in a film; where the law does not hold, a point on the way from the last conditions.
 
     An oil still too stiff heats more than at the solution: the fault is then returned too.
