@@ -5,8 +5,7 @@ from __future__ import annotations
 import pytest
 from made_diagnosis import its_study, named_diagnosis
 
-from diagnosis.study.model import Study
-from diagnosis.verdict.diagnosis import Diagnosis
+from diagnosis import Diagnosis, Study
 
 
 @pytest.fixture(scope="module")

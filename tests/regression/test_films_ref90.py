@@ -8,11 +8,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from system.points.films import FilmsPoint, films_point
-from system.points.lumped import lumped_point
-from system.pump.laws.friction_pairs import Pair
-from system.pump.operating import operating_point
-from system.pump_file.file import load_pump
+from system import FilmsPoint, Pair, films_point, load_pump, lumped_point, operating_point
 
 pytestmark = pytest.mark.slow
 PUMP = load_pump("ref90")

@@ -6,13 +6,18 @@ What its description and the paper say a simulation of it must give, and what it
 import numpy as np
 import pytest
 
-from system.points.lumped import lumped_point
-from system.pump.assembly import PointWarning, PumpPoint
+from system import (
+    Pair,
+    PointWarning,
+    PumpPoint,
+    load_pump,
+    lumped_point,
+    operating_point,
+    piston_area,
+    piston_motion,
+)
 from system.pump.bench import ideal_flow, ideal_torque
-from system.pump.laws.friction_pairs import Pair
-from system.pump.lumped import lumped_pairs, piston_area, piston_motion
-from system.pump.operating import operating_point
-from system.pump_file.file import load_pump
+from system.pump.lumped import lumped_pairs
 
 RPM = 2 * np.pi / 60
 PUMP = load_pump("ref90")

@@ -7,37 +7,46 @@ from typing import Any
 
 import numpy as np
 
-from diagnosis.detect.mismatch import ChannelMisfit, Detection
-from diagnosis.detect.regions import MapRegion
-from diagnosis.explain.hypotheses import Hypothesis
-from diagnosis.explain.ranked import Explanation, HeldOut
-from diagnosis.explain.scaling import Scaling
-from diagnosis.next_point.choose import NextPoint
-from diagnosis.next_point.operating_box import BenchBox
-from diagnosis.recording.model import (
+from diagnosis import (
+    BenchBox,
     Circuit,
-    DataNote,
+    Diagnosis,
+    Explanation,
     NoteKind,
     RecordedChannel,
     Recording,
     SteadyTable,
+    Study,
+    load_thresholds,
 )
-from diagnosis.study.model import Study
-from diagnosis.thresholds import load_thresholds
-from diagnosis.verdict.diagnosis import ClaimedEffect, Diagnosis, Estimate, VerdictStatus
+from diagnosis.detect.mismatch import ChannelMisfit, Detection
+from diagnosis.detect.regions import MapRegion
+from diagnosis.explain.hypotheses import Hypothesis
+from diagnosis.explain.ranked import HeldOut
+from diagnosis.explain.scaling import Scaling
+from diagnosis.next_point.choose import NextPoint
+from diagnosis.recording.model import DataNote
+from diagnosis.verdict.diagnosis import ClaimedEffect, Estimate, VerdictStatus
 from diagnosis.verdict.locate import Location
-from reynolds.numerics.arrays import Array
-from system.description.gap import Gap
-from system.effects.components import Component
-from system.effects.effect import EffectId, Kind
-from system.estimation.fit import maximum_posterior
-from system.estimation.observations import Channel, Observations
-from system.estimation.parameters import Parameter, Role, Scale
-from system.estimation.posterior import FitEffort, Posterior
-from system.inputs.channels import ChannelName
-from system.inputs.units import Dimension
-from system.pump.operating import operating_point
-from system.pump_file.file import load_pump
+from reynolds import Array
+from system import (
+    Channel,
+    ChannelName,
+    Component,
+    Dimension,
+    EffectId,
+    Gap,
+    Kind,
+    Observations,
+    Parameter,
+    Posterior,
+    Role,
+    Scale,
+    load_pump,
+    maximum_posterior,
+    operating_point,
+)
+from system.estimation.posterior import FitEffort
 
 LPM = 1.0 / 60000.0
 PRESSURE = np.tile(np.linspace(5e6, 35e6, 7), 4)

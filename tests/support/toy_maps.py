@@ -6,13 +6,10 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from diagnosis.recording.model import Circuit, Recording, SteadyTable
+from diagnosis import Circuit, Recording, SteadyTable, load_thresholds
 from diagnosis.study.map_axes import AXES
-from diagnosis.thresholds import load_thresholds
-from reynolds.numerics.arrays import Array
-from system.bench.points import BenchPoints
-from system.estimation.observations import Channel, Observations
-from system.inputs.channels import ChannelName
+from reynolds import Array
+from system import BenchPoints, Channel, ChannelName, Observations
 
 CHANNELS = (ChannelName.Q_OUT, ChannelName.Q_CASE, ChannelName.TORQUE)
 SIGMA = np.array([0.1, 0.02, 0.3])  # of the channels: L/min, L/min, N m

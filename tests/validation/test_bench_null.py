@@ -4,17 +4,10 @@ from pathlib import Path
 
 import numpy as np
 
-from diagnosis.recording.reader import read_recording
+from diagnosis import observations, read_recording
 from diagnosis.study.inputs import bench_points
-from diagnosis.study.readings import observations
-from system.bench.outputs import SIMULATED
-from system.bench.parameters import base_parameters
+from system import SIMULATED, ChannelName, LumpedBench, base_parameters, linear_posterior, load_pump, tolerances
 from system.bench.sensors import sensor_parameters
-from system.bench.simulator import LumpedBench
-from system.description.tolerances import tolerances
-from system.estimation.posterior import linear_posterior
-from system.inputs.channels import ChannelName
-from system.pump_file.file import load_pump
 
 INPUTS = (ChannelName.SPEED, ChannelName.P_OUT, ChannelName.P_IN, ChannelName.P_CASE, ChannelName.T_CASE)
 

@@ -9,18 +9,21 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from gaps import Accuracy, GapRevolution
 from gaps.films.reports import BlockReport
-from gaps.revolution.march import GapRevolution
-from gaps.revolution.schedule import Accuracy
-from reynolds.errors import FilmNotConverged
-from system.films.drives import drives, no_rubbing
-from system.films.parts import floating_parts
-from system.films.problems import RIGID
-from system.films.rotor import rotor
-from system.points.floating_gaps import FloatingOptions, block_revolution
-from system.points.lumped import lumped_point
-from system.pump.operating import operating_point
-from system.pump_file.file import load_pump
+from reynolds import FilmNotConverged
+from system import (
+    RIGID,
+    FloatingOptions,
+    drives,
+    floating_parts,
+    load_pump,
+    lumped_point,
+    no_rubbing,
+    operating_point,
+    rotor,
+)
+from system.points.floating_gaps import block_revolution
 from system.pump_file.floating import check_floating
 
 COARSE = FloatingOptions(RIGID, steps=72, accuracy=Accuracy(step=3e-2), finer=0.5)

@@ -12,10 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 import pytest
 
-from reynolds.fem.mesh import Cell, rectangle
-from reynolds.fem.space import FilmSpace, film_space
-from reynolds.problem import ZERO, FilmProblem, Held, film
-from reynolds.solve.solver import FilmSolver
+from reynolds import ZERO, Cell, FilmProblem, FilmSolver, FilmSpace, Held, film, film_space, rectangle
 
 CELLS = 144, 8  # around, over half of the length
 STEP = 1e-4  # of displacement and velocity for the coefficients, in clearances (per radian)

@@ -12,18 +12,29 @@ from dataclasses import dataclass, replace
 import numpy as np
 import pytest
 
-from reynolds.bodies.chart import Cylinder, Side
-from reynolds.bodies.elasticity import Elastic
-from reynolds.bodies.mesh import BodyMesh, hollow_cylinder
-from reynolds.bodies.supports import Supports
-from reynolds.bodies.wall import Body, body_wall
-from reynolds.equation.coefficients import at_points
-from reynolds.fem.mesh import Cell, rectangle
-from reynolds.fem.space import FilmSpace, film_space
-from reynolds.laws.fluid import Fluid
-from reynolds.problem import ZERO, FilmProblem, FilmSolution, Held, film
-from reynolds.solve.loads import loads
-from reynolds.solve.solver import FilmSolver
+from reynolds import (
+    ZERO,
+    Body,
+    BodyMesh,
+    Cell,
+    Cylinder,
+    Elastic,
+    FilmProblem,
+    FilmSolution,
+    FilmSolver,
+    FilmSpace,
+    Fluid,
+    Held,
+    Side,
+    Supports,
+    at_points,
+    body_wall,
+    film,
+    film_space,
+    hollow_cylinder,
+    loads,
+    rectangle,
+)
 
 FREUND_DEFLECTION = {10: 122, 20: 65, 30: 28, 40: 18, 50: 20, 60: 30, 70: 40, 80: 48, 90: 50, 100: 60, 110: 45,
                      120: 30, 130: 0}  # fmt: skip

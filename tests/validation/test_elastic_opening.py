@@ -10,15 +10,22 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from gaps.walls.parts import BushingPart, PistonPart, Pose, bushing_body, piston_body
-from gaps.walls.piston import PistonWalls, face_grid
-from reynolds.bodies.elasticity import Elastic
-from reynolds.bodies.foundation import Compliance
-from reynolds.fem.mesh import Cell, rectangle
-from reynolds.fem.space import FilmSpace, film_space
-from reynolds.problem import Cavitation, FilmProblem, Held, film
-from reynolds.solve.loads import loads
-from reynolds.solve.solver import FilmSolver
+from gaps import BushingPart, PistonPart, PistonWalls, Pose, bushing_body, piston_body
+from gaps.walls.piston import face_grid
+from reynolds import (
+    Cavitation,
+    Cell,
+    Compliance,
+    Elastic,
+    FilmProblem,
+    FilmSolver,
+    FilmSpace,
+    Held,
+    film,
+    film_space,
+    loads,
+    rectangle,
+)
 
 RADIUS, LENGTH, CLEARANCE, RATED = 11e-3, 45e-3, 15e-6, 35e6
 STEEL, BRASS = Elastic(210e9, 0.3), Elastic(110e9, 0.34)

@@ -2,11 +2,8 @@
 
 import pytest
 
-from gaps.films.physics import Physics
-from system.points.floating import floating_point
-from system.points.floating_gaps import FloatingOptions
-from system.pump.operating import operating_point
-from system.pump_file.file import load_pump
+from gaps import Physics
+from system import FloatingOptions, floating_point, load_pump, operating_point
 
 
 @pytest.mark.long

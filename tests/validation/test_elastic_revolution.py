@@ -5,23 +5,24 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from gaps.films.physics import Effect, Physics
-from gaps.films.reports import SlipperReport
-from gaps.revolution.march import GapRevolution, Leg
-from gaps.revolution.schedule import Accuracy
-from system.films.drives import Drives, drives, no_rubbing
-from system.films.parts import FloatingParts, floating_parts
-from system.films.problems import RIGID
-from system.films.rotor import Rotor, rotor
-from system.points.floating_gaps import (
+from gaps import Accuracy, Effect, GapRevolution, Physics, SlipperReport
+from gaps.revolution.march import Leg
+from system import (
+    RIGID,
+    Drives,
     FloatingOptions,
-    block_revolution,
-    piston_revolution,
+    FloatingParts,
+    Rotor,
+    drives,
+    floating_parts,
+    load_pump,
+    lumped_point,
+    no_rubbing,
+    operating_point,
+    rotor,
     slipper_revolution,
 )
-from system.points.lumped import lumped_point
-from system.pump.operating import operating_point
-from system.pump_file.file import load_pump
+from system.points.floating_gaps import block_revolution, piston_revolution
 
 COARSE = FloatingOptions(RIGID, steps=24, accuracy=Accuracy(step=0.1), finer=0.5, keep=8)
 SOFT = Physics().without(Effect.PRESSURE_VISCOSITY)

@@ -15,16 +15,22 @@ from types import ModuleType
 import numpy as np
 import pytest
 
-from gaps.revolution.schedule import Accuracy
-from system.films.drives import drives, no_rubbing
-from system.films.parts import floating_parts
-from system.films.problems import RIGID
-from system.films.rotor import rotor
-from system.points.floating_gaps import FloatingOptions, slipper_revolution
-from system.points.lumped import lumped_point
-from system.pump.laws.leakage import piston_conductance, slipper_conductance, valve_plate_conductance
-from system.pump.operating import operating_point
-from system.pump_file.file import load_pump
+from gaps import Accuracy
+from system import (
+    RIGID,
+    FloatingOptions,
+    drives,
+    floating_parts,
+    load_pump,
+    lumped_point,
+    no_rubbing,
+    operating_point,
+    piston_conductance,
+    rotor,
+    slipper_conductance,
+    slipper_revolution,
+    valve_plate_conductance,
+)
 
 PUMP = Path(__file__).resolve().parents[2] / "examples" / "pumps" / "hst196.toml"
 SOURCE = "ivanokhotnikov/effmap, 399 units"

@@ -16,20 +16,32 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from reynolds.bodies.chart import Cylinder, Side
-from reynolds.bodies.elasticity import Elastic
-from reynolds.bodies.foundation import both
-from reynolds.bodies.mesh import disc, hollow_cylinder
-from reynolds.bodies.supports import Supports
-from reynolds.bodies.wall import Body, body_wall
-from reynolds.equation.coefficients import at_points
-from reynolds.fem.mesh import Cell, rectangle
-from reynolds.fem.space import FilmSpace, film_space
+from reynolds import (
+    ZERO,
+    Body,
+    Cell,
+    Cylinder,
+    Elastic,
+    FilmProblem,
+    FilmSolution,
+    FilmSolver,
+    FilmSpace,
+    Fluid,
+    Held,
+    Side,
+    Supports,
+    at_points,
+    body_wall,
+    both,
+    disc,
+    film,
+    film_space,
+    hollow_cylinder,
+    loads,
+    point_fields,
+    rectangle,
+)
 from reynolds.laws.contact import asperities_of
-from reynolds.laws.fluid import Fluid
-from reynolds.problem import ZERO, FilmProblem, FilmSolution, Held, film
-from reynolds.solve.loads import loads, point_fields
-from reynolds.solve.solver import FilmSolver
 
 VISCOSITY, PRESSURE_COEFFICIENT, AMBIENT, VAPOUR = 6.8e-3, 9.5e-9, 1e5, 100.0
 SUMMITS = asperities_of(

@@ -14,17 +14,22 @@ from itertools import pairwise
 import numpy as np
 import pytest
 
-from gaps.films.reports import Active, SlipperReport
-from gaps.revolution.march import GapRevolution
-from gaps.revolution.schedule import Accuracy
-from system.films.drives import Drives, drives, no_rubbing
-from system.films.parts import FloatingParts, floating_parts
-from system.films.problems import RIGID
-from system.films.rotor import Rotor, rotor
-from system.points.floating_gaps import FloatingOptions, slipper_revolution
-from system.points.lumped import lumped_point
-from system.pump.operating import operating_point
-from system.pump_file.file import load_pump
+from gaps import Accuracy, Active, GapRevolution, SlipperReport
+from system import (
+    RIGID,
+    Drives,
+    FloatingOptions,
+    FloatingParts,
+    Rotor,
+    drives,
+    floating_parts,
+    load_pump,
+    lumped_point,
+    no_rubbing,
+    operating_point,
+    rotor,
+    slipper_revolution,
+)
 
 PAPER, ESTIMATE = (
     "Xu, Hu, Zhang and Mao 2017, Fig. 9",

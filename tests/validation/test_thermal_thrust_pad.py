@@ -11,14 +11,21 @@ from dataclasses import replace
 import numpy as np
 from skfem import MeshQuad
 
-from reynolds.fem.mesh import FilmMesh
-from reynolds.fem.space import FilmSpace, film_space
-from reynolds.problem import Cavitation, FilmProblem, Held, film
+from reynolds import (
+    Adiabatic,
+    Cavitation,
+    FilmMesh,
+    FilmProblem,
+    FilmSolver,
+    FilmSpace,
+    Heat,
+    Held,
+    ThermalSolution,
+    film,
+    film_space,
+    solve_thermal,
+)
 from reynolds.solve.loads import pressure_integrals
-from reynolds.solve.solver import FilmSolver
-from reynolds.thermal.energy import Heat
-from reynolds.thermal.film import ThermalSolution, solve_thermal
-from reynolds.thermal.walls import Adiabatic
 
 INNER, OUTER, PIVOT_RADIUS = 1.15, 1.725, 1.4425
 ARC, PIVOT_ANGLE = np.radians(26.0), np.radians(15.0)  # both from the edge where the oil enters

@@ -13,14 +13,25 @@ import numpy as np
 import pytest
 from skfem import MeshTri
 
-from reynolds.equation.coefficients import at_points
-from reynolds.fem.mesh import FilmMesh
-from reynolds.fem.space import FilmSpace, film_space
-from reynolds.problem import ZERO, Cavitation, FilmProblem, FilmSolution, Held, film
-from reynolds.solve.solver import FilmSolver
-from reynolds.thermal.energy import FilmTemperature, Heat, solve_energy
+from reynolds import (
+    ZERO,
+    Cavitation,
+    Convecting,
+    FilmMesh,
+    FilmProblem,
+    FilmSolution,
+    FilmSolver,
+    FilmSpace,
+    FilmTemperature,
+    Heat,
+    Held,
+    Turning,
+    at_points,
+    film,
+    film_space,
+    solve_energy,
+)
 from reynolds.thermal.film_profile import dowson, film_with, levels
-from reynolds.thermal.walls import Convecting, Turning
 
 RADIUS, WIDTH, PAD_CLEARANCE, PRELOAD, LOAD = 0.05, 0.07, 148e-6, 0.47, 10e3
 PIVOTS = np.radians([45.0, 135.0, 225.0, 315.0])

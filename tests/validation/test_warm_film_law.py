@@ -8,29 +8,20 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from gaps.films.block import standing_block
-from gaps.films.slipper import floating_slipper
+from gaps import floating_slipper, standing_block
 from gaps.revolution.film_heat import GapHeat, local_law, wall_image
 from gaps.standing.conductances import kidney_conductances, slipper_land_conductance
-from reynolds.floating.rest import held_at
-from reynolds.laws.oil import dynamic_viscosity
+from reynolds import FilmSolver, dynamic_viscosity, held_at
 from reynolds.problem import HALF
-from reynolds.solve.solver import FilmSolver
 from reynolds.thermal.coupling import ThermalCase, agree
 from reynolds.thermal.film_profile import levels
-from system.description.gap import Gap
-from system.effects.effect import BenchState, GapCourse
+from system import SMOOTH, BenchState, Gap, GapCourse, Rotor, floating_parts, load_pump, operating_point, rotor
 from system.effects.laws.film import ISENTROPIC_RISE, HeatShares, film_rise
 from system.effects.state import warmed
-from system.films.cycle import SMOOTH
 from system.films.heat import block_heat, slipper_heat
 from system.films.instant import chambers_at
-from system.films.parts import floating_parts
 from system.films.positions import given_block, given_slipper, instant_drives
 from system.films.problems import block_film, slipper_film
-from system.films.rotor import Rotor, rotor
-from system.pump.operating import operating_point
-from system.pump_file.file import load_pump
 
 RPM = np.pi / 30
 REF90 = load_pump("ref90")

@@ -5,7 +5,7 @@ import pytest
 from swashfilm.__main__ import main
 from swashfilm.case.gap.instant import GapCase
 from swashfilm.case.study import StudyCase, load_film
-from system.inputs.faults import InputFaults
+from system import InputFaults
 
 GAP = 'format = 1\n[film]\ngap = "piston"\npump = "ref90"\n'
 

@@ -6,13 +6,13 @@ import meshio
 import numpy as np
 import pytest
 
-from reynolds.problem import Cavitation
+from reynolds import Cavitation
 from swashfilm.__main__ import main
 from swashfilm.case.file import FilmCase, load_case
 from swashfilm.case.gap.instant import GapCase
 from swashfilm.runs.film.solve.study import solve_case
 from swashfilm.runs.film.summary import film_summary
-from system.inputs.faults import InputFaults
+from system import InputFaults
 
 MESH = '{ kind = "rectangle", size = ["10 mm", "10 mm"], cells = [8, 4] }'
 GOOD = f"""

@@ -8,7 +8,7 @@ import pytest
 from swashfilm.__main__ import main
 from swashfilm.case.file import FilmCase, load_case
 from swashfilm.case.study import StudyCase, load_film
-from system.inputs.faults import InputFaults
+from system import InputFaults
 
 GOOD = """
 format = 1

@@ -9,15 +9,14 @@ import numpy as np
 import pytest
 import xarray
 
-from reynolds.laws.density import DOWSON_HIGGINSON, BulkModulus, RationalDensity, Tait
-from reynolds.laws.viscosity import Barus, Roelands
-from reynolds.problem import Cavitation
+from reynolds import Barus, BulkModulus, Cavitation, RationalDensity, Roelands
+from reynolds.laws.density import DOWSON_HIGGINSON, Tait
 from swashfilm.__main__ import main
 from swashfilm.case.file import FilmCase, load_case
 from swashfilm.runs.film.history import fields_over_time
 from swashfilm.runs.film.solve.study import solve_case
 from swashfilm.runs.film.summary import film_summary
-from system.inputs.faults import InputFaults
+from system import InputFaults
 
 ROOT = Path(__file__).resolve().parents[3]
 EXAMPLES = ROOT / "examples" / "films"
@@ -233,7 +232,7 @@ def test_a_film_that_warms_itself_is_told(read):
 
 
 def test_a_film_hotter_than_its_oil_is_no_number(read):
-    from reynolds.errors import InputError
+    from reynolds import InputError
 
     hot = read(
         GRADE.replace('"1 m/s"', '"60 m/s"').replace('"10 um"', '"3 um"') + WALLS.replace("50 degC", "140 degC")

@@ -8,7 +8,7 @@ import meshio
 import numpy as np
 import pytest
 
-from reynolds.fem.mesh import Cell, annulus, mesh_from_file, rectangle
+from reynolds import Cell, annulus, mesh_from_file, rectangle
 from reynolds.fem.mesh_check import mesh_faults
 from reynolds.fem.refine import refine_mesh
 from swashfilm.__main__ import main

@@ -12,7 +12,7 @@ import xarray
 from swashfilm.__main__ import main
 from swashfilm.case.study import StudyCase, _axis, load_film
 from swashfilm.runs.film.series import points as film_series
-from system.inputs.faults import InputFaults
+from system import InputFaults
 from system.inputs.toml_table import Table
 
 BASE = """
@@ -114,7 +114,7 @@ def test_a_point_that_fails_tells_why_and_stops_no_other(capsys):
 
 
 def test_a_study_without_any_result_ends_with_3(monkeypatch):
-    from reynolds.errors import FilmNotConverged
+    from reynolds import FilmNotConverged
 
     def stall(case):
         raise FilmNotConverged("it stalls", "something else")

@@ -10,7 +10,7 @@ import pytest
 from swashfilm.__main__ import main
 from swashfilm.runs.table.gap_case import load_gap_table
 from swashfilm.runs.table.gap_run import read_gap_table
-from system.inputs.faults import InputFaults
+from system import InputFaults
 
 # A concentric piston held at its dead centre: leakage pi d h^3 p/(12 mu l), a power of all that varies.
 PISTON = """format = 1

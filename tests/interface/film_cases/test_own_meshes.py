@@ -11,10 +11,8 @@ import pytest
 from swashfilm.case.file import load_case
 from swashfilm.runs.film.solve.study import solve_case
 from swashfilm.runs.film.summary import film_summary
-from system.films.parts import floating_parts
-from system.inputs.faults import Fault, InputFaults
+from system import Fault, InputFaults, check_pump, floating_parts, load_pump, resolved_toml
 from system.points.table.store import pump_key
-from system.pump_file.file import check_pump, load_pump, resolved_toml
 
 EXAMPLE = Path(__file__).parents[3] / "examples" / "films" / "slipper.vtu"
 OWN = {"mesh": str(EXAMPLE), "unit": "mm"}

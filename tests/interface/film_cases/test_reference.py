@@ -9,9 +9,7 @@ import pytest
 
 from swashfilm.cli.app import run_command
 from swashfilm.runs.reference.case import ReferenceKind, load_reference
-from system.inputs.coefficients.flow_files import read_flow_coefficients
-from system.inputs.coefficients.loss_files import read_step_losses
-from system.inputs.faults import InputFaults
+from system import InputFaults, read_flow_coefficients, read_step_losses
 
 EXAMPLES = sorted((Path(__file__).parents[3] / "examples" / "references").glob("*.toml"))
 STEP = 'format = 1\n[reference]\nkind = "step"\nfilm_ratio = [2, 0.5]\nreynolds = [5, 0]\ncells = 2\n'

@@ -9,14 +9,13 @@ import numpy as np
 import pytest
 import xarray
 
-from gaps.films.physics import Effect
+from gaps import Effect
 from swashfilm.__main__ import main
 from swashfilm.case.gap.revolution import RevolutionCase
 from swashfilm.case.study import load_film
 from swashfilm.runs.film.revolution.solve import revolution_summary, solve_revolution
 from swashfilm.runs.film.series import points as film_series
-from system.inputs.faults import InputFaults
-from system.points.lumped import lumped_point
+from system import InputFaults, lumped_point
 
 SLIPPER = """format = 1
 [film]

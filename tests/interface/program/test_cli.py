@@ -12,11 +12,11 @@ import numpy as np
 import pytest
 import xarray
 
-from reynolds.errors import FilmNotConverged
+from reynolds import FilmNotConverged
 from reynolds.linear.factor import ITERATIVE_TOLERANCE
 from swashfilm.__main__ import main
 from swashfilm.runs.film import run as film_run
-from system.pump_file.file import load_pump, resolved_toml
+from system import load_pump, resolved_toml
 
 ROOT = Path(__file__).resolve().parents[3]
 EXAMPLES = ROOT / "examples" / "films"

@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 
 from swashfilm.__main__ import main
-from system.inputs.faults import InputFaults
+from system import InputFaults
 from system.work.cluster import THREADS, about_worker, cluster, worker_faults
 from system.work.kept_results import KeptPoints, run_kept
 from system.work.tasks import PartStatus

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from diagnosis.recording.reader import read_recording
+from diagnosis import read_recording
 from swashfilm.case.file import load_case
 from swashfilm.case.study import load_film
 from swashfilm.cli.app import build_parser, run_command
@@ -23,14 +23,10 @@ from swashfilm.runs.pump.page import headline_rows
 from swashfilm.runs.pump.run import PumpCase, solve_pump
 from swashfilm.runs.pump.summary import pump_summary
 from swashfilm.runs.table.gap_case import load_gap_table
-from system.description.gap import Gap
+from system import FilmsPoint, Gap, Pair, PointWarning, films_point, load_pump, operating_point
 from system.inputs.sections.fields import fields_of
 from system.inputs.sections.values import units_shown
-from system.points.films import FilmsPoint, films_point
-from system.pump.assembly import PointWarning
-from system.pump.laws.friction_pairs import Pair
-from system.pump.operating import operating_point
-from system.pump_file.file import builtin_pumps, load_pump
+from system.pump_file.file import builtin_pumps
 from system.pump_file.schema import section_models
 
 ROOT = Path(__file__).parents[3]

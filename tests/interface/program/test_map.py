@@ -9,12 +9,12 @@ import pint
 import pytest
 import xarray
 
-from reynolds.errors import NotConverged
+from reynolds import NotConverged
 from swashfilm.__main__ import main
 from swashfilm.console.levels import map_axis
 from swashfilm.runs.map.files import read_map
 from swashfilm.runs.map.plots import efficiency_levels
-from system.inputs.faults import Fault
+from system import Fault
 from system.maps import point as map_point
 from system.maps.plan import MapInput
 

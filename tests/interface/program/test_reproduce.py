@@ -10,21 +10,20 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from diagnosis.study.acceptance import checked_recording
+from diagnosis import checked_recording
 from diagnosis.study.scaled_pump import load_known_pump
 from swashfilm.__main__ import main
 from swashfilm.runs.reproduce.files import claim_rows
 from swashfilm.runs.reproduce.plots import figure_picture
 from swashfilm.runs.reproduce.run import about, paper_points
+from system import FloatingOptions, load_pump
 from system.paper.figure import Figure
 from system.paper.figures.floating_films import FLOATING_RATIOS, FloatingWork, floating_figures
 from system.paper.judge import StatementVerdict
 from system.paper.points import PRESSURES, RATED, Place
 from system.paper.reproduce import Means, PaperFidelity, reproduce
 from system.paper.statements import CLAIMS
-from system.points.floating_gaps import FloatingOptions
 from system.pump_file.check import run_checks
-from system.pump_file.file import load_pump
 from system.pump_file.floating import slipper_has_a_wedge
 from system.work.kept_results import KeptPoints
 from system.work.processes import HERE

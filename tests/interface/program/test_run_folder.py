@@ -3,7 +3,7 @@
 import pytest
 
 from swashfilm.output.run_folder import run_folder
-from system.inputs.faults import InputFaults
+from system import InputFaults
 
 
 def test_two_runs_into_one_folder_keep_both(tmp_path):

@@ -12,8 +12,8 @@ from jsonschema import Draft202012Validator
 
 from swashfilm.cli.app import run_command
 from swashfilm.cli.schema import SCHEMAS, schema_of
+from system import load_pump, resolved_toml
 from system.inputs.sections.fields import fields_of
-from system.pump_file.file import load_pump, resolved_toml
 
 ROOT = Path(__file__).parents[3]
 FILES = {
@@ -77,6 +77,6 @@ def test_a_pump_file_is_held_to_quantities_choices_and_required_keys():
 
 
 def test_comments_of_fields_are_descriptions():
-    from system.description.pump import PumpSection
+    from system import PumpSection
 
     assert fields_of(PumpSection)["pitch_radius"].meaning == "of the ball centres at zero swash angle"

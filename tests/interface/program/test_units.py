@@ -7,7 +7,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from system.inputs.units import Dimension, QuantityError, format_quantity, parse_quantity, unit_scale
+from system import Dimension
+from system.inputs.units import QuantityError, format_quantity, parse_quantity, unit_scale
 
 SIZES = st.one_of(st.just(0.0), st.floats(1e-29, 1e29), st.floats(-1e29, -1e-29))
 

@@ -2,14 +2,13 @@
 
 import pytest
 
-from gaps.films.physics import Effect
+from gaps import Effect
 from swashfilm.__main__ import main
 from swashfilm.case.gap.physics import effect_rows
 from swashfilm.case.gap.switches import SWITCHES
 from swashfilm.cli.app import build_parser
 from swashfilm.console.floating_options import floating_faults, floating_options
-from system.points.floating_gaps import FloatingOptions
-from system.pump_file.file import load_pump
+from system import FloatingOptions, load_pump
 
 FLOATING = ["run", "ref90_floating", "--fidelity", "floating"]
 

@@ -8,12 +8,8 @@ import pytest
 
 from swashfilm.cli.app import run_command
 from swashfilm.runs.pump.flow_coefficients import share_beyond
-from system.inputs.coefficients.flow_files import read_flow_coefficients
-from system.inputs.coefficients.loss_files import read_step_losses
+from system import Dimension, InputFaults, load_pump, read_flow_coefficients, read_step_losses, resolved_toml
 from system.inputs.csv_table import read_table
-from system.inputs.faults import InputFaults
-from system.inputs.units import Dimension
-from system.pump_file.file import load_pump, resolved_toml
 
 PORT = """# source: a bench, 2026
 opening [cm2], reynolds [1], flow_coefficient [1]

@@ -10,13 +10,12 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from system.description.pump import PumpDescription
-from system.inputs.faults import InputFaults, key_lines
+from system import InputFaults, PumpDescription, check_pump, load_pump, operating_point, resolved_toml
+from system.inputs.faults import key_lines
 from system.inputs.sections.fields import fields_of
 from system.inputs.units import STANDARD_ATMOSPHERE
-from system.pump.operating import operating_point
 from system.pump_file.check import CheckWarning
-from system.pump_file.file import builtin_pumps, check_pump, load_pump, resolved_toml
+from system.pump_file.file import builtin_pumps
 from system.pump_file.operating import check_operating_point
 from system.pump_file.schema import section_models
 

@@ -7,13 +7,11 @@ import pytest
 import pyvista
 import xarray
 
-from gaps.revolution.schedule import Accuracy
+from gaps import Accuracy
 from swashfilm.console.fidelity import Fidelity
 from swashfilm.runs.pump.page import write_pump_page
 from swashfilm.runs.pump.run import PumpCase, solve_pump
-from system.films.problems import RIGID
-from system.points.floating_gaps import FloatingOptions
-from system.pump_file.file import load_pump
+from system import RIGID, FloatingOptions, load_pump
 
 pytestmark = pytest.mark.slow
 

@@ -9,13 +9,18 @@ import pytest
 
 from swashfilm.cli.app import run_command
 from swashfilm.runs.pump.edge_losses import loss_records, losses_left_out
-from system.inputs.coefficients.loss_files import read_groove_losses, read_step_losses
-from system.inputs.faults import InputFaults
+from system import (
+    InputFaults,
+    check_pump,
+    load_pump,
+    lumped_point,
+    operating_point,
+    read_step_losses,
+    resolved_toml,
+)
+from system.inputs.coefficients.loss_files import read_groove_losses
 from system.maps.point import LumpedSolver, MapWork
-from system.points.lumped import lumped_point
 from system.pump.land_losses import land_losses
-from system.pump.operating import operating_point
-from system.pump_file.file import check_pump, load_pump, resolved_toml
 
 STEPS = "film_ratio [1], reynolds [1], extra_length [1], loss_factor [1]"
 GROOVES = "film_ratio [1], width_ratio [1], reynolds [1], extra_length [1], loss_factor [1]"

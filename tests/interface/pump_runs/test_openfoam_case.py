@@ -6,11 +6,10 @@ import numpy as np
 import pytest
 
 from swashfilm.cli.app import run_command
-from system.inputs.coefficients.flow_files import read_flow_coefficients
+from system import InputFaults, read_flow_coefficients
 from system.inputs.coefficients.loss_files import GROOVE_HEADS, STEP_HEADS
 from system.inputs.coefficients.openfoam_case import read_case_flow
 from system.inputs.csv_table import read_table
-from system.inputs.faults import InputFaults
 
 LENGTH, HEIGHT, WIDTH, LAYERS = 0.2, 0.01, 0.02, 8
 FLOW, DROP = 3e-4, 500.0  # m3/s, Pa

@@ -6,17 +6,16 @@ from importlib.resources import files
 import numpy as np
 import pytest
 
+from system import InputFaults, check_pump, floating_parts, load_pump, operating_point, resolved_toml, rotor
 from system.description.lines import LineKind
 from system.description.parts import RetainerKind
-from system.films.parts import BRASS, STEEL, ball_plane_height, floating_parts
+from system.films.parts import BRASS, STEEL, ball_plane_height
 from system.films.places import guide_frame
-from system.films.rotor import rotor, travel
-from system.inputs.faults import InputFaults
+from system.films.rotor import travel
 from system.inputs.sections.fields import fields_of
 from system.inputs.sections.values import units_shown
-from system.pump.operating import operating_point
 from system.pump_file.check import CheckReport
-from system.pump_file.file import builtin_pumps, check_pump, load_pump, resolved_toml
+from system.pump_file.file import builtin_pumps
 from system.pump_file.floating import check_floating
 from system.pump_file.schema import section_models
 

@@ -9,22 +9,17 @@ import pyvista
 import xarray
 
 from diagnosis.procedure.pump_comparison import OF_FILMS, compare_films
-from gaps.films.physics import Effect, Physics
+from gaps import Effect, Physics
 from swashfilm.__main__ import main
 from swashfilm.runs.diagnose.fields import FIELDS_FILE, film_pictures, write_film_fields
 from swashfilm.runs.diagnose.files import film_rows
 from swashfilm.runs.pump.data import PICTURED_TURN
 from swashfilm.runs.pump.oil_fields import oil_state
+from system import SMOOTH, EffectId, films_point, load_pump, lumped_point, operating_point, resolved_toml
 from system.description.effects import PhysicsSection
-from system.effects.effect import EffectId
-from system.films.cycle import SMOOTH
 from system.inputs.sections.reader import section_of
 from system.maps.point import LumpedSolver, MapWork
 from system.points.film_effects import SOLVED
-from system.points.films import films_point
-from system.points.lumped import lumped_point
-from system.pump.operating import operating_point
-from system.pump_file.file import load_pump, resolved_toml
 
 REF90 = load_pump("ref90")
 BARUS = 1.5e-8

@@ -6,14 +6,17 @@ import numpy as np
 import pytest
 
 from gaps.shapes.profiles import PointsAround, measured
-from reynolds.errors import InputError
-from system.films.parts import floating_parts
-from system.inputs.faults import InputFaults
-from system.points.lumped import lumped_point
+from reynolds import InputError
+from system import (
+    ImpedanceLine,
+    InputFaults,
+    floating_parts,
+    load_pump,
+    lumped_point,
+    operating_point,
+    resolved_toml,
+)
 from system.pump.lumped import port_lines
-from system.pump.operating import operating_point
-from system.pump.ports.lines import ImpedanceLine
-from system.pump_file.file import load_pump, resolved_toml
 
 HEAD = "place [mm],material taken off [um]\n"
 AROUND = "place [mm],angle [deg],material taken off [um]\n"

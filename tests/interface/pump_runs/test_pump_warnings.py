@@ -5,14 +5,12 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from gaps.films.over_turn import constant
-from gaps.films.physics import Effect
-from gaps.films.piston import PistonDrive, PistonFilm, PistonShape, standing_piston
+from gaps import Effect, PistonDrive, PistonFilm, PistonShape, constant, standing_piston
 from gaps.standing.gap_film import standing_piston_film
-from reynolds.floating.rest import held_at
-from reynolds.solve.solver import FilmSolver
+from reynolds import FilmSolver, held_at
 from swashfilm.runs.pump.validity import few_angles, impossible_pressures, unsupported_loads
-from system.films.cycle import PLAIN, SMOOTH, GapPhysics
+from system import SMOOTH
+from system.films.cycle import PLAIN, GapPhysics
 
 
 def film(pressure, load=0.0):

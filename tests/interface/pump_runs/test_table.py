@@ -11,14 +11,12 @@ import pytest
 
 from swashfilm.__main__ import main
 from swashfilm.runs.table.command import HELD, RANGES
-from system.points.lumped import lumped_point
+from system import load_pump, lumped_point, operating_point
 from system.points.table import sources as table_sources
 from system.points.table.means import GAP_PAIRS, MEANINGS, SolvedPoint, given_films
 from system.points.table.pump_numbers import NUMBERS
 from system.points.table.sources import Source
 from system.pump.chamber.turn import Gaps
-from system.pump.operating import operating_point
-from system.pump_file.file import load_pump
 
 PUMP = load_pump("ref90")
 FEW = ["--points", "32", "--held-out", "6"]

@@ -11,7 +11,7 @@ import pytest
 
 from swashfilm.cli.app import run_command
 from swashfilm.runs.transient.case import TransientSection, load_transient
-from system.inputs.faults import InputFaults
+from system import InputFaults
 from system.inputs.sections.fields import fields_of
 
 ROOT = Path(__file__).parents[3]

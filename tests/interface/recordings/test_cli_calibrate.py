@@ -12,14 +12,8 @@ import pytest
 from recording_heads import HEAD
 
 from swashfilm.__main__ import main
+from system import SIMULATED, BenchPoints, EffectId, Extension, LumpedBench, entry_of, load_pump
 from system.bench.calibration.equation_21 import paper_priors
-from system.bench.outputs import SIMULATED
-from system.bench.points import BenchPoints
-from system.bench.simulator import LumpedBench
-from system.effects.catalogue.entries import entry_of
-from system.effects.effect import EffectId
-from system.effects.extension import Extension
-from system.pump_file.file import load_pump
 
 PUMP = load_pump("ref90")
 RECORDING = (

@@ -16,18 +16,19 @@ import pytest
 from recording_heads import HEAD
 
 import diagnosis.finding
-from reynolds.errors import NotConverged
-from reynolds.numerics.arrays import Array
+from reynolds import Array, NotConverged
 from swashfilm.__main__ import main
 from swashfilm.runs.diagnose.files import read_rows
-from system.bench.points import BenchPoints
-from system.bench.simulator import LumpedBench
-from system.effects.catalogue.entries import entry_of
-from system.effects.effect import EffectId
-from system.inputs.channels import ChannelName
-from system.points.lumped import lumped_point
-from system.pump.operating import operating_point
-from system.pump_file.file import load_pump
+from system import (
+    BenchPoints,
+    ChannelName,
+    EffectId,
+    LumpedBench,
+    entry_of,
+    load_pump,
+    lumped_point,
+    operating_point,
+)
 
 PUMP = load_pump("ref90")
 EXAMPLES = Path(__file__).resolve().parents[3] / "examples" / "recordings"

@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 from made_diagnosis import LPM, PRESSURE, Q, agreeing
 
+from diagnosis import Diagnosis, Study
 from diagnosis.detect.time_scan import TimeKind, TimeMark
 from diagnosis.explain.ranked import HeldOut
 from diagnosis.procedure.pump_comparison import (
@@ -21,8 +22,7 @@ from diagnosis.procedure.pump_comparison import (
 )
 from diagnosis.report.json_file import diagnosis_record
 from diagnosis.report.tables import pull_sums
-from diagnosis.study.model import Study
-from diagnosis.verdict.diagnosis import ClaimedEffect, Diagnosis
+from diagnosis.verdict.diagnosis import ClaimedEffect
 from swashfilm.__main__ import main
 from swashfilm.runs.diagnose.files import read_rows, write_diagnosis_files
 from swashfilm.runs.diagnose.page import (
@@ -34,9 +34,7 @@ from swashfilm.runs.diagnose.page import (
     write_diagnose_page,
 )
 from swashfilm.runs.diagnose.plots import effect_courses, residual_maps
-from system.effects.effect import EffectId, Kind
-from system.inputs.channels import ChannelName
-from system.pump_file.file import load_pump
+from system import ChannelName, EffectId, Kind, load_pump
 from system.work.progress import silent
 
 E = EffectId

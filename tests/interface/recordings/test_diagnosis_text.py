@@ -12,19 +12,15 @@ import numpy as np
 import pytest
 from made_diagnosis import Q, agreeing, hypothesis
 
+from diagnosis import Diagnosis, NoteKind, statement, write_diagnosis
 from diagnosis.detect.angle_scan import AngleWindow
 from diagnosis.detect.time_scan import TimeKind, TimeMark
-from diagnosis.recording.model import DataNote, NoteKind
-from diagnosis.report.json_file import diagnosis_record, read_diagnosis, write_diagnosis
-from diagnosis.report.text import next_point_text, paragraphs, statement
-from diagnosis.verdict.diagnosis import ClaimedEffect, Diagnosis, Estimate, VerdictStatus
+from diagnosis.recording.model import DataNote
+from diagnosis.report.json_file import diagnosis_record, read_diagnosis
+from diagnosis.report.text import next_point_text, paragraphs
+from diagnosis.verdict.diagnosis import ClaimedEffect, Estimate, VerdictStatus
 from diagnosis.verdict.row_numbers import by_table_rows
-from system.description.gap import Gap
-from system.effects.components import Component
-from system.effects.effect import EffectId, Kind
-from system.inputs.channels import ChannelName
-from system.inputs.faults import InputFaults
-from system.inputs.units import Dimension
+from system import ChannelName, Component, Dimension, EffectId, Gap, InputFaults, Kind
 
 E = EffectId
 

@@ -5,23 +5,13 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from diagnosis.recording.model import (
-    Circuit,
-    NoteKind,
-    RecordedChannel,
-    Recording,
-    SteadyTable,
-    TraceBlock,
-)
+from diagnosis import Circuit, NoteKind, RecordedChannel, Recording, SteadyTable, TraceBlock, observations
 from diagnosis.report.tables import steady_rows
 from diagnosis.study.inputs import assumed_parameters, bench_points, complete, measured
-from diagnosis.study.readings import observations
 from diagnosis.verdict.row_numbers import table_rows
-from reynolds.errors import InputError
+from reynolds import InputError
+from system import INPUTS, ChannelName, PumpDescription, load_pump
 from system.bench.sensors import actual
-from system.description.pump import PumpDescription
-from system.inputs.channels import INPUTS, ChannelName
-from system.pump_file.file import load_pump
 
 C = ChannelName
 SIGMAS = {C.SPEED: 0.05, C.P_OUT: 1.5e4, C.T_IN: 0.2, C.Q_CASE: 2.5e-7}

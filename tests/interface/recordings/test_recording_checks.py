@@ -5,17 +5,18 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from diagnosis.checks.check import check_recording, too_few
-from diagnosis.recording.model import (
+from diagnosis import (
     Circuit,
     NoteKind,
     RecordedChannel,
     Recording,
     SteadyTable,
     TraceBlock,
+    check_recording,
+    load_thresholds,
 )
-from diagnosis.thresholds import load_thresholds
-from system.inputs.channels import INPUTS, OUTPUTS, ChannelName
+from diagnosis.checks.check import too_few
+from system import INPUTS, OUTPUTS, ChannelName
 
 DISPLACEMENT = 90e-6  # m3/rev
 LIMITS = load_thresholds().data
@@ -260,7 +261,7 @@ def test_gaps_and_too_few_readings_are_told():
 
 
 def test_bench_recordings_tell_nothing(shared):
-    from diagnosis.recording.reader import read_recording
+    from diagnosis import read_recording
 
     for folder in sorted((shared / "recordings" / "bench").glob("open-*")):
         recording = read_recording(folder)

@@ -7,7 +7,7 @@ import pytest
 
 from diagnosis.recording.form import read_form
 from swashfilm.__main__ import main
-from system.inputs.channels import ChannelName
+from system import ChannelName
 from system.inputs.toml_table import Table
 
 ROOT = Path(__file__).parents[3]

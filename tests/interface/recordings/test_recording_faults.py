@@ -7,8 +7,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from diagnosis.recording.reader import read_recording
-from system.inputs.faults import Fault, InputFaults
+from diagnosis import read_recording
+from system import Fault, InputFaults
 
 HEAD = 'format = 1\npressure_reference = "gauge"\n'
 STEADY = '[steady]\nfile = "steady.csv"\n'

@@ -7,10 +7,9 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from diagnosis.recording.model import Circuit, NoteKind, reading_sigma
-from diagnosis.recording.reader import read_recording
-from system.inputs.channels import ChannelName
-from system.inputs.faults import InputFaults
+from diagnosis import Circuit, NoteKind, read_recording
+from diagnosis.recording.model import reading_sigma
+from system import ChannelName, InputFaults
 
 ATMOSPHERE = 101325.0
 HEAD = 'format = 1\npressure_reference = "absolute"\n'

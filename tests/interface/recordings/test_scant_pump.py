@@ -5,10 +5,8 @@ import math
 import pytest
 
 from diagnosis.study.scaled_pump import load_known_pump
-from system.description.tolerances import tolerances
-from system.inputs.faults import InputFaults
-from system.pump.laws.kinematics import SwashDrive, displacement, stroke
-from system.pump_file.file import check_pump, load_pump
+from system import InputFaults, SwashDrive, check_pump, load_pump, stroke, tolerances
+from system.pump.laws.kinematics import displacement
 
 SCANT = '[pump]\ndisplacement = "{}"\npistons = {}\n[oil]\ngrade = "ISO VG 46"\n'
 

@@ -8,8 +8,9 @@ from pathlib import Path
 
 import pytest
 
-from diagnosis.thresholds import FILE, load_thresholds
-from reynolds.errors import InputError
+from diagnosis import load_thresholds
+from diagnosis.thresholds import FILE
+from reynolds import InputError
 
 
 def test_the_digest_is_that_of_the_file() -> None:

@@ -5,7 +5,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from diagnosis.recording.model import TraceBlock
+from diagnosis import TraceBlock
 from diagnosis.report.trace_tables import trace_residual_rows
 from diagnosis.study.model import TraceMisfit
 from swashfilm.runs.diagnose.files import with_stated

@@ -6,11 +6,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from diagnosis.checks.check import check_recording
-from diagnosis.recording.model import NoteKind
-from diagnosis.recording.reader import read_recording
-from diagnosis.thresholds import load_thresholds
-from system.inputs.channels import ChannelName
+from diagnosis import NoteKind, check_recording, load_thresholds, read_recording
+from system import ChannelName
 
 RIG = runpy.run_path(str(Path(__file__).parents[3] / "examples" / "uci_hydraulic" / "rig.py"))
 

@@ -7,17 +7,25 @@ import numpy as np
 import pytest
 
 from reynolds import InputError, NotConverged
-from system import load_pump, lumped_point, operating_point, resolved_toml
-from system.bench.outputs import SIMULATED
-from system.bench.parameters import base_parameters, pump_with
-from system.bench.points import BenchPoints
+from system import (
+    INPUTS,
+    SIMULATED,
+    BenchPoints,
+    ChannelName,
+    Component,
+    LumpedBench,
+    base_parameters,
+    load_pump,
+    lumped_point,
+    operating_point,
+    resolved_toml,
+    stroke,
+    tolerances,
+)
+from system.bench.parameters import pump_with
 from system.bench.sensors import encoder_parameter
-from system.bench.simulator import INPUT_STEPS, LumpedBench
-from system.description.tolerances import tolerances
-from system.effects.components import Component
-from system.inputs.channels import INPUTS, ChannelName
+from system.bench.simulator import INPUT_STEPS
 from system.pump import lumped
-from system.pump.laws.kinematics import stroke
 
 REF90 = load_pump("ref90")
 CROSSED = load_pump("ref90", {"pump.cross_angle": "3 deg", "pump.displacement": "91.31 cm3/rev"})

@@ -5,9 +5,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 import pytest
 
-from system import load_pump
-from system.bench.parameters import BASE_NAMES, base_parameters, groove_parameters
-from system.bench.points import BenchPoints
+from system import BenchPoints, ChannelName, Role, Scale, base_parameters, load_pump, tolerances
+from system.bench.parameters import BASE_NAMES, groove_parameters
 from system.bench.sensors import (
     SENSOR_NAMES,
     actual,
@@ -17,9 +16,6 @@ from system.bench.sensors import (
     read,
     sensor_parameters,
 )
-from system.description.tolerances import tolerances
-from system.estimation.parameters import Role, Scale
-from system.inputs.channels import ChannelName
 
 CHANNELS = (ChannelName.Q_CASE, ChannelName.TORQUE)
 TRUTH = np.array([[1e-5, 100.0], [2e-5, 300.0], [4e-5, 200.0]])

@@ -9,18 +9,25 @@ from itertools import product
 import numpy as np
 import pytest
 
-from system import Gap, load_pump, lumped_point
+from system import (
+    SIMULATED,
+    BenchPoints,
+    Channel,
+    EffectId,
+    Gap,
+    LumpedBench,
+    Observations,
+    Posterior,
+    base_parameters,
+    entry_of,
+    linear_posterior,
+    load_pump,
+    lumped_point,
+    operating_at,
+    tolerances,
+)
 from system.bench.calibration.extended_pump import calibrated_pump
 from system.bench.calibration.hersey_curve import PAIRS, hersey_curves
-from system.bench.outputs import SIMULATED
-from system.bench.parameters import base_parameters
-from system.bench.points import BenchPoints, operating_at
-from system.bench.simulator import LumpedBench
-from system.description.tolerances import tolerances
-from system.effects.catalogue.entries import entry_of
-from system.effects.effect import EffectId
-from system.estimation.observations import Channel, Observations
-from system.estimation.posterior import Posterior, linear_posterior
 
 PUMP = load_pump("ref90")
 GRID = np.array(list(product((1000.0, 2100.0), (10e6, 30e6), (0.5, 1.0))))

@@ -5,9 +5,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from system import load_pump
+from system import BenchPoints, load_pump
 from system.bench.chamber_map import Courses, MapProblem, beside, solve_map
-from system.bench.points import BenchPoints
 from system.bench.setting import setting
 
 PUMP = load_pump("ref90")

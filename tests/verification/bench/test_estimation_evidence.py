@@ -10,7 +10,8 @@ import pytest
 from scipy.integrate import quad, simpson
 from scipy.special import logsumexp
 
-from reynolds.numerics.arrays import Array
+from reynolds import Array
+from system import Channel, Observations, Parameter, Role, Scale, linear_posterior, maximum_posterior
 from system.estimation.determined import undetermined
 from system.estimation.evidence import (
     Sign,
@@ -19,11 +20,8 @@ from system.estimation.evidence import (
     multiplier_evidences_without,
     score,
 )
-from system.estimation.fit import maximum_posterior
 from system.estimation.laplace import log_mass
-from system.estimation.observations import Channel, Observations
-from system.estimation.parameters import Parameter, Role, Scale
-from system.estimation.posterior import linear_posterior, settled
+from system.estimation.posterior import settled
 
 POINTS = 12
 FREE = (-np.inf, np.inf)

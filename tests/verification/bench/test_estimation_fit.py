@@ -9,12 +9,9 @@ import numpy as np
 import pytest
 from scipy.optimize import least_squares
 
-from reynolds import InputError, NotConverged
-from reynolds.numerics.arrays import Array
-from system.estimation.fit import FitLimits, best_posterior, maximum_posterior
-from system.estimation.observations import Channel, Observations
-from system.estimation.parameters import Parameter, Role, Scale
-from system.estimation.posterior import Posterior
+from reynolds import Array, InputError, NotConverged
+from system import Channel, FitLimits, Observations, Parameter, Posterior, Role, Scale, maximum_posterior
+from system.estimation.fit import best_posterior
 
 OPEN = (-np.inf, np.inf)
 

@@ -10,11 +10,18 @@ import pytest
 from scipy.linalg import toeplitz
 from scipy.stats import kstest
 
-from reynolds.numerics.arrays import Array
-from system.estimation.fit import FitLimits, maximum_posterior
-from system.estimation.observations import Channel, Observations
-from system.estimation.parameters import Parameter, Role, Scale
-from system.estimation.posterior import Posterior, linear_posterior
+from reynolds import Array
+from system import (
+    Channel,
+    FitLimits,
+    Observations,
+    Parameter,
+    Posterior,
+    Role,
+    Scale,
+    linear_posterior,
+    maximum_posterior,
+)
 from system.estimation.predictive import log_predictive, predictive
 from system.estimation.whitening import Whitening, autocorrelation, whitener
 

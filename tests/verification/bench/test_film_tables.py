@@ -6,23 +6,31 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from gaps import Axis, Response
-from gaps.films.slipper import floating_slipper
+from gaps import Axis, Response, floating_slipper
 from gaps.response import Samples
 from gaps.revolution.film_heat import Sink
 from gaps.standing.heat import warm_turn
-from reynolds import FilmSolver
-from reynolds.floating.rest import held_at
-from reynolds.laws.oil import dynamic_viscosity
-from reynolds.solve.loads import boundary_flows
-from system import Gap, InputFaults, load_pump, lumped_point, operating_point, resolved_toml
-from system.bench.calibration.extended_pump import extended_pump
-from system.bench.outputs import SIMULATED
-from system.bench.points import BenchPoints
-from system.bench.simulator import LumpedBench
+from reynolds import FilmSolver, boundary_flows, dynamic_viscosity, held_at
+from system import (
+    SIMULATED,
+    SMOOTH,
+    BenchPoints,
+    BenchState,
+    EffectId,
+    Gap,
+    GapCourse,
+    InputFaults,
+    LumpedBench,
+    extended_pump,
+    floating_parts,
+    load_pump,
+    lumped_point,
+    operating_point,
+    resolved_toml,
+    rotor,
+)
 from system.effects import switched
 from system.effects.catalogue import entries as catalogue
-from system.effects.effect import BenchState, EffectId, GapCourse
 from system.effects.opening_tables import (
     COMPLIANCE,
     OUTPUTS,
@@ -30,12 +38,9 @@ from system.effects.opening_tables import (
     OpeningTable,
     SolvedOpening,
 )
-from system.films.cycle import SMOOTH
 from system.films.heat import slipper_heat
-from system.films.parts import floating_parts
 from system.films.positions import given_slipper, instant_drives
 from system.films.problems import slipper_film
-from system.films.rotor import rotor
 from system.pump.lumped import SAMPLES_PER_PITCH
 
 REF90 = load_pump("ref90")

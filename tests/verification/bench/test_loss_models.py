@@ -8,19 +8,14 @@ from itertools import product
 import numpy as np
 import pytest
 
-from reynolds import InputError
-from reynolds.numerics.arrays import Array
-from system import load_pump
+from reynolds import Array, InputError
+from system import INPUTS, BenchPoints, Channel, ChannelName, Observations, load_pump, maximum_posterior
 from system.bench.calibration.held_out import Split, model_rows, split_levels
 from system.bench.loss_models.bench import LossModelBench, loss_model_bench
 from system.bench.loss_models.catalogue import LOSS_MODELS
 from system.bench.loss_models.model import LossModel, LossModelName
 from system.bench.loss_models.orders import polymod_for
 from system.bench.loss_models.polynomials import Orders, polymod
-from system.bench.points import BenchPoints
-from system.estimation.fit import maximum_posterior
-from system.estimation.observations import Channel, Observations
-from system.inputs.channels import INPUTS, ChannelName
 
 PUMP = load_pump("ref90")
 GRID = np.array(list(product((1000, 1300, 1700, 2100), (5e6, 12e6, 18e6, 25e6, 35e6), (0.28, 0.51, 0.77, 1.0))))

@@ -9,7 +9,7 @@ from itertools import product
 import numpy as np
 import pytest
 
-from system import load_pump
+from system import INPUTS, SIMULATED, BenchPoints, Channel, LumpedBench, Observations, load_pump, maximum_posterior
 from system.bench.calibration.equation_21 import (
     EqTwentyOne,
     eq_fits,
@@ -17,12 +17,6 @@ from system.bench.calibration.equation_21 import (
     measured_losses,
     paper_priors,
 )
-from system.bench.outputs import SIMULATED
-from system.bench.points import BenchPoints
-from system.bench.simulator import LumpedBench
-from system.estimation.fit import maximum_posterior
-from system.estimation.observations import Channel, Observations
-from system.inputs.channels import INPUTS
 
 PUMP = load_pump("ref90")
 GRID = np.array(list(product((1000, 1700, 2100), (5e6, 10e6, 15e6, 20e6, 25e6, 30e6, 35e6), (0.28, 0.51, 1.0))))

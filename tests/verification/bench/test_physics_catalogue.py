@@ -3,10 +3,9 @@
 import numpy as np
 import pytest
 
-from reynolds.laws.oil import dynamic_viscosity
-from system import Gap, load_pump
-from system.effects.catalogue.entries import CATALOGUE, EXTENSIONS, entry_of
-from system.effects.effect import BenchState, EffectId, GapCourse, Kind, both, neutral
+from reynolds import dynamic_viscosity
+from system import CATALOGUE, EXTENSIONS, BenchState, EffectId, Gap, GapCourse, Kind, entry_of, load_pump
+from system.effects.effect import both, neutral
 
 REF90 = load_pump("ref90")
 POINTS, ANGLES = 3, 6

@@ -6,11 +6,10 @@ import numpy as np
 import pytest
 from scipy.integrate import quad
 
+from reynolds import dynamic_viscosity
 from reynolds.laws.contact import gaussian_moment
-from reynolds.laws.oil import dynamic_viscosity
-from system import Gap, load_pump
-from system.effects.catalogue.entries import CATALOGUE
-from system.effects.effect import BenchState, GapCourse, neutral
+from system import CATALOGUE, BenchState, Gap, GapCourse, PortOpening, ReliefGroove, load_pump
+from system.effects.effect import neutral
 from system.effects.laws import (
     contact as contact_laws,
 )
@@ -32,8 +31,6 @@ from system.effects.laws import (
 from system.effects.outside import outside
 from system.effects.state import warmed
 from system.pump.bench import NOTHING_OUTSIDE
-from system.pump.ports.areas import PortOpening
-from system.pump.ports.relief_grooves import ReliefGroove
 from system.pump.ports.wear import PortWear, eroded
 
 RPM = np.pi / 30

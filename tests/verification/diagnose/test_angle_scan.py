@@ -8,10 +8,9 @@ import numpy as np
 import pytest
 from scipy.signal import lfilter
 
+from diagnosis import TraceBlock, load_thresholds
 from diagnosis.detect.angle_scan import AngleWindow, scan_angles
-from diagnosis.recording.model import TraceBlock
 from diagnosis.study.model import PortEvent, TraceMisfit
-from diagnosis.thresholds import load_thresholds
 
 STEPS = 360
 ANGLE = np.arange(STEPS) * 2 * np.pi / STEPS

@@ -11,24 +11,21 @@ import numpy as np
 import pytest
 from toy_maps import LIMITS, SIGMA, ToySimulator, toy_observations, toy_recording
 
+from diagnosis import Recording, Study
 from diagnosis.detect.component_evidence import ComponentGroup
 from diagnosis.detect.contrasts import contrasts, misfit
 from diagnosis.detect.mismatch import Detection, detect
 from diagnosis.detect.multiplicity import family_chance, holm, log_chances
 from diagnosis.detect.regions import strongest_region
 from diagnosis.detect.time_scan import TimeKind
-from diagnosis.recording.model import Recording
 from diagnosis.study.map_axes import axis_values, inside, scaled_axes
-from diagnosis.study.model import Study, concerned, study_of
+from diagnosis.study.model import concerned, study_of
 from diagnosis.study.noise_correlation import noise_correlation
 from diagnosis.verdict.locate import Location, locate, of_explanation
-from reynolds.numerics.arrays import Array
-from system.effects.components import Component
-from system.effects.effect import EffectId, Kind
-from system.effects.extension import Entry, Extension
+from reynolds import Array
+from system import ChannelName, Component, EffectId, Extension, Kind, Parameter, Role, Scale
+from system.effects.extension import Entry
 from system.estimation.evidence import Sign
-from system.estimation.parameters import Parameter, Role, Scale
-from system.inputs.channels import ChannelName
 
 POINTS = 80
 

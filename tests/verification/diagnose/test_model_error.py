@@ -7,10 +7,10 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
+from diagnosis import Explanation, load_thresholds
 from diagnosis.explain.model_error import class_gap, place_gap, shared_out
-from diagnosis.explain.ranked import Explanation, with_probabilities
-from diagnosis.thresholds import load_thresholds
-from system.effects.effect import EffectId, Kind
+from diagnosis.explain.ranked import with_probabilities
+from system import EffectId, Kind
 
 LIMITS = load_thresholds()
 OPENING, CHURNING = (EffectId.ELASTIC_OPENING,), (EffectId.CHURNING,)

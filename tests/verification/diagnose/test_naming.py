@@ -10,30 +10,24 @@ import numpy as np
 import pytest
 from toy_maps import LIMITS, SIGMA, ToySimulator, toy_observations, toy_recording
 
+from diagnosis import Diagnosis, Explanation, Recording, Study, diagnose_study
 from diagnosis.detect.mismatch import confirmed, detect
 from diagnosis.explain.held_out import has_veto, held_out, regions
 from diagnosis.explain.hypotheses import hypotheses, simulator_of
-from diagnosis.explain.ranked import Explanation, with_probabilities
+from diagnosis.explain.ranked import with_probabilities
 from diagnosis.explain.refit import refit
 from diagnosis.explain.scaling import scaling
 from diagnosis.explain.screen import joint_evidence, screen
-from diagnosis.procedure.stages import diagnose_study
-from diagnosis.recording.model import Recording
 from diagnosis.study.map_axes import AXES, scaled_axes
-from diagnosis.study.model import Candidate, Study, study_of
-from diagnosis.verdict.diagnosis import Diagnosis, VerdictStatus
+from diagnosis.study.model import Candidate, study_of
+from diagnosis.verdict.diagnosis import VerdictStatus
 from diagnosis.verdict.judge import judge
 from diagnosis.verdict.residue import residue_notes
 from diagnosis.verdict.trend import power_errors
-from reynolds.errors import NotConverged
-from reynolds.numerics.arrays import Array
-from system.description.gap import Gap
-from system.effects.components import Component
-from system.effects.effect import EffectId, Kind
-from system.effects.extension import Entry, Extension
+from reynolds import Array, NotConverged
+from system import ChannelName, Component, EffectId, Extension, Gap, Kind, Parameter, Role, Scale
+from system.effects.extension import Entry
 from system.estimation.evidence import mixture_evidence, score
-from system.estimation.parameters import Parameter, Role, Scale
-from system.inputs.channels import ChannelName
 
 POINTS = 96
 

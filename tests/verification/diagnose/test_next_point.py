@@ -11,26 +11,29 @@ import pytest
 from scipy.special import softmax
 from scipy.stats import norm
 
+from diagnosis import BenchBox, Circuit, RecordedChannel, Recording, SteadyTable, Study, load_thresholds
 from diagnosis.next_point.choose import NextPoint, next_point
 from diagnosis.next_point.forecast import Contender, forecasts, independent, log_density, odds_forecast
-from diagnosis.next_point.operating_box import BenchBox, rig_box
-from diagnosis.recording.model import Circuit, RecordedChannel, Recording, SteadyTable
-from diagnosis.study.model import Study
-from diagnosis.thresholds import load_thresholds
-from reynolds.numerics.arrays import Array
-from system.bench.parameters import base_parameters
-from system.bench.points import BenchPoints
-from system.bench.simulator import LumpedBench
-from system.description.tolerances import tolerances
-from system.effects.catalogue.entries import entry_of
-from system.effects.effect import EffectId
-from system.estimation.fit import maximum_posterior
-from system.estimation.observations import Channel, Observations
-from system.estimation.parameters import Parameter, Role, Scale
+from diagnosis.next_point.operating_box import rig_box
+from reynolds import Array
+from system import (
+    BenchPoints,
+    Channel,
+    ChannelName,
+    Dimension,
+    EffectId,
+    LumpedBench,
+    Observations,
+    Parameter,
+    Role,
+    Scale,
+    base_parameters,
+    entry_of,
+    load_pump,
+    maximum_posterior,
+    tolerances,
+)
 from system.estimation.posterior import standard_slopes
-from system.inputs.channels import ChannelName
-from system.inputs.units import Dimension
-from system.pump_file.file import load_pump
 
 MPA, LPM = 1e6, 1.0 / 60000.0
 SPEED, PRESSURE = 150.0, 20 * MPA

@@ -10,20 +10,12 @@ import numpy as np
 import pytest
 
 import diagnosis.procedure.next_test as ask
+from diagnosis import BenchBox, Circuit, RecordedChannel, Recording, SteadyTable, load_thresholds
 from diagnosis.next_point.forecast import Contender
-from diagnosis.next_point.operating_box import BenchBox, ordinary_box, rig_box
+from diagnosis.next_point.operating_box import ordinary_box, rig_box
 from diagnosis.procedure.gap_leak_test import LEAKS, gap_leak_test
-from diagnosis.recording.model import Circuit, RecordedChannel, Recording, SteadyTable
-from diagnosis.thresholds import load_thresholds
-from reynolds.errors import NotConverged
-from reynolds.numerics.arrays import Array
-from system.bench.points import BenchPoints
-from system.description.gap import Gap
-from system.effects.components import Component
-from system.effects.effect import EffectId
-from system.estimation.parameters import Parameter, Role, Scale
-from system.inputs.channels import ChannelName
-from system.pump_file.file import load_pump
+from reynolds import Array, NotConverged
+from system import BenchPoints, ChannelName, Component, EffectId, Gap, Parameter, Role, Scale, load_pump
 
 BAR, LPM, RPM = 1e5, 1.0 / 60000.0, 2.0 * np.pi / 60.0
 METER = 0.02 * LPM

@@ -8,18 +8,12 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from diagnosis import Recording, Study, load_thresholds, prepare, read_recording
 from diagnosis.detect.mismatch import detect
-from diagnosis.recording.model import Recording
-from diagnosis.recording.reader import read_recording
-from diagnosis.study.model import Study
-from diagnosis.study.prepare import prepare
 from diagnosis.study.trace_misfits import port_events
-from diagnosis.thresholds import load_thresholds
 from diagnosis.verdict.locate import locate
-from reynolds.errors import InputError
-from system.description.tolerances import tolerances
-from system.inputs.channels import ChannelName
-from system.pump_file.file import load_pump
+from reynolds import InputError
+from system import ChannelName, load_pump, tolerances
 
 LIMITS = load_thresholds()
 RECORDINGS = Path(__file__).parents[3] / "examples" / "recordings"

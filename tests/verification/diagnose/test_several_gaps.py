@@ -4,17 +4,10 @@ from types import SimpleNamespace
 
 import numpy as np
 
+from diagnosis import load_thresholds
 from diagnosis.explain.combinations import _apart
 from diagnosis.explain.hypotheses import Hypothesis, simulator_of, together
-from diagnosis.thresholds import load_thresholds
-from system.bench.calibration.extended_pump import extended_pump
-from system.bench.outputs import SIMULATED
-from system.bench.points import BenchPoints
-from system.bench.simulator import LumpedBench
-from system.description.gap import Gap
-from system.effects.catalogue.entries import entry_of
-from system.effects.effect import EffectId, Kind
-from system.pump_file.file import load_pump
+from system import SIMULATED, BenchPoints, EffectId, Gap, Kind, LumpedBench, entry_of, extended_pump, load_pump
 
 REF90 = load_pump("ref90")
 ONE = np.ones(1)

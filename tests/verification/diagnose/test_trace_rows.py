@@ -7,22 +7,25 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from diagnosis import RecordedChannel, TraceBlock, load_thresholds
 from diagnosis.detect.angle_scan import scan_angles
-from diagnosis.recording.model import RecordedChannel, TraceBlock
 from diagnosis.study.trace_fit import settled_traces
 from diagnosis.study.trace_misfits import trace_misfits
 from diagnosis.study.trace_rows import WINDOWS, shrunk_covariance, trace_rows, windows
 from diagnosis.study.traced_bench import TracedBench, traced_bench
-from diagnosis.thresholds import load_thresholds
-from system.bench.parameters import base_parameters, groove_parameters
-from system.bench.points import BenchPoints
+from system import (
+    BenchPoints,
+    Channel,
+    ChannelName,
+    LumpedBench,
+    Observations,
+    base_parameters,
+    load_pump,
+    maximum_posterior,
+    tolerances,
+)
+from system.bench.parameters import groove_parameters
 from system.bench.sensors import encoder_parameter, read_turns, transducer_parameters
-from system.bench.simulator import LumpedBench
-from system.description.tolerances import tolerances
-from system.estimation.fit import maximum_posterior
-from system.estimation.observations import Channel, Observations
-from system.inputs.channels import ChannelName
-from system.pump_file.file import load_pump
 
 PUMP = load_pump("ref90")
 RPM = np.pi / 30.0

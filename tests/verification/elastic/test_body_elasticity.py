@@ -8,11 +8,21 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from reynolds import BodyMesh, Elastic, FilmInputError, Supports, block, disc, hollow_cylinder
-from reynolds.bodies.elasticity import centrifugal_forces, face_compliance, pressure_forces, stiffness, structure
-from reynolds.bodies.mesh import section
-from reynolds.bodies.space import BodySpace, body_space
-from reynolds.bodies.supports import rigid_motions
+from reynolds import (
+    BodyMesh,
+    Elastic,
+    FilmInputError,
+    Supports,
+    block,
+    body_space,
+    disc,
+    hollow_cylinder,
+    rigid_motions,
+    section,
+    structure,
+)
+from reynolds.bodies.elasticity import centrifugal_forces, face_compliance, pressure_forces, stiffness
+from reynolds.bodies.space import BodySpace
 
 STEEL = Elastic(210e9, 0.3)
 BORE, OUTSIDE, PRESSURE = 10e-3, 16e-3, 30e6

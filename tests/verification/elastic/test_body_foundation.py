@@ -8,8 +8,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from reynolds import Cell, Elastic, FilmInputError, annulus, film_space, half_space, rectangle, winkler
-from reynolds.bodies.foundation import both
+from reynolds import Cell, Elastic, FilmInputError, annulus, both, film_space, half_space, rectangle, winkler
 
 STEEL = Elastic(210e9, 0.3)
 PRESSURE = 30e6

@@ -17,11 +17,15 @@ from reynolds import (
     Side,
     Supports,
     block,
+    body_space,
+    face_normals,
     film_space,
+    heated_wall,
     hollow_cylinder,
     rectangle,
+    section,
+    structure,
 )
-from reynolds.bodies.chart import face_normals
 from reynolds.bodies.conduction import (
     Convection,
     HeldTemperature,
@@ -31,10 +35,6 @@ from reynolds.bodies.conduction import (
     heated_body,
     temperature_deformation,
 )
-from reynolds.bodies.elasticity import structure
-from reynolds.bodies.mesh import section
-from reynolds.bodies.space import body_space
-from reynolds.bodies.wall import heated_wall
 
 STEEL = Elastic(210e9, 0.3)
 WARM = Thermal(conductivity=45.0, expansion=12e-6, unstrained_temperature=20.0)

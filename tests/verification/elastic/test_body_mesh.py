@@ -7,10 +7,8 @@ import numpy as np
 import pytest
 import skfem
 
-from reynolds import BodyMesh, FilmInputError, block, disc, hollow_cylinder
-from reynolds.bodies.mesh import section
+from reynolds import BodyMesh, FilmInputError, block, body_space, disc, hollow_cylinder, section
 from reynolds.bodies.mesh_file import body_from_file
-from reynolds.bodies.space import body_space
 
 SHAPES = {
     "block": (block((1.0, 2.0, 3.0), (1, 2, 2)), 6.0, {"top": 2.0, "left": 6.0, "front": 3.0}),

@@ -24,15 +24,15 @@ from reynolds import (
     Supports,
     annulus,
     block,
+    body_space,
     body_wall,
     disc,
+    face_normals,
     film_space,
     hollow_cylinder,
     rectangle,
+    section,
 )
-from reynolds.bodies.chart import face_normals
-from reynolds.bodies.mesh import section
-from reynolds.bodies.space import body_space
 from reynolds.bodies.transfer import transfer
 from reynolds.bodies.wall import FacePressure, Spin, load_deformation
 

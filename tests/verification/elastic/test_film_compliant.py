@@ -18,6 +18,7 @@ from reynolds import (
     Body,
     Cavitation,
     Cell,
+    Compliance,
     Elastic,
     FilmNotConverged,
     FilmProblem,
@@ -30,6 +31,7 @@ from reynolds import (
     Supports,
     block,
     body_wall,
+    both,
     film,
     film_space,
     loads,
@@ -38,7 +40,6 @@ from reynolds import (
     winkler,
 )
 from reynolds.bodies.compliance import ElasticWalls
-from reynolds.bodies.foundation import Compliance, both
 
 LENGTH, WIDE, GAP, VISCOSITY = 10e-3, 2.5e-3, 5e-6, 0.03
 STIFFNESS, HIGH = 1e13, 30e6

@@ -19,6 +19,7 @@ from reynolds import (
     Asperities,
     Cavitation,
     Cell,
+    Compliance,
     Elastic,
     FilmInputError,
     FilmProblem,
@@ -26,6 +27,7 @@ from reynolds import (
     Fluid,
     Held,
     Surface,
+    contact_pressure,
     film,
     film_space,
     half_space,
@@ -34,8 +36,6 @@ from reynolds import (
     rectangle,
     winkler,
 )
-from reynolds.bodies.foundation import Compliance
-from reynolds.laws.contact import contact_pressure
 from reynolds.solve import solver as solve
 from reynolds.solve.loads import evaluate
 

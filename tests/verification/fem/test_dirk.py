@@ -11,18 +11,17 @@ from dataclasses import dataclass
 import numpy as np
 import pytest
 
-from reynolds import FilmInputError, FilmNotConverged
-from reynolds.numerics.dirk import (
+from reynolds import (
     ALEXANDER_2,
     BACKWARD_EULER,
-    State,
-    StateTangent,
+    FilmInputError,
+    FilmNotConverged,
     Tableau,
     advance,
     integrate,
     nodes_only,
-    within,
 )
+from reynolds.numerics.dirk import State, StateTangent, within
 
 METHODS = pytest.mark.parametrize("tableau", [BACKWARD_EULER, ALEXANDER_2], ids=["euler", "alexander"])
 Rate = Callable[[float, np.ndarray], tuple[np.ndarray, np.ndarray]]

@@ -24,12 +24,13 @@ from reynolds import (
     annulus,
     film,
     film_space,
+    isotropic,
     loads,
     rectangle,
+    stiffness,
     winkler,
 )
-from reynolds.equation.balance import FilmState, by_deformation, flow_balance, operators, slopes, stiffness
-from reynolds.equation.coefficients import isotropic
+from reynolds.equation.balance import FilmState, by_deformation, flow_balance, operators, slopes
 from reynolds.equation.deformation_sparsity import deformation_pattern
 from reynolds.floating.sensitivity import thickness_load
 

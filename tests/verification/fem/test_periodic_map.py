@@ -11,8 +11,8 @@ from dataclasses import dataclass
 import numpy as np
 import pytest
 
-from reynolds import FilmNotConverged
-from reynolds.numerics.dirk import ALEXANDER_2, State, StateTangent, integrate, nodes_only
+from reynolds import ALEXANDER_2, FilmNotConverged, integrate, nodes_only
+from reynolds.numerics.dirk import State, StateTangent
 from reynolds.numerics.shooting import approached, periodic
 
 DAMPING, LOAD, TURN = 3.0e5, 40.0, 2.0 * np.pi / 220.0  # N s/m, N, s: REF90's slipper at 10 um and 2100 1/min

@@ -23,9 +23,9 @@ from reynolds import (
     film,
     film_space,
     loads,
+    point_fields,
     rectangle,
 )
-from reynolds.solve.loads import point_fields
 
 ROUND = 2.0 * np.pi
 MESHES = (60, 120, 240)  # cells round the bearing; a quarter of that over its half-width

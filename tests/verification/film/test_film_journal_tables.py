@@ -23,9 +23,9 @@ from reynolds import (
     film,
     film_space,
     loads,
+    point_fields,
     rectangle,
 )
-from reynolds.solve.loads import point_fields
 
 ROUND = 2.0 * np.pi
 SLIDING = (np.ones((1, 1)), ZERO)

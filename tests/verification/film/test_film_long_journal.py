@@ -22,9 +22,9 @@ from reynolds import (
     film,
     film_space,
     loads,
+    point_fields,
     rectangle,
 )
-from reynolds.solve.loads import point_fields
 
 WIDTH = 0.1
 ROUND = 2.0 * np.pi

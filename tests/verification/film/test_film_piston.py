@@ -9,8 +9,18 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from reynolds import Cavitation, Cell, FilmProblem, FilmSolver, Held, film, film_space, loads, rectangle
-from reynolds.solve.loads import point_fields
+from reynolds import (
+    Cavitation,
+    Cell,
+    FilmProblem,
+    FilmSolver,
+    Held,
+    film,
+    film_space,
+    loads,
+    point_fields,
+    rectangle,
+)
 
 DIAMETER, LENGTH, CLEARANCE, PRESSURE, VISCOSITY = 20e-3, 30e-3, 10e-6, 30e6, 0.02
 RADIUS = DIAMETER / 2

@@ -18,6 +18,7 @@ from scipy.optimize import brentq
 from scipy.spatial import Delaunay
 
 from reynolds import (
+    CONSTANT,
     ZERO,
     Barus,
     Cavitation,
@@ -29,14 +30,13 @@ from reynolds import (
     FilmSpace,
     Fluid,
     Held,
+    RationalDensity,
     film,
     film_space,
     loads,
     rectangle,
 )
 from reynolds.fem.mesh import box_names
-from reynolds.laws.density import RationalDensity
-from reynolds.laws.fluid import CONSTANT
 from reynolds.solve.loads import evaluate
 
 

@@ -25,12 +25,12 @@ from reynolds import (
     FilmSpace,
     Held,
     Loads,
+    at_points,
     film,
     film_space,
     loads,
     rectangle,
 )
-from reynolds.equation.coefficients import at_points
 from reynolds.fem.mesh import box_names
 
 MESHES = (400, 800, 1600)  # cells along the film, two across

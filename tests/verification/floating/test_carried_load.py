@@ -18,6 +18,7 @@ from reynolds import (
     RigidLoad,
     Surface,
     carry_load,
+    contact_pressure,
     film,
     film_space,
     loads,
@@ -25,7 +26,6 @@ from reynolds import (
     winkler,
 )
 from reynolds.equation.rough_overlap import film_between
-from reynolds.laws.contact import contact_pressure
 
 LENGTH, WIDTH, VISCOSITY, SPEED = 0.01, 0.002, 0.03, 1.0
 SLIDING = (np.full((1, 1), SPEED), ZERO)

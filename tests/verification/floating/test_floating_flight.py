@@ -12,7 +12,9 @@ import numpy as np
 import pytest
 
 from reynolds import (
+    ALEXANDER_2,
     ZERO,
+    Boundary,
     Film,
     FilmInputError,
     FilmProblem,
@@ -20,17 +22,16 @@ from reynolds import (
     Floating,
     Held,
     Pocket,
+    advance,
     annulus,
     film_space,
     no_feed,
     solve_stage,
+    standing,
+    started,
     steady,
 )
 from reynolds.floating.pockets import filled
-from reynolds.floating.start import started
-from reynolds.floating.step import standing
-from reynolds.numerics.dirk import ALEXANDER_2, advance
-from reynolds.problem import Boundary
 
 INNER, OUTER, VISCOSITY = 7e-3, 12e-3, 0.03
 PULL, MASS, START, END = 14.0, 0.139, 1e-5, 1e-3  # N, kg, m, s

@@ -14,6 +14,8 @@ import numpy as np
 import pytest
 
 from reynolds import (
+    ALEXANDER_2,
+    BACKWARD_EULER,
     ZERO,
     Array,
     Cavitation,
@@ -24,23 +26,18 @@ from reynolds import (
     Floating,
     FloatingStage,
     Held,
+    Tableau,
     film,
     film_space,
+    integrate,
     loads,
+    nodes_only,
     rectangle,
     solve_stage,
+    started,
     steady,
 )
-from reynolds.floating.start import started
-from reynolds.numerics.dirk import (
-    ALEXANDER_2,
-    BACKWARD_EULER,
-    AcceptedStep,
-    Tableau,
-    integrate,
-    nodes_only,
-    within,
-)
+from reynolds.numerics.dirk import AcceptedStep, within
 
 RADIUS, CLEARANCE, VISCOSITY = 0.01, 1e-5, 0.03
 

@@ -29,13 +29,15 @@ from reynolds import (
     Outer,
     Surface,
     film_space,
+    generalised_force,
+    modes_on,
     rectangle,
     solve_stage,
+    standing,
 )
 from reynolds.equation.rough_overlap import film_between
-from reynolds.floating.coordinates import contact_force, generalised_force, modes_on
+from reynolds.floating.coordinates import contact_force
 from reynolds.floating.sensitivity import oil_slopes, response, thickness_load
-from reynolds.floating.step import standing
 from reynolds.laws.roughness import mean_thickness
 
 RADIUS, WIDTH, CLEARANCE, SPEED, VISCOSITY = 0.02, 0.02, 20e-6, 5.0, 0.03

@@ -19,6 +19,7 @@ from reynolds import (
     Array,
     Asperities,
     Cell,
+    Compliance,
     Elastic,
     Film,
     FilmProblem,
@@ -28,18 +29,17 @@ from reynolds import (
     FloatingStage,
     Held,
     Surface,
+    contact_pressure,
     film_space,
     half_space,
     rectangle,
     solve_stage,
+    standing,
     steady,
     winkler,
 )
 from reynolds.bodies.compliance import ElasticWalls
-from reynolds.bodies.foundation import Compliance
 from reynolds.equation.rough_overlap import as_shaped
-from reynolds.floating.step import standing
-from reynolds.laws.contact import contact_pressure
 
 LENGTH, WIDE, VISCOSITY, STIFFNESS = 10e-3, 2.5e-3, 0.03, 1e13
 HIGH, LOW = 30e6, 5e6

@@ -14,8 +14,11 @@ import skfem
 from scipy.optimize import brentq
 
 from reynolds import (
+    ALEXANDER_2,
+    BACKWARD_EULER,
     ZERO,
     Asperities,
+    Boundary,
     Cell,
     Film,
     FilmInputError,
@@ -29,20 +32,21 @@ from reynolds import (
     Held,
     Outer,
     Pocket,
+    Tableau,
+    advance,
     annulus,
+    contact_pressure,
     film,
     film_space,
+    generalised_force,
+    modes_on,
     rectangle,
     solve_stage,
+    standing,
+    started,
     steady,
 )
 from reynolds.fem.mesh import loop_names
-from reynolds.floating.coordinates import generalised_force, modes_on
-from reynolds.floating.start import started
-from reynolds.floating.step import standing
-from reynolds.laws.contact import contact_pressure
-from reynolds.numerics.dirk import ALEXANDER_2, BACKWARD_EULER, Tableau, advance
-from reynolds.problem import Boundary
 
 VISCOSITY, LOAD, START, END = 0.03, 100.0, 20e-6, 10e-3
 OUTER, INNER = 10e-3, 5e-3

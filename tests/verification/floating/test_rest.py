@@ -23,10 +23,10 @@ from reynolds import (
     film_space,
     rectangle,
     solve_stage,
+    started,
     steady,
 )
 from reynolds.floating.rest import come_to_rest
-from reynolds.floating.start import started
 
 LENGTH, WIDTH, TAPER, SPEED, VISCOSITY = 0.01, 0.002, 1e-5, 2.0, 0.03
 

@@ -8,12 +8,10 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from gaps import face_force
+from gaps import DrivenBody, ball_forces, face_force, swept_acceleration
 from gaps.films.slipper import pressed_by
 from gaps.loads.ball_joint import (
-    DrivenBody,
     Spins,
-    ball_forces,
     ball_friction,
     bore_drag,
     free_spins,
@@ -21,18 +19,19 @@ from gaps.loads.ball_joint import (
     lateral_force,
     lateral_moment,
     relative_spin,
-    swept_acceleration,
 )
 from reynolds import FilmInputError
-from system.pump.laws.directions import bore_axis, bore_sides, plate_axes
-from system.pump.laws.kinematics import (
+from system import (
     SwashDrive,
-    ball_radius,
+    bore_axis,
     piston_acceleration,
     piston_displacement,
     piston_velocity,
+    plate_axes,
     slipper_acceleration,
 )
+from system.pump.laws.directions import bore_sides
+from system.pump.laws.kinematics import ball_radius
 
 SPEED = 220.0
 DRIVE = SwashDrive(45e-3, np.radians(5.0), np.radians(16.2))

@@ -5,14 +5,11 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from gaps import BlockDrive, BlockFilm, Effect, Physics, ValvePlateGeometry, constant
-from gaps.films.friction import wall_shear
+from gaps import BlockDrive, BlockFilm, Effect, Physics, ValvePlateGeometry, constant, wall_shear
 from gaps.shapes.bearing_pads import EDGE, BearingPads
 from gaps.shapes.valve_plate_ring import Ring
-from reynolds import FilmInputError, FilmSolution, FilmSolver, loads
-from reynolds.floating.coordinates import generalised_force, modes_on
-from system import InputFaults, Pair, load_pump, lumped_point, operating_point, resolved_toml
-from system.films.rotor import valve_plate_geometry
+from reynolds import FilmInputError, FilmSolution, FilmSolver, generalised_force, loads, modes_on
+from system import InputFaults, Pair, load_pump, lumped_point, operating_point, resolved_toml, valve_plate_geometry
 from system.pump_file.floating import check_floating
 
 RADII = (26.5e-3, 31.5e-3, 40.5e-3, 45.7e-3)

@@ -16,21 +16,30 @@ from scipy.integrate import quad
 from gaps import (
     BlockDrive,
     BlockFilm,
+    FilmLaws,
     Profile,
     ValvePlateGeometry,
     Waviness,
     constant,
     floating_block,
     standing_block,
+    wall_shear,
 )
 from gaps.films.block import generalised, kidney_wrench, wrench_about
-from gaps.films.friction import wall_shear
-from gaps.films.physics import FilmLaws
 from gaps.loads.block_tipping import BlockBalance, land_lift
-from reynolds import Asperities, FilmProblem, FilmSolver, Storage, held_at, solve_stage
-from reynolds.floating.coordinates import contact_force, generalised_force, modes_on
+from reynolds import (
+    Asperities,
+    FilmProblem,
+    FilmSolver,
+    Storage,
+    generalised_force,
+    held_at,
+    modes_on,
+    solve_stage,
+    standing,
+)
+from reynolds.floating.coordinates import contact_force
 from reynolds.floating.start import seats_of
-from reynolds.floating.step import standing
 
 RADII = (26.5e-3, 31.5e-3, 40.5e-3, 45.7e-3)
 ARC, PISTONS, PITCH = np.radians(30.0), 9, np.radians(40.0)

@@ -14,22 +14,24 @@ import pytest
 import skfem
 from numpy.typing import NDArray
 
-from gaps import Accuracy, Effect, Physics
-from gaps.shapes.slipper_lands import slipper_mesh
-from gaps.walls.pair import PlateWalls, in_part_axes, while_turning
-from gaps.walls.parts import (
+from gaps import (
+    Accuracy,
     BushingPart,
+    Effect,
+    Physics,
     PistonPart,
+    PistonWalls,
     PlatePart,
     Pose,
-    SlipperPart,
     bushing_body,
     part_wall,
     piston_body,
     plate_body,
-    slipper_body,
+    slipper_mesh,
 )
-from gaps.walls.piston import FaceGrid, PistonWalls, face_grid
+from gaps.walls.pair import PlateWalls, in_part_axes, while_turning
+from gaps.walls.parts import SlipperPart, slipper_body
+from gaps.walls.piston import FaceGrid, face_grid
 from gaps.walls.user_mesh import OwnMesh
 from reynolds import (
     Array,
@@ -39,17 +41,24 @@ from reynolds import (
     FilmInputError,
     FilmSpace,
     annulus,
+    body_space,
     film_space,
     hollow_cylinder,
     rectangle,
 )
 from reynolds.bodies.mesh_file import body_from_file
-from reynolds.bodies.space import body_space
-from system import PumpDescription, load_pump, lumped_point, operating_point
-from system.films.drives import drives, no_rubbing
-from system.films.parts import floating_parts
-from system.films.rotor import rotor
-from system.points.floating_gaps import FloatingOptions, slipper_revolution
+from system import (
+    FloatingOptions,
+    PumpDescription,
+    drives,
+    floating_parts,
+    load_pump,
+    lumped_point,
+    no_rubbing,
+    operating_point,
+    rotor,
+    slipper_revolution,
+)
 
 STEEL, BRONZE = Elastic(210e9, 0.3), Elastic(110e9, 0.34)
 BORE, OUTSIDE, GUIDE = 11e-3, 15e-3, 20e-3

@@ -5,13 +5,19 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from gaps import Effect, Physics, PistonDrive, PistonFilm, PistonShape, constant, floating_piston
-from gaps.films.physics import FilmLaws
+from gaps import Effect, FilmLaws, Physics, PistonDrive, PistonFilm, PistonShape, constant, floating_piston
 from gaps.films.piston import PistonFriction
 from gaps.films.piston_deformation import PistonDeformation
-from reynolds import Asperities, FilmSolver, FloatingStage, boundary_flows, loads, solve_stage
-from reynolds.floating.start import started
-from reynolds.laws.contact import contact_pressure
+from reynolds import (
+    Asperities,
+    FilmSolver,
+    FloatingStage,
+    boundary_flows,
+    contact_pressure,
+    loads,
+    solve_stage,
+    started,
+)
 
 DIAMETER, CLEARANCE, LENGTH, VISCOSITY = 22e-3, 15e-6, 40e-3, 0.0258
 PRESSURE, CASE, OUTWARDS, PISTON, BORE = 20e6, 1e6, 2.89, 300.0, 220.0

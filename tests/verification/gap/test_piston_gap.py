@@ -10,11 +10,11 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from gaps import PistonDrive, PistonFilm, PistonShape, Profile, constant, standing_piston
+from gaps import GapFilm, PistonDrive, PistonFilm, PistonShape, Profile, constant, standing_piston
 from gaps.loads.ball_joint import lateral_force
 from gaps.shapes.profiles import Barrel
 from gaps.standing.conductances import piston_conductance
-from gaps.standing.gap_film import GapFilm, rest_from, standing_piston_film
+from gaps.standing.gap_film import rest_from, standing_piston_film
 from reynolds import Array, FilmNotConverged, FilmSolver, FloatingStage, held_at
 from system.films.positions import eccentric
 

@@ -23,6 +23,7 @@ from gaps import (
     DepthPoints,
     EdgeRelief,
     Effect,
+    FilmLaws,
     Physics,
     PistonDrive,
     PistonFilm,
@@ -31,11 +32,21 @@ from gaps import (
     constant,
     floating_piston,
 )
-from gaps.films.physics import FilmLaws
-from reynolds import Asperities, FilmSolver, Floating, FloatingStage, loads, solve_stage
-from reynolds.floating.coordinates import generalised_force, modes_on
-from reynolds.floating.start import started
-from reynolds.numerics.dirk import ALEXANDER_2, AcceptedStep, integrate, nodes_only
+from reynolds import (
+    ALEXANDER_2,
+    Asperities,
+    FilmSolver,
+    Floating,
+    FloatingStage,
+    generalised_force,
+    integrate,
+    loads,
+    modes_on,
+    nodes_only,
+    solve_stage,
+    started,
+)
+from reynolds.numerics.dirk import AcceptedStep
 
 DIAMETER, LENGTH, CLEARANCE, PRESSURE, VISCOSITY, TAPER = 20e-3, 30e-3, 10e-6, 30e6, 0.02, 5e-6
 RADIUS = DIAMETER / 2

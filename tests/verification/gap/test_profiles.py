@@ -5,11 +5,10 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from gaps import DepthPoints, EdgeRelief, Effect, PeriodicCurve, Physics, Profile, Waviness, constant
-from gaps.films.physics import FilmLaws, laws_left
+from gaps import DepthPoints, EdgeRelief, Effect, FilmLaws, PeriodicCurve, Physics, Profile, Waviness, constant
+from gaps.films.physics import laws_left
 from gaps.shapes.profiles import PLAIN, Barrel, Crown, PointsAround, RingGroove, ring_grooves
-from reynolds import Asperities, Cavitation, FilmInputError, Surface
-from reynolds.laws.fluid import CONSTANT
+from reynolds import CONSTANT, Asperities, Cavitation, FilmInputError, Surface
 
 LENGTH = 40e-3
 WORN = PointsAround(

@@ -10,28 +10,35 @@ import numpy as np
 import pytest
 from scipy.special import ive
 
-from gaps.walls.parts import (
+from gaps import (
     BushingPart,
     PistonPart,
+    PistonWalls,
     PlatePart,
     Pose,
-    SlipperPart,
     bushing_body,
-    closer_at_end,
-    closer_at_start,
     part_wall,
     piston_body,
     plate_body,
-    slipper_body,
-    slipper_walls,
 )
-from gaps.walls.piston import FaceGrid, PistonWalls, face_grid
+from gaps.walls.parts import SlipperPart, closer_at_end, closer_at_start, slipper_body, slipper_walls
+from gaps.walls.piston import FaceGrid, face_grid
 from gaps.walls.user_mesh import CHAMBER, FILM
-from reynolds import Array, Cell, Elastic, FilmInputError, FilmSpace, annulus, film_space, rectangle
-from reynolds.bodies.elasticity import pressure_forces, structure
-from reynolds.bodies.space import body_space
+from reynolds import (
+    Array,
+    Cell,
+    Elastic,
+    FilmInputError,
+    FilmSpace,
+    annulus,
+    at_points,
+    body_space,
+    film_space,
+    rectangle,
+    structure,
+)
+from reynolds.bodies.elasticity import pressure_forces
 from reynolds.bodies.wall import BodyWall, FacePressure, FaceWall, load_deformation
-from reynolds.equation.coefficients import at_points
 from reynolds.numerics.cache import CacheOrigin
 
 STEEL, BRONZE = Elastic(210e9, 0.3), Elastic(110e9, 0.34)
@@ -361,7 +368,7 @@ def test_faces_a_piston_cannot_meet():
 
 def test_pocket_presses_on_slipper_and_plate(tmp_path):
     """A pocket's column is what its face alone does, both walls added; the cheaper form is chosen by size."""
-    from gaps.shapes.slipper_lands import slipper_mesh
+    from gaps import slipper_mesh
 
     film = film_space(slipper_mesh(((8e-3, 14e-3),), (3, 24)), pockets=["pocket"])
     slipper = slipper_body(SlipperPart(0.5e-3, 8e-3, 7e-3, 14e-3, 5e-3, BRONZE), (6, 12, 1))
@@ -388,7 +395,7 @@ def test_pocket_presses_on_slipper_and_plate(tmp_path):
 
 def test_slipper_bends_alike_on_coarse_films(refine):
     """Films of eight sectors on: the rim's deformation errs as the area of the film's polygon, by 1/n^2."""
-    from gaps.shapes.slipper_lands import slipper_mesh
+    from gaps import slipper_mesh
 
     body = slipper_body(SlipperPart(0.5e-3, 8e-3, 7e-3, 14e-3, 5e-3, BRONZE), (6, 12, 1))
 
@@ -403,7 +410,7 @@ def test_slipper_bends_alike_on_coarse_films(refine):
 
 def test_grooves_press_on_slipper_and_plate(tmp_path):
     """Lands, groove and pocket at one pressure press as a film without a groove: nothing is left out."""
-    from gaps.shapes.slipper_lands import SlipperLands, slipper_mesh
+    from gaps import SlipperLands, slipper_mesh
 
     grooved, plain = SlipperLands(((8e-3, 10e-3), (11.5e-3, 14e-3))), SlipperLands(((8e-3, 14e-3),))
     for body in (

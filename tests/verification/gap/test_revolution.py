@@ -12,9 +12,9 @@ from functools import partial
 import numpy as np
 import pytest
 
-from gaps import Accuracy, Schedule, evenly, run_revolution
-from gaps.revolution.march import GapRevolution
+from gaps import Accuracy, GapRevolution, Schedule, evenly, run_revolution
 from reynolds import (
+    ALEXANDER_2,
     ZERO,
     Array,
     Cavitation,
@@ -31,13 +31,16 @@ from reynolds import (
     boundary_flows,
     film,
     film_space,
+    integrate,
+    nodes_only,
     rectangle,
     ring,
     solve_stage,
+    started,
     steady,
 )
-from reynolds.floating.start import restarted, seats_of, started
-from reynolds.numerics.dirk import ALEXANDER_2, integrate, nodes_only, within
+from reynolds.floating.start import restarted, seats_of
+from reynolds.numerics.dirk import within
 
 LENGTH, WIDTH, THICKNESS, VISCOSITY, SPEED = 0.01, 0.002, 1e-5, 0.03, 220.0
 DAMPING = VISCOSITY * LENGTH**3 * WIDTH / THICKNESS**3  # N s/m, of a strip open at both ends

@@ -11,6 +11,7 @@ import pytest
 
 from gaps import (
     Active,
+    GapFilm,
     PocketOrifice,
     SlipperDrive,
     SlipperFilm,
@@ -22,13 +23,10 @@ from gaps import (
 )
 from gaps.films.slipper import hagen_poiseuille_conductance
 from gaps.standing.conductances import slipper_conductance as conductance_of
-from gaps.standing.gap_film import GapFilm, rest_from, standing_slipper_film
+from gaps.standing.gap_film import rest_from, standing_slipper_film
 from reynolds import Array, FilmNotConverged, FilmSolver, FloatingStage, held_at
-from system import load_pump, operating_point
-from system.films.parts import floating_parts
+from system import floating_parts, load_pump, operating_point, rotor, slipper_conductance
 from system.films.positions import instant_drives
-from system.films.rotor import rotor
-from system.pump.laws.leakage import slipper_conductance
 
 INNER, OUTER, ORIFICE, ORIFICE_LENGTH = 8.2e-3, 14e-3, 0.9e-3, 5e-3
 SHAPE = SlipperShape(SlipperLands(((INNER, OUTER),)), PocketOrifice(ORIFICE, ORIFICE_LENGTH))

@@ -11,6 +11,7 @@ from scipy.optimize import minimize_scalar
 from gaps import (
     EdgeRelief,
     Effect,
+    FilmLaws,
     Physics,
     PocketOrifice,
     Profile,
@@ -22,13 +23,23 @@ from gaps import (
     constant,
     face_force,
     floating_slipper,
+    slipper_mesh,
 )
-from gaps.films.physics import FilmLaws
 from gaps.films.slipper import Retainer, orifice_and_capillary, retainer_force, supply
-from gaps.shapes.slipper_lands import lands_between, slipper_mesh
-from reynolds import Asperities, FilmInputError, FilmSolution, FilmSolver, FloatingStage, Held, loads, solve_stage
-from reynolds.floating.coordinates import generalised_force, modes_on
-from reynolds.floating.start import started
+from gaps.shapes.slipper_lands import lands_between
+from reynolds import (
+    Asperities,
+    FilmInputError,
+    FilmSolution,
+    FilmSolver,
+    FloatingStage,
+    Held,
+    generalised_force,
+    loads,
+    modes_on,
+    solve_stage,
+    started,
+)
 
 INNER, OUTER, VISCOSITY, PRESSURE, HEIGHT = 5e-3, 10e-3, 0.03, 20e6, 10e-6
 FULL = Physics().without(Effect.CAVITATION)

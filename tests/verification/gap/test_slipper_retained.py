@@ -14,12 +14,19 @@ from gaps import Accuracy, Active
 from gaps.films.slipper import retainer_force
 from reynolds import FilmNotConverged
 from swashfilm.runs.film.revolution.validity import pulled_together
-from system import load_pump, lumped_point, operating_point
-from system.films.drives import drives, no_rubbing, slipper_retainer
-from system.films.parts import floating_parts
-from system.films.problems import RIGID
-from system.films.rotor import rotor
-from system.points.floating_gaps import FloatingOptions, slipper_revolution
+from system import (
+    RIGID,
+    FloatingOptions,
+    drives,
+    floating_parts,
+    load_pump,
+    lumped_point,
+    no_rubbing,
+    operating_point,
+    rotor,
+    slipper_revolution,
+)
+from system.films.drives import slipper_retainer
 
 COARSE = FloatingOptions(RIGID, steps=36, finer=0.25, accuracy=Accuracy(step=0.1, floor=1e-7, closed=0.1))
 FAST = {"operating.speed": "2800 rpm", "operating.pressure": "10 MPa", "operating.inlet_pressure": "0 bar"}

@@ -8,6 +8,7 @@ import pytest
 from gaps import (
     Accuracy,
     Effect,
+    GapRevolution,
     Physics,
     PocketOrifice,
     SlipperDrive,
@@ -20,7 +21,6 @@ from gaps import (
     floating_slipper,
     run_revolution,
 )
-from gaps.revolution.march import GapRevolution
 from reynolds import FilmSolver, FloatingStage
 
 INNER, OUTER, VISCOSITY, PRESSURE, LOAD = 5e-3, 10e-3, 0.03, 20e6, 2800.0

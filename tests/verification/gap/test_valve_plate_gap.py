@@ -11,12 +11,12 @@ from dataclasses import dataclass, replace
 import numpy as np
 import pytest
 
-from gaps import BlockDrive, BlockFilm, PeriodicCurve, ValvePlateGeometry, constant, standing_block
+from gaps import BlockDrive, BlockFilm, GapFilm, PeriodicCurve, ValvePlateGeometry, constant, standing_block
 from gaps.films.block import kidney_wrench
 from gaps.standing.conductances import kidney_conductances
-from gaps.standing.gap_film import GapFilm, standing_block_film
+from gaps.standing.gap_film import standing_block_film
 from reynolds import Array, FilmSolver, FloatingStage, held_at
-from system.pump.laws.leakage import valve_plate_conductance
+from system import valve_plate_conductance
 
 RADII = (26.5e-3, 31.5e-3, 40.5e-3, 45.7e-3)
 PISTONS, PITCH = 9, np.radians(40.0)

@@ -12,13 +12,22 @@ import numpy as np
 import pytest
 from scipy.integrate import quad
 
-from gaps import BlockDrive, BlockFilm, ValvePlateGeometry, constant, floating_block, standing_block
+from gaps import (
+    BlockDrive,
+    BlockFilm,
+    FilmLaws,
+    PlatePart,
+    ValvePlateGeometry,
+    constant,
+    floating_block,
+    part_wall,
+    plate_body,
+    standing_block,
+    wall_shear,
+)
 from gaps.films.block import kidney_wrench
-from gaps.films.friction import wall_shear
-from gaps.films.physics import FilmLaws
 from gaps.loads.block_tipping import BlockBalance, land_lift
 from gaps.standing.gap_film import standing_block_film
-from gaps.walls.parts import PlatePart, part_wall, plate_body
 from reynolds import (
     Asperities,
     Elastic,
@@ -26,20 +35,20 @@ from reynolds import (
     FilmSolution,
     FilmSolver,
     annulus,
+    body_space,
+    face_normals,
     film_space,
+    generalised_force,
     held_at,
     loads,
+    modes_on,
     solve_stage,
+    standing,
 )
-from reynolds.bodies.chart import face_normals
-from reynolds.bodies.space import body_space
 from reynolds.bodies.transfer import transfer
 from reynolds.fem.sphere import Sphere
-from reynolds.floating.coordinates import generalised_force, modes_on
-from reynolds.floating.step import standing
-from system import InputFaults, check_pump, load_pump, operating_point
-from system.films.rotor import valve_plate_geometry
-from system.pump.lumped import lumped_leaks, piston_motion
+from system import InputFaults, check_pump, load_pump, operating_point, piston_motion, valve_plate_geometry
+from system.pump.lumped import lumped_leaks
 
 RADII, RADIUS = (26.5e-3, 31.5e-3, 40.5e-3, 45.7e-3), 90e-3
 SPHERE, ARC = Sphere(RADIUS), float(np.radians(30.0))

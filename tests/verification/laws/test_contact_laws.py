@@ -11,13 +11,12 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.integrate import quad
 
-from reynolds import Asperities, FilmInputError
+from reynolds import Asperities, FilmInputError, contact_pressure
 from reynolds.laws.contact import (
     asperities_of,
     boundary_shear,
     composite_modulus,
     contact_area,
-    contact_pressure,
     gaussian_moment,
     lambda_ratio,
 )

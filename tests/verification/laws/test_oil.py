@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from reynolds import ISO_GRADES, FilmInputError, Oil
-from reynolds.laws.oil import dynamic_viscosity, temperature_of, walther, walther_coefficients
+from reynolds import ISO_GRADES, FilmInputError, Oil, dynamic_viscosity, walther
+from reynolds.laws.oil import temperature_of, walther_coefficients
 
 VG46 = Oil(46e-6, 6.8e-6, density=860.0, bulk_modulus=1.6e9, specific_heat=1950.0)
 

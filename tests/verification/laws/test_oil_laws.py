@@ -10,12 +10,21 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from reynolds import ISO_GRADES, Barus, BulkModulus, FilmInputError, Oil, Roelands
+from reynolds import (
+    ISO_GRADES,
+    Barus,
+    BulkModulus,
+    Carreau,
+    FilmInputError,
+    Oil,
+    RationalDensity,
+    Roelands,
+    walther,
+)
 from reynolds.laws.density import (
     DOWSON_HIGGINSON,
     MINERAL_OIL_BUNSEN,
     Aerated,
-    RationalDensity,
     Tait,
     api_density,
     effective_bulk_modulus,
@@ -23,8 +32,8 @@ from reynolds.laws.density import (
     thermal_expansion,
 )
 from reynolds.laws.ehl import hamrock_dowson_central, hamrock_dowson_minimum, moes
-from reynolds.laws.oil import walther, walther_coefficients
-from reynolds.laws.rheology import Carreau, Cross, Eyring, carreau_yasuda
+from reynolds.laws.oil import walther_coefficients
+from reynolds.laws.rheology import Cross, Eyring, carreau_yasuda
 from reynolds.laws.viscosity import (
     BARUS_HIGHEST_PRESSURE,
     RoelandsIndex,

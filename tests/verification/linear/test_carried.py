@@ -5,9 +5,7 @@ import pytest
 from scipy.sparse import csc_array, diags_array
 from scipy.sparse.linalg import spsolve
 
-from reynolds import Cell, FilmSpace, film_space, rectangle
-from reynolds.equation.balance import stiffness
-from reynolds.equation.coefficients import isotropic
+from reynolds import Cell, FilmSpace, film_space, isotropic, rectangle, stiffness
 from reynolds.linear.cavitated import CavitatedFilm
 from reynolds.linear.factor import GeneralFactor
 from reynolds.linear.multigrid.grid import grid_of

@@ -19,6 +19,7 @@ from reynolds import (
     Body,
     Cavitation,
     Cell,
+    Compliance,
     Elastic,
     FilmNotConverged,
     FilmProblem,
@@ -30,6 +31,7 @@ from reynolds import (
     Supports,
     block,
     body_wall,
+    both,
     film,
     film_space,
     half_space,
@@ -39,7 +41,6 @@ from reynolds import (
     winkler,
 )
 from reynolds.bodies.compliance import LowRank
-from reynolds.bodies.foundation import Compliance, both
 from reynolds.bodies.wall import face_wall
 from reynolds.linear import elastic as compliant
 from reynolds.linear.elastic import WallBalance, compliant_answer

@@ -4,9 +4,20 @@ import numpy as np
 import pytest
 from scipy.sparse import csc_array, triu
 
-from reynolds import ZERO, Cavitation, Cell, FilmProblem, FilmSolver, Held, film, film_space, loads, rectangle
-from reynolds.equation.balance import stiffness
-from reynolds.equation.coefficients import isotropic
+from reynolds import (
+    ZERO,
+    Cavitation,
+    Cell,
+    FilmProblem,
+    FilmSolver,
+    Held,
+    film,
+    film_space,
+    isotropic,
+    loads,
+    rectangle,
+    stiffness,
+)
 from reynolds.fem import kernels
 from reynolds.linear import factor as linear
 from reynolds.linear.multigrid.grid import grid_of

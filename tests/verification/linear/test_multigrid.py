@@ -5,9 +5,7 @@ import pytest
 from scipy.sparse import csc_array, triu
 from scipy.sparse.linalg import spsolve
 
-from reynolds import Cell, FilmInputError, FilmSpace, annulus, film_space, rectangle
-from reynolds.equation.balance import stiffness
-from reynolds.equation.coefficients import isotropic
+from reynolds import Cell, FilmInputError, FilmSpace, annulus, film_space, isotropic, rectangle, stiffness
 from reynolds.fem import kernels
 from reynolds.linear.multigrid import solver as multigrid_module
 from reynolds.linear.multigrid.grid import Grid, grid_of

@@ -5,21 +5,27 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from gaps import Effect
+from gaps import Effect, Pose
 from gaps.walls.pair import BoreWalls, PlateWalls
-from gaps.walls.parts import Pose
 from gaps.walls.springs import SpringBore, SpringPlates
 from reynolds import InputError, NotConverged
 from swashfilm.runs.pump.oil_fields import oil_state
-from system import Gap, films_point, load_pump, lumped_point, operating_point
+from system import (
+    EXTENSIONS,
+    SMOOTH,
+    EffectId,
+    Gap,
+    films_point,
+    floating_parts,
+    load_pump,
+    lumped_point,
+    operating_point,
+    rotor,
+)
 from system.description.effects import PhysicsSection
-from system.effects.catalogue.entries import EXTENSIONS
-from system.effects.effect import EffectId
 from system.effects.friction import OF_GAP
 from system.effects.laws.film import barus_flow, opening_flow
-from system.films.cycle import PLAIN, SMOOTH, GapPhysics, gap_cycle
-from system.films.parts import floating_parts
-from system.films.rotor import rotor
+from system.films.cycle import PLAIN, GapPhysics, gap_cycle
 from system.inputs.sections.reader import section_of
 from system.points.film_effects import SOLVED, effects_in_films, even_rise, film_effects, resisting
 from system.points.films import leak_table

@@ -8,15 +8,25 @@ from functools import partial
 import numpy as np
 import pytest
 
-from gaps import Accuracy, Effect, Physics, PistonDrive, PistonFilm, PistonShape, run_revolution, warm_revolution
-from gaps.films.over_turn import constant
-from gaps.films.piston import floating_piston
-from gaps.films.reports import PistonReport, piston_report
+from gaps import (
+    Accuracy,
+    Effect,
+    GapRevolution,
+    Physics,
+    PistonDrive,
+    PistonFilm,
+    PistonPart,
+    PistonShape,
+    constant,
+    evenly,
+    floating_piston,
+    piston_report,
+    run_revolution,
+    warm_revolution,
+)
+from gaps.films.reports import PistonReport
 from gaps.revolution.film_heat import GapHeat, Sink
-from gaps.revolution.march import GapRevolution
-from gaps.revolution.schedule import evenly
 from gaps.revolution.warmth import ViscosityRatios
-from gaps.walls.parts import PistonPart
 from reynolds import Elastic, FilmNotConverged, FilmSolver, InputError
 from system.films.heat import rod, slab, tube
 

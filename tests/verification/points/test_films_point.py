@@ -14,15 +14,23 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from gaps.standing.gap_film import GapFilm
-from system import PumpDescription, films_point, load_pump, lumped_point, operating_point
+from gaps import GapFilm
+from system import (
+    FilmsPoint,
+    PumpDescription,
+    drives,
+    films_point,
+    load_pump,
+    lumped_point,
+    no_rubbing,
+    operating_point,
+    plate_axes,
+    rotor,
+    slipper_sliding_velocity,
+)
 from system.films.cycle import gap_cycle
-from system.films.drives import drives, no_rubbing
 from system.films.positions import given_slipper
-from system.films.rotor import rotor
-from system.points.films import TOLERANCE, FilmsPoint, film_shear, leak_table
-from system.pump.laws.directions import plate_axes
-from system.pump.laws.kinematics import slipper_sliding_velocity
+from system.points.films import TOLERANCE, film_shear, leak_table
 
 RPM = np.pi / 30.0
 EXAMPLES = Path(__file__).resolve().parents[3] / "examples" / "pumps"

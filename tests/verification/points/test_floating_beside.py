@@ -7,12 +7,18 @@ import pytest
 
 from gaps import Accuracy
 from reynolds import FilmNotConverged, InputError
-from system import load_pump, lumped_point, operating_point
-from system.films.drives import drives, no_rubbing
-from system.films.parts import floating_parts
-from system.films.problems import RIGID
-from system.films.rotor import rotor
-from system.points.floating_gaps import FloatingOptions, piston_revolution
+from system import (
+    RIGID,
+    FloatingOptions,
+    drives,
+    floating_parts,
+    load_pump,
+    lumped_point,
+    no_rubbing,
+    operating_point,
+    rotor,
+)
+from system.points.floating_gaps import piston_revolution
 from system.points.piston_process import Driven, piston_beside
 
 ROUGHLY = FloatingOptions(RIGID, steps=36, finer=0.25, accuracy=Accuracy(step=0.1, floor=1e-7, closed=0.5), keep=6)

@@ -3,15 +3,26 @@
 import numpy as np
 import pytest
 
-from gaps.loads.ball_joint import swept_acceleration
-from system import load_pump, operating_point
-from system.films.drives import drives, group_instant, no_rubbing
-from system.films.parts import floating_parts
+from gaps import swept_acceleration
+from system import (
+    bore_axis,
+    drives,
+    floating_parts,
+    load_pump,
+    no_rubbing,
+    operating_point,
+    piston_acceleration,
+    piston_area,
+    piston_velocity,
+    plate_axes,
+    rotor,
+    slipper_acceleration,
+)
+from system.films.drives import group_instant
 from system.films.places import ball_centre
-from system.films.rotor import rotor, travel
-from system.pump.laws.directions import bore_axis, bore_sides, plate_axes
-from system.pump.laws.kinematics import piston_acceleration, piston_velocity, slipper_acceleration
-from system.pump.lumped import block_spring, piston_area
+from system.films.rotor import travel
+from system.pump.laws.directions import bore_sides
+from system.pump.lumped import block_spring
 
 ANGLES = np.linspace(0.0, 2.0 * np.pi, 18, endpoint=False)
 MASSLESS = {"piston.mass": "1e-9 kg", "slipper.mass": "1e-9 kg"}

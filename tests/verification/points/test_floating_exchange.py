@@ -8,9 +8,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from system import load_pump, operating_point
-from system.films.parts import floating_parts
-from system.films.rotor import rotor, valve_plate_geometry
+from system import floating_parts, load_pump, operating_point, piston_area, plate_axes, rotor, valve_plate_geometry
 from system.points.floating_exchange import (
     FloatingGaps,
     around,
@@ -20,8 +18,6 @@ from system.points.floating_exchange import (
     of_each,
     resampled,
 )
-from system.pump.laws.directions import plate_axes
-from system.pump.lumped import piston_area
 
 PUMP = load_pump("ref90_floating")
 ROTOR, PARTS = rotor(PUMP, operating_point(PUMP)), floating_parts(PUMP)

@@ -6,11 +6,17 @@ import numpy as np
 import pytest
 
 from reynolds import NotConverged
-from system import PumpDescription, floating_point, load_pump, operating_point
-from system.films.problems import RIGID
-from system.points.floating import FRICTION_TOLERANCE, PRESSURE_TOLERANCE, FloatingPoint
+from system import (
+    RIGID,
+    FloatingOptions,
+    FloatingPoint,
+    PumpDescription,
+    floating_point,
+    load_pump,
+    operating_point,
+)
+from system.points.floating import FRICTION_TOLERANCE, PRESSURE_TOLERANCE
 from system.points.floating_exchange import leak_table, leakage_heat
-from system.points.floating_gaps import FloatingOptions
 
 STEPS = 72
 pytestmark = pytest.mark.slow

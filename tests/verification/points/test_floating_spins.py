@@ -10,11 +10,9 @@ import numpy as np
 import pytest
 
 from gaps import Accuracy
-from system import floating_point, load_pump, operating_point, resolved_toml
-from system.films.problems import RIGID
-from system.points.floating import SPIN_TOLERANCE, FloatingPoint
+from system import RIGID, FloatingOptions, FloatingPoint, floating_point, load_pump, operating_point, resolved_toml
+from system.points.floating import SPIN_TOLERANCE
 from system.points.floating_exchange import spin_torques
-from system.points.floating_gaps import FloatingOptions
 
 ROUGHLY = FloatingOptions(
     RIGID, steps=36, finer=0.25, accuracy=Accuracy(step=0.05, floor=1e-8, closed=0.1, reach=1.0), keep=6

@@ -11,10 +11,16 @@ import numpy as np
 import pytest
 
 from gaps import Accuracy
-from system import PumpDescription, floating_point, load_pump, operating_point
-from system.films.problems import RIGID
-from system.points.floating import PRESSURE_TOLERANCE, FloatingPoint
-from system.points.floating_gaps import FloatingOptions
+from system import (
+    RIGID,
+    FloatingOptions,
+    FloatingPoint,
+    PumpDescription,
+    floating_point,
+    load_pump,
+    operating_point,
+)
+from system.points.floating import PRESSURE_TOLERANCE
 
 ROUGHLY = FloatingOptions(
     RIGID, steps=36, finer=0.25, accuracy=Accuracy(step=0.1, floor=1e-7, closed=0.5, reach=1.0), keep=6

@@ -9,9 +9,22 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from gaps.loads.ball_joint import DrivenBody, ball_forces, swept_acceleration
+from gaps import DrivenBody, ball_forces, swept_acceleration
 from swashfilm.runs.pump.forces import force_warnings
-from system import PumpDescription, joint_forces, load_pump, lumped_point, operating_point
+from system import (
+    PumpDescription,
+    SwashDrive,
+    bore_axis,
+    joint_forces,
+    load_pump,
+    lumped_point,
+    operating_point,
+    piston_acceleration,
+    piston_area,
+    piston_displacement,
+    piston_velocity,
+    plate_axes,
+)
 from system.multibody.closure import closure
 from system.multibody.joints import wrench
 from system.multibody.kinematics import (
@@ -26,17 +39,8 @@ from system.multibody.kinematics import (
 )
 from system.multibody.retainer import guide_contact, guide_loss
 from system.multibody.rotating_group import JointForces
-from system.pump.laws.directions import bore_axis, plate_axes
-from system.pump.laws.kinematics import (
-    SwashDrive,
-    crossed_drive,
-    piston_acceleration,
-    piston_displacement,
-    piston_velocity,
-    slipper_sliding_speed,
-)
+from system.pump.laws.kinematics import crossed_drive, slipper_sliding_speed
 from system.pump.laws.retainer import BallGuide, mean_sliding_speed
-from system.pump.lumped import piston_area
 
 DEGREES = np.pi / 180.0
 ANGLE = 2 * np.pi * np.arange(72) / 72

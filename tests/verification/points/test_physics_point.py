@@ -5,27 +5,26 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from reynolds import InputError
-from reynolds.numerics.arrays import Array
+from reynolds import Array, InputError
 from system import (
+    EXTENSIONS,
+    SIMULATED,
+    BenchPoints,
+    EffectId,
+    Extension,
+    LumpedBench,
     PumpDescription,
+    base_parameters,
     check_pump,
+    extended_pump,
     floating_point,
     load_pump,
     lumped_point,
     operating_point,
     resolved_toml,
+    tolerances,
 )
-from system.bench.calibration.extended_pump import extended_pump
-from system.bench.outputs import SIMULATED
-from system.bench.parameters import base_parameters
-from system.bench.points import BenchPoints
-from system.bench.simulator import LumpedBench
 from system.description.effects import PhysicsSection
-from system.description.tolerances import tolerances
-from system.effects.catalogue.entries import EXTENSIONS
-from system.effects.effect import EffectId
-from system.effects.extension import Extension
 from system.effects.switched import switched_on
 from system.inputs.sections.reader import section_of
 from system.pump.lumped import SAMPLES_PER_PITCH

@@ -7,16 +7,25 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from gaps.shapes.slipper_lands import slipper_mesh
+from gaps import slipper_mesh
 from reynolds import film_space
 from reynolds.fem.sphere import PLANE
-from system import Gap, load_pump, operating_point
-from system.films.parts import floating_parts
+from system import (
+    RIGID,
+    Gap,
+    Rotor,
+    floating_parts,
+    load_pump,
+    operating_point,
+    piston_displacement,
+    rotor,
+    slipper_sliding_velocity,
+    stroke,
+)
 from system.films.places import Frame, face_frame, guide_frame, place_of
 from system.films.positions import instant_drives
-from system.films.problems import RIGID, piston_film
-from system.films.rotor import Rotor, rotor, travel
-from system.pump.laws.kinematics import piston_displacement, slipper_sliding_velocity, stroke
+from system.films.problems import piston_film
+from system.films.rotor import travel
 
 ANGLES = np.radians([0.0, 35.0, 90.0, 180.0, 250.0, 345.0])
 PUMPS = ["ref90", str(Path(__file__).resolve().parents[3] / "examples/pumps/cylindrical_block.toml")]

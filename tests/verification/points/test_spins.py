@@ -6,10 +6,7 @@ import numpy as np
 import pytest
 
 from gaps.loads.ball_joint import Spins
-from system import load_pump, operating_point, resolved_toml
-from system.films.drives import drives, no_rubbing
-from system.films.parts import floating_parts
-from system.films.rotor import rotor
+from system import drives, floating_parts, load_pump, no_rubbing, operating_point, resolved_toml, rotor
 from system.films.spins import SpinTorques, spins, torques_of_films
 
 

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 from reynolds import InputError
-from system import joint_forces, load_pump, lumped_point, operating_point
+from system import joint_forces, load_pump, lumped_point, operating_point, orifice_flow
 from system.multibody.transient import kernels as kernel
 from system.multibody.transient.solver import (
     ControlPressure,
@@ -20,7 +20,6 @@ from system.multibody.transient.solver import (
     Transition,
     run_transient,
 )
-from system.pump.ports.areas import orifice_flow
 
 DEGREES = np.pi / 180.0
 PUMPS = Path(__file__).parents[3] / "examples" / "pumps"

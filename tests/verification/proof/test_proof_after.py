@@ -9,13 +9,9 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
+from diagnosis import BenchBox, Explanation
 from diagnosis.explain.hypotheses import Hypothesis, together
-from diagnosis.explain.ranked import Explanation
-from diagnosis.next_point.operating_box import BenchBox
-from system.description.gap import Gap
-from system.effects.catalogue.entries import entry_of
-from system.effects.effect import EffectId, Kind
-from system.inputs.channels import ChannelName
+from system import ChannelName, EffectId, Gap, Kind, entry_of
 
 
 @pytest.fixture

@@ -12,9 +12,9 @@ import numpy as np
 import pytest
 from scipy import stats
 
+from diagnosis import read_recording
 from diagnosis.recording.model import reading_sigma
-from diagnosis.recording.reader import read_recording
-from system.inputs.channels import ChannelName
+from system import ChannelName
 
 
 @pytest.fixture(scope="module")

@@ -9,7 +9,7 @@ from types import SimpleNamespace
 
 import pytest
 
-from diagnosis.thresholds import load_thresholds
+from diagnosis import load_thresholds
 
 ROOT = Path(__file__).resolve().parents[3]
 

@@ -9,13 +9,8 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from diagnosis.checks.check import check_recording
-from diagnosis.recording.reader import read_recording
-from diagnosis.study.model import Study
-from diagnosis.study.prepare import prepare
-from diagnosis.thresholds import load_thresholds
-from system.description.tolerances import tolerances
-from system.pump_file.file import load_pump
+from diagnosis import Study, check_recording, load_thresholds, prepare, read_recording
+from system import load_pump, tolerances
 
 
 @pytest.fixture(scope="module")

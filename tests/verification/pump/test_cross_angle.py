@@ -5,17 +5,19 @@ import pytest
 
 from gaps.shapes.bearing_pads import EDGE
 from gaps.shapes.valve_plate_ring import Ring
-from system import InputFaults, load_pump, lumped_point, operating_point
-from system.films.rotor import rotor, valve_plate_geometry
-from system.pump.laws import kinematics as kin
-from system.pump.lumped import (
-    chamber_problem,
-    lumped_leaks,
+from system import (
+    InputFaults,
+    break_angles,
+    load_pump,
+    lumped_point,
+    operating_point,
     piston_area,
     piston_motion,
-    swept_displacement,
+    rotor,
+    valve_plate_geometry,
 )
-from system.pump.ports.areas import break_angles
+from system.pump.laws import kinematics as kin
+from system.pump.lumped import chamber_problem, lumped_leaks, swept_displacement
 
 RADIUS, CONE, SWASH, CROSS = 45e-3, np.radians(5.0), np.radians(16.2), np.radians(3.0)
 

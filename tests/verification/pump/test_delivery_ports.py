@@ -3,10 +3,16 @@
 import numpy as np
 import pytest
 
-from system import InputFaults, load_pump, lumped_point, operating_point, resolved_toml
-from system.films.rotor import valve_plate_geometry
-from system.pump.lumped import port_openings
-from system.pump.ports.areas import opening_area
+from system import (
+    InputFaults,
+    load_pump,
+    lumped_point,
+    opening_area,
+    operating_point,
+    port_openings,
+    resolved_toml,
+    valve_plate_geometry,
+)
 
 PUMP = load_pump("ref90")
 ARC = PUMP.valve_plate.kidney_arc

@@ -3,14 +3,10 @@
 import numpy as np
 import pytest
 
-from gaps.loads.ball_joint import DrivenBody, ball_forces
-from system.pump.laws.directions import bore_axis, bore_sides, plate_axes
-from system.pump.laws.kinematics import (
-    SwashDrive,
-    ball_radius,
-    slipper_acceleration,
-    slipper_sliding_velocity,
-)
+from gaps import DrivenBody, ball_forces
+from system import SwashDrive, bore_axis, plate_axes, slipper_acceleration, slipper_sliding_velocity
+from system.pump.laws.directions import bore_sides
+from system.pump.laws.kinematics import ball_radius
 
 ANGLES = np.linspace(0.0, 2.0 * np.pi, 13)
 CONICAL = SwashDrive(45e-3, np.radians(5.0), np.radians(16.2))

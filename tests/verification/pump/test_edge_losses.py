@@ -5,10 +5,11 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from gaps.films.slipper import PocketOrifice, hagen_poiseuille_conductance, supply
+from gaps import PocketOrifice
+from gaps.films.slipper import hagen_poiseuille_conductance, supply
 from gaps.shapes.orifice_table import OrificeTable
 from reynolds import InputError
-from system import load_pump, lumped_point, operating_point
+from system import load_pump, lumped_point, operating_point, piston_motion
 from system.inputs.coefficients.edge_losses import (
     KINETIC,
     Edge,
@@ -17,7 +18,7 @@ from system.inputs.coefficients.edge_losses import (
     secant_conductance,
 )
 from system.pump.land_losses import creeping_film_leaks, land_losses, orifice_table, with_inertia
-from system.pump.lumped import lumped_leaks, piston_motion
+from system.pump.lumped import lumped_leaks
 
 DENSITY, VISCOSITY = 860.0, 0.02
 NU = VISCOSITY / DENSITY

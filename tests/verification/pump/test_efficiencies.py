@@ -57,8 +57,7 @@ def test_names_are_unique_and_have_formulas():
 
 def test_simulated_energies_are_those_of_the_power_balance():
     """The definitions read port flows alone; the solver's own balance says the same to its error."""
-    from system.points.lumped import lumped_point
-    from system.pump.operating import operating_point
+    from system import lumped_point, operating_point
 
     pump = load_pump("ref90")
     point = lumped_point(pump, operating_point(pump))

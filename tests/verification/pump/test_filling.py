@@ -5,11 +5,16 @@ from math import pi, sqrt
 import numpy as np
 import pytest
 
-from system import PumpDescription, load_pump, lumped_point, operating_point
-from system.pump.assembly import PumpPoint
+from system import (
+    PumpDescription,
+    PumpPoint,
+    load_pump,
+    lumped_point,
+    opening_area,
+    operating_point,
+    port_openings,
+)
 from system.pump.chamber.layout import CAVITY_PRESSURE
-from system.pump.lumped import port_openings
-from system.pump.ports.areas import opening_area
 
 RPM = pi / 30
 LOST = {1000.0: 10e3, 2100.0: 46e3, 3000.0: 94e3, 3600.0: 135e3}

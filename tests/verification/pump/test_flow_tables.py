@@ -164,7 +164,7 @@ def test_half_the_coefficient_by_file_is_four_times_the_drop(tmp_path):
 
 def test_a_port_without_a_file_carries_no_table():
     port = load_pump("ref90")
-    from system.pump.lumped import port_openings
+    from system import port_openings
 
     for opening in port_openings(port):
         assert as_array(opening).shape == (PORT_SIZE,)

@@ -3,13 +3,10 @@
 import numpy as np
 import pytest
 
-from gaps.loads.ball_joint import DrivenBody, ball_forces, swept_acceleration
-from system import load_pump, operating_point
-from system.films.rotor import rotor
+from gaps import DrivenBody, ball_forces, swept_acceleration
+from system import bore_axis, load_pump, operating_point, piston_area, plate_axes, rotor
 from system.pump.laws import friction_pairs as pairs
 from system.pump.laws import kinematics as kin
-from system.pump.laws.directions import bore_axis, plate_axes
-from system.pump.lumped import piston_area
 
 RATED_SPEED = 2100.0 * 2.0 * np.pi / 60.0
 ANGLES = np.linspace(0.0, 2.0 * np.pi, 721)

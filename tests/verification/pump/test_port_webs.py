@@ -6,10 +6,18 @@ import numpy as np
 import pytest
 
 from gaps.shapes.valve_plate_ring import Ring
-from system import InputFaults, load_pump, lumped_point, operating_point, resolved_toml
-from system.films.rotor import valve_plate_geometry
-from system.pump.lumped import port_openings
-from system.pump.ports.areas import PortOpening, break_angles, opening_area
+from system import (
+    InputFaults,
+    PortOpening,
+    break_angles,
+    load_pump,
+    lumped_point,
+    opening_area,
+    operating_point,
+    port_openings,
+    resolved_toml,
+    valve_plate_geometry,
+)
 from system.pump.ports.webs import PortWebs
 
 DEGREES = np.pi / 180.0

@@ -3,16 +3,8 @@
 import numpy as np
 import pytest
 
-from system.pump.ports.areas import (
-    PortOpening,
-    break_angles,
-    critical_pressure_drop,
-    opening_area,
-    orifice,
-    orifice_coefficients,
-    orifice_flow,
-)
-from system.pump.ports.relief_grooves import ReliefGroove
+from system import PortOpening, ReliefGroove, break_angles, opening_area, orifice_flow
+from system.pump.ports.areas import critical_pressure_drop, orifice, orifice_coefficients
 
 DEGREES = np.pi / 180.0
 GROOVE, KIDNEY = 4e-6, 152e-6

@@ -11,27 +11,21 @@ import pytest
 from scipy.integrate import solve_ivp
 
 from reynolds import NotConverged
+from system import (
+    ImpedanceLine,
+    PortOpening,
+    ReliefGroove,
+    SwashDrive,
+    opening_area,
+    orifice_flow,
+    piston_displacement,
+    piston_velocity,
+)
 from system.pump.chamber.port_coupling import SETTLED, PortedCycle, ported_cycle
 from system.pump.chamber.port_volume import Supply, line_power, port_balance
 from system.pump.chamber.problem import ChamberProblem, LeakTable
-from system.pump.laws.kinematics import (
-    SwashDrive,
-    drive_at_ratio,
-    piston_displacement,
-    piston_velocity,
-    stand_out,
-)
-from system.pump.ports.areas import PortOpening, opening_area, orifice_flow
-from system.pump.ports.lines import (
-    HeldPressure,
-    Impedance,
-    ImpedanceLine,
-    Line,
-    Lines,
-    OrificeLine,
-    volume_impedance,
-)
-from system.pump.ports.relief_grooves import ReliefGroove
+from system.pump.laws.kinematics import drive_at_ratio, stand_out
+from system.pump.ports.lines import HeldPressure, Impedance, Line, Lines, OrificeLine, volume_impedance
 
 DEGREES = np.pi / 180.0
 AREA = np.pi / 4 * 22e-3**2

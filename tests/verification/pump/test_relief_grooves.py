@@ -3,10 +3,20 @@
 import numpy as np
 import pytest
 
-from system import InputFaults, load_pump, lumped_point, operating_point, resolved_toml
-from system.pump.lumped import full_drive, port_openings, swept_displacement
-from system.pump.ports.areas import PortOpening, break_angles, opening_area
-from system.pump.ports.relief_grooves import ReliefGroove, round_groove, segment_area, v_groove
+from system import (
+    InputFaults,
+    PortOpening,
+    ReliefGroove,
+    break_angles,
+    load_pump,
+    lumped_point,
+    opening_area,
+    operating_point,
+    port_openings,
+    resolved_toml,
+)
+from system.pump.lumped import full_drive, swept_displacement
+from system.pump.ports.relief_grooves import round_groove, segment_area, v_groove
 
 DEGREES = np.pi / 180.0
 RADIUS, DEPTH = 44e-3, 2e-3

@@ -10,21 +10,25 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from gaps.loads.ball_joint import DrivenBody, ball_forces, swept_acceleration
-from system import load_pump, lumped_point, operating_point
-from system.description.lines import LineKind, LineSection
-from system.pump.assembly import PumpPoint
-from system.pump.laws.directions import bore_axis, plate_axes
-from system.pump.laws.friction_pairs import over_chambers
-from system.pump.laws.kinematics import (
+from gaps import DrivenBody, ball_forces, swept_acceleration
+from system import (
+    PumpPoint,
     SwashDrive,
-    ball_radius,
+    bore_axis,
+    load_pump,
+    lumped_point,
+    operating_point,
     piston_acceleration,
+    piston_motion,
     piston_velocity,
+    plate_axes,
     slipper_acceleration,
     slipper_sliding_velocity,
 )
-from system.pump.lumped import chamber_problem, group_masses, lumped_leaks, piston_motion
+from system.description.lines import LineKind, LineSection
+from system.pump.laws.friction_pairs import over_chambers
+from system.pump.laws.kinematics import ball_radius
+from system.pump.lumped import chamber_problem, group_masses, lumped_leaks
 from system.pump.shaft_torque import ChamberForces, GroupMasses, chamber_torque, shaft_torque
 
 DEGREES = np.pi / 180.0

@@ -7,11 +7,9 @@ from itertools import product
 import numpy as np
 import pytest
 
-from reynolds.errors import InputError
+from reynolds import InputError
+from system import load_pump, lumped_point, operating_point
 from system.maps.displacement import intercept_displacement, toet_displacement
-from system.points.lumped import lumped_point
-from system.pump.operating import operating_point
-from system.pump_file.file import load_pump
 
 V = 89.86e-6
 SPEEDS = np.array([1000.0, 1300.0, 1700.0, 2100.0, 2500.0]) * np.pi / 30

@@ -11,7 +11,7 @@ from pathlib import Path
 
 import pytest
 
-from reynolds.errors import FilmNotConverged, InputError
+from reynolds import FilmNotConverged, InputError
 from system.work.kept_results import KeptPoints, points_of_run, run_kept
 from system.work.processes import ProcessPool, WorkerDied, process_pool
 from system.work.tasks import PartStatus

@@ -7,8 +7,8 @@ from itertools import product
 import numpy as np
 import pytest
 
-from reynolds.errors import InputError
-from system.inputs.faults import InputFaults
+from reynolds import InputError
+from system import InputFaults, load_pump, lumped_point, map_plan, operating_point
 from system.inputs.sections.fields import fields_of
 from system.maps.compare import compare
 from system.maps.data import LOSSES, best_points, map_data
@@ -20,12 +20,9 @@ from system.maps.interpolation import (
     left_out_error,
     weights,
 )
-from system.maps.plan import MapAxis, MapInput, map_plan, paper_axes
+from system.maps.plan import MapAxis, MapInput, paper_axes
 from system.maps.point import LumpedSolver, MapWork, point_numbers
-from system.points.lumped import lumped_point
 from system.pump.efficiency import EfficiencyDefinition
-from system.pump.operating import operating_point
-from system.pump_file.file import load_pump
 from system.work.tasks import PartStatus, done_part
 
 PUMP = load_pump("ref90")

@@ -9,7 +9,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from reynolds.errors import InputError
+from reynolds import InputError
+from system import Pair, load_pump
 from system.paper.figure import Figure, Unit
 from system.paper.figures.efficiencies import (
     drain_for_share,
@@ -30,8 +31,6 @@ from system.paper.judge import Impossibility, PaperClaim, Range, StatementVerdic
 from system.paper.points import PRESSURES, LossReading, PaperPoint, PointFidelity, places_of, solve_points
 from system.paper.statements import CLAIMS
 from system.pump.bench import LossSplit
-from system.pump.laws.friction_pairs import Pair
-from system.pump_file.file import load_pump
 from system.work.kept_results import KeptPoints
 from system.work.processes import HERE
 

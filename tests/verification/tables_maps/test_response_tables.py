@@ -15,27 +15,25 @@ import numpy as np
 import pytest
 
 from gaps.response import Measure
-from reynolds.errors import FilmNotConverged, InputError, NotConverged
-from system.inputs.faults import InputFaults
-from system.points.lumped import lumped_point
-from system.points.table.build import TableCase, build_table, point_at, table_axes
+from reynolds import FilmNotConverged, InputError, NotConverged
+from system import (
+    InputFaults,
+    Pair,
+    PumpPoint,
+    build_table,
+    find_table,
+    load_pump,
+    lumped_point,
+    operating_point,
+    table_point,
+)
+from system.points.table.build import TableCase, point_at, table_axes
 from system.points.table.means import GAP_PAIRS, MEANINGS, SolvedPoint, mean_ratios
-from system.points.table.point import TablePoint, table_point
+from system.points.table.point import TablePoint
 from system.points.table.pump_numbers import numbers_error, pump_numbers
 from system.points.table.sources import FilmsSolver, Source
-from system.points.table.store import (
-    find_table,
-    keep_table,
-    own_table,
-    pump_key,
-    read_table,
-    table_record,
-)
-from system.pump.assembly import PumpPoint
+from system.points.table.store import keep_table, own_table, pump_key, read_table, table_record
 from system.pump.chamber.turn import Gaps
-from system.pump.laws.friction_pairs import Pair
-from system.pump.operating import operating_point
-from system.pump_file.file import load_pump
 from system.work.processes import process_pool
 from system.work.sampled_points import points_of
 

@@ -24,13 +24,13 @@ from reynolds import (
     GivenTemperature,
     Heat,
     Held,
+    ThermalSolution,
     film,
     film_space,
     rectangle,
+    solve_energy,
     solve_thermal,
 )
-from reynolds.thermal.energy import solve_energy
-from reynolds.thermal.film import ThermalSolution
 from reynolds.thermal.film_profile import dowson, film_with, levels, shear_stress, velocity
 from reynolds.thermal.walls import Wall
 

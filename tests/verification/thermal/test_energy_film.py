@@ -16,25 +16,28 @@ from reynolds import (
     Adiabatic,
     Cavitation,
     Cell,
+    Convecting,
     FilmInputError,
     FilmNotConverged,
     FilmProblem,
     FilmSolver,
     FilmSpace,
+    FilmTemperature,
     GivenTemperature,
     Heat,
     Held,
     Storage,
+    ThermalSolution,
+    Turning,
     film,
     film_space,
     loads,
     rectangle,
+    solve_energy,
     solve_thermal,
 )
-from reynolds.thermal.energy import FilmTemperature, solve_energy
-from reynolds.thermal.film import ThermalSolution
 from reynolds.thermal.film_profile import dowson, levels
-from reynolds.thermal.walls import ConductingBody, Convecting, Turning, Wall
+from reynolds.thermal.walls import ConductingBody, Wall
 
 DENSITY, SPECIFIC_HEAT, CONDUCTIVITY = 860.0, 2000.0, 0.13
 LENGTH, OUTLET, SPEED, VISCOSITY, INLET = 0.02, 1e-5, 10.0, 0.03, 313.15

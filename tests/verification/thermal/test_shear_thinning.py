@@ -17,6 +17,7 @@ from scipy.optimize import brentq, fsolve
 from reynolds import (
     ZERO,
     Barus,
+    Carreau,
     Cavitation,
     Cell,
     FilmInputError,
@@ -30,7 +31,7 @@ from reynolds import (
     loads,
     rectangle,
 )
-from reynolds.laws.rheology import Carreau, Cross, Eyring
+from reynolds.laws.rheology import Cross, Eyring
 from reynolds.thermal.shear_thinning import newtonian, solve_shear
 
 LENGTH, WIDE, GAP, VISCOSITY, SPEED = 10e-3, 2.5e-3, 1e-5, 0.03, 10.0

@@ -17,8 +17,10 @@ from reynolds import (
     Array,
     Asperities,
     Barus,
+    Carreau,
     Cavitation,
     Cell,
+    Convecting,
     Elastic,
     FilmInputError,
     FilmProblem,
@@ -34,23 +36,23 @@ from reynolds import (
     Surface,
     block,
     body_wall,
+    contact_pressure,
     film,
     film_space,
+    heated_wall,
     loads,
     march_thermal,
     rectangle,
     solve_thermal,
+    walther,
     winkler,
 )
+from reynolds import Body as SolidBody
 from reynolds.bodies.conduction import Convection, Thermal
-from reynolds.bodies.wall import Body as SolidBody
-from reynolds.bodies.wall import heated_wall
-from reynolds.laws.contact import boundary_shear, contact_pressure
-from reynolds.laws.oil import walther
-from reynolds.laws.rheology import Carreau
+from reynolds.laws.contact import boundary_shear
 from reynolds.laws.viscosity import RoelandsIndex, barus
 from reynolds.thermal.shear_thinning import newtonian
-from reynolds.thermal.walls import ConductingBody, Convecting, Wall
+from reynolds.thermal.walls import ConductingBody, Wall
 
 DENSITY, SPECIFIC_HEAT, CONDUCTIVITY = 860.0, 2000.0, 0.13
 LENGTH, GAP, SPEED, VISCOSITY, INLET = 0.02, 1e-5, 10.0, 0.03, 313.15
