@@ -47,6 +47,7 @@ from .inputs.units import Dimension as Dimension
 from .maps.data import MapData as MapData
 from .maps.duty import Duty as Duty
 from .maps.plan import map_plan as map_plan
+from .multibody.assumed import assumptions as assumptions
 from .multibody.rotating_group import joint_forces as joint_forces
 from .points.films import FilmsPoint as FilmsPoint
 from .points.films import films_point as films_point

@@ -16,6 +16,7 @@ from system.inputs.faults import Fault, InputFaults
 def run_check_command(options: argparse.Namespace) -> int:
     """Run `swashfilm check` and return its exit code; raise InputFaults with every fault of the file."""
     from system.inputs.toml_table import read_toml
+    from system.multibody.assumed import assumptions
     from system.pump_file.file import builtin_pumps, check_pump, resolved_toml
 
     is_pump = options.file in builtin_pumps()
@@ -52,6 +53,8 @@ def run_check_command(options: argparse.Namespace) -> int:
 
         known = load_known_pump(options.file)
         show(resolved_toml(known.pump))
+        for one in assumptions(known.pump):
+            show(f"# {one}")
         for warning in check_pump(known.pump).warnings:
             show(f"warning: {warning}")
         if known.scant:

@@ -71,11 +71,12 @@ def mechanism(pump: PumpDescription, point: OperatingPoint, control_pressure: fl
     `point`, at full displacement.
     """
     taken = Taken()
-    plate = _plate(pump, taken)
+    plate = swinging_plate(pump, taken)
     return Mechanism(plate, _actuator(pump, plate, point, control_pressure, taken), tuple(taken.assumptions))
 
 
-def _plate(pump: PumpDescription, taken: Taken) -> SwingingPlate:
+def swinging_plate(pump: PumpDescription, taken: Taken) -> SwingingPlate:
+    """The swash plate of a pump, every value stated or noted in `taken`."""
     stated, reach = pump.swash_plate, slippers_reach(pump)
     material = pump.materials.swash_plate
     density = STEEL.density if material is None or material.density is None else material.density

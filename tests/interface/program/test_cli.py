@@ -16,7 +16,7 @@ from reynolds import FilmNotConverged
 from reynolds.linear.factor import ITERATIVE_TOLERANCE
 from swashfilm.__main__ import main
 from swashfilm.runs.film import run as film_run
-from system import load_pump, resolved_toml
+from system import assumptions, load_pump, resolved_toml
 
 ROOT = Path(__file__).resolve().parents[3]
 EXAMPLES = ROOT / "examples" / "films"
@@ -257,6 +257,8 @@ def test_check_shows_what_a_file_means_without_running_it(capsys):
     assert main(["check", "ref90"]) == 0
     out = capsys.readouterr().out
     assert 'rated_pressure = "35 MPa"' in out
+    assert "# swash_plate.trunnion_friction: taken 0 N m (rolling bearings)" in out
+    assert len(assumptions(load_pump("ref90"))) == out.count("\n# ")
     assert out.endswith("ref90: ok\n")
     assert main(["check", "pad.toml"]) == 0
     assert 'viscosity = "30 mPa s"' in capsys.readouterr().out
