@@ -6,7 +6,7 @@ from system.inputs.channels import ChannelName
 from system.inputs.units import Dimension, in_unit
 
 BENCH_UNITS = {Dimension.PRESSURE: "bar", Dimension.TEMPERATURE: "degC", Dimension.VOLUME_FLOW: "L/min"}
-"""What a bench reads in, where it is not the usual reading unit."""
+"""Reading units of a bench where they are not the usual ones."""
 
 
 def channel_unit(channel: ChannelName) -> str:

@@ -21,7 +21,7 @@ CHANNELS = {
     ChannelName.TORQUE: "shaft torque", ChannelName.T_OUT: "outlet temperature",
     ChannelName.ELECTRIC_POWER: "motor power", ChannelName.P_CHAMBER: "chamber pressure",
 }  # fmt: skip
-"""What an output is to who reads it."""
+"""Names of the outputs in sentences."""
 
 
 def channel_words(channel: ChannelName) -> str:

@@ -69,13 +69,13 @@ class MapProblem:
         return b"".join(array.tobytes() for array in arrays)
 
     def differs_in_gaps_alone(self, other: MapProblem) -> bool:
-        """Whether the other's chambers differ, if at all, by the leakage of their gaps alone."""
+        """True if the other's chambers differ by nothing but the leakage of their gaps."""
         own, others = self.records, other.records
         names = [name for name in CHAMBER.names or () if name not in OF_GAPS]
         return all(np.array_equal(own[name], others[name]) for name in names) and self.has_ports_of(other)
 
     def has_ports_of(self, other: MapProblem) -> bool:
-        """Whether the other's ports open as these do, so that its chambers can take the same steps."""
+        """True if the other's ports open at the same angles, so that its chambers can take the same steps."""
         return np.array_equal(self.ports, other.ports)
 
 

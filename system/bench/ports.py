@@ -32,8 +32,8 @@ class MapPorts:
 def map_ports(pump: PumpDescription, shift: Array, wear: PortWear[Array], samples: int) -> MapPorts:
     """The ports at N points, later by shift (N,) rad (`SwashDrive.dead_centre_shift`), with their wear.
 
-    Nodes are the breaks of the ports and, of an even number of samples, every second: over steps no longer the
-    stages tell the pressure as well as the steps do. Points alike share the work.
+    Nodes are the breaks of the ports and, of an even number of samples, every second: over steps no
+    longer the stages give the pressure as well as the steps do. Equal points share the work.
     """
     rows = np.column_stack([shift, *vars(wear).values()])
     kinds, of_point = np.unique(rows, axis=0, return_inverse=True)

@@ -243,5 +243,5 @@ class PhysicsSection:
 
     @property
     def on(self) -> bool:
-        """Whether any effect is switched on."""
+        """True if any effect is switched on."""
         return any(getattr(self, own.name) is not None for own in fields(self))

@@ -15,7 +15,7 @@ from system.inputs.units import Dimension, format_quantity
 
 
 class LineKind(Enum):
-    """What hangs on a port: a held pressure, a volume behind an orifice, or a line of given impedance."""
+    """Line on a port: a held pressure, a volume before an orifice, or a line of given impedance."""
 
     HELD = "held"
     ORIFICE = "orifice"

@@ -61,7 +61,7 @@ class PadSection:
 
 
 class MeshUnit(Enum):
-    """What a coordinate of one means in a mesh file."""
+    """Unit of the coordinates in a mesh file."""
 
     METRE = "m"
     CENTIMETRE = "cm"
@@ -138,14 +138,14 @@ class GrooveSection:
 
 
 class Stroking(Enum):
-    """Which way the actuator's pressure tilts the swash plate: to larger displacement, or to smaller."""
+    """Sense in which the actuator's pressure tilts the swash plate: to larger displacement, or to smaller."""
 
     UP = "up"
     DOWN = "down"
 
 
 class RetainerKind(Enum):
-    """How slippers are kept on the swash plate: pressed by the spring, or by a plate at a fixed clearance."""
+    """Retainer that keeps slippers on the swash plate: pressed by the spring, or at a fixed clearance."""
 
     SPRING = "spring"
     CLEARANCE = "clearance"
@@ -153,7 +153,7 @@ class RetainerKind(Enum):
 
 @dataclass(frozen=True, kw_only=True)
 class RetainerSection:
-    """[retainer]: what holds the slippers down."""
+    """[retainer]: the plate that keeps the slippers on the swash plate."""
 
     kind: RetainerKind | None = None
     clearance: Length | None = None  # film at which the retainer is reached

@@ -1,4 +1,4 @@
-"""How well a pump is known, as its file states it."""
+"""Tolerances of a pump that its file states."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""How well a pump is known before anything is measured: one sigma of each of its uncertain parts."""
+"""Tolerances of a pump before anything is measured: one sigma of each uncertain parameter."""
 
 from __future__ import annotations
 
@@ -45,16 +45,16 @@ _USUAL = {
     "flow_coefficient": (0.05, "sharp-edged ports"),
     "stand_out_share": (0.5, "no drawing shows where the plate pivots"),
 }
-"""What is taken where [tolerance] says nothing, and why."""
+"""Assumed value and its reason for each key that [tolerance] leaves out."""
 
 
 def tolerances(pump: PumpDescription) -> tuple[Tolerances, tuple[Assumption, ...]]:
-    """The pump's tolerances: those of its [tolerance] table, and what is taken for the rest, each told."""
+    """The pump's tolerances: those of its [tolerance] table, else assumed ones, with a list of the assumed."""
     stated = {field.name: getattr(pump.tolerance, field.name) for field in fields(Tolerances)}
     values = {name: _USUAL[name][0] if value is None else value for name, value in stated.items()}
-    told = [
+    assumed = [
         Assumption(f"tolerance.{name}", f"{_USUAL[name][0]:g}", _USUAL[name][1])
         for name, value in stated.items()
         if value is None
     ]
-    return Tolerances(**values), tuple(told)
+    return Tolerances(**values), tuple(assumed)

@@ -27,7 +27,7 @@ LARGEST = Fraction(10) ** 30  # in SI; with its inverse the range of sizes that 
 
 @dataclass(frozen=True)
 class _Unit:
-    """What a unit text means: value in base units (m, kg, s, K, rad) = factor * number + offset, exactly."""
+    """A unit: value in base units (m, kg, s, K, rad) = factor * number + offset, exactly."""
 
     factor: Fraction
     offset: Fraction
@@ -36,9 +36,9 @@ class _Unit:
 
 
 class Dimension(Enum):
-    """What a quantity measures: a word for it, its SI unit, the units people read it in, and an example.
+    """Kind of a quantity: a word for it, its SI unit, the units people read it in, and an example.
 
-    Of the reading units the first one that makes the number at least one is shown.
+    A number is shown in the first reading unit in which it is at least one.
     """
 
     LENGTH = ("a length", "m", ("mm", "um"), "22 mm")
@@ -101,7 +101,7 @@ _HABITS = {
     Dimension.DISPLACEMENT: {"ccm": "cm3/rev", "ccm/U": "cm3/rev", "cm3/U": "cm3/rev"},
     Dimension.VOLUME_FLOW: {"l/m": "L/min", "LPM": "L/min", "l": "L/min"},
 }
-"""What benches write, that is no unit or another one, and what is meant."""
+"""Wrong units that benches write, each with the unit that is meant."""
 _QUANTITY = re.compile(r"\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d{1,3})?)\s*(.*?)\s*")
 _COMMA = re.compile(r"\s*([+-]?\d+),(\d+)(\s*[^\s,.\d].*|)")
 _ANGLE_WORDS = ("radian", "turn", "revolution", "arcminute", "arcsecond", "grade")

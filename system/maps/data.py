@@ -41,7 +41,7 @@ LOSSES = {
     "ripple_power": "ripple of lines",
     "extended_loss": "effects of [physics]",
 }
-"""What the shaft power less the hydraulic goes into, and what it is called."""
+"""Losses that add up to the shaft power minus the hydraulic power, with their names."""
 
 
 @dataclass(frozen=True)

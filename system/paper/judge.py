@@ -25,7 +25,7 @@ class StatementVerdict(Enum):
 
 @dataclass(frozen=True)
 class Range:
-    """From low to high, both within; -inf or inf: no end. Raises InputError for a range that is none."""
+    """From low to high, both within; -inf or inf: no end. Raises InputError if low is not below high."""
 
     low: float = -inf
     high: float = inf
@@ -78,7 +78,7 @@ class PaperClaim:
 
 
 OURS = "a bound of ours; the paper gives none"
-"""What a bound says of itself that the paper does not state."""
+"""Remark on a bound that the paper does not state."""
 
 
 def share_claim(
@@ -97,9 +97,9 @@ def number_claim(
 
 @dataclass(frozen=True)
 class Impossibility:
-    """Why no number of ours could meet a statement: a quantity that would have to lie within a bound and does not.
+    """Quantity outside a bound within which it would have to lie for any number of ours to meet a statement.
 
-    It is computed each time; where the quantity lies within, there is no contradiction.
+    It is computed each time; a quantity within the bound is no contradiction.
     """
 
     quantity: str

@@ -50,7 +50,7 @@ RIGID_FINER, SOFT_FINER = 1.0, 0.5
 SLIPPER_START = BLOCK_START = 1e-5  # m: a film that every pump starts with
 SOFTLY = "a coarser mesh to find where, or rigid walls"
 USUAL = Physics()
-"""What the films of high pressure need: walls that give way, oil that stiffens, rough walls, cavities."""
+"""Physics of films at high pressure: elastic walls, viscosity that rises with pressure, rough walls, cavities."""
 
 
 def usual_finer(physics: Physics) -> float:
@@ -145,7 +145,7 @@ def slipper_revolution(
 
 
 def _pulled_off(drive: SlipperDrive, steps: int, stopped: FilmNotConverged) -> FilmNotConverged:
-    """Why a slipper's turn has ended: pulled off its plate with more than the spring behind its retainer bears."""
+    """Error of a slipper's turn, pulled off its plate where the force exceeds the limit of the retainer."""
     degrees = np.linspace(0.0, 360.0, steps, endpoint=False)
     lift = np.array([-float(np.asarray(drive.outer(np.radians(at)))[0]) for at in degrees])
     worst = int(np.argmin(lift))
@@ -154,7 +154,7 @@ def _pulled_off(drive: SlipperDrive, steps: int, stopped: FilmNotConverged) -> F
         return stopped
     pulled = (
         f"at {degrees[worst]:.0f} deg the slipper is pulled off its plate with {-lift[worst]:.4g} N beyond the "
-        f"spring's share, and the retainer gives way from {holds:.4g} N on"
+        f"spring's share, and the retainer lifts off from {holds:.4g} N on"
     )
     remedy = "a stiffer spring (ball_guide.spring_preload), or retainer.kind = 'clearance'"
     return FilmNotConverged(f"{stopped.what}; {pulled}", f"{remedy}; {stopped.remedy}")

@@ -56,11 +56,12 @@ class Remark:
 
 
 PORT_PRESSURE_MET = 1e-3
-"""Part of the ports' pressure difference by which a port's mean pressure may miss the operating point untold."""
+"""Part of the ports' pressure difference by which a port's mean pressure may miss the operating point without
+a warning."""
 ENERGY_BALANCED = 5e-3
-"""Energy balance error from which it is told: five times what is asked of every fidelity."""
+"""Energy balance error from which a point warns: five times the tolerance of every fidelity."""
 OVERPRESSURE = 1.1
-"""Chamber peak over the higher port pressure (both absolute) from which trapped oil is told."""
+"""Chamber peak over the higher port pressure (both absolute) from which a point warns of trapped oil."""
 
 
 @dataclass(frozen=True)
@@ -212,7 +213,7 @@ def met_point(point: OperatingPoint, ported: PortedCycle) -> OperatingPoint:
 
 
 def pumps(reading: BenchReading) -> bool:
-    """Whether shaft power goes in and oil goes from inlet to delivery: elsewhere an efficiency is void."""
+    """True if shaft power goes in and oil goes from inlet to delivery: else the efficiency is void."""
     return reading.shaft_power > 0.0 and reading.inlet_flow > 0.0 and reading.delivery_flow > 0.0
 
 

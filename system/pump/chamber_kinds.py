@@ -1,8 +1,8 @@
 """Pumps whose chambers differ: `[piston.3]` beside `[piston]`.
 
 Such a pump is the mean of z pumps that are alike, each with the piston and slipper of one chamber: flows, powers
-and torques of chambers add. Chambers with the same parts are of one kind; where all are, one chamber tells of all.
-What belongs to chambers comes as a tuple, of one for all that are alike, else of z, chamber 1 first.
+and torques of chambers add. Chambers with the same parts are of one kind; where all are, one chamber is solved
+for all. Results by chamber come as a tuple: of one where all are alike, else of z, chamber 1 first.
 """
 
 from __future__ import annotations
@@ -28,7 +28,7 @@ class Kinds:
 
     @property
     def alike(self) -> bool:
-        """Whether one chamber tells of all."""
+        """True if all chambers are of one kind."""
         return len(self.pumps) == 1
 
     def hold_alike(self) -> None:

@@ -43,7 +43,7 @@ class LandLosses:
 
     @property
     def any(self) -> bool:
-        """Whether a file says anything."""
+        """True if a file gives any loss."""
         return bool(self.slipper.edges or self.inner.edges or self.bore)
 
 

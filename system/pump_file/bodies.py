@@ -1,6 +1,6 @@
-"""Checks of the meshes that users state for parts: what is no body, and what does not fit its gap.
+"""Checks of the meshes that users state for parts: that each is a body and fits its gap.
 
-Each mesh is held against the place of its film in the part's own axes: a cylinder about z, or rings in z = 0.
+Each mesh is compared with the place of its film in the part's own axes: a cylinder about z, or rings in z = 0.
 """
 
 from __future__ import annotations
@@ -33,7 +33,7 @@ FEWEST_AROUND, FEWEST_ACROSS = 12, 2  # facets of a face that still bends as its
 
 @dataclass(frozen=True)
 class _Place:
-    """Where a part's film lies: its chart, all of it that is met, its shape in words, and its width (m)."""
+    """Place of a part's film: chart, film over the whole turn, shape in words, width and circumference (m)."""
 
     chart: Chart
     film: FilmSpace
@@ -177,7 +177,7 @@ def _missing(path: str, own: OwnMesh, wanted: tuple[str, ...]) -> Iterator[Findi
 
 
 def _lies(path: str, body: BodySection, space: BodySpace, face: Face, place: _Place) -> Iterator[Finding]:
-    """Whether the film's face lies under the film, in the unit that is stated, in cells that are fine enough."""
+    """Yield the findings of a face off its film: a wrong unit, another place, or cells that are too coarse."""
     found, wanted = np.ptp(face.places, axis=0).max(), np.ptp(place.points, axis=0).max()
     if unit := _likely_unit(body.unit, float(wanted / found)):
         expected = f"a face about as large as the film on it, {length(float(wanted))}"
@@ -200,7 +200,7 @@ def _likely_unit(stated: MeshUnit, ratio: float) -> MeshUnit | None:
 
 
 def _remedy(face: Face, place: _Place) -> str:
-    """What would bring the face under the film, where that is plain."""
+    """The change that would bring the face under the film; empty where none is plain."""
     outward = face.area.sum(axis=1)
     middles = face.places[face.facets].mean(axis=1)
     if (outward * place.chart.normals(middles)).sum() < 0.0:

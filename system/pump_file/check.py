@@ -33,7 +33,7 @@ Finding = Fault | CheckWarning
 
 @dataclass(frozen=True)
 class CheckReport:
-    """What the checks found: faults forbid a run, warnings do not."""
+    """Findings of the checks: faults forbid a run, warnings do not."""
 
     faults: tuple[Fault, ...]
     warnings: tuple[CheckWarning, ...]

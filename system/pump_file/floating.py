@@ -22,7 +22,7 @@ from system.pump_file.check import (
 
 @needs("pump.rated_pressure", "valve_plate.land_radius_1", "valve_plate.land_radius_4")
 def block_tips(pump: PumpDescription) -> Iterator[Finding]:
-    """What a parallel film does not lift of the pistons' force presses within the valve plate's outermost face.
+    """The pistons' force that a parallel film does not lift acts within the valve plate's outermost face.
 
     At rated pressure and full swash angle, spring included (`gaps.loads.block_tipping`).
     """

@@ -20,7 +20,7 @@ SUMMARIES = frozenset({
     "rms", "sum", "total", "count", "range", "mittel", "mittelwert", "summe", "streuung", "moyenne", "media",
     "promedio",
 })  # fmt: skip
-"""What rows below a table that are no readings are called, in small letters."""
+"""Names of the rows below a table that sum it up and are no readings, in small letters."""
 _POINT = re.compile(r"\s*[+-]?(\d+\.?\d*|\.\d+)(e[+-]?\d+)?\s*", re.IGNORECASE)
 _IN_BRACKETS = re.compile(r"[\[(]([^\])]+)[\])]\s*$")
 _COMMA = re.compile(r"\s*[+-]?(\d+,?\d*|,\d+)(e[+-]?\d+)?\s*", re.IGNORECASE)

@@ -55,7 +55,7 @@ class DiagnosisRun(Result):
 
     @property
     def effects(self) -> list[dict[str, Any]]:
-        """What is claimed: id, pair, probability, parameters with sigmas in SI."""
+        """The claimed effects: id, pair, probability, parameters with sigmas in SI."""
         return list(self.record["effects"])
 
     @cached_property

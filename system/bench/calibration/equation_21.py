@@ -39,7 +39,7 @@ RANGES: Mapping[Pair, tuple[float, float]] = {
 }
 """The paper's reasonable ranges of the friction coefficients."""
 LOSS_CHANNELS = (ChannelName.Q_OUT, ChannelName.Q_IN, ChannelName.Q_CASE, ChannelName.TORQUE)
-"""What Eq. (2) is made of, beside speed and pressures."""
+"""Readings that Eq. (2) needs, beside speed and pressures."""
 RANK_NOISE = 1e-3  # of the loss: no bench is better
 BEYOND = 2.0  # times the range's ends: no coefficient is looked for farther away
 

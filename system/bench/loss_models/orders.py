@@ -1,4 +1,4 @@
-"""The orders of a polynomial that readings bear: those that foretell levels left out the best."""
+"""Orders of a polynomial by cross-validation: those that predict levels left out the best."""
 
 from __future__ import annotations
 
@@ -25,10 +25,10 @@ HIGHEST = Orders(3, 4, 3)
 def polymod_for(
     pump: PumpDescription, points: BenchPoints, inputs: tuple[ChannelName, ...], observations: Observations
 ) -> LossModel:
-    """Polymod of the orders, one set for flow and one for torque, that these readings foretell the best by.
+    """Polymod of the orders, one set for flow and one for torque, that predicts these readings the best.
 
     Each level of speed, pressure difference and displacement is left out in turn; the orders' misfits there, in
-    sigma, are compared. An axis of m levels bears m - 2 at most: with one more a level left out is foretold
+    sigma, are compared. An axis of m levels allows m - 2 at most: with one more a level left out is predicted
     by a polynomial that passes through all others. `observations` are those of `modelled`; points without a
     reading are none.
     """
@@ -59,7 +59,7 @@ def _misfit(
     observations: Observations,
     parts: list[NDArray[np.int64]],
 ) -> tuple[float, float]:
-    """Sum of the squares of what is foretold wrongly, in sigma, of flow and of torque."""
+    """Sum of the squares of prediction errors, in sigma, of flow and of torque."""
     fit = linear_posterior(loss_model_bench(model, pump, points, inputs), observations)
     sigma, found = fit.whitening.sigma, np.zeros(2)
     for part in parts:

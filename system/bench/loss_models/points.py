@@ -1,4 +1,4 @@
-"""What loss models hang on: speed, pressure difference, displacement ratio and the oil, scaled by the pump."""
+"""Variables of loss models: speed, pressure difference, displacement ratio and the oil, scaled by the pump."""
 
 from __future__ import annotations
 

@@ -1,11 +1,11 @@
-"""What films lose at their edges and by inertia, beyond the film equation, on their way across a land.
+"""Pressure losses of films across a land at their edges and by inertia, beyond the film equation.
 
     dp = q/G + sum over edges of (12 mu u e/h + K rho u^2/2) + 54/35 sum over lands of rho (u_out^2 - u_in^2)/2
 
 with u = q/(angle r h) at an edge or groove of radius r, extra length e and loss factor K there at Re = u h/nu
-(`loss_files`). The last sum is what a film between discs spends on its own kinetic energy to first order in Re
-(Hunt, Torbe 1962: 27/35 rho u^2): with K of deep edges, 54/35 into the film and -54/35 out of it as Re goes to 0,
-all inertia cancels but for what falls with Re. Valid for h far below r, laminar flow.
+(`loss_files`). The last sum is the kinetic energy of a film between discs to first order in Re (Hunt, Torbe 1962:
+27/35 rho u^2). With K of deep edges, 54/35 into the film and -54/35 out of it as Re goes to 0, all inertia cancels
+except the part that falls with Re. Valid for h far below r, laminar flow.
 """
 
 from __future__ import annotations
@@ -62,11 +62,11 @@ class LandPath:
 
     @property
     def extra_log(self) -> float:
-        """What edges add to the lands' sum of ln(r_out/r_in) in creeping flow: sum of e h/r."""
+        """Addition of the edges to the lands' sum of ln(r_out/r_in) in creeping flow: sum of e h/r."""
         return float(sum(edge.extra_length * self.film / edge.radius for edge in self.edges))
 
     def resistance(self, viscosity: float) -> float:
-        """What edges add in creeping flow, Pa s/m3: 12 mu/(angle h^3) times `extra_log`."""
+        """Resistance of the edges in creeping flow, Pa s/m3: 12 mu/(angle h^3) times `extra_log`."""
         return 12.0 * viscosity / (self.angle * self.film**3) * self.extra_log
 
     def largest_reynolds(self, flow: Array, kinematic_viscosity: float) -> float:
@@ -89,8 +89,8 @@ class LandPath:
 def secant_conductance(conductance: Array, excess: Excess, drop: Array, where: str) -> Array:
     """Flow over pressure drop (N,), m3/(s Pa), of dp = q/G + excess(q) at drops (N,) in Pa; G itself at none.
 
-    By halving: the drop rises with the flow. Raises InputError, told `where`, for an excess that gives back
-    more than twice the drop at twice the flow: losses that are none.
+    By halving: the drop rises with the flow. Raises InputError at the path `where` for an excess so negative
+    that twice the flow needs less than the drop.
     """
     size = np.where(drop == 0.0, 1.0, drop)
     low, high = np.zeros_like(size), np.full_like(size, 2.0)

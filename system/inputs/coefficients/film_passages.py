@@ -1,10 +1,10 @@
-"""A computed flow through a step or groove of a film, taken apart: extra length, and loss factor at its Re.
+"""Extra length and loss factor of a step or groove of a film, from a computed flow through it.
 
     dp = 12 mu u (L + extra_length h)/h^2 + loss_factor rho u^2/2
 
-with h the thinner film, u the mean velocity in it, and L what the films between the patches are long, as of h. The
-extra length is Stokes flow's: a flow of Re = u h/nu of CREEPING at most gives it, with the loss factor of first
-order in Re, 54/35 (1 - r^2) into a film r times as thick as what stands before, less that the other way.
+with h the thinner film, u the mean velocity in it, and L the length of the films between the patches, as of h. The
+extra length is that of Stokes flow: a flow of Re = u h/nu of CREEPING at most gives it, with the loss factor of
+first order in Re: 54/35 (1 - r^2) into a film r times as thick as the one before it, less that out of it.
 """
 
 from __future__ import annotations
@@ -62,10 +62,10 @@ class FilmLoss:
 def film_loss(
     passage: FilmPassage, flow: CaseFlow, density: float, kinematic_viscosity: float, extra_length: float | None
 ) -> FilmLoss:
-    """What a flow's pressure drop (Pa) says of its passage, oil of kg/m3 and m2/s.
+    """Loss of a passage by the pressure drop (Pa) of a flow of oil of kg/m3 and m2/s.
 
-    With the passage's extra length known the flow gives the loss factor, without it the extra length itself.
-    Raises InputFaults where that is asked of a flow faster than CREEPING.
+    With the passage's extra length known the flow gives the loss factor, without it the extra length.
+    Raises InputFaults if the extra length is asked of a flow faster than CREEPING.
     """
     speed = flow.flow / passage.area
     reynolds = speed * passage.film / kinematic_viscosity

@@ -1,7 +1,7 @@
-"""What films lose at their edges by file, CFD's or `swashfilm reference`'s: steps, and grooves across a film.
+"""Loss files of film edges, from CFD or `swashfilm reference`: steps, and grooves across a film.
 
 A CSV file with `# source: where the numbers come from` ahead of its head, every size at every Reynolds number
-u h/nu of the (thinner) film. It holds in the range of its rows.
+u h/nu of the (thinner) film. It is valid in the range of its rows.
 """
 
 from __future__ import annotations

@@ -167,7 +167,7 @@ class FieldType:
 
     @property
     def dimension(self) -> Dimension | None:
-        """What the field measures, None for what is no single quantity."""
+        """Dimension of the field's quantity; None for another field."""
         return self._mark(Dimension)
 
     @property

@@ -15,14 +15,14 @@ from system.inputs.sections.point_files import read_rows, wanted_file
 from system.inputs.units import Dimension, QuantityError, format_quantity, parse_quantity, with_point
 
 HERE = Path()
-"""Where files are looked for that a built-in pump's own values name: the working directory."""
+"""Folder of the files that a built-in pump's values name: the working directory."""
 
 
 def read_value(field: FieldType, raw: object, folder: Path = HERE) -> object:
-    """Return what an entry of a table means, in SI: a number, a choice, rows of numbers, text, a file's table.
+    """Return the value of a table's entry, in SI: a number, a choice, rows of numbers, text, a file's table.
 
-    Rows may stand in a CSV file, named like any file by its path from the folder. Raises QuantityError (found,
-    expected, nearest) for what the field does not hold, InputFaults for a file that is none of its kind.
+    Rows may come from a CSV file, named like any file by its path from the folder. Raises QuantityError (found,
+    expected, nearest) for an entry of another kind, InputFaults for a file that is not of its kind.
     """
     if field.dimension is not None:
         return parse_quantity(raw, field.dimension)

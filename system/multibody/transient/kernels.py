@@ -83,12 +83,13 @@ the trunnion, fading below rubbing_rate rad/s; sense 1 for an actuator that stro
 """
 
 ATTEMPTS = 10
-"""Newton's method may swing about a narrow port's laminar range and close in slowly: it goes on where it stood."""
+"""Newton's method may swing about a narrow port's laminar range and converge slowly: an attempt starts at the
+last iterate of the one before."""
 COLUMNS = 16
 TIME, ANGLE, RATE, ACCELERATION, CONTROL, ACTUATOR, MOMENT_PRESSURE, MOMENT_INERTIA = range(8)
 MOMENT_FRICTION, MOMENT_ACTUATOR, MOMENT_SPRING, MOMENT_DRAG, MOMENT_STOP, DELIVERY, SUCTION, CASE = range(8, 16)
-"""What a row of the course holds: s, rad, rad/s, rad/s2, Pa, Pa, N m; of the step that ends there the flows out of
-the chambers, m3/s at zero gauge pressure."""
+"""Columns of the course: s, rad, rad/s, rad/s2, Pa, Pa, N m; the flows out of the chambers over the step that ends
+there, m3/s at zero gauge pressure."""
 
 
 @numba.njit(cache=True, error_model="numpy")
@@ -131,7 +132,7 @@ def actuator_reach(plate, angle):
 
 @numba.njit(cache=True, error_model="numpy")
 def actuator_at(chamber, plate, angle, rate, control, ways):
-    """The same of the actuator: its orifice stands in the place of the delivery port, its leak in the piston's."""
+    """The same of the actuator: its orifice takes the place of the delivery port, its leak that of the piston."""
     c, p = chamber[0], plate[0]
     ways[:] = 0.0
     ways[col.CONDUCTANCE] = p.actuator_leak

@@ -29,7 +29,7 @@ from system.paper.statements import CLAIMS
 from system.pump.bench import LossSplit, paper_efficiency
 
 LATE_END = radians(178.0)
-"""Where the delivery kidney of the variant of `without_trapped_oil` shuts, from its dead centre."""
+"""End of the delivery kidney in the variant of `without_trapped_oil`, rad from its dead centre."""
 LOW = RATIOS[0]
 
 

@@ -80,7 +80,7 @@ class ChamberCycle(TurnTotals):
 
     @property
     def cavitates(self) -> bool:
-        """Whether the chamber holds a cavity at any sampled shaft angle."""
+        """True if the chamber has a cavity at any sampled shaft angle."""
         return bool(np.min(self.pressure) < CAVITY_PRESSURE)
 
 

@@ -16,7 +16,7 @@ from typing_extensions import TypeVar
 from reynolds.numerics.arrays import Array
 
 Number = TypeVar("Number", float, Array, default=float)
-"""What belongs to one operating point, or for N points at once a column (N, 1), shaft angles being the rows."""
+"""A quantity of one operating point, or of N points a column (N, 1); each row is over the shaft angles."""
 
 
 @dataclass(frozen=True)
@@ -191,7 +191,7 @@ def drive_at_ratio(full: SwashDrive, displacement_ratio: Number) -> SwashDrive[N
 
 
 def stand_out(full: SwashDrive, drive: SwashDrive[Number]) -> Number:
-    """How far the piston stands out at its inner dead centre beyond full displacement, in m: (H_max - H)/2.
+    """Overhang of the piston at its inner dead centre beyond that at full displacement, in m: (H_max - H)/2.
 
     The plate pivots on the shaft axis, so both dead centres draw towards mid stroke as it is set back. Exact for
     a cylindrical block; with a cone the mid point itself moves by less than t H_max/2 (0.33 mm on REF90), left

@@ -20,7 +20,7 @@ QUADRATURE_POINTS = 256
 
 
 class RetainerMotion(Enum):
-    """How fast a contact point of the retainer goes round."""
+    """Rotation of the retainer's contact points."""
 
     RIGID = "rigid retainer turning at shaft speed"
     PRINTED = "paper Eq. (12): the contact point keeps the azimuth of the ball guide"
@@ -104,7 +104,7 @@ def spring_force(preload: float, stiffness: float, compression: float) -> float:
 def tipping_share(pistons: int) -> float:
     """Share of the retainer's normal force with which one slipper tips it about those across.
 
-    The plate, free to tilt on its ball, then stands on that slipper and on those nearest to its opposite, c times
+    The plate, free to tilt on its ball, then rests on that slipper and on those nearest to its opposite, c times
     the pitch radius beyond the ball: c/(1 + c), c = cos(pi/z) of two of them for an odd number z, else 1.
     """
     across = np.cos(np.pi / pistons) if pistons % 2 else 1.0

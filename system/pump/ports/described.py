@@ -99,7 +99,7 @@ def throats(ports: PortsSection, radius: float) -> tuple[float, float]:
 
 
 def line_of(stated: LineSection, tank_pressure: float) -> Line:
-    """What hangs on a port; `tank_pressure` Pa where none is stated. The section is one without faults."""
+    """Line on a port; `tank_pressure` Pa where none is stated. The section has no faults."""
     match stated.kind:
         case None | LineKind.HELD:
             return HeldPressure()

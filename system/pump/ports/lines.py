@@ -1,4 +1,4 @@
-"""What hangs on a port of the pump: a held pressure, a volume that an orifice empties, a line of given impedance.
+"""Lines on the ports of the pump: a held pressure, a volume that an orifice empties, a line of given impedance.
 
 A line's flow is counted out of the port, m3/s of oil at the port's pressure; a suction line's is negative. The
 volume belongs to the port: pipe and passages up to where the orifice sits or the impedance was measured.
@@ -87,7 +87,7 @@ Line = HeldPressure | OrificeLine | ImpedanceLine
 
 @dataclass(frozen=True)
 class Lines:
-    """What hangs on delivery and suction port."""
+    """Lines on delivery and suction port."""
 
     delivery: Line = HeldPressure()
     suction: Line = HeldPressure()
