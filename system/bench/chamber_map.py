@@ -65,7 +65,7 @@ class MapProblem:
     @property
     def key(self) -> bytes:
         """Bytes of all that the courses depend on."""
-        arrays = (self.records, self.leaks.conductance, self.leaks.carried_flow, self.ports)
+        arrays = (self.records, self.leaks.conductance, self.leaks.drag_flow, self.ports)
         return b"".join(array.tobytes() for array in arrays)
 
     def differs_in_gaps_alone(self, other: MapProblem) -> bool:
@@ -147,16 +147,16 @@ def other_gaps(courses: Courses, solved: MapProblem, other: MapProblem) -> Cours
         slipper=out.slipper + more[1],
         valve_plate=out.valve_plate + more[2],
     )
-    before_it, pulled = courses.totals.carried_energy, work.mean(axis=2).T
-    carried = Gaps(before_it.piston + pulled[0], before_it.slipper + pulled[1], before_it.valve_plate + pulled[2])
-    return Courses(courses.pressure, replace(courses.totals, outflow=outflow, carried_energy=carried))
+    before_it, pulled = courses.totals.drag_energy, work.mean(axis=2).T
+    drag = Gaps(before_it.piston + pulled[0], before_it.slipper + pulled[1], before_it.valve_plate + pulled[2])
+    return Courses(courses.pressure, replace(courses.totals, outflow=outflow, drag_energy=drag))
 
 
 def _gap_rates(pressure: Array, problem: MapProblem) -> tuple[Array, Array]:
-    """Of each gap (N, 3, M): oil out in m3 at zero gauge pressure, and work of carried oil in J, a turn."""
+    """Of each gap (N, 3, M): oil out in m3 at zero gauge pressure, and work of dragged oil in J, a turn."""
     case, modulus = problem.chamber.case_pressure[:, None, None], problem.chamber.bulk_modulus
     inside = np.maximum(pressure, CAVITY_PRESSURE)[:, None, :]
     dense = np.exp(inside / modulus) * TURN / problem.chamber.shaft_speed[:, None, None]
-    flow = problem.leaks.conductance * (pressure[:, None, :] - case) + problem.leaks.carried_flow
+    flow = problem.leaks.conductance * (pressure[:, None, :] - case) + problem.leaks.drag_flow
     fall = modulus * (np.exp(-case / modulus) - np.exp(-inside / modulus))
-    return flow * dense, problem.leaks.carried_flow * dense * fall
+    return flow * dense, problem.leaks.drag_flow * dense * fall

@@ -52,9 +52,9 @@ def affected_leaks(leaks: LeakTable, effects: Effects[Value]) -> LeakTable:
     """Leaks with the effects' factors at the effects' angles; of fewer angles, by a periodic spline."""
     factor, count = np.moveaxis(effects.conductance, 0, -2), effects.conductance.shape[-1]
     if leaks.conductance.shape[-1] == count:
-        return LeakTable(leaks.conductance * factor, leaks.carried_flow)
-    conductance, carried = (_at_angles(table, count) for table in (leaks.conductance, leaks.carried_flow))
-    return LeakTable(np.maximum(conductance, 0.0) * factor, carried)
+        return LeakTable(leaks.conductance * factor, leaks.drag_flow)
+    conductance, drag_flow = (_at_angles(table, count) for table in (leaks.conductance, leaks.drag_flow))
+    return LeakTable(np.maximum(conductance, 0.0) * factor, drag_flow)
 
 
 def affected_wear(wear: PortWear[Value], effects: Effects[Value]) -> PortWear[Value]:

@@ -196,7 +196,7 @@ def _shaft_drag(found: PumpPoint) -> ShaftDrag:
     rubbing = (Pair.VALVE_PLATE_CYLINDER, Pair.FRONT_BEARING, Pair.REAR_BEARING)
     losses = (found.pairs.loss(pair) for pair in rubbing)
     plate, front, rear = ((loss.coulomb + loss.viscous) / speed for loss in losses)
-    return ShaftDrag(plate - found.exchange.carried.valve_plate / speed, front, rear)
+    return ShaftDrag(plate - found.exchange.drag_power.valve_plate / speed, front, rear)
 
 
 def _guide_spline(group: TurningGroup, guide: GuideContact) -> Array:

@@ -224,9 +224,9 @@ def edged_leaks(pump: PumpDescription, point: OperatingPoint, gaps: GapCycle) ->
 
 def gap_exchange(gaps: GapCycle, cycle: ChamberCycle, pistons: int, point: OperatingPoint) -> GapExchange:
     """Power of the oil that moving walls drag along, and the flow from the ports into the valve plate's film."""
-    carried = chamber_exchange(cycle, pistons * point.shaft_speed / TURN).carried
+    by_chamber = chamber_exchange(cycle, pistons * point.shaft_speed / TURN).drag_power
     return GapExchange(
-        carried=replace(carried, valve_plate=float(gaps.drag_power.mean())),
+        drag_power=replace(by_chamber, valve_plate=float(gaps.drag_power.mean())),
         delivery_draw=float(np.mean([film.report.delivery_draw for film in gaps.valve_plate])),
         suction_draw=float(np.mean([film.report.suction_draw for film in gaps.valve_plate])),
     )
@@ -246,9 +246,9 @@ def film_shear(gaps: GapCycle, case_pressure: float) -> tuple[Array, Array, Arra
     Power of the walls plus the power returned by the oil that they drag along, P + C (p - p_case): the film's
     dissipation less that of its pressure flow, which is leakage loss.
     """
-    carried = leak_table(gaps, case_pressure).carried_flow * (gaps.chamber_pressure - case_pressure)
-    piston = np.array([film.friction_power for film in gaps.piston]) + carried[0]
-    slipper = np.array([film.friction_power for film in gaps.slipper]) + carried[1]
+    dragged = leak_table(gaps, case_pressure).drag_flow * (gaps.chamber_pressure - case_pressure)
+    piston = np.array([film.friction_power for film in gaps.piston]) + dragged[0]
+    slipper = np.array([film.friction_power for film in gaps.slipper]) + dragged[1]
     ring = np.array([film.friction_power for film in gaps.valve_plate]) + gaps.drag_power
     return piston, slipper, ring
 
@@ -278,7 +278,7 @@ def _sampling_error(
     problem: ChamberProblem, leaks: LeakTable, effects: Sequence[Effects[float]], cycle: ChamberCycle
 ) -> float:
     """Relative change of the leakage when the chamber knows only every second angle of the films' leaks."""
-    halved = LeakTable(leaks.conductance[:, ::2].copy(), leaks.carried_flow[:, ::2].copy())
+    halved = LeakTable(leaks.conductance[:, ::2].copy(), leaks.drag_flow[:, ::2].copy())
     for one in effects:
         halved = affected_leaks(halved, one)
     coarse = solve_cycle(replace(problem, leaks=halved), cycle.shaft_angle.size)

@@ -77,11 +77,11 @@ def resampled(values: Array, samples: int) -> Array:
 
 
 def leak_table(gaps: FloatingGaps) -> LeakTable:
-    """Flow out of the chamber into each gap, by its angle; it answers to the pressure by the next round alone."""
+    """Flow out of the chamber into each gap, by its angle; it follows the pressure in the next round only."""
     piston = passing(gaps.piston, lambda report: float(report.flow[0]))
     slipper = passing(gaps.slipper, lambda report: float(report.flow[0]))
-    carried = np.stack([piston, slipper, chamber_draws(gaps.block, gaps.chamber, len(piston))])
-    return LeakTable(np.zeros_like(carried), carried)
+    flow = np.stack([piston, slipper, chamber_draws(gaps.block, gaps.chamber, len(piston))])
+    return LeakTable(np.zeros_like(flow), flow)
 
 
 def chamber_draws(block: GapRevolution[BlockReport], chamber: int, steps: int) -> Array:
@@ -264,7 +264,7 @@ def gap_exchange(gaps: FloatingGaps, pistons: int, shaft_speed: float) -> GapExc
     chambers without the shaft.
     """
     return GapExchange(
-        carried=Gaps(
+        drag_power=Gaps(
             pistons * (_mean(gaps.piston, lambda one: _rubbed(one) - one.friction.power) + _pushed(gaps.piston)),
             pistons * (_mean(gaps.slipper, lambda one: _rubbed(one) - one.friction.power) + _pushed(gaps.slipper)),
             _mean(gaps.block, lambda one: _rubbed(one) - one.torque * shaft_speed) + _pushed(gaps.block),

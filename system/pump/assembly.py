@@ -143,7 +143,7 @@ def assemble(
     they do not load the lines on the ports. Gaps leak heat by their flow, and the torque comes from
     the forces behind the losses: `put_together`.
     """
-    ring = exchange.carried.valve_plate
+    ring = exchange.drag_power.valve_plate
     torque = shaft_torque(ported.problems, ported.cycles, pairs, masses, pistons, ring)
     leakage = leakage_by_flow(ported, pistons * point.shaft_speed / TURN, exchange)
     mean = mean_of(pairs)

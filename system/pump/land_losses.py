@@ -67,7 +67,7 @@ def _plate_radii(pump: PumpDescription) -> tuple[float, ...]:
 
 
 def creeping_film_leaks(pump: PumpDescription, leaks: LeakTable, viscosity: float) -> LeakTable:
-    """Leaks of solved films with what edges add in creeping flow, in series with lands; carried oil as it is."""
+    """Leaks of solved films with edges in creeping flow, in series with lands; the drag flow is unchanged."""
     losses, shares = land_losses(pump), _plate_shares(pump)
     piston, slipper, plate = leaks.conductance
     slipper = slipper / (1.0 + slipper * losses.slipper.resistance(viscosity))
@@ -75,13 +75,13 @@ def creeping_film_leaks(pump: PumpDescription, leaks: LeakTable, viscosity: floa
         share * plate / (1.0 + share * plate * path.resistance(viscosity))
         for share, path in zip(shares, (losses.inner, losses.outer), strict=True)
     )
-    return LeakTable(np.stack([piston, slipper, sum(parts)]), leaks.carried_flow)
+    return LeakTable(np.stack([piston, slipper, sum(parts)]), leaks.drag_flow)
 
 
 def with_inertia(
     pump: PumpDescription, leaks: LeakTable, drop: Array, viscosity: float, *, bore: bool
 ) -> LeakTable:
-    """Leaks of creeping flow with what inertia takes at pressures over the case's, drop (N,) in Pa.
+    """Leaks of creeping flow with the losses by inertia at pressures over the case's, drop (N,) in Pa.
 
     Conductances are those of chords: flow over pressure. `bore`: of the slipper's bore too, where the leaks have
     not got it from a film that is fed through it. Raises InputError as `secant_conductance`.
@@ -108,7 +108,7 @@ def with_inertia(
         secant_conductance(one, by(path), drop, "valve_plate.kidney_file")
         for one, path in ((inner, losses.inner), (outer, losses.outer))
     )
-    return LeakTable(np.stack([piston, slipper, inner + outer]), leaks.carried_flow)
+    return LeakTable(np.stack([piston, slipper, inner + outer]), leaks.drag_flow)
 
 
 def _plate_shares(pump: PumpDescription) -> tuple[float, float]:

@@ -27,8 +27,8 @@ from system.pump.laws.kinematics import (
     stand_out,
 )
 from system.pump.laws.leakage import (
-    piston_carried_flow,
     piston_conductance,
+    piston_drag_flow,
     slipper_conductance,
     valve_plate_conductance,
 )
@@ -109,7 +109,7 @@ def swept_displacement(pump: PumpDescription, drive: SwashDrive) -> float:
 
     z (Ap + pi dp delta/2) (S at which the suction port shuts - S at which the delivery port shuts). Oil taken in
     after the suction port shut comes back out of the delivery port, so less than the stroke counts (1.5 % on
-    REF90); oil carried in the piston gap moves as if the piston had the mean of its own and the bore's area
+    REF90); oil dragged in the piston gap moves as if the piston had the mean of its own and the bore's area
     (+ 2 delta/dp, 0.14 %). Toet's method on readings (`displacement`, ISO 8426-1) finds 0.4 % less on REF90: what
     compression and commutation take at every pressure in proportion to speed.
     """
@@ -169,10 +169,10 @@ def lumped_leaks(pump: PumpDescription, point: OperatingPoint[Number], motion: P
     plate = valve_plate_conductance((r1, r2, r3, r4), v.film_thickness, pump.pump.pistons, mu, extra_logs)
     ones = np.ones_like(motion.shaft_angle)
     piston = piston_conductance(diameter, p.radial_clearance, motion.engaged_length, p.eccentricity_ratio, mu)
-    carried = piston_carried_flow(diameter, p.radial_clearance, motion.velocity)
+    dragged = piston_drag_flow(diameter, p.radial_clearance, motion.velocity)
     return LeakTable(
         conductance=np.stack([piston, slipper * ones, plate * ones], axis=-2),
-        carried_flow=np.stack([carried, 0.0 * carried, 0.0 * carried], axis=-2),
+        drag_flow=np.stack([dragged, 0.0 * dragged, 0.0 * dragged], axis=-2),
     )
 
 

@@ -18,19 +18,19 @@ from system.pump.laws.kinematics import Number
 class GapExchange(Generic[Number]):
     """Exchange of the gaps besides the leakage of one chamber, mean over the revolution.
 
-    carried: power in W that oil dragged along by moving walls gives them back, all chambers; delivery_draw,
+    drag_power: power in W that oil dragged along by moving walls gives them back, all chambers; delivery_draw,
     suction_draw: flow in m3/s (at port pressure) that the valve plate's film takes from the ports themselves.
     """
 
-    carried: Gaps[Number]
+    drag_power: Gaps[Number]
     delivery_draw: Number
     suction_draw: Number
 
 
 def chamber_exchange(totals: TurnTotals[Number], rate: Number) -> GapExchange[Number]:
     """The exchange of gaps that know nothing but their own chamber; `rate` is chambers times turns per second."""
-    carried = totals.carried_energy
-    each = rate * carried.piston, rate * carried.slipper, rate * carried.valve_plate
+    drag = totals.drag_energy
+    each = rate * drag.piston, rate * drag.slipper, rate * drag.valve_plate
     return GapExchange(Gaps(*each), 0.0 * rate, 0.0 * rate)
 
 
@@ -123,17 +123,17 @@ def metered(reading: BenchReading[Number], outside: Outside[Number] | Outside[fl
 def shaft_work(
     totals: TurnTotals[Number], rate: Number, friction: Number, exchange: GapExchange[Number]
 ) -> Number:
-    """Shaft power in W by the pistons' work on the chambers, less what carried oil gives back, and friction.
+    """Shaft power in W by the pistons' work on the chambers, less the drag power, and friction.
 
-    What carried oil gives is the pull of the gap's pressure gradient on the piston: with it the torque, like the
+    The drag power is the pull of the gap's pressure gradient on the piston: with it the torque, like the
     flow, belongs to the mean of piston and bore area.
     """
-    return rate * totals.indicated_work - exchange.carried.total + friction
+    return rate * totals.indicated_work - exchange.drag_power.total + friction
 
 
 def leakage_by_flow(ported: PortedCycle, rate: float, exchange: GapExchange) -> Gaps:
     """Heat of the pressure flow in each gap (W): energy that the flow loses less its work on the walls."""
-    problem, energy, carried = ported.problem, ported.cycle.path_energy, exchange.carried
+    problem, energy, drag = ported.problem, ported.cycle.path_energy, exchange.drag_power
     modulus = problem.bulk_modulus
     pressures = (problem.delivery_pressure, problem.inlet_pressure)
     from_ports = sum(
@@ -141,9 +141,9 @@ def leakage_by_flow(ported: PortedCycle, rate: float, exchange: GapExchange) -> 
         for draw, pressure in zip(port_draw(problem, exchange), pressures, strict=True)
     )
     return Gaps(
-        rate * float(energy.piston) - carried.piston,
-        rate * float(energy.slipper) - carried.slipper,
-        rate * float(energy.valve_plate) + from_ports - carried.valve_plate,
+        rate * float(energy.piston) - drag.piston,
+        rate * float(energy.slipper) - drag.slipper,
+        rate * float(energy.valve_plate) + from_ports - drag.valve_plate,
     )
 
 

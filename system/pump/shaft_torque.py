@@ -97,17 +97,17 @@ def forces_by_loss(
 ) -> ChamberForces:
     """The forces behind a cycle's pressure and the losses of its pairs.
 
-    A loss at a sliding speed is a force loss/speed against it; oil that moving walls carry, C (p - p_case), pulls
-    them along with C (p - p_case)/speed: the pull of the gap's pressure gradient. The joint of a slipper that does
-    not turn against its plate rubs about the shaft with loss/w.
+    A loss at a sliding speed is a force loss/speed against it; the drag flow C of moving walls pulls them with C
+    (p - p_case)/speed: the pull of the gap's pressure gradient. The joint of a slipper that does not turn against
+    its plate rubs about the shaft with loss/w.
     """
     angle, speed = cycle.shaft_angle, problem.shaft_speed
     above = cycle.pressure - problem.case_pressure
-    carried = periodic_values(problem.leaks.carried_flow, angle.size) * above
+    dragged = periodic_values(problem.leaks.drag_flow, angle.size) * above
     velocity = piston_velocity(problem.drive, angle, speed)
     sliding = slipper_sliding_velocity(problem.drive, angle, speed)
-    piston = _whole(pairs.piston_cylinder) - carried[0]
-    slipper = _whole(pairs.slipper_swash_plate) - carried[1]
+    piston = _whole(pairs.piston_cylinder) - dragged[0]
+    slipper = _whole(pairs.slipper_swash_plate) - dragged[1]
     return ChamberForces(
         along_bore=problem.piston_area * above - _force(piston, velocity),
         on_slipper=-_force(slipper, np.hypot(*sliding)) * sliding / np.hypot(*sliding),
@@ -121,12 +121,11 @@ def shaft_torque(
     pairs: Sequence[FrictionPairs],
     masses: Sequence[GroupMasses],
     pistons: int,
-    ring_carried: float,
+    ring_drag_power: float,
 ) -> Array:
     """Torque (N,) N m of the shaft over the cycles' shaft angles, all chambers, from `forces_by_loss`.
 
-    Of one chamber for all, or of each. ring_carried in W: what oil that the block drags over the valve plate gives
-    back to it.
+    Of one chamber for all, or of each. ring_drag_power in W: drag power of the block over the valve plate.
     """
     speed = problems[0].shaft_speed
     one = [
@@ -134,7 +133,7 @@ def shaft_torque(
         for problem, cycle, own, mass in zip(problems, cycles, pairs, masses, strict=True)
     ]
     mean = mean_of(pairs)
-    rubbed = sum(mean.loss(pair).count * _whole(mean.loss(pair)) for pair in ABOUT_SHAFT) - ring_carried
+    rubbed = sum(mean.loss(pair).count * _whole(mean.loss(pair)) for pair in ABOUT_SHAFT) - ring_drag_power
     return np.asarray(over_chambers(one, pistons) + rubbed / speed)
 
 

@@ -63,7 +63,7 @@ PLATE = np.dtype(
         ("piston_leak", "f8"),
         ("slipper_leak", "f8"),
         ("ring_leak", "f8"),
-        ("carried", "f8"),
+        ("drag_area", "f8"),
         ("sense", "f8"),
         ("arm", "f8"),
         ("actuator_area", "f8"),
@@ -77,9 +77,10 @@ PLATE = np.dtype(
 )
 """Constants of plate, actuator and pistons, SI, as the compiled code reads them.
 
-Leaks: piston times engaged length m4/(s Pa), slipper and ring m3/(s Pa); carried m2; shear of a piston N s/m2;
-slide m/s, below which friction fades; inner_place m, of the inner dead centre at the largest angle; rubbing N m of
-the trunnion, fading below rubbing_rate rad/s; sense 1 for an actuator that strokes the plate up, -1 down.
+Leaks: piston times engaged length m4/(s Pa), slipper and ring m3/(s Pa); drag_area m2 (drag flow per velocity);
+shear of a piston N s/m2; slide m/s, below which friction fades; inner_place m, of the inner dead centre at the
+largest angle; rubbing N m of the trunnion, fading below rubbing_rate rad/s; sense 1 for an actuator that strokes
+the plate up, -1 down.
 """
 
 ATTEMPTS = 10
@@ -113,8 +114,8 @@ def piston_at(chamber, plate, shaft_angle, angle, rate, ways):
     way = by_phi + by_g * rate / c.shaft_speed
     ways[col.CONDUCTANCE] = p.piston_leak / (p.engaged_length - out)
     ways[col.CONDUCTANCE + 1], ways[col.CONDUCTANCE + 2] = p.slipper_leak, p.ring_leak
-    ways[col.CARRIED] = p.carried * way * c.shaft_speed
-    ways[col.CARRIED + 1], ways[col.CARRIED + 2] = 0.0, 0.0
+    ways[col.DRAG_FLOW] = p.drag_area * way * c.shaft_speed
+    ways[col.DRAG_FLOW + 1], ways[col.DRAG_FLOW + 2] = 0.0, 0.0
     ports = section_area(shaft_angle, c.delivery_port), section_area(shaft_angle, c.suction_port)
     port_ways(chamber, ports[0], ports[1], ways)
     ways[col.BEHIND], ways[col.BEHIND + 1] = c.delivery_pressure, c.inlet_pressure

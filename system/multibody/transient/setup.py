@@ -17,7 +17,7 @@ from system.pump.chamber.layout import CAVITY_PRESSURE, WAYS
 from system.pump.chamber.problem import ChamberProblem
 from system.pump.chamber.state_kernels import oil_volume
 from system.pump.laws import friction_pairs as pairs
-from system.pump.laws.leakage import piston_carried_flow, piston_conductance
+from system.pump.laws.leakage import piston_conductance, piston_drag_flow
 from system.pump.lumped import (
     chamber_problem,
     full_drive,
@@ -98,7 +98,7 @@ def _piston_values(pump: PumpDescription, point: OperatingPoint) -> dict[str, fl
         "piston_leak": float(piston_conductance(diameter, clearance, 1.0, eccentricity, viscosity)),
         "slipper_leak": float(leaks[1, 0]),
         "ring_leak": float(leaks[2, 0]),
-        "carried": float(piston_carried_flow(diameter, clearance, 1.0)),
+        "drag_area": float(piston_drag_flow(diameter, clearance, 1.0)),
     }
 
 

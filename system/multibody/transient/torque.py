@@ -20,7 +20,7 @@ from system.multibody.transient.setup import bore_circle, inner_place
 from system.multibody.transient.solver import Transient
 from system.pump.laws.friction_pairs import FrictionPairs, Pair
 from system.pump.laws.kinematics import SwashDrive
-from system.pump.laws.leakage import piston_carried_flow
+from system.pump.laws.leakage import piston_drag_flow
 from system.pump.lumped import PistonMotion, Pressures, lumped_pairs, piston_area
 from system.pump.operating import columns
 
@@ -50,8 +50,8 @@ def _torque(found: Transient, part: slice) -> Array:
     inertia = mass * dot(ball.acceleration, turning).reshape(shape)
     above = pressure - point.case_pressure
     clearance, diameter = pump.piston.radial_clearance, pump.pump.piston_diameter
-    carried = piston_carried_flow(diameter, clearance, ball.way.reshape(shape)) * above
-    pushed = inertia - area * above * rates.phi.reshape(shape) - carried / speed
+    dragged = piston_drag_flow(diameter, clearance, ball.way.reshape(shape)) * above
+    pushed = inertia - area * above * rates.phi.reshape(shape) - dragged / speed
     normal = np.stack([np.sin(tilt.angle), -np.tan(circle.cross) * np.cos(tilt.angle), np.cos(tilt.angle)])
     sliding = cross(ball.velocity, normal / np.sqrt(dot(normal, normal)))
     out = rates.place.reshape(shape) - inner_place(pump, found.mechanism)

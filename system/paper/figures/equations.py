@@ -97,7 +97,7 @@ def _eq15(points: PaperPoints) -> Judged:
     motion = piston_motion(pump, point)
     moving = np.abs(motion.velocity) > 0.1 * np.abs(motion.velocity).max()
     printed = -0.5 * np.pi * pump.pump.piston_diameter * pump.piston.radial_clearance * motion.velocity
-    over = printed[moving] / lumped_leaks(pump, point, motion).carried_flow[0][moving]
+    over = printed[moving] / lumped_leaks(pump, point, motion).drag_flow[0][moving]
     reason = "velocity by Eq. (7) is positive out of the block, and a wall drags oil its own way"
     impossible = _must_be_one("dragged flow in print over that of a film between moving wall and rest", over)
     return judge(CLAIMS["equations.15"], range_of(over), reason=reason, impossible=impossible)

@@ -31,9 +31,9 @@ GAP_PAIRS = {
     "valve_plate": Pair.VALVE_PLATE_CYLINDER,
 }
 OF_EVERY_GAP = {
-    "leakage": "mean flow out of the chambers into the gap, beside what the piston carries / by the lumped law",
-    "carried": "power of oil that the walls carry / by the lumped law, of slipper and plate / its leakage power",
-    "friction": "mean loss of the pair, net of what carried oil gives back / by the lumped law",
+    "leakage": "mean flow out of the chambers into the gap, without the drag flow / by the lumped law",
+    "carried": "drag power of the walls / by the lumped law; of slipper and plate / its leakage power",
+    "friction": "mean loss of the pair, less the drag power / by the lumped law",
     "contact_share": "loss of contact (Coulomb friction) / loss of the pair",
     "film_mean": "mean film over area and turn / the film given by the description",
     "film_least": "least film anywhere in the turn / the film given by the description",
@@ -77,14 +77,14 @@ class SolvedPoint:
 class LawMoments:
     """One chamber by the lumped law at a given pressure, means over the turn, of the gaps (3,).
 
-    flow: of the pressure flow G (p - p_case), m3/s; carried, one: of the law's drag flow, m3/s (only in the
+    flow: of the pressure flow G (p - p_case), m3/s; drag_flow, one: of the law's drag flow, m3/s (only in the
     piston's gap), and of a flow of 1 m3/s; all three by mass, at case pressure. power: scale of the drag power,
     W: the oil dragged in the piston's gap, the pressure flow in the others, in which the law has no drag; above:
     p - p_case, Pa.
     """
 
     flow: Array
-    carried: Array
+    drag_flow: Array
     one: float
     power: Array
     above: float
@@ -95,10 +95,10 @@ def law_moments(law: LeakTable, pump: PumpDescription, point: OperatingPoint, pr
     above = pressure - point.case_pressure
     dense = np.exp(above / pump.oil.bulk_modulus)
     power = np.mean(law.conductance * above**2, axis=1)
-    power[0] = np.mean(law.carried_flow[0] * above)
+    power[0] = np.mean(law.drag_flow[0] * above)
     return LawMoments(
         flow=np.mean(law.conductance * above * dense, axis=1),
-        carried=np.mean(law.carried_flow * dense, axis=1),
+        drag_flow=np.mean(law.drag_flow * dense, axis=1),
         one=float(np.mean(dense)),
         power=power,
         above=float(np.mean(above)),
@@ -113,16 +113,16 @@ def mean_ratios(pump: PumpDescription, solved: SolvedPoint) -> Array:
     above = found.cycle.pressure - point.case_pressure
     moments = law_moments(lumped_leaks(pump, point, motion), pump, point, found.cycle.pressure)
     flow = periodic_values(found.leaks.conductance, samples) * above
-    flow = flow + periodic_values(found.leaks.carried_flow, samples)
+    flow = flow + periodic_values(found.leaks.drag_flow, samples)
     flow = np.mean(flow * np.exp(above / pump.oil.bulk_modulus), axis=1)
-    carried = [getattr(found.exchange.carried, gap) for gap in GAP_PAIRS] / (found.pistons * moments.power)
-    leakage = (flow - carried * moments.carried) / moments.flow
+    drag_ratio = [getattr(found.exchange.drag_power, gap) for gap in GAP_PAIRS] / (found.pistons * moments.power)
+    leakage = (flow - drag_ratio * moments.drag_flow) / moments.flow
     by_law = lumped_pairs(pump, point, motion, found.cycle)
     given, scale = given_films(pump), plate_flow(pump, point)
     rows = [
         (
             leakage[k],
-            carried[k],
+            drag_ratio[k],
             net_loss(found, gap) / by_law.loss(pair).mean,
             found.pairs.loss(pair).mean_coulomb / found.pairs.loss(pair).mean,
             getattr(solved.film_mean, gap) / getattr(given, gap),
@@ -149,4 +149,4 @@ def plate_flow(pump: PumpDescription, point: OperatingPoint) -> float:
 
 def net_loss(point: PumpPoint, gap: str) -> float:
     """Loss of a gap's pair less the power that dragged oil returns, W: the net load on the shaft."""
-    return point.pairs.loss(GAP_PAIRS[gap]).mean - float(getattr(point.exchange.carried, gap))
+    return point.pairs.loss(GAP_PAIRS[gap]).mean - float(getattr(point.exchange.drag_power, gap))

@@ -79,7 +79,7 @@ def table_point(pump: PumpDescription, point: OperatingPoint, table: ResponseTab
     cycle, met_at = ported.cycle, met_point(point, ported)
     moments = law_moments(lumped_leaks(pump, point, motion), pump, point, cycle.pressure)
     losses = _losses(lumped_pairs(pump, met_at, motion, cycle), pistons * moments.power, means)
-    exchange = GapExchange(chamber_exchange(cycle, pistons * point.shaft_speed / TURN).carried, *draws)
+    exchange = GapExchange(chamber_exchange(cycle, pistons * point.shaft_speed / TURN).drag_power, *draws)
     derived, masses = swept_displacement(pump, motion.drive), group_masses(pump)
     found = assemble(point, ported, (losses,), pistons, derived, exchange, (masses,))
     given = given_films(pump)
@@ -105,12 +105,12 @@ def _leaks(
     cycle = solve_cycle(chamber_problem(pump, point, motion, law), motion.shaft_angle.size)
     moments = law_moments(law, pump, point, cycle.pressure)
     flow = moments.flow * [means[f"{gap}.leakage"] for gap in GAP_PAIRS]
-    carried = np.array([means[f"{gap}.carried"] for gap in GAP_PAIRS])
-    constant = np.array([0.0, *(carried * moments.power / moments.above)[1:]])
+    drag_ratio = np.array([means[f"{gap}.carried"] for gap in GAP_PAIRS])
+    constant = np.array([0.0, *(drag_ratio * moments.power / moments.above)[1:]])
     by_pressure = flow - constant * moments.one
     answering = np.maximum(by_pressure / moments.flow, 0.0)
     constant += (by_pressure - answering * moments.flow) / moments.one
-    return LeakTable(answering[:, None] * law.conductance, carried[:, None] * law.carried_flow + constant[:, None])
+    return LeakTable(answering[:, None] * law.conductance, drag_ratio[:, None] * law.drag_flow + constant[:, None])
 
 
 def _draws(pump: PumpDescription, point: OperatingPoint, means: Mapping[str, float]) -> tuple[float, float]:
@@ -119,15 +119,15 @@ def _draws(pump: PumpDescription, point: OperatingPoint, means: Mapping[str, flo
     return scale * means["valve_plate.delivery_draw"], scale * means["valve_plate.suction_draw"]
 
 
-def _losses(by_law: FrictionPairs, carried: Array, means: Mapping[str, float]) -> FrictionPairs:
+def _losses(by_law: FrictionPairs, power: Array, means: Mapping[str, float]) -> FrictionPairs:
     """The lumped pairs, those of gaps and joints with the table's means.
 
-    carried (3,) W: the reference power of the table's drag ratios; the table learns the loss less that power.
+    power (3,) W: the reference power of the table's drag ratios; the table learns the loss less that power.
     """
     told = {
         pair.value: _with_mean(
             by_law.loss(pair),
-            means[f"{gap}.friction"] * by_law.loss(pair).mean + means[f"{gap}.carried"] * float(carried[k]),
+            means[f"{gap}.friction"] * by_law.loss(pair).mean + means[f"{gap}.carried"] * float(power[k]),
             means[f"{gap}.contact_share"],
         )
         for k, (gap, pair) in enumerate(GAP_PAIRS.items())

@@ -16,18 +16,18 @@ FIRST_GAP = PISTON
 
 WAYS = 16
 """Columns of the ways out at a shaft angle."""
-CONDUCTANCE, CARRIED, ORIFICE, BEHIND, AREA, FLOW_SCALE = 0, 3, 6, 10, 12, 14
-"""Of each gap its conductance in m3/(s Pa) and its carried flow in m3/s; of each port both coefficients of its
+CONDUCTANCE, DRAG_FLOW, ORIFICE, BEHIND, AREA, FLOW_SCALE = 0, 3, 6, 10, 12, 14
+"""Of each gap its conductance in m3/(s Pa) and its drag flow in m3/s; of each port both coefficients of its
 orifice, the pressure in Pa behind it, its area in m2 and its `flow_scale`."""
 TABLE = 7
-"""Rows of a chamber's table over the turn: CONDUCTANCE and CARRIED as among the ways, then the volume's growth."""
+"""Rows of a chamber's table over the turn: CONDUCTANCE, DRAG_FLOW as among the ways, then the volume's growth."""
 GROWTH = 6
 
 INTEGRALS = 16
 """Columns of the integrals over a turn."""
-OUTFLOW, WORK, PATH_ENERGY, CARRIED_ENERGY, PORT_ENERGY = 0, 5, 6, 11, 14
-"""Mass out by each path, work -p dV, energy left in each path, work of the moving walls of each gap, energy that
-flows into each port."""
+OUTFLOW, WORK, PATH_ENERGY, DRAG_ENERGY, PORT_ENERGY = 0, 5, 6, 11, 14
+"""Mass out by each path, work -p dV, energy left in each path, work of the drag flow on each gap's walls, energy
+that flows into each port."""
 
 CAVITY_PRESSURE = 1e3 - 101325.0
 """Gauge pressure in Pa at which a cavity opens (1 kPa absolute): oil bears no tension. Its vapour pressure is

@@ -18,20 +18,20 @@ class LeakTable:
 
     Of P operating points at once: (P, 3, N).
 
-    Columns: N equidistant shaft angles 2 pi j/N from 0; conductance in m3/(s Pa), all >= 0, carried_flow in m3/s,
+    Columns: N equidistant shaft angles 2 pi j/N from 0; conductance in m3/(s Pa), all >= 0, drag_flow in m3/s,
     both for flow out of the chamber. Between the columns runs a periodic cubic spline: with two continuous
     derivatives it keeps the integrator's order, and steps need not end on the table's angles; a linear one would
     bend at each of them. Raises ValueError for a wrong shape or a negative conductance.
     """
 
     conductance: Array
-    carried_flow: Array
+    drag_flow: Array
 
     def __post_init__(self) -> None:
         shape = self.conductance.shape
-        if len(shape) not in (2, 3) or shape[-2] != 3 or shape[-1] < 4 or self.carried_flow.shape != shape:
+        if len(shape) not in (2, 3) or shape[-2] != 3 or shape[-1] < 4 or self.drag_flow.shape != shape:
             raise ValueError(
-                f"leak table: found shapes {shape} and {self.carried_flow.shape}, expected (3, N) with N >= 4"
+                f"leak table: found shapes {shape} and {self.drag_flow.shape}, expected (3, N) with N >= 4"
             )
         if np.any(self.conductance < 0.0):
             raise ValueError(

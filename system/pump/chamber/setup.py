@@ -93,7 +93,7 @@ def gap_cubics(leaks: LeakTable, growth: Array | None = None) -> Array:
         raise ValueError(
             f"growth of the chamber: found shape {grown.shape}, expected the leak table's ({samples},)"
         )
-    rows = [leaks.conductance, leaks.carried_flow, np.broadcast_to(grown, (*points, 1, samples))]
+    rows = [leaks.conductance, leaks.drag_flow, np.broadcast_to(grown, (*points, 1, samples))]
     cubics = periodic_cubics(np.concatenate(rows, axis=-2).reshape(-1, samples))
     return np.ascontiguousarray(np.moveaxis(cubics.reshape(samples, *points, TABLE, 4), 0, -3))
 

@@ -6,7 +6,7 @@ divided by M, the corrected Eq. (14). Every q > 0 leaves the chamber and is a vo
 beside a cavity too it is liquid that passes ports and gaps, so its mass is q over the s of the liquid.
 
 What varies over the turn comes as periodic cubics on equal intervals of shaft angle, in unit cells: `table` (N,
-TABLE, 4) has the gaps' conductances and carried flows and the growth of the volume by the parts' own motion in m3;
+TABLE, 4) has the gaps' conductances and drag flows and the growth of the volume by the parts' own motion in m3;
 `ports` (M, 2, 4) the pressures of delivery and suction port, M = 1 where held. `layout` names the columns.
 """
 
@@ -167,7 +167,7 @@ def outflows(chamber, pressure, ways, flows):
     slope = delivery + suction
     for gap in range(col.GAPS):
         conductance = ways[col.CONDUCTANCE + gap]
-        flows[col.FIRST_GAP + gap] = conductance * (pressure - c.case_pressure) + ways[col.CARRIED + gap]
+        flows[col.FIRST_GAP + gap] = conductance * (pressure - c.case_pressure) + ways[col.DRAG_FLOW + gap]
         slope += conductance
     return delivery, suction, slope
 
@@ -177,7 +177,7 @@ def integral_rates(chamber, pressure, specific, swell, ways, flows, out):
     """Rates per radian of the integrals, (INTEGRALS,); `swell` is dV/dphi.
 
     The energy left in a path is its mass flow times h(p) - h(p_outside): what throttling and leaking turn into
-    heat. Walls that carry oil do the same work on the carried part, kept apart because it is not a loss.
+    heat. The walls do the same work on the oil that they drag, kept apart because it is not a loss.
     """
     c = chamber[0]
     bulk = c.bulk_modulus
@@ -193,5 +193,5 @@ def integral_rates(chamber, pressure, specific, swell, ways, flows, out):
         out[col.PATH_ENERGY + port] = out[col.OUTFLOW + port] * (energy - behind)
         out[col.PORT_ENERGY + port] = out[col.OUTFLOW + port] * behind
     for gap in range(col.GAPS):
-        out[col.CARRIED_ENERGY + gap] = ways[col.CARRIED + gap] * per_radian * case
+        out[col.DRAG_ENERGY + gap] = ways[col.DRAG_FLOW + gap] * per_radian * case
     out[col.WORK] = -pressure * swell

@@ -58,15 +58,15 @@ class TurnTotals(Generic[Number]):
     """Integrals over one turn of one chamber; TurnTotals[Array]: at N operating points, arrays (N,).
 
     `outflow` in m3 at the density of zero gauge pressure; `path_energy` in J, throttled in the ports and given off
-    in the gaps; `carried_energy` in J, the part of it that carried
-    oil gives to the walls that carry it, which is not lost (negative: the walls push the oil in); `indicated_work`
+    in the gaps; `drag_energy` in J, the part of it that dragged
+    oil gives back to the moving walls and that is not lost (negative: the walls push the oil in); `indicated_work`
     in J, done on the chamber: -integral of p dV; `port_energy` (2,) or (2, N) in J, pressure work and elastic
     energy of the oil that goes into delivery and suction port.
     """
 
     outflow: Paths[Number]
     path_energy: Paths[Number]
-    carried_energy: Gaps[Number]
+    drag_energy: Gaps[Number]
     indicated_work: Number
     port_energy: Array
 
@@ -78,7 +78,7 @@ def turn_totals(integrals: Array) -> TurnTotals[Any]:
     return TurnTotals(
         outflow=Paths(*column[col.OUTFLOW : col.OUTFLOW + PATHS]),
         path_energy=Paths(*column[col.PATH_ENERGY : col.PATH_ENERGY + PATHS]),
-        carried_energy=Gaps(*column[col.CARRIED_ENERGY : col.CARRIED_ENERGY + col.GAPS]),
+        drag_energy=Gaps(*column[col.DRAG_ENERGY : col.DRAG_ENERGY + col.GAPS]),
         indicated_work=column[col.WORK],
         port_energy=np.array(column[col.PORT_ENERGY : col.PORT_ENERGY + col.PORTS]),
     )

@@ -32,8 +32,8 @@ def piston_conductance(
     )
 
 
-def piston_carried_flow(piston_diameter: float, radial_clearance: float, velocity: Array | float) -> Array:
-    """Oil the moving piston carries out of the chamber in its gap, in m3/s; second term of Eq. (15), corrected.
+def piston_drag_flow(piston_diameter: float, radial_clearance: float, velocity: Array | float) -> Array:
+    """Drag flow of the moving piston out of the chamber in its gap, in m3/s; second term of Eq. (15), corrected.
 
     q = + pi dp delta v/2 for v > 0 out of the block: the wall that moves out drags the film out with it. The
     printed sign is that of a plane moving with the piston's end, whose chamber would be V0 + (bore area) S; with

@@ -69,7 +69,7 @@ def worst(found, expected):
 
 SLOW, FULL = 1e-3, 30e6  # rad/s, Pa
 SLID = 1e-5
-"""Of the flow: what is carried by that sliding."""
+"""Share of the flow that the sliding drags along."""
 
 
 @pytest.fixture(scope="module")
@@ -116,8 +116,8 @@ def test_a_slipper_that_lies_flat_carries_no_oil_however_its_oil_stiffens(valida
     exp(-a p) falls in proportion to ln r over the lands, of which the mean of exp(a p) is an integral.
     """
     stiff = coarse(extended({"viscosity_pressure": {"coefficient": COEFFICIENT}}), tolerance=1.0)
-    carried = leak_table(stiff.gaps, stiff.pump_point.point.case_pressure).carried_flow[1]
-    assert np.abs(carried).max() < 1e-3 * stiff.gaps.flow[1].max()
+    dragged = leak_table(stiff.gaps, stiff.pump_point.point.case_pressure).drag_flow[1]
+    assert np.abs(dragged).max() < 1e-3 * stiff.gaps.flow[1].max()
     k = int(0.75 * len(stiff.gaps.slipper))
     one, other = stiff.gaps.slipper[k], coarse(REF90, tolerance=1.0).gaps.slipper[k]
     inside, outside = np.exp(-COEFFICIENT * (one.loads.pressure_max - REF90.operating.case_pressure)), 1.0
@@ -265,8 +265,8 @@ WARMER = 20.0
 RATES = {
     "thermal_clearance": {"piston": {"rate": 8e-3}, "slipper": {"rate": -4e-3}, "valve_plate": {"rate": 5e-3}}
 }
-CARRIED = 3e-3
-"""Of a leakage: what the piston carries along, in proportion to its film, which the closed law leaves as it is."""
+DRAGGED = 3e-3
+"""Of a leakage: drag flow of the piston, in proportion to its film, which the closed law leaves as it is."""
 
 
 def test_a_clearance_that_warmth_changes_is_a_film_thickness():
@@ -278,7 +278,7 @@ def test_a_clearance_that_warmth_changes_is_a_film_thickness():
     assert there.slipper.film_thickness == pytest.approx((1.0 - 4e-3 * WARMER) * REF90.slipper.film_thickness)
     by_law, as_pump = lumped_point(pump, warm), lumped_point(there, warm)
     for one in ("piston", "slipper", "valve_plate"):
-        assert getattr(by_law.leakage_flow, one) == pytest.approx(getattr(as_pump.leakage_flow, one), rel=CARRIED)
+        assert getattr(by_law.leakage_flow, one) == pytest.approx(getattr(as_pump.leakage_flow, one), rel=DRAGGED)
         loss = OF_GAP[Gap(one)]
         viscous = by_law.pairs.loss(loss).mean_viscous
         assert viscous == pytest.approx(as_pump.pairs.loss(loss).mean_viscous, rel=1e-9)
@@ -294,7 +294,7 @@ def test_a_pump_moved_to_another_temperature_keeps_its_films_there():
     assert moved.operating.temperature == warm
     assert moved.piston.radial_clearance == pytest.approx((1.0 + 8e-3 * WARMER) * REF90.piston.radial_clearance)
     one, other = (lumped_point(each, operating_point(moved)).bench.drain_flow for each in (pump, moved))
-    assert one == pytest.approx(other, rel=CARRIED)
+    assert one == pytest.approx(other, rel=DRAGGED)
 
 
 def test_single_parts_expand_too():

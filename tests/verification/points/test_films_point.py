@@ -92,7 +92,7 @@ def test_table_is_the_films(rated):
     """The chamber's leakage at the film angles is the films', up to the last change of pressure."""
     gaps, case = rated.gaps, rated.pump_point.point.case_pressure
     table = leak_table(gaps, case)
-    told = table.conductance * (gaps.chamber_pressure - case) + table.carried_flow
+    told = table.conductance * (gaps.chamber_pressure - case) + table.drag_flow
     assert told == pytest.approx(gaps.flow, rel=1e-12, abs=1e-18)
     every = rated.pump_point.cycle.shaft_angle.size // gaps.shaft_angle.size
     flow = rated.pump_point.cycle.flow

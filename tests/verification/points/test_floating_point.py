@@ -39,8 +39,8 @@ def test_gaps_and_chambers_agree(found):
     assert len(found.kinds[0].gaps.piston.turn.instants) == STEPS
     assert len(found.kinds[0].gaps.block.turn.instants) == STEPS // found.rotor.pump.pump.pistons
     table = leak_table(found.kinds[0].gaps)
-    assert table.carried_flow.shape == (3, STEPS)
-    assert found.pump_point.leaks.carried_flow == pytest.approx(table.carried_flow, rel=1e-12)
+    assert table.drag_flow.shape == (3, STEPS)
+    assert found.pump_point.leaks.drag_flow == pytest.approx(table.drag_flow, rel=1e-12)
 
 
 def test_power_is_accounted_for(found, energy_balances):

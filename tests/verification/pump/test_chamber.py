@@ -8,23 +8,21 @@ import pytest
 from scipy.integrate import solve_ivp
 
 from reynolds import NotConverged
-from system import (
-    PortOpening,
-    ReliefGroove,
-    SwashDrive,
-    opening_area,
-    orifice_flow,
-    piston_conductance,
-    piston_displacement,
-    piston_velocity,
-)
 from system.pump.chamber import kernels as kernel
 from system.pump.chamber.cycle import solve_cycle
 from system.pump.chamber.layout import CAVITY_PRESSURE
 from system.pump.chamber.problem import ChamberProblem, LeakTable, PortPressure
 from system.pump.chamber.setup import periodic_cubics
-from system.pump.laws.kinematics import drive_at_ratio, stand_out
-from system.pump.laws.leakage import piston_carried_flow
+from system.pump.laws.kinematics import (
+    SwashDrive,
+    drive_at_ratio,
+    piston_displacement,
+    piston_velocity,
+    stand_out,
+)
+from system.pump.laws.leakage import piston_conductance, piston_drag_flow
+from system.pump.ports.areas import PortOpening, opening_area, orifice_flow
+from system.pump.ports.relief_grooves import ReliefGroove
 
 DEGREES = np.pi / 180.0
 AREA = np.pi / 4 * 22e-3**2
@@ -43,7 +41,7 @@ def leak_table(drive: SwashDrive, shaft_speed: float) -> LeakTable:
     conductance = np.stack([piston_conductance(22e-3, 15e-6, length, 0.6, 25.8e-3)] * 3)
     conductance[1:] = [[3.8e-14], [1.6e-14]]
     carried = np.zeros_like(conductance)
-    carried[0] = piston_carried_flow(22e-3, 15e-6, piston_velocity(drive, angle, shaft_speed))
+    carried[0] = piston_drag_flow(22e-3, 15e-6, piston_velocity(drive, angle, shaft_speed))
     return LeakTable(conductance, carried)
 
 
@@ -206,7 +204,7 @@ def test_against_an_independent_integration_of_equation_14(pressure, ratio):
             + orifice_flow(p - problem.inlet_pressure, float(opening_area(problem.suction_port, phi)), *law)
         )
         out += np.interp(phi % (2 * np.pi), gap_angle, gaps) * (p - problem.case_pressure)
-        out += float(piston_carried_flow(22e-3, 15e-6, velocity))
+        out += float(piston_drag_flow(22e-3, 15e-6, velocity))
         volume = problem.dead_volume + AREA * float(piston_displacement(drive, phi))
         return [-problem.bulk_modulus / volume * (AREA * velocity + out) / problem.shaft_speed]
 

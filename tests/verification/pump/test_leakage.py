@@ -3,8 +3,13 @@
 import numpy as np
 import pytest
 
-from system import piston_conductance, slipper_conductance, valve_plate_conductance
-from system.pump.laws.leakage import piston_carried_flow, slipper_leakage_short_orifice
+from system.pump.laws.leakage import (
+    piston_conductance,
+    piston_drag_flow,
+    slipper_conductance,
+    slipper_leakage_short_orifice,
+    valve_plate_conductance,
+)
 
 MU = 25.8e-3
 
@@ -19,13 +24,13 @@ def test_eccentric_piston_against_quadrature_round_the_gap(eccentricity):
     np.testing.assert_allclose(found, expected, rtol=1e-13)
 
 
-def test_carried_flow_belongs_to_a_chamber_bounded_in_the_bore():
+def test_drag_flow_belongs_to_a_chamber_bounded_in_the_bore():
     # Seen from a plane that moves with the piston's end, the chamber is (bore area) S and the flow has the print's
     # sign; both views must take the same oil from the chamber's total dV/dt + q.
     diameter, clearance, velocity = 22e-3, 15e-6, 2.0
     piston_area = np.pi / 4 * diameter**2
     bore_area = piston_area + np.pi * diameter * clearance
-    fixed = piston_area * velocity + piston_carried_flow(diameter, clearance, velocity)
+    fixed = piston_area * velocity + piston_drag_flow(diameter, clearance, velocity)
     moving = bore_area * velocity - np.pi * diameter * clearance * velocity / 2
     assert fixed == pytest.approx(moving, rel=1e-12)
 
