@@ -14,7 +14,7 @@ from reynolds.numerics.arrays import Array
 LONGEST_MEMORY = 0.99  # lag-one correlation beyond which a window counts as one sample
 PARTS = 10
 ROUNDING = 1e-12
-MOST_MEMORY = 0.9  # that a tenth of a window can tell
+MOST_MEMORY = 0.9  # that a tenth of a window can show
 
 
 @dataclass(frozen=True)

@@ -33,7 +33,7 @@ def write_diagnosis(path: Path, diagnosis: Diagnosis) -> None:
 
 
 def read_diagnosis(path: Path) -> dict[str, Any]:
-    """Read a diagnosis.json of format 1; raises InputFaults for a file that is none."""
+    """Read a diagnosis.json of format 1; raises InputFaults for another file."""
     try:
         record = json.loads(path.read_text("utf-8"))
     except (OSError, ValueError) as reason:

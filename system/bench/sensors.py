@@ -16,7 +16,7 @@ from system.inputs.channels import INPUTS, OUTPUTS, ChannelName
 from system.inputs.units import TURN, Dimension
 
 BIASED_INPUTS = (ChannelName.P_OUT, ChannelName.T_CASE, ChannelName.DISPLACEMENT_RATIO)
-"""Inputs of which a calibration's bias is told apart from others'."""
+"""Inputs whose bias by calibration is a parameter of its own."""
 CALIBRATION, TAKEN = "calibration of the channel", "not measured, taken"
 FARTHEST = 4.0  # sigma that what is taken may be off
 ENCODER_OFFSET = "encoder_offset"

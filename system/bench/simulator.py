@@ -54,10 +54,9 @@ class LumpedBench:
 
     channels: the C outputs of SIMULATED that are read, inputs: the M measured inputs, both in the order of the
     observations. Parameters: of `base_parameters`, `sensor_parameters` and those of the extensions in `physics`,
-    which join where they are not among them; what none of them names is as the pump states it, its own
-    [physics] too. Ports are held at their mean pressures: lines behind them and their ripple are left out. Raises
-    InputError for a channel it does not know, a parameter that is none of these, chambers that differ, and
-    points at which the oil's law is void.
+    which join where they are not among them. All else is as the pump states it, its own [physics] too. Ports are
+    held at their mean pressures: lines behind them and their ripple are left out. Raises InputError for a channel
+    it does not know, another parameter, chambers that differ, and points at which the oil's law is void.
     """
 
     def __init__(

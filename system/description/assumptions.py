@@ -1,4 +1,4 @@
-"""Values taken where a pump file says nothing: each told by name, none taken in silence."""
+"""Values assumed where a pump file leaves a key out, each with its name and reason."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from system.inputs.units import Dimension, format_quantity
 
 @dataclass(frozen=True)
 class Assumption:
-    """A value taken because the pump file leaves its key out: path, value as people read it, and the reason."""
+    """An assumed value of a key that the pump file leaves out: path, value as people read it, and the reason."""
 
     path: str
     value: str

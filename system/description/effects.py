@@ -87,7 +87,7 @@ class OpeningSection:
 
 @dataclass(frozen=True, kw_only=True)
 class ElasticOpeningSection:
-    """[physics.elastic_opening]: gaps whose walls give way."""
+    """[physics.elastic_opening]: gaps whose walls deform."""
 
     piston: OpeningSection | None = None
     slipper: OpeningSection | None = None
@@ -200,7 +200,7 @@ class CompressionLossSection:
 
 @dataclass(frozen=True, kw_only=True)
 class SwashDroopSection:
-    """[physics.swash_droop]: a swash plate that gives way."""
+    """[physics.swash_droop]: a swash plate that tilts back under load."""
 
     rate: Annotated[float, Dimension.ANGLE_COMPLIANCE, Limits(least=0.0, most=3e-10)] = 0.0
     play: Annotated[float, Dimension.ANGLE, Limits(least=0.0, most=3e-3)] = 0.0

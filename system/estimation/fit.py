@@ -26,10 +26,10 @@ from system.estimation.whitening import Whitening, whitener
 
 HARDER, EASIER = 4.0, 1.0 / 3.0  # the damping after a trial that failed, that kept its promise
 LEAST_DAMPING, FIRST_DAMPING, MOST_DAMPING = 1e-6, 1e-2, 1e6
-LOCAL = 1e2  # damping from which a trial that fails tells of the slopes here, not of the curve on the way
-SHORT = 1e-3  # in xi: over shorter steps the solvers' own error outweighs what the readings change by
+LOCAL = 1e2  # damping from which a failed trial shows wrong slopes here, not the curve on the way
+SHORT = 1e-3  # in xi: over shorter steps the solvers' own error exceeds the change of the readings
 GOOD = 0.5  # share of the promised fall: below it the slopes are asked for anew
-NEAR = 0.02  # in xi: slopes taken no farther away tell of a peak and of its covariance
+NEAR = 0.02  # in xi: slopes taken no farther away are valid for a peak and its covariance
 PATIENCE = 4  # trials that a fit is given before it may be hopeless
 SAME_NOISE = 1e-2  # relative change of the whitening below which it is not renewed
 
@@ -92,7 +92,7 @@ class _Fit:
     def place(self, xi: Array, whitening: Whitening) -> _Iterate:
         """Predict at xi. Raises NotConverged where the simulator does."""
         self.predictions += 1
-        return self.seen(xi, self.simulator.predict(values_at(self.simulator.parameters, xi)), whitening)
+        return self.iterate(xi, self.simulator.predict(values_at(self.simulator.parameters, xi)), whitening)
 
     def trial(self, xi: Array, whitening: Whitening) -> _Iterate | None:
         """Predict at the xi within the bounds; None where the simulator fails."""
@@ -101,7 +101,7 @@ class _Fit:
         except NotConverged:
             return None
 
-    def seen(self, xi: Array, predictions: Array, whitening: Whitening) -> _Iterate:
+    def iterate(self, xi: Array, predictions: Array, whitening: Whitening) -> _Iterate:
         """A place with its residual by a whitening."""
         residual = whitening.whiten(self.observations.values - predictions)
         return _Iterate(xi, predictions, residual, float(residual @ residual + xi @ xi))
@@ -175,7 +175,7 @@ def maximum_posterior(
             break
         whitening = renewed
         place, slopes = _descend(
-            fit, fit.walk(fit.seen(place.xi, place.predictions, whitening), whitening), whitening
+            fit, fit.walk(fit.iterate(place.xi, place.predictions, whitening), whitening), whitening
         )
     effort = FitEffort(fit.predictions, fit.slope_maps, process_time() - begun)
     return _posterior(fit, place, slopes, whitening, effort)
@@ -243,9 +243,9 @@ def _tried(fit: _Fit, walk: _Walk, whitening: Whitening) -> _Walk:
         return replace(walk, damping=_damping(walk.damping, 0.0))
     straight = kept = (place.objective - trial.objective) / promised
     if straight < GOOD:
-        bent = fit.trial(trial.xi + _correction(fit, walk, model, trial), whitening)
-        if bent is not None and bent.objective < trial.objective:
-            trial, kept = bent, (place.objective - bent.objective) / promised
+        corrected = fit.trial(trial.xi + _correction(fit, walk, model, trial), whitening)
+        if corrected is not None and corrected.objective < trial.objective:
+            trial, kept = corrected, (place.objective - corrected.objective) / promised
     slopes = walk.slopes
     went = trial.xi - place.xi
     if (kept > 0 or walk.damping > LOCAL) and np.abs(went).max() > SHORT:

@@ -46,7 +46,7 @@ class Parameter:
     source: str
 
     def __post_init__(self) -> None:
-        """Raise InputError for a prior that is none."""
+        """Raise InputError for a void prior."""
         where = f"parameter {self.name}"
         if not 0 < self.spread < inf:
             raise InputError(where, f"a spread of {self.spread}", "a positive number")

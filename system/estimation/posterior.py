@@ -18,7 +18,7 @@ from system.estimation.parameters import Parameter
 from system.estimation.simulator import Simulator
 from system.estimation.whitening import Whitening, whitener
 
-UNSEEN = 1e-9  # share of its prior variance by which a parameter must be known better to have a pull
+UNINFORMED = 1e-9  # share of its prior variance by which a parameter must be known better to have a pull
 
 
 @dataclass(frozen=True)
@@ -60,14 +60,15 @@ class Posterior:
 
     @cached_property
     def pulls(self) -> Array:
-        """(k,), xi / sqrt(1 - its variance): N(0, 1) where the priors are right; 0 where readings say nothing."""
+        """(k,), xi / sqrt(1 - its variance): N(0, 1) where the priors are right; 0 where readings do not
+        inform."""
         gained = 1.0 - np.diag(self.covariance)
-        seen = gained > UNSEEN
-        pulls: Array = np.where(seen, self.xi / np.sqrt(np.where(seen, gained, 1.0)), 0.0)
+        informed = gained > UNINFORMED
+        pulls: Array = np.where(informed, self.xi / np.sqrt(np.where(informed, gained, 1.0)), 0.0)
         return pulls
 
     def index(self, name: str) -> int:
-        """The place of a parameter in every vector. Raises InputError for a name that is none."""
+        """The index of a parameter in every vector. Raises InputError for an unknown name."""
         names = [parameter.name for parameter in self.parameters]
         if name not in names:
             raise InputError("posterior", f"parameter {name!r}", f"one of {', '.join(names)}")

@@ -74,8 +74,8 @@ def whitener(observations: Observations, input_slopes: Array) -> Whitening:
     """
     measured = observations.measured
     own = np.where(measured, observations.sigma, 1.0)
-    seen = np.where(measured[..., None], input_slopes, 0.0) * observations.input_sigma[:, None, :]
-    covariance = seen @ seen.transpose(0, 2, 1)
+    by_inputs = np.where(measured[..., None], input_slopes, 0.0) * observations.input_sigma[:, None, :]
+    covariance = by_inputs @ by_inputs.transpose(0, 2, 1)
     diagonal = own**2 + np.where(measured, observations.quantum**2 / 12.0, 0.0)
     covariance += diagonal[:, :, None] * np.eye(measured.shape[1])
     factors = np.linalg.inv(np.linalg.cholesky(covariance))

@@ -49,7 +49,7 @@ def slipper_walls(pump: PumpDescription, elastic: Materials, taken: Taken) -> Pl
     )
     socket = taken.value(
         "slipper.socket_radius", part.socket_radius, part.ball_joint_radius,
-        "the ball's radius: what lies over the ball does not give way", length,
+        "the ball's radius: no deformation over the ball", length,
     )  # fmt: skip
     depth = taken.value(
         "swash_plate.thickness", pump.swash_plate.thickness, PLATE_DEPTH * rim,

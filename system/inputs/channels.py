@@ -37,7 +37,7 @@ class ChannelName(Enum):
 
     @classmethod
     def named(cls, name: str) -> ChannelName:
-        """The channel of a standard name. Raises ValueError for a name that is none."""
+        """The channel of a standard name. Raises ValueError for another name."""
         found: ChannelName = cls._value2member_map_.get(name)  # type: ignore[assignment]
         if found is None:
             raise ValueError(f"channel {name!r}; expected one of {', '.join(each.value for each in cls)}")

@@ -27,7 +27,7 @@ class Fault:
 class InputFaults(Exception):
     """All faults of one input at once. `source` is the file, the built-in name or the command line.
 
-    `lines` gives the line of a path in the file, where it is known; None for what does not stand in the file.
+    `lines` gives the line of a path in the file, where it is known; None for a path that is not in the file.
     """
 
     def __init__(

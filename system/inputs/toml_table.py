@@ -30,7 +30,7 @@ def read_toml(path: Path) -> tuple[str, dict[str, Any]]:
 
 
 def toml_tables(source: str, text: str) -> dict[str, Any]:
-    """The tables of a TOML text; raises InputFaults, naming the `source`, for a text that is none."""
+    """The tables of a TOML text; raises InputFaults, naming the `source`, for another text."""
     try:
         return tomllib.loads(text)
     except tomllib.TOMLDecodeError as reason:
@@ -78,7 +78,7 @@ class Table:
         return self.values.get(key)
 
     def fault(self, key: str, found: str, expected: str, nearest: str = "") -> None:
-        """Tell of a fault of one key."""
+        """Add a fault of one key."""
         self.faults.append(Fault(self.name(key), found, expected, nearest))
 
     def name(self, key: str) -> str:
@@ -96,7 +96,7 @@ class Table:
         return None
 
     def quantity(self, key: str, dimension: Dimension, default: float | None = None) -> float | None:
-        """A quantity with its unit in SI; None with its fault told."""
+        """A quantity with its unit in SI; None after a fault."""
         raw = self.get(key)
         if raw is None:
             if default is None:
@@ -109,7 +109,7 @@ class Table:
             return None
 
     def positive(self, key: str, dimension: Dimension, default: float | None = None) -> float | None:
-        """A quantity above zero in SI; None with its fault told."""
+        """A quantity above zero in SI; None after a fault."""
         value = self.quantity(key, dimension, default)
         if value is not None and not value > 0.0:
             self.fault(key, str(self.values[key]), f"{dimension.noun} above zero, such as '{dimension.example}'")
@@ -119,7 +119,7 @@ class Table:
     def pair(
         self, key: str, dimension: Dimension, default: tuple[float, float] | None = None
     ) -> tuple[float, float] | None:
-        """Two quantities, along x and y, in SI; None with the faults told."""
+        """Two quantities, along x and y, in SI; None after a fault."""
         raw = self.get(key)
         if raw is None and default is not None:
             return default
@@ -133,7 +133,7 @@ class Table:
         return None if x is None or y is None else (x, y)
 
     def number(self, key: str, default: float | None = None) -> float | None:
-        """A bare number; None with its fault told."""
+        """A bare number; None after a fault."""
         raw = self.get(key)
         if raw is None and default is not None:
             return default
@@ -143,7 +143,7 @@ class Table:
         return float(raw)
 
     def file(self, key: str, folder: Path, expected: str) -> Path | None:
-        """The path of a file that is there, from a folder; None with its fault told."""
+        """The path of a file that is there, from a folder; None after a fault."""
         raw = self.get(key)
         if not isinstance(raw, str):
             self.fault(key, "no such key" if raw is None else repr(raw), expected)
@@ -155,7 +155,7 @@ class Table:
         return path
 
     def choice(self, key: str, kind: type[Choice], default: Choice | None = None) -> Choice | None:
-        """One of an Enum's values; None with its fault told."""
+        """One of an Enum's values; None after a fault."""
         raw = self.get(key)
         if raw is None and default is not None:
             return default

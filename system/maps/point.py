@@ -110,7 +110,7 @@ class TableSolver:
         return pump
 
     def solve(self, pump: PumpDescription, point: OperatingPoint) -> SolvedPoint:
-        """The point, films as the table tells them."""
+        """The point, with the films of the table."""
         found = table_point(pump, point, self.table)
         return SolvedPoint(found.pump_point, found.film_mean, found.film_least)
 

@@ -40,7 +40,7 @@ class Figure(Enum):
 
     @classmethod
     def named(cls, name: str) -> Figure:
-        """The figure of a name on the command line. Raises KeyError for a name that is none."""
+        """The figure of a name on the command line. Raises KeyError for an unknown name."""
         return {figure.value: figure for figure in cls}[name]
 
 
@@ -53,7 +53,7 @@ DRAWINGS = {
     "fig12": "joints between the parts",
     "fig14": "co-simulation structure",
 }
-"""Figures of the paper that are drawings: no number stands in them."""
+"""Figures of the paper that are drawings without numbers."""
 
 
 class Unit(Enum):

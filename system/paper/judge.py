@@ -12,7 +12,7 @@ from system.paper.figure import Figure, Panel, Unit
 from system.paper.points import LossReading
 
 ROUND_OFF = 1e-6
-"""Of a shown number: below it stands 0."""
+"""Magnitude below which a number is shown as 0."""
 
 
 class StatementVerdict(Enum):

@@ -26,9 +26,9 @@ PLAN = tuple((speed, pressure, ratio) for ratio in RATIOS[1:] for speed in SPEED
 """The paper's test plan, 112 points."""
 
 
-def made_readings(seen: PaperPoints) -> tuple[BenchPoints, Observations]:
+def made_readings(source: PaperPoints) -> tuple[BenchPoints, Observations]:
     """Readings of a bench with sensors of NOISE at PLAN; the same at each call."""
-    rows = [seen.at(*place) for place in PLAN]
+    rows = [source.at(*place) for place in PLAN]
     true = np.array([
         [of.delivery_flow, of.inlet_flow, of.drain_flow, of.shaft_torque] for of in (one.bench for one in rows)
     ])  # fmt: skip
@@ -39,11 +39,11 @@ def made_readings(seen: PaperPoints) -> tuple[BenchPoints, Observations]:
     channels = tuple(Channel(name.value, name.dimension) for name in NOISE)
     count = len(rows)
     readings = Observations(channels, values, sigma, (), np.zeros((count, 0)), np.zeros(4), np.arange(count))
-    return _bench_points(rows, seen), readings
+    return _bench_points(rows, source), readings
 
 
-def _bench_points(rows: Sequence[PaperPoint], seen: PaperPoints) -> BenchPoints:
-    at, count = seen.pump.operating, len(rows)
+def _bench_points(rows: Sequence[PaperPoint], source: PaperPoints) -> BenchPoints:
+    at, count = source.pump.operating, len(rows)
     held = np.full(count, at.temperature)
     return BenchPoints(
         speed=np.array([one.bench.shaft_speed for one in rows]),

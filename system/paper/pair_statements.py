@@ -80,7 +80,7 @@ PAIR_CLAIMS = (
     share_claim(
         "fig19.agrees",
         Figure.FIG19,
-        "comparisons of hydro-mechanical losses generated in the ball guide retainer pair [deviations are told of "
+        "comparisons of hydro-mechanical losses generated in the ball guide retainer pair [deviations stated for "
         "2100 r/min alone]",
         "multibody over equation, less 1, below rated speed",
         -0.05,

@@ -172,7 +172,7 @@ _CHAMBER_CLAIMS = (
         "peak above the delivery pressure, of the rated pressure",
         -inf,
         0.01,
-        f"no impact: within 1 % of the rated pressure, not to be seen in the print, {OURS}",
+        f"no impact: within 1 % of the rated pressure, not visible in the print, {OURS}",
     ),
     share_claim(
         "fig11.small",
@@ -219,7 +219,7 @@ _FIT_CLAIMS = (
         "Eq. (2) of the simulated bench over the pairs' sum, less 1",
         -0.1,
         0.1,
-        f"well: within 10 %, {OURS}; the test points stand in no text",
+        f"well: within 10 %, {OURS}; no text gives the test points",
     ),
 )
 CLAIMS: Mapping[str, PaperClaim] = {

@@ -114,9 +114,9 @@ def film_effects(rotor: Rotor, parts: FloatingParts, pump: PumpDescription, phys
         parts = _with_laws(parts, lambda gap, laws: replace(laws, walls=soft[gap] or laws.walls))
         on = {gap: own.including(Effect.ELASTIC_WALLS) if soft[gap] else own for gap, own in on.items()}
     if stated.film_heating is not None:
-        parts, told = _between_walls(rotor, parts, stated.film_heating)
+        parts, assumed = _between_walls(rotor, parts, stated.film_heating)
         on = {gap: own.including(Effect.HEAT) for gap, own in on.items()}
-        taken += told
+        taken += assumed
     parts = replace(parts, taken=tuple(taken))
     return FilmEffects(
         replace(parts, taken=all_taken(rotor, parts, on[Gap.PISTON])), GapPhysics(*(on[gap] for gap in Gap))
@@ -179,8 +179,8 @@ def _between_walls(
         )  # fmt: skip
     shares = stated.carried_share, stated.throttled_share, stated.carry_over
     if shares != _SOLVED_SHARES:
-        told = "carried_share {:.3g}, throttled_share {:.3g} and carry_over {:.3g}".format(*shares)
-        taken.note("heat of the oil", "as the films carry it", f"{told} are of the closed law alone")
+        stated_shares = "carried_share {:.3g}, throttled_share {:.3g} and carry_over {:.3g}".format(*shares)
+        taken.note("heat of the oil", "as the films carry it", f"{stated_shares} are of the closed law alone")
     return replace(parts, materials=materials), tuple(taken.assumptions)
 
 

@@ -125,8 +125,8 @@ def films_point(
             f"Pa, expected at most {limit:.3g} Pa; try the lumped fidelity, more film angles, stiffer walls"
         )
     sampled = _sampling_error(ported.problem, leaks, work.effects, cycle)
-    told, films = _told(work, point, gaps, ported), work.films
-    return FilmsPoint(at, films.parts, films.physics, told, gaps, rounds, change, sampled)
+    whole, films = _pump_point(work, point, gaps, ported), work.films
+    return FilmsPoint(at, films.parts, films.physics, whole, gaps, rounds, change, sampled)
 
 
 def _run_away(pump: PumpDescription, reason: InputError) -> InputError | NotConverged:
@@ -139,7 +139,7 @@ def _run_away(pump: PumpDescription, reason: InputError) -> InputError | NotConv
         return reason
     return NotConverged(
         "physics.viscosity_pressure: between rigid walls a film has no solution where plain oil would come to "
-        f"{1e-6 / stated.coefficient:.3g} MPa, one over the coefficient; a part stands too near its wall: give a "
+        f"{1e-6 / stated.coefficient:.3g} MPa, one over the coefficient; a part is too close to its wall: give a "
         "smaller piston.eccentricity_ratio or tilt, [physics.elastic_opening] for that gap, warmer oil or the "
         "lumped fidelity"
     )
@@ -174,11 +174,11 @@ class _Coupling:
 
 def _work(pump: PumpDescription, point: OperatingPoint, physics: GapPhysics) -> _Coupling:
     warm = at_temperature(pump, point.temperature)
-    own, stands = closed_laws(warm), unpressed(warm, point.case_pressure)
+    own, described = closed_laws(warm), unpressed(warm, point.case_pressure)
     plain = lumped_point(replace(own, physics=PhysicsSection()), point)
     effects = (point_effects(own, plain.point, plain.cycle),) if own.physics.on else ()
-    asked, at = with_stroke(point, effects), rotor(stands, with_stroke(plain.point, effects))
-    films = film_effects(at, floating_parts(stands), warm, physics)
+    asked, at = with_stroke(point, effects), rotor(described, with_stroke(plain.point, effects))
+    films = film_effects(at, floating_parts(described), warm, physics)
     return _Coupling(own, asked, piston_motion(own, asked), effects, films, at, plain.cycle)
 
 
@@ -191,7 +191,7 @@ def _ported(work: _Coupling, gaps: GapCycle, met: OperatingPoint) -> tuple[Porte
     return ported_cycle((problem,), lines, work.pump.pump.pistons, samples, draws=draws), leaks
 
 
-def _told(work: _Coupling, asked: OperatingPoint, gaps: GapCycle, ported: PortedCycle) -> PumpPoint:
+def _pump_point(work: _Coupling, asked: OperatingPoint, gaps: GapCycle, ported: PortedCycle) -> PumpPoint:
     """The pump whose films and chambers agree."""
     pump, pistons = work.pump, work.pump.pump.pistons
     exchange = gap_exchange(gaps, ported.cycle, pistons, work.point)

@@ -41,14 +41,14 @@ class FloatingGaps:
     chamber: int = 0
 
 
-def of_each(revolution: GapRevolution[Reported], tell: Callable[[Reported], float | Array]) -> Array:
-    """Values of `tell` at each reported angle, (n, ...), from shaft angle 0 on."""
-    return np.roll(np.array([tell(instant.report) for instant in revolution.turn.instants]), 1, axis=0)
+def of_each(revolution: GapRevolution[Reported], value: Callable[[Reported], float | Array]) -> Array:
+    """Values of `value` at each reported angle, (n, ...), from shaft angle 0 on."""
+    return np.roll(np.array([value(instant.report) for instant in revolution.turn.instants]), 1, axis=0)
 
 
-def passing(revolution: GapRevolution[Reported], tell: Callable[[Reported], float | Array]) -> Array:
-    """Means of `tell` around each reported angle, (n, ...), from shaft angle 0 on."""
-    return around(np.roll(np.array([tell(instant.passed) for instant in revolution.turn.instants]), 1, axis=0))
+def passing(revolution: GapRevolution[Reported], value: Callable[[Reported], float | Array]) -> Array:
+    """Means of `value` around each reported angle, (n, ...), from shaft angle 0 on."""
+    return around(np.roll(np.array([value(instant.passed) for instant in revolution.turn.instants]), 1, axis=0))
 
 
 def around(means: Array) -> Array:
@@ -242,8 +242,8 @@ def with_floating_gaps(
 def _pair(count: int, revolution: GapRevolution[Reported], samples: int) -> PairLoss:
     turns = round(TURN / revolution.angles[-1])
     rubbed, sheared = (
-        resampled(np.tile(passing(revolution, tell), turns), samples)
-        for tell in (lambda report: report.heat.rubbing, lambda report: report.heat.shear)
+        resampled(np.tile(passing(revolution, value), turns), samples)
+        for value in (lambda report: report.heat.rubbing, lambda report: report.heat.shear)
     )
     return PairLoss(count, rubbed, sheared)
 
@@ -283,8 +283,8 @@ def _rubbed(report: GapReport) -> float:
     return report.heat.shear + report.heat.rubbing
 
 
-def _mean(revolution: GapRevolution[Reported], tell: Callable[[Reported], float]) -> float:
-    return float(np.mean([tell(instant.passed) for instant in revolution.turn.instants]))
+def _mean(revolution: GapRevolution[Reported], value: Callable[[Reported], float]) -> float:
+    return float(np.mean([value(instant.passed) for instant in revolution.turn.instants]))
 
 
 def port_draws(

@@ -113,11 +113,11 @@ def piston_revolution(
     cells = options.piston_cells
     film = piston_film(rotor, parts, drive, options.physics, cells)
     floating, schedule = floating_piston(film), evenly(drive.shaft_speed, options.steps, keep=options.keep)
-    told = _of_turn(report, options.steps, "piston")
+    progress = _of_turn(report, options.steps, "piston")
     report_of = partial(piston_report, film)
     heat = piston_heat(rotor, parts) if options.physics.heat else None
     space, start = film.space_at(0.0), np.zeros(4)
-    return _run(space, floating, schedule, start, report_of, options, heat, before, told)
+    return _run(space, floating, schedule, start, report_of, options, heat, before, progress)
 
 
 def slipper_revolution(
@@ -135,11 +135,11 @@ def slipper_revolution(
     cells = options.slipper_cells
     film = slipper_film(rotor, parts, drive, options.physics, cells)
     floating, schedule = floating_slipper(film), evenly(drive.shaft_speed, options.steps, keep=options.keep)
-    start, told = np.array([SLIPPER_START, 0.0, 0.0]), _of_turn(report, options.steps, "slipper")
+    start, progress = np.array([SLIPPER_START, 0.0, 0.0]), _of_turn(report, options.steps, "slipper")
     report_of = partial(slipper_report, film)
     heat = slipper_heat(rotor, parts) if options.physics.heat else None
     try:
-        return _run(film.space, floating, schedule, start, report_of, options, heat, before, told)
+        return _run(film.space, floating, schedule, start, report_of, options, heat, before, progress)
     except FilmNotConverged as stopped:
         raise _pulled_off(drive, options.steps, stopped) from stopped
 
@@ -185,11 +185,11 @@ def block_revolution(
     steps, span = (options.steps // pistons, 2.0 * np.pi / pistons) if alike else (options.steps, 2.0 * np.pi)
     film = block_film(rotor, parts, drive, options.physics, options.block_cells)
     schedule = evenly(drive.shaft_speed, steps, span, options.keep)
-    start, told = np.array([BLOCK_START, 0.0, 0.0]), _of_turn(report, steps, "block")
+    start, progress = np.array([BLOCK_START, 0.0, 0.0]), _of_turn(report, steps, "block")
     report_of = partial(block_report, film)
     heat = block_heat(rotor, parts) if options.physics.heat else None
     try:
-        return _run(film.space, floating_block(film), schedule, start, report_of, options, heat, before, told)
+        return _run(film.space, floating_block(film), schedule, start, report_of, options, heat, before, progress)
     except FilmNotConverged as stopped:
         raise _off_its_plate(pump, stopped) from stopped
 

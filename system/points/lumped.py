@@ -33,7 +33,7 @@ from system.pump.power import chamber_exchange
 
 ROUND_LIMIT = 20
 SETTLED = 1e-7
-"""Change of a gap's leakage between two rounds, of itself, that is none."""
+"""Relative change of a gap's leakage between two rounds that counts as zero."""
 
 
 def lumped_point(pump: PumpDescription, point: OperatingPoint, tolerance: float = TOLERANCE) -> PumpPoint:

@@ -24,7 +24,7 @@ from system.points.floating_gaps import FloatingOptions, piston_revolution
 from system.work.progress import Report
 
 Found = GapRevolution[PistonReport]
-TOLD_A_TURN = 12
+REPORTS_A_TURN = 12
 
 
 @dataclass(frozen=True)
@@ -65,18 +65,18 @@ class PistonBeside:
         """
         while True:
             try:
-                told = self._connection.recv()
+                received = self._connection.recv()
             except (EOFError, ConnectionResetError):
                 raise NotConverged(
-                    "the piston's process has died; try one process alone, or in a script of your own stand what "
-                    "it runs under `if __name__ == '__main__':`"
+                    "the piston's process has died; try one process alone, or in a script of your own call it "
+                    "under `if __name__ == '__main__':`"
                 ) from None
-            if isinstance(told, _Progress):
-                report(told.done, told.total, told.what)
-            elif isinstance(told, Exception):
-                raise told
+            if isinstance(received, _Progress):
+                report(received.done, received.total, received.what)
+            elif isinstance(received, Exception):
+                raise received
             else:
-                found: tuple[Found, ...] = told
+                found: tuple[Found, ...] = received
                 return found
 
 
@@ -105,7 +105,7 @@ def _serve(connection: Connection, parts: tuple[FloatingParts, ...]) -> None:
         except EOFError:
             return
         try:
-            found = [_solve(*each, _teller(connection)) for each in zip(asked, parts, before, strict=True)]
+            found = [_solve(*each, _progress_to(connection)) for each in zip(asked, parts, before, strict=True)]
         except Exception as reason:  # whatever it is belongs to whoever asked
             connection.send(reason)
         else:
@@ -113,14 +113,14 @@ def _serve(connection: Connection, parts: tuple[FloatingParts, ...]) -> None:
             connection.send(tuple(one.bare for one in found))
 
 
-def _teller(connection: Connection) -> Report:
+def _progress_to(connection: Connection) -> Report:
     """Progress, seldom enough for a pipe that nobody reads for a while."""
 
-    def tell(done: int, total: int, what: str) -> None:
-        if done % max(1, total // TOLD_A_TURN) == 0:
+    def report(done: int, total: int, what: str) -> None:
+        if done % max(1, total // REPORTS_A_TURN) == 0:
             connection.send(_Progress(done, total, what))
 
-    return tell
+    return report
 
 
 def _solve(asked: Driven, parts: FloatingParts, before: Found | None, report: Report) -> Found:

@@ -35,7 +35,7 @@ from system.pump.laws.kinematics import (
 from system.work.means import mean_of
 
 AT_REST = 1e-9
-"""Part of the largest speed below which a part is at rest and its loss tells of no force."""
+"""Part of the largest speed below which a part is at rest and its loss gives no force."""
 ABOUT_SHAFT = (Pair.VALVE_PLATE_CYLINDER, Pair.BALL_GUIDE_RETAINER, Pair.FRONT_BEARING, Pair.REAR_BEARING)
 """Pairs that rub about the shaft: their torque is loss over shaft speed."""
 

@@ -67,10 +67,10 @@ def builtin_pumps() -> tuple[str, ...]:
 def load_pump(source: str | Path, overrides: Mapping[str, object] | None = None) -> PumpDescription:
     """Return the description of a built-in pump (by name) or of a pump file (by path), in SI.
 
-    `overrides` puts values in place of the file's, as they would stand there: {"operating.speed": "1500 rpm"}.
+    `overrides` puts values in place of the file's, as written there: {"operating.speed": "1500 rpm"}.
     A file that a value names is looked for beside the pump file; with a built-in pump, in the working directory.
     Raises InputFaults with everything that is wrong: in the file's form, its units, its values and its
-    geometry. Doubtful values raise nothing; `check_pump` tells them.
+    geometry. Doubtful values raise nothing; `check_pump` reports them.
     """
     label, text = _read(source)
     tables = _parse(label, text)
@@ -214,4 +214,4 @@ def _grade_viscosities(grade: object, table: Mapping[str, object], reading: Read
 
 
 _SPECIAL: Mapping[str, Special] = {"oil.grade": _grade_viscosities, "ports.coefficient_file": _file_law}
-"""Keys that stand for others too."""
+"""Keys that set others too."""

@@ -119,7 +119,7 @@ def slipper_grooves_lie_in_the_land(pump: PumpDescription) -> Iterator[Finding]:
 
 
 def groove_faults(part: SlipperSection) -> Iterator[Fault]:
-    """Yield the faults of a slipper's grooves, by the key that each stands in."""
+    """Yield the faults of a slipper's grooves, by the key that gives each."""
     stated = {"grooves": part.grooves or (), "vented_grooves": part.vented_grooves or ()}
     cut = sorted((*groove, key) for key, grooves in stated.items() for groove in grooves)
     last = part.land_inner_radius

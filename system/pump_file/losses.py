@@ -71,17 +71,17 @@ def _shallow(key: str, found: LossFactors) -> Iterator[Finding]:
     """A warning where the deepest steps are not deep."""
     least, most = (float(found.sizes[row, 0]) for row in (0, -1))
     if least > 1.0 / DEEP or most < DEEP:
-        told = f"steps of film_ratio {least:g} and {most:g} at most"
-        remedy = "they stand for pocket, kidney and case; give rows of deeper steps"
-        yield CheckWarning(key, told, f"{1.0 / DEEP:g} and {DEEP:g}", remedy)
+        sizes = f"steps of film_ratio {least:g} and {most:g} at most"
+        remedy = "taken for pocket, kidney and case; give rows of deeper steps"
+        yield CheckWarning(key, sizes, f"{1.0 / DEEP:g} and {DEEP:g}", remedy)
 
 
 def _unlike(key: str, found: LossFactors, widths: Sequence[float]) -> Iterator[Finding]:
     """A warning where the deepest grooves are not deep, and where the pump's (widths / film) are others."""
     ratio, width = found.sizes.T
     if ratio.max() < DEEP:
-        told = f"grooves of film_ratio {ratio.max():g} at most"
-        yield CheckWarning(key, told, f"{DEEP:g}", "they stand for the slipper's; give rows of deeper grooves")
+        sizes = f"grooves of film_ratio {ratio.max():g} at most"
+        yield CheckWarning(key, sizes, f"{DEEP:g}", "taken for the slipper's; give rows of deeper grooves")
     ends = width[ratio == ratio.max()]
     for own in widths:
         if own < ends.min() or own > ends.max() < WIDE:

@@ -208,7 +208,7 @@ def spring_holds_the_slippers(pump: PumpDescription) -> Iterator[Finding]:
     try:
         full = crossed_drive(part.pitch_radius, part.bore_cone_angle, part.swash_angle_max, cross)
         drive = drive_at_ratio(full, at.displacement_ratio)
-    except ValueError:  # other checks tell a plate that cannot stand so
+    except ValueError:  # other checks report such a plate
         return
     inertia = (pump.piston.mass + pump.slipper.mass) * float(ball_acceleration_along_bore(drive, 0.0, at.speed))
     pull = inertia + piston_area(pump) * (at.case_pressure - at.inlet_pressure)

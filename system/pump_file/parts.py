@@ -143,7 +143,7 @@ def _leaves_clearance(path: str, rows: Rows, clearance: float) -> Iterator[Findi
     if least <= -clearance:
         yield Fault(
             path,
-            f"{length(least)} taken off: material that stands out by more than the clearance",
+            f"{length(least)} taken off: material that protrudes by more than the clearance",
             f"more than {length(-clearance)} (minus radial_clearance)",
         )
 

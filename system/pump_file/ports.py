@@ -25,7 +25,7 @@ _KIDNEY = tuple(f"ports.{name}" for name in _KIDNEY_ANGLES)
 
 
 def of_sides(findings: Callable[[PumpDescription], Iterator[Finding]]) -> Callable[..., Iterator[Finding]]:
-    """The findings of a port, of suction and delivery side where these differ; each told at its own keys."""
+    """The findings of a port, of suction and delivery side where these differ; each at its own keys."""
 
     @wraps(findings)
     def of_both(pump: PumpDescription) -> Iterator[Finding]:
@@ -39,7 +39,7 @@ def of_sides(findings: Callable[[PumpDescription], Iterator[Finding]]) -> Callab
 
 
 def _at_delivery(pump: PumpDescription, finding: Finding) -> Finding:
-    """A finding of the delivery side told at the table that brought it."""
+    """A finding of the delivery side at the path of the table that gives its value."""
     key = finding.path.removeprefix("ports.").partition(".")[0]
     if getattr(pump.ports.delivery, key, None) in (None, ()):
         return finding
@@ -60,13 +60,13 @@ def ports_open_in_order(pump: PumpDescription) -> Iterator[Finding]:
 def ports_shut_before_the_other_opens(pump: PumpDescription) -> Iterator[Finding]:
     """Each port is shut before the other, half a turn later, opens."""
     names, sides = ("suction", "delivery"), pump.ports.sides
-    told = set()
+    reported = set()
     for k, side in enumerate(sides):
         other = sides[1 - k]
         last, first = _last(side), _first(other)
         shut, opens = last[1], math.pi + first[1]
-        if shut >= opens and (last, first) not in told:
-            told.add((last, first))
+        if shut >= opens and (last, first) not in reported:
+            reported.add((last, first))
             yield _at_delivery(
                 pump,
                 Fault(

@@ -13,7 +13,7 @@ from system.pump_file.file import GRADE_KEYS, LAW_KEYS
 
 
 def pump_schema() -> Schema:
-    """Return the JSON Schema of a pump file: tables, single parts by number, keys that stand for others."""
+    """Return the JSON Schema of a pump file: tables, single parts by number, keys that set others."""
     types = {name: own for name, own in fields_of(PumpDescription).items() if own.table is not None}
     tables: dict[str, Any] = {name: section_schema(own.table) for name, own in types.items() if own.table}
     for name in SINGLE_PARTS:

@@ -63,8 +63,8 @@ def extended_pump(
 def calibrated_pump(pump: PumpDescription, fit: Posterior, laws: Sequence[Extension] = ()) -> PumpDescription:
     """The pump with a fit's values, and with `laws` switched on; [tolerance] holds the fit's own sigmas.
 
-    A key of [tolerance] that stands for several parameters takes the widest of them. Others keep
-    their tolerance. Raises ValueError for values outside an effect's limits.
+    A key of [tolerance] for several parameters takes the widest of them. Others keep their tolerance. Raises
+    ValueError for values outside an effect's limits.
     """
     own = extended_pump(pump, values_by_name(fit.parameters, fit.values), laws)
     sigma = np.sqrt(np.diag(fit.covariance))

@@ -80,10 +80,10 @@ def loss_model_bench(
     model: LossModel, pump: PumpDescription, points: BenchPoints, inputs: tuple[ChannelName, ...]
 ) -> LossModelBench:
     """A model at the points of a bench, with priors of its coefficients by the size of their columns there."""
-    seen = loss_points(pump, points)
+    at_bench = loss_points(pump, points)
     parameters = (
-        *_coefficients("flow", model.flow, seen, float(np.abs(seen.ideal_flow).max())),
-        *_coefficients("torque", model.torque, seen, float(np.abs(seen.ideal_torque).max())),
+        *_coefficients("flow", model.flow, at_bench, float(np.abs(at_bench.ideal_flow).max())),
+        *_coefficients("torque", model.torque, at_bench, float(np.abs(at_bench.ideal_torque).max())),
     )
     return LossModelBench(model, pump, points, inputs, parameters)
 

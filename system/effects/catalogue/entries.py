@@ -44,4 +44,4 @@ def entry_of(effect: EffectId) -> Entry:
     for entry in CATALOGUE:
         if entry.id is effect:
             return entry
-    raise ValueError(f"{effect.value}: stands in no catalogue")
+    raise ValueError(f"{effect.value}: not in the catalogue")

@@ -1,6 +1,6 @@
 """The flow through two patches of an OpenFOAM case, read with pyvista: a flow coefficient at a Reynolds number.
 
-Incompressible cases have a kinematic pressure p/rho in m2/s2; which one a file `p` holds its `dimensions` tell.
+Incompressible cases have a kinematic pressure p/rho in m2/s2; the `dimensions` of a file `p` say which it holds.
 """
 
 from __future__ import annotations
@@ -94,8 +94,8 @@ def _pressure_powers(case: Path, time: float) -> tuple[float, ...]:
     found = _DIMENSIONS.search(places[0].read_text("latin-1")) if places else None
     powers = tuple(float(word) for word in found[1].split()[:3]) if found else ()
     if powers not in (KINEMATIC, PRESSURE):
-        told = found[1].strip() if found else "no dimensions"
-        fault = Fault("field p", f"dimensions [{told}]", "[0 2 -2 ..] (kinematic) or [1 -1 -2 ..]")
+        stated = found[1].strip() if found else "no dimensions"
+        fault = Fault("field p", f"dimensions [{stated}]", "[0 2 -2 ..] (kinematic) or [1 -1 -2 ..]")
         raise InputFaults(str(case), [fault])
     return powers
 

@@ -48,7 +48,7 @@ def _example_heads(layout: Points) -> list[str]:
 
 
 def _columns(path: Path, head: list[str], layouts: tuple[Points, ...]) -> tuple[Points, list[str], list[int]]:
-    """The layout that a head is of, the unit of each of its columns, and where in the file each stands."""
+    """The layout of a head, and the unit and the index in the file of each of its columns."""
     matches = [_HEAD.fullmatch(cell) for cell in head]
     names = [
         match[1].replace("_", " ").lower() if match else cell.strip()

@@ -155,7 +155,7 @@ def read_entry(path: str, own: FieldType, raw: object, reading: Reading) -> obje
 
 
 def _several(path: str, own: FieldType, raw: object, reading: Reading) -> tuple[object, ...] | None:
-    """Return one value or a list of them as a tuple; None with a fault for each that is none."""
+    """Return one value or a list of them as a tuple; None with a fault for each that is no such value."""
     found: list[object] = []
     entries = raw if isinstance(raw, list) else [raw]
     for one in entries:

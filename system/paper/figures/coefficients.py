@@ -18,21 +18,21 @@ from system.paper.statements import CLAIMS
 from system.pump.laws.friction_pairs import Pair
 
 
-def fig13(model: PaperPoints, seen: PaperPoints) -> FigureResult:
-    """Coefficients by Eq. (21) of `model`, tuned to readings made from the points in `seen` with noise.
+def fig13(model: PaperPoints, source: PaperPoints) -> FigureResult:
+    """Coefficients by Eq. (21) of `model`, tuned to readings made from the points in `source` with noise.
 
     model: by the lumped fidelity. No text gives the paper's test points, so readings are made: by another
-    fidelity if `seen` is one, else by the model itself, which favours it.
+    fidelity if `source` is one, else by the model itself, which favours it.
     """
-    points, readings = made_readings(seen)
+    points, readings = made_readings(source)
     equation, losses = equation_of(model), measured_losses(points, readings)
     rated = model.pump.pump.rated_speed
     fits = {
         LossReading.WITH_SHEAR: eq_fits(equation, losses, points, rated),
         LossReading.MIXED: eq_fits(equation.mixed, losses, points, rated),
     }
-    own = ", the model's own, so that the fit finds what it was made of" if seen.fidelity is model.fidelity else ""
-    remarks = f"Readings are {MADE}: of {seen.fidelity.value} points{own}; with a bench's noise, seed {SEED}."
+    own = ", the model's own, so that the fit finds its own numbers" if source.fidelity is model.fidelity else ""
+    remarks = f"Readings are {MADE}: of {source.fidelity.value} points{own}; with a bench's noise, seed {SEED}."
     return fig13_of(fits, (remarks,))
 
 
@@ -102,7 +102,7 @@ def _rank(fits: Sequence[EqFit]) -> str:
     ranks = ", ".join(f"{fit.rank} at {100.0 * fit.ratio:.0f} %" for fit in fits if fit.ratio is not None)
     whole = fits[-1]
     return (
-        f"Of {len(_names(whole))} coefficients Eq. (21)'s points at rated speed and one displacement tell apart "
+        f"Of {len(_names(whole))} coefficients Eq. (21)'s points at rated speed and one displacement determine "
         f"(rank) {ranks}; all {whole.points} points together {whole.rank}."
     )
 

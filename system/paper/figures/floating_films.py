@@ -138,9 +138,7 @@ def _fig8(pump: PumpDescription, piston: Mapping[str, Any], remarks: tuple[str, 
               FigureAxis("eccentricity over clearance", Unit.NUMBER), courses),
     )  # fmt: skip
     mean, over = piston["mean"], float(values.mean() / values.min())
-    wider = (
-        f"clearance {clearance * 1e6:g} um: what its mean exceeds it by, relieved edges and walls that give way"
-    )
+    wider = f"clearance {clearance * 1e6:g} um: its mean exceeds it by relieved edges and elastic walls"
     least = f"least film anywhere {piston['least'] * 1e6:.2f} um (below 0 rough walls overlap), "
     judged = (
         judge(CLAIMS["fig8.mean"], Range(mean, mean), reason=wider),

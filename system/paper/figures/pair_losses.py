@@ -50,7 +50,7 @@ def fig16(points: PaperPoints) -> FigureResult:
         judged.append(judge(CLAIMS["fig16.linear"], Range(0.0, departs), reading=reading))
         judged.append(judge(CLAIMS["fig16.agrees"], over, reading=reading, reason=_bench_reason(points, reading)))
     return FigureResult(Figure.FIG16, panels, tuple(judged), (
-        "The test points stand in no text: Eq. (2) is applied to what a bench of this pump would read.",
+        "No text gives the test points: Eq. (2) is applied to what a bench of this pump would read.",
         "(g) prints 0.52 of the displacement where the test plan has 51 %.",
         "Fig. 16 speaks of pressure differences, the rest of pressures: here the gauge pressure at the "
         "delivery port.",

@@ -135,8 +135,8 @@ def build_table(
     outputs = measured_outputs(np.concatenate([learnt.values, held_out.values]))
     table = ResponseTable(_origin(case, found), Response(case.axes, outputs, learnt, held_out))
     pump = with_held_ports(case.pump)
-    told = [pump_numbers(table_point(pump, point_at(case, x), table).pump_point) for x in held_out.points]
-    table = replace(table, numbers=numbers_error(np.array(told), numbers))
+    predicted = [pump_numbers(table_point(pump, point_at(case, x), table).pump_point) for x in held_out.points]
+    table = replace(table, numbers=numbers_error(np.array(predicted), numbers))
     keep_table(table, tables_folder(folder) / f"{table.origin.pump_key}-{case_key(case)}")
     return table
 

@@ -124,7 +124,7 @@ def _losses(by_law: FrictionPairs, power: Array, means: Mapping[str, float]) -> 
 
     power (3,) W: the reference power of the table's drag ratios; the table learns the loss less that power.
     """
-    told = {
+    losses = {
         pair.value: _with_mean(
             by_law.loss(pair),
             means[f"{gap}.friction"] * by_law.loss(pair).mean + means[f"{gap}.carried"] * float(power[k]),
@@ -133,8 +133,8 @@ def _losses(by_law: FrictionPairs, power: Array, means: Mapping[str, float]) -> 
         for k, (gap, pair) in enumerate(GAP_PAIRS.items())
     }
     joint = by_law.piston_slipper_socket
-    told[Pair.PISTON_SLIPPER_SOCKET.value] = _with_mean(joint, means["socket.friction"] * joint.mean, 1.0)
-    return replace(by_law, **told)
+    losses[Pair.PISTON_SLIPPER_SOCKET.value] = _with_mean(joint, means["socket.friction"] * joint.mean, 1.0)
+    return replace(by_law, **losses)
 
 
 def _with_mean(law: PairLoss, mean: float, contact: float) -> PairLoss:

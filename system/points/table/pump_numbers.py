@@ -59,11 +59,11 @@ def pump_numbers(point: PumpPoint) -> Array:
     )
 
 
-def numbers_error(told: Array, solved: Array) -> NumbersError:
+def numbers_error(predicted: Array, solved: Array) -> NumbersError:
     """The error of numbers (n, r) by a table against those solved (n, r)."""
     positive, largest = np.all(solved > 0.0, axis=0), np.abs(solved).max(axis=0)
     scale = np.where(positive, solved, np.where(largest > 0.0, largest, 1.0))
-    off = np.abs((told - solved) / scale)
+    off = np.abs((predicted - solved) / scale)
     return NumbersError(
         tuple(Measure.RELATIVE if one else Measure.OF_LARGEST for one in positive),
         HeldOutError(np.sqrt(np.mean(off**2, axis=0)), np.max(off, axis=0), np.argmax(off, axis=0)),

@@ -131,7 +131,7 @@ class _Solved:
 def _agree(
     sides: tuple[_Side, _Side], pressure: Array, solved: _Solved, samples: int, tolerance: float
 ) -> tuple[_Solved, Array, int, float]:
-    """Rounds of chambers and ports from port pressures (2, M) until these repeat, as `PortedCycle` tells it."""
+    """Rounds of chambers and ports from port pressures (2, M) until these repeat, as in `PortedCycle`."""
     history, limit = History(), SETTLED * tolerance * solved.oil.pressure_span
     for rounds in range(1, ROUND_LIMIT + 1):
         turn, pitch = np.tile(pressure, sides[0].repeats), samples // sides[0].pistons

@@ -33,7 +33,7 @@ class Supply:
     """Inflow of a port from the chambers over one period (s), oil at zero gauge pressure.
 
     mean inflow in m3/s, negative at a suction port; surge (M,) m3, what has come in since shaft angle 0 beyond the
-    mean; draw (M,) m3/s, taken from the port by films; open_volume m3 of the chambers that stand open to it, mean.
+    mean; draw (M,) m3/s, taken from the port by films; open_volume m3 of the chambers open to it, mean.
     """
 
     period: float
@@ -85,7 +85,7 @@ def port_balance(
     gone = np.zeros_like(mass_flow)
     gone[1:] = mass_flow[1:] / (1j * waves[1:])
     if pressure.size % 2 == 0:
-        gone[-1] = 0.0  # of the shortest wave only the cosine is seen, its integral is not
+        gone[-1] = 0.0  # the samples hold only the cosine of the shortest wave, not its integral
     rest = np.fft.rfft(line.volume * dense - supply.surge) + gone
     mean_rest = float(mass_flow[0].real) / pressure.size - supply.mean
     step = np.zeros_like(rest)

@@ -1,7 +1,7 @@
 """Ports of the valve plate: opening area and orifice law, Eq. (20) of Xu, Hu, Zhang and Mao (2017) made regular.
 
 Over the turn a port opens by its relief grooves (the paper has one, growing with the square of the angle), its
-kidney opens linearly, stands open and closes linearly, and grooves behind it shut last; shut elsewhere. The
+kidney opens linearly, stays open and closes linearly, and grooves behind it shut last; shut elsewhere. The
 suction port counts its angles from the inner dead centre (shaft angle 0), the delivery port from the outer (pi).
 """
 
