@@ -8,6 +8,7 @@ from enum import Enum
 
 from reynolds.numerics.arrays import Array
 from system.inputs.channels import ChannelName
+from system.inputs.faults import stated
 from system.inputs.toml_table import Table
 from system.inputs.units import STANDARD_ATMOSPHERE, Dimension, QuantityError, unit_scale
 
@@ -70,7 +71,7 @@ def read_channel(table: Table, name: ChannelName, reference: PressureReference) 
     before = len(table.faults)
     column, unit = table.get("column"), table.get("unit")
     if not isinstance(column, str) or not column:
-        table.fault("column", "no such key" if column is None else repr(column), "the name of a column")
+        table.fault("column", stated(column), "the name of a column")
     own = (
         table.choice("reference", PressureReference, reference)
         if name.dimension is Dimension.PRESSURE
@@ -101,7 +102,7 @@ def read_time(table: Table, *, needed: bool) -> TimeForm | None:
         return None
     column, unit = time.get("column"), time.get("unit")
     if not isinstance(column, str) or not column:
-        time.fault("column", "no such key" if column is None else repr(column), "the name of a column")
+        time.fault("column", stated(column), "the name of a column")
     factor = 1.0
     try:
         factor, _ = unit_scale(unit if isinstance(unit, str) else "", Dimension.TIME)
@@ -115,12 +116,12 @@ def _scale(table: Table, unit: object, name: ChannelName, reference: PressureRef
     """Factor and offset from the file's number to SI; (1, 0) with its fault added."""
     if name.dimension is None:
         if unit not in ("1", "%"):
-            table.fault("unit", "no such key" if unit is None else repr(unit), "'1' or '%'")
+            table.fault("unit", stated(unit), "'1' or '%'")
         return (0.01 if unit == "%" else 1.0), 0.0
     try:
         factor, offset = unit_scale(unit if isinstance(unit, str) else "", name.dimension)
     except QuantityError as reason:
-        table.fault("unit", "no such key" if unit is None else reason.found, reason.expected, reason.nearest)
+        table.fault("unit", "missing" if unit is None else reason.found, reason.expected, reason.nearest)
         return 1.0, 0.0
     absolute = name.dimension is Dimension.PRESSURE and reference is PressureReference.ABSOLUTE
     return factor, offset - STANDARD_ATMOSPHERE if absolute else offset
@@ -139,19 +140,19 @@ def _not_negative(table: Table, key: str) -> float | None:
 
 def _calibration(table: Table, name: ChannelName, factor: float) -> tuple[float | None, float | None]:
     """One sigma of gain (relative) and zero (SI) of `calibration = { gain = 0.001, zero = "0.1 N m" }`."""
-    stated = table.table("calibration")
-    if stated is None:
+    known = table.table("calibration")
+    if known is None:
         return None, None
-    gain, zero = _not_negative(stated, "gain"), None
-    raw = stated.get("zero")
+    gain, zero = _not_negative(known, "gain"), None
+    raw = known.get("zero")
     if isinstance(raw, str) and name.dimension is not None:
-        zero = _difference(stated, raw, name.dimension)
+        zero = _difference(known, raw, name.dimension)
     elif raw is not None and name.dimension is not None:
-        stated.fault("zero", repr(raw), f"{name.dimension.noun} with its unit, such as '{name.dimension.example}'")
+        known.fault("zero", repr(raw), f"{name.dimension.noun} with its unit, such as '{name.dimension.example}'")
     elif raw is not None:
-        zero = _not_negative(stated, "zero")
+        zero = _not_negative(known, "zero")
         zero = None if zero is None else zero * factor
-    stated.close()
+    known.close()
     return gain, zero
 
 

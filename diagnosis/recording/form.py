@@ -10,6 +10,7 @@ from diagnosis.recording.channel_form import ChannelForm, PressureReference, Tim
 from diagnosis.recording.model import Circuit
 from diagnosis.recording.tables.table import TableSource
 from system.inputs.channels import ChannelName
+from system.inputs.faults import stated
 from system.inputs.toml_table import Table
 from system.inputs.units import Dimension
 
@@ -92,10 +93,9 @@ def read_form(top: Table, folder: Path, data: Path | None) -> RecordingForm | No
 
 
 def _format(top: Table) -> None:
-    stated = top.get("format")
-    if isinstance(stated, bool) or stated != FORMAT:
-        found = "no such key" if stated is None else repr(stated)
-        top.fault("format", found, f"format = {FORMAT}, the recording format of this version")
+    number = top.get("format")
+    if isinstance(number, bool) or number != FORMAT:
+        top.fault("format", stated(number), f"format = {FORMAT}, the recording format of this version")
 
 
 def _text(table: Table, key: str) -> str:
@@ -110,9 +110,9 @@ def _source(table: Table, folder: Path, data: Path | None) -> TableSource:
     """The table's file and the stated form."""
     file = _text(table, "file")
     if not file and data is None:
-        table.fault("file", "no such key", "the path of the table, from the folder of the recording")
-    stated: dict[str, Any] = {key: _text(table, key) for key in _SOURCE_KEYS}
-    return TableSource(folder / file if file else (data or folder), **stated)
+        table.fault("file", "missing", "the path of the table, from the folder of the recording")
+    form: dict[str, Any] = {key: _text(table, key) for key in _SOURCE_KEYS}
+    return TableSource(folder / file if file else (data or folder), **form)
 
 
 def _points(top: Table, folder: Path, data: Path | None) -> SteadyForm | SeriesForm | None:
@@ -167,7 +167,7 @@ def _traces(top: Table, folder: Path, reference: PressureReference) -> TraceForm
         return None
     source, point, cycles = _source(table, folder, None), _text(table, "point"), _text(table, "cycles")
     if not point:
-        table.fault("point", "no such key", "the column that names the steady point of each row")
+        table.fault("point", "missing", "the column that names the steady point of each row")
     parts = [table.table(name.value, needed="with column and unit") for name in _TRACED]
     read = [
         None if part is None else read_channel(part, name, reference)

@@ -166,8 +166,8 @@ def _channels(forms: Sequence[ChannelForm], points: _Points, reader: ColumnReade
         if channel is None:
             reader.fault(
                 f"channel.{form.name.value}.sigma",
-                "no such key, and too few repeated set points to tell",
-                "sigma and sigma_relative (one sigma of repeatability), or repeats with 5 or more repeats",
+                "missing, and too few repeated set points to estimate it",
+                "sigma or sigma_relative (one sigma of repeatability), or a repeats column with 5 or more repeats",
             )
         else:
             channels.append(channel)

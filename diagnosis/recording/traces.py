@@ -122,7 +122,5 @@ def _channels(
     angle = recorded_channel(replace(form.angle, sigma=form.angle.sigma or 0.0), np.zeros(1), None)
     chamber = recorded_channel(form.pressure, pressure, max(scatter, default=None))
     if chamber is None:
-        reader.fault(
-            "traces.p_chamber.sigma", "no such key, and fewer than 3 cycles", "one sigma of repeatability"
-        )
+        reader.fault("traces.p_chamber.sigma", "missing, and fewer than 3 cycles", "one sigma of repeatability")
     return tuple(channel for channel in (angle, chamber) if channel is not None)

@@ -109,7 +109,7 @@ def _scaled(source: str, text: str, stated: Mapping[str, Any], folder: Path) -> 
     facts = _facts(top)
     oil = stated.get("oil")
     if not (isinstance(oil, dict) and ("grade" in oil or "kinematic_viscosity_40C" in oil)):
-        top.fault("oil.grade", "no such key", "the oil's grade, such as 'ISO VG 46', or its two viscosities")
+        top.fault("oil.grade", "missing", "the oil's grade, such as 'ISO VG 46', or its two viscosities")
     if facts is None or top.faults:
         raise InputFaults(source, top.faults, fault_lines(text, top.faults))
     tables: dict[str, Any] = {
@@ -140,7 +140,7 @@ def _facts(top: Table) -> _Facts | None:
     raw, pistons = table.get("displacement"), table.get("pistons")
     displacement = _displacement(table, raw)
     if isinstance(pistons, bool) or not isinstance(pistons, int) or not FEWEST <= pistons <= MOST:
-        found = "no such key" if pistons is None else repr(pistons)
+        found = "missing" if pistons is None else repr(pistons)
         table.fault("pistons", found, f"a whole number from {FEWEST} to {MOST}")
         return None
     kinds = {

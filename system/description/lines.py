@@ -51,11 +51,9 @@ def line_faults(path: str, stated: LineSection) -> Iterator[Fault]:
             found = "without a kind" if kind is None else f"beside kind = '{kind.value}'"
             yield Fault(f"{path}.{key}", found, f"no {key}, or kind = {fits}")
     if kind is LineKind.ORIFICE and stated.volume is None:
-        yield Fault(f"{path}.volume", "no such key", "the volume between pump and orifice, such as '1 L'")
+        yield Fault(f"{path}.volume", "missing", "the volume between pump and orifice, such as '1 L'")
     if kind is LineKind.IMPEDANCE and stated.impedance is None:
-        yield Fault(
-            f"{path}.impedance", "no such key", "rows of frequency, real, imaginary, or a CSV file of them"
-        )
+        yield Fault(f"{path}.impedance", "missing", "rows of frequency, real, imaginary, or a CSV file of them")
     rows = (stated.impedance or ()) if kind is LineKind.IMPEDANCE else ()
     frequency = [0.0, *(row[0] for row in rows)]
     for before, after in pairwise(frequency):

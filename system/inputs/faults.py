@@ -61,6 +61,11 @@ class InputFaults(Exception):
         return "\n".join(rows)
 
 
+def stated(value: object) -> str:
+    """Return a value as its file states it: "missing" for None."""
+    return "missing" if value is None else repr(value)
+
+
 def nearest_choice(found: str, choices: Iterable[str]) -> str:
     """Return the choice spelt most like `found` (any case), or an empty string when none comes near."""
     by_lower = {choice.lower(): choice for choice in choices}

@@ -11,7 +11,7 @@ from enum import Enum
 from pathlib import Path
 from typing import Any, TypeVar
 
-from system.inputs.faults import Fault, InputFaults, key_lines, nearest_choice, nearest_path
+from system.inputs.faults import Fault, InputFaults, key_lines, nearest_choice, nearest_path, stated
 from system.inputs.units import Dimension, QuantityError, parse_quantity, with_point
 
 Choice = TypeVar("Choice", bound=Enum)
@@ -91,8 +91,7 @@ class Table:
         if isinstance(raw, dict):
             return Table(self.name(key), raw, self.faults)
         if raw is not None or needed:
-            found = "no such table" if raw is None else repr(raw)
-            self.fault(key, found, f"a table [{self.name(key)}] {needed}".rstrip())
+            self.fault(key, stated(raw), f"a table [{self.name(key)}] {needed}".rstrip())
         return None
 
     def quantity(self, key: str, dimension: Dimension, default: float | None = None) -> float | None:
@@ -100,7 +99,7 @@ class Table:
         raw = self.get(key)
         if raw is None:
             if default is None:
-                self.fault(key, "no such key", f"{dimension.noun} with its unit, such as '{dimension.example}'")
+                self.fault(key, "missing", f"{dimension.noun} with its unit, such as '{dimension.example}'")
             return default
         try:
             return parse_quantity(raw, dimension)
@@ -124,9 +123,8 @@ class Table:
         if raw is None and default is not None:
             return default
         if not isinstance(raw, list) or len(raw) != 2:
-            found = "no such key" if raw is None else repr(raw)
             example = f'["{dimension.example}", "{dimension.example}"]'
-            self.fault(key, found, f"{dimension.noun} along x and y, such as {example}")
+            self.fault(key, stated(raw), f"{dimension.noun} along x and y, such as {example}")
             return None
         parts = Table(self.name(key), dict(zip("xy", raw, strict=True)), self.faults)
         x, y = (parts.quantity(axis, dimension) for axis in "xy")
@@ -138,7 +136,7 @@ class Table:
         if raw is None and default is not None:
             return default
         if isinstance(raw, bool) or not isinstance(raw, (int, float)) or not math.isfinite(raw):
-            self.fault(key, "no such key" if raw is None else repr(raw), "a bare number (it has no unit)")
+            self.fault(key, stated(raw), "a bare number (it has no unit)")
             return None
         return float(raw)
 
@@ -146,7 +144,7 @@ class Table:
         """The path of a file that is there, from a folder; None after a fault."""
         raw = self.get(key)
         if not isinstance(raw, str):
-            self.fault(key, "no such key" if raw is None else repr(raw), expected)
+            self.fault(key, stated(raw), expected)
             return None
         path = folder / raw
         if not path.is_file():
@@ -163,8 +161,9 @@ class Table:
             if raw == member.value:
                 return member
         names = [str(member.value) for member in kind]
-        found = "no such key" if raw is None else repr(raw)
-        self.fault(key, found, f"one of {', '.join(map(repr, names))}", nearest_choice(str(raw), names))
+        self.fault(
+            key, stated(raw), f"one of {', '.join(map(repr, names))}", nearest_choice(str(raw or ""), names)
+        )
         return None
 
     def close(self) -> None:

@@ -14,7 +14,7 @@ from reynolds.laws.oil import ISO_GRADES
 from system.description.ports import PortsSection
 from system.description.pump import FORMAT, SINGLE_PARTS, PumpDescription
 from system.inputs.coefficients.flow_files import FlowCoefficients
-from system.inputs.faults import Fault, InputFaults, key_lines, nearest_choice, nearest_path
+from system.inputs.faults import Fault, InputFaults, key_lines, nearest_choice, nearest_path, stated
 from system.inputs.sections.fields import fields_of
 from system.inputs.sections.reader import (
     ABSOLUTE,
@@ -141,10 +141,9 @@ def _not_there(path: Path) -> Fault:
 def _parse(label: str, text: str) -> dict[str, Any]:
     """Return the tables of a TOML text of the known format."""
     tables = toml_tables(label, text)
-    stated = tables.get("format")
-    if isinstance(stated, bool) or stated != FORMAT:
-        found = "no such key" if stated is None else repr(stated)
-        fault = Fault("format", found, f"format = {FORMAT}, the pump file format of this version")
+    number = tables.get("format")
+    if isinstance(number, bool) or number != FORMAT:
+        fault = Fault("format", stated(number), f"format = {FORMAT}, the pump file format of this version")
         raise InputFaults(label, [fault], key_lines(text))
     return tables
 
@@ -160,7 +159,7 @@ def _describe(
         if key not in known:
             reading.unknown("", key, known)
     if "name" not in reading.faulty and not (isinstance(name, str) and name.isprintable() and name):
-        reading.fault("name", "no such key" if name is None else repr(name), "the pump's name, one line of text")
+        reading.fault("name", stated(name), "the pump's name, one line of text")
     sections: dict[str, Any] = {
         key: read_section(key, model, tables[key], reading)
         if key in tables

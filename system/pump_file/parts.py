@@ -260,7 +260,7 @@ def lines_have_the_keys_of_their_kinds(pump: PumpDescription) -> Iterator[Findin
     suction = pump.suction_line
     if suction.kind is LineKind.ORIFICE and suction.orifice_area is None and suction.tank_pressure is None:
         expected = "the area, such as '200 mm2', or the tank_pressure with which inlet_pressure gives it"
-        yield Fault("suction_line.orifice_area", "no such key", expected)
+        yield Fault("suction_line.orifice_area", "missing", expected)
 
 
 @needs()

@@ -67,7 +67,7 @@ def read_section(
         if limit := broken_limit(own, stated.get(key)):
             reading.fault(f"{path}.{key}", str(table.get(key, table.get(key + ABSOLUTE))), limit)
         elif own.required and key not in values and f"{path}.{key}" not in reading.faulty and base is None:
-            reading.fault(f"{path}.{key}", "no such key", wanted(own))
+            reading.fault(f"{path}.{key}", "missing", wanted(own))
     good = {key: value for key, value in values.items() if f"{path}.{key}" not in reading.faulty}
     reading.trusted |= {f"{path}.{key}" for key in good}
     if any(one.startswith(f"{path}.") for one in reading.faulty) or not _complete(model, good):
@@ -86,7 +86,7 @@ def _complete(model: type[Any], values: Mapping[str, object]) -> bool:
 def left_out_section(path: str, model: type[AnySection], reading: Reading, *, required: bool) -> AnySection:
     """Return a table that the file does not have: the empty one, with a fault where it is required."""
     if required and path not in reading.faulty:
-        reading.fault(path, "no such table", f"a table [{path}] with {', '.join(reading.keys(path, model))}")
+        reading.fault(path, "missing", f"a table [{path}] with {', '.join(reading.keys(path, model))}")
     return partial_section(model, {})
 
 

@@ -53,7 +53,7 @@ def groove_faults(ports: PortsSection) -> Iterator[Fault]:
                 f"ports.{key}", "beside grooves", "one of the two: grooves, or groove_start and groove_area"
             )
     elif len(missing) == 1:
-        yield Fault(f"ports.{missing[0]}", "no such key", "groove_start and groove_area together, or neither")
+        yield Fault(f"ports.{missing[0]}", "missing", "groove_start and groove_area together, or neither")
     if len(ports.grooves) > MOST_GROOVES:
         yield Fault("ports.grooves", f"{len(ports.grooves)} grooves", f"at most {MOST_GROOVES} a port")
     for number, groove in enumerate(ports.grooves, start=1):
@@ -66,7 +66,7 @@ def _shape_faults(path: str, groove: GrooveSection) -> Iterator[Fault]:
     for key in ("depth", "angle", "width", "area"):
         wanted, value = key in _KEYS[groove.shape], getattr(groove, key)
         if wanted and value is None:
-            yield Fault(f"{path}.{key}", "no such key", f"{' and '.join(_KEYS[groove.shape])} beside {named}")
+            yield Fault(f"{path}.{key}", "missing", f"{' and '.join(_KEYS[groove.shape])} beside {named}")
         elif not wanted and value is not None:
             yield Fault(f"{path}.{key}", f"beside {named}", f"{' and '.join(_KEYS[groove.shape])} alone")
 

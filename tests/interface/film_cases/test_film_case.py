@@ -132,7 +132,7 @@ def test_an_edge_of_two_names_has_one_pressure(write, tmp_path):
     [
         ("format = 1", "", "format", ["format = 1"]),
         ("format = 1", "format = 2", "format", ["2", "format = 1"]),
-        ("[film]", "[flim]", "film", ["no such table"]),
+        ("[film]", "[flim]", "film", ["missing"]),
         ("thickness", "thikness", "film.thikness", ["unknown key", "thickness"]),
         ("thickness", "thikness", "film.thickness", ["missing"]),
         ('"10 um"', "1e-5", "film.thickness", ["1e-05", "with its unit", '"1e-05 m"']),
@@ -262,7 +262,7 @@ def test_gap_and_pump_may_stand_on_top(write):
         ('pump = "ref90"', "", "film.pump", ["missing", "ref90"]),
         ('"270 deg"', '"270"', "film.shaft_angle", ["unit"]),
         ("[position]", "[load]\nforce = '1 N'\n[position]", "load", ["one of the two"]),
-        ("film_thickness", "film_thicknes", "position.film_thickness", ["no such key"]),
+        ("film_thickness", "film_thicknes", "position.film_thickness", ["missing"]),
         ('"10 um"', '"-10 um"', "position.film_thickness", ["above zero"]),
         ('"10 um"', '"10 um"\nslope_x = "10 deg"', "position", ["do not touch"]),
         ("[position]", "[operating]\nspeed = '2100'\n[position]", "operating.speed", ["unit"]),

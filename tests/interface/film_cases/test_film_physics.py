@@ -315,7 +315,7 @@ def test_a_warm_body_takes_the_heat_and_grows_into_the_film(read):
         (GRADE + PLATE + WALLS.replace('"adiabatic"', WARM_BODY.replace("30 degC", "30 bar")),
          "thermal.fixed_wall.faces.bottom.temperature", ["not a temperature"]),
         (GRADE + PLATE + WALLS.replace('"adiabatic"', WARM_BODY.replace("bottom = {", "faces = {}, b = {")),
-         "thermal.fixed_wall.faces.faces.heat_transfer_coefficient", ["no such key"]),
+         "thermal.fixed_wall.faces.faces.heat_transfer_coefficient", ["missing"]),
         (GIVEN + '[oil]\npresure_law = "barus"\n', "oil.presure_law", ["unknown key", "pressure_law"]),
         (GIVEN + WALLS, "thermal", ["no table [oil]"]),
         (GRADE.replace("specific_heat", "spec_heat") + WALLS, "oil.specific_heat", ["a specific heat"]),

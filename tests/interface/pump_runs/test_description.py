@@ -140,7 +140,7 @@ def test_every_missing_key_is_told_alone(faults_of, tmp_path, section, key):
     faults, _ = faults_of(**{f"{section}__{key}": ""})
     told = [key] if key != "grade" else ["kinematic_viscosity_40C", "kinematic_viscosity_100C"]
     assert list(faults) == [f"{section}.{name}" for name in told]
-    assert {fault.found for fault in faults.values()} == {"no such key"}
+    assert {fault.found for fault in faults.values()} == {"missing"}
 
 
 @pytest.mark.parametrize(("section", "key"), [row for row in WRITTEN_KEYS if row[1] != "grade"])

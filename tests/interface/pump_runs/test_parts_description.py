@@ -191,7 +191,7 @@ def _rows(pump):
         ("piston.profile", [["0 mm", "3 um"]], "[['0 mm', '3 um']]", "at least 2 rows"),
         ("piston.profile", [["0 mm", "0 um"], ["0 mm", "1 um"], ["45 mm", "0 um"]], "0 mm after 0 mm", "grow"),
         ("piston.profile", [["0 mm", "0 um"], ["40 mm", "0 um"]], "places from 0 mm to 40 mm", "45 mm or more"),
-        ("piston.profile", [["0 mm", "-15 um"], ["45 mm", "0 um"]], "stands out by more", "more than -15 um"),
+        ("piston.profile", [["0 mm", "-15 um"], ["45 mm", "0 um"]], "protrudes by more", "more than -15 um"),
         ("piston.grooves", [["10 mm", "2 mm", "0 mm"]], "0 mm deep", "both more than 0"),
         (
             "piston.grooves",
