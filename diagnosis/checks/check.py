@@ -17,7 +17,7 @@ from system.bench.outputs import SIMULATED
 from system.inputs.channels import OUTPUTS, ChannelName
 
 VARIED = 2.0
-"""Ratio of flow over displacement ratio between points: more than leakage makes, so that the speed varied."""
+"""Ratio of flow over displacement ratio between points: more than leakage explains, so that the speed varied."""
 
 
 def check_recording(recording: Recording, displacement: float | None, limits: DataLimits) -> Recording:
@@ -83,7 +83,7 @@ def _speed(recording: Recording) -> Iterable[DataNote]:
     if known.size and known.max() > VARIED * known.min():
         text = (
             f"speed is not recorded, and Q_out over displacement_ratio varies {known.max() / known.min():.1f} "
-            "times: more than leakage makes. Add the speed, or keep to points of one speed"
+            "times: more than leakage explains. Add the speed, or keep to points of one speed"
         )
         yield DataNote(NoteKind.FAULT, ChannelName.SPEED, (), text)
 
@@ -92,16 +92,14 @@ def _gaps(recording: Recording) -> Iterable[DataNote]:
     """Notes on channels with missing readings; a channel without any is a fault, and so is no output."""
     if not any(recording.channel(name) is not None for name in SIMULATED):
         names = ", ".join(name.value for name in SIMULATED)
-        yield DataNote(
-            NoteKind.FAULT, None, (), f"none of {names}, which are simulated; record one of them at least"
-        )
+        yield DataNote(NoteKind.FAULT, None, (), f"none of {names} is recorded; record at least one of them")
     for channel in recording.channels:
         if channel.name in (ChannelName.ANGLE, ChannelName.P_CHAMBER):
             continue
         missing = np.flatnonzero(~np.isfinite(recording.steady.column(channel.name)))
         count = len(recording.steady.values)
         if len(missing) == count:
-            yield DataNote(NoteKind.FAULT, channel.name, (), f"{channel.name.value} holds no number at all")
+            yield DataNote(NoteKind.FAULT, channel.name, (), f"{channel.name.value} has no reading at any point")
         elif len(missing):
             points = tuple(int(point) for point in missing)
             text = f"{channel.name.value} is missing at {len(missing)} of {count} points"

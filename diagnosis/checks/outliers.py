@@ -42,9 +42,8 @@ def outliers(recording: Recording, limits: DataLimits) -> Iterator[DataNote]:
         lone = [k for k in np.flatnonzero(far) if _alone(k, score, places[known])]
         if lone and len(lone) <= max(1.0, limits.outlier_share * len(points)):
             for k in lone:
-                text = (
-                    f"{name.value} at point {points[k] + 1} is {abs(score[k]):.0f} deviations off its neighbours"
-                )
+                off = f"off its neighbours by {abs(score[k]):.0f} deviations"
+                text = f"{name.value} at point {points[k] + 1} is {off}"
                 yield DataNote(NoteKind.REMOVED, name, (int(points[k]),), text)
 
 

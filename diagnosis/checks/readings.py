@@ -34,9 +34,9 @@ def impossible(recording: Recording) -> Iterator[DataNote]:
         values = recording.steady.column(channel.name)
         beyond = _beyond(channel, values)
         for bad, why in (
-            (beyond, "beyond what a bench reads"),
-            (_nines(channel, values) & ~beyond, "nines far from all else: a code for no reading"),
-            (_silent(recording, channel, values), "where all other readings are far from it: no signal"),
+            (beyond, "beyond the range of a bench"),
+            (_nines(channel, values) & ~beyond, "nines far from all other readings: a code for no reading"),
+            (_silent(recording, channel, values), "far from all other readings: no signal"),
         ):
             if 0 < bad.sum() < MOST * np.isfinite(values).sum():
                 points = tuple(int(point) for point in np.flatnonzero(bad))

@@ -48,7 +48,7 @@ def stuck(recording: Recording) -> Iterator[DataNote]:
     for name in OUTPUTS:
         channel, values = recording.channel(name), recording.steady.column(name)
         if channel is not None and _dead(values) and any(_moved(column, column) for column in moving):
-            text = f"{name.value} is stuck: one reading at every point while inputs moved"
+            text = f"{name.value} is stuck: the same reading at every point while inputs change"
             yield DataNote(NoteKind.FAULT, name, (), text + "; leave it out of [channel]")
         changes = np.abs(np.diff(values))
         known = changes[np.isfinite(changes) & (changes > 0.0)]
@@ -57,7 +57,7 @@ def stuck(recording: Recording) -> Iterator[DataNote]:
         for start, stop in _runs(values):
             if stop - start >= LEAST_RUN and any(_moved(column[start:stop], column) for column in moving):
                 points = tuple(range(start, stop))
-                text = f"{name.value} is stuck at points {start + 1} to {stop}: one reading while inputs moved"
+                text = f"{name.value} is stuck at points {start + 1} to {stop}: one reading while inputs change"
                 yield DataNote(NoteKind.REMOVED, name, points, text)
 
 
@@ -85,7 +85,7 @@ def stuck_inputs(recording: Recording) -> Iterator[DataNote]:
         alike = max(alike, channel.quantum / (2.0 * np.sqrt(np.pi) * channel.sigma))
         for start, stop in runs:
             if len(known) * alike ** (stop - start - 1) < BY_CHANCE:
-                text = f"{name.value} is stuck at points {start + 1} to {stop}: one reading, without its noise"
+                text = f"{name.value} is stuck at points {start + 1} to {stop}: the same reading without noise"
                 yield DataNote(NoteKind.REMOVED, name, tuple(range(start, stop)), text)
 
 
@@ -119,7 +119,7 @@ def copies(recording: Recording) -> Iterator[DataNote]:
     if len(flows) == len(FLOWS) and not found:
         *two, last = flows
         if _is_computed(recording, last, two):
-            text = f"{', '.join(name.value for name in FLOWS)} give each other without noise: one is computed"
+            text = f"{', '.join(name.value for name in FLOWS)} depend on each other without noise: one is computed"
             yield DataNote(NoteKind.FAULT, last.name, (), text + "; leave it out of [channel]")
 
 

@@ -1,4 +1,4 @@
-"""Readings that no pump gives: units off by a factor, gauge for absolute, channels that have changed places."""
+"""Readings that no pump gives: units off by a factor, gauge for absolute, swapped channels."""
 
 from __future__ import annotations
 
@@ -104,7 +104,7 @@ def _fault(channel: RecordedChannel, middle: float, span: _Span) -> DataNote:
     assert dimension is not None
     factor, offset = unit_scale(channel.unit, dimension)
     shown = (middle - offset) / factor if dimension is Dimension.TEMPERATURE else middle / factor
-    text = f"{channel.name.value} is {shown:.3g} {channel.unit} at half of the points, which no pump's bench reads"
+    text = f"{channel.name.value} is {shown:.3g} {channel.unit} at half of the points, beyond any pump's bench"
     return DataNote(NoteKind.FAULT, channel.name, (), text + _meant(channel, middle, span))
 
 
@@ -213,7 +213,7 @@ def _references(recording: Recording) -> Iterator[DataNote]:
             yield DataNote(NoteKind.FAULT, name, (), text)
         elif name is ChannelName.P_IN and recording.circuit is Circuit.OPEN and middle > CHARGED:
             text = (
-                f"p_in of an open circuit is {middle / 1e5:.1f} bar gauge, as no tank gives; circuit = 'closed'?"
+                f"p_in of an open circuit is {middle / 1e5:.1f} bar gauge, above any tank's; circuit = 'closed'?"
             )
             yield DataNote(NoteKind.NOTED, name, (), text)
         elif name is ChannelName.P_IN and recording.circuit is Circuit.OPEN and abs(middle - 1e5) < 0.15e5:
@@ -222,19 +222,19 @@ def _references(recording: Recording) -> Iterator[DataNote]:
 
 
 def _places(recording: Recording) -> Iterator[DataNote]:
-    """Channels that seem to have changed places."""
+    """Channels that seem to be swapped."""
     steady = recording.steady
     rise = _median(steady.column(ChannelName.P_OUT) - steady.column(ChannelName.P_IN))
     if rise is not None and rise < 0.0:
         mended = _median(10.0 * steady.column(ChannelName.P_OUT) - steady.column(ChannelName.P_IN))
         ten = "; p_out too small, or p_in too large, by a factor of 10?" if mended and mended > 0.0 else ""
-        text = f"p_out is below p_in at half of the points: have they changed places?{ten}"
+        text = f"p_out is below p_in at half of the points: are they swapped?{ten}"
         yield DataNote(NoteKind.FAULT, ChannelName.P_OUT, (), text)
     drawn = steady.column(ChannelName.Q_IN) - steady.column(ChannelName.Q_OUT)
     lost: Array = drawn / np.abs(steady.column(ChannelName.Q_CASE))
     share = _median(lost)
     if share is not None and share < -0.3:
-        text = "Q_in is below Q_out at half of the points, while oil leaves by the case: have they changed places?"
+        text = "Q_in is below Q_out at half of the points, while oil leaves by the case: are they swapped?"
         yield DataNote(NoteKind.NOTED, ChannelName.Q_IN, (), text)
 
 
@@ -243,7 +243,7 @@ def _signs(recording: Recording) -> Iterator[DataNote]:
     for name in _DIRECTED:
         middle = _median(recording.steady.column(name))
         if middle is not None and middle < 0.0:
-            text = f"{name.value} is below zero at half of the points; of the other sign?"
+            text = f"{name.value} is below zero at half of the points: of the other sign?"
             yield DataNote(NoteKind.FAULT, name, (), text)
 
 
@@ -262,7 +262,7 @@ def _case(recording: Recording) -> Iterator[DataNote]:
             yield DataNote(NoteKind.NOTED, name, (), text)
     warmer = _median(steady.column(ChannelName.T_CASE) - steady.column(ChannelName.T_IN))
     if warmer is not None and not DRAIN_WARMER[0] <= warmer <= DRAIN_WARMER[1]:
-        text = f"T_case is {warmer:+.3g} K off T_in at half of the points: a unit, or have they changed places?"
+        text = f"T_case less T_in is {warmer:+.3g} K at half of the points: a wrong unit, or are they swapped?"
         yield DataNote(NoteKind.NOTED, ChannelName.T_CASE, (), text)
 
 

@@ -94,12 +94,11 @@ def next_point_text(found: NextPoint) -> str:
         )
     factor = f"multiplies the odds for the true one by {exp(found.gain):.2g} on average"
     if not found.is_open:
-        return (
-            f"To be surer of {ahead} than {_odds(abs(found.before))} against {behind}, record {times}: {factor}."
-        )
-    more = f", and it takes {found.repeats} to be sure" if found.repeats else ""
+        now = _odds(abs(found.before))
+        return f"To improve the odds of {ahead} against {behind}, now {now}, record {times}: this {factor}."
+    more = f"; {found.repeats} readings there separate them" if found.repeats else ""
     return (
-        f"No point that an ordinary bench runs is likely to separate {pair}: the best of the range recorded, "
+        f"No point of an ordinary bench is likely to separate {pair}. The best of the range recorded, "
         f"{times}, {factor}{more}; {found.why}.{' ' if found.instead else ''}{found.instead}"
     )
 
@@ -212,15 +211,15 @@ def _suspicion(diagnosis: Diagnosis) -> str:
     likely = _likeliest(diagnosis)
     verb = "are" if len(likely) > 1 else "is"
     thought = f"; likeliest {verb} {listed(likely)}" if likely else ""
-    return f"a mismatch short of proof ({_misfit(diagnosis)}{_striking(diagnosis)}), nothing is claimed{thought}"
+    return f"a mismatch without proof ({_misfit(diagnosis)}{_striking(diagnosis)}): nothing is claimed{thought}"
 
 
 def _striking(diagnosis: Diagnosis) -> str:
-    """The strongest candidate, and how often one is as strong where nothing is there."""
+    """The strongest candidate, and the chance of one as strong without any effect."""
     found = diagnosis.detection
     return "".join(
-        f"; {effect_words([candidate.entry.id])} stands out by {abs(score.z):.1f} sigma, which without "
-        f"any effect has a chance of {chance(found.chance)}"
+        f"; {effect_words([candidate.entry.id])} is the strongest candidate, {abs(score.z):.1f} sigma; without "
+        f"any effect one as strong has a chance of {chance(found.chance)}"
         for candidate, score in found.strongest[:1]
     )
 

@@ -109,9 +109,8 @@ def build_parser() -> argparse.ArgumentParser:
     parser.add_argument("--version", action=_Version, nargs=0, help="print the version and end")
     commands = parser.add_subparsers(dest="command", metavar="COMMAND", parser_class=_Parser)
     for name, command in COMMANDS.items():
-        own = commands.add_parser(
-            name, help=command.summary, description=command.summary.capitalize() + ".", allow_abbrev=False
-        )
+        described = f"{command.summary[0].upper()}{command.summary[1:]}."
+        own = commands.add_parser(name, help=command.summary, description=described, allow_abbrev=False)
         command.complete(own)
     return parser
 

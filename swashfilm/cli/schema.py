@@ -35,6 +35,6 @@ def _add_options(command: argparse.ArgumentParser) -> None:
 
 
 COMMAND = Command(
-    "schema", "JSON Schema of a file, by which an editor completes and checks keys", _add_options,
+    "schema", "JSON Schema of a file, with which an editor completes and checks keys", _add_options,
     run_schema_command, in_folder=False,
 )  # fmt: skip

@@ -84,12 +84,14 @@ def _units(path: Path, head: list[str], heads: Heads) -> dict[str, str]:
         for match, cell in zip(matches, head, strict=True)
     ]
     faults = [
-        Fault(f"column '{cell.strip()}'", "no unit" if name in heads else "no such column", _wanted(heads),
+        Fault(f"column '{cell.strip()}'", "no unit" if name in heads else "unknown column", _wanted(heads),
               f"'{name} [..]'" if name in heads else nearest_choice(name, heads))
         for name, match, cell in zip(names, matches, head, strict=True) if not match or name not in heads
     ]  # fmt: skip
     faults += [
-        Fault(f"column '{name}'", f"{names.count(name)} of it", "one") for name in heads if names.count(name) != 1
+        Fault(f"column '{name}'", f"{n} columns of this name" if n else "missing", "one")
+        for name in heads
+        if (n := names.count(name)) != 1
     ]
     if faults:
         raise InputFaults(str(path), faults)

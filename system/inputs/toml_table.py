@@ -38,7 +38,7 @@ def toml_tables(source: str, text: str) -> dict[str, Any]:
         lines = text.splitlines()
         number = int(at[1]) if at else len(lines)
         value = lines[number - 1].partition("=")[2].partition("#")[0].strip() if lines else ""
-        fault = Fault("file", f"no TOML: {reason}", "TOML 1.0", with_point(value))
+        fault = Fault("file", f"not valid TOML: {reason}", "TOML 1.0", with_point(value))
         raise InputFaults(source, [fault], {"file": number}) from None
 
 

@@ -1,4 +1,4 @@
-"""The command `swashfilm calibrate`: pump and recording in, coefficients with their widths out."""
+"""The command `swashfilm calibrate`: pump and recording in, coefficients with their uncertainty out."""
 
 from __future__ import annotations
 
@@ -21,21 +21,21 @@ ALL, NONE = "all", "none"
 
 def add_calibrate_options(command: argparse.ArgumentParser) -> None:
     """Add the arguments of `swashfilm calibrate`."""
-    command.add_argument("pump", metavar="PUMP", help="built-in name (ref90) or pump file, which may know little")
+    command.add_argument("pump", metavar="PUMP", help="built-in name (ref90) or pump file (a few sizes suffice)")
     command.add_argument(
-        "recording", type=Path, metavar="RECORDING", help="folder of a recording.toml, or a table beside one"
+        "recording", type=Path, metavar="RECORDING", help="folder with a recording.toml, or a table beside one"
     )
     command.add_argument(
         "--laws",
         metavar=f"{{{','.join(LAWS)}}}",
         default=LAWS[0],
-        help="what is tried beside constant coefficients: friction over the Hersey number, or nothing",
+        help="friction law tried beside constant coefficients: over the Hersey number, or none",
     )
     command.add_argument(
         "--models",
         metavar="NAME,..",
         default=ALL,
-        help="loss models compared in the same splits: names with commas between, all, or none",
+        help="loss models compared by the same cross-validation: names separated by commas, all, or none",
     )
 
 
@@ -97,7 +97,7 @@ def _calibrate(options: argparse.Namespace, models: Sequence[LossModelName]) -> 
 
 COMMAND = Command(
     "calibrate",
-    "coefficients of a pump by a recording, with their widths",
+    "coefficients of a pump fitted to a recording, with their uncertainty",
     add_calibrate_options,
     run_calibrate_command,
 )

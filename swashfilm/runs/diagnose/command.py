@@ -22,18 +22,18 @@ USUAL_WORKERS = 4  # at most, where not stated: more wait for each other
 
 def add_diagnose_options(command: argparse.ArgumentParser) -> None:
     """Add the arguments of `swashfilm diagnose`."""
-    command.add_argument("pump", metavar="PUMP", help="built-in name (ref90) or pump file, which may know little")
+    command.add_argument("pump", metavar="PUMP", help="built-in name (ref90) or pump file (a few sizes suffice)")
     command.add_argument(
         "recording",
         type=Path,
         metavar="RECORDING",
-        help="folder of a recording.toml, or a table beside one",
+        help="folder with a recording.toml, or a table beside one",
     )
     command.add_argument(
         "--apply",
         type=Path,
         metavar="FILE.toml",
-        help="write the pump as fitted, with what is found: for `swashfilm run FILE.toml --fidelity lumped`",
+        help="write the fitted pump with the effects found, for `swashfilm run FILE.toml --fidelity lumped`",
     )
     command.add_argument(
         "--workers",
@@ -43,7 +43,7 @@ def add_diagnose_options(command: argparse.ArgumentParser) -> None:
     command.add_argument(
         "--film-tables",
         action="store_true",
-        help="elastic walls as the film solver has them; films are solved once a pump, in about a minute",
+        help="elastic walls by solved films, which take about a minute, once for each pump",
     )
 
 
@@ -158,7 +158,7 @@ def _apply(options: argparse.Namespace, faults: list[Fault]) -> Path | None:
 
 COMMAND = Command(
     "diagnose",
-    "where a recording and the simulation of its pump part: by what, how sure",
+    "mismatch of a recording and the simulation of its pump: place, cause, certainty",
     add_diagnose_options,
     run_diagnose_command,
 )

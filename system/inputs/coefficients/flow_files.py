@@ -71,7 +71,7 @@ def source_faults(table: CsvTable) -> list[Fault]:
     """The fault of a file that does not say where its numbers come from."""
     if table.comment(SOURCE):
         return []
-    return [Fault("file", "no source", "a line '# source: ..' that says where the numbers come from")]
+    return [Fault("source", "missing", "a line '# source: ..' that says where the numbers come from")]
 
 
 def range_faults(table: CsvTable, name: str, fine: NDArray[np.bool_], expected: str) -> list[Fault]:

@@ -74,7 +74,9 @@ def _gridded(table: CsvTable, names: list[str], faults: list[Fault]) -> LossFact
             Fault("reynolds", f"{len(sizes)} rows", f"each of {shape[0]} passages at each of {shape[1]}")
         )
     elif np.ptp(extra[order].reshape(shape), axis=1).max() > 0.0:
-        faults.append(Fault("extra_length", "values that vary with Re", "one of each passage: Stokes flow's"))
+        faults.append(
+            Fault("extra_length", "values that vary with Re", "one value a passage, that of Stokes flow")
+        )
     if faults:
         raise InputFaults(str(table.path), faults)
     by_passage = extra[order].reshape(shape)[:, 0], loss[order].reshape(shape)

@@ -126,7 +126,7 @@ def _held(case: Path, found: CaseFlow) -> CaseFlow:
     elif abs(found.balance_error) > IMBALANCE:
         share = f"outflow {1.0 + found.balance_error:.3f} of the inflow"
         faults.append(
-            Fault("outlet", share, f"the inflow to {IMBALANCE:.0%}", "a converged flow between two patches")
+            Fault("outlet", share, f"the inflow to within {IMBALANCE:.0%}", "a converged flow between two patches")
         )
     if not found.pressure_drop > 0.0:
         drop = f"{found.pressure_drop:.4g} Pa from inlet to outlet"

@@ -43,7 +43,7 @@ def test_rows_come_in_any_order_and_unit(tmp_path):
 def test_every_fault_of_a_file_is_told_with_its_line(tmp_path):
     text = "opening [mm2], reynolds [1], flow_coefficient [1]\n1, 1, 0.1\n1, -2, 1.3\n2, 5, 0.6\n"
     found = faults_of(read_flow_coefficients, file_of(tmp_path, text))
-    assert set(found) == {"file", "line 3, reynolds", "line 3, flow_coefficient", "opening"}
+    assert set(found) == {"source", "line 3, reynolds", "line 3, flow_coefficient", "opening"}
     assert "1 mm2 with 2, 2 mm2 with 1" in found["opening"].found
 
 

@@ -50,7 +50,7 @@ def test_wrong_columns_units_and_numbers_are_told(tmp_path):
     path = file_of(tmp_path, STEPS.replace("reynolds [1]", "reynolds [mm]"), ["0.1, 2, 3, 4", "9, 2, 3, 4"])
     assert "bare number" in faults_of(read_step_losses, path)["line 3, reynolds"].expected
     path = file_of(tmp_path, STEPS, ["0.1, -2, .6, 1.5", "-9, 0, .6, 1.5"], source="")
-    assert {"file", "line 2, reynolds", "line 3, film_ratio"} <= set(faults_of(read_step_losses, path))
+    assert {"source", "line 2, reynolds", "line 3, film_ratio"} <= set(faults_of(read_step_losses, path))
 
 
 def test_a_file_of_one_direction_is_told(tmp_path):

@@ -55,11 +55,13 @@ def test_the_next_point_is_told_with_what_it_promises(named: Diagnosis) -> None:
     assert "outside the range recorded" in next_point_text(replace(found, beyond=True))
     poor = replace(found, chance=0.1, gain=0.7, repeats=None, instead="The leak would.")
     text = next_point_text(poor)
-    assert text.startswith("No point that an ordinary bench runs is likely to separate")
+    assert text.startswith("No point of an ordinary bench is likely to separate")
     assert "multiplies the odds for the true one by 2 on average" in text
     assert text.endswith("The leak would.")
     behind = next_point_text(replace(poor, before=-8.0))
-    assert behind.startswith("To be surer of film heating than 1:3000 against elastic opening at the valve plate")
+    assert behind.startswith(
+        "To improve the odds of film heating against elastic opening at the valve plate, now 1:3000"
+    )
     record = diagnosis_record(replace(named, next_point=poor))["next_test"]
     assert (record["settles"], record["chance"], record["readings"]) == (False, 0.1, 3)
     assert record["log_odds"] == {"now": pytest.approx(np.log(15.5)), "foretold": 4.3}

@@ -140,7 +140,7 @@ def test_gauge_read_as_absolute_and_places_changed():
     pair = [COLUMNS[ChannelName.P_OUT], COLUMNS[ChannelName.P_IN]]
     values[:, pair] = values[:, pair[::-1]]
     swapped = replace(recording, steady=replace(recording.steady, values=values))
-    assert any("changed places" in text and kind is NoteKind.FAULT for kind, _, text in _told(swapped))
+    assert any("swapped" in text and kind is NoteKind.FAULT for kind, _, text in _told(swapped))
 
 
 @pytest.mark.parametrize("name", ["Q_out", "Q_case", "torque"])
@@ -215,7 +215,7 @@ def test_two_pumps_in_one_recording_are_told():
 
 @pytest.mark.parametrize(
     ("name", "change", "told"),
-    [("p_case", 1.3e6, "p_case is"), ("T_case", -9.0, "changed places"), ("T_in", 90.0, "degF")],
+    [("p_case", 1.3e6, "p_case is"), ("T_case", -9.0, "swapped"), ("T_in", 90.0, "degF")],
 )
 def test_a_case_that_is_seldom_meant_is_told(name, change, told):
     kinds = {kind for kind, _, text in _told(_with(name, lambda x: x + change)) if told in text}
@@ -295,13 +295,13 @@ def test_one_speed_need_not_be_recorded():
 @pytest.mark.parametrize(
     ("name", "value", "told"),
     [
-        ("T_in", -9999.0 + 273.15, "reads -9999 degC, beyond what a bench reads"),
-        ("Q_case", -9999.0 / 6e4, "reads -9999 L/min, beyond what a bench reads"),
-        ("torque", 9999.0, "reads 9999 N m, nines far from all else"),
-        ("speed", 0.0, "reads 0 rpm, beyond what a bench reads"),
-        ("speed", -105.0, "reads -1002.68 rpm, beyond what a bench reads"),
-        ("p_out", 3.2e8, "reads 3200 bar gauge, beyond what a bench reads"),
-        ("Q_out", 0.0, "reads 0 L/min, where all other readings are far from it: no signal"),
+        ("T_in", -9999.0 + 273.15, "reads -9999 degC, beyond the range of a bench"),
+        ("Q_case", -9999.0 / 6e4, "reads -9999 L/min, beyond the range of a bench"),
+        ("torque", 9999.0, "reads 9999 N m, nines far from all other readings"),
+        ("speed", 0.0, "reads 0 rpm, beyond the range of a bench"),
+        ("speed", -105.0, "reads -1002.68 rpm, beyond the range of a bench"),
+        ("p_out", 3.2e8, "reads 3200 bar gauge, beyond the range of a bench"),
+        ("Q_out", 0.0, "reads 0 L/min, far from all other readings: no signal"),
     ],
 )
 def test_readings_that_no_bench_gives_are_put_aside(name, value, told):
