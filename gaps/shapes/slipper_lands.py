@@ -24,7 +24,7 @@ class SlipperLands:
     """Lands (inner, outer radius) m from the pocket outwards; `vented`: numbers of the grooves open to the case.
 
     Groove k, from 1, lies beyond land k. Raises FilmInputError for lands that do not follow each other and for
-    vented grooves that are none.
+    vented grooves that do not exist.
     """
 
     radii: tuple[Land, ...]

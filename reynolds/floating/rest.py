@@ -45,7 +45,7 @@ def come_to_rest(solve: StageSolver[S], start: State[S], step: float, allowed: f
     `step` (s) is the first one, about the response time of the motion. Afterwards three steps in a
     row, each four times the one before, have moved no coordinate by more than `allowed` (m). A step without
     solution is cut to a quarter, and tried again after PATIENCE of the shorter ones. Raises FilmInputError for a
-    step or tolerance that is none, FilmNotConverged for a motion that finds no rest, with its last move.
+    void step or tolerance, FilmNotConverged for a motion that finds no rest, with its last move.
     """
     if not (np.isfinite(step) and step > 0.0 and allowed > 0.0):
         raise FilmInputError("rest", f"a step of {step:g} s and {allowed:g} m allowed", "both above zero")

@@ -17,7 +17,7 @@ Feed = Callable[[float], tuple[float, float]]
 NARROW = 1e3  # Pa: of the first interval searched
 MOST_DOUBLINGS = 60
 NEAR = 1e-8  # of the interval
-BENT = 0.1  # change of the slope on the way: less does not disturb Newton's method
+CURVED = 0.1  # change of the slope on the way: less does not disturb Newton's method
 
 
 @dataclass(frozen=True)
@@ -137,6 +137,6 @@ def pressure_sending(feed: Feed, flow: float, start: float) -> float:
         other = last + width
         if lacks(other) * first <= 0.0:
             found = float(brentq(lacks, last, other, xtol=NEAR * abs(width)))
-            return start if abs(feed(found)[1] / feed(start)[1] - 1.0) < BENT else found
+            return start if abs(feed(found)[1] / feed(start)[1] - 1.0) < CURVED else found
         last, width = other, 2.0 * width
     return start

@@ -60,8 +60,7 @@ class Posterior:
 
     @cached_property
     def pulls(self) -> Array:
-        """(k,), xi / sqrt(1 - its variance): N(0, 1) where the priors are right; 0 where readings do not
-        inform."""
+        """(k,), xi / sqrt(1 - its variance): N(0, 1) where the priors are right; 0 without information."""
         gained = 1.0 - np.diag(self.covariance)
         informed = gained > UNINFORMED
         pulls: Array = np.where(informed, self.xi / np.sqrt(np.where(informed, gained, 1.0)), 0.0)

@@ -161,9 +161,8 @@ class Table:
             if raw == member.value:
                 return member
         names = [str(member.value) for member in kind]
-        self.fault(
-            key, stated(raw), f"one of {', '.join(map(repr, names))}", nearest_choice(str(raw or ""), names)
-        )
+        nearest = nearest_choice(str(raw or ""), names)
+        self.fault(key, stated(raw), f"one of {', '.join(map(repr, names))}", nearest)
         return None
 
     def close(self) -> None:

@@ -154,7 +154,7 @@ def floating_point(
             found = _round(closing, group, point, gaps, beside, _of_round(report, len(rounds) + 1))
             asked, gaps = found.asked, found.gaps
             rounds.append(found.taken)
-    return _told(point, group, replace(found, asked=replace(asked, options=options)), tuple(rounds))
+    return _floating_point(point, group, replace(found, asked=replace(asked, options=options)), tuple(rounds))
 
 
 @dataclass(frozen=True)
@@ -268,7 +268,9 @@ def _not_settled(taken: Round) -> NotConverged:
     )
 
 
-def _told(point: OperatingPoint, group: Group, found: _Found, rounds: tuple[Round, ...]) -> FloatingPoint:
+def _floating_point(
+    point: OperatingPoint, group: Group, found: _Found, rounds: tuple[Round, ...]
+) -> FloatingPoint:
     """The pump with gaps and chambers that agree."""
     asked, ported, block = found.asked, found.ported, found.gaps[0].block
     pistons, speed, samples = asked.rotor.pump.pump.pistons, point.shaft_speed, asked.shaft_angle.size

@@ -56,8 +56,7 @@ class Remark:
 
 
 PORT_PRESSURE_MET = 1e-3
-"""Part of the ports' pressure difference by which a port's mean pressure may miss the operating point without
-a warning."""
+"""Part of the ports' pressure difference by which a port's mean pressure may miss the operating point."""
 ENERGY_BALANCED = 5e-3
 """Energy balance error from which a point warns: five times the tolerance of every fidelity."""
 OVERPRESSURE = 1.1

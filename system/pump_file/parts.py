@@ -264,7 +264,7 @@ def lines_have_the_keys_of_their_kinds(pump: PumpDescription) -> Iterator[Findin
 
 
 @needs()
-def spins_left_free_are_told(pump: PumpDescription) -> Iterator[Finding]:
+def spins_are_stated(pump: PumpDescription) -> Iterator[Finding]:
     """A spin that is not stated is what ball joint and films leave, as `system.films.spins` estimates it."""
     for name in ("piston", "slipper"):
         if getattr(pump, name).spin_ratio is None:
@@ -293,7 +293,7 @@ PARTS_CHECKS = (
     sphere_reaches_over_the_face,
     a_spring_presses_the_retainer,
     lines_have_the_keys_of_their_kinds,
-    spins_left_free_are_told,
+    spins_are_stated,
     stops_are_apart,
 )
 

@@ -172,7 +172,7 @@ def next_point_words(found: Mapping[str, Any]) -> str:
     if not found["effects"]:
         return ""
     failed = (note for note in found["notes"] if note.startswith(NO_NEXT_POINT))
-    reason = next(failed, "no rival that could be fitted stands that a point would have to separate")
+    reason = next(failed, "no fitted rival remains that a point would have to separate")
     return f"{reason[0].upper()}{reason[1:].rstrip('.')}."
 
 

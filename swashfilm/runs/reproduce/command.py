@@ -24,11 +24,7 @@ _TUNED = "fig13"
 def add_reproduce_options(command: argparse.ArgumentParser) -> None:
     """Add the arguments of the command to its parser."""
     command.add_argument(
-        "figure",
-        nargs="?",
-        default=ALL,
-        metavar="FIGURE",
-        help="fig2, table1, ..; all; or list for the names",
+        "figure", nargs="?", default=ALL, metavar="FIGURE", help="fig2, table1, ..; all; or list for the names"
     )
     command.add_argument(
         "--fidelity", metavar="{lumped,films,floating}", default=_LUMPED,

@@ -64,7 +64,7 @@ class FloatingWork:
         return content_key("floating films 2", resolved_toml(self.pump), self.stated, part)[:KEY_LENGTH]
 
     def solve(self, part: Place) -> Record:
-        """Films of both gaps, as `_films_told` and `_piston_told` have them.
+        """Films of both gaps, by `_films_record` and `_piston_record`.
 
         Raises FilmNotConverged, and InputError for a pump with effects of [physics].
         """
@@ -77,12 +77,12 @@ class FloatingWork:
         slipper = slipper_revolution(at, parts, driven.slipper, self.options)
         engaged = engaged_share(at, parts.piston.guide_length, piston.angles)
         return {
-            "slipper": _films_told(slipper),
-            "piston": {**_films_told(piston), **_piston_told(piston, engaged)},
+            "slipper": _films_record(slipper),
+            "piston": {**_films_record(piston), **_piston_record(piston, engaged)},
         }
 
 
-def _films_told(found: GapRevolution[Any]) -> Record:
+def _films_record(found: GapRevolution[Any]) -> Record:
     """Means over the turn: film over the area (m), contact load (N); the least film anywhere (m)."""
     instants = found.turn.instants
     return {
@@ -92,7 +92,7 @@ def _films_told(found: GapRevolution[Any]) -> Record:
     }
 
 
-def _piston_told(found: GapRevolution[Any], engaged: Array) -> Record:
+def _piston_record(found: GapRevolution[Any], engaged: Array) -> Record:
     """Eccentricity (m) of the axis at both ends of the film over the shaft angle (rad), and the film shown."""
     inner, case = found.positions.T[:2], found.positions.T[2:]
     own_end = case + (inner - case) * engaged

@@ -42,7 +42,7 @@ LEAKAGES = {"without": 0.4, "with": 1.0}, {"without": 0.4, "with": 1.1}
 
 
 def test_the_page_tells_gaps_that_cannot_be_told_apart() -> None:
-    """Ids and other gaps with their share stand in the column of what an effect cannot be told from."""
+    """Ids and other gaps with their share stand in the column of what an effect cannot be separated from."""
     claim = {
         "id": "elastic_opening", "pair": "piston", "probability": 0.97, "equivalent": ["thermal_clearance"],
         "other_pairs": {"valve_plate": 0.35}, "parameters": [],
@@ -199,7 +199,7 @@ def test_where_is_told_by_what_shows_there(named: Diagnosis) -> None:
 def test_a_page_says_why_no_point_is_asked_for(named: Diagnosis) -> None:
     """That none could be foretold, or that no rival stands; nothing where nothing is claimed."""
     alone = replace(named, next_point=None)
-    assert next_point_words(diagnosis_record(alone)).startswith("No rival that could be fitted stands")
+    assert next_point_words(diagnosis_record(alone)).startswith("No fitted rival remains")
     failed = replace(alone, notes=("no next point can be proposed: fit of the leak: it stalled",))
     assert (
         next_point_words(diagnosis_record(failed)) == "No next point can be proposed: fit of the leak: it stalled."
