@@ -2,7 +2,7 @@
 
     python examples/run_all.py [--workers N] [WORD ..]
 
-With words, only examples whose command holds one of them. Prints the time of each. The exit code is 1 where one
+With words, only examples whose command contains one of them. Prints the time of each. The exit code is 1 where one
 fails.
 """
 
@@ -26,7 +26,7 @@ LIMIT = 1200.0
 
 @dataclass(frozen=True)
 class Outcome:
-    """An example that has run: its command, wall time in s, and what it printed where it failed, else ""."""
+    """An example that has run: its command, wall time in s, and its output where it failed, else ""."""
 
     command: str
     seconds: float
@@ -37,7 +37,7 @@ def main(words: Sequence[str]) -> int:
     """Run the examples side by side and return the exit code."""
     parser = argparse.ArgumentParser(description="Run every example that needs no data of others.")
     parser.add_argument("--workers", type=int, default=2, help="examples side by side (2)")
-    parser.add_argument("words", nargs="*", help="only examples whose command holds one of them")
+    parser.add_argument("words", nargs="*", help="only examples whose command contains one of them")
     asked = parser.parse_args(words)
     picked = [one for one in commands() if not asked.words or any(word in " ".join(one) for word in asked.words)]
     with tempfile.TemporaryDirectory() as place, ThreadPoolExecutor(asked.workers) as pool:
@@ -64,10 +64,10 @@ def commands() -> Iterator[list[str]]:
 def run(words: list[str], folder: Path) -> Outcome:
     """Run one command; those of the program write their run folder at `folder`."""
     start = perf_counter()
-    told = ["-m", *words, "-o", str(folder)] if words[0] == "swashfilm" else words
+    arguments = ["-m", *words, "-o", str(folder)] if words[0] == "swashfilm" else words
     try:
         done = subprocess.run(
-            [sys.executable, *told], cwd=ROOT, capture_output=True, text=True, timeout=LIMIT, check=False
+            [sys.executable, *arguments], cwd=ROOT, capture_output=True, text=True, timeout=LIMIT, check=False
         )
         failure = done.stdout[-2000:] + done.stderr[-2000:] if done.returncode else ""
     except subprocess.TimeoutExpired:

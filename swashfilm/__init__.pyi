@@ -46,4 +46,5 @@ from .api import (
 from .api import (
     transient as transient,
 )
+from .runs.table.gap_run import read_gap_table as read_gap_table
 from .version import __version__ as __version__

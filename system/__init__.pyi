@@ -18,6 +18,7 @@ from .effects.effect import GapCourse as GapCourse
 from .effects.effect import Kind as Kind
 from .effects.extension import Extension as Extension
 from .estimation.fit import FitLimits as FitLimits
+from .estimation.fit import best_posterior as best_posterior
 from .estimation.fit import maximum_posterior as maximum_posterior
 from .estimation.observations import Channel as Channel
 from .estimation.observations import Observations as Observations
@@ -26,6 +27,7 @@ from .estimation.parameters import Role as Role
 from .estimation.parameters import Scale as Scale
 from .estimation.posterior import Posterior as Posterior
 from .estimation.posterior import linear_posterior as linear_posterior
+from .estimation.simulator import Simulator as Simulator
 from .films.cycle import SMOOTH as SMOOTH
 from .films.drives import Drives as Drives
 from .films.drives import drives as drives
@@ -36,9 +38,9 @@ from .films.problems import RIGID as RIGID
 from .films.rotor import Rotor as Rotor
 from .films.rotor import rotor as rotor
 from .films.rotor import valve_plate_geometry as valve_plate_geometry
+from .inputs.channels import ChannelName as ChannelName
 from .inputs.channels import INPUTS as INPUTS
 from .inputs.channels import OUTPUTS as OUTPUTS
-from .inputs.channels import ChannelName as ChannelName
 from .inputs.coefficients.flow_files import read_flow_coefficients as read_flow_coefficients
 from .inputs.coefficients.loss_files import read_step_losses as read_step_losses
 from .inputs.faults import Fault as Fault
@@ -59,6 +61,7 @@ from .points.lumped import lumped_point as lumped_point
 from .points.table.build import build_table as build_table
 from .points.table.point import table_point as table_point
 from .points.table.store import find_table as find_table
+from .points.transmission import transmission as transmission
 from .pump.assembly import PointWarning as PointWarning
 from .pump.assembly import PumpPoint as PumpPoint
 from .pump.laws.directions import bore_axis as bore_axis

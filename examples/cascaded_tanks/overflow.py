@@ -1,14 +1,14 @@
-"""What does a model of two tanks leave out? Named from a record, shown on another.
+"""Missing physics of a model of two tanks, found from one record and tested on another.
 
     python examples/cascaded_tanks/overflow.py DATA.csv
 
 DATA.csv: dataBenchmark.csv of the Cascaded Tanks benchmark (4TU.ResearchData, doi 10.4121/12960104, CC BY-SA 4.0),
-columns uEst, yEst, uVal, yVal. The engine is that of the pump's diagnosis, the model `tanks.py`.
+columns uEst, yEst, uVal, yVal. The estimation engine fits the model of `tanks.py`.
 
-Sizes and errors come from simulating the whole record at once. The evidence takes what the base model leaves over
-as noise with memory, autoregressive of second order: its neighbours' correlation is 0.995, so that 1024 samples
-count as few, and evidence that took them as so many would name anything. First levels of the test record are
-fitted to it, nothing else is.
+Sizes and errors come from a simulation of the whole record. For the evidence the residual of the base model is
+noise with memory, autoregressive of second order. Neighbouring residuals have a correlation of 0.995, so that 1024
+samples count as few; evidence from independent samples would favour any addition. Of the test record only first
+levels are fitted.
 """
 
 from __future__ import annotations
@@ -22,15 +22,12 @@ from pathlib import Path
 import numpy as np
 from tanks import BASE, EXTENSIONS, Tanks
 
-from reynolds.numerics.arrays import Array
-from system.estimation.fit import FitLimits, best_posterior
-from system.estimation.observations import Channel, Observations
-from system.estimation.parameters import Parameter
-from system.estimation.posterior import Posterior
+from reynolds import Array
+from system import Channel, FitLimits, Observations, Parameter, Posterior, best_posterior
 
-LIMITS = FitLimits(steps=100, stall=20.0)  # rims are kinks: a nat is not to be had of an objective of thousands
+LIMITS = FitLimits(steps=100, stall=20.0)  # rims are kinks: the last nats of thousands are out of reach
 FIRST_LEVELS = tuple(parameter for parameter in BASE if parameter.name.startswith("first"))
-SENSOR = 0.3  # V: one sigma to begin with; the record's own replaces it
+SENSOR = 0.3  # V: first value of one sigma; that of the record replaces it
 STARTS = (0.1, -0.5, 1.0)  # spreads from the prior mean
 BLOCK = 64  # samples
 OVERFLOW = "overflow of both tanks"
@@ -48,7 +45,7 @@ class Record:
 
 @dataclass(frozen=True)
 class Addition:
-    """What one addition brings: ln evidence over the model without, RMS error on both records in V, its fit."""
+    """An addition to the model: ln evidence over the model without it, RMS errors on both records in V, fit."""
 
     name: str
     evidence: float
@@ -58,14 +55,14 @@ class Addition:
 
 
 def read_record(path: Path) -> Record:
-    """The two records of the benchmark's file."""
+    """Return the two records of the benchmark's file."""
     with path.open(newline="", encoding="utf-8") as file:
         rows = list(csv.DictReader(file))
     return Record(*(np.array([float(row[name]) for row in rows]) for name in ("uEst", "yEst", "uVal", "yVal")))
 
 
 def observed(sensor: Array, sigma: float, memory: tuple[float, ...] = ()) -> Observations:
-    """A record as readings of one sigma in V, whose noise may have a memory."""
+    """Return a record as readings of one sigma in V, whose noise may have a memory."""
     return Observations(
         channels=(Channel("level", None),),
         values=sensor[:, None],
@@ -79,28 +76,28 @@ def observed(sensor: Array, sigma: float, memory: tuple[float, ...] = ()) -> Obs
 
 
 def noise(residual: Array) -> tuple[float, tuple[float, ...]]:
-    """Sigma in V and second-order memory of what a model leaves over (Yule 1927)."""
+    """Return sigma in V and second-order memory of a model's residual (Yule 1927)."""
     lag = [float(np.mean(residual[at:] * residual[: residual.size - at])) for at in range(3)]
     first, second = np.linalg.solve([[lag[0], lag[1]], [lag[1], lag[0]]], lag[1:])
     return lag[0] ** 0.5, (float(first), float(second))
 
 
 def fitted(tanks: Tanks, readings: Observations, starts: Sequence[Array]) -> Posterior:
-    """The best peak from several starts, each taken within the bounds."""
+    """Return the best peak from several starts, each moved within the bounds."""
     lowest = [parameter.lowest for parameter in tanks.parameters]
     highest = [parameter.highest for parameter in tanks.parameters]
     return best_posterior(tanks, readings, [np.clip(start, lowest, highest) for start in starts], LIMITS)
 
 
 def simulated(record: Record, parameters: tuple[Parameter, ...], start: Array) -> Posterior:
-    """The model fitted to the whole record at once, from the peak of the model it adds to."""
+    """Return the model fitted to the whole record, from the peak of the model without its last parameters."""
     added = len(parameters) - start.size
     starts = [np.append(start, np.full(added, spreads)) for spreads in STARTS]
     return fitted(Tanks(record.pump, parameters), observed(record.sensor, SENSOR), starts)
 
 
 def errors(record: Record, fit: Posterior) -> tuple[float, float]:
-    """RMS error in V of a fit on its own record and on the test record."""
+    """Return RMS errors in V of a fit on its own record and on the test record."""
     known = {parameter.name: value for parameter, value in zip(fit.parameters, fit.values, strict=True)}
     there = fitted(
         Tanks(record.test_pump, FIRST_LEVELS, known), observed(record.test_sensor, SENSOR), [np.zeros(2)]
@@ -112,7 +109,7 @@ def errors(record: Record, fit: Posterior) -> tuple[float, float]:
 
 
 def additions(record: Record, base: Posterior, names: Sequence[str]) -> tuple[Addition, ...]:
-    """Each extension added to a model, the one of greatest evidence first."""
+    """Return each extension added to a model, the one of greatest evidence first."""
     sigma, memory = noise(record.sensor - base.predictions[:, 0])
     readings = observed(record.sensor, sigma, memory)
     without = fitted(Tanks(record.pump, base.parameters), readings, [base.xi])
@@ -121,13 +118,13 @@ def additions(record: Record, base: Posterior, names: Sequence[str]) -> tuple[Ad
         parameters = (*base.parameters, *EXTENSIONS[name])
         fit = simulated(record, parameters, base.xi)
         beside = np.append(without.xi, np.full(len(EXTENSIONS[name]), STARTS[0]))
-        weighed = fitted(Tanks(record.pump, parameters), readings, [fit.xi, beside])
-        found.append(Addition(name, weighed.log_evidence - without.log_evidence, *errors(record, fit), fit))
+        peak = fitted(Tanks(record.pump, parameters), readings, [fit.xi, beside])
+        found.append(Addition(name, peak.log_evidence - without.log_evidence, *errors(record, fit), fit))
     return tuple(sorted(found, key=lambda addition: -addition.evidence))
 
 
 def base_fit(record: Record) -> Posterior:
-    """The model without any addition."""
+    """Return the fit of the model without any addition."""
     return simulated(record, BASE, np.zeros(len(BASE)))
 
 
@@ -139,7 +136,7 @@ def _table(title: str, error: tuple[float, float], found: Sequence[Addition]) ->
 
 
 def main(path: str) -> None:
-    """Print what one addition brings, and what a second one does beside the overflow."""
+    """Print the gain by one addition, and by a second one beside the overflow."""
     record = read_record(Path(path))
     base = base_fit(record)
     first = additions(record, base, tuple(EXTENSIONS))

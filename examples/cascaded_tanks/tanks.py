@@ -1,10 +1,10 @@
-"""Two tanks, one above the other, as a simulator with named parameters: another model for the same engine.
+"""Two tanks, one above the other: a simulator with named parameters for the estimation engine.
 
     dx1/dt = k4 u - k1 sqrt(x1)            dx2/dt = k2 sqrt(x1) - k3 sqrt(x2)            y = x2
 
 u: voltage of the pump, x: levels in V of the sensor, both by Torricelli's law (Schoukens, Mattsson, Wigren and
-Noel, Cascaded tanks benchmark, 2016). Only x2 is measured; both first levels are parameters. What the model leaves
-out is added by name: see EXTENSIONS.
+Noel, Cascaded tanks benchmark, 2016). Only x2 is measured; both first levels are parameters. EXTENSIONS are the
+possible additions by name.
 """
 
 from __future__ import annotations
@@ -15,12 +15,12 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 from numba import njit
 
-from reynolds.numerics.arrays import Array
-from system.estimation.parameters import Parameter, Role, Scale
+from reynolds import Array
+from system import Parameter, Role, Scale
 
 SAMPLE = 4.0  # s
 SUBSTEPS = 4
-WEIR = 2.0  # 1/(s V^0.5): a head of a quarter of a volt carries the largest inflow
+WEIR = 2.0  # 1/(s V^0.5): a head of a quarter of a volt passes the largest inflow
 STEP = 1e-4  # of a prior spread, for slopes
 ABSENT = {
     "rim_1": np.inf, "rim_2": np.inf, "spill": 0.0, "exponent_2": 0.5, "leak_1": 0.0, "leak_2": 0.0,
@@ -62,14 +62,14 @@ EXTENSIONS: dict[str, tuple[Parameter, ...]] = {
 
 @dataclass(frozen=True)
 class Tanks:
-    """The tanks under the pump's voltage (N,), one sample every 4 s; `held` are values that are no parameters."""
+    """The tanks under the pump's voltage (N,), one sample every 4 s; `held`: fixed values by name."""
 
     voltage: Array
     parameters: tuple[Parameter, ...] = BASE
     held: Mapping[str, float] = field(default_factory=dict)
 
     def predict(self, values: Array) -> Array:
-        """The sensor (N, 1) in V."""
+        """Return the sensor's reading (N, 1) in V."""
         known = (
             ABSENT
             | dict(self.held)
@@ -78,7 +78,7 @@ class Tanks:
         return levels(self.voltage, np.array([known[name] for name in ORDER]))[:, None]
 
     def slopes(self, values: Array, names: tuple[str, ...]) -> Array:
-        """d sensor / d value, (N, 1, k), by central differences over a ten-thousandth of each spread."""
+        """Return d sensor / d value, (N, 1, k), by central differences over a ten-thousandth of each spread."""
         columns = []
         for at, parameter in enumerate(self.parameters):
             if parameter.name in names:
@@ -88,11 +88,11 @@ class Tanks:
         return np.stack(columns, axis=-1)
 
     def input_slopes(self, values: Array) -> Array:
-        """None: the pump's voltage is what was commanded."""
+        """Return no slopes, (N, 1, 0): the pump's voltage is exact."""
         return np.zeros((self.voltage.size, 1, 0))
 
     def with_parameters(self, parameters: tuple[Parameter, ...]) -> Tanks:
-        """The same tanks with these parameters, in place of those of their names and beside the others."""
+        """Return the tanks with these parameters: replaced where a name is known, added where not."""
         given = {parameter.name: parameter for parameter in parameters}
         kept = tuple(given.pop(parameter.name, parameter) for parameter in self.parameters)
         return replace(self, parameters=(*kept, *given.values()))
@@ -100,7 +100,10 @@ class Tanks:
 
 @njit(cache=True, error_model="numpy")
 def _rates(first, second, inflow, values):
-    """Rates of both levels, V/s; a level below nothing drains nothing, one above a rim leaves as over a weir."""
+    """Return rates of both levels in V/s; water above a rim flows as over a weir.
+
+    A level below zero drains nothing.
+    """
     upper, lower = max(first, 0.0), max(second, 0.0)
     over_1, over_2 = max(first - values[6], 0.0), max(second - values[7], 0.0)
     weir_1, weir_2 = WEIR * over_1 * np.sqrt(over_1), WEIR * over_2 * np.sqrt(over_2)
@@ -113,16 +116,16 @@ def _rates(first, second, inflow, values):
 
 @njit(cache=True, error_model="numpy")
 def levels(voltage, values):
-    """The sensor at each sample (N,) in V, by the classical Runge-Kutta method of 1 s; values in ORDER.
+    """Return the sensor at each sample (N,) in V, by the classical Runge-Kutta method of 1 s; values in ORDER.
 
-    `spill` of what flows over the upper rim falls into the lower tank, in the ratio of the tanks' k2 to k1.
+    The share `spill` of the upper overflow falls into the lower tank, in the ratio of the tanks' k2 to k1.
     """
     step = SAMPLE / SUBSTEPS
     first, second, inflow = values[4], values[5], voltage[0]
-    seen = np.empty(voltage.size)
+    reading = np.empty(voltage.size)
     keep = np.exp(-step / values[14]) if values[14] > 0.0 else 0.0
     for at in range(voltage.size):
-        seen[at] = min(second + values[12], values[13])
+        reading[at] = min(second + values[12], values[13])
         for _ in range(SUBSTEPS):
             inflow = voltage[at] + keep * (inflow - voltage[at])
             a1, a2 = _rates(first, second, inflow, values)
@@ -131,4 +134,4 @@ def levels(voltage, values):
             d1, d2 = _rates(first + step * c1, second + step * c2, inflow, values)
             first += step / 6.0 * (a1 + 2.0 * b1 + 2.0 * c1 + d1)
             second += step / 6.0 * (a2 + 2.0 * b2 + 2.0 * c2 + d2)
-    return seen
+    return reading

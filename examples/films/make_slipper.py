@@ -24,7 +24,7 @@ point = np.arange(places.shape[0]).reshape(r.shape)
 
 
 def around(corners):
-    """Cells of every sector over section points [(column, row), ..]: quadrilaterals of two, hexahedra of four."""
+    """Return cells of all sectors over section points [(column, row), ..]: quadrilaterals of 2, hexahedra of 4."""
     here = [point[i, k, :] for i, k in corners]
     there = [np.roll(part, -1, axis=-1) for part in here]
     return np.stack([*here, *(there if len(corners) == 4 else there[::-1])], axis=-1).reshape(-1, 2 * len(corners))

@@ -1,10 +1,10 @@
-"""Band of volumetric efficiency that its drawing leaves open for the HST 196 transmission, beside 399 measured.
+"""Volumetric efficiency of the HST 196 transmission: band predicted from its drawing, beside 399 measured units.
 
     python examples/hst196/band.py [MEASURED.csv]
 
-Two like machines of ../pumps/hst196.toml, pump and motor in a closed circuit, at the end-of-line test point: 1780
-rpm, 207 against 14 bar, oil of 60 degC. Given are the piston clearances by the drawing's tolerances; what else
-leakage and compression hang on is not given and is drawn from the range that each `Unknown` names with its source.
+Two equal machines of ../pumps/hst196.toml, pump and motor in a closed circuit, at the end-of-line test point: 1780
+rpm, 207 against 14 bar, oil of 60 degC. The drawing's tolerances give the piston clearances. All other values that
+decide leakage and compression are not given; each is drawn from the range and source that its `Unknown` names.
 MEASURED.csv: hst196_production_tests.csv, the production tests of github.com/ivanokhotnikov/effmap.
 """
 
@@ -19,26 +19,24 @@ from pathlib import Path
 import numpy as np
 from scipy.stats import qmc
 
-from reynolds.numerics.arrays import Array
-from system.inputs.units import STANDARD_ATMOSPHERE
-from system.points.transmission import transmission
-from system.pump.operating import operating_point
-from system.pump_file.file import load_pump
+from reynolds import Array
+from system import load_pump, operating_point, transmission
 
 PUMP = Path(__file__).resolve().parents[1] / "pumps" / "hst196.toml"
 INCH = 25.4e-3
 SWEPT = 21.78e-6  # m3: 196 cm3/rev over nine pistons
 MACHINES = ("pump", "motor")
-HIGH, CHARGE = 207e5, 14e5  # Pa
+HIGH, CHARGE = 207e5, 14e5  # Pa gauge
+ATMOSPHERE = 101325.0  # Pa
 LOAD = HIGH / 35e6
 HOT = 60.0  # K: oil of 120 degC in the films
-SLIP_OF_READING = 0.05  # of the input speed: no unit runs so differently forward and back
+SLIP_OF_READING = 0.05  # of the input speed: a larger difference of forward and reverse is a wrong reading
 SAMPLES = 256
 
 
 @dataclass(frozen=True)
 class Unknown:
-    """What is not known and evenly likely from `low` to `high`, SI; `each`: of either machine on its own."""
+    """An unknown value, evenly distributed from `low` to `high`, SI; `each`: pump and motor have their own."""
 
     name: str
     low: float
@@ -69,24 +67,24 @@ UNKNOWNS = (*DRAWING, *NOT_GIVEN)
 
 
 def columns(unknowns: Sequence[Unknown]) -> list[str]:
-    """Names of the numbers that are drawn: 'slipper film, pump' where either machine has its own."""
+    """Return names of the drawn values: 'slipper film, pump' where each machine has its own."""
     return [name for unknown in unknowns for name in _names(unknown)]
 
 
 def draw(unknowns: Sequence[Unknown], count: int, seed: int) -> Array:
-    """Values (count, columns) of a Latin hypercube over the ranges."""
+    """Return values (count, columns) of a Latin hypercube over the ranges."""
     ends = np.array([(u.low, u.high) for u in unknowns for _ in _names(u)])
     cube = qmc.LatinHypercube(len(ends), seed=seed).random(count)
     return np.asarray(ends[:, 0] + cube * (ends[:, 1] - ends[:, 0]))
 
 
 def middle(unknowns: Sequence[Unknown]) -> dict[str, float]:
-    """The middle of every range."""
+    """Return the middle of every range by name."""
     return {name: 0.5 * (u.low + u.high) for u in unknowns for name in _names(u)}
 
 
 def efficiency(value: Mapping[str, float]) -> float:
-    """What the test bench calls volumetric efficiency: motor over pump speed of two machines of one displacement.
+    """Return the test bench's volumetric efficiency: motor over pump speed of two machines of one displacement.
 
     `value` holds every column of DRAWING and NOT_GIVEN.
     """
@@ -98,7 +96,7 @@ def efficiency(value: Mapping[str, float]) -> float:
 
 
 def by_clearance() -> Array:
-    """Efficiency (2,) at the least and the largest clearance of every piston, all else in the middle."""
+    """Return efficiency (2,) at the least and the largest clearance of every piston, all else in the middle."""
     ends = ((DRAWING[0].high, DRAWING[1].low), (DRAWING[0].low, DRAWING[1].high))
     known = middle(NOT_GIVEN)
     return np.array(
@@ -110,16 +108,16 @@ def by_clearance() -> Array:
 
 
 def sample(count: int, seed: int = 196) -> tuple[Array, Array]:
-    """Values (count, columns) of all unknowns and the efficiency (count,) of each."""
+    """Return values (count, columns) of all unknowns and the efficiency (count,) of each."""
     names = columns(UNKNOWNS)
     values = draw(UNKNOWNS, count, seed)
     return values, np.array([efficiency(dict(zip(names, row, strict=True))) for row in values])
 
 
 def shares(values: Array, found: Array) -> Array:
-    """Part of the variance of `found` (n,) that goes with each column of `values` (n, k).
+    """Return the share of the variance of `found` (n,) due to each column of `values` (n, k).
 
-    Standardised slope times correlation (Pratt 1987): together what a linear law explains, at most 1.
+    Standardised slope times correlation (Pratt 1987): the sum is the share that a linear law explains, at most 1.
     """
     scaled = (values - values.mean(axis=0)) / values.std(axis=0)
     off = (found - found.mean()) / found.std()
@@ -128,15 +126,15 @@ def shares(values: Array, found: Array) -> Array:
 
 
 def measured(file: Path) -> Array:
-    """Motor over pump speed (n,) forward of every unit tested."""
+    """Return motor over pump speed (n,), forward, of every unit tested."""
     return _speed_ratios(file, "forward")
 
 
 def shared_spread(file: Path) -> float:
-    """Standard deviation between units of what forward and reverse have in common, root of their covariance.
+    """Return the standard deviation between units that forward and reverse share, root of their covariance.
 
-    Clearances are the same both ways; the rest is the test's own and what differs between the two. One unit whose
-    reverse speed is a third of all others' is left out.
+    Clearances are the same both ways; other scatter is that of the test and of the direction. One unit with a
+    third of the usual reverse speed is left out.
     """
     forward, reverse = (_speed_ratios(file, way) for way in ("forward", "reverse"))
     alike = np.abs(forward - reverse) < SLIP_OF_READING
@@ -144,7 +142,7 @@ def shared_spread(file: Path) -> float:
 
 
 def _speed_ratios(file: Path, way: str) -> Array:
-    """Motor over pump speed (n,) one way of every unit tested forward."""
+    """Return motor over pump speed (n,) one way of every unit tested forward."""
     with file.open(encoding="utf-8") as rows:
         tested = [row for row in csv.DictReader(rows) if float(row["forward_speed_rpm"] or 0.0) > 0.0]
     return np.array([float(row[f"{way}_speed_rpm"] or 0.0) for row in tested]) / 1780.0
@@ -155,7 +153,7 @@ def _names(unknown: Unknown) -> list[str]:
 
 
 def _machine(value: Mapping[str, float], machine: str) -> dict[str, object]:
-    """Keys of the pump file for one of the two machines."""
+    """Return keys of the pump file for one of the two machines."""
     piston, bore = value[f"piston diameter, {machine}"], value[f"bore diameter, {machine}"]
     films = {
         "piston.radial_clearance": 0.5 * (bore - piston) + LOAD * value["bore opening at 35 MPa"],
@@ -163,9 +161,9 @@ def _machine(value: Mapping[str, float], machine: str) -> dict[str, object]:
         "valve_plate.film_thickness": value[f"valve plate film, {machine}"]
         + LOAD * value["valve plate opening at 35 MPa"],
     }
-    # Free air at one atmosphere, pressed as slowly as isothermally, gives way beside the oil.
-    low, high = CHARGE + STANDARD_ATMOSPHERE, HIGH + STANDARD_ATMOSPHERE
-    air = value["free air"] * STANDARD_ATMOSPHERE / (low * high)
+    # Free air at one atmosphere, compressed isothermally, adds its compliance to that of the oil.
+    low, high = CHARGE + ATMOSPHERE, HIGH + ATMOSPHERE
+    air = value["free air"] * ATMOSPHERE / (low * high)
     return {
         **{key: f"{film * 1e6} um" for key, film in films.items()},
         "piston.eccentricity_ratio": min(value[f"piston eccentricity, {machine}"], 0.999),
@@ -176,21 +174,21 @@ def _machine(value: Mapping[str, float], machine: str) -> dict[str, object]:
 
 
 def main(arguments: list[str]) -> None:
-    """Print the band, where it comes from, and the measured spread beside it."""
+    """Print the band, its causes, and the measured spread beside it."""
     tight, wide = 100.0 * by_clearance()
     print(f"clearance alone, 22.9 .. 34.3 um, the rest in the middle: {tight:.2f} .. {wide:.2f} %")
     hot = 100.0 * efficiency(middle(UNKNOWNS) | {"film heating": HOT})
     print(f"all in the middle but for films {HOT:.0f} K hotter than the oil: {hot:.2f} %")
     values, found = sample(SAMPLES)
     low, high = 100.0 * np.quantile(found, (0.05, 0.95))
-    print(f"with all that is not given, 90 %: {low:.2f} .. {high:.2f} %")
+    print(f"all unknown values drawn, 90 %: {low:.2f} .. {high:.2f} %")
     parts = dict(zip(columns(UNKNOWNS), shares(values, found), strict=True))
     print("share of the variance, both machines together:")
     for unknown in UNKNOWNS:
         print(f"  {sum(parts[name] for name in _names(unknown)):6.1%}  {unknown.name} ({unknown.source})")
     if arguments:
-        told = measured(Path(arguments[0]))
-        print(f"measured on {told.size} units: {told.mean():.2%}, standard deviation {told.std(ddof=1):.2%}")
+        found = measured(Path(arguments[0]))
+        print(f"measured on {found.size} units: {found.mean():.2%}, standard deviation {found.std(ddof=1):.2%}")
         print(f"of it shared by forward and reverse: {shared_spread(Path(arguments[0])):.2%}")
 
 

@@ -1,10 +1,10 @@
-"""Your own model in the engine that finds what a simulation leaves out: a valve, and a leak beside its orifice.
+"""A model of your own in the estimation engine: a valve, with and without a leak beside its orifice.
 
     python examples/own_simulator/valve.py
 
-    Q = a sqrt(p), or with what is left out Q = a sqrt(p) + b p
+    Q = a sqrt(p), or with the leak Q = a sqrt(p) + b p
 
-A model is whatever has the five members of `system.estimation.simulator.Simulator`. Readings here are made up.
+A model has the five members of `system.Simulator`. The readings are artificial.
 """
 
 from __future__ import annotations
@@ -13,12 +13,10 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from reynolds.numerics.arrays import Array
-from system.estimation.fit import maximum_posterior
-from system.estimation.observations import Channel, Observations
-from system.estimation.parameters import Parameter, Role, Scale
+from reynolds import Array
+from system import Channel, Observations, Parameter, Role, Scale, maximum_posterior
 
-DROP = np.linspace(1e5, 40e5, 30)  # Pa, at which the flow was read
+DROP = np.linspace(1e5, 40e5, 30)  # Pa, of each reading
 SIGMA = 2e-6  # m3/s
 ORIFICE = Parameter("orifice", Role.BASE, Scale.NORMAL, 1e-7, 5e-8, 0.0, 1e-6, None, "drawing")
 LEAK = Parameter("leak", Role.EXTENSION, Scale.HALF, 0.0, 1e-11, 0.0, 1e-9, None, "a worn seat")
@@ -31,13 +29,13 @@ class Valve:
     parameters: tuple[Parameter, ...] = (ORIFICE,)
 
     def predict(self, values: Array) -> Array:
-        """The flow; a parameter that the model does not have is nothing."""
+        """Return the flow; a parameter that the model does not have is zero."""
         known = {"leak": 0.0} | {one.name: value for one, value in zip(self.parameters, values, strict=True)}
         found: Array = (known["orifice"] * np.sqrt(DROP) + known["leak"] * DROP)[:, None]
         return found
 
     def slopes(self, values: Array, names: tuple[str, ...]) -> Array:
-        """d flow / d value, (N, 1, k), by differences; they lead a fit and decide nothing."""
+        """Return d flow / d value, (N, 1, k), by differences; predictions decide a fit, slopes only lead it."""
         columns = []
         for at, one in enumerate(self.parameters):
             if one.name in names:
@@ -47,18 +45,18 @@ class Valve:
         return np.stack(columns, axis=-1)
 
     def input_slopes(self, values: Array) -> Array:
-        """(N, 1, 0): pressure drops are known exactly."""
+        """Return no slopes, (N, 1, 0): pressure drops are known exactly."""
         return np.zeros((DROP.size, 1, 0))
 
     def with_parameters(self, parameters: tuple[Parameter, ...]) -> Valve:
-        """The same valve with these parameters, in place of those of their names and beside the others."""
+        """Return the valve with these parameters: replaced where a name is known, added where not."""
         given = {one.name: one for one in parameters}
         kept = tuple(given.pop(one.name, one) for one in self.parameters)
         return replace(self, parameters=(*kept, *given.values()))
 
 
 def readings(leak: float) -> Observations:
-    """Flows of a valve with a leak in m3/(s Pa), with noise."""
+    """Return flows of a valve with a leak in m3/(s Pa), with noise."""
     flow = 1e-7 * np.sqrt(DROP) + leak * DROP + SIGMA * np.random.default_rng(1).standard_normal(DROP.size)
     return Observations(
         channels=(Channel("flow", None),),
@@ -72,10 +70,10 @@ def readings(leak: float) -> Observations:
 
 
 def main(leak: float = 5e-12) -> float:
-    """Print both fits; return by how much the evidence of a leak exceeds that of none, in nats."""
-    seen, evidence = readings(leak), []
+    """Print both fits; return the evidence of a leak less that of none, in nats."""
+    read, evidence = readings(leak), []
     for valve in (Valve(), Valve().with_parameters((LEAK,))):
-        fit = maximum_posterior(valve, seen)
+        fit = maximum_posterior(valve, read)
         evidence.append(fit.log_evidence)
         sizes = ", ".join(
             f"{one.name} {value:.3g} +- {fit.sigma(one.name):.1g}"

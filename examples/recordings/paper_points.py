@@ -1,33 +1,34 @@
-"""An artificial recording over the paper's 112 points: REF90 with other friction, read by a good bench.
+"""An artificial recording over the paper's 112 points: `ref90` with other friction on a good bench.
 
     python examples/recordings/paper_points.py examples/recordings/paper_points
 
 writes recording.toml and steady.csv into that folder, the same at each call. Nothing in it was measured. The pump
-is REF90 but for the coefficients of PLANTED; each reading is the lumped simulation's and one draw of the sigma
-that recording.toml states for its channel. The bench's circuit is closed, pressures are gauge.
+is `ref90` with the coefficients of PLANTED. Each reading is that of the lumped simulation plus one draw of the
+noise that recording.toml states for its channel. The bench's circuit is closed, pressures are gauge.
 """
 
 from __future__ import annotations
 
 import argparse
 from dataclasses import dataclass, replace
+from itertools import product
 from pathlib import Path
 
 import numpy as np
 
-from system.paper.made_readings import PLAN
-from system.points.lumped import lumped_point
-from system.pump.bench import BenchReading
-from system.pump.operating import OperatingPoint, operating_point
-from system.pump_file.file import load_pump
+from system import load_pump, lumped_point, operating_point
 
+RPM = np.pi / 30.0
+SPEEDS = [RPM * speed for speed in (1000.0, 1300.0, 1700.0, 2100.0)]  # rad/s
+PRESSURES = [1e6 * pressure for pressure in (5.0, 10.0, 15.0, 20.0, 25.0, 30.0, 35.0)]  # Pa
+RATIOS = (0.28, 0.51, 0.77, 1.0)
 PLANTED = {"piston_cylinder": 0.030, "slipper_swash_plate": 0.0070, "valve_plate_cylinder": 0.013}
 SEED = 112
 
 
 @dataclass(frozen=True)
 class Meter:
-    """A channel: unit, SI in one of it, zero in SI, one sigma (so much, and so much of the reading)."""
+    """A channel: its unit, `factor` and `zero` of the unit in SI, one sigma as a value and as a share."""
 
     channel: str
     unit: str
@@ -39,7 +40,7 @@ class Meter:
 
 
 METERS = (
-    Meter("speed", "rpm", np.pi / 30.0, 0.0, 0.5, 0.0, 2),
+    Meter("speed", "rpm", RPM, 0.0, 0.5, 0.0, 2),
     Meter("displacement_ratio", "1", 1.0, 0.0, 0.0005, 0.0, 4),
     Meter("p_out", "bar", 1e5, 0.0, 0.15, 0.0, 2),
     Meter("p_in", "bar", 1e5, 0.0, 0.02, 0.0, 3),
@@ -79,7 +80,7 @@ def main() -> None:
         for one in METERS
     )
     (folder / "recording.toml").write_text(HEAD + channels, encoding="utf-8")
-    true = np.array(list(map(_reading, *zip(*PLAN, strict=True))))
+    true = np.array([_reading(*place) for place in product(RATIOS, SPEEDS, PRESSURES)])
     sigma = np.array([one.sigma for one in METERS]) + np.array([one.relative for one in METERS]) * np.abs(true)
     read = true + sigma * np.random.default_rng(SEED).standard_normal(true.shape)
     rows = [",".join(one.channel for one in METERS)]
@@ -87,18 +88,13 @@ def main() -> None:
     (folder / "steady.csv").write_text("\n".join(rows) + "\n", encoding="utf-8")
 
 
-def _reading(speed: float, pressure: float, ratio: float) -> list[float]:
-    """What every channel shows at a point without noise, in its unit."""
+def _reading(ratio: float, speed: float, pressure: float) -> list[float]:
+    """Return the reading of every channel at a point without noise, in its unit."""
     pump = load_pump("ref90")
     pump = replace(pump, friction=replace(pump.friction, **PLANTED))
     at = operating_point(pump, shaft_speed=speed, delivery_pressure=pressure, displacement_ratio=ratio)
-    shown = _shown(at, lumped_point(pump, at).bench)
-    return [(shown[one.channel] - one.zero) / one.factor for one in METERS]
-
-
-def _shown(at: OperatingPoint, bench: BenchReading) -> dict[str, float]:
-    """The channels in SI."""
-    return {
+    bench = lumped_point(pump, at).bench
+    value = {
         "speed": bench.shaft_speed,
         "displacement_ratio": at.displacement_ratio,
         "p_out": bench.delivery_pressure,
@@ -111,6 +107,7 @@ def _shown(at: OperatingPoint, bench: BenchReading) -> dict[str, float]:
         "Q_case": bench.drain_flow,
         "torque": bench.shaft_torque,
     }
+    return [(value[one.channel] - one.zero) / one.factor for one in METERS]
 
 
 if __name__ == "__main__":

@@ -1,13 +1,13 @@
-"""What does a rig's pump lose that it did not lose before? Named from cycles whose leak is concealed.
+"""The cause of a loss of flow in a real rig, found from cycles with a concealed leak.
 
     python examples/uci_hydraulic/leak.py DATA
 
-DATA: recordings/uci_hydraulic (see rig.py). Cycles without a leak say how flow, motor power and pressure go with
-the oil's temperature, which the cooler sets; cycles with a leak are held against that by the engine of the pump's
-diagnosis. Of the pump neither displacement nor speed is known: the model is of the rig, parabolas in viscosity.
+DATA: folder of the data (see rig.py). Cycles without a leak give flow, motor power and pressure over the oil's
+temperature, which the cooler sets. The estimation engine compares cycles with a leak with them. Neither
+displacement nor speed of the pump is known: the model describes the rig, by parabolas in viscosity.
 
-Readings are means over the cycles of one setting of cooler, valve and accumulator; from one day to another flow,
-power and pressure may stand a little off.
+Readings are means over the cycles of one setting of cooler, valve and accumulator. Flow, power and pressure may
+have an offset from one day to another.
 """
 
 from __future__ import annotations
@@ -20,13 +20,8 @@ from pathlib import Path
 import numpy as np
 from rig import cycle_means
 
-from reynolds.laws.oil import ISO_GRADES, Oil, walther
-from reynolds.numerics.arrays import Array
-from system.estimation.fit import maximum_posterior
-from system.estimation.observations import Channel, Observations
-from system.estimation.parameters import Parameter, Role, Scale
-from system.estimation.posterior import Posterior
-from system.inputs.units import Dimension
+from reynolds import ISO_GRADES, Array, Oil, walther
+from system import Channel, Observations, Parameter, Posterior, Role, Scale, maximum_posterior
 
 LPM, BAR = 1e-3 / 60.0, 1e5
 COOLERS = (3, 20, 100)  # %
@@ -36,10 +31,10 @@ OIL = Oil(GRADE.kinematic_viscosity_40C, GRADE.kinematic_viscosity_100C, DENSITY
 FLOW_COEFFICIENT = 0.61  # of a sharp orifice
 PRESSURE, WARM = 155.0 * BAR, 318.15  # of the middle cooler
 EFFICIENCY = 0.8  # of motor and pump together
-SIGMA = (0.012 * LPM, 8.0, 0.25 * BAR)  # of a setting: how they scatter about the model without a leak
-DAY = (0.01 * LPM, 15.0, 0.1 * BAR)  # one sigma of what another day brings
+SIGMA = (0.012 * LPM, 8.0, 0.25 * BAR)  # of a setting: scatter about the model without a leak
+DAY = (0.01 * LPM, 15.0, 0.1 * BAR)  # one sigma of the offset between days
 STEP = 1e-4  # of a spread, for slopes
-LEAST = 5  # cycles of a setting that make a mean
+LEAST = 5  # cycles that a mean of a setting needs
 
 
 def _parameter(name: str, role: Role, scale: Scale, centre: float, spread: float) -> Parameter:
@@ -48,7 +43,7 @@ def _parameter(name: str, role: Role, scale: Scale, centre: float, spread: float
 
 
 def _shape(name: str, size: float, centre: float) -> tuple[Parameter, ...]:
-    """A channel's value at the middle cooler, and what it gains linearly and squared with viscosity."""
+    """Return a channel's value at the middle cooler, its slope and its curvature over viscosity."""
     return tuple(
         _parameter(f"{name}{power}", Role.BASE, Scale.NORMAL, centre * (power == 0), size) for power in range(3)
     )
@@ -81,7 +76,7 @@ ABSENT = dict.fromkeys(("area", "gap", "shrunk", "gain", "zero", "size"), 0.0) |
 
 @dataclass(frozen=True)
 class Rig:
-    """The rig at N settings: viscosity over that of the middle cooler, pressure Pa, whether the leak is on."""
+    """The rig at N settings: viscosity over that of the middle cooler, pressure in Pa, leak on (1) or off (0)."""
 
     viscosity: Array
     pressure: Array
@@ -89,7 +84,7 @@ class Rig:
     parameters: tuple[Parameter, ...] = BASE
 
     def predict(self, values: Array) -> Array:
-        """Flow m3/s, motor power W, pressure Pa, (N, 3)."""
+        """Return flow in m3/s, motor power in W and pressure in Pa, (N, 3)."""
         has = ABSENT | {one.name: float(value) for one, value in zip(self.parameters, values, strict=True)}
         warm, load = self.viscosity - 1.0, self.pressure / PRESSURE
         flow, power, pressure = (
@@ -100,17 +95,17 @@ class Rig:
         orifice = FLOW_COEFFICIENT * has["area"] * np.sqrt(2.0 * self.pressure / DENSITY)
         lost = orifice + has["gap"] * load / self.viscosity + has["shrunk"] * flow + law
         saved = has["shrunk"] * flow * self.pressure / EFFICIENCY
-        told = lost + has["gain"] * flow + has["zero"]
+        missing = lost + has["gain"] * flow + has["zero"]
         changes = (
-            has["day_flow"] - told,
+            has["day_flow"] - missing,
             has["day_power"] - saved,
             has["day_pressure"] - has["resistance"] * lost,
         )
-        whole = zip((flow, power, pressure), changes, strict=True)
-        return np.stack([sound + self.leaking * change for sound, change in whole], axis=1)
+        both = zip((flow, power, pressure), changes, strict=True)
+        return np.stack([sound + self.leaking * change for sound, change in both], axis=1)
 
     def slopes(self, values: Array, names: tuple[str, ...]) -> Array:
-        """d readings / d value, (N, 3, k), by central differences."""
+        """Return d readings / d value, (N, 3, k), by central differences."""
         columns = []
         for at, one in enumerate(self.parameters):
             if one.name in names:
@@ -120,29 +115,29 @@ class Rig:
         return np.stack(columns, axis=-1)
 
     def input_slopes(self, values: Array) -> Array:
-        """None: temperature and pressure are known far better than they matter."""
+        """Return no slopes, (N, 3, 0): errors of temperature and pressure are negligible."""
         return np.zeros((self.viscosity.size, 3, 0))
 
     def with_parameters(self, parameters: tuple[Parameter, ...]) -> Rig:
-        """The same rig with these parameters besides."""
+        """Return the rig with these parameters added."""
         return replace(self, parameters=(*self.parameters, *parameters))
 
 
 @dataclass(frozen=True)
 class Explained:
-    """What one explanation makes of the cycles with a leak: ln evidence over none, and its fit."""
+    """An explanation of the cycles with a leak: its name, ln evidence over no change, its fit."""
 
     name: str
     evidence: float
     fit: Posterior
 
     def size(self, name: str) -> tuple[float, float]:
-        """A parameter with its sigma, SI."""
+        """Return a parameter with its sigma, SI."""
         return float(self.fit.values[self.fit.index(name)]), self.fit.sigma(name)
 
 
 def settings(data: Path, leak: int) -> Array:
-    """Means over the cycles of each setting, rows of p bar, Q L/min, P W, T degC."""
+    """Return means over the cycles of each setting, rows of p bar, Q L/min, P W, T degC."""
     found = []
     for cooler in COOLERS:
         rows = cycle_means(data, leak, cooler)
@@ -152,25 +147,24 @@ def settings(data: Path, leak: int) -> Array:
 
 
 def rig_of(sound: Array, leaking: Array) -> tuple[Rig, Observations]:
-    """The rig and its readings: settings without a leak, then those with one."""
+    """Return the rig and its readings: settings without a leak, then those with one."""
     pressure, flow, power, celsius = np.concatenate([sound, leaking]).T
     viscosity = walther(celsius + 273.15, OIL) / walther(WARM, OIL)
-    there = np.repeat([0.0, 1.0], [len(sound), len(leaking)])
-    dimensions = Dimension.VOLUME_FLOW, Dimension.POWER, Dimension.PRESSURE
+    leak = np.repeat([0.0, 1.0], [len(sound), len(leaking)])
     read = Observations(
-        channels=tuple(Channel(one, of) for one, of in zip(("Q_out", "power", "p_out"), dimensions, strict=True)),
+        channels=tuple(Channel(one, None) for one in ("Q_out", "power", "p_out")),
         values=np.stack([flow * LPM, power, pressure * BAR], axis=1),
-        sigma=np.tile(SIGMA, (there.size, 1)),
+        sigma=np.tile(SIGMA, (leak.size, 1)),
         inputs=(),
-        input_sigma=np.zeros((there.size, 0)),
+        input_sigma=np.zeros((leak.size, 0)),
         quantum=np.zeros(3),
-        blocks=np.arange(there.size),
+        blocks=np.arange(leak.size),
     )
-    return Rig(viscosity, pressure * BAR, there), read
+    return Rig(viscosity, pressure * BAR, leak), read
 
 
 def explanations(data: Path, leak: int) -> tuple[Explained, ...]:
-    """Every single explanation of the cycles with this leak, the one of greatest evidence first."""
+    """Return every explanation of the cycles with this leak, the one of greatest evidence first."""
     rig, read = rig_of(settings(data, 0), settings(data, leak))
     nothing = maximum_posterior(rig, read)
     found = [
@@ -182,19 +176,19 @@ def explanations(data: Path, leak: int) -> tuple[Explained, ...]:
 
 
 def free_law(data: Path, leak: int) -> Explained:
-    """A leak ~ p^k nu^m, k and m free."""
+    """Return the fit of a leak ~ p^k nu^m, k and m free."""
     rig, read = rig_of(settings(data, 0), settings(data, leak))
     fit = maximum_posterior(rig.with_parameters(FREE_LAW), read)
     return Explained("leak by a free law", fit.log_evidence, fit)
 
 
 def diameter(area: float) -> float:
-    """Of a round orifice, m."""
+    """Return the diameter in m of a round orifice of this area in m2."""
     return float(np.sqrt(4.0 * area / np.pi))
 
 
 def main(words: Sequence[str]) -> None:
-    """Print what explains either leak, the orifice's diameter, and which exponents the cycles leave open."""
+    """Print explanations of each leak, the orifice's diameter, and the exponents of a free law."""
     data = Path(words[0])
     for leak in (1, 2):
         found = explanations(data, leak)

@@ -2,10 +2,10 @@
 
     python examples/uci_hydraulic/rig.py DATA FOLDER [--leak 0|1|2] [--cooler 3|20|100]
 
-DATA: recordings/uci_hydraulic (CC BY 4.0; cite Helwig, Pignanelli, Schuetze, I2MTC 2015,
+DATA: folder of the repository's files (CC BY 4.0; cite Helwig, Pignanelli, Schuetze, I2MTC 2015,
 doi 10.1109/I2MTC.2015.7151267). One row is one stable cycle of 60 s: means over its seconds 30 to 57, in which
-valve and pressure stand still. Pump leakage is a bypass orifice that the rig switches on; it is no column of
-what is written. Shaft speed, displacement and torque were not recorded; the motor's electric power was.
+valve and pressure are constant. Pump leakage is a bypass orifice that the rig switches on; the recording has no
+column of it. The source recorded the motor's electric power, but not shaft speed, displacement and torque.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ from pathlib import Path
 
 import numpy as np
 
-from reynolds.numerics.arrays import Array
+from reynolds import Array
 
 STEADY = slice(30, 58)  # s of a cycle
 WORKING = 7.0  # L/min: below it the circuit, not the pump, decides the flow
@@ -43,7 +43,7 @@ electric_power = {{ column = "electric_power_W", unit = "W" }}
 
 
 def cycle_means(data: Path, leak: int, cooler: int) -> Array:
-    """Return rows of set point, p_out bar, Q_out L/min, P W, T_out degC: one a stable cycle with this leakage.
+    """Return rows of set point, p_out bar, Q_out L/min, P W, T_out degC, one per stable cycle of this leakage.
 
     Cycles whose flow falls below `WORKING` are left out.
     """
@@ -56,7 +56,7 @@ def cycle_means(data: Path, leak: int, cooler: int) -> Array:
 
 
 def write_recording(rows: Array, folder: Path, leak: int, cooler: int) -> None:
-    """Leave recording.toml and steady.csv in the folder."""
+    """Write recording.toml and steady.csv into the folder."""
     folder.mkdir(parents=True, exist_ok=True)
     head = ",".join(["set_point", *CHANNELS.values()])
     np.savetxt(folder / "steady.csv", rows, delimiter=",", header=head, comments="", fmt="%.6g")
