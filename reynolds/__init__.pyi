@@ -68,6 +68,7 @@ from .numerics.dirk import Tableau as Tableau
 from .numerics.dirk import advance as advance
 from .numerics.dirk import integrate as integrate
 from .numerics.dirk import nodes_only as nodes_only
+from .problem import ZERO as ZERO
 from .problem import Boundary as Boundary
 from .problem import Cavitation as Cavitation
 from .problem import Film as Film
@@ -76,7 +77,6 @@ from .problem import FilmSolution as FilmSolution
 from .problem import Held as Held
 from .problem import Pocket as Pocket
 from .problem import Storage as Storage
-from .problem import ZERO as ZERO
 from .problem import film as film
 from .problem import no_feed as no_feed
 from .solve.export import write_vtu as write_vtu

@@ -55,7 +55,7 @@ _SI = {
     "temperatures": "K",
     "inlet_pressures": "Pa",
 }
-_OF_COMMAND_LINE = ("-o", "--output", "--help")
+_OF_COMMAND_LINE = ("-o", "--output", "--help", "--csv", "--animate", "--apply", "--page")
 _RESULTS = (
     "swashfilm.runs.pump.result.PumpRun",
     "swashfilm.runs.film.result.FilmRun",

@@ -38,9 +38,9 @@ from .films.problems import RIGID as RIGID
 from .films.rotor import Rotor as Rotor
 from .films.rotor import rotor as rotor
 from .films.rotor import valve_plate_geometry as valve_plate_geometry
-from .inputs.channels import ChannelName as ChannelName
 from .inputs.channels import INPUTS as INPUTS
 from .inputs.channels import OUTPUTS as OUTPUTS
+from .inputs.channels import ChannelName as ChannelName
 from .inputs.coefficients.flow_files import read_flow_coefficients as read_flow_coefficients
 from .inputs.coefficients.loss_files import read_step_losses as read_step_losses
 from .inputs.faults import Fault as Fault

@@ -50,7 +50,7 @@ def headline(folder: Path) -> tuple[str, ...]:
     law = own["hersey"]
     if law is not None:
         odds = f"{law['evidence_nats']:+.1f} nats for it"
-        words = "the data carry" if law["carried"] else "the data do not carry"
+        words = "the data support" if law["carried"] else "the data do not support"
         sentences.append(f"{words} a friction that depends on the Hersey number: {odds}.")
         if law["carried"]:
             constant = f"{own['chi2_constant_friction']:.3f}"

@@ -35,7 +35,7 @@ class CalibrationRun(Result):
         found._hersey = read_rows(folder / "hersey.csv")
         found._tables = [("Friction coefficients: prior, fitted, sigma over the prior's", pair_table(folder))]
         if len(compared := held_out_table(folder)) > 1:
-            found._tables.append(("What models get wrong at levels left out", compared))
+            found._tables.append(("Error of models at levels left out", compared))
         return found
 
     @staticmethod

@@ -87,12 +87,20 @@ def test_links_lead_somewhere(page):
         assert not anchor or anchor in _anchors(linked), f"{_relative(page)}: no heading for {target}"
 
 
-def test_readme_snippet_runs(capsys):
-    snippets = _blocks(ROOT / "README.md", "python")
-    assert snippets
-    for snippet in snippets:
-        exec(compile(snippet, "README.md", "exec"), {})
-    assert "350 bar: " in capsys.readouterr().out
+@pytest.mark.parametrize("page", [ROOT / "README.md", ROOT / "docs" / "tutorial.md"], ids=_relative)
+def test_python_snippets_run_and_print_what_the_page_shows(page, capsys, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    names: dict[str, object] = {}
+    text = page.read_text("utf-8")
+    for snippet in _blocks(page, "python"):
+        if 'fidelity="table"' in snippet:  # needs the response table of the command before it
+            continue
+        exec(compile(snippet, page.name, "exec"), names)
+        shown = re.match(
+            r"\s*(?:prints\s+)?```text\n(.*?)^```", text.split(f"{snippet}```", 1)[1], re.DOTALL | re.MULTILINE
+        )
+        printed = capsys.readouterr().out
+        assert not printed or (shown and printed == shown[1]), printed
 
 
 @pytest.mark.parametrize("page", [page for page in PAGES if "```sh" in page.read_text("utf-8")], ids=_relative)

@@ -10,8 +10,17 @@ import pytest
 from scipy.optimize import least_squares
 
 from reynolds import Array, InputError, NotConverged
-from system import Channel, FitLimits, Observations, Parameter, Posterior, Role, Scale, maximum_posterior
-from system.estimation.fit import best_posterior
+from system import (
+    Channel,
+    FitLimits,
+    Observations,
+    Parameter,
+    Posterior,
+    Role,
+    Scale,
+    best_posterior,
+    maximum_posterior,
+)
 
 OPEN = (-np.inf, np.inf)
 

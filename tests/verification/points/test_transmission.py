@@ -7,8 +7,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from system import load_pump, operating_point, slipper_conductance, valve_plate_conductance
-from system.points.transmission import Transmission, transmission
+from system import load_pump, operating_point, slipper_conductance, transmission, valve_plate_conductance
+from system.points.transmission import Transmission
 
 PUMP = Path(__file__).resolve().parents[3] / "examples" / "pumps" / "hst196.toml"
 TIGHT = {

@@ -8,21 +8,23 @@ import pytest
 from scipy.integrate import solve_ivp
 
 from reynolds import NotConverged
+from system import (
+    PortOpening,
+    ReliefGroove,
+    SwashDrive,
+    opening_area,
+    orifice_flow,
+    piston_conductance,
+    piston_displacement,
+    piston_velocity,
+)
 from system.pump.chamber import kernels as kernel
 from system.pump.chamber.cycle import solve_cycle
 from system.pump.chamber.layout import CAVITY_PRESSURE
 from system.pump.chamber.problem import ChamberProblem, LeakTable, PortPressure
 from system.pump.chamber.setup import periodic_cubics
-from system.pump.laws.kinematics import (
-    SwashDrive,
-    drive_at_ratio,
-    piston_displacement,
-    piston_velocity,
-    stand_out,
-)
-from system.pump.laws.leakage import piston_conductance, piston_drag_flow
-from system.pump.ports.areas import PortOpening, opening_area, orifice_flow
-from system.pump.ports.relief_grooves import ReliefGroove
+from system.pump.laws.kinematics import drive_at_ratio, stand_out
+from system.pump.laws.leakage import piston_drag_flow
 
 DEGREES = np.pi / 180.0
 AREA = np.pi / 4 * 22e-3**2

@@ -3,13 +3,8 @@
 import numpy as np
 import pytest
 
-from system.pump.laws.leakage import (
-    piston_conductance,
-    piston_drag_flow,
-    slipper_conductance,
-    slipper_leakage_short_orifice,
-    valve_plate_conductance,
-)
+from system import piston_conductance, slipper_conductance, valve_plate_conductance
+from system.pump.laws.leakage import piston_drag_flow, slipper_leakage_short_orifice
 
 MU = 25.8e-3
 
