@@ -103,6 +103,12 @@ def test_python_snippets_run_and_print_what_the_page_shows(page, capsys, tmp_pat
         assert not printed or (shown and printed == shown[1]), printed
 
 
+def test_documents_and_examples_import_public_names():
+    deep = re.compile(r"^\W*(?:from|import) (?:reynolds|gaps|system|diagnosis|swashfilm)\.", re.MULTILINE)
+    examples = [*(ROOT / "examples").rglob("*.py"), *(ROOT / "docs" / "notebooks").glob("*.ipynb")]
+    assert [_relative(page) for page in (*PAGES, *examples) if deep.search(page.read_text("utf-8"))] == []
+
+
 @pytest.mark.parametrize("page", [page for page in PAGES if "```sh" in page.read_text("utf-8")], ids=_relative)
 def test_commands_parse(page):
     known = set(re.findall(r"^# (\S+\.toml):", "\n".join(_blocks(page, "toml")), re.MULTILINE))
