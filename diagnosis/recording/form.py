@@ -2,181 +2,195 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from collections.abc import Mapping
+from dataclasses import dataclass, make_dataclass, replace
 from pathlib import Path
-from typing import Any
+from typing import Annotated, Any
 
-from diagnosis.recording.channel_form import ChannelForm, PressureReference, TimeForm, read_channel, read_time
+from diagnosis.recording.channel_form import (
+    ChannelForm,
+    ChannelSection,
+    Column,
+    PressureReference,
+    channel_form,
+    channel_section,
+)
 from diagnosis.recording.model import Circuit
 from diagnosis.recording.tables.table import TableSource
 from system.inputs.channels import ChannelName
-from system.inputs.faults import stated
-from system.inputs.toml_table import Table
-from system.inputs.units import Dimension
+from system.inputs.sections.fields import Format, Positive, Section, Text, UnitOf
+from system.inputs.sections.json_schema import Schema, file_schema, section_schema
+from system.inputs.sections.reader import Reading, read_section
+from system.inputs.units import Dimension, unit_scale
 
-FORMAT = 1
-_SOURCE_KEYS = ("sheet", "decimal", "separator", "group", "variable")
-WINDOW = 10.0  # s
-STANDARD_ERRORS = 3.0
-_TRACED = (ChannelName.ANGLE, ChannelName.P_CHAMBER)
-
-
-@dataclass(frozen=True)
-class SteadyForm:
-    """[steady]: one row a steady point. repeats: column whose equal values mark one set point, or empty."""
-
-    source: TableSource
-    repeats: str
-    time: TimeForm | None
+AngleSection, ChamberSection = channel_section(ChannelName.ANGLE), channel_section(ChannelName.P_CHAMBER)
+_MEASURED = tuple(name for name in ChannelName if name not in (ChannelName.ANGLE, ChannelName.P_CHAMBER))
+Words = Annotated[str, Text.WORDS]
+Duration = Annotated[float, Dimension.TIME, Positive]
 
 
-@dataclass(frozen=True)
-class SeriesForm:
-    """[series]: a time series. Steady: window in s, slope in standard errors; raster in s, 0 for as is."""
+@dataclass(frozen=True, kw_only=True)
+class TimeSection:
+    """time: column of time."""
 
-    source: TableSource
-    time: TimeForm
-    window: float
-    slope: float
-    raster: float
+    column: Column
+    unit: Annotated[str, UnitOf(Dimension.TIME)]
+
+    @property
+    def factor(self) -> float:
+        """Seconds of one unit."""
+        return unit_scale(self.unit, Dimension.TIME)[0]
+
+
+@dataclass(frozen=True, kw_only=True)
+class TableSection:
+    """A table, and its form where the program cannot detect it."""
+
+    sheet: Words = ""  # of a workbook with several
+    decimal: Words = ""  # "." or "," in text
+    separator: Words = ""  # of cells in text
+    group: Words = ""  # of a TDMS file with several
+    variable: Words = ""  # of a MAT file: the struct or matrix
+
+    def source(self, path: Path) -> TableSource:
+        """Return the table in this form at a path."""
+        return TableSource(path, self.sheet, self.decimal, self.separator, self.group, self.variable)
+
+
+@dataclass(frozen=True, kw_only=True)
+class PointsSection(TableSection):
+    """Table of the points."""
+
+    file: Words = ""  # the table, from the folder of the recording
+
+
+@dataclass(frozen=True, kw_only=True)
+class SteadySection(PointsSection):
+    """[steady]: one row is one steady point."""
+
+    repeats: Column | None = None  # numbers, equal for points that repeat a set point
+    time: TimeSection | None = None
+
+
+@dataclass(frozen=True, kw_only=True)
+class SteadinessSection:
+    """[series.steady]: the rule by which a stretch is steady."""
+
+    window: Duration = 10.0  # shortest stretch
+    slope: Annotated[float, Positive] = 3.0  # standard errors
+
+
+@dataclass(frozen=True, kw_only=True)
+class SeriesSection(PointsSection):
+    """[series]: a time series, of which the steady stretches are the points."""
+
+    time: TimeSection
+    steady: SteadinessSection = SteadinessSection()
+    raster: Duration | None = None  # step on which the series is averaged first
+
+
+@dataclass(frozen=True, kw_only=True)
+class TracesSection(TableSection):
+    """[traces]: chamber pressure over shaft angle from the inner dead centre."""
+
+    file: Annotated[str, Text.NAME]  # the table, from the folder of the recording
+    point: Column  # names the steady point of each row
+    cycles: Column | None = None  # numbers the turns
+    angle: AngleSection  # type: ignore[valid-type]
+    p_chamber: ChamberSection  # type: ignore[valid-type]
+    encoder_offset: Annotated[float, Dimension.ANGLE, Positive] | None = None  # one sigma of the angle's zero
+
+
+def _at_least_one(channels: Section) -> None:
+    """Raise ValueError for a table without a channel."""
+    if not any(vars(channels).values()):
+        raise ValueError(f"at least one of {', '.join(name.value for name in _MEASURED)}")
+
+
+ChannelTables = make_dataclass(
+    "ChannelTables",
+    [(name.value, channel_section(name) | None, None) for name in _MEASURED],
+    frozen=True,
+    namespace={"__doc__": "[channel]: what is measured at the points.", "__post_init__": _at_least_one},
+)
+
+
+@dataclass(frozen=True, kw_only=True)
+class RecordingSection:
+    """A recording: the tables of readings and the channels in them."""
+
+    format: Annotated[int, Format(1, "recording")]
+    title: Words = ""  # left out: the folder's name
+    pump: Words = ""  # the pump on the bench
+    oil: Words = ""  # for the reader
+    order: Words = ""  # for the reader: the order of the points
+    circuit: Circuit = Circuit.OPEN
+    pressure_reference: PressureReference | None = None  # left out: gauge, with a note
+    steady: SteadySection | None = None
+    series: SeriesSection | None = None
+    channel: ChannelTables  # type: ignore[valid-type]
+    traces: TracesSection | None = None
 
 
 @dataclass(frozen=True)
 class TraceForm:
-    """[traces]: chamber pressure over shaft angle; point, cycles: columns (cycles may be empty)."""
+    """[traces]: its table, and its two channels in SI."""
 
     source: TableSource
-    point: str
-    cycles: str
+    stated: TracesSection
     angle: ChannelForm
     pressure: ChannelForm
 
 
 @dataclass(frozen=True)
 class RecordingForm:
-    """A whole `recording.toml`, checked by itself; `points` is [steady] or [series].
-
-    reference_stated: the file states the zero of its pressures (else they are gauge).
-    """
+    """A whole `recording.toml`, checked by itself; points: [steady] or [series], source: its table."""
 
     title: str
-    pump: str
-    oil: str
-    circuit: Circuit
-    reference_stated: bool
-    points: SteadyForm | SeriesForm
+    stated: RecordingSection
+    points: SteadySection | SeriesSection
+    source: TableSource
     channels: tuple[ChannelForm, ...]
     traces: TraceForm | None
 
 
-def read_form(top: Table, folder: Path, data: Path | None) -> RecordingForm | None:
-    """Return the content of the file; None with faults added to `top`.
+def read_form(tables: Mapping[str, Any], reading: Reading, data: Path | None) -> RecordingForm | None:
+    """Return the content of the file; None with its faults noted.
 
-    Files are named from `folder`; `data` is the file of [steady] or [series] if none is stated.
+    Files are named from the folder of the reading; `data` is the file of [steady] or [series] if none is stated.
     """
-    _format(top)
-    title, pump, oil = (_text(top, key) for key in ("title", "pump", "oil"))
-    _text(top, "order")
-    circuit = top.choice("circuit", Circuit, Circuit.OPEN)
-    reference = (
-        top.choice("pressure_reference", PressureReference, PressureReference.GAUGE) or PressureReference.GAUGE
-    )
-    points = _points(top, folder, data)
-    channels = _channels(top, reference)
-    traces = _traces(top, folder, reference)
-    top.close()
-    if top.faults or points is None or circuit is None:
+    stated = read_section("", RecordingSection, tables, reading)
+    points = [name for name in ("steady", "series") if name in tables]
+    if len(points) != 1:
+        found = "both [steady] and [series]" if points else "neither [steady] nor [series]"
+        reading.fault("steady", found, "one of the two: a table of steady points or a time series")
+    for name in points:
+        if data is None and not getattr(getattr(stated, name), "file", "stated with another fault"):
+            expected = "the path of the table, from the folder of the recording"
+            reading.fault(f"{name}.file", "no such key", expected)
+    own = getattr(stated, "steady", None) or getattr(stated, "series", None)
+    if reading.faults or own is None:
         return None
-    return RecordingForm(
-        title or folder.name, pump, oil, circuit, "pressure_reference" in top.values, points, channels, traces
-    )
+    folder, reference = reading.folder, stated.pressure_reference or PressureReference.GAUGE
+    source = own.source(folder / own.file if own.file else (data or folder))
+    channels = tuple(channel_form(ChannelName.named(key), one, reference) for key, one in _stated(stated.channel))
+    traces = None if stated.traces is None else _trace_form(stated.traces, folder, reference)
+    return RecordingForm(stated.title or folder.name, stated, own, source, channels, traces)
 
 
-def _format(top: Table) -> None:
-    number = top.get("format")
-    if isinstance(number, bool) or number != FORMAT:
-        top.fault("format", stated(number), f"format = {FORMAT}, the recording format of this version")
+def recording_schema() -> Schema:
+    """Return the JSON Schema of a `recording.toml`; a table beside one need not be named as its file."""
+    schema = section_schema(RecordingSection)
+    schema["oneOf"] = [{"required": [name]} for name in ("steady", "series")]
+    schema["properties"]["channel"]["minProperties"] = 1
+    return file_schema("Swashfilm recording", schema)
 
 
-def _text(table: Table, key: str) -> str:
-    """A text, empty where the key is left out."""
-    raw = table.get(key)
-    if raw is not None and not isinstance(raw, str):
-        table.fault(key, repr(raw), "a text")
-    return raw if isinstance(raw, str) else ""
+def _stated(channels: Section) -> list[tuple[str, ChannelSection]]:
+    return [(key, one) for key, one in vars(channels).items() if one is not None]
 
 
-def _source(table: Table, folder: Path, data: Path | None) -> TableSource:
-    """The table's file and the stated form."""
-    file = _text(table, "file")
-    if not file and data is None:
-        table.fault("file", "missing", "the path of the table, from the folder of the recording")
-    form: dict[str, Any] = {key: _text(table, key) for key in _SOURCE_KEYS}
-    return TableSource(folder / file if file else (data or folder), **form)
-
-
-def _points(top: Table, folder: Path, data: Path | None) -> SteadyForm | SeriesForm | None:
-    steady, series = top.table("steady"), top.table("series")
-    if (steady is None) == (series is None):
-        found = "both [steady] and [series]" if steady else "neither [steady] nor [series]"
-        top.fault("steady", found, "one of the two: a table of steady points or a time series")
-    if steady is not None:
-        form = SteadyForm(_source(steady, folder, data), _text(steady, "repeats"), read_time(steady, needed=False))
-        steady.close()
-        return form
-    return None if series is None else _series(series, folder, data)
-
-
-def _series(series: Table, folder: Path, data: Path | None) -> SeriesForm | None:
-    source, time = _source(series, folder, data), read_time(series, needed=True)
-    raster = series.positive("raster", Dimension.TIME) if "raster" in series.values else 0.0
-    rule = series.table("steady")
-    window: float | None = WINDOW
-    slope: float | None = STANDARD_ERRORS
-    if rule is not None:
-        window = rule.positive("window", Dimension.TIME, WINDOW)
-        slope = rule.number("slope", STANDARD_ERRORS)
-        if slope is not None and slope <= 0.0:
-            rule.fault("slope", repr(slope), "a number of standard errors above zero")
-        rule.close()
-    series.get("raster")
-    series.close()
-    if time is None or window is None or slope is None or raster is None:
-        return None
-    return SeriesForm(source, time, window, slope, raster)
-
-
-def _channels(top: Table, reference: PressureReference) -> tuple[ChannelForm, ...]:
-    table = top.table("channel", needed="with at least one channel")
-    if table is None:
-        return ()
-    names = [name for name in ChannelName if name not in _TRACED]
-    forms = []
-    for name in names:
-        if (one := table.table(name.value)) is not None:
-            forms.append(read_channel(one, name, reference))
-    table.close()
-    if not table.values:
-        top.fault("channel", "no channel", f"at least one of {', '.join(name.value for name in names)}")
-    return tuple(form for form in forms if form is not None)
-
-
-def _traces(top: Table, folder: Path, reference: PressureReference) -> TraceForm | None:
-    table = top.table("traces")
-    if table is None:
-        return None
-    source, point, cycles = _source(table, folder, None), _text(table, "point"), _text(table, "cycles")
-    if not point:
-        table.fault("point", "missing", "the column that names the steady point of each row")
-    parts = [table.table(name.value, needed="with column and unit") for name in _TRACED]
-    read = [
-        None if part is None else read_channel(part, name, reference)
-        for part, name in zip(parts, _TRACED, strict=True)
-    ]
-    offset = table.positive("encoder_offset", Dimension.ANGLE) if "encoder_offset" in table.values else None
-    table.get("encoder_offset")
-    table.close()
-    angle, pressure = read
-    if angle is None or pressure is None:
-        return None
-    return TraceForm(source, point, cycles, replace(angle, zero=offset), pressure)
+def _trace_form(stated: TracesSection, folder: Path, reference: PressureReference) -> TraceForm:
+    angle = replace(channel_form(ChannelName.ANGLE, stated.angle, reference), zero=stated.encoder_offset)
+    pressure = channel_form(ChannelName.P_CHAMBER, stated.p_chamber, reference)
+    return TraceForm(stated.source(folder / stated.file), stated, angle, pressure)

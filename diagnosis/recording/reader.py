@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from diagnosis.recording.channel_form import ChannelForm
 from diagnosis.recording.channel_noise import recorded_channel
 from diagnosis.recording.columns import ColumnReader
-from diagnosis.recording.form import RecordingForm, SeriesForm, SteadyForm, read_form
+from diagnosis.recording.form import RecordingForm, SeriesSection, SteadySection, read_form
 from diagnosis.recording.model import RecordedChannel, Recording, SteadyTable
 from diagnosis.recording.replicates import repeatability, set_points
 from diagnosis.recording.series_points import series_points
@@ -22,7 +22,8 @@ from diagnosis.recording.traces import ReadTraces, read_traces
 from reynolds.numerics.arrays import Array
 from system.inputs.channels import INPUTS, ChannelName
 from system.inputs.faults import Fault, InputFaults, nearest_path
-from system.inputs.toml_table import Table, fault_lines, read_toml
+from system.inputs.sections.reader import Reading
+from system.inputs.toml_table import fault_lines, read_toml
 from system.inputs.units import QuantityError, unit_scale
 
 FILE = "recording.toml"
@@ -40,12 +41,12 @@ def read_recording(path: Path) -> Recording:
         raise InputFaults(str(path), [Fault("file", "no such file", expected, nearest_path(path))])
     stated, data = _places(path)
     text, tables = read_toml(stated)
-    top = Table("", tables, [])
-    form = read_form(top, stated.parent, data)
-    reader = ColumnReader(top.faults)
+    reading = Reading(stated.parent)
+    form = read_form(tables, reading, data)
+    reader = ColumnReader(reading.faults)
     recording = None if form is None else _recording(form, reader)
-    if recording is None or top.faults:
-        raise InputFaults(str(stated), top.faults, fault_lines(text, top.faults))
+    if recording is None or reading.faults:
+        raise InputFaults(str(stated), reading.faults, fault_lines(text, reading.faults))
     return recording
 
 
@@ -74,17 +75,17 @@ class _Points:
 
 def _recording(form: RecordingForm, reader: ColumnReader) -> Recording | None:
     """The recording of a form; None with the faults added."""
-    section = "steady" if isinstance(form.points, SteadyForm) else "series"
-    columns = reader.columns(section, form.points.source)
+    section = "steady" if isinstance(form.points, SteadySection) else "series"
+    columns = reader.columns(section, form.source)
     points = None if columns is None else _points(section, form, columns, reader)
     if points is None:
         return None
-    if not form.reference_stated and any(channel.is_pressure for channel in form.channels):
+    if form.stated.pressure_reference is None and any(channel.is_pressure for channel in form.channels):
         reader.note("pressure_reference is not stated: pressures are taken as gauge")
     channels = _channels(form.channels, points, reader)
     traces = ReadTraces()
     if form.traces is not None:
-        rows = points.columns.get(form.traces.point)
+        rows = points.columns.get(form.traces.stated.point)
         traces = read_traces(form.traces, reader, rows, len(points.readings))
     values = np.full((len(points.readings), len(ChannelName)), np.nan)
     values[:, [list(ChannelName).index(channel.name) for channel in form.channels]] = points.readings
@@ -93,9 +94,8 @@ def _recording(form: RecordingForm, reader: ColumnReader) -> Recording | None:
     for channel in channels:
         if channel.assumed:
             reader.note(_assumed(channel))
-    return Recording(
-        form.title, form.pump, form.oil, form.circuit, channels, steady, traces.blocks, tuple(reader.notes)
-    )
+    stated, notes = form.stated, tuple(reader.notes)
+    return Recording(form.title, stated.pump, stated.oil, stated.circuit, channels, steady, traces.blocks, notes)
 
 
 def _points(section: str, form: RecordingForm, columns: TableColumns, reader: ColumnReader) -> _Points | None:
@@ -109,7 +109,7 @@ def _points(section: str, form: RecordingForm, columns: TableColumns, reader: Co
         return None
     readings = np.stack([c.si(column) for c, column in zip(form.channels, known, strict=True)], axis=1)
     seconds = None if timed is None or time is None else timed.factor * time
-    if isinstance(form.points, SteadyForm):
+    if isinstance(form.points, SteadySection):
         return _steady_points(form.points, readings, seconds, columns, reader)
     return None if seconds is None else _series_points(form.points, readings, seconds, form.channels, reader)
 
@@ -127,7 +127,7 @@ def _hold_units(channels: Sequence[ChannelForm], columns: TableColumns, reader: 
 
 
 def _steady_points(
-    form: SteadyForm, readings: Array, seconds: Array | None, columns: TableColumns, reader: ColumnReader
+    form: SteadySection, readings: Array, seconds: Array | None, columns: TableColumns, reader: ColumnReader
 ) -> _Points | None:
     """Rows of a steady table, unchanged."""
     count = len(readings)
@@ -140,7 +140,7 @@ def _steady_points(
 
 
 def _series_points(
-    form: SeriesForm, readings: Array, seconds: Array, channels: Sequence[ChannelForm], reader: ColumnReader
+    form: SeriesSection, readings: Array, seconds: Array, channels: Sequence[ChannelForm], reader: ColumnReader
 ) -> _Points | None:
     """Means over the steady stretches of a series."""
     try:

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from diagnosis.recording.channel_form import ChannelForm
-from diagnosis.recording.form import SeriesForm
+from diagnosis.recording.form import SeriesSection
 from diagnosis.recording.steadiness import SteadyRule, effective_number, steady_stretches
 from diagnosis.recording.tables.table import TableFault
 from reynolds.numerics.arrays import Array
@@ -31,15 +31,18 @@ class SeriesPoints:
     note: str
 
 
-def series_points(form: SeriesForm, time: Array, readings: Array, channels: Sequence[ChannelForm]) -> SeriesPoints:
+def series_points(
+    form: SeriesSection, time: Array, readings: Array, channels: Sequence[ChannelForm]
+) -> SeriesPoints:
     """Return the steady points of a series: time (T,) in s, readings (T, C) in SI, columns as `channels`.
 
     `SteadyRule` of the measured inputs decides which stretches are steady. The first `SETTLING` times the largest
     lag of a stretch are left out. Raises TableFault for time that does not rise and a series without a steady
     stretch.
     """
-    time, readings, raster = on_raster(time, readings, form.raster)
-    rule = SteadyRule(round(form.window / raster), form.slope)
+    time, readings, raster = on_raster(time, readings, form.raster or 0.0)
+    stated = form.steady
+    rule = SteadyRule(round(stated.window / raster), stated.slope)
     if rule.samples < 8:
         raise TableFault(
             f"a window of {rule.samples} samples of {raster:g} s",
@@ -53,7 +56,7 @@ def series_points(form: SeriesForm, time: Array, readings: Array, channels: Sequ
     steady = [s for s in steady if s.stop - s.start >= rule.samples // 2]
     if not steady:
         names = ", ".join(channels[k].name.value for k in inputs)
-        found = f"no stretch of {form.window:g} s in which {names} are steady"
+        found = f"no stretch of {stated.window:g} s in which {names} are steady"
         raise TableFault(found, "steady stretches", "a shorter steady.window or a larger steady.slope")
     means = np.array([np.nanmean(readings[s], axis=0) for s in steady])
     worth = np.array([[_worth(column) for column in readings[s].T] for s in steady])
@@ -61,8 +64,8 @@ def series_points(form: SeriesForm, time: Array, readings: Array, channels: Sequ
     middle = np.array([0.5 * (time[s.start] + time[s.stop - 1]) for s in steady])
     share = sum(s.stop - s.start for s in steady) / len(time)
     note = (
-        f"{len(steady)} steady points from {share:.0%} of the series: windows of {form.window:g} s in which slope "
-        f"and bow of every input stay below {form.slope:g} standard errors or below its repeatability"
+        f"{len(steady)} steady points from {share:.0%} of the series: windows of {stated.window:g} s in which "
+        f"slope and bow of every input stay below {stated.slope:g} standard errors or below its repeatability"
     )
     return SeriesPoints(means, spread / np.sqrt(worth), np.min(worth, axis=1), (middle - middle[0]) / 3600.0, note)
 

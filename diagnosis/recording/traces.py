@@ -89,16 +89,17 @@ def read_traces(form: TraceForm, reader: ColumnReader, rows: Array | None, count
     columns = reader.columns("traces", form.source)
     if columns is None:
         return ReadTraces()
-    point = reader.column("traces.point", form.point, columns)
+    point = reader.column("traces.point", form.stated.point, columns)
     angle = reader.column("traces.angle.column", form.angle.column, columns)
     pressure = reader.column("traces.p_chamber.column", form.pressure.column, columns)
-    cycle = reader.column("traces.cycles", form.cycles, columns) if form.cycles else None
-    if point is None or angle is None or pressure is None or (form.cycles and cycle is None):
+    cycle = reader.column("traces.cycles", form.stated.cycles, columns) if form.stated.cycles else None
+    if point is None or angle is None or pressure is None or (form.stated.cycles and cycle is None):
         return ReadTraces()
     angle, pressure = form.angle.si(angle), form.pressure.si(pressure)
     lost = int(np.sum(~np.isfinite(point)))
     if lost:
-        reader.note(f"traces: {lost} rows without a number in {form.point!r} belong to no point and are left out")
+        name = form.stated.point
+        reader.note(f"traces: {lost} rows without a number in {name!r} belong to no point and are left out")
     rows = np.arange(1.0, count + 1.0) if rows is None else rows
     blocks = []
     for mark in np.unique(point[np.isfinite(point)]):

@@ -11,6 +11,7 @@ from swashfilm.console.terminal import show
 
 SCHEMAS = {
     "pump": "system.pump_file.schema.pump_schema",
+    "recording": "diagnosis.recording.form.recording_schema",
     "reference": "swashfilm.runs.reference.case.reference_schema",
     "transient": "swashfilm.runs.transient.case.transient_schema",
 }

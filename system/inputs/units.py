@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import math
 import re
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import Enum
 from fractions import Fraction
 from functools import cache
@@ -111,13 +111,14 @@ _PRODUCT = rf"{_FACTOR}(?:\s*[*·. ]\s*{_FACTOR})*"
 _UNIT_TEXT = re.compile(rf"(?:1(?=\s*/)|{_PRODUCT})(?:\s*/\s*(?:{_FACTOR}|\(\s*{_PRODUCT}\s*\)))*")
 
 
-def parse_quantity(text: object, dimension: Dimension) -> float:
+def parse_quantity(text: object, dimension: Dimension, *, difference: bool = False) -> float:
     """Return the SI value of a text such as "22 mm", rounded once: "15 um" is 1.5e-05 to the last bit.
 
     rpm, r/min, cm3, cm^3, cc/rev, mL/r, lpm, um, degC, cSt, mPa s and what pint knows are understood.
     Raises QuantityError for a bare number, a number that cannot be read, an unknown unit and a unit that
     measures something else; a turn or an angle is never left to be guessed ("90 cm3" is no displacement
     per revolution and "35 Hz" no rotational speed). A size below 1e-30 or above 1e30 in SI is refused.
+    Of a `difference` the unit's zero does not count: "0.3 degC" is 0.3 K.
     """
     expected = f"{dimension.noun} with its unit, such as '{dimension.example}'"
     if isinstance(text, bool) or not isinstance(text, (str, int, float)):
@@ -136,7 +137,7 @@ def parse_quantity(text: object, dimension: Dimension) -> float:
         raise QuantityError(f"{_shown(text)}, a unit that is not known", expected, nearest)
     if not _measures(unit, dimension):
         raise QuantityError(f"{_shown(text)}, which is not {dimension.noun}", expected, nearest)
-    value = _in_si(number, unit, dimension)
+    value = _in_si(number, replace(unit, offset=Fraction(0)) if difference else unit, dimension)
     if value != 0 and not 1 / LARGEST <= abs(value) <= LARGEST:
         raise QuantityError(_shown(text), expected)
     return float(value)

@@ -10,6 +10,7 @@ import inspect
 import math
 import re
 from collections.abc import Callable, Mapping
+from contextlib import suppress
 from dataclasses import MISSING, Field, dataclass, fields, is_dataclass
 from enum import Enum
 from pathlib import Path
@@ -54,6 +55,27 @@ class Points:
     example: tuple[str, ...]
 
 
+@dataclass(frozen=True)
+class Format:
+    """Marks a whole number that is the version of a kind of file: "recording"."""
+
+    number: int
+    kind: str
+
+
+@dataclass(frozen=True)
+class UnitOf:
+    """Marks a field that is the text of a unit; without a dimension that of a pure number."""
+
+    dimension: Dimension | None
+
+
+class Difference(Enum):
+    """Marks a quantity that is a difference of two: its unit's zero does not count ("0.3 degC" is 0.3 K)."""
+
+    OF_TWO = "difference"
+
+
 class Several(Enum):
     """Marks a field that is one value or a list of such, each within the limits; a tuple in SI."""
 
@@ -61,11 +83,13 @@ class Several(Enum):
 
 
 class Text(Enum):
-    """Marks a field that is text: the path of a file, one name, or a list of names; its value says so in words."""
+    """Marks a field that is text; its value says in words which: a file that is there, a name, .."""
 
     FILE = "the path of a file beside the pump file, such as 'part.msh'"
     NAME = "a name, such as 'film'"
     NAMES = "a list of names, such as ['bottom', 'rim']"
+    COLUMN = "the name of a column"
+    WORDS = "a text"
 
 
 @dataclass(frozen=True)
@@ -181,6 +205,26 @@ class FieldType:
         return self._mark(Several) is not None
 
     @property
+    def format(self) -> Format | None:
+        """Version of a file that the field must have, None for another field."""
+        return self._mark(Format)
+
+    @property
+    def unit(self) -> UnitOf | None:
+        """Dimension of a field that is a unit, None for another."""
+        return self._mark(UnitOf)
+
+    @property
+    def difference(self) -> bool:
+        """True for a quantity that is a difference."""
+        return self._mark(Difference) is not None
+
+    @property
+    def may_be_absolute(self) -> bool:
+        """True for a pressure, which a file may state as gauge or absolute."""
+        return self.dimension is Dimension.PRESSURE and not self.difference
+
+    @property
     def limits(self) -> Limits:
         """Bounds of the number."""
         return self._mark(Limits) or Limits()
@@ -283,8 +327,9 @@ _COMMENTED = re.compile(r"^    (\w+): .*?  # (.+)$", re.MULTILINE)
 
 
 def _comments(model: type[Any]) -> dict[str, str]:
-    """Return the comments behind the fields of a class, as its source has them; none where there is no source."""
-    try:
-        return dict(_COMMENTED.findall(inspect.getsource(model)))
-    except OSError:
-        return {}
+    """Return the comments behind the fields of a class and its bases; none of a class without source."""
+    found: dict[str, str] = {}
+    for one in filter(is_dataclass, reversed(model.__mro__)):
+        with suppress(OSError):
+            found |= _COMMENTED.findall(inspect.getsource(one))
+    return found

@@ -7,6 +7,7 @@ from typing import Any
 
 from system.inputs.sections.fields import FieldType, Points, Text, fields_of
 from system.inputs.sections.reader import ABSOLUTE
+from system.inputs.sections.values import PURE_UNITS
 from system.inputs.units import Dimension
 
 DRAFT = "https://json-schema.org/draft/2020-12/schema"
@@ -30,7 +31,7 @@ def section_schema(model: type[Any], *, complete: bool = True, inner_complete: b
     either: list[Schema] = []
     for key, own in fields_of(model).items():
         properties[key] = field_schema(own, complete=inner_complete)
-        if own.dimension is Dimension.PRESSURE:
+        if own.may_be_absolute:
             properties[key + ABSOLUTE] = properties[key]
             names = [key, key + ABSOLUTE]
             exactly = {"oneOf": [{"required": [name]} for name in names]}
@@ -77,9 +78,15 @@ def _value_schema(own: FieldType) -> Schema:
         return {"anyOf": [{"type": "string"}, *rows]}
     if own.choice is not None:
         return {"enum": [member.value for member in own.choice]}
+    if own.unit is not None and own.unit.dimension is None:
+        return {"enum": list(PURE_UNITS)}
+    if own.format is not None:
+        return {"const": own.format.number}
+    if own.text is Text.WORDS:
+        return {"type": "string"}
     if own.text is Text.NAMES:
         return {"type": "array", "items": {"type": "string", "minLength": 1}, "minItems": 1}
-    if own.text is not None:
+    if own.text is not None or own.unit is not None:
         return {"type": "string", "minLength": 1}
     limits = own.limits
     bounds = {

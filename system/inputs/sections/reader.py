@@ -10,7 +10,7 @@ from typing import Any
 from system.inputs.faults import Fault, InputFaults, nearest_choice
 from system.inputs.sections.fields import AnySection, FieldType, fields_of, partial_section
 from system.inputs.sections.values import HERE, broken_limit, read_value, wanted
-from system.inputs.units import Dimension, QuantityError, to_gauge
+from system.inputs.units import QuantityError, to_gauge
 
 ABSOLUTE = "_abs"  # a pressure key that ends so is absolute
 
@@ -53,7 +53,7 @@ Special = Callable[[object, Mapping[str, object], Reading], Mapping[str, object]
 def read_section(
     path: str, model: type[AnySection], table: object, reading: Reading, base: AnySection | None = None
 ) -> AnySection:
-    """Return one table as its section; with faults, one that has the good values only.
+    """Return one table, the file itself at the path "", as its section; with faults, one of the good values only.
 
     What the table leaves out is that of `base`, whose own faults are noted elsewhere. Numbered tables in it are
     left to the caller: single parts.
@@ -65,12 +65,12 @@ def read_section(
     values: dict[str, Any] = {**(vars(base) if base is not None else {}), **stated}
     for key, own in fields_of(model).items():
         if limit := broken_limit(own, stated.get(key)):
-            reading.fault(f"{path}.{key}", str(table.get(key, table.get(key + ABSOLUTE))), limit)
-        elif own.required and key not in values and f"{path}.{key}" not in reading.faulty and base is None:
-            reading.fault(f"{path}.{key}", "missing", wanted(own))
-    good = {key: value for key, value in values.items() if f"{path}.{key}" not in reading.faulty}
-    reading.trusted |= {f"{path}.{key}" for key in good}
-    if any(one.startswith(f"{path}.") for one in reading.faulty) or not _complete(model, good):
+            reading.fault(under(path, key), str(table.get(key, table.get(key + ABSOLUTE))), limit)
+        elif own.required and key not in values and under(path, key) not in reading.faulty and base is None:
+            reading.fault(under(path, key), "missing", wanted(own))
+    good = {key: value for key, value in values.items() if under(path, key) not in reading.faulty}
+    reading.trusted |= {under(path, key) for key in good}
+    if any(one.startswith(under(path, "")) for one in reading.faulty) or not _complete(model, good):
         return partial_section(model, good)
     try:
         return model(**good)
@@ -108,6 +108,11 @@ def section_of(model: type[AnySection], values: Mapping[str, Any]) -> AnySection
     return model(**found)
 
 
+def under(path: str, key: str) -> str:
+    """Return the path of a key in a table; at the path "" stands the file itself."""
+    return f"{path}.{key}" if path else key
+
+
 def is_number(key: str) -> bool:
     """True for the name of a single part's table: a chamber's number, written one way only."""
     return key.isdecimal() and key == str(int(key))
@@ -120,21 +125,21 @@ def _values(path: str, model: type[Any], table: Mapping[str, object], reading: R
     for written, raw in table.items():
         key = written.removesuffix(ABSOLUTE)
         own, absolute = types.get(key), key != written
-        if read := reading.special.get(f"{path}.{written}"):
+        if read := reading.special.get(under(path, written)):
             values |= read(raw, table, reading)
         elif path in reading.numbered and is_number(written):
             continue
-        elif own is None or (absolute and own.dimension is not Dimension.PRESSURE):
-            reading.unknown(f"{path}.", written, reading.keys(path, model))
+        elif own is None or (absolute and not own.may_be_absolute):
+            reading.unknown(under(path, ""), written, reading.keys(path, model))
         elif absolute and key in table:
-            reading.fault(f"{path}.{written}", f"both {key} and {written}", "one of the two, gauge or absolute")
+            reading.fault(under(path, written), f"both {key} and {written}", "one of the two, gauge or absolute")
         elif own.tables is not None:
-            values[key] = _inner_tables(f"{path}.{key}", own.tables, raw, reading)
+            values[key] = _inner_tables(under(path, key), own.tables, raw, reading)
         elif own.table is not None:
-            values[key] = read_section(f"{path}.{key}", own.table, raw, reading)
-            _note_inner_faults(f"{path}.{key}", reading)
-        elif (value := read_entry(f"{path}.{written}", own, raw, reading)) is None:
-            reading.faulty.add(f"{path}.{key}")
+            values[key] = read_section(under(path, key), own.table, raw, reading)
+            _note_inner_faults(under(path, key), reading)
+        elif (value := read_entry(under(path, written), own, raw, reading)) is None:
+            reading.faulty.add(under(path, key))
         else:
             values[key] = to_gauge(value) if absolute and isinstance(value, float) else value
     return values

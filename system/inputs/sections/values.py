@@ -12,8 +12,10 @@ from typing import Any
 from system.inputs.faults import nearest_choice, nearest_path
 from system.inputs.sections.fields import FieldType, Points, Section, Several, Text, fields_of
 from system.inputs.sections.point_files import read_rows, wanted_file
-from system.inputs.units import Dimension, QuantityError, format_quantity, parse_quantity, with_point
+from system.inputs.units import Dimension, QuantityError, format_quantity, parse_quantity, unit_scale, with_point
 
+PURE_UNITS = {"1": 1.0, "%": 0.01}
+"""Units of a pure number, with their factors."""
 HERE = Path()
 """Folder of the files that a built-in pump's values name: the working directory."""
 
@@ -25,7 +27,9 @@ def read_value(field: FieldType, raw: object, folder: Path = HERE) -> object:
     expected, nearest) for an entry of another kind, InputFaults for a file that is not of its kind.
     """
     if field.dimension is not None:
-        return parse_quantity(raw, field.dimension)
+        return parse_quantity(raw, field.dimension, difference=field.difference)
+    if field.unit is not None:
+        return _unit(raw, field.unit.dimension)
     if field.layouts:
         return read_rows(folder / raw, field.layouts) if isinstance(raw, str) else listed_rows(raw, field.layouts)
     if field.choice is not None:
@@ -36,6 +40,8 @@ def read_value(field: FieldType, raw: object, folder: Path = HERE) -> object:
     if isinstance(raw, bool) or not isinstance(raw, (int, float)):
         raise QuantityError(repr(raw), wanted(field), with_point(raw) if isinstance(raw, str) else "")
     if not math.isfinite(raw) or (field.whole and raw != int(raw)):
+        raise QuantityError(str(raw), wanted(field))
+    if field.format is not None and raw != field.format.number:
         raise QuantityError(str(raw), wanted(field))
     return int(raw) if field.whole else float(raw)
 
@@ -55,8 +61,11 @@ def written_value(field: FieldType, value: Any) -> str:
     if field.text is not None:
         shown = value if isinstance(value, tuple) else str(value.path if field.file is not None else value)
         return json.dumps(shown, ensure_ascii=False)
+    if field.unit is not None:
+        return json.dumps(value)
     if field.dimension is not None and isinstance(value, float):
-        return _written_quantity(value, field.dimension)
+        whole = field.difference
+        return f'"{value!r} {field.dimension.si_unit}"' if whole else _written_quantity(value, field.dimension)
     return repr(value)
 
 
@@ -76,6 +85,12 @@ def _wanted_one(field: FieldType) -> str:
         return f"one of {_names(field.choice)}"
     if field.text is not None:
         return field.text.value
+    if field.unit is not None:
+        return _wanted_unit(field.unit.dimension)
+    if field.format is not None:
+        return f"format = {field.format.number}, the {field.format.kind} format of this version"
+    if inner := field.table or field.tables:
+        return f"{'a table' if field.table else 'a list of tables'} with {', '.join(fields_of(inner))}"
     return "a whole number" if field.whole else "a bare number (the value has no unit)"
 
 
@@ -95,7 +110,8 @@ def broken_limit(field: FieldType, value: object) -> str:
         ("at most", limits.most, float.__le__),
     ):
         if limit is not None and not kept(float(value), float(limit)):
-            shown = f"{limit:g}" if field.dimension is None else format_quantity(limit, field.dimension, digits=4)
+            dimension = None if field.difference else field.dimension
+            shown = f"{limit:g}" if dimension is None else format_quantity(limit, dimension, digits=4)
             return f"{words} {shown}"
     return ""
 
@@ -139,6 +155,21 @@ def _row(number: int, row: list[object], points: Points) -> tuple[float, ...]:
     return tuple(found)
 
 
+def _unit(raw: object, dimension: Dimension | None) -> str:
+    """A unit of the dimension; of a pure number "1" or "%"."""
+    if dimension is not None and isinstance(raw, str):
+        unit_scale(raw, dimension)
+    elif dimension is not None or raw not in PURE_UNITS:
+        raise QuantityError(repr(raw), _wanted_unit(dimension))
+    return str(raw)
+
+
+def _wanted_unit(dimension: Dimension | None) -> str:
+    if dimension is None:
+        return " or ".join(map(repr, PURE_UNITS))
+    return f"a unit of {dimension.noun}, such as '{dimension.example.split(' ', 1)[1]}'"
+
+
 def _choice(raw: object, choices: type[Enum]) -> Enum:
     for member in choices:
         if member.value == raw:
@@ -150,11 +181,14 @@ def _choice(raw: object, choices: type[Enum]) -> Enum:
 def _text(raw: object, text: Text, folder: Path) -> Path | str | tuple[str, ...]:
     """A path from the folder, made absolute; a name; names."""
     names = raw if text is Text.NAMES else [raw]
-    if not (isinstance(names, list) and names and all(isinstance(name, str) and name for name in names)):
+    may_be_empty = text is Text.WORDS
+    if not (
+        isinstance(names, list) and names and all(isinstance(one, str) and (one or may_be_empty) for one in names)
+    ):
         raise QuantityError(repr(raw), text.value)
     if text is Text.NAMES:
         return tuple(names)
-    if text is Text.NAME:
+    if text is not Text.FILE:
         return str(raw)
     path = (folder / str(raw)).resolve()
     if not path.is_file():

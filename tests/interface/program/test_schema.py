@@ -18,6 +18,7 @@ from system.inputs.sections.fields import fields_of
 ROOT = Path(__file__).parents[3]
 FILES = {
     "pump": [*ROOT.glob("system/description/pumps/*.toml"), *ROOT.glob("examples/pumps/*.toml")],
+    "recording": [*ROOT.glob("examples/recordings/*/recording.toml")],
     "reference": [*ROOT.glob("examples/references/*.toml")],
     "transient": [*ROOT.glob("examples/transients/*.toml")],
 }
@@ -74,6 +75,26 @@ def test_a_pump_file_is_held_to_quantities_choices_and_required_keys():
     assert not with_value("piston", "3", {"radial_clearance": "20 um"})
     del tables["piston"]["mass"]
     assert faults("pump", tables) == ["piston: 'mass' is a required property"]
+
+
+def test_a_recording_is_held_to_units_channels_and_one_table_of_points():
+    from examples.uci_hydraulic.rig import FORM
+
+    tables = tomllib.loads(FORM.format(leak=0, cooler=100))
+    assert faults("recording", tables) == []
+    torque = {"column": "M", "unit": "N m"}
+
+    def with_channel(**wrong):
+        return faults("recording", tables | {"channel": {"torque": torque | wrong}})
+
+    assert not with_channel(calibration={"zero": "0.1 N m"})
+    assert with_channel(calibration={"zero": 0.1})
+    assert with_channel(sigma="0.1")
+    assert with_channel(reference="gauge")  # of pressures only
+    assert faults("recording", tables | {"channel": {"torque": {"column": "M"}}})
+    assert faults("recording", tables | {"channel": {}})
+    time = {"column": "t", "unit": "s"}
+    assert faults("recording", tables | {"steady": {"file": "a"}, "series": {"file": "a", "time": time}})
 
 
 def test_comments_of_fields_are_descriptions():

@@ -7,8 +7,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from diagnosis import read_recording
-from system import Fault, InputFaults
+from diagnosis.recording.reader import read_recording
+from system.inputs.faults import Fault, InputFaults
 
 HEAD = 'format = 1\npressure_reference = "gauge"\n'
 STEADY = '[steady]\nfile = "steady.csv"\n'
@@ -43,18 +43,18 @@ def _told(faults: list[Fault], path: str, found: str, expected: str) -> bool:
     ("form", "path", "found", "expected"),
     [
         (WHOLE.replace("format = 1", "format = 2"), "format", "2", "format = 1"),
-        (WHOLE.replace("format = 1\n", ""), "format", "missing", "format = 1"),
+        (WHOLE.replace("format = 1\n", ""), "format", "no such key", "format = 1"),
         ("title = 3\n" + WHOLE, "title", "3", "a text"),
         (HEAD + CHANNELS, "steady", "neither [steady] nor [series]", "one of the two"),
         (WHOLE + SERIES, "steady", "both [steady] and [series]", "one of the two"),
-        (HEAD + "[steady]\n" + CHANNELS, "steady.file", "missing", "the path of the table"),
-        (HEAD + STEADY, "channel", "missing", "at least one channel"),
-        (HEAD + STEADY + "[channel]\n", "channel", "no channel", "at least one of speed"),
-        (WHOLE.replace('column = "n", ', ""), "channel.speed.column", "missing", "name of a column"),
-        (WHOLE.replace('unit = "rpm", ', ""), "channel.speed.unit", "missing", "a rotational speed"),
+        (HEAD + "[steady]\n" + CHANNELS, "steady.file", "no such key", "the path of the table"),
+        (HEAD + STEADY, "channel", "no such key", "a table with speed"),
+        (HEAD + STEADY + "[channel]\n", "channel", "an empty table", "at least one of speed"),
+        (WHOLE.replace('column = "n", ', ""), "channel.speed.column", "no such key", "name of a column"),
+        (WHOLE.replace('unit = "rpm", ', ""), "channel.speed.unit", "no such key", "a rotational speed"),
         (WHOLE.replace('"rpm"', '"bar"'), "channel.speed.unit", "bar", "a rotational speed"),
         (WHOLE.replace('"n"', '"m"'), "channel.speed.column", "'m'", "one of the columns"),
-        (WHOLE.replace("sigma = 0.5", "sigma = -0.5"), "channel.speed.sigma", "-0.5", "not below zero"),
+        (WHOLE.replace("sigma = 0.5", "sigma = -0.5"), "channel.speed.sigma", "-0.5", "at least 0"),
         (WHOLE.replace(", sigma = 0.5", ""), "channel.speed.sigma", "too few repeated", "sigma"),
         (
             WHOLE.replace("sigma = 0.5", 'sigma = 0.5, accuracy_class = "D"'),
@@ -66,7 +66,7 @@ def _told(faults: list[Fault], path: str, found: str, expected: str) -> bool:
         ),
         (
             WHOLE.replace("sigma = 0.5", 'sigma = 0.5, calibration = { zero = "-1 rpm" }'),
-            "channel.speed.calibration.zero", "-1 rpm", "not below zero",
+            "channel.speed.calibration.zero", "-1 rpm", "at least 0",
         ),
         (
             WHOLE + 'displacement_ratio = { column = "k", unit = "deg", sigma = 0.1 }\n',
@@ -74,21 +74,21 @@ def _told(faults: list[Fault], path: str, found: str, expected: str) -> bool:
         ),
         (
             WHOLE + 'T_case = { column = "k", unit = "degC", sigma_relative = 0.1 }\n',
-            "channel.T_case.sigma_relative", "0.1", "sigma alone",
+            "channel.T_case.sigma_relative", "0.1", "at most 0",
         ),
         (WHOLE.replace(STEADY, STEADY + 'repeats = "m"\n'), "steady.repeats", "'m'", "one of the columns"),
-        (HEAD + SERIES.replace('time = { column = "t", unit = "s" }\n', "") + CHANNELS, "series.time", "missing",
-         "with column and unit"),
+        (HEAD + SERIES.replace('time = { column = "t", unit = "s" }\n', "") + CHANNELS, "series.time", "no such",
+         "with column, unit"),
         (HEAD + SERIES.replace('"s"', '"rpm"') + CHANNELS, "series.time.unit", "rpm", "a time"),
-        (HEAD + SERIES + "steady = { slope = 0 }\n" + CHANNELS, "series.steady.slope", "0", "above zero"),
+        (HEAD + SERIES + "steady = { slope = 0 }\n" + CHANNELS, "series.steady.slope", "0", "more than 0"),
         (HEAD + SERIES + 'steady = { window = "10 bar" }\n' + CHANNELS, "series.steady.window", "bar", "a time"),
         (HEAD + SERIES + 'steady = { window = "0.2 s" }\n' + CHANNELS, "series", "samples", "at least 8 samples"),
         (HEAD + SERIES + 'raster = "0.01 s"\n' + CHANNELS, "series", "raster of 0.01 s", "the step of the series"),
-        (WHOLE + TRACES.replace('point = "k"\n', ""), "traces.point", "missing", "the column that names"),
+        (WHOLE + TRACES.replace('point = "k"\n', ""), "traces.point", "no such key", "the name of a column"),
         (WHOLE + TRACES.replace("traces.csv", "none.csv"), "traces.file", "no file", "table"),
         (WHOLE + TRACES.replace(", sigma = 0.4", ""), "traces.p_chamber.sigma", "fewer than 3", "one sigma"),
-        (WHOLE + TRACES.replace('angle = { column = "angle", unit = "deg" }\n', ""), "traces.angle", "missing",
-         "with column and unit"),
+        (WHOLE + TRACES.replace('angle = { column = "angle", unit = "deg" }\n', ""), "traces.angle", "no such",
+         "with column, unit"),
     ],
 )  # fmt: skip
 def test_what_is_wrong_with_a_form_is_told(
