@@ -167,7 +167,7 @@ def read_form(tables: Mapping[str, Any], reading: Reading, data: Path | None) ->
     for name in points:
         if data is None and not getattr(getattr(stated, name), "file", "stated with another fault"):
             expected = "the path of the table, from the folder of the recording"
-            reading.fault(f"{name}.file", "no such key", expected)
+            reading.fault(f"{name}.file", "missing", expected)
     own = getattr(stated, "steady", None) or getattr(stated, "series", None)
     if reading.faults or own is None:
         return None

@@ -24,7 +24,7 @@ from swashfilm.case.tables.boundary import check_boundaries, read_boundaries
 from swashfilm.case.tables.constants import read_constants
 from swashfilm.case.tables.elastic import read_elastic
 from swashfilm.case.tables.load import read_load
-from swashfilm.case.tables.oil import OilStatement, oil_viscosity, read_oil
+from swashfilm.case.tables.oil import OilSection, oil_viscosity, read_oil
 from swashfilm.case.tables.roughness import read_roughness
 from swashfilm.case.tables.thermal import check_bodies, read_thermal
 from swashfilm.case.tables.time_steps import initial_film_fraction, read_time
@@ -150,7 +150,7 @@ def _order(film: Table) -> int | None:
     return None
 
 
-def _viscosity(top: Table, film: Table, reader: FieldReader) -> tuple[Field | None, OilStatement | None]:
+def _viscosity(top: Table, film: Table, reader: FieldReader) -> tuple[Field | None, OilSection | None]:
     """Return viscosity at zero pressure and the oil's temperature, and the oil; None with the faults listed."""
     table = top.table("oil")
     given = film.get("viscosity") is not None
@@ -166,7 +166,7 @@ def _viscosity(top: Table, film: Table, reader: FieldReader) -> tuple[Field | No
     return None, None
 
 
-def _check_tables(top: Table, film: Table, oil: OilStatement | None, viscosity: Field | None) -> None:
+def _check_tables(top: Table, film: Table, oil: OilSection | None, viscosity: Field | None) -> None:
     """List faults of tables that exclude or need each other."""
     if top.get("thermal") is None:
         return

@@ -51,7 +51,7 @@ def _fluid(stated: FilmStatement) -> Fluid:
     """Return the oil's laws over pressure; with temperature solved, the thermal solution sets the viscosity."""
     if stated.oil is None:
         return CONSTANT
-    fluid = Fluid(density=stated.oil.density_law) if stated.thermal else stated.oil.fluid
+    fluid = Fluid(density=stated.oil.density_over_pressure) if stated.thermal else stated.oil.fluid
     return CONSTANT if fluid == CONSTANT else fluid
 
 

@@ -10,6 +10,7 @@ from swashfilm.case.tables.elastic import elastic_rows
 from swashfilm.case.tables.load import load_rows
 from swashfilm.case.tables.thermal import thermal_rows
 from swashfilm.case.tables.time_steps import time_rows
+from system.inputs.sections.writer import section_rows
 from system.inputs.units import Dimension, format_quantity
 
 
@@ -37,7 +38,7 @@ def resolved_text(stated: FilmStatement) -> str:
     rows += ["", "[boundary]  # boundaries not named are closed"]
     rows += [f'"{name}" = {{ {_boundary(entry)} }}' for name, entry in stated.boundary.items()]
     if stated.oil:
-        rows += ["", "[oil]", *stated.oil.rows]
+        rows += section_rows("oil", stated.oil)
     rows += ["", *thermal_rows(stated.thermal)] if stated.thermal else []
     rows += ["", *elastic_rows(stated.elastic)] if stated.elastic else []
     rows += ["", *stated.rough.rows] if stated.rough else []

@@ -12,7 +12,7 @@ from swashfilm.case.fields.field import CellData, Field, Formula, MeshData, Poin
 from swashfilm.case.fields.mesh import CaseMesh
 from swashfilm.case.tables.boundary import BoundaryStatement
 from swashfilm.case.tables.elastic import ElasticStatement
-from swashfilm.case.tables.oil import OilStatement
+from swashfilm.case.tables.oil import OilSection
 from swashfilm.case.tables.roughness import RoughWalls
 from swashfilm.case.tables.thermal import ThermalStatement
 from swashfilm.case.tables.time_steps import TimeStatement
@@ -39,7 +39,7 @@ class FilmStatement:
     cavitation_pressure: float
     boundary: Mapping[str, BoundaryStatement]
     initial_film_fraction: Field
-    oil: OilStatement | None = None
+    oil: OilSection | None = None
     thermal: ThermalStatement | None = None
     elastic: ElasticStatement | None = None
     rough: RoughWalls | None = None

@@ -199,7 +199,7 @@ def _file_law(raw: object, table: Mapping[str, object], reading: Reading) -> dic
     return {"coefficient_file": found} | {key: getattr(law, key) for key in LAW_KEYS if key not in table}
 
 
-def _grade_viscosities(grade: object, table: Mapping[str, object], reading: Reading) -> dict[str, float]:
+def grade_viscosities(grade: object, table: Mapping[str, object], reading: Reading) -> dict[str, float]:
     """Return the two viscosities of an ISO grade in m2/s, or none with the fault noted."""
     if stated := [key for key in GRADE_KEYS if key in table]:
         reading.fault("oil.grade", f"grade beside {' and '.join(stated)}", "the grade or the two viscosities")
@@ -212,5 +212,5 @@ def _grade_viscosities(grade: object, table: Mapping[str, object], reading: Read
     return {}
 
 
-_SPECIAL: Mapping[str, Special] = {"oil.grade": _grade_viscosities, "ports.coefficient_file": _file_law}
+_SPECIAL: Mapping[str, Special] = {"oil.grade": grade_viscosities, "ports.coefficient_file": _file_law}
 """Keys that set others too."""

@@ -10,7 +10,7 @@ from reynolds.thermal.energy import Heat
 from reynolds.thermal.film_profile import DEFAULT_LEVELS
 from reynolds.thermal.walls import Adiabatic, Convecting, GivenTemperature, Turning, Wall
 from swashfilm.case.tables.elastic import ElasticStatement
-from swashfilm.case.tables.oil import OilStatement
+from swashfilm.case.tables.oil import OilSection
 from swashfilm.case.tables.warm_bodies import WarmBody, read_warm_body
 from system.inputs.toml_table import Table
 from system.inputs.units import Dimension, format_quantity
@@ -36,7 +36,7 @@ class ThermalStatement:
         """Both walls by their names in [elastic]."""
         return {"fixed": self.fixed_wall, "moving": self.moving_wall}
 
-    def inlet(self, oil: OilStatement) -> float:
+    def inlet(self, oil: OilSection) -> float:
         """Return the temperature of entering oil, K."""
         usual = oil.temperature if self.inlet_temperature is None else self.inlet_temperature
         assert usual is not None
@@ -44,7 +44,7 @@ class ThermalStatement:
 
     def heat(
         self,
-        oil: OilStatement,
+        oil: OilSection,
         temperatures: Mapping[str, float | None],
         elastic: ElasticStatement | None,
         space: FilmSpace,
@@ -55,18 +55,18 @@ class ThermalStatement:
         """
         assert oil.density is not None
         assert oil.specific_heat is not None
-        assert oil.conductivity is not None
+        assert oil.thermal_conductivity is not None
         usual = self.inlet(oil)
         inflow = {name: usual if kelvin is None else kelvin for name, kelvin in temperatures.items()}
         fixed, moving = (_under(wall, elastic, key, space) for key, wall in self.walls.items())
         return Heat(
             oil.density,
             oil.specific_heat,
-            oil.conductivity,
+            oil.thermal_conductivity,
             fixed,
             moving,
             inflow,
-            oil.expansion,
+            oil.thermal_expansion or 0.0,
         )
 
 

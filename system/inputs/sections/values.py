@@ -64,8 +64,9 @@ def written_value(field: FieldType, value: Any) -> str:
     if field.unit is not None:
         return json.dumps(value)
     if field.dimension is not None and isinstance(value, float):
-        whole = field.difference
-        return f'"{value!r} {field.dimension.si_unit}"' if whole else _written_quantity(value, field.dimension)
+        if field.difference and field.dimension is Dimension.TEMPERATURE:
+            return f'"{value!r} K"'
+        return _written_quantity(value, field.dimension)
     return repr(value)
 
 

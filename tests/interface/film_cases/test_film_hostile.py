@@ -104,7 +104,7 @@ def test_a_decimal_comma_is_told(told, old, new, hint):
             CASE + OIL + WALLS.replace("{ temp", '{ heat_transfer_coefficient = "5 W/(m2 K)", temp'),
             "thermal.moving_wall.heat_transfer_coefficient (line 18)", ["beside a temperature", "one of the two"],
         ),
-        (CASE + OIL.replace("0.03", "0") + WALLS, "oil.temperature_coefficient (line 15)", ["above zero"]),
+        (CASE + OIL.replace("0.03", "0") + WALLS, "oil.temperature_coefficient (line 15)", ["more than 0"]),
         (CASE + DISC + STEEL, "elastic.fixed (line 10)", ["have no face under them", "under the whole film"]),
         (CASE + DISC + STEEL.replace("210", "0"), "elastic.fixed.youngs_modulus", ["a modulus of elasticity"]),
         (CASE + NOTHING_THERE, 'study."film.velocity[7]"', ["entry 7 of film.velocity", "from 0 to 1"]),

@@ -7,7 +7,7 @@ import pytest
 
 from diagnosis.recording.form import RecordingSection
 from swashfilm.__main__ import main
-from system.inputs.channels import ChannelName
+from system import ChannelName
 from system.inputs.sections.fields import fields_of
 
 ROOT = Path(__file__).parents[3]

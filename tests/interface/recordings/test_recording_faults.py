@@ -7,8 +7,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from diagnosis.recording.reader import read_recording
-from system.inputs.faults import Fault, InputFaults
+from diagnosis import read_recording
+from system import Fault, InputFaults
 
 HEAD = 'format = 1\npressure_reference = "gauge"\n'
 STEADY = '[steady]\nfile = "steady.csv"\n'
@@ -43,15 +43,15 @@ def _told(faults: list[Fault], path: str, found: str, expected: str) -> bool:
     ("form", "path", "found", "expected"),
     [
         (WHOLE.replace("format = 1", "format = 2"), "format", "2", "format = 1"),
-        (WHOLE.replace("format = 1\n", ""), "format", "no such key", "format = 1"),
+        (WHOLE.replace("format = 1\n", ""), "format", "missing", "format = 1"),
         ("title = 3\n" + WHOLE, "title", "3", "a text"),
         (HEAD + CHANNELS, "steady", "neither [steady] nor [series]", "one of the two"),
         (WHOLE + SERIES, "steady", "both [steady] and [series]", "one of the two"),
-        (HEAD + "[steady]\n" + CHANNELS, "steady.file", "no such key", "the path of the table"),
-        (HEAD + STEADY, "channel", "no such key", "a table with speed"),
+        (HEAD + "[steady]\n" + CHANNELS, "steady.file", "missing", "the path of the table"),
+        (HEAD + STEADY, "channel", "missing", "a table with speed"),
         (HEAD + STEADY + "[channel]\n", "channel", "an empty table", "at least one of speed"),
-        (WHOLE.replace('column = "n", ', ""), "channel.speed.column", "no such key", "name of a column"),
-        (WHOLE.replace('unit = "rpm", ', ""), "channel.speed.unit", "no such key", "a rotational speed"),
+        (WHOLE.replace('column = "n", ', ""), "channel.speed.column", "missing", "name of a column"),
+        (WHOLE.replace('unit = "rpm", ', ""), "channel.speed.unit", "missing", "a rotational speed"),
         (WHOLE.replace('"rpm"', '"bar"'), "channel.speed.unit", "bar", "a rotational speed"),
         (WHOLE.replace('"n"', '"m"'), "channel.speed.column", "'m'", "one of the columns"),
         (WHOLE.replace("sigma = 0.5", "sigma = -0.5"), "channel.speed.sigma", "-0.5", "at least 0"),
@@ -84,7 +84,7 @@ def _told(faults: list[Fault], path: str, found: str, expected: str) -> bool:
         (HEAD + SERIES + 'steady = { window = "10 bar" }\n' + CHANNELS, "series.steady.window", "bar", "a time"),
         (HEAD + SERIES + 'steady = { window = "0.2 s" }\n' + CHANNELS, "series", "samples", "at least 8 samples"),
         (HEAD + SERIES + 'raster = "0.01 s"\n' + CHANNELS, "series", "raster of 0.01 s", "the step of the series"),
-        (WHOLE + TRACES.replace('point = "k"\n', ""), "traces.point", "no such key", "the name of a column"),
+        (WHOLE + TRACES.replace('point = "k"\n', ""), "traces.point", "missing", "the name of a column"),
         (WHOLE + TRACES.replace("traces.csv", "none.csv"), "traces.file", "no file", "table"),
         (WHOLE + TRACES.replace(", sigma = 0.4", ""), "traces.p_chamber.sigma", "fewer than 3", "one sigma"),
         (WHOLE + TRACES.replace('angle = { column = "angle", unit = "deg" }\n', ""), "traces.angle", "no such",

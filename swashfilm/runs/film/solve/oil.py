@@ -51,7 +51,7 @@ class OilSolver:
         Raises FilmNotConverged, and InputError where the oil is beyond the range of its laws.
         """
         stated, warm = self.stated, start if isinstance(start, Coupled) else None
-        shear = stated.oil.shear_law if stated.oil else None
+        shear = stated.oil.shear_thinning if stated.oil else None
         if self.heat is not None:
             assert stated.thermal is not None
             return solve_thermal(
@@ -73,7 +73,8 @@ class OilSolver:
         assert stated.oil is not None
         found = march_thermal(
             problem_at, self.heat, _viscosity(stated), end, step, temperature=stated.thermal.inlet(stated.oil),
-            shear=stated.oil.shear_law or newtonian, count=stated.thermal.levels, solver=self.solver, held=held,
+            shear=stated.oil.shear_thinning or newtonian, count=stated.thermal.levels, solver=self.solver,
+            held=held,
         )  # fmt: skip
         return cast("Iterator[FilmInstant[Found]]", found)
 
@@ -104,7 +105,7 @@ def _viscosity(stated: FilmStatement) -> ThermalViscosity:
     def viscosity(temperature: Array, pressure: Array) -> Array:
         try:
             cold = oil.at_temperature(temperature, at_oil_temperature)
-            return np.asarray(oil.viscosity_law(pressure, cold)[0])
+            return np.asarray(oil.viscosity_over_pressure(pressure, cold)[0])
         except InputError as reason:
             raise InputError(reason.where, reason.found, f"{reason.expected}: {_OIL_REMEDY}") from None
 
