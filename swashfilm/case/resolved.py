@@ -9,7 +9,6 @@ from swashfilm.case.tables.constants import constant_rows
 from swashfilm.case.tables.elastic import elastic_rows
 from swashfilm.case.tables.load import load_rows
 from swashfilm.case.tables.thermal import thermal_rows
-from swashfilm.case.tables.time_steps import time_rows
 from system.inputs.sections.writer import section_rows
 from system.inputs.units import Dimension, format_quantity
 
@@ -41,8 +40,8 @@ def resolved_text(stated: FilmStatement) -> str:
         rows += section_rows("oil", stated.oil)
     rows += ["", *thermal_rows(stated.thermal)] if stated.thermal else []
     rows += ["", *elastic_rows(stated.elastic)] if stated.elastic else []
-    rows += ["", *stated.rough.rows] if stated.rough else []
-    rows += ["", *time_rows(stated.time)] if stated.time else []
+    rows += stated.rough.rows if stated.rough else []
+    rows += section_rows("time", stated.time) if stated.time else []
     return "\n".join(rows) + "\n"
 
 

@@ -15,7 +15,7 @@ from swashfilm.case.tables.elastic import ElasticStatement
 from swashfilm.case.tables.oil import OilSection
 from swashfilm.case.tables.roughness import RoughWalls
 from swashfilm.case.tables.thermal import ThermalStatement
-from swashfilm.case.tables.time_steps import TimeStatement
+from swashfilm.case.tables.time_steps import TimeSection
 
 Velocity = tuple[Field, Field]
 
@@ -43,7 +43,7 @@ class FilmStatement:
     thermal: ThermalStatement | None = None
     elastic: ElasticStatement | None = None
     rough: RoughWalls | None = None
-    time: TimeStatement | None = None
+    time: TimeSection | None = None
     load: RigidLoad | None = None
     constants: Mapping[str, float] = field(default_factory=dict)
 

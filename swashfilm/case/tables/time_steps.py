@@ -2,25 +2,28 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from typing import Annotated
 
 from swashfilm.case.fields.expressions import ExpressionError, parse_expression
 from swashfilm.case.fields.field import Field, Formula
 from swashfilm.case.fields.reader import FieldReader
+from system.inputs.sections.fields import Limits, Positive
+from system.inputs.sections.reader import Reading, read_section
 from system.inputs.toml_table import Table
-from system.inputs.units import Dimension, format_quantity
+from system.inputs.units import Dimension
 
 MOST_STEPS = 1_000_000
-USUAL_OUTPUTS = 50
+Duration = Annotated[float, Dimension.TIME, Positive]
 
 
-@dataclass(frozen=True)
-class TimeStatement:
-    """End and step of a transient (s), and number of written films, equally spaced in time."""
+@dataclass(frozen=True, kw_only=True)
+class TimeSection:
+    """[time]: end and step of a transient."""
 
-    end: float
-    step: float
-    outputs: int
+    end: Duration
+    step: Duration
+    outputs: Annotated[int, Limits(least=1)] = 50  # written films, equally spaced in time
 
     @property
     def steps(self) -> int:
@@ -42,31 +45,19 @@ class TimeStatement:
         return int(time / every + 1e-6) > int((time - step) / every + 1e-6)
 
 
-def read_time(top: Table) -> TimeStatement | None:
+def read_time(top: Table) -> TimeSection | None:
     """Return the [time] table; None where there is none, or with its faults listed."""
     table = top.table("time")
     if table is None:
         return None
-    end, step = (table.positive(key, Dimension.TIME) for key in ("end", "step"))
-    outputs = table.get("outputs")
-    wanted = USUAL_OUTPUTS if outputs is None else outputs
-    if type(wanted) is not int or wanted < 1:
-        table.fault("outputs", repr(outputs), "the number of written films, a whole number from 1 on")
-        wanted = None
-    table.close()
-    if end is None or step is None or wanted is None:
+    reading = Reading(faults=table.faults)
+    stated = read_section("time", TimeSection, table.values, reading)
+    if reading.faulty:
         return None
-    if step > end or end > step * MOST_STEPS:
+    if stated.step > stated.end or stated.end > stated.step * MOST_STEPS:
         table.fault("step", str(table.values["step"]), f"at most the end, in at most {MOST_STEPS} steps")
         return None
-    read = TimeStatement(end, step, wanted)
-    return TimeStatement(end, step, min(wanted, read.steps))
-
-
-def time_rows(stated: TimeStatement) -> list[str]:
-    """Return the table as text of a case file."""
-    end, step = (format_quantity(value, Dimension.TIME) for value in (stated.end, stated.step))
-    return ["[time]", f'end = "{end}"', f'step = "{step}"', f"outputs = {stated.outputs}"]
+    return replace(stated, outputs=min(stated.outputs, stated.steps))
 
 
 def initial_film_fraction(top: Table, film: Table, reader: FieldReader) -> Field | None:
