@@ -9,7 +9,7 @@ import numpy as np
 
 from gaps.films.physics import Physics
 from reynolds.numerics.arrays import Array
-from swashfilm.case.gap.physics import physics_rows, read_physics
+from swashfilm.case.gap.physics import PhysicsSection, choices
 from swashfilm.case.gap.position import (
     Load,
     load_rows,
@@ -23,6 +23,7 @@ from system.description.gap import Gap
 from system.films.parts import FloatingParts, floating_parts
 from system.films.problems import RIGID
 from system.films.rotor import Rotor, rotor
+from system.inputs.sections.reader import Reading, read_section
 from system.inputs.sections.writer import section_rows
 from system.inputs.toml_table import Table, quoted
 from system.inputs.units import Dimension, format_quantity
@@ -77,7 +78,8 @@ def read_gap_case(name: str, text: str, top: Table, film: Table, folder: Path) -
         top.fault("load", "a load beside a position", "one of the two")
         load = None
     switches = top.table("physics") or Table("physics", {}, top.faults)
-    physics = read_physics(switches, RIGID)
+    chosen = read_section("physics", PhysicsSection, switches.values, Reading(faults=top.faults))
+    physics = chosen.physics(RIGID)
     if physics.heat:
         switches.fault("heat", '"solved"', "none: the temperature of parts depends on the whole turn", '"none"')
     if gap is None:
@@ -93,7 +95,7 @@ def read_gap_case(name: str, text: str, top: Table, film: Table, folder: Path) -
         case = replace(case, position=read_position(position, case.gap, known, case.parts, angle, pressures))
     if load:
         case = replace(case, load=read_load(load, gap, known, angle))
-    for table in (film, position, load, switches):
+    for table in (film, position, load):
         if table and table is not top:
             table.close()
     if pump is None or len(top.faults) > faults or not _is_possible(top, film, case):
@@ -144,8 +146,8 @@ def _resolved(case: GapCase, pump: CasePump) -> str:
     rows = [
         f"format = {FORMAT}", "", "[film]", f'gap = "{case.gap.value}"', f"pump = {quoted(pump.source)}",
         f'shaft_angle = "{angle}"', f"chamber_pressure = {stated}", *own_rows(pump.stated),
-        *section_rows("operating", pump.rotor.pump.operating), "",
-        "[physics]", *physics_rows(case.physics), "", *_stated_rows(case),
+        *section_rows("operating", pump.rotor.pump.operating),
+        *section_rows("physics", PhysicsSection(**choices(case.physics))), "", *_stated_rows(case),
     ]  # fmt: skip
     return "\n".join(rows) + "\n"
 

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from enum import Enum
+from typing import Any
 
 from gaps.films.physics import Effect, Physics
 from gaps.revolution.march import Leg
-from system.inputs.toml_table import Table
 
 
 class WallChoice(Enum):
@@ -65,22 +66,28 @@ _SUMMARY = {
 """Each effect in words, its switch, and the march that ends with it (its time holds all before it)."""
 
 
-def read_physics(table: Table, usual: Physics) -> Physics:
-    """Return the physics of the keys `walls`, `oil`, `surfaces`, `cavitation` and `heat` of a table.
+@dataclass(frozen=True, kw_only=True)
+class PhysicsSection:
+    """[physics]: physics of a gap; what is left out is as usual."""
 
-    Defaults are those of `usual`. Faults are listed in the table.
-    """
-    found = usual
-    for effect, (key, on, off) in _KEYS.items():
-        choice = table.choice(key, type(on), off if effect in usual.left_out else on)
-        found = found.without(effect) if choice is off else found.including(effect)
-    return found
+    walls: WallChoice | None = None
+    oil: OilChoice | None = None
+    surfaces: SurfaceChoice | None = None
+    cavitation: CavitationChoice | None = None
+    heat: HeatChoice | None = None
+
+    def physics(self, usual: Physics) -> Physics:
+        """Return the physics, with `usual` where nothing is chosen."""
+        found = usual
+        for effect, (key, on, off) in _KEYS.items():
+            choice = getattr(self, key) or (off if effect in usual.left_out else on)
+            found = found.without(effect) if choice is off else found.including(effect)
+        return found
 
 
-def physics_rows(physics: Physics) -> Iterator[str]:
-    """Return the keys from which `read_physics` reads this physics."""
-    for effect, (key, on, off) in _KEYS.items():
-        yield f'{key} = "{(off if effect in physics.left_out else on).value}"'
+def choices(physics: Physics) -> dict[str, Any]:
+    """Return the choices by key from which a `PhysicsSection` has this physics."""
+    return {key: off if effect in physics.left_out else on for effect, (key, on, off) in _KEYS.items()}
 
 
 def effect_rows(left_out: Sequence[str], seconds: Mapping[str, float]) -> list[tuple[str, ...]]:

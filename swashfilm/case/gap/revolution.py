@@ -4,24 +4,34 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Protocol
+from typing import Annotated, Protocol
 
 from gaps.revolution.schedule import Accuracy
 from swashfilm.case.gap.chamber_pressure import ChamberPressure, read_chamber_pressure
 from swashfilm.case.gap.instant import FORMAT
-from swashfilm.case.gap.physics import physics_rows, read_physics
+from swashfilm.case.gap.physics import PhysicsSection, choices
 from swashfilm.case.gap.pump import CasePump, own_rows, read_case_pump
 from system.description.gap import Gap
 from system.films.rotor import Rotor
+from system.inputs.sections.fields import Limits
+from system.inputs.sections.reader import Reading, read_section
 from system.inputs.sections.writer import section_rows
 from system.inputs.toml_table import Table, quoted
 from system.points.floating_gaps import MARCHED, USUAL, FloatingOptions, usual_finer
 
-STEPS = 360
 FILMS, RING_FILMS = 36, 180  # kept films of a turn; those of the valve plate repeat with the pitch
-_MOST = 7200  # steps or films of a turn
+MOST = 7200  # steps or films of a turn
 FINER = (0.25, 8.0)
-_LARGEST_TOLERANCE = 0.1
+
+
+@dataclass(frozen=True, kw_only=True)
+class RevolutionSection(PhysicsSection):
+    """[revolution]: steps, accuracy, mesh and physics of a gap over the turn."""
+
+    steps: Annotated[int, Limits(least=24, most=MOST)] = 360  # of a turn
+    tolerance: Annotated[float, Limits(above=0.0, most=0.1)] = MARCHED.step  # error of a step over the least film
+    finer: Annotated[float, Limits(least=FINER[0], most=FINER[1])] | None = None  # times the usual cells each way
+    films: Annotated[int, Limits(least=1, most=MOST)] | None = None  # kept of a turn
 
 
 class GapOverTurn(Protocol):
@@ -67,7 +77,7 @@ class RevolutionCase:
 def read_revolution_case(name: str, text: str, top: Table, film: Table, folder: Path) -> RevolutionCase | None:
     """Return the case of a file whose [film] has `gap` and `revolution = true`; None with its faults listed.
 
-    Defaults: the pump's operating point, the lumped cycle of its chamber, all physics, STEPS per turn.
+    Defaults: the pump's operating point, the lumped cycle of its chamber, all physics, 360 steps per turn.
     """
     gap = film.choice("gap", Gap)
     if film.get("revolution") is not True:
@@ -80,8 +90,7 @@ def read_revolution_case(name: str, text: str, top: Table, film: Table, folder: 
     _refuse_instants(top, film)
     table = top.table("revolution") or Table("revolution", {}, top.faults)
     options = _options(table, gap, pump)
-    for part in (film, table):
-        part.close()
+    film.close()
     if gap is None or pump is None or pressure is None or options is None:
         return None
     case = RevolutionCase(name, text, "", gap, pump.rotor, pressure, options)
@@ -99,44 +108,32 @@ def _refuse_instants(top: Table, film: Table) -> None:
 
 
 def _options(table: Table, gap: Gap | None, pump: CasePump | None) -> FloatingOptions | None:
-    faults = len(table.faults)
-    steps = _whole(table, "steps", STEPS, 24, _MOST)
-    films = _whole(table, "films", RING_FILMS if gap is Gap.VALVE_PLATE else FILMS, 1, _MOST)
-    physics = read_physics(table, USUAL)
-    tolerance, finer = table.number("tolerance", MARCHED.step), table.number("finer", usual_finer(physics))
-    if tolerance is not None and not 0.0 < tolerance <= _LARGEST_TOLERANCE:
-        table.fault("tolerance", repr(tolerance), f"above 0, at most {_LARGEST_TOLERANCE:g} of the least film")
-    if finer is not None and not FINER[0] <= finer <= FINER[1]:
-        table.fault("finer", repr(finer), f"{FINER[0]:g} to {FINER[1]:g} times the usual cells each way")
+    reading = Reading(faults=table.faults)
+    stated = read_section("revolution", RevolutionSection, table.values, reading)
+    steps, ring = stated.steps, gap is Gap.VALVE_PLATE
+    physics = stated.physics(USUAL)
+    finer = usual_finer(physics) if stated.finer is None else stated.finer
     pistons = pump.rotor.pump.pump.pistons if pump else 1
-    if steps and gap is Gap.VALVE_PLATE and steps % pistons:
+    if ring and steps % pistons:
         nearest = max(1, round(steps / pistons)) * pistons
-        table.fault("steps", str(steps), f"a multiple of the {pistons} pistons", str(nearest))
-    if len(table.faults) > faults or not (steps and finer and films and tolerance):
+        reading.fault("revolution.steps", str(steps), f"a multiple of the {pistons} pistons", str(nearest))
+    if reading.faulty:
         return None
-    distinct = steps // pistons if gap is Gap.VALVE_PLATE else steps
-    return FloatingOptions(physics, steps, Accuracy(step=tolerance), finer, min(max(1, steps // films), distinct))
-
-
-def _whole(table: Table, key: str, usual: int, least: int, most: int) -> int | None:
-    raw = table.get(key)
-    if raw is None:
-        return usual
-    if type(raw) is int and least <= raw <= most:
-        return raw
-    table.fault(key, repr(raw), f"a whole number, {least} to {most}")
-    return None
+    distinct = steps // pistons if ring else steps
+    keep = max(1, steps // (stated.films or (RING_FILMS if ring else FILMS)))
+    return FloatingOptions(physics, steps, Accuracy(step=stated.tolerance), finer, min(keep, distinct))
 
 
 def _resolved(case: RevolutionCase, pump: CasePump) -> str:
     """Return the text of this case."""
     options = case.options
+    turn = RevolutionSection(
+        steps=options.steps, tolerance=options.accuracy.step, finer=options.finer,
+        films=options.steps // options.keep, **choices(options.physics),
+    )  # fmt: skip
     rows = [
         f"format = {FORMAT}", "", "[film]", f'gap = "{case.gap.value}"', f"pump = {quoted(pump.source)}",
         "revolution = true", f"chamber_pressure = {case.chamber_pressure.text}", *own_rows(pump.stated),
-        *section_rows("operating", pump.rotor.pump.operating), "", "[revolution]", f"steps = {options.steps}",
-        f"tolerance = {options.accuracy.step!r}  # error of a step over the least film",
-        f"finer = {options.finer!r}  # times the usual cells each way",
-        f"films = {options.steps // options.keep}", *physics_rows(options.physics),
+        *section_rows("operating", pump.rotor.pump.operating), *section_rows("revolution", turn),
     ]  # fmt: skip
     return "\n".join(rows) + "\n"
