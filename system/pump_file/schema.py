@@ -8,7 +8,7 @@ from typing import Any
 from reynolds.laws.oil import ISO_GRADES
 from system.description.pump import FORMAT, SINGLE_PARTS, PumpDescription
 from system.inputs.sections.fields import fields_of
-from system.inputs.sections.json_schema import Schema, file_schema, section_schema
+from system.inputs.sections.json_schema import Schema, section_schema, tables_schema
 from system.pump_file.file import GRADE_KEYS, LAW_KEYS
 
 
@@ -29,15 +29,8 @@ def pump_schema() -> Schema:
         "name": {"type": "string", "minLength": 1, "description": "name of the pump, one line"},
         "format": {"const": FORMAT, "description": "pump file format"},
     }
-    return file_schema(
-        "Swashfilm pump file",
-        {
-            "type": "object",
-            "properties": {**head, **tables},
-            "required": [*head, *(name for name, own in types.items() if own.required)],
-            "additionalProperties": False,
-        },
-    )
+    required = (*head, *(name for name, own in types.items() if own.required))
+    return tables_schema("Swashfilm pump file", {**head, **tables}, required)
 
 
 def _either(table: Schema, key: str, others: tuple[str, ...]) -> None:

@@ -11,7 +11,7 @@ from typing import Annotated
 from swashfilm.runs.reference.passages import GroovePassage, OrificePassage, Passage, SlotPassage, StepPassage
 from system.inputs.faults import Fault, InputFaults
 from system.inputs.sections.fields import Length, Limits, Positive, Several
-from system.inputs.sections.json_schema import Schema, file_schema, section_schema
+from system.inputs.sections.json_schema import Schema, section_schema, tables_schema
 from system.inputs.sections.reader import Reading, read_section
 from system.inputs.toml_table import Table, fault_lines, read_toml
 from system.inputs.units import Dimension
@@ -134,15 +134,8 @@ def reference_schema() -> Schema:
         form = section_schema(model)
         form["properties"]["kind"] = {"const": kind.value}
         forms.append(form)
-    return file_schema(
-        "Swashfilm reference",
-        {
-            "type": "object",
-            "properties": {"format": {"const": FORMAT}, "reference": {"oneOf": forms}},
-            "required": ["format", "reference"],
-            "additionalProperties": False,
-        },
-    )
+    properties = {"format": {"const": FORMAT}, "reference": {"oneOf": forms}}
+    return tables_schema("Swashfilm reference", properties, properties)
 
 
 def _passages(section: PassageSection) -> tuple[Passage, ...]:

@@ -12,7 +12,7 @@ import numpy as np
 from swashfilm.case.gap.pump import CasePump, own_rows, pump_tables_schema, read_case_pump
 from system.inputs.faults import InputFaults
 from system.inputs.sections.fields import Points, Positive, Text
-from system.inputs.sections.json_schema import Schema, file_schema, quantity_schema, section_schema
+from system.inputs.sections.json_schema import Schema, quantity_schema, section_schema, tables_schema
 from system.inputs.sections.reader import Reading, read_section
 from system.inputs.sections.writer import section_rows
 from system.inputs.toml_table import Table, fault_lines, read_toml
@@ -76,15 +76,7 @@ def transient_schema() -> Schema:
     rows = table["properties"]["control_pressure"]
     table["properties"]["control_pressure"] = {"anyOf": [quantity_schema(Dimension.PRESSURE), rows]}
     properties = {"format": {"const": FORMAT}, "transient": table, **pump_tables_schema()}
-    return file_schema(
-        "Swashfilm transient",
-        {
-            "type": "object",
-            "properties": properties,
-            "required": ["format", "transient"],
-            "additionalProperties": False,
-        },
-    )
+    return tables_schema("Swashfilm transient", properties, ("format", "transient"))
 
 
 def _section(table: Table) -> TransientSection:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import inspect
+from collections.abc import Iterable
 from typing import Any
 
 from system.inputs.sections.fields import FieldType, Points, Text, fields_of
@@ -19,6 +20,12 @@ Schema = dict[str, Any]
 def file_schema(title: str, schema: Schema) -> Schema:
     """Return the schema of a file with its title and draft."""
     return {"$schema": DRAFT, "title": title, **schema}
+
+
+def tables_schema(title: str, properties: Schema, required: Iterable[str]) -> Schema:
+    """Return the schema of a file of these keys and tables, and no others."""
+    whole = {"type": "object", "properties": properties, "required": [*required], "additionalProperties": False}
+    return file_schema(title, whole)
 
 
 def section_schema(model: type[Any], *, complete: bool = True, inner_complete: bool = True) -> Schema:
