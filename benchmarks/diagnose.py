@@ -24,9 +24,7 @@ def main() -> None:
     options = parser.parse_args()
     known = load_known_pump("ref90")
     sys.stdout.write(f"load {os.getloadavg()[0]:.1f}, {options.workers} workers\n")
-    sys.stdout.write(
-        "recording, points, verdict, status, wall / s, process / s, of it fits / s, predictions, slopes\n"
-    )
+    sys.stdout.write("recording, points, verdict, status, wall / s, process / s, of it fits / s, predictions, slopes\n")
     for path in options.recordings:
         recording = checked_recording(path, known)
         begun, used = perf_counter(), _used()

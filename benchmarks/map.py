@@ -45,9 +45,7 @@ def main() -> None:
         timed("112 lumped", paper, Fidelity.LUMPED, lambda: process_pool(1))  # compiles
         makers = [lambda: process_pool(1), lambda: process_pool(2), *([local_cluster] if options.cluster else [])]
         rows = [timed(name, plan, Fidelity.LUMPED, maker) for maker in makers for name, plan in plans.items()]
-    table = Table(
-        "map", "by", "wall / s", "processor / s", "goal, wall / s", title=f"load {os.getloadavg()[0]:.1f}"
-    )
+    table = Table("map", "by", "wall / s", "processor / s", "goal, wall / s", title=f"load {os.getloadavg()[0]:.1f}")
     for row in rows:
         table.add_row(*row)
     Console().print(table)

@@ -177,9 +177,7 @@ def equal_lines(measured: Sequence[Measured], load: float) -> Lines:
 
     The last error is that of this solver, with the same order of elements, on the mesh of GOAL.
     """
-    groups = {
-        peer: [row for row in measured if row.peer == peer] for peer in dict.fromkeys(r.peer for r in measured)
-    }
+    groups = {peer: [row for row in measured if row.peer == peer] for peer in dict.fromkeys(r.peer for r in measured)}
     own = {peer.degree: group for peer, group in groups.items() if peer.module == "reynolds"}
     lines: Lines = []
     for peer, group in groups.items():
@@ -219,9 +217,7 @@ def machine() -> str:
     """Processor, cores and Python of this machine."""
     cpuinfo = Path("/proc/cpuinfo")
     lines = cpuinfo.read_text(encoding="utf-8").splitlines() if cpuinfo.exists() else []
-    model = next(
-        (line.split(":")[1].strip() for line in lines if line.startswith("model name")), platform.machine()
-    )
+    model = next((line.split(":")[1].strip() for line in lines if line.startswith("model name")), platform.machine())
     return f"{model}, {os.cpu_count()} cores, {platform.system()}, Python {platform.python_version()}"
 
 

@@ -19,13 +19,7 @@ from diagnosis.study.prepare import prepare
 from diagnosis.study.scaled_pump import KnownPump, known_pump
 from diagnosis.thresholds import Thresholds, load_thresholds
 from reynolds.errors import InputError, NotConverged
-from system.bench.calibration.equation_21 import (
-    EqFit,
-    eq_fits,
-    eq_twenty_one,
-    measured_losses,
-    paper_priors,
-)
+from system.bench.calibration.equation_21 import EqFit, eq_fits, eq_twenty_one, measured_losses, paper_priors
 from system.bench.calibration.extended_pump import calibrated_pump
 from system.bench.calibration.held_out import HeldOutRow, model_rows, physics_rows
 from system.bench.calibration.hersey_curve import HerseyCurve, hersey_curves

@@ -21,10 +21,7 @@ def slipper_land() -> meshio.Mesh:
     """Sealing land of the reference pump's slipper, 8.2 to 14 mm: triangles, physical groups pocket and rim."""
     mesh = annulus(8.2e-3, 14.0e-3, (6, 48), cell=Cell.TRIANGLE).mesh
     tags = {"pocket": 1, "rim": 2, "land": 3}
-    edges = {
-        "pocket": mesh.facets[:, mesh.boundaries["inner"]].T,
-        "rim": mesh.facets[:, mesh.boundaries["outer"]].T,
-    }
+    edges = {"pocket": mesh.facets[:, mesh.boundaries["inner"]].T, "rim": mesh.facets[:, mesh.boundaries["outer"]].T}
     return meshio.Mesh(
         np.column_stack([mesh.p.T, np.zeros(mesh.nvertices)]),
         [("line", edges["pocket"]), ("line", edges["rim"]), ("triangle", mesh.t.T)],
@@ -40,11 +37,7 @@ def pad() -> meshio.Mesh:
     """A 20 x 10 mm pad: quadrilaterals; boundaries inlet, outlet and side; film thickness 20 to 10 um as data."""
     film_mesh = rectangle((20e-3, 10e-3), (40, 10), cell=Cell.QUADRILATERAL)
     sides = film_mesh.mesh.boundaries
-    named = {
-        "inlet": sides["left"],
-        "outlet": sides["right"],
-        "side": np.concatenate([sides["bottom"], sides["top"]]),
-    }
+    named = {"inlet": sides["left"], "outlet": sides["right"], "side": np.concatenate([sides["bottom"], sides["top"]])}
     mesh = skfem.MeshQuad(film_mesh.mesh.p, film_mesh.mesh.t).with_boundaries(named)
     written = to_meshio(mesh, point_data={"film_thickness": 20e-6 - 10e-6 * mesh.p[0] / 20e-3})
     written.points = np.column_stack([written.points, np.zeros(len(written.points))])

@@ -267,9 +267,7 @@ class FilmSolution:
         Equal to the film's thickness except for rough walls that overlap (`rough_overlap`).
         """
         given = self.problem.film.thickness
-        return (
-            given if self.problem.walls is None else given + self.problem.space.sample_vertices(self.deformation)
-        )
+        return given if self.problem.walls is None else given + self.problem.space.sample_vertices(self.deformation)
 
     @property
     def imbalance(self) -> float:

@@ -379,10 +379,7 @@ def _door(name: str) -> Iterator[None]:
         source = f"swashfilm.{name}()" if reason.source == COMMAND_LINE else reason.source
         faults = [
             replace(
-                fault,
-                path=_argument(fault.path),
-                expected=_argument(fault.expected),
-                nearest=_argument(fault.nearest),
+                fault, path=_argument(fault.path), expected=_argument(fault.expected), nearest=_argument(fault.nearest)
             )
             for fault in reason.faults
         ]

@@ -196,10 +196,7 @@ def energy_balances(validation: Callable[..., None]) -> Callable[..., None]:
     """energy_balances(*, case, checks): two rows, of a floating point's energy, and mass to round-off."""
 
     def record(*, case: str, checks: Any) -> None:
-        errors = {
-            "torque from forces": checks.energy_balance_error,
-            "work on the chambers": checks.work_balance_error,
-        }
+        errors = {"torque from forces": checks.energy_balance_error, "work on the chambers": checks.work_balance_error}
         for quantity, obtained in errors.items():
             validation(
                 case=case,

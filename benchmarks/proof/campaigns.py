@@ -46,13 +46,7 @@ def campaigns() -> dict[str, Campaign]:
 def held(campaign: Campaign, rng: np.random.Generator) -> Settings:
     """The points as they were in truth: near the set points, as near as a bench holds them."""
     points, count = campaign.points, campaign.points.speed.size
-    spread = {
-        "speed": 1.0 * RPM,
-        "p_out": 0.7 * BAR,
-        "p_in": 0.004 * points.p_in,
-        "p_case": 0.015 * BAR,
-        "T_in": 0.7,
-    }
+    spread = {"speed": 1.0 * RPM, "p_out": 0.7 * BAR, "p_in": 0.004 * points.p_in, "p_case": 0.015 * BAR, "T_in": 0.7}
     moved = {name: getattr(points, name) + sigma * rng.normal(size=count) for name, sigma in spread.items()}
     warmer = points.T_case - points.T_in
     return replace(points, **moved, T_case=moved["T_in"] + warmer + 0.4 * rng.normal(size=count))
@@ -106,9 +100,7 @@ def _drawing(points: Settings) -> Settings:
     """The same out of a tank: inlet 0.8 to 1.5 bar absolute, case near the tank, up to 2300 rpm."""
     share = (points.p_in / BAR - 15.0) / 15.0
     speed = np.minimum(points.speed, 2300.0 * RPM)
-    return replace(
-        points, speed=speed, p_in=(0.8 + 0.7 * share) * BAR, p_case=(1.0 + 0.1 * points.p_case / BAR) * BAR
-    )
+    return replace(points, speed=speed, p_in=(0.8 + 0.7 * share) * BAR, p_case=(1.0 + 0.1 * points.p_case / BAR) * BAR)
 
 
 def _settings(rows: Iterator[tuple[float, float, float, float]]) -> Settings:

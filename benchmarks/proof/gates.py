@@ -143,11 +143,7 @@ def _wilson(name: str, cases: Outcomes, test: Callable[[Outcome], bool], limit: 
 
 
 def _median(
-    name: str,
-    cases: Outcomes,
-    value: Callable[[Outcome], float],
-    at_most: float = np.inf,
-    at_least: float = -np.inf,
+    name: str, cases: Outcomes, value: Callable[[Outcome], float], at_most: float = np.inf, at_least: float = -np.inf
 ) -> Gate:
     asked = f"<= {at_most:g}" if np.isfinite(at_most) else f">= {at_least:g}"
     told = np.array([value(one) for one in cases])
@@ -183,10 +179,7 @@ def _asked(outcomes: Outcomes) -> tuple[Gate, ...]:
     return (
         _share("pairs left open, settled by the point asked for, 3 readings", left_open, _by_asked, at_least=0.8),
         _share(
-            "pairs left open, settled where the verdict says that the point does",
-            promised,
-            _by_asked,
-            at_least=0.8,
+            "pairs left open, settled where the verdict says that the point does", promised, _by_asked, at_least=0.8
         ),
         _share("pairs left open, settled by a point drawn at random", left_open, _by_other, at_most=0.3),
     )
@@ -205,10 +198,7 @@ def _settles(worth: Worth, told: float) -> bool:
 
 
 def _removed_of_all(right: Outcomes, nulls: Outcomes) -> Gate:
-    name, asked = (
-        "removed share, all right names together, of what is not left where nothing is concealed",
-        ">= 0.9",
-    )
+    name, asked = ("removed share, all right names together, of what is not left where nothing is concealed", ">= 0.9")
     floor = left_by_nothing(nulls)
     known = [one for one in right if all((one.campaign, channel) in floor for channel in one.heldout)]
     if not known:
@@ -220,9 +210,7 @@ def _removed_of_all(right: Outcomes, nulls: Outcomes) -> Gate:
 def _coverage(outcomes: Outcomes) -> Gate:
     name, asked = "90 % intervals of parameters that hold the truth", "86 % to 94 %"
     parts = dict.fromkeys(one.part for one in outcomes if one.covered)
-    held = {
-        part: [inside for one in outcomes if one.part == part for inside in one.covered.values()] for part in parts
-    }
+    held = {part: [inside for one in outcomes if one.part == part for inside in one.covered.values()] for part in parts}
     inside = [one for part in held.values() for one in part]
     if not inside:
         return Gate(name, asked, "-", 0, None)

@@ -51,9 +51,7 @@ def _truth(study: Study, found: Diagnosis, expected: Outcome, thresholds: Thresh
         return best
     hypothesis = best.hypothesis if best is not None else None
     if hypothesis is None:
-        single = [
-            _single(found, effect, pair) for effect, pair in zip(expected.effects, expected.pairs, strict=True)
-        ]
+        single = [_single(found, effect, pair) for effect, pair in zip(expected.effects, expected.pairs, strict=True)]
         if len(single) < 2 or None in single:
             return None
         hypothesis = reduce(

@@ -106,12 +106,10 @@ def from_plain(data: dict[str, Any]) -> Outcome:
     """The inverse of `as_plain` after JSON."""
     kept = dict(data)
     kept["claims"] = tuple(
-        Claimed(**{**one, **{name: tuple(one[name]) for name in ("equivalent", "elsewhere")}})
-        for one in data["claims"]
+        Claimed(**{**one, **{name: tuple(one[name]) for name in ("equivalent", "elsewhere")}}) for one in data["claims"]
     )
     kept["ranked"] = tuple(
-        Ranked(tuple(one["effects"]), tuple(one["pairs"]), one["kind"], one["probability"])
-        for one in data["ranked"]
+        Ranked(tuple(one["effects"]), tuple(one["pairs"]), one["kind"], one["probability"]) for one in data["ranked"]
     )
     kept["rivals"] = {name: Rival(one["alarm"], tuple(one["named"])) for name, one in data["rivals"].items()}
     kept["heldout"] = {name: tuple(one) for name, one in data["heldout"].items()}

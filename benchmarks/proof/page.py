@@ -79,13 +79,7 @@ def write_page(results: Path, page: Path, seed: int) -> None:
     pieces = [HEAD, _made_of(planned, outcomes, seed)]
     if outcomes:
         draw(outcomes, page.with_name(PICTURE))
-        pieces += [
-            _gates(outcomes),
-            GATES,
-            _calibration(),
-            _grades(outcomes),
-            _rivals(outcomes),
-        ]
+        pieces += [_gates(outcomes), GATES, _calibration(), _grades(outcomes), _rivals(outcomes)]
     bench = [one for one in kept if one.part == GIVEN]
     if bench:
         pieces.append("\n## Recordings that are given with their answers\n\n" + _given(bench))
@@ -99,9 +93,7 @@ def _made_of(planned: Sequence[object], outcomes: Sequence[Outcome], seed: int) 
     limits = load_thresholds()
     stale = sum(one.program != program() for one in outcomes)
     counts = Counter(one.part for one in outcomes)
-    rows = [
-        (part.value, str(len(cases(part, seed))), str(counts[part.value]), _seeds(part, seed)) for part in Part
-    ]
+    rows = [(part.value, str(len(cases(part, seed))), str(counts[part.value]), _seeds(part, seed)) for part in Part]
     return (
         f"{len(outcomes)} of {len(planned)} cases have been run; {stale} of them by another state of the program "
         f"than this page's ({program()}).\nThresholds: `diagnosis/thresholds.toml`, sha256 `{limits.digest}`. "
@@ -165,13 +157,7 @@ def _rivals(outcomes: Sequence[Outcome]) -> str:
             _of(sum(set(one.rivals[name].named) == set(one.effects) for one in clear), clear),
             _of(sum(_listed(one.rivals[name].named) for one in unknown), unknown),
         ))  # fmt: skip
-    head = (
-        "way",
-        "alarm on nulls",
-        "alarm at z >= 8",
-        "that very id at z >= 8",
-        "name for what is in no catalogue",
-    )
+    head = ("way", "alarm on nulls", "alarm at z >= 8", "that very id at z >= 8", "name for what is in no catalogue")
     return "\n## Beside other ways, and with parts taken out\n\n" + _table(head, rows)
 
 

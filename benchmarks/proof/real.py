@@ -70,9 +70,7 @@ def tanks() -> Told:
         own, test = overflow.errors(record, base)
     rows = [("nothing", "0", f"{own:.3f} V", f"{test:.3f} V")]
     rows += [(one.name, f"{one.evidence:.1f}", f"{one.error:.3f} V", f"{one.test_error:.3f} V") for one in found]
-    return told(
-        TITLES["tanks"], TANKS_TEXT, ("added", "nats over nothing", "RMS error", "test record"), tuple(rows)
-    )
+    return told(TITLES["tanks"], TANKS_TEXT, ("added", "nats over nothing", "RMS error", "test record"), tuple(rows))
 
 
 def films() -> Told:

@@ -95,9 +95,7 @@ def sized(case: Case) -> tuple[list[float], list[float]]:
 
     if case.score == 0.0:
         return [1.0 for _ in case.concealed], [score(one, 1.0) for one in case.concealed]
-    found = [
-        size_for(case.score, lambda f, one=one: score(one, f), _start(one), one.most) for one in case.concealed
-    ]
+    found = [size_for(case.score, lambda f, one=one: score(one, f), _start(one), one.most) for one in case.concealed]
     return [factor for factor, _ in found], [reached for _, reached in found]
 
 

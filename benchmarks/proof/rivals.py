@@ -100,9 +100,7 @@ def _anew(study: Study, whitening: Whitening, held: tuple[str, ...]) -> Study:
     offset = whitened(old.residual + old.slopes @ old.xi)
     slopes = whitened(old.slopes) * np.array([each.name not in held for each in old.parameters])
     base = _posterior(old, offset, slopes, whitening)
-    kept = tuple(
-        replace(each, column=whitened(each.column)) for each in study.candidates if each.parameter not in held
-    )
+    kept = tuple(replace(each, column=whitened(each.column)) for each in study.candidates if each.parameter not in held)
     return replace(study, base=base, candidates=kept)
 
 

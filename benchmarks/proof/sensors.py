@@ -116,9 +116,7 @@ def read_after(
 def stated_sigma(meter: Meter, value: Array) -> Array:
     """Repeatability in SI at values in SI, the step of the reading in it."""
     step = 10.0**-meter.digits / np.sqrt(12.0)
-    return (
-        np.hypot(meter.sigma + meter.relative * np.abs((value - meter.origin) / meter.scale), step) * meter.scale
-    )
+    return np.hypot(meter.sigma + meter.relative * np.abs((value - meter.origin) / meter.scale), step) * meter.scale
 
 
 def set_in_truth(at: Settings, rng: np.random.Generator) -> Settings:

@@ -39,9 +39,7 @@ def shift(name: str, hidden: Hidden, faults: tuple[Fault, ...], machine: Machine
         value = getattr(found, channel)
         fault = next((one for one in faults if one.channel == channel), Fault(channel))
         along = np.linspace(0.0, 1.0, value.size)
-        columns.append(
-            value * (1.0 + fault.gain) + fault.zero + fault.drift * along - nominal(name)[:, at_channel]
-        )
+        columns.append(value * (1.0 + fault.gain) + fault.zero + fault.drift * along - nominal(name)[:, at_channel])
     return np.stack(columns, axis=1)
 
 

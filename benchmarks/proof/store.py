@@ -26,16 +26,7 @@ ASKED = (
     "system.description.tolerances",
 )
 """Modules that a diagnosis is made of; all that they import counts, too."""
-TRIERS = (
-    "trial.py",
-    "expected.py",
-    "oracle.py",
-    "worth.py",
-    "rivals.py",
-    "baselines.py",
-    "film_trial.py",
-    "real.py",
-)
+TRIERS = ("trial.py", "expected.py", "oracle.py", "worth.py", "rivals.py", "baselines.py", "film_trial.py", "real.py")
 """What puts a case to it and keeps what came of it."""
 MAKERS = ("plant", "campaigns.py", "sensors.py", "sizing.py", "recordings.py", "writing.py")
 

@@ -34,11 +34,7 @@ NAMES = {"ratio": "displacement_ratio"}  # of the plant's settings, where the si
 
 
 def worth(
-    study: Study,
-    pump: PumpDescription,
-    found: Diagnosis,
-    truth: tuple[Case, Made, Outcome],
-    thresholds: Thresholds,
+    study: Study, pump: PumpDescription, found: Diagnosis, truth: tuple[Case, Made, Outcome], thresholds: Thresholds
 ) -> Worth | None:
     """Nats for the truth by the recording, by the point asked for, by a random one; None where nothing is asked.
 
@@ -67,13 +63,7 @@ def worth(
 
 
 def _recorded(
-    study: Study,
-    box: BenchBox,
-    place: tuple[float, ...],
-    case: Case,
-    made: Made,
-    count: int,
-    rng: np.random.Generator,
+    study: Study, box: BenchBox, place: tuple[float, ...], case: Case, made: Made, count: int, rng: np.random.Generator
 ) -> tuple[BenchPoints, Array]:
     """`count` readings at a place of the box as the bench takes them: inputs as read, outputs (n, C) in SI."""
     wanted = box.points(tuple(np.array([value]) for value in place))

@@ -20,6 +20,4 @@ def point_ranges(points: Sequence[int]) -> str:
     """Points counted from 1, runs of them by their ends: "3, 8 to 12"."""
     breaks = [k for k in range(1, len(points)) if points[k] != points[k - 1] + 1]
     parts = [points[start:stop] for start, stop in zip([0, *breaks], [*breaks, len(points)], strict=True)]
-    return ", ".join(
-        f"{p[0] + 1} to {p[-1] + 1}" if len(p) > 2 else ", ".join(str(k + 1) for k in p) for p in parts
-    )
+    return ", ".join(f"{p[0] + 1} to {p[-1] + 1}" if len(p) > 2 else ", ".join(str(k + 1) for k in p) for p in parts)

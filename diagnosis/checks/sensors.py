@@ -135,9 +135,7 @@ def noiseless(recording: Recording) -> Iterator[DataNote]:
         if channel is None or not known.any():
             continue
         if not np.any(reading_sigma(channel, values[known]) > 0.0):
-            yield DataNote(
-                NoteKind.FAULT, name, (), f"{name.value} states a repeatability of 0, which no sensor has"
-            )
+            yield DataNote(NoteKind.FAULT, name, (), f"{name.value} states a repeatability of 0, which no sensor has")
             continue
         _, place = np.unique(numbers[known], return_inverse=True)
         count = np.bincount(place)

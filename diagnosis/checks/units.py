@@ -181,9 +181,7 @@ def _ratio_fault(
         own = unit_scale(channel.unit, name.dimension)[0]
         changes = {unit: unit_scale(unit, name.dimension)[0] / own for unit in OTHER_UNITS[name.dimension]}
         ways += [
-            f"{name.value} in '{unit}'"
-            for unit, by in changes.items()
-            if not math.isclose(by, 1) and mends(name, by)
+            f"{name.value} in '{unit}'" for unit, by in changes.items() if not math.isclose(by, 1) and mends(name, by)
         ]
         ways += [f"{name.value} too {word} by a factor of 10" for word, by in _TENFOLD if mends(name, by)]
         ways += [f"{name.value} of the other sign"] * (name in _DIRECTED and mends(name, -1.0))
@@ -212,9 +210,7 @@ def _references(recording: Recording) -> Iterator[DataNote]:
             text = f"{name.value} is {middle / 1e5:.2f} bar gauge, a vacuum: a gauge pressure taken as absolute?"
             yield DataNote(NoteKind.FAULT, name, (), text)
         elif name is ChannelName.P_IN and recording.circuit is Circuit.OPEN and middle > CHARGED:
-            text = (
-                f"p_in of an open circuit is {middle / 1e5:.1f} bar gauge, above any tank's; circuit = 'closed'?"
-            )
+            text = f"p_in of an open circuit is {middle / 1e5:.1f} bar gauge, above any tank's; circuit = 'closed'?"
             yield DataNote(NoteKind.NOTED, name, (), text)
         elif name is ChannelName.P_IN and recording.circuit is Circuit.OPEN and abs(middle - 1e5) < 0.15e5:
             text = f"p_in of an open circuit is {middle / 1e5:.2f} bar gauge: an absolute pressure taken as gauge?"

@@ -92,9 +92,7 @@ def _memory(residual: Array, limits: LocateLimits) -> tuple[float, float]:
     The scale is at least one stated sigma, and more if the whole trace scatters by more: then only a window that
     stands out of the rest of the turn counts.
     """
-    sums = [
-        _window_sums(residual[:, None], width)[:, 0] / np.sqrt(width) for width in _widths(len(residual), limits)
-    ]
+    sums = [_window_sums(residual[:, None], width)[:, 0] / np.sqrt(width) for width in _widths(len(residual), limits)]
     which, first = np.unravel_index(int(np.abs(np.stack(sums)).argmax()), (len(sums), len(residual)))
     rest = np.roll(residual, -int(first))[int(_widths(len(residual), limits)[which]) :]
     centred = rest - np.median(rest)

@@ -39,11 +39,7 @@ class ComponentGroup(Enum):
 
 
 MEMBERS: Mapping[ComponentGroup, tuple[Component, ...]] = {
-    ComponentGroup.FILM_LEAKAGE: (
-        Component.PISTON_LEAKAGE,
-        Component.SLIPPER_LEAKAGE,
-        Component.PLATE_LEAKAGE,
-    ),
+    ComponentGroup.FILM_LEAKAGE: (Component.PISTON_LEAKAGE, Component.SLIPPER_LEAKAGE, Component.PLATE_LEAKAGE),
     ComponentGroup.CROSS_FLOW: (Component.CROSS_FLOW,),
     ComponentGroup.DRAIN_FLOW: (Component.DRAIN_FLOW,),
     ComponentGroup.DISPLACEMENT: (Component.DISPLACEMENT, Component.COMPRESSION),

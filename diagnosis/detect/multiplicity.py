@@ -28,9 +28,7 @@ def holm(p_values: Array) -> float:
     return min(1.0, float(p_values.min(initial=1.0)) * max(p_values.size, 1))
 
 
-def family_chance(
-    posterior: Posterior, candidates: Sequence[Candidate], log_p: Array, draws: int, seed: int
-) -> float:
+def family_chance(posterior: Posterior, candidates: Sequence[Candidate], log_p: Array, draws: int, seed: int) -> float:
     """The chance that any candidate is as striking as the strongest, ln p (m,), without a mismatch.
 
     Scores of similar candidates are correlated: they are drawn from N(0, V^T P V), their distribution without a

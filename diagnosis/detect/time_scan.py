@@ -57,9 +57,7 @@ def scan_time(study: Study, thresholds: Thresholds) -> TimeMark | None:
         return None
     place = int(np.abs(z).argmax())
     kind = TimeKind.DRIFT if place == 0 else TimeKind.ONSET
-    return TimeMark(
-        kind, channel, 0 if place == 0 else place - 1 + limits.ends, p_value, wandering(study, thresholds)
-    )
+    return TimeMark(kind, channel, 0 if place == 0 else place - 1 + limits.ends, p_value, wandering(study, thresholds))
 
 
 def wandering(study: Study, thresholds: Thresholds) -> str | None:

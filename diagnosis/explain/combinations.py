@@ -19,11 +19,7 @@ from system.work.progress import Report
 
 
 def combine(
-    study: Study,
-    explanations: Sequence[Explanation],
-    thresholds: Thresholds,
-    executor: ProcessPool,
-    report: Report,
+    study: Study, explanations: Sequence[Explanation], thresholds: Thresholds, executor: ProcessPool, report: Report
 ) -> tuple[tuple[Explanation, ...], tuple[str, ...]]:
     """Refitted explanations of several effects, and the refits that failed, as text.
 

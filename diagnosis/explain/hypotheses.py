@@ -15,11 +15,7 @@ from system.effects.effect import EffectId, Kind
 from system.effects.extension import Extension
 from system.estimation.parameters import Parameter, Role
 
-RUBBED = {
-    "piston_cylinder": Gap.PISTON,
-    "slipper_swash_plate": Gap.SLIPPER,
-    "valve_plate_cylinder": Gap.VALVE_PLATE,
-}
+RUBBED = {"piston_cylinder": Gap.PISTON, "slipper_swash_plate": Gap.SLIPPER, "valve_plate_cylinder": Gap.VALVE_PLATE}
 """Gaps by the names of their friction pairs; the other pairs have no gap."""
 
 

@@ -59,8 +59,7 @@ def shared_out(
     for same in _alike(members):
         shares[same] = shares[same].sum() * np.exp(log_softmax(weights[same] / within))
     shared = {
-        id(each): replace(each, probability=total * float(share))
-        for each, share in zip(members, shares, strict=True)
+        id(each): replace(each, probability=total * float(share)) for each, share in zip(members, shares, strict=True)
     }
     return tuple(shared.get(id(each), each) for each in explanations), tuple(shared[id(each)] for each in members)
 

@@ -41,9 +41,7 @@ def scaling(
     for values in coordinates.values():
         used &= values > 0
     moving = {
-        name: values[used]
-        for name, values in coordinates.items()
-        if used.any() and moves(values[used], least_range)
+        name: values[used] for name, values in coordinates.items() if used.any() and moves(values[used], least_range)
     }
     if used.sum() < len(moving) + 2:
         return None

@@ -46,9 +46,7 @@ def linear_gain(study: Study, posterior: Posterior, hypothesis: Hypothesis, thre
     return float(logsumexp(found)) - log(len(found))
 
 
-def joint_evidence(
-    posterior: Posterior, candidates: Sequence[Candidate], widths: Sequence[float]
-) -> JointEvidence:
+def joint_evidence(posterior: Posterior, candidates: Sequence[Candidate], widths: Sequence[float]) -> JointEvidence:
     """ln evidence for the columns of several candidates together over none, averaged over prior widths.
 
     For one width, V the columns times it, g = V^T r, G = V^T P V: g^T (1 + G)^-1 g / 2 - ln det(1 + G) / 2, and

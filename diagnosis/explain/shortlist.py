@@ -35,10 +35,7 @@ def shortlist(screened: Sequence[Explanation], settled: bool, thresholds: Thresh
     null = next(each for each in with_probabilities(screened, limits.temperature) if _is_null(each))
     if not ranked or (settled and null.probability >= thresholds.mismatch.null_probability):
         return ()
-    least = max(
-        ranked[0].log_evidence - limits.shortlist_gap,
-        null.log_evidence if settled else -float("inf"),
-    )
+    least = max(ranked[0].log_evidence - limits.shortlist_gap, null.log_evidence if settled else -float("inf"))
     return tuple(each for each in ranked[: limits.shortlist] if each.log_evidence > least)
 
 

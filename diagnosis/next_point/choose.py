@@ -76,12 +76,7 @@ class NextPoint:
 
 
 def next_point(
-    study: Study,
-    pump: PumpDescription,
-    box: BenchBox,
-    first: Contender,
-    second: Contender,
-    limits: NextPointLimits,
+    study: Study, pump: PumpDescription, box: BenchBox, first: Contender, second: Contender, limits: NextPointLimits
 ) -> NextPoint:
     """The point of a box at which `limits.readings` readings separate two explanations best."""
     points = box.points(tuple(_levels(*ends, count) for ends, count in zip(box.ends, LEVELS, strict=True)))

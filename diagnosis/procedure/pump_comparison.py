@@ -128,10 +128,7 @@ def compare_pumps(pump: PumpDescription, study: Study, found: Diagnosis, report:
 
 
 def compare_films(
-    pumps: Mapping[str, PumpDescription],
-    points: Mapping[str, PumpPoint],
-    found: Collection[EffectId],
-    report: Report,
+    pumps: Mapping[str, PumpDescription], points: Mapping[str, PumpPoint], found: Collection[EffectId], report: Report
 ) -> FilmComparison:
     """The films of both pumps at their own operating points, beside their lumped `points`.
 

@@ -50,9 +50,7 @@ def diagnose_study(
     screened = _screened_anew(study, detection, screened, null, thresholds)
     with process_pool(workers) as executor:
         fits = _fits(study, detection, screened, null, thresholds, executor, report)
-    ranked = _with_held_out(
-        study, null, with_probabilities(fits.explanations, thresholds.name.temperature), thresholds
-    )
+    ranked = _with_held_out(study, null, with_probabilities(fits.explanations, thresholds.name.temperature), thresholds)
     verdict = judge(study, detection, ranked, coordinates(study, viscosity), thresholds)
     notes = (*map(note_text, study.recording.notes), *verdict.reasons, *not_null, *fits.failed)
     return _finding(study, detection, location, verdict, viscosity, notes, thresholds)
@@ -114,11 +112,7 @@ def _null(study: Study, linear: Explanation, thresholds: Thresholds) -> tuple[Ex
 
 
 def _screened_anew(
-    study: Study,
-    detection: Detection,
-    screened: tuple[Explanation, ...],
-    null: Explanation,
-    thresholds: Thresholds,
+    study: Study, detection: Detection, screened: tuple[Explanation, ...], null: Explanation, thresholds: Thresholds
 ) -> tuple[Explanation, ...]:
     """The screening repeated about the null's fit, where nothing contradicts that.
 
@@ -206,9 +200,7 @@ def _finding(
     is_described = verdict.status is not VerdictStatus.SUSPICION and verdict.kind is not Kind.NO_MISMATCH
     described = first if is_described else None
     if claimed is not None and claimed.posterior is not None:
-        location = of_explanation(
-            study, location, explained_mismatch(study, claimed, thresholds).added, thresholds
-        )
+        location = of_explanation(study, location, explained_mismatch(study, claimed, thresholds).added, thresholds)
         if ChannelName.P_CHAMBER in location.channels:
             location = without_explanation(study, location, claimed, thresholds)
     return Diagnosis(
@@ -267,7 +259,5 @@ def _effort(ranked: Sequence[Explanation]) -> FitEffort:
     """Effort of all refits together."""
     spent = [each.posterior.effort for each in ranked if each.posterior is not None]
     return FitEffort(
-        sum(each.predictions for each in spent),
-        sum(each.slopes for each in spent),
-        sum(each.seconds for each in spent),
+        sum(each.predictions for each in spent), sum(each.slopes for each in spent), sum(each.seconds for each in spent)
     )

@@ -31,9 +31,7 @@ class SeriesPoints:
     note: str
 
 
-def series_points(
-    form: SeriesSection, time: Array, readings: Array, channels: Sequence[ChannelForm]
-) -> SeriesPoints:
+def series_points(form: SeriesSection, time: Array, readings: Array, channels: Sequence[ChannelForm]) -> SeriesPoints:
     """Return the steady points of a series: time (T,) in s, readings (T, C) in SI, columns as `channels`.
 
     `SteadyRule` of the measured inputs decides which stretches are steady. The first `SETTLING` times the largest
@@ -45,9 +43,7 @@ def series_points(
     rule = SteadyRule(round(stated.window / raster), stated.slope)
     if rule.samples < 8:
         raise TableFault(
-            f"a window of {rule.samples} samples of {raster:g} s",
-            "at least 8 samples a window",
-            f'"{8 * raster:g} s"',
+            f"a window of {rule.samples} samples of {raster:g} s", "at least 8 samples a window", f'"{8 * raster:g} s"'
         )
     inputs = [k for k, channel in enumerate(channels) if channel.name in INPUTS] or list(range(len(channels)))
     sigma = np.array([channels[k].sigma or 0.0 for k in inputs])

@@ -82,9 +82,7 @@ def _parts(column: Array, borders: NDArray[np.int64]) -> tuple[Array, float]:
     if not known.any():
         return means, 0.0
     measured = float(np.median(np.add.reduceat(follows, borders[:-1])[known] / powers[known]))
-    memory = (
-        min(max((measured * size + 1.0) / (size - 3.0), 0.0), MOST_MEMORY) if size > 4.0 else max(measured, 0.0)
-    )
+    memory = min(max((measured * size + 1.0) / (size - 3.0), 0.0), MOST_MEMORY) if size > 4.0 else max(measured, 0.0)
     spread = (1.0 + memory) / (1.0 - memory) / size  # variance of a part's mean over that of a sample
     variance = float(np.median(powers)) / (size - 1.0) / max(1.0 - spread, 0.3)
     return means, float(np.sqrt(variance * spread))

@@ -238,14 +238,10 @@ def _course(scaling: Scaling, flat: float) -> str:
         if abs(exponent) > max(2.0 * scaling.sigma[name], flat)
     ]
     same = [
-        name
-        for name, exponent in scaling.exponents.items()
-        if abs(exponent) <= flat and scaling.sigma[name] <= flat
+        name for name, exponent in scaling.exponents.items() if abs(exponent) <= flat and scaling.sigma[name] <= flat
     ]
     grows = [f"grows as {' '.join(powers)}"] if powers else []
-    alike = (
-        [f"{'' if powers else 'is the same '}at every {listed(same)}{' alike' if powers else ''}"] if same else []
-    )
+    alike = [f"{'' if powers else 'is the same '}at every {listed(same)}{' alike' if powers else ''}"] if same else []
     return ", ".join([*grows, *alike]) or "follows no clear power law"
 
 
@@ -269,8 +265,7 @@ def _rivals(diagnosis: Diagnosis) -> str:
     first, *others = _explained(diagnosis, other_form=False)
     texts = [(explanation_words(one.hypothesis), one.probability) for one in others][: 2 * RIVALS]
     odds = [
-        (words, odds_text(first.probability, each), each >= diagnosis.thresholds.name.possible)
-        for words, each in texts
+        (words, odds_text(first.probability, each), each >= diagnosis.thresholds.name.possible) for words, each in texts
     ]
     possible = [f"{words} ({against})" for words, against, is_possible in odds if is_possible]
     excluded = [f"{words} ({against})" for words, against, is_possible in odds if not is_possible][:RIVALS]

@@ -57,9 +57,7 @@ def refuse_too_smooth(study: Study, least_chi2: float) -> None:
     """Raises InputFaults for readings that scatter about the fit by far less than their noise."""
     smooth = too_smooth(study.base.objective, study.base.residual.size, least_chi2)
     if smooth is not None:
-        raise InputFaults(
-            study.recording.title, [Fault("recording", smooth.text, "readings with the noise stated")]
-        )
+        raise InputFaults(study.recording.title, [Fault("recording", smooth.text, "readings with the noise stated")])
 
 
 def _fault(note: DataNote) -> Fault:

@@ -63,9 +63,7 @@ def complete(recording: Recording) -> Recording:
     lost = " (with a trace)" if any(missing[trace.point] for trace in recording.traces) else ""
     note = DataNote(NoteKind.REMOVED, None, gone, f"an input of these points is missing{lost}")
     place = np.cumsum(~missing) - 1
-    steady = replace(
-        recording.steady, **{name: values[~missing] for name, values in vars(recording.steady).items()}
-    )
+    steady = replace(recording.steady, **{name: values[~missing] for name, values in vars(recording.steady).items()})
     traces = tuple(
         replace(trace, point=int(place[trace.point])) for trace in recording.traces if not missing[trace.point]
     )
@@ -120,7 +118,5 @@ def _assumed_input(
         case _:
             other = ChannelName.T_IN if name is ChannelName.T_CASE else ChannelName.T_CASE
             return (
-                AssumedInput(name, other, WARMER)
-                if other in known
-                else AssumedInput(name, stated.temperature, WARMTH)
+                AssumedInput(name, other, WARMER) if other in known else AssumedInput(name, stated.temperature, WARMTH)
             )

@@ -201,9 +201,7 @@ def _of_extensions(entry: Entry, simulator: PumpSimulator, base: Posterior) -> I
             for parameter in member.parameters:
                 on = off.copy()
                 on[names.index(parameter.name)] = 1.0
-                change = extended.difference(
-                    values_at(extended.parameters, off), values_at(extended.parameters, on)
-                )
+                change = extended.difference(values_at(extended.parameters, off), values_at(extended.parameters, on))
                 column = base.whitening.whiten(change)
                 if np.any(column):
                     yield Candidate(entry, member, place, parameter.name, column, 1.0, _sign(parameter))

@@ -65,9 +65,7 @@ def prepare(
     study = study_of(usable, bench, found, axes, () if traces else catalogue, thresholds)
     memory = noise_correlation(study, thresholds.mismatch)
     if memory:
-        text = (
-            f"residuals persist from point to point: noise is assumed correlated by {memory[0]:.2f} in the order"
-        )
+        text = f"residuals persist from point to point: noise is assumed correlated by {memory[0]:.2f} in the order"
         usable = replace(usable, notes=(*usable.notes, DataNote(NoteKind.NOTED, None, (), text)))
         found = replace(found, memory=memory)
     if traces:

@@ -112,12 +112,7 @@ def _scaled(source: str, text: str, stated: Mapping[str, Any], folder: Path) -> 
         top.fault("oil.grade", "missing", "the oil's grade, such as 'ISO VG 46', or its two viscosities")
     if facts is None or top.faults:
         raise InputFaults(source, top.faults, fault_lines(text, top.faults))
-    tables: dict[str, Any] = {
-        "name": Path(source).stem,
-        "format": FORMAT,
-        **_tables(facts),
-        "tolerance": dict(_WIDE),
-    }
+    tables: dict[str, Any] = {"name": Path(source).stem, "format": FORMAT, **_tables(facts), "tolerance": dict(_WIDE)}
     paths = set()
     for name, table in stated.items():
         if isinstance(table, dict) and isinstance(tables.get(name, {}), dict):

@@ -53,9 +53,7 @@ def port_events(pump: PumpDescription) -> tuple[PortEvent, ...]:
     """Events of the ports of a valve plate over the turn, by shaft angle in [0, 2 pi)."""
     found = []
     for name, port in zip(("suction", "delivery"), port_openings(pump), strict=True):
-        found += [
-            PortEvent((float(port.dead_centre) + angle) % TURN, f"{name} {text}") for angle, text in _of(port)
-        ]
+        found += [PortEvent((float(port.dead_centre) + angle) % TURN, f"{name} {text}") for angle, text in _of(port)]
     dead_centres = (PortEvent(0.0, "inner dead centre"), PortEvent(np.pi, "outer dead centre"))
     return tuple(sorted((*found, *dead_centres), key=lambda event: event.angle))
 

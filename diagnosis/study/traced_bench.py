@@ -61,15 +61,11 @@ class TracedBench:
 
     def with_parameters(self, parameters: tuple[Parameter, ...]) -> TracedBench:
         """The same with these parameters: replaced where a name is there already, added where not."""
-        return replace(
-            self, bench=self.bench.with_parameters(parameters), fine=self.fine.with_parameters(parameters)
-        )
+        return replace(self, bench=self.bench.with_parameters(parameters), fine=self.fine.with_parameters(parameters))
 
     def with_extensions(self, extensions: tuple[Extension, ...]) -> TracedBench:
         """The same with these laws beside those it has."""
-        return replace(
-            self, bench=self.bench.with_extensions(extensions), fine=self.fine.with_extensions(extensions)
-        )
+        return replace(self, bench=self.bench.with_extensions(extensions), fine=self.fine.with_extensions(extensions))
 
     def elsewhere(self, points: BenchPoints) -> LumpedBench:
         """The bench at other points, where its chamber is not recorded."""
@@ -155,7 +151,5 @@ def traced_bench(bench: LumpedBench, traces: tuple[TraceBlock, ...], channel: Re
     """A bench with its traces, windows as its own turn at the prior mean has them."""
     fine = bench.finely(tuple(block.point for block in traces))
     centre = values_at(fine.parameters, np.zeros(len(fine.parameters)))
-    rows = tuple(
-        trace_rows(block, channel, fine.turns(centre, block.angle)[at]) for at, block in enumerate(traces)
-    )
+    rows = tuple(trace_rows(block, channel, fine.turns(centre, block.angle)[at]) for at, block in enumerate(traces))
     return TracedBench(bench, fine, rows)

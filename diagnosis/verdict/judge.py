@@ -66,14 +66,10 @@ def judge(
     free = _free_multiplier(study, null, explanations, thresholds)
     if min(detection.chance, free.chance) >= limits.chance:
         return _suspicion(explanations, (_one_of_two(detection, null),))
-    best = _simplest(
-        max((each for each in explanations if each is not null), key=_weight), explanations, thresholds
-    )
+    best = _simplest(max((each for each in explanations if each is not null), key=_weight), explanations, thresholds)
     if best.hypothesis.kind is Kind.UNKNOWN_PHYSICS:
         return _unknown(study, free, explanations, thresholds)
-    members = equivalents(
-        best, explanations, class_gap(explanations, thresholds), place_gap(explanations, thresholds)
-    )
+    members = equivalents(best, explanations, class_gap(explanations, thresholds), place_gap(explanations, thresholds))
     explanations, members = shared_out(explanations, members, thresholds)
     best = members[0]
     against = _objections(best, members, explanations, thresholds)

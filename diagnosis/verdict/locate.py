@@ -84,9 +84,7 @@ def of_explanation(study: Study, location: Location, added: Array, thresholds: T
     return replace(location, channels=channels, region=region, tie=tie)
 
 
-def without_explanation(
-    study: Study, location: Location, explanation: Explanation, thresholds: Thresholds
-) -> Location:
+def without_explanation(study: Study, location: Location, explanation: Explanation, thresholds: Thresholds) -> Location:
     """The same with the shaft angle at which traces differ from a refit without its explanation.
 
     For an explanation that acts on the chamber: tolerances alone may follow it (a worn groove is one cut too

@@ -127,8 +127,6 @@ def _allowed_gain(study: Study, before: Posterior, after: Posterior, thresholds:
         if not free:
             return posterior.log_evidence
         columns = np.hstack([multiplier_columns(study, posterior, component) for component in free])
-        return posterior.log_evidence + multiplier_evidence(
-            settled(posterior), columns, (thresholds.name.allowance,)
-        )
+        return posterior.log_evidence + multiplier_evidence(settled(posterior), columns, (thresholds.name.allowance,))
 
     return evidence(after) - evidence(before)

@@ -56,9 +56,7 @@ def power_errors(
     multiplier, with its prior cost in all directions, does not. Empty without a refit.
     """
     posterior, form = explanation.posterior, thresholds.form
-    logs = {
-        name: np.log(x / np.median(x)) for name, x in along.items() if x.min() > 0 and moves(x, form.least_range)
-    }
+    logs = {name: np.log(x / np.median(x)) for name, x in along.items() if x.min() > 0 and moves(x, form.least_range)}
     if posterior is None or not logs:
         return ()
     try:
@@ -68,10 +66,7 @@ def power_errors(
     fit = settled(posterior)
     scores = {name: score(fit, fit.whitening.whiten(added * x[:, None])) for name, x in logs.items()}
     least = float(norm.isf(0.5 * thresholds.mismatch.flag_rate / len(logs)))
-    flagged = [
-        (name, found) for name, found in scores.items() if abs(found.z) > least and abs(found.size) > form.flat
-    ]
+    flagged = [(name, found) for name, found in scores.items() if abs(found.z) > least and abs(found.size) > form.flat]
     return tuple(
-        PowerError(name, found.size, found.sigma)
-        for name, found in sorted(flagged, key=lambda one: -abs(one[1].z))
+        PowerError(name, found.size, found.sigma) for name, found in sorted(flagged, key=lambda one: -abs(one[1].z))
     )

@@ -94,9 +94,7 @@ def picture() -> str:
         top += height + 8
     if badges:
         raise ValueError(f"no such rooms: {', '.join(badges)}")
-    head = (
-        f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {right + 12} {top + 20}" font-family="sans-serif">'
-    )
+    head = f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {right + 12} {top + 20}" font-family="sans-serif">'
     ground = f'<rect width="{right + 12}" height="{top + 20}" fill="white"/>'
     foot = _text(
         LEFT, top + 8, "A room imports from rooms to its left and from packages below, never the other way.", 12
@@ -118,11 +116,7 @@ def _legend() -> str:
     parts = [_text(12, 30, "Ways of the data:", 13)]
     for at, way in enumerate(WAYS):
         x = LEFT + 40 + at * 150
-        parts += [
-            _badge(x, 26, way.colour, "1"),
-            _badge(x + 17, 26, way.colour, "2"),
-            _text(x + 32, 30, way.name, 13),
-        ]
+        parts += [_badge(x, 26, way.colour, "1"), _badge(x + 17, 26, way.colour, "2"), _text(x + 32, 30, way.name, 13)]
     return "\n".join(parts)
 
 
@@ -137,8 +131,7 @@ def _room(room: str, x: float, y: float, badges: list[tuple[str, int]]) -> str:
     box = f'<rect x="{x}" y="{y}" width="{WIDE}" height="{TALL}" rx="4" fill="white" stroke="#8b979f"/>'
     name = _text(x + 6, y + 15, "/".join(room.split(".")[1:]), 12)
     shown = [
-        _badge(x + 13 + at * (2 * BADGE + 3), y + 28, colour, str(number))
-        for at, (colour, number) in enumerate(badges)
+        _badge(x + 13 + at * (2 * BADGE + 3), y + 28, colour, str(number)) for at, (colour, number) in enumerate(badges)
     ]
     return "\n".join([box, name, *shown])
 

@@ -73,9 +73,7 @@ def _package(name: str, rooms: dict[str, list[str]]) -> str:
     homes = {one: getattr(getattr(package, one), "__module__", f"{name}.") for one in package.__all__}
     below = [one for one, home in homes.items() if not home.startswith(f"{name}.")]
     left_out = f"   :exclude-members: {', '.join(below)}\n" if below else ""
-    borrowed = (
-        f"Also here, from the packages below: {', '.join(f'``{one}``' for one in below)}.\n\n" if below else ""
-    )
+    borrowed = f"Also here, from the packages below: {', '.join(f'``{one}``' for one in below)}.\n\n" if below else ""
     return (
         f"{_title(name)}\n.. automodule:: {name}\n   :members:\n{left_out}\n{borrowed}"
         f"{_title('Rooms', '-')}\n.. toctree::\n   :maxdepth: 1\n\n{listed}\n"

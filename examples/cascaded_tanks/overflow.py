@@ -99,13 +99,9 @@ def simulated(record: Record, parameters: tuple[Parameter, ...], start: Array) -
 def errors(record: Record, fit: Posterior) -> tuple[float, float]:
     """Return RMS errors in V of a fit on its own record and on the test record."""
     known = {parameter.name: value for parameter, value in zip(fit.parameters, fit.values, strict=True)}
-    there = fitted(
-        Tanks(record.test_pump, FIRST_LEVELS, known), observed(record.test_sensor, SENSOR), [np.zeros(2)]
-    )
+    there = fitted(Tanks(record.test_pump, FIRST_LEVELS, known), observed(record.test_sensor, SENSOR), [np.zeros(2)])
     own = record.sensor - fit.predictions[:, 0]
-    return float(np.sqrt(np.mean(own**2))), float(
-        np.sqrt(np.mean((record.test_sensor - there.predictions[:, 0]) ** 2))
-    )
+    return float(np.sqrt(np.mean(own**2))), float(np.sqrt(np.mean((record.test_sensor - there.predictions[:, 0]) ** 2)))
 
 
 def additions(record: Record, base: Posterior, names: Sequence[str]) -> tuple[Addition, ...]:

@@ -30,9 +30,7 @@ ORDER = ("k1", "k2", "k3", "k4", "first_1", "first_2", *ABSENT)
 
 
 def _base(name: str, scale: Scale, centre: float, spread: float, highest: float) -> Parameter:
-    return Parameter(
-        name, Role.BASE, scale, centre, spread, 0.0, highest, None, "order of magnitude of the record"
-    )
+    return Parameter(name, Role.BASE, scale, centre, spread, 0.0, highest, None, "order of magnitude of the record")
 
 
 def _extension(name: str, scale: Scale, centre: float, spread: float, lowest: float, highest: float) -> Parameter:

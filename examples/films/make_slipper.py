@@ -38,10 +38,7 @@ faces = {
     "film": around([(land, top), (land + 1, top)]),
     "pocket": around([(inside, top), (inside + 1, top)]),
     "held": np.vstack(  # the socket, on the ball
-        [
-            around([(inside, back), (inside + 1, back)]),
-            around([(socket, along[:back]), (socket, along[:back] + 1)]),
-        ]
+        [around([(inside, back), (inside + 1, back)]), around([(socket, along[:back]), (socket, along[:back] + 1)])]
     ),
 }
 used, hexahedra = np.unique(hexahedra, return_inverse=True)

@@ -96,11 +96,7 @@ class Rig:
         lost = orifice + has["gap"] * load / self.viscosity + has["shrunk"] * flow + law
         saved = has["shrunk"] * flow * self.pressure / EFFICIENCY
         missing = lost + has["gain"] * flow + has["zero"]
-        changes = (
-            has["day_flow"] - missing,
-            has["day_power"] - saved,
-            has["day_pressure"] - has["resistance"] * lost,
-        )
+        changes = (has["day_flow"] - missing, has["day_power"] - saved, has["day_pressure"] - has["resistance"] * lost)
         both = zip((flow, power, pressure), changes, strict=True)
         return np.stack([sound + self.leaking * change for sound, change in both], axis=1)
 

@@ -53,9 +53,7 @@ class WallShear:
 
     def heat(self, is_film: Array | float = 1.0) -> Dissipation:
         """Heat of oil and asperities; weighted by `is_film` (cells | 1, points | 1). Mixing counts as flow."""
-        flow, shear, rubbing = (
-            float(np.sum(part * is_film)) for part in (self.driven, self.sheared, self.rubbing)
-        )
+        flow, shear, rubbing = (float(np.sum(part * is_film)) for part in (self.driven, self.sheared, self.rubbing))
         return Dissipation(flow + self.mixing, shear, rubbing)
 
     def load(self, is_film: Array | float = 1.0) -> float:
@@ -76,9 +74,7 @@ def wall_shear(solution: FilmSolution, asperities: Asperities | None, gap: Array
     if asperities is None:
         return WallShear(moving, fixed, nothing, driven, sheared, nothing, area, mixing)
     film, bears = solution.film, contact_pressure(asperities, gap).value
-    slip = [
-        np.broadcast_to(a - b, area.shape) for a, b in zip(film.velocity_moving, film.velocity_fixed, strict=True)
-    ]
+    slip = [np.broadcast_to(a - b, area.shape) for a, b in zip(film.velocity_moving, film.velocity_fixed, strict=True)]
     speed, rubs = np.hypot(*slip), boundary_shear(asperities, bears).value
     along = np.divide(rubs, speed, out=np.zeros(area.shape), where=speed > 0.0)
     x, y = along * slip[0], along * slip[1]

@@ -35,9 +35,7 @@ class PeriodicCurve:
     def __post_init__(self) -> None:
         rising = np.isfinite(self.angles).all() and (np.diff(self.angles) > 0.0).all()
         if len(self.angles) <= WRAPPED or not rising or not self.angles[-1] - self.angles[0] < TURN:
-            found = (
-                f"{len(self.angles)} from {np.degrees(self.angles[0]):g} to {np.degrees(self.angles[-1]):g} deg"
-            )
+            found = f"{len(self.angles)} from {np.degrees(self.angles[0]):g} to {np.degrees(self.angles[-1]):g} deg"
             raise FilmInputError("course over a turn, angles", found, "four or more, rising, within one turn")
         if len(self.values) != len(self.angles) or not np.isfinite(self.values).all():
             found = f"an array of shape {np.shape(self.values)}"

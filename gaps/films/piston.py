@@ -204,9 +204,7 @@ class PistonFilm:
         pressure = self._driven(stage.time).chamber_pressure
         return piston_deformation(self._walls, stage, self._pose(stage.time), pressure)
 
-    def friction(
-        self, stage: FloatingStage, by: WallShear, given: PistonDeformation | None = None
-    ) -> PistonFriction:
+    def friction(self, stage: FloatingStage, by: WallShear, given: PistonDeformation | None = None) -> PistonFriction:
         """Friction on the piston along and around the bore from the shear on its wall.
 
         `given`: the deformation, whose slope adds a force.
@@ -255,9 +253,7 @@ class PistonFilm:
         nodal[self._unit.vertex_dofs] = at_vertices
         return float(nodal[self._unit.edge_dofs["chamber"]] @ self._unit.edge_share["chamber"])
 
-    def chamber_flow(
-        self, stage: FloatingStage, flows: Mapping[str, float], given: PistonDeformation | None
-    ) -> float:
+    def chamber_flow(self, stage: FloatingStage, flows: Mapping[str, float], given: PistonDeformation | None) -> float:
         """Flow (m3/s) out of the chamber, which grows by the piston's nominal section and the deformation `given`.
 
         `flows` out of the film by `reynolds.solve.loads.boundary_flows`. The film's edge moves with the piston's
@@ -285,9 +281,7 @@ class PistonFilm:
 
     def _driven_at(self, time: float) -> _Driven:
         drive, angle = self.drive, self._angle(time)
-        return _Driven(
-            float(drive.reach(angle)), float(drive.velocity(angle)), float(drive.chamber_pressure(angle))
-        )
+        return _Driven(float(drive.reach(angle)), float(drive.velocity(angle)), float(drive.chamber_pressure(angle)))
 
     def _pose(self, time: float) -> Pose:
         """Pose of piston and bore relative to the film."""

@@ -118,9 +118,7 @@ def face_inertia(outer_radius: float, lifted: float, mass: float, centre_of_mass
     return np.diag([lifted / np.cos(tilt) ** 2, turned, turned])
 
 
-def pressed_by(
-    inertia: Array, centre_of_mass: float, friction: Array, ball_height: float, ball_moment: Array
-) -> Array:
+def pressed_by(inertia: Array, centre_of_mass: float, friction: Array, ball_height: float, ball_moment: Array) -> Array:
     """int p (x, y) dA (N m) that the film must give to keep the slipper's moments about the ball in balance.
 
     l m A - H T + n x M: inertia m A (2,) N of its centre of mass, l (m) from the ball towards the face; friction
@@ -308,11 +306,7 @@ class SlipperFilm:
         torque = float(np.sum(x * across - y * along))
         plate = np.array([np.sum(part * space.area) for part in by.on_fixed])
         sliding = np.asarray(self.drive.sliding(self._angle(stage.time)))
-        return SlipperFriction(
-            force=-plate,
-            torque=torque,
-            power=float(sliding @ plate) - self.drive.spin * torque,
-        )
+        return SlipperFriction(force=-plate, torque=torque, power=float(sliding @ plate) - self.drive.spin * torque)
 
     def supplied(self, stage: FloatingStage) -> tuple[float, float]:
         """Pressure (Pa) in the pocket and flow (m3/s) through the orifice into it."""

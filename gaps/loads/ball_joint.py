@@ -65,9 +65,7 @@ def ball_forces(bore_axis: Array, plate_normal: Array, piston: DrivenBody, slipp
     """
     facing = float(plate_normal @ bore_axis)
     if not facing >= LEAST_FACING:
-        raise FilmInputError(
-            "ball joint, plate normal along the bore", f"{facing:.3g}", f"at least {LEAST_FACING}"
-        )
+        raise FilmInputError("ball joint, plate normal along the bore", f"{facing:.3g}", f"at least {LEAST_FACING}")
     in_plate = slipper.lack - (slipper.lack @ plate_normal) * plate_normal
     along_bore = -float(piston.lack @ bore_axis)
     normal = (along_bore - float(in_plate @ bore_axis)) / facing
@@ -76,9 +74,7 @@ def ball_forces(bore_axis: Array, plate_normal: Array, piston: DrivenBody, slipp
     return BallForces(ball, normal - float(slipper.lack @ plate_normal), side - (side @ bore_axis) * bore_axis)
 
 
-def swept_acceleration(
-    place: Array, axis: Array, velocity: float, acceleration: float, shaft_speed: float
-) -> Array:
+def swept_acceleration(place: Array, axis: Array, velocity: float, acceleration: float, shaft_speed: float) -> Array:
     """Acceleration (3,) m/s2 of a point at `place` (3,) m that slides along an axis turning with the shaft.
 
     s'' a + 2 w s' z x a - w^2 (r - z z . r): along the bore, Coriolis (nothing for a cylindrical block) and
@@ -97,9 +93,7 @@ def relative_spin(
     piston_spin s_p about its axis relative to the block, slipper_spin s about the plate's normal relative to the
     plate, both rad/s; the slipper's tilting is left out.
     """
-    return np.asarray(
-        slipper_spin * plate_normal - shaft_speed * np.array([0.0, 0.0, 1.0]) - piston_spin * bore_axis
-    )
+    return np.asarray(slipper_spin * plate_normal - shaft_speed * np.array([0.0, 0.0, 1.0]) - piston_spin * bore_axis)
 
 
 def ball_friction(coefficient: float, force: float, radius: float, spin: Array, shaft_speed: float) -> Array:
@@ -179,9 +173,7 @@ def free_spins(
         while spent(spins + step) > spent(spins) + 1e-4 * float(slope @ step) + 1e-15 * abs(spent(spins)):
             step = 0.5 * step
         spins = spins + step
-    raise FilmNotConverged(
-        f"spins of piston and slipper not settled after {MOST_STEPS} steps", "given spin ratios"
-    )
+    raise FilmNotConverged(f"spins of piston and slipper not settled after {MOST_STEPS} steps", "given spin ratios")
 
 
 def _width(spin: Array, shaft_speed: float) -> float:

@@ -200,9 +200,7 @@ class _Warming(Generic[Reported]):
         heat, flows = self._heat, self._flows(rubbing)
         films = [self._warm[time].film for time in self._times]
         area = self._mean([float(film.problem.space.area.sum()) for film in films])
-        passing = [
-            float(np.sum(heat.conductivity / film.film.thickness * film.problem.space.area)) for film in films
-        ]
+        passing = [float(np.sum(heat.conductivity / film.film.thickness * film.problem.space.area)) for film in films]
         taken = np.array([flows.to_fixed, flows.to_moving]) / area
         return wall_image(heat, self._walls, taken, self._mean(passing) / area)
 

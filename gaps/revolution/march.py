@@ -102,9 +102,7 @@ def run_revolution(
     """
     angles = np.concatenate([[0.0], schedule.angles])
     if len(angles) < 2 or not np.all(np.diff(angles) > 0.0) or not schedule.speed > 0.0:
-        raise FilmInputError(
-            "revolution", f"angles {schedule.angles[:5]} rad at {schedule.speed:g} rad/s", "rising"
-        )
+        raise FilmInputError("revolution", f"angles {schedule.angles[:5]} rad at {schedule.speed:g} rad/s", "rising")
     began, accuracy = perf_counter(), accuracy or Accuracy()
     films, opening = 0, None if before is None else before.turn
     if opening is None:

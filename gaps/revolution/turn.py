@@ -272,9 +272,7 @@ def _moved(came: Array, went: Array) -> float:
     return float(np.abs(came - went).sum() / np.abs(went).sum())
 
 
-def _instant(
-    angle: float, stage: FloatingStage, rate: Array, report: Value, since: Passed[Value]
-) -> GapInstant[Value]:
+def _instant(angle: float, stage: FloatingStage, rate: Array, report: Value, since: Passed[Value]) -> GapInstant[Value]:
     """The instant at the end of a step."""
     area, film = stage.solution.problem.space.area, stage.solution.film
     return GapInstant(

@@ -65,9 +65,7 @@ class HeatFlows:
     def balance_error(self) -> float:
         """Residual of the heat balance over all sources."""
         arises = self.dissipation + self.rubbing
-        return abs(arises - self.to_fixed - self.to_moving - self.convected_out - self.stored) / max(
-            arises, 1e-300
-        )
+        return abs(arises - self.to_fixed - self.to_moving - self.convected_out - self.stored) / max(arises, 1e-300)
 
 
 @dataclass(frozen=True)

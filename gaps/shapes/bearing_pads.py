@@ -72,9 +72,7 @@ class BearingPads:
         places, quads = [], []
         for pad in range(self.number):
             turned = angle + 2.0 * np.pi * pad / self.number
-            places.append(
-                np.vstack([np.outer(radii, np.cos(turned)).ravel(), np.outer(radii, np.sin(turned)).ravel()])
-            )
+            places.append(np.vstack([np.outer(radii, np.cos(turned)).ravel(), np.outer(radii, np.sin(turned)).ravel()]))
             quads.append(one + pad * len(radii) * columns)
         return np.hstack(places), np.hstack(quads)
 

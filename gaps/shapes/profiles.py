@@ -245,9 +245,7 @@ def measured(rows: Sequence[Sequence[float]]) -> DepthPoints | PointsAround:
     depths = {(row[0], row[1]): row[2] for row in rows}
     if not len(depths) == len(rows) == len(places) * len(angles):
         found = f"{len(rows)} rows at {len(places)} places and {len(angles)} angles"
-        raise FilmInputError(
-            "profile", found, f"{len(places) * len(angles)} rows, each place with each angle once"
-        )
+        raise FilmInputError("profile", found, f"{len(places) * len(angles)} rows, each place with each angle once")
     return PointsAround(places, angles, tuple(tuple(depths[i, j] for j in angles) for i in places))
 
 
@@ -264,9 +262,7 @@ def _cell_of(where: str, knots: Array, found: Array) -> tuple[NDArray[np.int64],
     """Number of the interval of each value, and how far into it (0 .. 1); raises beyond the ends."""
     unit = "m" if "place" in where else "rad"
     slack = 1e-9 * (knots[-1] - knots[0])  # a mesh's last line, not another place
-    values = within(
-        where, found, knots[0] - slack, knots[-1] + slack, unit, "measured points over all of the part"
-    )
+    values = within(where, found, knots[0] - slack, knots[-1] + slack, unit, "measured points over all of the part")
     cell = np.clip(np.searchsorted(knots, values, side="right") - 1, 0, len(knots) - 2)
     return cell, (values - knots[cell]) / np.diff(knots)[cell]
 

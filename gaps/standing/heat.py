@@ -11,14 +11,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from gaps.revolution.film_heat import (
-    AGREED,
-    MOST_WALL_ROUNDS,
-    WALL_SETTLED,
-    GapHeat,
-    local_law,
-    wall_image,
-)
+from gaps.revolution.film_heat import AGREED, MOST_WALL_ROUNDS, WALL_SETTLED, GapHeat, local_law, wall_image
 from reynolds.errors import FilmNotConverged
 from reynolds.floating.problem import Floating
 from reynolds.floating.rest import held_at

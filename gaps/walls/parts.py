@@ -270,8 +270,7 @@ def _edges(grooves: Grooves) -> tuple[float, ...]:
 def _groove_faces(body: BodyMesh, grooves: Grooves) -> dict[str, NDArray[np.int64]]:
     """The facets of the top between the radii of each groove."""
     return {
-        name: np.setdiff1d(_facets(body, "top", up_to=b), _facets(body, "top", up_to=a))
-        for name, (a, b) in grooves
+        name: np.setdiff1d(_facets(body, "top", up_to=b), _facets(body, "top", up_to=a)) for name, (a, b) in grooves
     }
 
 

@@ -93,9 +93,7 @@ def heated_body(space: BodySpace, thermal: Thermal, surroundings: Surroundings) 
     Raises FilmInputError where nothing takes heat away: no steady temperature exists.
     """
     if not surroundings:
-        raise FilmInputError(
-            "body's surroundings", "no face that heat leaves by", "convection or a held temperature"
-        )
+        raise FilmInputError("body's surroundings", "no face that heat leaves by", "convection or a held temperature")
     size = len(space.places)
     matrix = _conductance(space, thermal.conductivity)
     source, temperature = np.zeros(size), np.zeros(size)
@@ -161,9 +159,7 @@ def expansion_forces(body: Structure, expansion: float) -> csc_array:
 
 
 def _conductance(space: BodySpace, conductivity: float) -> csc_array:
-    local = np.einsum(
-        "eakq,ebkq,eq->eab", space.gradient, space.gradient, conductivity * space.volume, optimize=True
-    )
+    local = np.einsum("eakq,ebkq,eq->eab", space.gradient, space.gradient, conductivity * space.volume, optimize=True)
     return assembled(space.cells, space.cells, local, (len(space.places),) * 2)
 
 

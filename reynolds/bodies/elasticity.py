@@ -34,9 +34,7 @@ class Elastic:
     poisson_ratio: float
 
     def __post_init__(self) -> None:
-        if not (
-            np.isfinite(self.youngs_modulus) and self.youngs_modulus > 0.0 and -1.0 < self.poisson_ratio < 0.5
-        ):
+        if not (np.isfinite(self.youngs_modulus) and self.youngs_modulus > 0.0 and -1.0 < self.poisson_ratio < 0.5):
             found = f"E = {self.youngs_modulus:.4g} Pa, nu = {self.poisson_ratio:.4g}"
             raise FilmInputError("elastic material", found, "E above zero, nu between -1 and 0.5")
 
@@ -126,9 +124,7 @@ def pressure_forces(space: BodySpace, face: Face, pressure: float) -> Array:
     return np.asarray(total, dtype=float)
 
 
-def centrifugal_forces(
-    space: BodySpace, density: float, speed: float, axis: tuple[float, float] = (0.0, 0.0)
-) -> Array:
+def centrifugal_forces(space: BodySpace, density: float, speed: float, axis: tuple[float, float] = (0.0, 0.0)) -> Array:
     """Nodal forces (dofs,) N of turning at `speed` (rad/s) about a line along z through axis (x, y) m.
 
     Body force density x speed^2 x distance, outwards. Of a free body inertia relief keeps the part that strains.

@@ -85,9 +85,7 @@ def hollow_cylinder(
     around = cells[1]
     angle = np.linspace(*angles, around + 1)[: around if closed else None]
     radius = np.linspace(*radii, cells[0] + 1)
-    points = np.vstack(
-        [np.outer(radius, np.cos(angle)).ravel(), np.outer(radius, np.sin(angle)).ravel()],
-    )
+    points = np.vstack([np.outer(radius, np.cos(angle)).ravel(), np.outer(radius, np.sin(angle)).ravel()])
     i, j = (index.ravel() for index in np.meshgrid(np.arange(cells[0]), np.arange(around), indexing="ij"))
     lines, after = len(angle), (j + 1) % len(angle)
     quads = np.vstack([i * lines + j, (i + 1) * lines + j, (i + 1) * lines + after, i * lines + after])
@@ -160,9 +158,7 @@ def section(radii: tuple[float, float], height: float, cells: tuple[int, int], *
 
 def _positive(what: str, sizes: tuple[float, ...], cells: tuple[int, ...]) -> None:
     if not all(np.isfinite(size) and size > 0.0 for size in sizes) or min(cells) < 1:
-        raise FilmInputError(
-            what, f"sizes {sizes} m, cells {cells}", "sizes above zero, one cell or more each way"
-        )
+        raise FilmInputError(what, f"sizes {sizes} m, cells {cells}", "sizes above zero, one cell or more each way")
 
 
 def _extruded(points: Array, quads: NDArray[np.int64], heights: Array, *, arcs_from: float) -> skfem.MeshHex2:
@@ -190,9 +186,9 @@ def _fill_serendipity(mesh: skfem.MeshHex2, places: Array) -> None:
     for k, corners in enumerate(reference.facets):
         pairs = [frozenset(p) for p in zip(corners, [*corners[1:], corners[0]], strict=True)]
         edges = [edge_of[pair] for pair in pairs]
-        places[:, cells[20 + k]] = 0.5 * places[:, cells[edges]].sum(axis=1) - 0.25 * places[
-            :, cells[corners]
-        ].sum(axis=1)
+        places[:, cells[20 + k]] = 0.5 * places[:, cells[edges]].sum(axis=1) - 0.25 * places[:, cells[corners]].sum(
+            axis=1
+        )
     places[:, cells[26]] = 0.25 * (places[:, cells[8:20]].sum(axis=1) - places[:, cells[:8]].sum(axis=1))
 
 

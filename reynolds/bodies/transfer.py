@@ -31,9 +31,7 @@ from reynolds.numerics.arrays import Array
 
 INSIDE = 1e-6  # of a facet: how far outside its edges a point still belongs to it
 OFF_FACE = 0.1  # of a facet's size: how far off the face along the normal the film may lie
-BEYOND = (
-    0.15  # of the longer edge of both: how far beyond the face; a hexagon strays by 0.134 of one from its circle
-)
+BEYOND = 0.15  # of the longer edge of both: how far beyond the face; a hexagon strays by 0.134 of one from its circle
 STEPS = 6  # of Newton's method within a facet; four are enough for one that is not folded
 CONVERGED = 1e-13  # of a facet
 MOST_SPLITS = 8
@@ -149,9 +147,7 @@ def _longest_edge(corners: Array) -> Array:
     return np.asarray(np.linalg.norm(corners - np.roll(corners, 1, axis=1), axis=2).max(axis=1))
 
 
-def _candidates(
-    face: Face, places: Array, normals: Array, slack: float
-) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+def _candidates(face: Face, places: Array, normals: Array, slack: float) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
     """Pairs of film points and facets that lie near each other (m beyond their reach) and look the same way."""
     corners = face.places[face.facets]
     centre = corners.mean(axis=1)

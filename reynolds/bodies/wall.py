@@ -133,9 +133,7 @@ def face_wall(
     return FaceWall(LowRank(left, right), found.origin)
 
 
-def load_deformation(
-    body: Body, film: FilmSpace, load: FacePressure | Spin, *, folder: Path | None = None
-) -> Array:
+def load_deformation(body: Body, film: FilmSpace, load: FacePressure | Spin, *, folder: Path | None = None) -> Array:
     """Deformation (vertices,) m by a load case beside the film's pressure; linear in pressure, in speed^2."""
     space = body_space(body.mesh)
     face = space.face(body.face)

@@ -20,10 +20,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.sparse import csr_array
 
-from reynolds.equation import (
-    deformation_kernels,
-    hourglass_kernels,
-)
+from reynolds.equation import deformation_kernels, hourglass_kernels
 from reynolds.equation.coefficients import Tensor, Transport, along, at_points, times, transport
 from reynolds.equation.deformation_sparsity import DeformationPattern
 from reynolds.equation.hourglass import as_one, has_hourglass_mode, hourglass_slope, signs
@@ -269,9 +266,7 @@ def slopes(problem: FilmProblem, parts: Operators, state: FilmState) -> Slopes:
         grows_by = times(terms.conductance, terms.by_pressure)
         grown = hourglass_slope(space, terms.conductance, grows_by, state.pressure)
         points = space.reference.loops[1]
-        hourglass_kernels.convected(
-            space.dofs, space.pattern.slots, space.reference.value, grown, points, *changed
-        )
+        hourglass_kernels.convected(space.dofs, space.pattern.slots, space.reference.value, grown, points, *changed)
     filled = state.film_fraction * ratio_slope
     p_upper = parts.stiffness + changed[0] + c_upper * filled[column]
     p_lower = parts.stiffness + changed[1] + c_lower * filled[row]

@@ -155,8 +155,7 @@ def _parted(problem: FilmProblem, deformation: Array) -> Tangent:
     least, most = float(film.value.min()), float(film.value.max())
     if not (least > 0.0 and most < WIDEST * np.abs(given).max()):
         raise FilmNotConverged(
-            f"elastic walls leave {least:.3g} to {most:.3g} m of film",
-            "a thicker film, stiffer walls, or contact",
+            f"elastic walls leave {least:.3g} to {most:.3g} m of film", "a thicker film, stiffer walls, or contact"
         )
     return film
 

@@ -79,8 +79,7 @@ def _balanced(problem: FilmProblem, alone: Array, start: Array) -> Array:
             share *= 0.5
         found, touch, rest = found - share * change, new, after
     raise FilmNotConverged(
-        f"the deformation of walls in contact not converged after {MAX_STEPS} steps",
-        "a thicker film, or stiffer walls",
+        f"the deformation of walls in contact not converged after {MAX_STEPS} steps", "a thicker film, or stiffer walls"
     )
 
 

@@ -50,9 +50,7 @@ def hourglass_slope(space: FilmSpace, conductance: Tensor, slope: Tensor, pressu
     field, pairs, points = as_one(space, conductance)
     grown, _, _ = as_one(space, slope)
     out = np.empty((len(space.dofs), len(points)))
-    kernels.changed(
-        space.dofs, space.tensors.shape, pairs, space.tensors.parallel, field, grown, pressure, points, out
-    )
+    kernels.changed(space.dofs, space.tensors.shape, pairs, space.tensors.parallel, field, grown, pressure, points, out)
     return np.ascontiguousarray(out.reshape(len(out), -1, len(space.reference.weights)).sum(axis=1))
 
 

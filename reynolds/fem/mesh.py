@@ -96,11 +96,7 @@ def rectangle(
 
 
 def annulus(
-    inner_radius: float,
-    outer_radius: float,
-    cells: tuple[int, int],
-    *,
-    cell: Cell = Cell.QUADRILATERAL,
+    inner_radius: float, outer_radius: float, cells: tuple[int, int], *, cell: Cell = Cell.QUADRILATERAL
 ) -> FilmMesh:
     """A full ring about the origin, cells = (radial, circumferential), boundaries inner and outer (m).
 
@@ -126,9 +122,7 @@ def ring(
         raise FilmInputError("ring, sectors", f"{around}", "at least three")
     radial = len(radii) - 1
     angle = 2.0 * np.pi * np.arange(around) / around
-    points = np.vstack(
-        [np.outer(radii, np.cos(angle)).ravel(), np.outer(radii, np.sin(angle)).ravel()],
-    )
+    points = np.vstack([np.outer(radii, np.cos(angle)).ravel(), np.outer(radii, np.sin(angle)).ravel()])
     kept = np.ones((radial, around), dtype=bool) if keep is None else keep
     i, j = np.nonzero(kept)
     after = (j + 1) % around

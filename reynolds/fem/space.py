@@ -146,8 +146,7 @@ class FilmSpace:
     def edge_normal(self) -> dict[str, Array]:
         """The same integral of basis times outward normal, (unknowns, 2) m; zero on a line inside the film."""
         return {
-            name: np.column_stack([self._along(name, n) for n in self._facet_normal[name]])
-            for name in self.edge_dofs
+            name: np.column_stack([self._along(name, n) for n in self._facet_normal[name]]) for name in self.edge_dofs
         }
 
     @cached_property
@@ -248,9 +247,7 @@ class FilmSpace:
     def moved(self, vertices: Array) -> FilmSpace:
         """The same topology and pattern with other vertex coordinates, (vertices, 2) m; else FilmInputError."""
         if np.shape(vertices) != self.vertices.shape or not np.isfinite(vertices).all():
-            raise FilmInputError(
-                "moved vertices", f"an array of shape {np.shape(vertices)}", "a place for each vertex"
-            )
+            raise FilmInputError("moved vertices", f"an array of shape {np.shape(vertices)}", "a place for each vertex")
         return replace(self, vertices=np.ascontiguousarray(vertices))
 
     def matrix(self, data: Array) -> csc_array:
@@ -329,9 +326,7 @@ def _tie(film_mesh: FilmMesh, basis: skfem.Basis, pockets: tuple[str, ...]) -> N
     return leader
 
 
-def _facet_dofs(
-    film_mesh: FilmMesh, basis: skfem.Basis, joined: NDArray[np.int64]
-) -> dict[str, NDArray[np.int64]]:
+def _facet_dofs(film_mesh: FilmMesh, basis: skfem.Basis, joined: NDArray[np.int64]) -> dict[str, NDArray[np.int64]]:
     """Unknowns of the facets of each named boundary: both ends, and the middle of a quadratic one."""
     found = {}
     for name in film_mesh.boundary_names:

@@ -72,9 +72,7 @@ def modes_on(space: FilmSpace, at_vertices: Array, pockets: Mapping[str, Array] 
     for name, area in (pockets or {}).items():
         nodes = space.edge_dofs.get(name)
         if nodes is None or len(nodes) != 1:
-            raise FilmInputError(
-                f"pocket {name} of the modes", "no pocket of this space", "film_space(pockets=...)"
-            )
+            raise FilmInputError(f"pocket {name} of the modes", "no pocket of this space", "film_space(pockets=...)")
         grown[nodes[0]] += area
     return Modes(space, np.ascontiguousarray(at_vertices, dtype=float), grown)
 

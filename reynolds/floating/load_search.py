@@ -43,9 +43,7 @@ class RigidLoad:
 
     def __post_init__(self) -> None:
         if not (np.isfinite(self.force) and self.force > 0.0):
-            raise FilmInputError(
-                "load", f"{self.force:g} N", "a force above zero, which presses the walls together"
-            )
+            raise FilmInputError("load", f"{self.force:g} N", "a force above zero, which presses the walls together")
 
 
 @dataclass(frozen=True)

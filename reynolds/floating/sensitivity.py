@@ -86,8 +86,7 @@ def oil_slopes(solution: FilmSolution, thicker: Array, changed: FilmSensitivity,
     content, fraction = parts.content[:, None], solution.film_fraction[:, None]
     ratio, ratio_slope = ratio[:, None], ratio_slope[:, None]
     return np.asarray(
-        fraction * ratio * grown
-        + content * (ratio * changed.film_fraction + fraction * ratio_slope * changed.pressure)
+        fraction * ratio * grown + content * (ratio * changed.film_fraction + fraction * ratio_slope * changed.pressure)
     )
 
 

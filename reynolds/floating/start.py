@@ -18,9 +18,7 @@ from reynolds.numerics.arrays import Array
 from reynolds.numerics.dirk import State, StateTangent
 from reynolds.solve.solver import FilmSolver
 
-NUDGE = (
-    1e-9  # m: of the position, for the slope of what a film holds, which is linear but for rough walls that touch
-)
+NUDGE = 1e-9  # m: of the position, for the slope of what a film holds, which is linear but for rough walls that touch
 
 NEAR = 1e-9  # of the mesh: round-off of a place
 
@@ -39,9 +37,7 @@ def started(floating: Floating, time: float, q: Array) -> State[FloatingStage]:
     return State(time, q, standing(floating, time, q), np.zeros(len(q)), tangent=tangent)
 
 
-def pressed(
-    solver: FilmSolver, floating: Floating, start: State[FloatingStage], step: float
-) -> State[FloatingStage]:
+def pressed(solver: FilmSolver, floating: Floating, start: State[FloatingStage], step: float) -> State[FloatingStage]:
     """The start with deformed elastic walls, before oil flows much: one implicit step (s).
 
     Elastic walls follow a load at once, whatever the step. Raises as `solve_stage`.
@@ -49,11 +45,7 @@ def pressed(
     stage = solve_stage(solver, floating, start.time, start.held, step, start.q, start.stage)
     assert start.tangent is not None
     return replace(
-        start,
-        q=stage.q,
-        held=stage.holds,
-        tangent=StateTangent(*stage.propagated(start.tangent.held)),
-        stage=stage,
+        start, q=stage.q, held=stage.holds, tangent=StateTangent(*stage.propagated(start.tangent.held)), stage=stage
     )
 
 
@@ -82,9 +74,7 @@ def restarted(floating: Floating, time: float, last: State[FloatingStage], q: Ar
         found = f"{least:.3g} m3 of oil at an unknown, {np.abs(q - stage.q).max():.3g} m from the last position"
         raise FilmInputError(f"{floating.name}, start of a turn", found, "a position nearer to it")
     warm = stage if np.array_equal(seats, np.arange(len(oil))) else None
-    return State(
-        time, np.asarray(q, dtype=float), held, last.rate, last.bend, warm, StateTangent(np.eye(k), slopes)
-    )
+    return State(time, np.asarray(q, dtype=float), held, last.rate, last.bend, warm, StateTangent(np.eye(k), slopes))
 
 
 def seats_of(space: FilmSpace, other: FilmSpace) -> NDArray[np.intp]:

@@ -264,9 +264,7 @@ class _Search:
     def balanced(self, start: Array) -> Trial | None:
         """The film in balance that Newton's method reaches from a position (k,) m; else None, and `why`."""
         at = self._tried(start)
-        if (
-            at is None and self._warm is not None
-        ):  # a cavity that opens everywhere at once converges from a cold start
+        if at is None and self._warm is not None:  # a cavity that opens everywhere at once converges from a cold start
             self._warm = None
             at = self._tried(start)
         for _ in range(MOST_STEPS):

@@ -14,9 +14,7 @@ from reynolds.laws.law import within
 from reynolds.numerics.arrays import Array
 
 
-def hamrock_dowson_minimum(
-    speed: ArrayLike, material: ArrayLike, load: ArrayLike, ellipticity: ArrayLike
-) -> Array:
+def hamrock_dowson_minimum(speed: ArrayLike, material: ArrayLike, load: ArrayLike, ellipticity: ArrayLike) -> Array:
     """Hmin = 3.63 U^0.68 G^0.49 W^-0.073 (1 - exp(-0.68 k)). Source: Hamrock and Dowson 1977, part III.
 
     Raises FilmInputError for an ellipticity outside 1 .. 8 (the fit's own range).
@@ -26,9 +24,7 @@ def hamrock_dowson_minimum(
     return np.asarray(3.63 * u**0.68 * g**0.49 * w**-0.073 * (1.0 - np.exp(-0.68 * k)))
 
 
-def hamrock_dowson_central(
-    speed: ArrayLike, material: ArrayLike, load: ArrayLike, ellipticity: ArrayLike
-) -> Array:
+def hamrock_dowson_central(speed: ArrayLike, material: ArrayLike, load: ArrayLike, ellipticity: ArrayLike) -> Array:
     """Hc = 2.69 U^0.67 G^0.53 W^-0.067 (1 - 0.61 exp(-0.73 k)). Source: Hamrock and Dowson 1977, part III.
 
     Raises FilmInputError for an ellipticity outside 1 .. 8 (the fit's own range).

@@ -35,11 +35,7 @@ def carreau_yasuda(
 
 
 def cross(
-    shear_rate: ArrayLike,
-    viscosity: ArrayLike,
-    second_newtonian: float,
-    relaxation_time: float,
-    exponent: float,
+    shear_rate: ArrayLike, viscosity: ArrayLike, second_newtonian: float, relaxation_time: float, exponent: float
 ) -> Array:
     """mu = mu2 + (mu0 - mu2)/[1 + (lambda gamma)^m], mu2 = second_newtonian mu0. Source: Cross 1965."""
     reduced = relaxation_time * np.abs(np.asarray(shear_rate, dtype=float))

@@ -9,14 +9,7 @@ from numpy.typing import ArrayLike
 
 from reynolds.errors import FilmInputError
 from reynolds.laws.law import Tangent, require_positive, within
-from reynolds.laws.oil import (
-    HIGHEST_TEMPERATURE,
-    LOWEST_TEMPERATURE,
-    WALTHER_SHIFT,
-    Oil,
-    walther,
-    walther_coefficients,
-)
+from reynolds.laws.oil import HIGHEST_TEMPERATURE, LOWEST_TEMPERATURE, WALTHER_SHIFT, Oil, walther, walther_coefficients
 
 # Barus is the tangent of ln mu at zero pressure. With mu0 = 0.041 Pa s and 22 /GPa it is 1.2 times Roelands at
 # 0.1 GPa and 2.9 times at 0.3 GPa: beyond, its number is void (at 1 GPa it is e^22).

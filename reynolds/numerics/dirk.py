@@ -193,9 +193,7 @@ def integrate(
     """
     times = np.array([start.time, *nodes])
     if len(times) < 2 or not np.all(np.diff(times) > 0.0) or not np.all(np.isfinite(times)):
-        raise FilmInputError(
-            "nodes of the march", f"{list(nodes)[:5]} s", f"times that rise from {start.time:g} s on"
-        )
+        raise FilmInputError("nodes of the march", f"{list(nodes)[:5]} s", f"times that rise from {start.time:g} s on")
     state, pace = start, Pace(times[1] - times[0])
     for node in times[1:]:
         while node - state.time > 0.0:

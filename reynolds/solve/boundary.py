@@ -71,9 +71,7 @@ def spread(problem: FilmProblem) -> BoundaryValues:
         _check_apart(held, pockets)
     _check_level(problem, held, pockets, level)
     if cavitates and (low := pressure[held].min(initial=np.inf)) < level:
-        raise FilmInputError(
-            "boundary", f"pressure {low:.4g} Pa", f"at least the cavitation pressure {level:.4g} Pa"
-        )
+        raise FilmInputError("boundary", f"pressure {low:.4g} Pa", f"at least the cavitation pressure {level:.4g} Pa")
     return BoundaryValues(pressure, fraction, held, tuple(pockets))
 
 

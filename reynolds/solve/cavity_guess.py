@@ -95,9 +95,7 @@ class Cascade:
         return np.where(problem.held, 0.0, tied)
 
 
-def active_set(
-    pattern: csc_array, factor: Factor, problem: Obstacle, cavity: NDArray[np.bool_]
-) -> NDArray[np.bool_]:
+def active_set(pattern: csc_array, factor: Factor, problem: Obstacle, cavity: NDArray[np.bool_]) -> NDArray[np.bool_]:
     """The cavity from a guess near it: converged, or after MAX_STEPS steps of the active set.
 
     `factor` takes matrices of `pattern`, an upper triangle whose entries are not used.

@@ -77,9 +77,7 @@ def iterate_at(problem: FilmProblem, setting: BoundaryValues, before: Iterate, s
     return iterate_of(problem, deformed(problem, pressure, fraction, before.state.deformation), cavity, signed)
 
 
-def advanced(
-    problem: FilmProblem, setting: BoundaryValues, at: Iterate, signed: Array, *, downhill: bool
-) -> Iterate:
+def advanced(problem: FilmProblem, setting: BoundaryValues, at: Iterate, signed: Array, *, downhill: bool) -> Iterate:
     """The iterate after a step, cut where no film would be left or a law would not hold.
 
     `downhill` cuts it further until it reduces the imbalance; where no share does, the best of those tried. Raises

@@ -28,9 +28,7 @@ def symmetric_step(
     """Upper triangle and right-hand side for the change of pressure, identity where fixed."""
     rest, gain = with_pockets(setting, at)
     # Conductances are 1e-15 to 1e-9: scaled to order one they stay above any pivot threshold.
-    scale = (
-        float(at.parts.stiffness.max()) or float(gain.max()) or 1.0
-    )  # a film of pockets alone has no conductance
+    scale = float(at.parts.stiffness.max()) or float(gain.max()) or 1.0  # a film of pockets alone has no conductance
     data = np.empty_like(at.parts.stiffness)
     pattern = problem.space.pattern
     kernels.hold(pattern.indptr, pattern.indices, at.parts.stiffness, 1.0 / scale, fixed, gain, data)

@@ -170,9 +170,7 @@ class FilmSolver:
         kept = self._answer(solution)
         if kept is not None and is_linear(solution.problem):
             return kept.at.parts
-        return operators(
-            solution.problem, FilmState(solution.pressure, solution.film_fraction, solution.deformation)
-        )
+        return operators(solution.problem, FilmState(solution.pressure, solution.film_fraction, solution.deformation))
 
     def response(
         self, solution: FilmSolution, inflow: Array, tolerance: float = ITERATIVE_TOLERANCE
@@ -330,9 +328,7 @@ def _lifting(problem: FilmProblem, setting: BoundaryValues) -> Array:
     one = np.where(setting.held, 0.0, 1.0)
     wider = problem.space.sample_vertices(problem.walls.matrix @ one)
     lack = LEAST_GAP * np.abs(problem.film.thickness).max() - problem.film.thickness
-    lack = lack - problem.space.sample_vertices(
-        problem.walls.matrix @ np.where(setting.held, setting.pressure, 0.0)
-    )
+    lack = lack - problem.space.sample_vertices(problem.walls.matrix @ np.where(setting.held, setting.pressure, 0.0))
     needed = float(np.max(np.divide(lack, wider, out=np.zeros_like(wider), where=wider > 0.0)))
     return np.where(setting.held, setting.pressure, np.maximum(setting.pressure, needed))
 

@@ -81,9 +81,7 @@ def step_correction(film_ratio: float, reynolds: Sequence[float], cells: int = 6
     return _correction(space, _between_walls(space, before), reynolds, FILM, 0.0, rest)
 
 
-def groove_correction(
-    film_ratio: float, width_ratio: float, reynolds: Sequence[float], cells: int = 6
-) -> Correction:
+def groove_correction(film_ratio: float, width_ratio: float, reynolds: Sequence[float], cells: int = 6) -> Correction:
     """Correction of a flow across a groove of width_ratio films, where the film is film_ratio times as thick.
 
     `length` is the groove's in the film equation, width_ratio/film_ratio^3. Raises and valid as
@@ -122,12 +120,7 @@ def _between_walls(space: StokesSpace, height: float) -> HeldVelocities:
 
 
 def _correction(
-    space: StokesSpace,
-    ends: HeldVelocities,
-    reynolds: Sequence[float],
-    resistance: float,
-    length: float,
-    rest: float,
+    space: StokesSpace, ends: HeldVelocities, reynolds: Sequence[float], resistance: float, length: float, rest: float
 ) -> Correction:
     """Correction from flows of viscosity one at each Reynolds number; `rest`: drop of its films or pipes."""
     problem = FlowProblem(space, 1.0, ends)
@@ -137,10 +130,5 @@ def _correction(
     drops = np.array([mean_pressure(flow, "inlet") - mean_pressure(flow, "outlet") for flow in [creeping, *flows]])
     loss = (drops[1:] - drops[0]) / (0.5 * np.array(densities))
     return Correction(
-        resistance,
-        length,
-        (drops[0] - rest) / resistance - length,
-        np.array(reynolds, dtype=float),
-        loss,
-        flows[-1],
+        resistance, length, (drops[0] - rest) / resistance - length, np.array(reynolds, dtype=float), loss, flows[-1]
     )

@@ -113,9 +113,7 @@ def _continued(problem: FlowProblem, system: Sparse, start: Flow, density: float
         rest = density - flow.density
         next_density = density if share >= 1.0 else flow.density + share * rest
         try:
-            flow = _newton(
-                problem, system, next_density, np.concatenate([flow.velocity, flow.pressure]), MOST_STEPS
-            )
+            flow = _newton(problem, system, next_density, np.concatenate([flow.velocity, flow.pressure]), MOST_STEPS)
             share = min(1.0, 2.0 * share)
         except FilmNotConverged as reason:
             share /= 2.0
@@ -169,7 +167,5 @@ def _empty(space: StokesSpace) -> Sparse:
 
 def _solved(matrix: Sparse, rest: Array) -> Array:
     """One step: the pattern is symmetric, and so ordered it has 2/3 of the fill of the default ordering."""
-    factors = splu(
-        matrix.tocsc(), permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.01, options={"SymmetricMode": True}
-    )
+    factors = splu(matrix.tocsc(), permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.01, options={"SymmetricMode": True})
     return np.asarray(factors.solve(rest))

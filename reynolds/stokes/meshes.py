@@ -61,16 +61,12 @@ def step_mesh(heights: tuple[float, float], lengths: tuple[float, float], cells:
         graded(-lengths[0], 0.0, size * before / low, EDGE * size, size * before / low),
         graded(0.0, lengths[1], EDGE * size, size * behind / low, size * behind / low),
     )
-    y = joined(
-        graded(0.0, low, size, EDGE * size, size), graded(low, high, EDGE * size, EDGE * size, high / cells)
-    )
+    y = joined(graded(0.0, low, size, EDGE * size, size), graded(low, high, EDGE * size, EDGE * size, high / cells))
     solid_side = -1.0 if before < behind else 1.0
     return _cut(x, y, lambda c: (solid_side * c[0] > 0.0) & (c[1] > low))
 
 
-def groove_mesh(
-    height: float, depth: float, width: float, lengths: tuple[float, float], cells: int
-) -> skfem.MeshQuad:
+def groove_mesh(height: float, depth: float, width: float, lengths: tuple[float, float], cells: int) -> skfem.MeshQuad:
     """A film 0 < y < height with a groove of given depth above it, |x| < width/2; films (before, behind) it in m.
 
     `cells` even ones lie across the film, finer near the groove's edges.

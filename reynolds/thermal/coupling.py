@@ -110,11 +110,7 @@ class _Work:
 
 
 def agree(
-    posed: ThermalCase,
-    across: FilmLevels,
-    tolerance: float,
-    solver: FilmSolver | None,
-    start: Coupled[object] | None,
+    posed: ThermalCase, across: FilmLevels, tolerance: float, solver: FilmSolver | None, start: Coupled[object] | None
 ) -> Coupled[FilmTemperature | None]:
     """The film with the viscosity of its own temperature and shear rates at the levels across.
 
@@ -157,9 +153,7 @@ def _unpressed(posed: ThermalCase) -> ThermalCase:
     return replace(posed, problem=replace(problem, fluid=Fluid(isoviscous, problem.fluid.density)), law=law)
 
 
-def _film(
-    work: _Work, guess: _Guess, warm: FilmSolution | None, solved: _Guess | None
-) -> tuple[FilmSolution, _Guess]:
+def _film(work: _Work, guess: _Guess, warm: FilmSolution | None, solved: _Guess | None) -> tuple[FilmSolution, _Guess]:
     """The film of a guess, or of one nearer to the last with a solution; without one, of a thinner oil."""
     problem = work.posed.problem
     fault: InputError | FilmNotConverged | None = None
@@ -203,9 +197,7 @@ def with_profile(problem: FilmProblem, shape: FlowProfile) -> FilmProblem:
     rest = problem.film
     film = film_with(rest, problem.space, shape)
     share = film.viscosity
-    film = replace(
-        film, viscosity=share * rest.viscosity, couette_viscosity=film.sliding_viscosity * rest.viscosity
-    )
+    film = replace(film, viscosity=share * rest.viscosity, couette_viscosity=film.sliding_viscosity * rest.viscosity)
     if problem.fluid.viscosity is isoviscous:
         return replace(problem, film=film)
     return replace(problem, film=film, fluid=Fluid(_Shared(problem.fluid.viscosity, share), problem.fluid.density))

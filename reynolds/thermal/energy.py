@@ -213,9 +213,7 @@ def _sharpened(terms: _Terms, matrix: HeatMatrix, right: Array, guess: Array | N
     )
 
 
-def _terms(
-    solution: FilmSolution, heat: Heat, profile: FlowProfile, before: Array | None, at_once: bool
-) -> _Terms:
+def _terms(solution: FilmSolution, heat: Heat, profile: FlowProfile, before: Array | None, at_once: bool) -> _Terms:
     space, film = solution.problem.space, solution.film
     flows = edge_flow(solution, profile)
     wet = np.maximum(at_points(space, solution.film_fraction), LEAST_WET)
@@ -290,9 +288,7 @@ def dissipation(solution: FilmSolution, profile: FlowProfile) -> Array:
     return np.asarray(sum(space.lumped(part)[:, None] * shape for part, shape in parts) + mixed_up[:, None])
 
 
-def _equations(
-    solution: FilmSolution, heat: Heat, profile: FlowProfile, terms: _Terms
-) -> tuple[HeatMatrix, Array]:
+def _equations(solution: FilmSolution, heat: Heat, profile: FlowProfile, terms: _Terms) -> tuple[HeatMatrix, Array]:
     """Left and right side for the rise above the datum; Gauss points in m3/s (K), walls in K."""
     across, flows, space = profile.levels, terms.flows, solution.problem.space
     g = terms.conductance / terms.area

@@ -70,9 +70,7 @@ class _AtTemperature:
     resting: float
 
     def __call__(self, pressure: Array, viscosity: Array) -> tuple[Array, Array]:
-        here, ahead = (
-            np.asarray(self.viscosity(self.temperature, p)) for p in (pressure, pressure + PRESSURE_STEP)
-        )
+        here, ahead = (np.asarray(self.viscosity(self.temperature, p)) for p in (pressure, pressure + PRESSURE_STEP))
         share = viscosity / self.resting
         return share * here, share * (ahead - here) / PRESSURE_STEP
 

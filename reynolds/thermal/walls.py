@@ -112,9 +112,7 @@ def wall_rows(wall: Wall, space: FilmSpace, area: Array, conductance: Array) -> 
                 raise FilmInputError("heat transfer coefficient", f"{given.min():.4g} W/(m2 K)", "at least 0")
             # H T - q = H T_outer, scaled to suit both H = 0 and H without bound.
             share = given / (given + conductance)
-            return WallRows(
-                share, 1.0 / (given + conductance), share * _nodal(space, outer, "outer temperature", "K")
-            )
+            return WallRows(share, 1.0 / (given + conductance), share * _nodal(space, outer, "outer temperature", "K"))
         case ConductingBody(reference, matrix, _):
             return _body(space, _nodal(space, reference, "body temperature", "K"), matrix)
         case Turning(heat):
@@ -132,9 +130,7 @@ def deformation_by_heat(wall: Wall, space: FilmSpace, flux: Array) -> Array:
     grows = wall.deformation
     shapes = np.shape(grows.reference), np.shape(grows.matrix)
     if shapes != ((count,), (count, count)):
-        raise FilmInputError(
-            "deformation of a warm body", f"shapes {shapes}", f"({count},) and ({count}, {count})"
-        )
+        raise FilmInputError("deformation of a warm body", f"shapes {shapes}", f"({count},) and ({count}, {count})")
     return np.asarray(grows.reference + grows.matrix @ flux[space.vertex_dofs])
 
 

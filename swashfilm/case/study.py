@@ -243,9 +243,7 @@ def stepped(key: str, numbers: Sequence[float], dimension: Dimension | None) -> 
     if dimension is None:
         return StudyAxis(key, tuple(numbers), tuple(numbers), "")
     texts = [format_quantity(number, dimension, digits=12) for number in numbers]
-    return StudyAxis(
-        key, tuple(texts), tuple(parse_quantity(text, dimension) for text in texts), dimension.si_unit
-    )
+    return StudyAxis(key, tuple(texts), tuple(parse_quantity(text, dimension) for text in texts), dimension.si_unit)
 
 
 def _dimension(values: Sequence[Any]) -> Dimension | None:

@@ -25,6 +25,4 @@ def _no_options(command: argparse.ArgumentParser) -> None:
     """Add nothing to the parser: the command has no options."""
 
 
-COMMAND = Command(
-    "doctor", "packages, caches and graphics of this machine", _no_options, run_doctor, in_folder=False
-)
+COMMAND = Command("doctor", "packages, caches and graphics of this machine", _no_options, run_doctor, in_folder=False)

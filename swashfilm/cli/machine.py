@@ -98,9 +98,7 @@ def _kernels() -> list[Finding]:
         state = f"{kept} kept in {home}" if kept else f"none yet in {home}: the first run compiles, some 20 s"
         nearest = next(folder for folder in (home, *home.parents) if folder.exists())
         writable = os.access(nearest, os.W_OK)
-        remedy = (
-            "" if writable else "set NUMBA_CACHE_DIR to a writable folder; without it every run compiles again"
-        )
+        remedy = "" if writable else "set NUMBA_CACHE_DIR to a writable folder; without it every run compiles again"
         found.append(Finding(f"compiled kernels, {package.__name__}", state, remedy))
     return found
 

@@ -35,9 +35,5 @@ class Command:
         self.add(parser)
         if self.in_folder:
             parser.add_argument(
-                "-o",
-                "--output",
-                type=Path,
-                metavar="DIR",
-                help="run folder (default runs/NAME-N, the next free N)",
+                "-o", "--output", type=Path, metavar="DIR", help="run folder (default runs/NAME-N, the next free N)"
             )

@@ -35,9 +35,7 @@ def floating_options(options: argparse.Namespace) -> FloatingOptions:
     physics = usual.physics.without(*(_LEFT_OUT[switch] for switch in switched if switch in _LEFT_OUT))
     physics = physics.including(*(_INCLUDED[switch] for switch in switched if switch in _INCLUDED))
     finer = usual_finer(physics) if options.finer is None else float(options.finer)
-    return replace(
-        usual, steps=steps, physics=physics, finer=finer, keep=max(1, usual.keep * steps // usual.steps)
-    )
+    return replace(usual, steps=steps, physics=physics, finer=finer, keep=max(1, usual.keep * steps // usual.steps))
 
 
 def floating_faults(

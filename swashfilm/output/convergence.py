@@ -72,7 +72,5 @@ def convergence(values: Sequence[float], expected: tuple[float, float], size: fl
     assert order is not None
     rise = last / (RATIO ** min(order, expected[1]) - 1.0)
     trusted = expected[0] - ORDER_MARGIN <= order <= expected[1] + ORDER_MARGIN
-    safety, verdict = (
-        (SAFETY, ConvergenceKind.CONVERGING) if trusted else (DOUBTFUL_SAFETY, ConvergenceKind.DOUBTFUL)
-    )
+    safety, verdict = (SAFETY, ConvergenceKind.CONVERGING) if trusted else (DOUBTFUL_SAFETY, ConvergenceKind.DOUBTFUL)
     return Convergence(listed, order, listed[-1] + rise, safety * abs(rise), verdict)

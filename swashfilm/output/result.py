@@ -80,10 +80,7 @@ class Result:
     files: ClassVar[tuple[str, ...]] = (SUMMARY,)
 
     def __init__(
-        self,
-        summary: Mapping[str, Any],
-        write: Callable[[Path], Sequence[str]],
-        data: Callable[[], xarray.Dataset],
+        self, summary: Mapping[str, Any], write: Callable[[Path], Sequence[str]], data: Callable[[], xarray.Dataset]
     ) -> None:
         self.summary = summary
         self.write = write
@@ -131,8 +128,7 @@ class Result:
     def warnings(self) -> list[str]:
         """Warnings of the run, `name: text` each."""
         return [
-            one if isinstance(one, str) else f"{one['name']}: {one['text']}"
-            for one in self.summary.get("warnings", [])
+            one if isinstance(one, str) else f"{one['name']}: {one['text']}" for one in self.summary.get("warnings", [])
         ]
 
     def tables(self) -> list[Table]:
@@ -214,7 +210,6 @@ def framed(data: xarray.Dataset) -> pandas.DataFrame:
 
 def _html(title: str, rows: Sequence[Sequence[str]]) -> str:
     cells = "".join(
-        "<tr>" + "".join(f"<td style='text-align:left'>{escape(cell)}</td>" for cell in row) + "</tr>"
-        for row in rows
+        "<tr>" + "".join(f"<td style='text-align:left'>{escape(cell)}</td>" for cell in row) + "</tr>" for row in rows
     )
     return f"<table><caption>{escape(title)}</caption>{cells}</table>"

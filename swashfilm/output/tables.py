@@ -13,6 +13,5 @@ def aligned(rows: Sequence[Sequence[str]]) -> list[str]:
     columns = max((len(row) for row in rows), default=0)
     widths = [max(len(row[k]) for row in rows if len(row) > k) for k in range(columns)]
     return [
-        "  " + "  ".join(f"{cell:<{width}}" for cell, width in zip(row, widths, strict=False)).rstrip()
-        for row in rows
+        "  " + "  ".join(f"{cell:<{width}}" for cell, width in zip(row, widths, strict=False)).rstrip() for row in rows
     ]

@@ -101,9 +101,7 @@ def beside(pump: PumpDescription, courses: Courses, problem: MapProblem, toleran
     return _courses(problem, filled)
 
 
-def _run(
-    pump: PumpDescription, problem: MapProblem, tolerance: float
-) -> tuple[tuple[Any, ...], tuple[Array, ...]]:
+def _run(pump: PumpDescription, problem: MapProblem, tolerance: float) -> tuple[tuple[Any, ...], tuple[Array, ...]]:
     """Arguments of the compiled maps, and the arrays that they fill: pressures, totals, statuses."""
     points, _, samples = problem.leaks.conductance.shape
     ports, records = map_ports(pump, problem.shift, problem.wear, samples), problem.records

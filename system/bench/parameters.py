@@ -68,9 +68,7 @@ def groove_parameters() -> tuple[Parameter, ...]:
     """
     advance, area = GROOVE_SPREAD
     return (
-        Parameter(
-            GROOVE_ADVANCE, Role.BASE, Scale.NORMAL, 0.0, advance, -0.1, 0.1, Dimension.ANGLE, "cut of grooves"
-        ),
+        Parameter(GROOVE_ADVANCE, Role.BASE, Scale.NORMAL, 0.0, advance, -0.1, 0.1, Dimension.ANGLE, "cut of grooves"),
         replace(_relative(GROOVE_AREA, 1.0, area, None), source="cut of grooves"),
     )
 
@@ -148,12 +146,7 @@ def _frictions(pump: PumpDescription, tolerances: Tolerances) -> tuple[Parameter
 
 
 def _relative(
-    name: str,
-    centre: float,
-    spread: float,
-    dimension: Dimension | None,
-    role: Role = Role.BASE,
-    upper: float = inf,
+    name: str, centre: float, spread: float, dimension: Dimension | None, role: Role = Role.BASE, upper: float = inf
 ) -> Parameter:
     """One of unit logarithm's spread, between a tenth and ten times its centre."""
     return Parameter(

@@ -20,22 +20,12 @@ BIASED_INPUTS = (ChannelName.P_OUT, ChannelName.T_CASE, ChannelName.DISPLACEMENT
 CALIBRATION, TAKEN = "calibration of the channel", "not measured, taken"
 FARTHEST = 4.0  # sigma that what is taken may be off
 ENCODER_OFFSET = "encoder_offset"
-CHAMBER_GAIN, CHAMBER_ZERO, CHAMBER_LAG = (
-    f"{ChannelName.P_CHAMBER.value}.{what}" for what in ("gain", "zero", "lag")
-)
+CHAMBER_GAIN, CHAMBER_ZERO, CHAMBER_LAG = (f"{ChannelName.P_CHAMBER.value}.{what}" for what in ("gain", "zero", "lag"))
 TRACE_NAMES = frozenset({ENCODER_OFFSET, CHAMBER_GAIN, CHAMBER_ZERO, CHAMBER_LAG})
 """Names of the parameters that change what traces read, and no steady reading."""
-READING_NAMES = frozenset(
-    f"{channel.value}.{what}" for channel in OUTPUTS for what in ("gain", "zero", "drift", "lag")
-)
+READING_NAMES = frozenset(f"{channel.value}.{what}" for channel in OUTPUTS for what in ("gain", "zero", "drift", "lag"))
 """Names of the parameters that change what is read, not what is there."""
-SENSOR_NAMES = frozenset(
-    {
-        *TRACE_NAMES,
-        *READING_NAMES,
-        *(f"{channel.value}.zero" for channel in INPUTS),
-    }
-)
+SENSOR_NAMES = frozenset({*TRACE_NAMES, *READING_NAMES, *(f"{channel.value}.zero" for channel in INPUTS)})
 """Names of all parameters of sensors."""
 
 
@@ -76,16 +66,12 @@ def drift_parameter(channel: ChannelName, sigma: float) -> Parameter:
 
 def lag_parameter(channel: ChannelName, sigma: float) -> Parameter:
     """CHANNEL.lag in s: time constant with which an output follows from the reading at the point before."""
-    return Parameter(
-        f"{channel.value}.lag", Role.SENSOR, Scale.HALF, 0.0, sigma, 0.0, inf, Dimension.TIME, CALIBRATION
-    )
+    return Parameter(f"{channel.value}.lag", Role.SENSOR, Scale.HALF, 0.0, sigma, 0.0, inf, Dimension.TIME, CALIBRATION)
 
 
 def encoder_parameter(sigma: float) -> Parameter:
     """encoder_offset in rad: what the encoder of traces reads too much."""
-    return Parameter(
-        ENCODER_OFFSET, Role.SENSOR, Scale.NORMAL, 0.0, sigma, -0.2, 0.2, Dimension.ANGLE, CALIBRATION
-    )
+    return Parameter(ENCODER_OFFSET, Role.SENSOR, Scale.NORMAL, 0.0, sigma, -0.2, 0.2, Dimension.ANGLE, CALIBRATION)
 
 
 def transducer_parameters(transducer: Sensor, lag: float) -> tuple[Parameter, ...]:

@@ -40,9 +40,7 @@ class Setting:
         return MapProblem(one, self.leaks, self.wear)
 
 
-def setting(
-    pump: PumpDescription, points: BenchPoints, values: Mapping[str, float], samples_per_pitch: int
-) -> Setting:
+def setting(pump: PumpDescription, points: BenchPoints, values: Mapping[str, float], samples_per_pitch: int) -> Setting:
     """The pump with values of `base_parameters` at the points less the zeros of their sensors."""
     own = pump_with(pump, values)
     at = actual(points, values)

@@ -215,9 +215,7 @@ class LumpedBench:
             return beside(self.pump, courses, after.problem, self.tolerance)
         return self._solve(after)
 
-    def _complete(
-        self, plain: Setting, courses: Courses, values: Array, solve: Callable[[Setting], Courses]
-    ) -> Solved:
+    def _complete(self, plain: Setting, courses: Courses, values: Array, solve: Callable[[Setting], Courses]) -> Solved:
         """Laws at the pressures of chambers without them, then chambers with them: leakage moves these little."""
         if not (self.physics or plain.pump.physics.on):
             return Solved(plain, courses, plain, courses, None)
@@ -259,7 +257,5 @@ def _hold_known(parameters: tuple[Parameter, ...], physics: tuple[Extension, ...
     for parameter in parameters:
         if parameter.name not in BASE_NAMES | laws | SENSOR_NAMES:
             raise InputError(
-                "bench.parameters",
-                parameter.name,
-                "a parameter of the pump, of its sensors or of a law switched on",
+                "bench.parameters", parameter.name, "a parameter of the pump, of its sensors or of a law switched on"
             )

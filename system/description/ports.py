@@ -80,7 +80,5 @@ class PortsSection:
         """All grooves, [ports] groove_start and groove_area being one of a known area."""
         if self.groove_start is None or self.groove_area is None:
             return self.grooves
-        own = GrooveSection(
-            start=self.groove_start, end=self.groove_end, shape=GrooveShape.AREA, area=self.groove_area
-        )
+        own = GrooveSection(start=self.groove_start, end=self.groove_end, shape=GrooveShape.AREA, area=self.groove_area)
         return (own, *self.grooves)

@@ -19,9 +19,7 @@ class ToleranceSection:
     eccentricity_ratio: Spread | None = None  # absolute
     bulk_modulus: Spread | None = None
     viscosity: Spread | None = None
-    viscosity_slope: Annotated[float, Dimension.TEMPERATURE_COEFFICIENT, Positive] | None = (
-        None  # of its logarithm
-    )
+    viscosity_slope: Annotated[float, Dimension.TEMPERATURE_COEFFICIENT, Positive] | None = None  # of its logarithm
     friction: Spread | None = None
     guide_friction: Spread | None = None  # ball guide and retainer
     bearing_friction: Spread | None = None

@@ -22,9 +22,7 @@ SOCKET, GUIDE = 3, 4
 def rubbed(losses: FrictionPairs[Value], effects: Effects[Value]) -> FrictionPairs[Value]:
     """The pairs' losses with an effect's factors and additions."""
     changed = {
-        pair.value: _rubbed(
-            losses.loss(pair), effects.coulomb[row], effects.viscous[row], effects.extra_coulomb[row]
-        )
+        pair.value: _rubbed(losses.loss(pair), effects.coulomb[row], effects.viscous[row], effects.extra_coulomb[row])
         for row, pair in enumerate(OF_GAP[gap] for gap in GAPS)
     }
     return replace(
@@ -35,7 +33,5 @@ def rubbed(losses: FrictionPairs[Value], effects: Effects[Value]) -> FrictionPai
     )
 
 
-def _rubbed(
-    loss: PairLoss[Value], coulomb: Array | float, viscous: Array | float, extra: Array
-) -> PairLoss[Value]:
+def _rubbed(loss: PairLoss[Value], coulomb: Array | float, viscous: Array | float, extra: Array) -> PairLoss[Value]:
     return replace(loss, coulomb=loss.coulomb * coulomb + extra, viscous=loss.viscous * viscous)

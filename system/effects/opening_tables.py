@@ -71,9 +71,7 @@ class OpeningCase:
         point = replace(self.pump.operating, **dict.fromkeys(VARIED, 0.0))
         bare = replace(self.pump, name="", physics=PhysicsSection(), operating=point)
         meshes = [body.mesh.content for body in self.pump.bodies]
-        return content_key(
-            "opening of a film", TABLE_FORMAT, resolved_toml(bare), meshes, self.gap.value, FINER, x
-        )
+        return content_key("opening of a film", TABLE_FORMAT, resolved_toml(bare), meshes, self.gap.value, FINER, x)
 
     def solve(self, x: Array) -> Array:
         """Leakage and shear (2,) between elastic over those between rigid walls at a pressure (1,)."""

@@ -18,8 +18,7 @@ def outside(effects: Effects[Value], state: BenchState[Value]) -> Outside[Value]
     """
     modulus = state.geometry.oil.bulk_modulus
     delivery, inlet, case = (
-        np.exp(-pressure / modulus)
-        for pressure in (state.delivery_pressure, state.inlet_pressure, state.case_pressure)
+        np.exp(-pressure / modulus) for pressure in (state.delivery_pressure, state.inlet_pressure, state.case_pressure)
     )
     missing = (1.0 - effects.intake) * ideal_flow(state)
     not_done = missing / inlet * modulus * (inlet - delivery)

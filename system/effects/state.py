@@ -30,9 +30,7 @@ def piston_area(state: BenchState[Value]) -> float:
 def full_stroke(state: BenchState[Value]) -> float:
     """Stroke in m at the largest swash angle."""
     part = state.geometry.pump
-    return stroke(
-        crossed_drive(part.pitch_radius, part.bore_cone_angle, part.swash_angle_max, part.cross_angle or 0.0)
-    )
+    return stroke(crossed_drive(part.pitch_radius, part.bore_cone_angle, part.swash_angle_max, part.cross_angle or 0.0))
 
 
 def swash_tangent(state: BenchState) -> Array:

@@ -43,9 +43,7 @@ def hold_plain(pump: PumpDescription) -> None:
         raise InputError("physics", found, "no effects, or the lumped or the films fidelity, which read them")
 
 
-def stated_effects(
-    laws: Sequence[tuple[Law, Values]], courses: Mapping[Gap, GapCourse], state: BenchState
-) -> Effects:
+def stated_effects(laws: Sequence[tuple[Law, Values]], courses: Mapping[Gap, GapCourse], state: BenchState) -> Effects:
     """Combined changes by `stated_laws`; none where all are off."""
     found = (law(values, courses, state) for law, values in laws)
     return reduce(both, found, unchanged(courses))

@@ -54,9 +54,7 @@ class Observations:
             if found != expected:
                 raise InputError(f"observations.{name}", f"shape {found}", f"shape {expected}")
         if not np.all(self.sigma[self.measured] > 0):
-            raise InputError(
-                "observations.sigma", "a reading without a positive sigma", "one sigma for each reading"
-            )
+            raise InputError("observations.sigma", "a reading without a positive sigma", "one sigma for each reading")
 
     @property
     def measured(self) -> NDArray[np.bool_]:

@@ -11,12 +11,7 @@ import numpy as np
 from gaps.films.physics import Effect, Physics
 from gaps.films.reports import BlockReport
 from gaps.revolution.film_heat import GapHeat
-from gaps.standing.conductances import (
-    drag_power,
-    kidney_conductances,
-    piston_conductance,
-    slipper_conductance,
-)
+from gaps.standing.conductances import drag_power, kidney_conductances, piston_conductance, slipper_conductance
 from gaps.standing.gap_film import GapFilm
 from gaps.standing.heat import warm_turn
 from reynolds.floating.step import FloatingStage

@@ -15,15 +15,7 @@ import numpy as np
 from gaps.films.block import BlockDrive, wrench_about
 from gaps.films.over_turn import OverTurn, PeriodicCurve
 from gaps.films.piston import PistonDrive, PistonShape
-from gaps.films.slipper import (
-    PocketOrifice,
-    Retainer,
-    SlipperDrive,
-    SlipperShape,
-    face_force,
-    face_inertia,
-    pressed_by,
-)
+from gaps.films.slipper import PocketOrifice, Retainer, SlipperDrive, SlipperShape, face_force, face_inertia, pressed_by
 from gaps.loads.ball_joint import (
     BallForces,
     DrivenBody,
@@ -286,7 +278,5 @@ def slipper_shape(rotor: Rotor, parts: FloatingParts) -> SlipperShape:
     """The slipper's face and feed."""
     slipper = rotor.pump.slipper
     flow_coefficient = parts.slipper.orifice_flow_coefficient
-    orifice = PocketOrifice(
-        slipper.orifice_diameter, slipper.orifice_length, flow_coefficient, bore_table(slipper)
-    )
+    orifice = PocketOrifice(slipper.orifice_diameter, slipper.orifice_length, flow_coefficient, bore_table(slipper))
     return SlipperShape(slipper.lands, orifice, parts.slipper.face)

@@ -8,11 +8,7 @@ from typing import assert_never
 import numpy as np
 
 from gaps.films.physics import Physics
-from gaps.standing.conductances import (
-    kidney_conductances,
-    piston_conductance,
-    slipper_land_conductance,
-)
+from gaps.standing.conductances import kidney_conductances, piston_conductance, slipper_land_conductance
 from reynolds.numerics.arrays import Array
 from system.description.gap import Gap
 from system.films.parts import FloatingParts
@@ -33,13 +29,7 @@ class FilmNumbers:
 
 
 def film_numbers(
-    gap: Gap,
-    rotor: Rotor,
-    parts: FloatingParts,
-    shaft_angle: float,
-    pressure: float,
-    physics: Physics,
-    finer: float,
+    gap: Gap, rotor: Rotor, parts: FloatingParts, shaft_angle: float, pressure: float, physics: Physics, finer: float
 ) -> FilmNumbers:
     """Numbers of a gap's film with its chamber, or the chambers on the delivery side, at a pressure (Pa).
 

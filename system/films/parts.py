@@ -10,16 +10,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
 from gaps.films.physics import FilmLaws
-from gaps.shapes.profiles import (
-    Barrel,
-    Crown,
-    EdgeRelief,
-    Profile,
-    ProfileShape,
-    Waviness,
-    measured,
-    ring_grooves,
-)
+from gaps.shapes.profiles import Barrel, Crown, EdgeRelief, Profile, ProfileShape, Waviness, measured, ring_grooves
 from reynolds.bodies.elasticity import Elastic
 from reynolds.laws.contact import Asperities, composite_modulus
 from reynolds.laws.fluid import CONSTANT, Fluid
@@ -222,11 +213,7 @@ def _retainer(pump: PumpDescription, taken: Taken) -> RetainerParts:
     }
     clearance = taken.value("retainer.clearance", part.clearance, 30e-6, rises[kind], Dimension.LENGTH)
     stiffness = taken.value(
-        "retainer.stiffness",
-        part.stiffness,
-        1e8,
-        "order of a steel plate between two slippers",
-        Dimension.STIFFNESS,
+        "retainer.stiffness", part.stiffness, 1e8, "order of a steel plate between two slippers", Dimension.STIFFNESS
     )
     return RetainerParts(kind, clearance, stiffness)
 
@@ -250,9 +237,7 @@ def _block(pump: PumpDescription, laws: FilmLaws, taken: Taken) -> BlockParts:
     return BlockParts(height, Profile(tuple(shapes)), laws)
 
 
-def _laws(
-    pump: PumpDescription, pair: str, oil: Fluid, materials: Mapping[str, Material], taken: Taken
-) -> FilmLaws:
+def _laws(pump: PumpDescription, pair: str, oil: Fluid, materials: Mapping[str, Material], taken: Taken) -> FilmLaws:
     """Oil and rough walls of a gap, without a lay; half of the variance on either wall."""
     stated = getattr(pump.surfaces, pair) or SurfaceSection()
     path, (one, two) = f"surfaces.{pair}", (materials[name] for name in _FACES[pair])
@@ -269,10 +254,7 @@ def _laws(
         "0.04/(radius x composite_roughness), Greenwood and Tripp 1970-71", Dimension.AREAL_DENSITY,
     )  # fmt: skip
     friction = taken.value(
-        f"{path}.friction_coefficient",
-        stated.friction_coefficient,
-        0.1,
-        "boundary friction of metals in mineral oil",
+        f"{path}.friction_coefficient", stated.friction_coefficient, 0.1, "boundary friction of metals in mineral oil"
     )
     modulus = composite_modulus(one.youngs_modulus, one.poissons_ratio, two.youngs_modulus, two.poissons_ratio)
     wall = height / math.sqrt(2.0)

@@ -15,9 +15,7 @@ RIGID = Physics().without(Effect.ELASTIC_WALLS, Effect.PRESSURE_VISCOSITY)
 Cells = tuple[int, int]
 
 
-def piston_film(
-    rotor: Rotor, parts: FloatingParts, drive: PistonDrive, physics: Physics, cells: Cells
-) -> PistonFilm:
+def piston_film(rotor: Rotor, parts: FloatingParts, drive: PistonDrive, physics: Physics, cells: Cells) -> PistonFilm:
     """The piston's film; cells = (around, along)."""
     return PistonFilm(piston_shape(rotor, parts), drive, parts.piston.laws, physics, cells)
 

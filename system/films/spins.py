@@ -62,10 +62,7 @@ def estimated_torques(pump: PumpDescription, point: OperatingPoint, drive: Swash
     lands = (land_drag(point.viscosity, *land, slipper.film_thickness) for land in slipper.lands.radii)
     return SpinTorques(
         pump.friction.piston_slipper_socket * force * slipper.ball_joint_radius,
-        (
-            bore_drag(point.viscosity, pump.pump.piston_diameter, length, part.radial_clearance),
-            math.fsum(lands),
-        ),
+        (bore_drag(point.viscosity, pump.pump.piston_diameter, length, part.radial_clearance), math.fsum(lands)),
     )
 
 

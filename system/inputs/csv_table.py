@@ -80,8 +80,7 @@ def _units(path: Path, head: list[str], heads: Heads) -> dict[str, str]:
     """The unit of each column by name, in the file's order; raises InputFaults for other columns than wanted."""
     matches = [_HEAD.fullmatch(cell) for cell in head]
     names = [
-        match[1].replace(" ", "_").lower() if match else cell.strip()
-        for match, cell in zip(matches, head, strict=True)
+        match[1].replace(" ", "_").lower() if match else cell.strip() for match, cell in zip(matches, head, strict=True)
     ]
     faults = [
         Fault(f"column '{cell.strip()}'", "no unit" if name in heads else "unknown column", _wanted(heads),
@@ -98,9 +97,7 @@ def _units(path: Path, head: list[str], heads: Heads) -> dict[str, str]:
     return {name: match[2].strip() for name, match in zip(names, matches, strict=True) if match}
 
 
-def _numbers(
-    number: int, cells: list[str], units: Mapping[str, str], heads: Heads, faults: list[Fault]
-) -> list[float]:
+def _numbers(number: int, cells: list[str], units: Mapping[str, str], heads: Heads, faults: list[Fault]) -> list[float]:
     """One line in SI; what is wrong with it goes to the faults."""
     if len(cells) != len(units):
         faults.append(Fault(f"line {number}", f"{len(cells)} values", f"{len(units)} values"))

@@ -30,9 +30,7 @@ class InputFaults(Exception):
     `lines` gives the line of a path in the file, where it is known; None for a path that is not in the file.
     """
 
-    def __init__(
-        self, source: str, faults: Sequence[Fault], lines: Mapping[str, int | None] | None = None
-    ) -> None:
+    def __init__(self, source: str, faults: Sequence[Fault], lines: Mapping[str, int | None] | None = None) -> None:
         self.source = source
         self.faults = tuple(faults)
         self.lines = dict(lines or {})

@@ -75,9 +75,7 @@ def common_axes(one: MapData, other: MapData) -> tuple[MapAxis, ...]:
         if lower > upper and not (inside(mine, np.array([lower]))[0] and inside(theirs, np.array([lower]))[0]):
             box, own = (_range(axis) for axis in (theirs, mine))
             remedy = "maps of both over the same levels, or a pump in place of one map"
-            faults.append(
-                Fault(given.words, f"{box} in the second map", f"some of {own}, the first map's", remedy)
-            )
+            faults.append(Fault(given.words, f"{box} in the second map", f"some of {own}, the first map's", remedy))
             continue
         levels = {lower, max(lower, upper)} | {value for value in mine.values if lower < value < upper}
         found.append(MapAxis(given, tuple(sorted(levels))))
@@ -112,9 +110,7 @@ def _differences(one: MapData, other: MapData, errors: list[MapError]) -> Iterat
         pair = one.efficiency(definition).overall, other.efficiency(definition).overall
         if all(np.isfinite(values).any() for values in pair):
             difference = _difference(f"overall efficiency, {definition.label}", "1", one, *pair, 0.0)
-            yield replace(
-                difference, error=sum(_efficiency_error(one, other, difference, each) for each in errors)
-            )
+            yield replace(difference, error=sum(_efficiency_error(one, other, difference, each) for each in errors))
     for column, (words, unit) in COMPARED.items():
         pair = one.values[column], other.values[column]
         if any(np.any(values) for values in pair):

@@ -122,9 +122,7 @@ class MapData:
             if definition is EfficiencyDefinition.ISO_TOET and derived is None:
                 continue
             swept = float(self.values["swept_displacement"][index])
-            basis = EfficiencyBasis(
-                self.reading(index), self.bulk_modulus, swept, derived.value if derived else None
-            )
+            basis = EfficiencyBasis(self.reading(index), self.bulk_modulus, swept, derived.value if derived else None)
             found = efficiency(definition, basis)
             parts[:, *index] = found.overall, found.volumetric, found.hydromechanical
         return MapEfficiency(*parts)

@@ -84,15 +84,11 @@ def duty(interpolant: MapInterpolant, cycle: Cycle, error: MapError) -> Duty:
     time, largest = cycle.duration, dict(error.largest)
     largest["loss"] = largest["shaft_power"] + largest["hydraulic_power"]
     names = {"shaft_power": "shaft", "hydraulic_power": "hydraulic", "loss": "loss", **LOSSES}
-    energies = {
-        words: Energy(over_time(interpolated[name]), time * largest[name]) for name, words in names.items()
-    }
+    energies = {words: Energy(over_time(interpolated[name]), time * largest[name]) for name, words in names.items()}
     return Duty(
         duration=time,
         volume=Energy(over_time(interpolated["delivery_flow"]), time * largest["delivery_flow"]),
-        energies={
-            words: energy for words, energy in energies.items() if energy.value != 0.0 or energy.error != 0.0
-        },
+        energies={words: energy for words, energy in energies.items() if energy.value != 0.0 or energy.error != 0.0},
         efficiency=_efficiencies(interpolated, share, energies),
         marked=_marked(interpolant.data, places, share / time),
         shown_by=f"{error.count} {error.shown_by}",
@@ -161,9 +157,7 @@ def _marked(data: MapData, places: Mapping[MapInput, Array], share: Array) -> di
     names = sorted({name for remarks in data.warnings.flat for name, _ in remarks})
     found = {}
     for name in names:
-        here = np.array([any(name == one for one, _ in remarks) for remarks in data.warnings.flat]).reshape(
-            data.shape
-        )
+        here = np.array([any(name == one for one, _ in remarks) for remarks in data.warnings.flat]).reshape(data.shape)
         corners = [
             here[tuple(ends[corner >> k & 1] for k, ends in enumerate(cell))] for corner in range(2 ** len(cell))
         ]

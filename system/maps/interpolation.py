@@ -136,9 +136,7 @@ def check_points(plan: MapPlan, count: int) -> tuple[OperatingPoint, ...]:
     values = lower + places * (np.array([axis.values[-1] for axis in wide]) - lower)
     held = {axis.input.value: axis.values[0] for axis in plan.axes if len(axis.values) == 1}
     return tuple(
-        operating_point(
-            plan.pump, **held, **{axis.input.value: float(x) for axis, x in zip(wide, row, strict=True)}
-        )
+        operating_point(plan.pump, **held, **{axis.input.value: float(x) for axis, x in zip(wide, row, strict=True)})
         for row in values
     )
 
@@ -156,9 +154,7 @@ class MapError:
     shown_by: str
 
 
-def fresh_error(
-    interpolant: MapInterpolant, points: Sequence[OperatingPoint], found: Mapping[str, Array]
-) -> MapError:
+def fresh_error(interpolant: MapInterpolant, points: Sequence[OperatingPoint], found: Mapping[str, Array]) -> MapError:
     """The error at fresh points: `found` are their numbers (N,) by column."""
     at = {given: np.array([getattr(point, given.value) for point in points]) for given in MapInput}
     interpolated = interpolant.at(at)

@@ -103,9 +103,7 @@ def ball_motion(circle: BoreCircle, plate: Plate, shaft_angle: Array, speed: flo
     radius = np.stack([np.cos(shaft_angle), np.sin(shaft_angle), np.zeros_like(shaft_angle)])
     place = circle.pitch_radius * radius + found.place * axis
     way, gain = found.velocity(plate, speed), found.acceleration(plate, speed)
-    return BallMotion(
-        axis, place, way * axis + speed * cross(SHAFT, place), swept(place, axis, way, gain, speed), way
-    )
+    return BallMotion(axis, place, way * axis + speed * cross(SHAFT, place), swept(place, axis, way, gain, speed), way)
 
 
 def swept(place: Array, axis: Array, way: Array, gain: Array, speed: float) -> Array:

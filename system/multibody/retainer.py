@@ -87,9 +87,7 @@ def hold(contact: GuideContact, motion: BallMotion, plate_axes: Array, speed: fl
     onward = np.stack([-flat[1], flat[0]])
     slip = np.tensordot(plate_axes[:2], motion.velocity, axes=1) - speed * onward
     radius = float(np.sqrt(np.mean(np.sum(flat**2, axis=0))))
-    flat, onward, slip = (
-        _all_slippers(one, step) for one in (flat / radius, onward / radius, slip / (radius * speed))
-    )
+    flat, onward, slip = (_all_slippers(one, step) for one in (flat / radius, onward / radius, slip / (radius * speed)))
     force, moment = plate_axes @ contact.force, plate_axes @ contact.moment / radius
     count = flat.shape[-1]
     ones, zeros = np.ones((1, pistons, count)), np.zeros((1, pistons, count))

@@ -33,22 +33,9 @@ from system.pump.assembly import PumpPoint
 from system.pump.chamber_kinds import kinds
 from system.pump.laws.directions import plate_axes
 from system.pump.laws.friction_pairs import Pair, over_chambers
-from system.pump.laws.kinematics import (
-    SwashDrive,
-    displacement,
-    drive_at_ratio,
-    piston_acceleration,
-    stroke,
-)
+from system.pump.laws.kinematics import SwashDrive, displacement, drive_at_ratio, piston_acceleration, stroke
 from system.pump.laws.retainer import BallGuide
-from system.pump.lumped import (
-    block_spring,
-    chamber_problem,
-    full_drive,
-    group_masses,
-    piston_area,
-    piston_motion,
-)
+from system.pump.lumped import block_spring, chamber_problem, full_drive, group_masses, piston_area, piston_motion
 from system.pump.operating import OperatingPoint
 from system.pump.shaft_torque import GroupMasses, forces_by_loss
 

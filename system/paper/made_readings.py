@@ -32,9 +32,9 @@ def made_readings(source: PaperPoints) -> tuple[BenchPoints, Observations]:
     true = np.array([
         [of.delivery_flow, of.inlet_flow, of.drain_flow, of.shaft_torque] for of in (one.bench for one in rows)
     ])  # fmt: skip
-    sigma = np.array([one for one, _ in NOISE.values()]) + np.array(
-        [share for _, share in NOISE.values()]
-    ) * np.abs(true)
+    sigma = np.array([one for one, _ in NOISE.values()]) + np.array([share for _, share in NOISE.values()]) * np.abs(
+        true
+    )
     values = true + sigma * np.random.default_rng(SEED).standard_normal(true.shape)
     channels = tuple(Channel(name.value, name.dimension) for name in NOISE)
     count = len(rows)

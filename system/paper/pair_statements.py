@@ -99,8 +99,7 @@ PAIR_CLAIMS = (
     number_claim(
         "fig20.piston",
         Figure.FIG20,
-        "the proportion occupied by .. the piston cylinder pairs greatly decreases "
-        "with the decrease of displacement",
+        "the proportion occupied by .. the piston cylinder pairs greatly decreases with the decrease of displacement",
         "share at a displacement over that at the next higher",
         0.0,
         1.0,

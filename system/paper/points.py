@@ -68,9 +68,7 @@ class Place:
     @property
     def text(self) -> str:
         """In words."""
-        return (
-            f"{self.speed / RPM:.0f} r/min, {1e-6 * self.pressure:g} MPa, {100.0 * self.ratio:.0f} % displacement"
-        )
+        return f"{self.speed / RPM:.0f} r/min, {1e-6 * self.pressure:g} MPa, {100.0 * self.ratio:.0f} % displacement"
 
 
 @dataclass(frozen=True)
@@ -102,9 +100,7 @@ class PaperPoint:
         """Bench readings; mixed coefficients alone leave the torque of the films' shear out."""
         if reading is LossReading.WITH_SHEAR:
             return self.bench
-        return replace(
-            self.bench, shaft_torque=self.bench.shaft_torque - sum(self.viscous) / self.bench.shaft_speed
-        )
+        return replace(self.bench, shaft_torque=self.bench.shaft_torque - sum(self.viscous) / self.bench.shaft_speed)
 
     def overall(self, reading: LossReading) -> float:
         """Overall efficiency, the paper's Eq. (3)."""
@@ -153,10 +149,7 @@ class PaperWork:
     def at(self, place: Place) -> OperatingPoint:
         """The point of a place; KeyError if it was not solved."""
         return operating_point(
-            self.pump,
-            shaft_speed=place.speed,
-            delivery_pressure=place.pressure,
-            displacement_ratio=place.ratio,
+            self.pump, shaft_speed=place.speed, delivery_pressure=place.pressure, displacement_ratio=place.ratio
         )
 
 

@@ -13,13 +13,7 @@ _TABLE = (
     ("displacement", "the pump with the displacement of 90 mL/r", Unit.DISPLACEMENT, 89.5e-6, 90.5e-6),
     ("pressure", "the rated pressure of the test pump is 35 MPa", Unit.PRESSURE, 34.5e6, 35.5e6),
     ("speed", "the rated speed is 2100 r/min", Unit.SPEED, 2099.5 / Unit.SPEED.factor, 2100.5 / Unit.SPEED.factor),
-    (
-        "swash_angle",
-        "at swash plate angle of 16.2°",
-        Unit.ANGLE,
-        16.15 / Unit.ANGLE.factor,
-        16.25 / Unit.ANGLE.factor,
-    ),
+    ("swash_angle", "at swash plate angle of 16.2°", Unit.ANGLE, 16.15 / Unit.ANGLE.factor, 16.25 / Unit.ANGLE.factor),
     ("spring", "not too big (1080 N in the test pump)", Unit.FORCE, 1079.5, 1080.5),
     (
         "piston_film",
@@ -130,8 +124,7 @@ _FILM_CLAIMS = (
     number_claim(
         "fig9.falls",
         Figure.FIG9,
-        "With the increase of the displacement, the oil film depth of slipper swash "
-        "plate pair gradually decreases",
+        "With the increase of the displacement, the oil film depth of slipper swash plate pair gradually decreases",
         "mean film at a displacement over that at the next lower",
         0.0,
         1.0,
@@ -177,8 +170,7 @@ _CHAMBER_CLAIMS = (
     share_claim(
         "fig11.small",
         Figure.FIG11,
-        "a small pressure impact is produced in the pre-relieving pressure transition "
-        "region at the pressure of 5 MPa",
+        "a small pressure impact is produced in the pre-relieving pressure transition region at the pressure of 5 MPa",
         "peak above the delivery pressure, of the rated pressure",
         0.01,
         0.1,

@@ -47,9 +47,7 @@ def with_stroke(point: OperatingPoint, effects: Sequence[Effects[float]]) -> Ope
     return displaced(point, float(np.mean([one.ideal for one in effects]))) if effects else point
 
 
-def mean_outside(
-    pump: PumpDescription, point: OperatingPoint, effects: Sequence[Effects[float]]
-) -> Outside[float]:
+def mean_outside(pump: PumpDescription, point: OperatingPoint, effects: Sequence[Effects[float]]) -> Outside[float]:
     """Contributions outside the chambers at a point, mean of the chambers' effects."""
     state = bench_state(pump, point, 0.0)
     return mean_of([outside(one, state) for one in effects]) if effects else NOTHING_OUTSIDE

@@ -40,12 +40,7 @@ from system.films.rotor import Rotor
 from system.inputs.units import Dimension, format_quantity
 from system.pump.film_thickness import given_film, opening_share
 
-SOLVED = (
-    EffectId.FILM_HEATING,
-    EffectId.VISCOSITY_PRESSURE,
-    EffectId.ELASTIC_OPENING,
-    EffectId.THERMAL_CLEARANCE,
-)
+SOLVED = (EffectId.FILM_HEATING, EffectId.VISCOSITY_PRESSURE, EffectId.ELASTIC_OPENING, EffectId.THERMAL_CLEARANCE)
 """Effects that films solve; any other effect acts by its closed law."""
 _SOLVED_SHARES = (0.0, 1.0, 0.0)
 """carried_share, throttled_share and carry_over by which the closed law comes nearest to films that solve them."""
@@ -217,6 +212,5 @@ def _with_laws(parts: FloatingParts, changed: Callable[[Gap, FilmLaws], FilmLaws
     """The parts with the laws of each gap's film changed."""
     found = {name: getattr(parts, name) for name in _PART.values()}
     return replace(
-        parts,
-        **{name: replace(found[name], laws=changed(gap, found[name].laws)) for gap, name in _PART.items()},
+        parts, **{name: replace(found[name], laws=changed(gap, found[name].laws)) for gap, name in _PART.items()}
     )

@@ -193,9 +193,7 @@ def _round(
         rotor=rotor(pump, met_point(point, ported)),
         pressure=tuple(cycle.pressure for cycle in ported.cycles),
         rubbing=tuple(rubbing(own, samples) for own in gaps),
-        spin_torques=tuple(
-            spin_torques(own, at, of.group) for own, at, of in zip(gaps, turning, driven, strict=True)
-        ),
+        spin_torques=tuple(spin_torques(own, at, of.group) for own, at, of in zip(gaps, turning, driven, strict=True)),
     )
     turned = [*(gap for own in gaps for gap in (own.piston, own.slipper)), gaps[0].block]
     taken = Round(
@@ -268,9 +266,7 @@ def _not_settled(taken: Round) -> NotConverged:
     )
 
 
-def _floating_point(
-    point: OperatingPoint, group: Group, found: _Found, rounds: tuple[Round, ...]
-) -> FloatingPoint:
+def _floating_point(point: OperatingPoint, group: Group, found: _Found, rounds: tuple[Round, ...]) -> FloatingPoint:
     """The pump with gaps and chambers that agree."""
     asked, ported, block = found.asked, found.ported, found.gaps[0].block
     pistons, speed, samples = asked.rotor.pump.pump.pistons, point.shaft_speed, asked.shaft_angle.size
@@ -279,9 +275,7 @@ def _floating_point(
         FloatingKind(group.kinds.chambers(kind), *each)
         for kind, each in enumerate(zip(rotors, group.parts, drives_of(asked, group), found.gaps, strict=True))
     ]
-    chambers = list(
-        zip(group.kinds.by_chamber(of_kinds), by_chamber(group, found.gaps), ported.cycles, strict=True)
-    )
+    chambers = list(zip(group.kinds.by_chamber(of_kinds), by_chamber(group, found.gaps), ported.cycles, strict=True))
     each, derived = [], []
     for own, gaps, cycle in chambers:
         motion = piston_motion(own.rotor.pump, point)

@@ -221,9 +221,7 @@ def block_torque(block: GapRevolution[BlockReport], samples: int) -> Array:
     return resampled(np.tile(passing(block, lambda report: report.torque), turns), samples)
 
 
-def with_floating_gaps(
-    losses: FrictionPairs, gaps: FloatingGaps, group: tuple[GroupInstant, ...]
-) -> FrictionPairs:
+def with_floating_gaps(losses: FrictionPairs, gaps: FloatingGaps, group: tuple[GroupInstant, ...]) -> FrictionPairs:
     """The pairs with those of the three gaps from their films: shear of oil as viscous, rubbing as Coulomb's.
 
     The joint rubs as its forces and spins have it. Ball guide and bearings stay.

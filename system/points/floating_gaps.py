@@ -75,9 +75,7 @@ class FloatingOptions:
     @property
     def rigid(self) -> FloatingOptions:
         """The same between rigid walls, with oil that neither pressure nor heat changes."""
-        return replace(
-            self, physics=self.physics.without(Effect.ELASTIC_WALLS, Effect.PRESSURE_VISCOSITY, Effect.HEAT)
-        )
+        return replace(self, physics=self.physics.without(Effect.ELASTIC_WALLS, Effect.PRESSURE_VISCOSITY, Effect.HEAT))
 
     @property
     def piston_cells(self) -> tuple[int, int]:

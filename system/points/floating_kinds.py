@@ -21,12 +21,7 @@ from system.films.parts import FloatingParts, floating_parts
 from system.films.rotor import Rotor
 from system.films.spins import SpinTorques
 from system.points.floating_exchange import FloatingGaps, growth, leak_table
-from system.points.floating_gaps import (
-    FloatingOptions,
-    block_revolution,
-    piston_revolution,
-    slipper_revolution,
-)
+from system.points.floating_gaps import FloatingOptions, block_revolution, piston_revolution, slipper_revolution
 from system.points.piston_process import Driven, PistonBeside
 from system.pump.chamber.problem import ChamberProblem
 from system.pump.chamber_kinds import Kinds, kinds
@@ -85,11 +80,7 @@ def driven_by(asked: RoundDrives, group: Group) -> tuple[Driven, ...]:
     pressure = np.array(asked.pressure)
     return tuple(
         Driven(
-            rotor,
-            asked.shaft_angle,
-            pressure[list(group.kinds.chambers(kind))].mean(axis=0),
-            rubbing,
-            asked.options,
+            rotor, asked.shaft_angle, pressure[list(group.kinds.chambers(kind))].mean(axis=0), rubbing, asked.options
         )
         for kind, (rotor, rubbing) in enumerate(zip(group.rotors(asked), asked.rubbing, strict=True))
     )
@@ -153,7 +144,5 @@ def chamber_problems(
     rotors = group.kinds.by_chamber(group.rotors(asked))
     return tuple(
         replace(chamber_problem(at.pump, point, motion, leak_table(own)), growth=growth(own, at, parts))
-        for at, parts, own in zip(
-            rotors, group.kinds.by_chamber(group.parts), by_chamber(group, gaps), strict=True
-        )
+        for at, parts, own in zip(rotors, group.kinds.by_chamber(group.parts), by_chamber(group, gaps), strict=True)
     )

@@ -49,10 +49,7 @@ def transmission(pump: PumpDescription, motor: PumpDescription, point: Operating
 
     driving = lumped_point(pump, point)
     turned = replace(
-        point,
-        delivery_pressure=point.inlet_pressure,
-        inlet_pressure=point.delivery_pressure,
-        displacement_ratio=1.0,
+        point, delivery_pressure=point.inlet_pressure, inlet_pressure=point.delivery_pressure, displacement_ratio=1.0
     )
 
     def motor_at(speed: float) -> PumpPoint:

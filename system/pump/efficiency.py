@@ -18,11 +18,7 @@ class EfficiencyDefinition(Enum):
 
     PAPER = ("paper", "the paper's Eqs. (3)-(5)", "(p2 Q2 - p1 Q1)/(w T), Q2/Q1")
     ISO_SWEPT = ("iso_4409_swept", "ISO 4409, swept displacement", "(p2 Q2 - p1 Q1)/(w T), Q2/(n V), V swept")
-    ISO_TOET = (
-        "iso_4409_toet",
-        "ISO 4409, displacement by Toet",
-        "(p2 Q2 - p1 Q1)/(w T), Q2/(n V), V by ISO 8426-1",
-    )
+    ISO_TOET = ("iso_4409_toet", "ISO 4409, displacement by Toet", "(p2 Q2 - p1 Q1)/(w T), Q2/(n V), V by ISO 8426-1")
     ENERGY_RETURNED = ("energy_returned", "energy, compression given back", "(sum p Q + E)/(w T)")
     ENERGY_NOT_RETURNED = ("energy_not_returned", "energy, compression lost", "(sum p Q)/(w T)")
 

@@ -15,13 +15,7 @@ import numpy as np
 from gaps.shapes.orifice_table import OrificeTable
 from reynolds.numerics.arrays import Array
 from system.description.pump import PumpDescription, SlipperSection
-from system.inputs.coefficients.edge_losses import (
-    Edge,
-    Excess,
-    LandPath,
-    LossCourse,
-    secant_conductance,
-)
+from system.inputs.coefficients.edge_losses import Edge, Excess, LandPath, LossCourse, secant_conductance
 from system.inputs.coefficients.flow_files import FlowCoefficients
 from system.inputs.coefficients.loss_files import LossFactors
 from system.inputs.units import TURN
@@ -78,9 +72,7 @@ def creeping_film_leaks(pump: PumpDescription, leaks: LeakTable, viscosity: floa
     return LeakTable(np.stack([piston, slipper, sum(parts)]), leaks.drag_flow)
 
 
-def with_inertia(
-    pump: PumpDescription, leaks: LeakTable, drop: Array, viscosity: float, *, bore: bool
-) -> LeakTable:
+def with_inertia(pump: PumpDescription, leaks: LeakTable, drop: Array, viscosity: float, *, bore: bool) -> LeakTable:
     """Leaks of creeping flow with the losses by inertia at pressures over the case's, drop (N,) in Pa.
 
     Conductances are those of chords: flow over pressure. `bore`: of the slipper's bore too, where the leaks have
@@ -101,9 +93,7 @@ def with_inertia(
     piston, slipper, plate = leaks.conductance
     inner, outer = (share * plate for share in _plate_shares(pump))
     of_lands = by(losses.slipper)
-    slipper = secant_conductance(
-        slipper, lambda flow: of_lands(flow) + through_bore(flow), drop, "slipper.pocket_file"
-    )
+    slipper = secant_conductance(slipper, lambda flow: of_lands(flow) + through_bore(flow), drop, "slipper.pocket_file")
     inner, outer = (
         secant_conductance(one, by(path), drop, "valve_plate.kidney_file")
         for one, path in ((inner, losses.inner), (outer, losses.outer))

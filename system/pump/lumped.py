@@ -26,12 +26,7 @@ from system.pump.laws.kinematics import (
     slipper_sliding_speed,
     stand_out,
 )
-from system.pump.laws.leakage import (
-    piston_conductance,
-    piston_drag_flow,
-    slipper_conductance,
-    valve_plate_conductance,
-)
+from system.pump.laws.leakage import piston_conductance, piston_drag_flow, slipper_conductance, valve_plate_conductance
 from system.pump.laws.retainer import BallGuide, mean_sliding_speed, spring_force
 from system.pump.operating import OperatingPoint
 from system.pump.ports.areas import PortOpening
@@ -323,9 +318,7 @@ def _piston_slipper_socket(
     return PairLoss(pump.pump.pistons, coulomb, np.zeros_like(axial))
 
 
-def _valve_plate_cylinder(
-    pump: PumpDescription, point: OperatingPoint[Number], cycle: Pressed
-) -> PairLoss[Number]:
+def _valve_plate_cylinder(pump: PumpDescription, point: OperatingPoint[Number], cycle: Pressed) -> PairLoss[Number]:
     v, radius = pump.valve_plate, pump.valve_plate.kidney_pitch_radius
     clamping = block_clamping(pump, point, cycle)
     coulomb = pairs.valve_plate_coulomb(pump.friction.valve_plate_cylinder, clamping, point.shaft_speed, radius)

@@ -120,9 +120,7 @@ def metered(reading: BenchReading[Number], outside: Outside[Number] | Outside[fl
     return replace(reading, delivery_flow=reading.delivery_flow * outside.delivery_reading)
 
 
-def shaft_work(
-    totals: TurnTotals[Number], rate: Number, friction: Number, exchange: GapExchange[Number]
-) -> Number:
+def shaft_work(totals: TurnTotals[Number], rate: Number, friction: Number, exchange: GapExchange[Number]) -> Number:
     """Shaft power in W by the pistons' work on the chambers, less the drag power, and friction.
 
     The drag power is the pull of the gap's pressure gradient on the piston: with it the torque, like the

@@ -56,9 +56,7 @@ def _cylinder(diameter: float, reach: float, side: Side) -> _Place:
 
 
 def _ring(inner: float, outer: float, *, over: bool = False, sphere: Sphere = PLANE) -> _Place:
-    shape = (
-        f"z = 0 from radius {length(inner)} to {length(outer)} about z, the body {'over' if over else 'under'} it"
-    )
+    shape = f"z = 0 from radius {length(inner)} to {length(outer)} about z, the body {'over' if over else 'under'} it"
     if not sphere.is_plane:
         shape = f"on a sphere of radius {length(sphere.radius)} that bulges out of the valve plate, " + shape
     inner, outer = (float(radius * sphere.stretch(radius)) for radius in (inner, outer))

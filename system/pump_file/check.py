@@ -57,9 +57,7 @@ def needs(*paths: str) -> Callable[[Callable[[PumpDescription], Iterator[Finding
     return named
 
 
-def run_checks(
-    checks: Iterable[Check], pump: PumpDescription, trusted: Collection[str] | None = None
-) -> CheckReport:
+def run_checks(checks: Iterable[Check], pump: PumpDescription, trusted: Collection[str] | None = None) -> CheckReport:
     """Run the checks of a pump and sort their findings.
 
     With `trusted`, only the checks all of whose values are among these paths are run: the description may

@@ -148,9 +148,7 @@ def _parse(label: str, text: str) -> dict[str, Any]:
     return tables
 
 
-def _describe(
-    label: str, tables: Mapping[str, Any], lines: Mapping[str, int | None], folder: Path
-) -> PumpDescription:
+def _describe(label: str, tables: Mapping[str, Any], lines: Mapping[str, int | None], folder: Path) -> PumpDescription:
     """Return the description of the tables, or raise all their faults, those of the checks included."""
     reading = Reading(folder, _SPECIAL, SINGLE_PARTS)
     name = tables.get("name")
@@ -183,8 +181,7 @@ def _singles(name: str, base: Any, table: object, reading: Reading) -> tuple[tup
     """Return the single parts of a table by chamber, each complete: [piston.3] over [piston]."""
     numbered = {key: part for key, part in table.items() if is_number(key)} if isinstance(table, dict) else {}
     return tuple(
-        (int(key), read_section(f"{name}.{key}", type(base), part, reading, base))
-        for key, part in numbered.items()
+        (int(key), read_section(f"{name}.{key}", type(base), part, reading, base)) for key, part in numbered.items()
     )
 
 

@@ -9,15 +9,7 @@ from gaps.loads.block_tipping import BlockBalance
 from system.description.pump import PumpDescription
 from system.films.parts import ball_plane_height
 from system.pump.lumped import block_spring, piston_area
-from system.pump_file.check import (
-    CheckReport,
-    CheckWarning,
-    Finding,
-    length,
-    needs,
-    pressure,
-    run_checks,
-)
+from system.pump_file.check import CheckReport, CheckWarning, Finding, length, needs, pressure, run_checks
 
 
 @needs("pump.rated_pressure", "valve_plate.land_radius_1", "valve_plate.land_radius_4")
@@ -37,9 +29,7 @@ def block_tips(pump: PumpDescription) -> Iterator[Finding]:
     place = block.pressed_at(delivery, suction, block_spring(pump))
     if place <= plate.outer_radius:
         return
-    at_rated = (
-        f"at {pressure(pump.pump.rated_pressure)} the film's lift is {block.force_ratio:.3f} of the pistons'"
-    )
+    at_rated = f"at {pressure(pump.pump.rated_pressure)} the film's lift is {block.force_ratio:.3f} of the pistons'"
     if math.isinf(place):
         yield CheckWarning(
             "valve_plate.land_radius_4", f"block lifts off: {at_rated} force", "1", "narrower lands or a spring"

@@ -76,9 +76,7 @@ def slippers_clear_each_other(pump: PumpDescription) -> Iterator[Finding]:
     drive = _drive(pump)
     if drive is None:
         return
-    pitch = min(
-        _ball_pitch(drive, pump.pump.pistons), 2 * drive.pitch_radius * math.sin(math.pi / pump.pump.pistons)
-    )
+    pitch = min(_ball_pitch(drive, pump.pump.pistons), 2 * drive.pitch_radius * math.sin(math.pi / pump.pump.pistons))
     overlap = 2 * pump.slipper.land_outer_radius - pitch
     if overlap >= 0.0:
         fitting = length(pump.pump.pitch_radius * 2 * pump.slipper.land_outer_radius / pitch)
@@ -138,9 +136,7 @@ def orifice_opens_into_the_pocket(pump: PumpDescription) -> Iterator[Finding]:
     """The orifice is narrower than the pocket that it feeds."""
     orifice, pocket = pump.slipper.orifice_diameter, 2 * pump.slipper.land_inner_radius
     if orifice >= pocket:
-        yield Fault(
-            "slipper.orifice_diameter", length(orifice), f"less than the pocket's diameter, {length(pocket)}"
-        )
+        yield Fault("slipper.orifice_diameter", length(orifice), f"less than the pocket's diameter, {length(pocket)}")
 
 
 @needs("pump.piston_diameter", "slipper.land_inner_radius", "slipper.land_outer_radius")
@@ -159,10 +155,7 @@ def slipper_is_not_lifted_off(pump: PumpDescription) -> Iterator[Finding]:
 
 
 @needs(
-    "valve_plate.land_radius_1",
-    "valve_plate.land_radius_2",
-    "valve_plate.land_radius_3",
-    "valve_plate.land_radius_4",
+    "valve_plate.land_radius_1", "valve_plate.land_radius_2", "valve_plate.land_radius_3", "valve_plate.land_radius_4"
 )
 def valve_plate_lands_are_in_order(pump: PumpDescription) -> Iterator[Finding]:
     """The four land radii grow from the shaft outwards."""
@@ -230,9 +223,7 @@ def kidneys_leave_webs(pump: PumpDescription) -> Iterator[Finding]:
         )
 
 
-@needs(
-    "ports.kidney_area", "valve_plate.kidney_pitch_radius", "valve_plate.kidney_width", "valve_plate.kidney_arc"
-)
+@needs("ports.kidney_area", "valve_plate.kidney_pitch_radius", "valve_plate.kidney_width", "valve_plate.kidney_arc")
 @of_sides
 def port_opening_fits_the_kidney(pump: PumpDescription) -> Iterator[Finding]:
     """A port opens at most the whole kidney: pitch radius x arc x width, square ends."""

@@ -13,23 +13,10 @@ from system.description.parts import RetainerKind
 from system.description.pump import OperatingSection, PumpDescription
 from system.inputs.faults import Fault
 from system.inputs.units import Dimension, format_quantity, to_absolute, to_gauge
-from system.pump.laws.kinematics import (
-    ball_acceleration_along_bore,
-    crossed_drive,
-    drive_at_ratio,
-    least_ratio,
-)
+from system.pump.laws.kinematics import ball_acceleration_along_bore, crossed_drive, drive_at_ratio, least_ratio
 from system.pump.lumped import SAMPLES_PER_PITCH, block_spring, piston_area
 from system.pump.operating import OperatingPoint
-from system.pump_file.check import (
-    CheckReport,
-    CheckWarning,
-    Finding,
-    angle,
-    needs,
-    pressure,
-    run_checks,
-)
+from system.pump_file.check import CheckReport, CheckWarning, Finding, angle, needs, pressure, run_checks
 
 # Below this an oil has given off its dissolved air and its light fractions boil; a mineral oil itself boils below
 # 0.1 kPa at 50 degC. The model is one of liquid oil: assumption, order of magnitude.

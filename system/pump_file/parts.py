@@ -14,16 +14,7 @@ from system.description.parts import ReliefSection, RetainerKind
 from system.description.pump import SINGLE_PARTS, PumpDescription
 from system.inputs.faults import Fault
 from system.pump.lumped import block_spring
-from system.pump_file.check import (
-    Check,
-    CheckReport,
-    CheckWarning,
-    Finding,
-    angle,
-    length,
-    needs,
-    run_checks,
-)
+from system.pump_file.check import Check, CheckReport, CheckWarning, Finding, angle, length, needs, run_checks
 
 _Found = TypeVar("_Found", Fault, CheckWarning)
 
@@ -157,9 +148,7 @@ def piston_grooves_lie_apart(pump: PumpDescription) -> Iterator[Finding]:
             yield Fault("piston.grooves", f"{length(width)} wide, {length(depth)} deep", "both more than 0")
         elif middle - width / 2 <= 0.0 or middle + width / 2 >= pump.piston.engaged_length:
             found = f"a groove {length(width)} wide at {length(middle)}"
-            yield Fault(
-                "piston.grooves", found, f"between 0 and engaged_length, {length(pump.piston.engaged_length)}"
-            )
+            yield Fault("piston.grooves", found, f"between 0 and engaged_length, {length(pump.piston.engaged_length)}")
     for (first, wide, _), (second, wider, _) in pairwise(grooves):
         if second - first <= (wide + wider) / 2:
             found = f"grooves at {length(first)} and {length(second)}"
@@ -241,9 +230,7 @@ def _steep(path: str, depth: float | None, width: float) -> Iterator[Finding]:
         yield CheckWarning(path, length(depth), limit, "check the unit: um, not mm?")
 
 
-@needs(
-    "retainer.kind", "ball_guide.spring_preload", "ball_guide.spring_stiffness", "ball_guide.spring_compression"
-)
+@needs("retainer.kind", "ball_guide.spring_preload", "ball_guide.spring_stiffness", "ball_guide.spring_compression")
 def a_spring_presses_the_retainer(pump: PumpDescription) -> Iterator[Finding]:
     """A retainer that a spring is to press has one."""
     part = pump.retainer

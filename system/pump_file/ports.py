@@ -108,10 +108,7 @@ def ports_belong_to_the_kidney(pump: PumpDescription) -> Iterator[Finding]:
             f"more than {angle(ports.groove_end + arc)} (groove_end + kidney_arc), so that a port is left",
         )
         return
-    for key, follows in (
-        ("kidney_full_start", ports.groove_end + arc),
-        ("kidney_full_end", ports.kidney_end - arc),
-    ):
+    for key, follows in (("kidney_full_start", ports.groove_end + arc), ("kidney_full_end", ports.kidney_end - arc)):
         stated = getattr(ports, key)
         if abs(stated - follows) > PORT_TOLERANCE:
             yield CheckWarning(

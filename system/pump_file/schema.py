@@ -37,10 +37,7 @@ def _either(table: Schema, key: str, others: tuple[str, ...]) -> None:
     """Let one key take the place of others."""
     table["required"] = [name for name in table["required"] if name not in others]
     none_of_others = {"not": {"anyOf": [{"required": [name]} for name in others]}}
-    table["oneOf"] = [
-        {"required": [key], **none_of_others},
-        {"required": list(others), "not": {"required": [key]}},
-    ]
+    table["oneOf"] = [{"required": [key], **none_of_others}, {"required": list(others), "not": {"required": [key]}}]
 
 
 def section_models() -> Iterator[tuple[str, type[Any]]]:

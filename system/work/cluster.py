@@ -131,9 +131,7 @@ def worker_faults(workers: Mapping[str, Mapping[str, Any]], own: Mapping[str, st
     for name, found in workers.items():
         for key in own.keys() - set(THREADS):
             if found.get(key) != own[key]:
-                yield Fault(
-                    f"{key} of worker {name}", str(found.get(key)), f"{own[key]}, as here", "install the same"
-                )
+                yield Fault(f"{key} of worker {name}", str(found.get(key)), f"{own[key]}, as here", "install the same")
         wrong = [key for key in THREADS if found.get(key) != "1"]
         if wrong:
             expected = "1: several threads a library make every point slower"

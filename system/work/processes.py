@@ -68,9 +68,7 @@ class ProcessPool:
         while waiting or suspects:
             alone = bool(suspects)
             lost: list[Part] = []
-            yield from self._until_a_death(
-                task, suspects if alone else waiting, 1 if alone else self.workers, lost
-            )
+            yield from self._until_a_death(task, suspects if alone else waiting, 1 if alone else self.workers, lost)
             if alone:
                 yield from (Attempt(part, None, WorkerDied(DIED)) for part in lost)
             else:

@@ -6,16 +6,7 @@ What its description and the paper say a simulation of it must give, and what it
 import numpy as np
 import pytest
 
-from system import (
-    Pair,
-    PointWarning,
-    PumpPoint,
-    load_pump,
-    lumped_point,
-    operating_point,
-    piston_area,
-    piston_motion,
-)
+from system import Pair, PointWarning, PumpPoint, load_pump, lumped_point, operating_point, piston_area, piston_motion
 from system.pump.bench import ideal_flow, ideal_torque
 from system.pump.lumped import lumped_pairs
 
@@ -36,8 +27,7 @@ PAPER, BY_HAND = "Xu, Hu, Zhang and Mao 2017, text", "REF90, worked out by hand"
 
 def run(delivery: float = 35e6, rpm: float = 2100, ratio: float = 1.0, **more: float) -> PumpPoint:
     return lumped_point(
-        PUMP,
-        operating_point(PUMP, delivery_pressure=delivery, shaft_speed=rpm * RPM, displacement_ratio=ratio, **more),
+        PUMP, operating_point(PUMP, delivery_pressure=delivery, shaft_speed=rpm * RPM, displacement_ratio=ratio, **more)
     )
 
 

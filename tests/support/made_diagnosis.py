@@ -124,9 +124,7 @@ def named_diagnosis() -> Diagnosis:
     return Diagnosis(
         kind=Kind.MISSING_PHYSICS,
         status=VerdictStatus.NAMED,
-        detection=Detection(
-            1e-30, 9.1, {Q: ChannelMisfit(17.0, 0.97), T: ChannelMisfit(1.1, 0.03)}, 1e-20, (), ()
-        ),
+        detection=Detection(1e-30, 9.1, {Q: ChannelMisfit(17.0, 0.97), T: ChannelMisfit(1.1, 0.03)}, 1e-20, (), ()),
         location=Location(
             channels=(Q,),
             region=MapRegion(Q, {"p_out": 25e6}, {}, 12.0, "p_out above 250 bar"),
@@ -189,6 +187,4 @@ def its_study(named: Diagnosis) -> Study:
 
 def agreeing(diagnosis: Diagnosis) -> Diagnosis:
     detection = replace(diagnosis.detection, p_value=0.4, chi2_per_dof=1.0)
-    return replace(
-        diagnosis, kind=Kind.NO_MISMATCH, detection=detection, effects=(), scaling=None, next_point=None
-    )
+    return replace(diagnosis, kind=Kind.NO_MISMATCH, detection=detection, effects=(), scaling=None, next_point=None)

@@ -51,10 +51,7 @@ def test_overflow_is_named(overflow: ModuleType, shared: Path, validation) -> No
     assert {first.name, second.name} == {"overflow of tank 1", overflow.OVERFLOW}
     assert min(first.evidence, second.evidence) > 3.0 + max(other.evidence for other in others)
     both = first if first.name == overflow.OVERFLOW else second
-    rows = (
-        ("Torricelli's law", 0.67, overflow.errors(record, base)[1]),
-        ("with overflow", 0.52, both.test_error),
-    )
+    rows = (("Torricelli's law", 0.67, overflow.errors(record, base)[1]), ("with overflow", 0.52, both.test_error))
     for model, expected, obtained in rows:
         validation(
             case="Cascaded tanks",

@@ -51,10 +51,7 @@ class Bearing:
         """Force of the oil on the journal (x, y), both halves, at a place and velocity of its centre."""
         thickness = 1.0 - np.tensordot(place, self.normal, 1)
         posed = film(
-            thickness,
-            1.0,
-            velocity_moving=(np.ones((1, 1)), ZERO),
-            squeeze=-np.tensordot(velocity, self.normal, 1),
+            thickness, 1.0, velocity_moving=(np.ones((1, 1)), ZERO), squeeze=-np.tensordot(velocity, self.normal, 1)
         )
         problem = FilmProblem(self.space, posed, {"top": Held(0.0)}, held_nodes=self.grooves)
         return np.asarray(-2.0 * self.integrated @ self.solver.solve(problem).pressure)
@@ -79,8 +76,7 @@ def _slopes(bearing: Bearing, place: np.ndarray) -> tuple[np.ndarray, np.ndarray
         columns = []
         for d in STEP * np.eye(2):
             ahead, behind = (
-                bearing.force(place + s * d, rest) if displaced else bearing.force(place, s * d)
-                for s in (1.0, -1.0)
+                bearing.force(place + s * d, rest) if displaced else bearing.force(place, s * d) for s in (1.0, -1.0)
             )
             columns.append((behind - ahead) / (2.0 * STEP))
         both.append(np.column_stack(columns))

@@ -57,9 +57,7 @@ def _diaphragm(along: int, beside: int, across: int, outside: int) -> BodyMesh:
     mesh = hollow_cylinder((BORE, BORE + SHEET), 1.0, (1, around, tall), angles=(0.1, 1.1)).mesh
     x, y, z = mesh.doflocs
     start = 0.5 * SLOT / BORE
-    lines = np.r_[
-        np.linspace(start, start + SPAN, along + 1), np.linspace(start + SPAN, 2 * np.pi - start, beside + 1)
-    ]
+    lines = np.r_[np.linspace(start, start + SPAN, along + 1), np.linspace(start + SPAN, 2 * np.pi - start, beside + 1)]
     angle = np.interp((np.arctan2(y, x) - 0.1) * around, np.arange(around + 1), np.delete(lines, along))
     half = _half_width(angle - start)
     step = z * tall

@@ -41,8 +41,7 @@ def slippers() -> tuple[GapRevolution[SlipperReport], GapRevolution[SlipperRepor
     """That of ref90_floating at 10 MPa between rigid and between elastic walls."""
     at, parts, driven = driven_at("10 MPa")
     rigid, soft = (
-        slipper_revolution(at, parts, driven.slipper, replace(COARSE, physics=physics))
-        for physics in (RIGID, SOFT)
+        slipper_revolution(at, parts, driven.slipper, replace(COARSE, physics=physics)) for physics in (RIGID, SOFT)
     )
     return rigid, soft
 

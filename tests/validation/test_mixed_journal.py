@@ -44,9 +44,7 @@ from reynolds import (
 from reynolds.laws.contact import asperities_of
 
 VISCOSITY, PRESSURE_COEFFICIENT, AMBIENT, VAPOUR = 6.8e-3, 9.5e-9, 1e5, 100.0
-SUMMITS = asperities_of(
-    0.001, 0.05, float(np.hypot(0.13e-6, 0.28e-6)), 53.3e9, 0.02, summit_height=0.21e-6 + 0.39e-6
-)
+SUMMITS = asperities_of(0.001, 0.05, float(np.hypot(0.13e-6, 0.28e-6)), 53.3e9, 0.02, summit_height=0.21e-6 + 0.39e-6)
 STEEL, ALUMINIUM = Elastic(210e9, 0.3), Elastic(70e9, 0.3)
 SHELL = 70e-3  # outer radius of the connecting rod's big end; the blocks of the other bearings are no smaller
 TORQUE = {
@@ -108,9 +106,7 @@ class Bearing:
         self.problem = replace(self.problem, film=replace(self.problem.film, velocity_moving=velocity))
 
 
-def _bearing(
-    diameter: float, width: float, shell: Elastic | None, supply, folder: Path, along: int = 48
-) -> Bearing:
+def _bearing(diameter: float, width: float, shell: Elastic | None, supply, folder: Path, along: int = 48) -> Bearing:
     """Cells finer about the load. `supply(angle, y, radius)` tells where oil comes in; rigid without `shell`.
 
     Shell and shaft are free bodies, their rigid motion the bearing's own: a ring to 70 mm and a solid cylinder of

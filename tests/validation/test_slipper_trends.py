@@ -31,10 +31,7 @@ from system import (
     slipper_revolution,
 )
 
-PAPER, ESTIMATE = (
-    "Xu, Hu, Zhang and Mao 2017, Fig. 9",
-    "estimates of size, docs/theory.md, Physics left out, as laws",
-)
+PAPER, ESTIMATE = ("Xu, Hu, Zhang and Mao 2017, Fig. 9", "estimates of size, docs/theory.md, Physics left out, as laws")
 PISTONS, LITRES_A_MINUTE = 9, 6e4
 COARSE = FloatingOptions(RIGID, steps=36, accuracy=Accuracy(step=3e-2), finer=0.5)
 COARSE_TORQUE = 0.06  # that coarse the torque is off by so much; films by 2 %
@@ -67,11 +64,7 @@ def driven(at: At) -> tuple[Rotor, FloatingParts, Drives]:
     point = operating_point(pump)
     cycle = lumped_point(pump, point).cycle
     group, parts = rotor(pump, point), floating_parts(pump)
-    return (
-        group,
-        parts,
-        drives(group, parts, cycle.shaft_angle, cycle.pressure, no_rubbing(cycle.shaft_angle.size)),
-    )
+    return (group, parts, drives(group, parts, cycle.shaft_angle, cycle.pressure, no_rubbing(cycle.shaft_angle.size)))
 
 
 @cache

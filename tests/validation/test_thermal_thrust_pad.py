@@ -78,9 +78,7 @@ def settled(cells: int) -> tuple[ThermalSolution, np.ndarray]:
     def unbalance(place: np.ndarray) -> tuple[np.ndarray, ThermalSolution]:
         solution = solve_thermal(problem(space, place), heat, viscosity, count=5, solver=solver, start=found)
         load, about_x, about_y = pressure_integrals(solution.film)
-        return np.array(
-            [load * PADS / LOAD - 1.0, about_x / load - PIVOT[1], -about_y / load - PIVOT[0]]
-        ), solution
+        return np.array([load * PADS / LOAD - 1.0, about_x / load - PIVOT[1], -about_y / load - PIVOT[0]]), solution
 
     # A film closing along the motion, which at the pivot is nearly along y.
     place = np.array([1.3e-4, 0.0, -1.5e-4])

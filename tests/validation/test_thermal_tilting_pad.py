@@ -164,8 +164,7 @@ def settled(case: Bearing, carried_over: float, place: np.ndarray) -> tuple[Film
 
 @pytest.mark.slow
 @pytest.mark.parametrize(
-    ("rpm", "measured", "authors"),
-    [(1000, 49.5, 43.7), (2000, 59.5, 53.4), (3000, 67.5, 63.2), (4000, 76.5, 72.9)],
+    ("rpm", "measured", "authors"), [(1000, 49.5, 43.7), (2000, 59.5, 53.4), (3000, 67.5, 63.2), (4000, 76.5, 72.9)]
 )
 def test_largest_pad_temperature(rpm, measured, authors, validation):
     """To what the authors' own model, with elastic and thermal deformation, misses the measurement by at most."""

@@ -36,9 +36,7 @@ def test_slopes_are_those_of_the_readings(leak: ModuleType) -> None:
 
 @pytest.mark.slow
 @pytest.mark.parametrize(("switched", "bore"), [(1, 0.20e-3), (2, 0.25e-3)])
-def test_the_concealed_leak_is_named(
-    leak: ModuleType, shared: Path, validation, switched: int, bore: float
-) -> None:
+def test_the_concealed_leak_is_named(leak: ModuleType, shared: Path, validation, switched: int, bore: float) -> None:
     """An orifice, not a viscous gap, a smaller pump or a meter; its bore within what its flow coefficient leaves.
 
     Viscosity hardly matters; the power of pressure stays as open as its prior: 152 to 158 bar do not tell.

@@ -47,9 +47,7 @@ def run(machine: Machine, at: Settings, hidden: Hidden = NOTHING, steps: int = S
     """The steady state of the machine with what is concealed in it."""
     at = replace(at, ratio=_drooped(hidden, at))
     angle = BEGIN + np.linspace(0.0, 2.0 * np.pi, steps + 1)
-    stages = np.concatenate(
-        [[angle[0]], np.stack([angle[:-1] + GAMMA * np.diff(angle), angle[1:]], axis=1).ravel()]
-    )
+    stages = np.concatenate([[angle[0]], np.stack([angle[:-1] + GAMMA * np.diff(angle), angle[1:]], axis=1).ravel()])
     moves = [motion(machine, ratio, stages) for ratio in at.ratio]
     ends = [motion(machine, ratio, angle[1:]) for ratio in at.ratio]
     at = _behind_its_line(machine, hidden, at, angle, moves)
@@ -82,9 +80,7 @@ def _chambers(
     return pressure.mean(axis=1), out.mean(axis=1)
 
 
-def _behind_its_line(
-    machine: Machine, hidden: Hidden, at: Settings, angle: Array, moves: list[Motion]
-) -> Settings:
+def _behind_its_line(machine: Machine, hidden: Hidden, at: Settings, angle: Array, moves: list[Motion]) -> Settings:
     """The points with what the inlet line leaves of the pressure at the port."""
     if hidden.suction == 0.0:
         return at

@@ -71,9 +71,7 @@ def sealing_length(machine: Machine, travel: Array, stand_out: float) -> Array:
     return machine.engaged - travel - machine.stand_out_share * stand_out
 
 
-def _slope(
-    machine: Machine, hidden: Hidden, viscosity: Array, pressure: Array, opening: float
-) -> tuple[Array, Array]:
+def _slope(machine: Machine, hidden: Hidden, viscosity: Array, pressure: Array, opening: float) -> tuple[Array, Array]:
     """rho (h/h0)^3/mu and (mu/mu0)(h0/h) at each pressure, (N, S)."""
     thicker = roelands(hidden, viscosity, pressure)
     wider = 1.0 + opening * pressure / (1.0 + pressure / STIFF)

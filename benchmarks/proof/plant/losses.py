@@ -32,9 +32,7 @@ class Losses:
         return self.piston + self.slipper + self.plate + self.others
 
 
-def losses(
-    machine: Machine, hidden: Hidden, at: Settings, moves: list[Motion], gaps: Films, pressure: Array
-) -> Losses:
+def losses(machine: Machine, hidden: Hidden, at: Settings, moves: list[Motion], gaps: Films, pressure: Array) -> Losses:
     """Losses at the chamber pressure (N, M), Pa absolute, over the angles of the motions."""
     rows = [_point(machine, hidden, at, moves[k], gaps, pressure[k], k) for k in range(len(moves))]
     return Losses(*np.array(rows).T)
@@ -96,16 +94,11 @@ def _others(machine: Machine, move: Motion, side: Array, pressed: Array, omega: 
     joint = machine.friction_socket * pressed * machine.joint_radius * omega * np.sin(move.swash)
     radius, latitude, spring = machine.guide
     sin_g, rest = np.sin(move.swash), 1.0 - np.cos(move.swash)
-    slip = radius * np.sqrt(
-        2.0 * rest - (np.sin(latitude) * rest - np.cos(latitude) * np.cos(move.angle) * sin_g) ** 2
-    )
+    slip = radius * np.sqrt(2.0 * rest - (np.sin(latitude) * rest - np.cos(latitude) * np.cos(move.angle) * sin_g) ** 2)
     guide = machine.friction_guide * spring / np.sin(latitude) * float(np.mean(slip)) * omega
     force = machine.pistons * float(np.mean(side))
     turning = zip(
-        (machine.friction_front, machine.friction_rear),
-        machine.bearing_shares,
-        machine.bearing_diameters,
-        strict=True,
+        (machine.friction_front, machine.friction_rear), machine.bearing_shares, machine.bearing_diameters, strict=True
     )
     bearings = sum(f * share * force * omega * diameter / 2.0 for f, share, diameter in turning)
     return machine.pistons * float(np.mean(joint)) + guide + bearings

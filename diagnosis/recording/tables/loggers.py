@@ -12,18 +12,7 @@ from diagnosis.recording.tables.workbooks import missing
 TIME = "time"
 """Column of time in s that a logger's file holds without naming it."""
 APPLIED_SCALES = frozenset(
-    {
-        "Linear",
-        "Polynomial",
-        "RTD",
-        "Table",
-        "Thermocouple",
-        "Thermistor",
-        "Strain",
-        "Add",
-        "Subtract",
-        "AdvancedAPI",
-    }
+    {"Linear", "Polynomial", "RTD", "Table", "Thermocouple", "Thermistor", "Strain", "Add", "Subtract", "AdvancedAPI"}
 )
 """Scale types that npTDMS 1.x applies; of a channel with any other it returns raw counts."""
 

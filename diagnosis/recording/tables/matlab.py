@@ -90,6 +90,4 @@ def _vectors(name: str, value: Any) -> Mapping[str, np.ndarray]:
 
 
 def _object_fault() -> TableFault:
-    return TableFault(
-        "a MATLAB object (table, timetable or timeseries)", "plain vectors or a struct of them", _PLAIN
-    )
+    return TableFault("a MATLAB object (table, timetable or timeseries)", "plain vectors or a struct of them", _PLAIN)

@@ -26,9 +26,7 @@ def read_text(source: TableSource) -> TableColumns:
     separator = source.separator or _separator(lines[:LOOKED_AT])
     decimal = source.decimal or _decimal(lines[:LOOKED_AT], separator)
     if decimal not in _SIGNS or decimal == separator:
-        raise TableFault(
-            f"decimal = {decimal!r}, separator = {separator!r}", "a point or a comma, and another sign"
-        )
+        raise TableFault(f"decimal = {decimal!r}, separator = {separator!r}", "a point or a comma, and another sign")
     if len(separator) != 1:
         raise TableFault(f"separator = {separator!r}", "one sign, such as ';'")
     columns = columns_of(csv.reader(lines, delimiter=separator), decimal)

@@ -101,9 +101,7 @@ def _weights(a, level):
             centre = lanes(a.centre, q)
             whole = s + n - lanes(a.east, q) - lanes(a.east, q - slots)
             # By all three couplings: the straight one may vanish where all coupling is through corners.
-            made = where_positive(
-                s * s, where_positive(n * n, where_positive(whole, whole, centre), centre), centre
-            )
+            made = where_positive(s * s, where_positive(n * n, where_positive(whole, whole, centre), centre), centre)
             put_lanes(south, q, s)
             put_lanes(north, q, n)
             put_lanes(pivot, q, made)

@@ -27,9 +27,7 @@ def own(a, x, q, slots):
 def others(a, x, q, t, slots):
     """Coupling of unknowns q to the next line on both sides; t is their slot in the other block."""
     corners = lanes(a.north_east, q) * lanes(x, t + slots + 1) + lanes(a.north_west, q) * lanes(x, t - slots + 1)
-    south = lanes(a.north_east, t - slots) * lanes(x, t - slots) + lanes(a.north_west, t + slots) * lanes(
-        x, t + slots
-    )
+    south = lanes(a.north_east, t - slots) * lanes(x, t - slots) + lanes(a.north_west, t + slots) * lanes(x, t + slots)
     return lanes(a.north, q) * lanes(x, t + 1) + lanes(a.north, t) * lanes(x, t) + corners + south
 
 

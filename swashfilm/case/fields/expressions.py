@@ -105,9 +105,7 @@ def _check_names(tree: ast.Expression, variables: Sequence[str], constants: Iter
         if not isinstance(node, ast.Name) or id(node) in called or node.id in (*variables, *fixed):
             continue
         if node.id in IN_TIME:
-            expected = f"a formula of {_listed(variables)}" + (
-                " (t needs a table [time])" if node.id == "t" else ""
-            )
+            expected = f"a formula of {_listed(variables)}" + (" (t needs a table [time])" if node.id == "t" else "")
             raise ExpressionError(f"{node.id}{_at(node)}", expected)
         known = f"{', '.join((*variables, *fixed))} and the functions {', '.join(FUNCTIONS)}"
         nearest = nearest_choice(node.id, (*FUNCTIONS, *fixed))
@@ -182,9 +180,7 @@ def _call(function: Callable[..., Array], arguments: list[ast.expr]) -> _Evaluat
     return lambda names: function(*(part(names) for part in parts))
 
 
-def _comparison(
-    node: ast.Compare, left: ast.expr, operators: list[ast.cmpop], others: list[ast.expr]
-) -> _Evaluate:
+def _comparison(node: ast.Compare, left: ast.expr, operators: list[ast.cmpop], others: list[ast.expr]) -> _Evaluate:
     """Return the function that evaluates a chain such as 0 < x <= 1: true where every comparison holds."""
     if not all(type(operator) in _COMPARE for operator in operators):
         raise ExpressionError(f"'{ast.unparse(node)}'{_at(node)}", "one of < <= > >=")

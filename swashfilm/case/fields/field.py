@@ -202,9 +202,7 @@ def read_field(
 
 def may_be_data(raw: object) -> bool:
     """Return True for a text that can only be the name of data in a mesh file."""
-    return (
-        isinstance(raw, str) and bool(_NAME.fullmatch(raw.strip())) and raw.strip() not in (*IN_TIME, *CONSTANTS)
-    )
+    return isinstance(raw, str) and bool(_NAME.fullmatch(raw.strip())) and raw.strip() not in (*IN_TIME, *CONSTANTS)
 
 
 def mesh_data(path: Path, film_mesh: FilmMesh) -> MeshData:

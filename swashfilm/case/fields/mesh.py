@@ -52,9 +52,7 @@ def read_mesh(film: Table, folder: Path) -> CaseMesh | None:
     if isinstance(raw, dict):
         table = Table(film.name("mesh"), raw, film.faults)
         shape = table.choice("kind", BuiltInShape)
-        built = (
-            {BuiltInShape.RECTANGLE: _rectangle, BuiltInShape.ANNULUS: _annulus}[shape](table) if shape else None
-        )
+        built = {BuiltInShape.RECTANGLE: _rectangle, BuiltInShape.ANNULUS: _annulus}[shape](table) if shape else None
         if shape:
             table.close()
         return built

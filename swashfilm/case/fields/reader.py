@@ -67,9 +67,7 @@ class FieldReader:
         return found
 
 
-def field_fault(
-    field: Field, space: FilmSpace, t: float = 0.0, *, positive: bool = False
-) -> tuple[str, str] | None:
+def field_fault(field: Field, space: FilmSpace, t: float = 0.0, *, positive: bool = False) -> tuple[str, str] | None:
     """Return (found, expected) where a field is not finite, or not above zero if `positive`; else None."""
     x, y = (np.broadcast_to(part, space.area.shape) for part in space.points)
     full = np.broadcast_to(field.sample(space, t), space.area.shape)

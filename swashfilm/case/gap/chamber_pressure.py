@@ -91,9 +91,7 @@ def _rows(raw: object, folder: Path) -> tuple[Row, ...]:
         except QuantityError as reason:
             raise QuantityError(reason.found, _EXPECTED, reason.nearest) from None
     if isinstance(raw, list) and raw and all(isinstance(entry, str) for entry in raw):
-        return tuple(
-            (TURN * k / len(raw), parse_quantity(entry, Dimension.PRESSURE)) for k, entry in enumerate(raw)
-        )
+        return tuple((TURN * k / len(raw), parse_quantity(entry, Dimension.PRESSURE)) for k, entry in enumerate(raw))
     if isinstance(raw, list) and raw and all(isinstance(entry, list) for entry in raw):
         return listed_rows(raw, LAYOUTS[:1])
     raise QuantityError(repr(raw), _EXPECTED)

@@ -10,14 +10,7 @@ import numpy as np
 from gaps.films.physics import Physics
 from reynolds.numerics.arrays import Array
 from swashfilm.case.gap.physics import PhysicsSection, choices
-from swashfilm.case.gap.position import (
-    Load,
-    load_rows,
-    position_rows,
-    read_load,
-    read_position,
-    touching,
-)
+from swashfilm.case.gap.position import Load, load_rows, position_rows, read_load, read_position, touching
 from swashfilm.case.gap.pump import CasePump, own_rows, read_case_pump
 from system.description.gap import Gap
 from system.films.parts import FloatingParts, floating_parts

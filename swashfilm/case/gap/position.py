@@ -118,11 +118,7 @@ def load_rows(load: Load) -> list[str]:
     """Return the table from which `read_load` reads this load."""
     match load:
         case PistonLoad(force, arm):
-            return [
-                "[load]",
-                f"force = {_both(*force, Dimension.FORCE)}",
-                f"arm = {_shown(arm, Dimension.LENGTH)}",
-            ]
+            return ["[load]", f"force = {_both(*force, Dimension.FORCE)}", f"arm = {_shown(arm, Dimension.LENGTH)}"]
         case FaceLoad(lift, moment_x, moment_y):
             return [
                 "[load]",

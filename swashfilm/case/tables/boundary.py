@@ -114,10 +114,5 @@ def _check_shared_edges(top: Table, reader: FieldReader, boundary: Boundaries) -
     """List a fault for an edge with two pressures; a mesh file may name an edge twice (left and outer)."""
     facets = reader.mesh.film_mesh.mesh.boundaries if reader.mesh else {}
     for (one, at), (other, at_other) in combinations(boundary.items(), 2):
-        if (
-            at != at_other
-            and one in facets
-            and other in facets
-            and np.intersect1d(facets[one], facets[other]).size
-        ):
+        if at != at_other and one in facets and other in facets and np.intersect1d(facets[one], facets[other]).size:
             top.fault(f"boundary.{other}", f"shares edges with {one} at another pressure", "one pressure per edge")

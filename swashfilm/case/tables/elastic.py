@@ -42,9 +42,7 @@ class ElasticStatement:
     def walls(self, space: FilmSpace) -> ElasticWalls:
         """Return the compliance of all walls; raise InputError as `WallStatement.compliance`."""
         parts: list[ElasticWalls] = [] if self.stiffness is None else [winkler(space, self.stiffness)]
-        parts += [
-            _under(wall, key, space) for key, wall in (("moving", self.moving), ("fixed", self.fixed)) if wall
-        ]
+        parts += [_under(wall, key, space) for key, wall in (("moving", self.moving), ("fixed", self.fixed)) if wall]
         return reduce(both, parts)
 
 

@@ -76,9 +76,7 @@ def _surface(table: Table) -> tuple[Surface | None, list[str]]:
         moving = fixed = stated.composite / 2.0**0.5
         for wall in ("moving", "fixed"):
             if wall in table.values:
-                reading.fault(
-                    f"roughness.{wall}", "a wall's height beside composite", "composite, or moving and fixed"
-                )
+                reading.fault(f"roughness.{wall}", "a wall's height beside composite", "composite, or moving and fixed")
     elif moving == fixed == 0.0 and not reading.faulty:
         reading.fault("roughness.moving", "two smooth walls", "moving or fixed above 0, or no table [roughness]")
     if reading.faulty:

@@ -81,9 +81,7 @@ def check_bodies(top: Table, stated: ThermalStatement | None, elastic: ElasticSt
     """List a fault for a conducting body that [elastic] does not have; a half-space is not such a body."""
     for key, wall in stated.walls.items() if stated else ():
         if isinstance(wall, WarmBody) and getattr(getattr(elastic, key, None), "body", None) is None:
-            top.fault(
-                f"thermal.{key}_wall", "a body's conductivity", f"elastic.{key}, a body of a kind with sizes"
-            )
+            top.fault(f"thermal.{key}_wall", "a body's conductivity", f"elastic.{key}, a body of a kind with sizes")
 
 
 def read_thermal(top: Table) -> ThermalStatement | None:
@@ -132,11 +130,7 @@ def _wall(table: Table, key: str) -> Wall | WarmBody | None:
 
 def thermal_rows(stated: ThermalStatement) -> list[str]:
     """Return the table as text of a case file."""
-    rows = [
-        "[thermal]",
-        f"fixed_wall = {_written(stated.fixed_wall)}",
-        f"moving_wall = {_written(stated.moving_wall)}",
-    ]
+    rows = ["[thermal]", f"fixed_wall = {_written(stated.fixed_wall)}", f"moving_wall = {_written(stated.moving_wall)}"]
     if stated.inlet_temperature is not None:
         rows.append(f'inlet_temperature = "{format_quantity(stated.inlet_temperature, Dimension.TEMPERATURE)}"')
     return [*rows, f"levels = {stated.levels}"]

@@ -60,8 +60,7 @@ def friction_curves(rows: Sequence[Row]) -> Figure:
     for colour, gap in zip(COLOURS, dict.fromkeys(row["gap"] for row in rows), strict=False):
         own = [row for row in rows if row["gap"] == gap]
         number, friction, sigma = (
-            np.array([float(row[key]) for row in own])
-            for key in ("hersey_number [1]", "friction [1]", "sigma [1]")
+            np.array([float(row[key]) for row in own]) for key in ("hersey_number [1]", "friction [1]", "sigma [1]")
         )
         axes.semilogx(number, friction, color=colour, label=gap.replace("_", " "))
         axes.fill_between(number, np.maximum(friction - sigma, 0.0), friction + sigma, color=colour, alpha=0.2)

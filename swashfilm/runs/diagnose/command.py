@@ -24,10 +24,7 @@ def add_diagnose_options(command: argparse.ArgumentParser) -> None:
     """Add the arguments of `swashfilm diagnose`."""
     command.add_argument("pump", metavar="PUMP", help="built-in name (ref90) or pump file (a few sizes suffice)")
     command.add_argument(
-        "recording",
-        type=Path,
-        metavar="RECORDING",
-        help="folder with a recording.toml, or a table beside one",
+        "recording", type=Path, metavar="RECORDING", help="folder with a recording.toml, or a table beside one"
     )
     command.add_argument(
         "--apply",
@@ -107,9 +104,7 @@ def check_recording_command(path: Path) -> None:
 
     recording = checked_recording(path)
     show(f"{recording.title or path.stem}: {len(recording.steady.values)} points")
-    show_table(
-        "Channels: readings, range, one sigma of repeatability at mid range", list(_channel_rows(recording))
-    )
+    show_table("Channels: readings, range, one sigma of repeatability at mid range", list(_channel_rows(recording)))
     for note in recording.notes:
         show(note_text(note))
 

@@ -203,13 +203,9 @@ def _pictures(found: Mapping[str, Any], tables: Mapping[str, Sequence[Mapping[st
     if tables["hypotheses"]:
         pictures["hypotheses"] = diagnose_plots.hypothesis_bars(tables["hypotheses"])
     if tables.get("traces"):
-        pictures["traces"] = trace_residuals(
-            tables["traces"], found["where"]["shaft_angle_deg"], _settings(residuals)
-        )
+        pictures["traces"] = trace_residuals(tables["traces"], found["where"]["shaft_angle_deg"], _settings(residuals))
     if whole := shaft_power(tables["changes"]):
-        losses = [
-            row for row in tables["changes"] if row["unit"] == "W" and row["quantity"] not in (SHAFT, HYDRAULIC)
-        ]
+        losses = [row for row in tables["changes"] if row["unit"] == "W" and row["quantity"] not in (SHAFT, HYDRAULIC)]
         pictures["losses"] = diagnose_plots.loss_bars(losses, whole)
     pictures["pulls"] = diagnose_plots.pull_changes(tables["parameters"])
     return pictures

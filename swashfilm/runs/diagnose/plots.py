@@ -48,9 +48,7 @@ def residual_maps(rows: Sequence[Row]) -> Figure:
         line[0].set_ylabel(f"{channel}\np_out / bar", fontsize=8)
     for axes in grid[-1]:
         axes.set_xlabel("speed / rpm", fontsize=8)
-    bar = figure.colorbar(
-        drawn, ax=grid.ravel().tolist(), shrink=min(0.8, 6.0 / (1.5 * len(lines))), extend="both"
-    )
+    bar = figure.colorbar(drawn, ax=grid.ravel().tolist(), shrink=min(0.8, 6.0 / (1.5 * len(lines))), extend="both")
     bar.set_label("(measured - simulated) / sigma", fontsize=8)
     return figure
 

@@ -33,9 +33,7 @@ class DiagnosisRun(Result):
         """The diagnosis of a run folder; raises InputFaults where one of its files is missing."""
         found = super().opened(folder)
         found.record = read_diagnosis(folder / "diagnosis.json")
-        found._rows = {
-            name: read_rows(folder / f"{name}.csv") for name in ("residuals", "hypotheses", "parameters")
-        }
+        found._rows = {name: read_rows(folder / f"{name}.csv") for name in ("residuals", "hypotheses", "parameters")}
         return found
 
     @staticmethod
@@ -81,9 +79,7 @@ class DiagnosisRun(Result):
 
     def plot_evidence(self) -> list[Axes]:
         """Probabilities of the hypotheses."""
-        return plotted(
-            lambda: plots.hypothesis_bars(self._rows["hypotheses"]) if self._rows["hypotheses"] else None
-        )
+        return plotted(lambda: plots.hypothesis_bars(self._rows["hypotheses"]) if self._rows["hypotheses"] else None)
 
     def plot_effect(self) -> list[Axes]:
         """Contribution of the finding beside the residuals without it; nothing where nothing is claimed."""

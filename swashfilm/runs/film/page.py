@@ -51,9 +51,7 @@ def write_film_page(folder: Path) -> Path:
         rows=list(summary_rows(summary)),
         warnings=summary["warnings"],
         assumptions=summary.get("assumptions", []),
-        refinement=[refinement_head(found), *refinement_rows(found)]
-        if (found := summary.get("refinement"))
-        else [],
+        refinement=[refinement_head(found), *refinement_rows(found)] if (found := summary.get("refinement")) else [],
         case=(folder / "resolved.toml").read_text("utf-8"),
     )
 
@@ -80,9 +78,7 @@ def summary_rows(summary: Mapping[str, Any]) -> Iterator[tuple[str, str]]:
 def film_figure(fields: xarray.Dataset) -> Figure:
     """Draw maps over the film plane (mm): pressure (MPa), thickness (um), and other fields of FIELDS that vary."""
     shown = [
-        field
-        for field in FIELDS
-        if field.name in fields and (field.always or np.ptp(fields[field.name].values) > 0.0)
+        field for field in FIELDS if field.name in fields and (field.always or np.ptp(fields[field.name].values) > 0.0)
     ]
     place = (fields["x"].values * 1e3, fields["y"].values * 1e3)
     wide = np.ptp(place[0]) > 1.7 * np.ptp(place[1])

@@ -138,7 +138,5 @@ def write_refinement(path: Path, found: Refinement) -> None:
         table.writerow(["number", "unit", *meshes, "order", "limit", "error", "verdict"])
         for key, number in found.numbers.items():
             words, unit = named(key)
-            limits = [
-                "" if value is None else value for value in (number.order, number.extrapolated, number.error)
-            ]
+            limits = ["" if value is None else value for value in (number.order, number.extrapolated, number.error)]
             table.writerow([words, unit, *number.values, *limits, number.verdict.value])

@@ -29,9 +29,7 @@ CONDUCTIVITY = 0.13  # W/(m K), of mineral oils
 LEAST_FILM_FRACTION = 1e-3
 VACUUM = -101325.0  # Pa, gauge
 LEAST_LAMBDA = 1.0  # h/sigma; below, contacts support most of the load
-LARGEST_ISOVISCOUS_PRESSURE = (
-    50e6  # Pa; the viscosity of a mineral oil is about three times its low-pressure value
-)
+LARGEST_ISOVISCOUS_PRESSURE = 50e6  # Pa; the viscosity of a mineral oil is about three times its low-pressure value
 
 
 def film_warnings(study: FilmStudy) -> list[dict[str, str]]:

@@ -181,14 +181,9 @@ def _solver_faults(options: argparse.Namespace, plan: MapPlan) -> Iterator[Fault
         found = f"{levels[MapInput.INLET_PRESSURE]} levels; a response table holds one"
         seconds = 2.0 * len(plan.points)
         expected = "one inlet pressure per map, --fidelity lumped, or --direct"
-        yield Fault(
-            "--inlet-pressures", found, expected, f"--direct needs about {seconds:.0f} s of processor time"
-        )
+        yield Fault("--inlet-pressures", found, expected, f"--direct needs about {seconds:.0f} s of processor time")
 
 
 COMMAND = Command(
-    "map",
-    "a pump over speed, pressure, displacement, temperature, inlet pressure",
-    add_map_options,
-    run_map_command,
+    "map", "a pump over speed, pressure, displacement, temperature, inlet pressure", add_map_options, run_map_command
 )

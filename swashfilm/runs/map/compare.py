@@ -14,15 +14,7 @@ from swashfilm.output.figures import figure_of
 from swashfilm.output.page import keep_pictures, kept_pictures, write_page
 from swashfilm.output.run_folder import write_json
 from swashfilm.runs.map.duty import duty_summary
-from swashfilm.runs.map.plots import (
-    Slice,
-    contours,
-    difference_levels,
-    efficiency_levels,
-    held_words,
-    shown,
-    slice_of,
-)
+from swashfilm.runs.map.plots import Slice, contours, difference_levels, efficiency_levels, held_words, shown, slice_of
 from system.maps.compare import MapComparison
 from system.maps.data import LOSSES, MapData
 from system.maps.duty import Cycle, duty
@@ -57,11 +49,7 @@ def run_compare(
         "solvers": [data.words for data, _ in both],
         "warnings": list(_warnings(both)),
         "box": [
-            {
-                "words": axis.input.words,
-                "from": axis.input.text(axis.values[0]),
-                "to": axis.input.text(axis.values[-1]),
-            }
+            {"words": axis.input.words, "from": axis.input.text(axis.values[0]), "to": axis.input.text(axis.values[-1])}
             for axis in found.one.axes
         ],
         "differences": [

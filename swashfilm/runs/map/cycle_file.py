@@ -112,10 +112,7 @@ def _scale(unit: str, dimension: Dimension | None) -> tuple[float, float]:
 
 
 def _values(
-    rows: list[tuple[int, list[str]]],
-    width: int,
-    columns: Mapping[str, tuple[int, float, float]],
-    faults: list[Fault],
+    rows: list[tuple[int, list[str]]], width: int, columns: Mapping[str, tuple[int, float, float]], faults: list[Fault]
 ) -> Iterator[tuple[str, Array]]:
     """Return each column in SI; list a fault for rows with another number of cells than the head."""
     uneven = [(number, len(cells)) for number, cells in rows if len(cells) != width]

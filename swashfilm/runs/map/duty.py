@@ -117,8 +117,7 @@ def _write_course(path: Path, interpolant: MapInterpolant, cycle: Cycle) -> None
     before = np.searchsorted(cycle.time, even)
     time = np.insert(cycle.time, before, even)
     inputs = {
-        given: np.insert(values, before, np.interp(even, cycle.time, values))
-        for given, values in cycle.inputs.items()
+        given: np.insert(values, before, np.interp(even, cycle.time, values)) for given, values in cycle.inputs.items()
     }
     numbers = interpolant.at(inputs)
     shown = {"time [s]": time}
@@ -195,9 +194,7 @@ def course_plot(course: Mapping[str, Array]) -> Figure:
 
 def _sinks(summary: Mapping[str, Any]) -> Figure:
     sinks = {
-        words: energy
-        for words, energy in summary["energy_J"].items()
-        if words not in ("shaft", "hydraulic", "loss")
+        words: energy for words, energy in summary["energy_J"].items() if words not in ("shaft", "hydraulic", "loss")
     }
     figure = figure_of(9.0, max(2.4, 0.32 * len(sinks)))
     axes = figure.subplots()

@@ -13,10 +13,7 @@ def add_duty_options(command: argparse.ArgumentParser) -> None:
     """Add the arguments of the command to its parser."""
     command.add_argument("map", type=Path, metavar="MAP", help="run folder of a map, or its map.nc")
     command.add_argument(
-        "cycle",
-        type=Path,
-        metavar="CYCLE.csv",
-        help="columns time, speed, pressure, displacement ratio; units in []",
+        "cycle", type=Path, metavar="CYCLE.csv", help="columns time, speed, pressure, displacement ratio; units in []"
     )
 
 
@@ -39,6 +36,4 @@ def run_duty_command(options: argparse.Namespace) -> int:
     return 0
 
 
-COMMAND = Command(
-    "duty", "energies and losses of a pump over a cycle, by its map", add_duty_options, run_duty_command
-)
+COMMAND = Command("duty", "energies and losses of a pump over a cycle, by its map", add_duty_options, run_duty_command)

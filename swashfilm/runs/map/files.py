@@ -189,9 +189,7 @@ def write_tables(folder: Path, data: MapData) -> None:
     """Write map.csv (one line per point), shares.csv (of each loss) and best.csv, units in the heads."""
     inputs = _input_columns(data)
     numbers = {
-        f"{column} [{quantity.unit}]": data.values[column]
-        for quantity in QUANTITIES
-        for column in quantity.columns
+        f"{column} [{quantity.unit}]": data.values[column] for quantity in QUANTITIES for column in quantity.columns
     }
     for definition in EfficiencyDefinition:
         found = data.efficiency(definition)

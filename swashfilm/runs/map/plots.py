@@ -61,9 +61,7 @@ def map_plots(data: MapData) -> dict[str, Figure]:
             for words, parts in (("Overall", PARTS[:1]), ("Volumetric and hydromechanical", PARTS[1:])):
                 png = efficiency_plot(data, piece, parts)
                 if png is not None:
-                    found[
-                        f"{words} efficiency in % by definition {where}; dots: solved points, star: the best"
-                    ] = png
+                    found[f"{words} efficiency in % by definition {where}; dots: solved points, star: the best"] = png
             found[f"Loss, and the shares of its largest parts {where}"] = loss_plot(data, piece)
     pressure = _place(data, MapInput.PRESSURE)
     if data.shape[pressure] > 1:
@@ -129,9 +127,7 @@ def efficiency_plot(
     return figure
 
 
-def _by_definition(
-    data: MapData, piece: Slice, part: str, chosen: Sequence[EfficiencyDefinition]
-) -> dict[str, Array]:
+def _by_definition(data: MapData, piece: Slice, part: str, chosen: Sequence[EfficiencyDefinition]) -> dict[str, Array]:
     """Return a part of the efficiency on a slice by definition; equal ones share an entry."""
     fields: list[tuple[str, Array]] = []
     for one in chosen:
@@ -180,9 +176,7 @@ def share_plot(data: MapData) -> Figure:
     for axes, label in ((left, "loss / kW"), (right, "share / %")):
         axes.set(xlabel=f"delivery pressure / {unit}", ylabel=label, xlim=(levels[0], levels[-1]))
     right.set_ylim(0.0, 100.0)
-    figure.legend(
-        *(side[::-1] for side in left.get_legend_handles_labels()), loc="outside right upper", fontsize=8
-    )
+    figure.legend(*(side[::-1] for side in left.get_legend_handles_labels()), loc="outside right upper", fontsize=8)
     return figure
 
 
@@ -198,13 +192,7 @@ def _panels(figure: Any, count: int) -> Iterator[Any]:
 
 
 def contours(
-    axes: Any,
-    data: MapData,
-    piece: Slice,
-    field: Array,
-    levels: Array,
-    colours: str = "viridis",
-    ink: str = "white",
+    axes: Any, data: MapData, piece: Slice, field: Array, levels: Array, colours: str = "viridis", ink: str = "white"
 ) -> None:
     """Draw a field of a slice with the map's interpolation: solved points, lines in `ink`, a colour bar."""
     from matplotlib.colors import BoundaryNorm

@@ -19,25 +19,11 @@ from swashfilm.runs.map.summary import map_summary
 from system.description.pump import PumpDescription
 from system.inputs.faults import Fault, InputFaults
 from system.maps.data import MapData, map_data
-from system.maps.interpolation import (
-    CHECKED,
-    MapError,
-    MapInterpolant,
-    check_points,
-    fresh_error,
-    left_out_error,
-)
+from system.maps.interpolation import CHECKED, MapError, MapInterpolant, check_points, fresh_error, left_out_error
 from system.maps.plan import MapInput, MapPlan, point_words
 from system.maps.point import DirectSolver, LumpedSolver, MapSolver, MapWork, TableSolver, columns
 from system.points.table.build import TableCase, build_table, table_axes
-from system.points.table.response_table import (
-    PRESSURE,
-    RATIO,
-    SPEED,
-    VISCOSITY,
-    ResponseTable,
-    point_text,
-)
+from system.points.table.response_table import PRESSURE, RATIO, SPEED, VISCOSITY, ResponseTable, point_text
 from system.points.table.sources import FilmsSolver
 from system.points.table.store import find_table, own_table
 from system.pump.operating import OperatingPoint
@@ -155,16 +141,9 @@ def _solver(asked: MapCase, executor: Executor, report: Report) -> MapSolver:
 def _table_case(plan: MapPlan) -> TableCase:
     """Return the response table over a plan's box; inputs with one level are constant."""
     pump, ends = at_levels(plan), {axis.input: (axis.values[0], axis.values[-1]) for axis in plan.axes}
-    names = {
-        MapInput.SPEED: SPEED,
-        MapInput.PRESSURE: PRESSURE,
-        MapInput.RATIO: RATIO,
-        MapInput.TEMPERATURE: VISCOSITY,
-    }
+    names = {MapInput.SPEED: SPEED, MapInput.PRESSURE: PRESSURE, MapInput.RATIO: RATIO, MapInput.TEMPERATURE: VISCOSITY}
     held = [name for given, name in names.items() if ends[given][0] == ends[given][1]]
-    speeds, pressures, ratios, temperatures = (
-        None if name in held else ends[given] for given, name in names.items()
-    )
+    speeds, pressures, ratios, temperatures = (None if name in held else ends[given] for given, name in names.items())
     axes = table_axes(pump, speeds, pressures, ratios, temperatures, held)
     return TableCase(pump, FilmsSolver(), axes, *usual_counts(len(axes)))
 

@@ -33,9 +33,7 @@ _FIDELITIES = [fidelity.value for fidelity in Fidelity]
 
 def add_run_options(command: argparse.ArgumentParser) -> None:
     """Add the arguments of the command to its parser."""
-    command.add_argument(
-        "pump", nargs="?", default="ref90", metavar="PUMP", help="built-in name (ref90) or pump file"
-    )
+    command.add_argument("pump", nargs="?", default="ref90", metavar="PUMP", help="built-in name (ref90) or pump file")
     for option, (_, example, what) in _OVERRIDES.items():
         command.add_argument(option, metavar=example, help=f"{what}; default: that of the pump file")
     command.add_argument(
@@ -49,9 +47,7 @@ def add_run_options(command: argparse.ArgumentParser) -> None:
         "--table", type=Path, metavar="FILE.json", help="response table in place of the stored one of this pump"
     )
     command.add_argument("--steps", metavar="N", help="floating gaps: reported angles per turn (360)")
-    command.add_argument(
-        "--finer", metavar="X", help="floating gaps: factor on the cells each way (.5; --rigid: 1)"
-    )
+    command.add_argument("--finer", metavar="X", help="floating gaps: factor on the cells each way (.5; --rigid: 1)")
     command.add_argument(
         "--set",
         action="append",

@@ -35,11 +35,7 @@ _GAP_SERIES = {
 
 def gap_films(films: FilmsPoint) -> dict[str, tuple[GapFilm, ...]]:
     """Return the films of each gap in the order of its shaft angles, by the gap's name."""
-    return {
-        "piston": films.gaps.piston,
-        "slipper": films.gaps.slipper,
-        "valve_plate": films.gaps.valve_plate,
-    }
+    return {"piston": films.gaps.piston, "slipper": films.gaps.slipper, "valve_plate": films.gaps.valve_plate}
 
 
 def point_dataset(point: PumpPoint, name: str) -> xarray.Dataset:
@@ -102,9 +98,7 @@ def _fields(gap: str, angle: str, series: Sequence[GapFilm]) -> dict[str, tuple[
     spaces = [film.solution.problem.space for film in series]
     nodes = (angle, f"{gap}_vertex")
     pressure = [film.solution.pressure[space.vertex_dofs] for film, space in zip(series, spaces, strict=True)]
-    thickness = [
-        space.to_vertices(film.solution.film.thickness) for film, space in zip(series, spaces, strict=True)
-    ]
+    thickness = [space.to_vertices(film.solution.film.thickness) for film, space in zip(series, spaces, strict=True)]
     return {
         f"{gap}_x": (nodes, np.array([space.vertices[:, 0] for space in spaces]), {"units": "m"}),
         f"{gap}_y": (nodes, np.array([space.vertices[:, 1] for space in spaces]), {"units": "m"}),
@@ -114,9 +108,7 @@ def _fields(gap: str, angle: str, series: Sequence[GapFilm]) -> dict[str, tuple[
     }
 
 
-def _oil_fields(
-    gap: str, angle: str, films: FilmsPoint, series: Sequence[GapFilm]
-) -> dict[str, tuple[object, ...]]:
+def _oil_fields(gap: str, angle: str, films: FilmsPoint, series: Sequence[GapFilm]) -> dict[str, tuple[object, ...]]:
     physics, at = getattr(films.physics, gap), films.rotor
     states = [oil_state(at.pump, physics, film.solution, at.point.viscosity) for film in series]
     nodes = (angle, f"{gap}_vertex")

@@ -30,9 +30,7 @@ def loss_records(pump: PumpDescription) -> list[dict[str, Any]]:
         for key, own, words in _of_slipper(part):
             if (key, own.path) not in listed:
                 listed.add((key, own.path))
-                found.append(
-                    {"key": f"{table}.{key}", "file": str(own.path), "source": own.source, "range": words}
-                )
+                found.append({"key": f"{table}.{key}", "file": str(own.path), "source": own.source, "range": words})
     plate = pump.valve_plate.kidney_file
     if plate is not None:
         record = {"file": str(plate.path), "source": plate.source, "range": _steps(plate)}

@@ -134,9 +134,7 @@ def floating_summary(found: FloatingPoint, warnings: list[str]) -> dict[str, Any
         "physics_left_out": [effect.value for effect in found.options.physics.left_out],
         "assumptions": list(
             dict.fromkeys(
-                str(one)
-                for kind in found.kinds
-                for one in all_taken(kind.rotor, kind.parts, found.options.physics)
+                str(one) for kind in found.kinds for one in all_taken(kind.rotor, kind.parts, found.options.physics)
             )
         ),
     }
@@ -177,9 +175,7 @@ def write_floating(folder: Path, found: FloatingPoint) -> dict[Path, list[Path]]
     ]
     write_pvd(folder / "pump.pvd", whole)
     pictured = 2.0 * np.pi * PICTURED_TURN
-    drawings = {
-        folder / place / f"{gap}.png": [folder / _nearest(kept, place, gap, pictured)] for place, gap in kept
-    }
+    drawings = {folder / place / f"{gap}.png": [folder / _nearest(kept, place, gap, pictured)] for place, gap in kept}
     drawings[folder / "pump.png"] = [folder / path for path in _in_pump(kept, pictured, of_chamber)]
     return drawings
 

@@ -52,9 +52,7 @@ def coefficient_warnings(pump: PumpDescription, point: PumpPoint) -> list[str]:
     return found
 
 
-def share_beyond(
-    table: FlowCoefficients, area: Array, pressure_drop: Array, density: float, viscosity: float
-) -> float:
+def share_beyond(table: FlowCoefficients, area: Array, pressure_drop: Array, density: float, viscosity: float) -> float:
     """Return the fraction of angles with an open port (areas (N,) m2, drops (N,) Pa) beyond a file's rows.
 
     Laminar flow below its least flow number does not count. 0 where the port is never open.

@@ -169,10 +169,7 @@ def _laws(joints: JointForces, found: PumpPoint) -> dict[str, dict[str, float]]:
         "bore_reactions_of_a_piston": {"joints_N": bore[0], "law_N": bore[1]},
         "front_bearing": {"joints_N": radial[0], "law_N": pump.bearings.front_share * sides},
         "rear_bearing": {"joints_N": radial[1], "law_N": pump.bearings.rear_share * sides},
-        "ball_guide_retainer_loss": {
-            "joints_W": rubbing,
-            "law_W": rubbing * float(joints.group.plate_axes[2, 2]),
-        },
+        "ball_guide_retainer_loss": {"joints_W": rubbing, "law_W": rubbing * float(joints.group.plate_axes[2, 2])},
     }
 
 
@@ -192,10 +189,7 @@ def forces_view(folder: Path, summary: Mapping[str, Any]) -> ForcesView | None:
         return None
     found = summary["forces"]
     sizes, laws = (
-        [
-            (name.replace("_", " "), *(_shown(*value) for value in numbers.items()))
-            for name, numbers in part.items()
-        ]
+        [(name.replace("_", " "), *(_shown(*value) for value in numbers.items())) for name, numbers in part.items()]
         for part in (found["sizes"], found["nominal_law"])
     )
     shares = {

@@ -91,10 +91,7 @@ def headline_rows(summary: Mapping[str, Any]) -> Rows:
         ("torque, shaft", f"{torque['shaft_Nm']:.2f} N m"),
         ("torque, ideal at delivery pressure", f"{torque['ideal_delivery_Nm']:.2f} N m"),
         ("torque, ideal at pressure difference", f"{torque['ideal_difference_Nm']:.2f} N m"),
-        (
-            "ripple, delivery pressure",
-            f"{ripple['delivery_pressure_peak_to_peak_Pa'] * 1e-6:.4f} MPa peak to peak",
-        ),
+        ("ripple, delivery pressure", f"{ripple['delivery_pressure_peak_to_peak_Pa'] * 1e-6:.4f} MPa peak to peak"),
         ("ripple, delivery flow", f"{ripple['delivery_flow_peak_to_peak_m3_per_s'] * LPM:.3f} L/min peak to peak"),
         ("ripple, shaft torque", f"{ripple['shaft_torque_peak_to_peak_Nm']:.2f} N m peak to peak"),
         ("energy balance error, torque from forces", f"{errors['energy_balance_error']:.2g} of the shaft power"),
@@ -128,8 +125,7 @@ def pair_rows(summary: Mapping[str, Any]) -> Rows:
         numbers = (f"{loss[key]:.1f} W" for key in ("coulomb_W", "viscous_W", "total_W"))
         rows.append((pair.value.replace("_", " "), ABBREVIATION[pair], *numbers, f"{100 * loss['share']:.2f} %"))
     total = {
-        key: sum(loss[key] for loss in summary["pair_loss"].values())
-        for key in ("coulomb_W", "viscous_W", "total_W")
+        key: sum(loss[key] for loss in summary["pair_loss"].values()) for key in ("coulomb_W", "viscous_W", "total_W")
     }
     return [*rows, ("all pairs", "", *(f"{value:.1f} W" for value in total.values()), "100 %")]
 
@@ -151,8 +147,7 @@ def gap_rows(summary: Mapping[str, Any]) -> Rows:
         rows.append(
             (
                 TITLES[gap],
-                f"{report['film_thickness_mean_m'] * 1e6:.2f} um"
-                f" (least {report['film_thickness_min_m'] * 1e6:.2f} um)",
+                f"{report['film_thickness_mean_m'] * 1e6:.2f} um (least {report['film_thickness_min_m'] * 1e6:.2f} um)",
                 f"{report['leakage_flow_mean_m3_per_s'] * LPM:.4f} L/min",
                 f"{report['friction_power_mean_W']:.1f} W",
                 report["statement"],

@@ -64,9 +64,7 @@ def chamber_plot(data: xarray.Dataset, summary: Mapping[str, Any]) -> Figure:
         axes.patch.set_visible(False)
     handles = [*wide.get_legend_handles_labels()[0], *areas.get_legend_handles_labels()[0]]
     wide.legend(handles=handles, loc="upper left")
-    near.set(
-        xlabel="shaft angle from inner dead centre / deg", xlim=(160, 220), title="around the outer dead centre"
-    )
+    near.set(xlabel="shaft angle from inner dead centre / deg", xlim=(160, 220), title="around the outer dead centre")
     inlet = summary["operating_point"]["inlet_pressure_Pa"] * 1e-6
     near.set_ylim(min(-0.5, inlet - 3.0), 1.08 * pressure.max())
     return figure

@@ -101,9 +101,7 @@ def _films(case: PumpCase, report: Report) -> PumpRun:
 
 def _floating(case: PumpCase, report: Report) -> PumpRun:
     pump = case.pump
-    found = floating_point(
-        pump, operating_point(pump), case.options, side_by_side=case.side_by_side, report=report
-    )
+    found = floating_point(pump, operating_point(pump), case.options, side_by_side=case.side_by_side, report=report)
     point = found.pump_point
     summary = floating_summary(found, _warnings(pump, point) + losses_left_out(pump))
 

@@ -62,10 +62,7 @@ def pump_summary(
                 point.geometric_displacement, point.point.delivery_pressure - point.point.inlet_pressure
             ),
         },
-        "efficiency": {
-            "paper": _efficiency(point.paper_efficiency),
-            "iso_4409": _efficiency(point.iso_efficiency),
-        },
+        "efficiency": {"paper": _efficiency(point.paper_efficiency), "iso_4409": _efficiency(point.iso_efficiency)},
         "paper_loss": {
             **{f"{name}_W": value for name, value in asdict(losses).items()},
             "hydromechanical_share": losses.hydromechanical_share,

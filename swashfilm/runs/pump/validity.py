@@ -12,11 +12,7 @@ LARGEST_SAMPLING_ERROR = 0.02
 
 def films_warnings(films: FilmsPoint) -> list[str]:
     """Return all warnings of a films point, `name: text` each."""
-    return [
-        *unsupported_loads(films),
-        *impossible_pressures(films),
-        *few_angles(films),
-    ]
+    return [*unsupported_loads(films), *impossible_pressures(films), *few_angles(films)]
 
 
 def unsupported_loads(films: FilmsPoint) -> list[str]:

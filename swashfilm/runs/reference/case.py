@@ -116,9 +116,7 @@ def load_reference(path: Path) -> ReferenceCase:
     table = root.table("reference", needed="with kind and its sizes") or Table("reference", {}, [])
     root.close()
     kind = table.choice("kind", ReferenceKind) if table.values else None
-    section = (
-        None if kind is None else read_section("reference", SECTIONS[kind], table.values, Reading(faults=faults))
-    )
+    section = None if kind is None else read_section("reference", SECTIONS[kind], table.values, Reading(faults=faults))
     if isinstance(section, StepSection) and 1.0 in getattr(section, "film_ratio", ()):
         table.fault("film_ratio", "1, which is not a step", "ratios other than one")
     if faults or section is None:

@@ -22,10 +22,7 @@ NEAR = 5.0
 """Film thicknesses or diameters on either side of the passage in a picture."""
 GRID = 240
 MOST_NAMED = 12
-RIGHT = {
-    "flow_coefficient": "flow coefficient / 1",
-    "whole_extra_length": "whole extra length / h",
-}
+RIGHT = {"flow_coefficient": "flow coefficient / 1", "whole_extra_length": "whole extra length / h"}
 """Quantity in the right picture, for a port and for a film."""
 
 
@@ -67,9 +64,7 @@ def _flow(one: SolvedPassage) -> Figure:
     figure.colorbar(shown, ax=axes, label="speed / mean", shrink=0.9)
     along_x, along_y = (_on_grid(places, values, x, y) for values in (u, v))
     axes.streamplot(x, y, along_x, along_y, color="white", linewidth=0.5, arrowsize=0.6, density=1.4)
-    axes.set(
-        xlim=(x[0], x[-1]), ylim=(y[0], y[-1]), aspect="equal", xlabel="x / thickness", ylabel="y / thickness"
-    )
+    axes.set(xlim=(x[0], x[-1]), ylim=(y[0], y[-1]), aspect="equal", xlabel="x / thickness", ylabel="y / thickness")
     axes.set_title(f"{one.passage.words}, Re = {flow.density:g}", fontsize=9)
     return figure
 

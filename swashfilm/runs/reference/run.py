@@ -85,10 +85,7 @@ def _rows(case: ReferenceCase, solved: Sequence[SolvedPassage]) -> Iterator[dict
         for k, number in enumerate(found.reynolds):
             row = one.passage.sizes | {"reynolds [1]": one.passage.scale * float(number)}
             if case.kind not in OF_PORTS:
-                yield row | {
-                    "extra_length [1]": found.extra_length,
-                    "loss_factor [1]": float(found.loss_factor[k]),
-                }
+                yield row | {"extra_length [1]": found.extra_length, "loss_factor [1]": float(found.loss_factor[k])}
             elif number > 0.0:
                 yield row | {"flow_coefficient [1]": float(found.flow_coefficient[k])}
 

@@ -37,9 +37,7 @@ def add_reproduce_options(command: argparse.ArgumentParser) -> None:
         "--recording", type=Path, metavar="RECORDING",
         help="fig13: fit to readings of a bench (folder of a recording.toml), not to computed ones",
     )  # fmt: skip
-    command.add_argument(
-        "--page", type=Path, metavar="FILE.md", help="write the page to this file as Markdown too"
-    )
+    command.add_argument("--page", type=Path, metavar="FILE.md", help="write the page to this file as Markdown too")
     command.add_argument("--workers", metavar="N", help="processes that solve points side by side (1)")
     command.add_argument("--steps", metavar="N", help="floating gaps: reported angles per turn (360)")
     command.add_argument("--finer", metavar="X", help="floating gaps: factor on the cells (.5; --rigid: 1)")
@@ -162,9 +160,7 @@ def _write_page(path: Path, text: str) -> None:
     try:
         path.write_text(text, encoding="utf-8")
     except OSError as reason:
-        raise InputFaults(
-            COMMAND_LINE, [Fault("--page", f"{path}: {reason.strerror}", "a file to write")]
-        ) from None
+        raise InputFaults(COMMAND_LINE, [Fault("--page", f"{path}: {reason.strerror}", "a file to write")]) from None
 
 
 COMMAND = Command(

@@ -101,11 +101,7 @@ def _field(figure: Any, axes: Any, panel: Panel) -> None:
     field = panel.field
     if field is None:
         raise ValueError(f"panel {panel.title}: found no field, expected one")
-    x, y, values = (
-        panel.x.unit.factor * field.x,
-        panel.y.unit.factor * field.y,
-        field.axis.unit.factor * field.values,
-    )
+    x, y, values = (panel.x.unit.factor * field.x, panel.y.unit.factor * field.y, field.axis.unit.factor * field.values)
     filled = axes.contourf(x, y, values, LEVELS, cmap="viridis")
     lines = axes.contour(x, y, values, filled.levels, colors="white", linewidths=0.6)
     axes.clabel(lines, fontsize=7, fmt="%g")

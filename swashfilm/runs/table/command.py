@@ -30,11 +30,7 @@ RANGES = {
         "5MPa..40MPa",
         "delivery pressures, gauge (0.05 above inlet and case .. 1.15 of the rated one)",
     ),
-    "--displacement": (
-        "operating.displacement_ratio",
-        "0.1..1.0",
-        "fractions of the full displacement (0.1 .. 1)",
-    ),
+    "--displacement": ("operating.displacement_ratio", "0.1..1.0", "fractions of the full displacement (0.1 .. 1)"),
     "--temperature": (
         "operating.temperature",
         "20degC..100degC",
@@ -221,9 +217,7 @@ def _range(faults: list[Fault], option: str, text: str, dimension: object, examp
     try:
         if len(ends) != 2:
             raise QuantityError(repr(text), "two ends with .. between them")
-        low, high = (
-            parse_quantity(end, dimension) if isinstance(dimension, Dimension) else float(end) for end in ends
-        )
+        low, high = (parse_quantity(end, dimension) if isinstance(dimension, Dimension) else float(end) for end in ends)
         if not low < high:
             raise QuantityError(repr(text), "the lower end first")
     except QuantityError as reason:
@@ -250,8 +244,5 @@ def _given(options: argparse.Namespace, option: str) -> str | None:
 
 
 COMMAND = Command(
-    "table",
-    "response table of a pump's gaps, for runs of --fidelity table",
-    add_table_options,
-    run_table_command,
+    "table", "response table of a pump's gaps, for runs of --fidelity table", add_table_options, run_table_command
 )

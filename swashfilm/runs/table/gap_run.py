@@ -95,8 +95,7 @@ def run_gap_table(asked: GapTableCase, folder: Path, report: Report, *, workers:
         "name": asked.name,
         "condensed": _condensed(case, asked.axes),
         "outputs": [
-            row | {"unit": named(row["name"])[1] or "1", "meaning": MEANINGS[row["name"]]}
-            for row in record["outputs"]
+            row | {"unit": named(row["name"])[1] or "1", "meaning": MEANINGS[row["name"]]} for row in record["outputs"]
         ],
         "assumptions": [NO_RUBBING, *map(str, floating_parts(case.rotor.pump).taken)],
         "warnings": table_warnings(response, record),
@@ -127,9 +126,7 @@ def _record(asked: GapTableCase, found: Sequence[SampledPoint], response: Respon
         "case": asked.name,
         "units": "SI; of the outputs as their names end",
         **response_record(response, dimensions),
-        "failed": [
-            {"at": points[one.index].tolist(), "reason": one.reason} for one in found if one.outputs is None
-        ],
+        "failed": [{"at": points[one.index].tolist(), "reason": one.reason} for one in found if one.outputs is None],
         "seconds": float(np.mean([one.seconds for one in found])),
     }
 

@@ -43,10 +43,7 @@ def held_rows(summary: Mapping[str, Any]) -> Iterator[tuple[str, str]]:
     """Yield (name, value with its unit): origin of the table, its constant inputs, and its box."""
     yield from summary["condensed"].items()
     for axis in summary["axes"]:
-        yield (
-            axis["name"].replace("_", " "),
-            " .. ".join(input_text(axis, axis[end]) for end in ("lower", "upper")),
-        )
+        yield (axis["name"].replace("_", " "), " .. ".join(input_text(axis, axis[end]) for end in ("lower", "upper")))
     points = summary["points"]
     failed = f", {len(summary['failed'])} failed" if summary["failed"] else ""
     yield "points", f"{points['learnt']} learnt, {points['held_out']} held out{failed}"

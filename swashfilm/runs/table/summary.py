@@ -36,9 +36,7 @@ def table_point_summary(pump: PumpDescription, found: TablePoint) -> dict[str, A
             "stated": dict(origin.stated),
             "points": {"learnt": len(response.learnt.points), "held_out": len(response.held_out.points)},
             "held_out_rms_error": {one.name: float(error.rms[k]) for k, one in enumerate(response.outputs)},
-            "held_out_largest_error": {
-                one.name: float(error.largest[k]) for k, one in enumerate(response.outputs)
-            },
+            "held_out_largest_error": {one.name: float(error.largest[k]) for k, one in enumerate(response.outputs)},
             "numbers_largest_error": _numbers_largest(found),
             "film_thickness_mean_m": asdict(found.film_mean),
             "film_thickness_min_m": asdict(found.film_least),

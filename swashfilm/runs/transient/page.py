@@ -69,9 +69,7 @@ def turn_rows(summary: Mapping[str, Any]) -> list[tuple[str, ...]]:
         ("drive torque", "shaft_torque_Nm", 1.0, "N m"),
         ("moment of the chambers' pressure on the plate", "pressure_moment_Nm", 1.0, "N m"),
     )
-    return [
-        (name, *(f"{scale * turn[key]:.2f} {unit}" for turn in (first, last))) for name, key, scale, unit in shown
-    ]
+    return [(name, *(f"{scale * turn[key]:.2f} {unit}" for turn in (first, last))) for name, key, scale, unit in shown]
 
 
 def check_rows(summary: Mapping[str, Any]) -> list[tuple[str, str]]:

@@ -75,9 +75,7 @@ def physics_rows(posterior: Posterior, observations: Observations, points: Bench
     sigma = posterior.whitening.sigma[:, own]
     measured = observations.measured[:, own]
     return tuple(
-        row
-        for split, miss in misses.items()
-        for row in _rows(PHYSICS, split, miss[:, own], sigma, measured, (0, 0))
+        row for split, miss in misses.items() for row in _rows(PHYSICS, split, miss[:, own], sigma, measured, (0, 0))
     )
 
 
@@ -112,12 +110,7 @@ def model_rows(
 
 
 def _rows(
-    model: str,
-    split: Split,
-    miss: Array,
-    sigma: Array,
-    measured: NDArray[np.bool_],
-    coefficients: Sequence[int],
+    model: str, split: Split, miss: Array, sigma: Array, measured: NDArray[np.bool_], coefficients: Sequence[int]
 ) -> list[HeldOutRow]:
     def rms(values: Array, at: int) -> float:
         return float(np.sqrt(np.mean(values[measured[:, at], at] ** 2)))

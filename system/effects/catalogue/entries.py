@@ -34,9 +34,7 @@ def with_films_solved(pump: PumpDescription, report: Report = silent) -> tuple[E
 def _solved(table: OpeningTable) -> Extension:
     name = path_of(EffectId.ELASTIC_OPENING, COMPLIANCE, table.gap)
     source = f"1: walls as drawing and material make them; films solved, to {table.error:.1%} between them"
-    return Extension(
-        EffectId.ELASTIC_OPENING, table.gap, SolvedOpening(table), (half(name, 1.0, 1.5, None, source),)
-    )
+    return Extension(EffectId.ELASTIC_OPENING, table.gap, SolvedOpening(table), (half(name, 1.0, 1.5, None, source),))
 
 
 def entry_of(effect: EffectId) -> Entry:

@@ -7,13 +7,7 @@ from system.effects.components import Component
 from system.effects.effect import EffectId, Kind
 from system.effects.extension import THEORY, Entry, Extension, Law
 from system.effects.laws.contact import mixed_friction
-from system.effects.laws.film import (
-    ElasticOpening,
-    ThermalClearance,
-    film_heating,
-    shear_thinning,
-    viscosity_pressure,
-)
+from system.effects.laws.film import ElasticOpening, ThermalClearance, film_heating, shear_thinning, viscosity_pressure
 from system.effects.laws.flow import squeeze_pumping
 from system.effects.laws.tipping import block_tipping, slipper_lift
 from system.effects.priors import half, path_of, scale_of, signed
@@ -118,11 +112,7 @@ FILM_ENTRIES = (
                 EffectId.SHEAR_THINNING,
                 None,
                 shear_thinning,
-                (
-                    half(
-                        path_of(EffectId.SHEAR_THINNING, "drop"), 0.15, 0.4, None, "10 to 40 % of multigrade oils"
-                    ),
-                ),
+                (half(path_of(EffectId.SHEAR_THINNING, "drop"), 0.15, 0.4, None, "10 to 40 % of multigrade oils"),),
                 tuple({"rate": rate} for rate in SHEAR_RATES),
                 (scale_of(EffectId.SHEAR_THINNING, "rate", SHEAR_RATES, Dimension.SHEAR_RATE),),
             ),
@@ -143,9 +133,7 @@ FILM_ENTRIES = (
                 None,
                 mixed_friction,
                 tuple(
-                    half(
-                        path_of(EffectId.MIXED_FRICTION, gap.value), 0.05, 0.12, None, ".08 to .12 of bare layers"
-                    )
+                    half(path_of(EffectId.MIXED_FRICTION, gap.value), 0.05, 0.12, None, ".08 to .12 of bare layers")
                     for gap in Gap
                 ),
                 tuple({"hersey_scale": scale, "exponent": 1.0} for scale in HERSEY_SCALES),

@@ -33,11 +33,7 @@ def _entry(
 
 
 def _whole(
-    effect: EffectId,
-    law: Law,
-    *sizes: Parameter,
-    grid: tuple[Values, ...] = ({},),
-    scales: tuple[Parameter, ...] = (),
+    effect: EffectId, law: Law, *sizes: Parameter, grid: tuple[Values, ...] = ({},), scales: tuple[Parameter, ...] = ()
 ) -> Extension:
     return Extension(effect, None, law, sizes, grid, scales)
 

@@ -11,14 +11,7 @@ from reynolds.numerics.arrays import Array
 from system.description.gap import Gap
 from system.effects.effect import BenchState, Effects, GapCourse
 from system.effects.extension import Values
-from system.effects.state import (
-    dead_volume,
-    displaced,
-    full_stroke,
-    ideal_flow,
-    pressure_difference,
-    unchanged,
-)
+from system.effects.state import dead_volume, displaced, full_stroke, ideal_flow, pressure_difference, unchanged
 from system.inputs.units import TURN
 
 BARREL_WALL = 0.2

@@ -44,9 +44,7 @@ def opening_flow(opening: Array) -> Array:
 
     The mean of (h/h0)^3 along a pressure that falls linearly and lifts the wall in proportion.
     """
-    return np.asarray(
-        np.where(opening > SMALL, ((1.0 + opening) ** 4 - 1.0) / np.maximum(4.0 * opening, SMALL), 1.0)
-    )
+    return np.asarray(np.where(opening > SMALL, ((1.0 + opening) ** 4 - 1.0) / np.maximum(4.0 * opening, SMALL), 1.0))
 
 
 def cross_ratio(shear_rate: Array, drop: float, rate: float) -> Array:
@@ -58,9 +56,7 @@ def cross_ratio(shear_rate: Array, drop: float, rate: float) -> Array:
 def viscosity_pressure(values: Values, courses: Courses, state: BenchState) -> Effects:
     """Barus' law in all three films: `coefficient` 1/Pa. Less leakage at high pressure, more shear under it."""
     exponents = [values["coefficient"] * np.maximum(courses[gap].pressure, 0.0) for gap in GAPS]
-    return _in_films(
-        courses, state, [barus_flow(own) for own in exponents], [barus_shear(own) for own in exponents]
-    )
+    return _in_films(courses, state, [barus_flow(own) for own in exponents], [barus_shear(own) for own in exponents])
 
 
 @dataclass(frozen=True)
@@ -84,9 +80,7 @@ class ThermalClearance:
     def __call__(self, values: Values, courses: Courses, state: BenchState) -> Effects:
         """The effects with these values."""
         warmer = state.temperature - state.geometry.operating.temperature
-        film = np.maximum(1.0 + values["rate"] * warmer, LEAST_FILM)[:, None] * np.ones_like(
-            courses[self.gap].film
-        )
+        film = np.maximum(1.0 + values["rate"] * warmer, LEAST_FILM)[:, None] * np.ones_like(courses[self.gap].film)
         return in_one_film(self.gap, courses, state, film**3, 1.0 / film)
 
 
@@ -159,10 +153,7 @@ def in_one_film(gap: Gap, courses: Courses, state: BenchState, flow: Array, shea
     """Effects of a factor on one gap's flow and one on its shear."""
     ones = np.ones_like(flow)
     return _in_films(
-        courses,
-        state,
-        [flow if own is gap else ones for own in GAPS],
-        [shear if own is gap else ones for own in GAPS],
+        courses, state, [flow if own is gap else ones for own in GAPS], [shear if own is gap else ones for own in GAPS]
     )
 
 

@@ -50,6 +50,4 @@ def line_resonance(values: Values, courses: Courses, state: BenchState) -> Effec
 
     Mean bias of turbine meters in pulsing flow; the pump itself is unmoved. `speed`: of the shaft, rad/s.
     """
-    return replace(
-        unchanged(courses), delivery_reading=1.0 + values["height"] * lorentz(state.speed, values["speed"])
-    )
+    return replace(unchanged(courses), delivery_reading=1.0 + values["height"] * lorentz(state.speed, values["speed"]))

@@ -77,9 +77,7 @@ def source_faults(table: CsvTable) -> list[Fault]:
 def range_faults(table: CsvTable, name: str, fine: NDArray[np.bool_], expected: str) -> list[Fault]:
     """A fault a line whose number is not fine."""
     values = table.columns[name]
-    return [
-        Fault(f"line {table.lines[row]}, {name}", f"{values[row]:g}", expected) for row in np.nonzero(~fine)[0]
-    ]
+    return [Fault(f"line {table.lines[row]}, {name}", f"{values[row]:g}", expected) for row in np.nonzero(~fine)[0]]
 
 
 def _order_faults(

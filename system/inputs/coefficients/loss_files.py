@@ -70,13 +70,9 @@ def _gridded(table: CsvTable, names: list[str], faults: list[Fault]) -> LossFact
     order = np.lexsort([reynolds, *sizes.T[::-1]])
     shape = len(kinds), numbers.size
     if len(sizes) != len(kinds) * numbers.size or np.any(reynolds[order] != np.tile(numbers, len(kinds))):
-        faults.append(
-            Fault("reynolds", f"{len(sizes)} rows", f"each of {shape[0]} passages at each of {shape[1]}")
-        )
+        faults.append(Fault("reynolds", f"{len(sizes)} rows", f"each of {shape[0]} passages at each of {shape[1]}"))
     elif np.ptp(extra[order].reshape(shape), axis=1).max() > 0.0:
-        faults.append(
-            Fault("extra_length", "values that vary with Re", "one value a passage, that of Stokes flow")
-        )
+        faults.append(Fault("extra_length", "values that vary with Re", "one value a passage, that of Stokes flow"))
     if faults:
         raise InputFaults(str(table.path), faults)
     by_passage = extra[order].reshape(shape)[:, 0], loss[order].reshape(shape)

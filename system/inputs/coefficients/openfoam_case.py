@@ -120,9 +120,7 @@ def _held(case: Path, found: CaseFlow) -> CaseFlow:
     """The flow; raises InputFaults where it is no flow through an orifice."""
     faults = []
     if not found.flow > 0.0:
-        faults.append(
-            Fault("inlet", f"{found.flow:.3g} m3/s in", "a flow into the case", "inlet and outlet swapped")
-        )
+        faults.append(Fault("inlet", f"{found.flow:.3g} m3/s in", "a flow into the case", "inlet and outlet swapped"))
     elif abs(found.balance_error) > IMBALANCE:
         share = f"outflow {1.0 + found.balance_error:.3f} of the inflow"
         faults.append(

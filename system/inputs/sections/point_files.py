@@ -51,8 +51,7 @@ def _columns(path: Path, head: list[str], layouts: tuple[Points, ...]) -> tuple[
     """The layout of a head, and the unit and the index in the file of each of its columns."""
     matches = [_HEAD.fullmatch(cell) for cell in head]
     names = [
-        match[1].replace("_", " ").lower() if match else cell.strip()
-        for match, cell in zip(matches, head, strict=True)
+        match[1].replace("_", " ").lower() if match else cell.strip() for match, cell in zip(matches, head, strict=True)
     ]
     for layout in layouts:
         if all(matches) and sorted(names) == sorted(layout.heads):

@@ -183,9 +183,7 @@ def _text(raw: object, text: Text, folder: Path) -> Path | str | tuple[str, ...]
     """A path from the folder, made absolute; a name; names."""
     names = raw if text is Text.NAMES else [raw]
     may_be_empty = text is Text.WORDS
-    if not (
-        isinstance(names, list) and names and all(isinstance(one, str) and (one or may_be_empty) for one in names)
-    ):
+    if not (isinstance(names, list) and names and all(isinstance(one, str) and (one or may_be_empty) for one in names)):
         raise QuantityError(repr(raw), text.value)
     if text is Text.NAMES:
         return tuple(names)

@@ -21,23 +21,9 @@ import numpy as np
 
 from system.multibody.plate_kernels import axial
 from system.pump.chamber import layout as col
-from system.pump.chamber.kernels import (
-    GAMMA,
-    LEFT,
-    NODES,
-    STAGES,
-    TABLEAU,
-    WEIGHTS,
-    fill_stage,
-    stage_pressure,
-)
+from system.pump.chamber.kernels import GAMMA, LEFT, NODES, STAGES, TABLEAU, WEIGHTS, fill_stage, stage_pressure
 from system.pump.chamber.layout import INTEGRALS, PATHS, WAYS
-from system.pump.chamber.state_kernels import (
-    oil_energy,
-    oil_volume,
-    outflows,
-    port_ways,
-)
+from system.pump.chamber.state_kernels import oil_energy, oil_volume, outflows, port_ways
 from system.pump.ports.areas import orifice_coefficients, section_area
 
 PLATE = np.dtype(

@@ -18,14 +18,7 @@ from system.pump.chamber.problem import ChamberProblem
 from system.pump.chamber.state_kernels import oil_volume
 from system.pump.laws import friction_pairs as pairs
 from system.pump.laws.leakage import piston_conductance, piston_drag_flow
-from system.pump.lumped import (
-    chamber_problem,
-    full_drive,
-    lumped_leaks,
-    piston_area,
-    piston_motion,
-    port_openings,
-)
+from system.pump.lumped import chamber_problem, full_drive, lumped_leaks, piston_area, piston_motion, port_openings
 from system.pump.operating import OperatingPoint
 
 USUAL_STEP = np.radians(0.5)

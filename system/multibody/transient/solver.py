@@ -15,13 +15,7 @@ from system.inputs.units import TURN
 from system.multibody.kinematics import swash_angle
 from system.multibody.plate_motion import Mechanism, mechanism
 from system.multibody.transient import kernels as kernel
-from system.multibody.transient.setup import (
-    natural_frequency,
-    plate_problem,
-    plate_record,
-    start_states,
-    steps_a_pitch,
-)
+from system.multibody.transient.setup import natural_frequency, plate_problem, plate_record, start_states, steps_a_pitch
 from system.points.lumped import lumped_point
 from system.pump.chamber.cycle import flow_energy
 from system.pump.chamber.layout import INTEGRALS

@@ -26,8 +26,7 @@ def fig10(points: PaperPoints) -> FigureResult:
     pump = points.pump
     suction, delivery = port_openings(pump)
     curves = tuple(
-        Curve(name, ANGLES, opening_area(port, ANGLES))
-        for name, port in (("suction", suction), ("delivery", delivery))
+        Curve(name, ANGLES, opening_area(port, ANGLES)) for name, port in (("suction", suction), ("delivery", delivery))
     )
     area = FigureAxis("area", Unit.AREA)
     panels = (
@@ -36,10 +35,7 @@ def fig10(points: PaperPoints) -> FigureResult:
     )
     count = float(sections(suction) + sections(delivery))
     rise = groove_share(pump, points.at(RATED, PRESSURES[-1], FULL))
-    judged = (
-        judge(CLAIMS["fig10.sections"], Range(count, count)),
-        judge(CLAIMS["fig10.groove"], Range(rise, rise)),
-    )
+    judged = (judge(CLAIMS["fig10.sections"], Range(count, count)), judge(CLAIMS["fig10.groove"], Range(rise, rise)))
     return FigureResult(Figure.FIG10, panels, judged, ("The areas are geometry, the same in every fidelity.",))
 
 

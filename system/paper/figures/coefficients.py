@@ -42,22 +42,13 @@ def fig13_of(fits: Mapping[LossReading, Sequence[EqFit]], remarks: Sequence[str]
     By both readings: with the films' shear separate, and with the shear in the coefficients.
     """
     cells = {reading: [fit for fit in own if fit.ratio is not None] for reading, own in fits.items()}
-    panels = (
-        *(_bounded(own, reading) for reading, own in cells.items()),
-        _printed(cells[LossReading.MIXED]),
-    )
-    judged = (
-        _solved(cells[LossReading.MIXED]),
-        *(_in_range(own, reading) for reading, own in cells.items()),
-    )
+    panels = (*(_bounded(own, reading) for reading, own in cells.items()), _printed(cells[LossReading.MIXED]))
+    judged = (_solved(cells[LossReading.MIXED]), *(_in_range(own, reading) for reading, own in cells.items()))
     widths = tuple(_widths(own[-1], reading) for reading, own in fits.items())
     return FigureResult(Figure.FIG13, panels, judged, (*remarks, _rank(fits[LossReading.MIXED]), *widths))
 
 
-_DISPLACEMENT, _COEFFICIENT = (
-    FigureAxis("displacement", Unit.SHARE),
-    FigureAxis("friction coefficient", Unit.NUMBER),
-)
+_DISPLACEMENT, _COEFFICIENT = (FigureAxis("displacement", Unit.SHARE), FigureAxis("friction coefficient", Unit.NUMBER))
 
 
 def _names(fit: EqFit) -> list[str]:
@@ -82,9 +73,7 @@ def _bounded(cells: Sequence[EqFit], reading: LossReading) -> Panel:
 
 def _printed(cells: Sequence[EqFit]) -> Panel:
     """Size of the coefficients by plain least squares."""
-    curves = tuple(
-        Curve(name, x, np.array([abs(fit.printed[k]) for fit in cells])) for k, name, x in _columns(cells)
-    )
+    curves = tuple(Curve(name, x, np.array([abs(fit.printed[k]) for fit in cells])) for k, name, x in _columns(cells))
     title = "Their size by plain least squares, as printed"
     return Panel(title, PanelKind.LOGARITHMIC, _DISPLACEMENT, _COEFFICIENT, curves)
 

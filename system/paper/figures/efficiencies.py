@@ -49,9 +49,7 @@ def fig2(points: PaperPoints) -> FigureResult:
         )  # fmt: skip
         values, best = field.values, float(field.values.max())
         judged.append(
-            judge(
-                CLAIMS["fig2.best"], Range(best, best), reading=reading, reason=_best_reason(points, best, reading)
-            )
+            judge(CLAIMS["fig2.best"], Range(best, best), reading=reading, reason=_best_reason(points, best, reading))
         )
         ends = range_of([values[-1, 0] / best, values[0, -1] / best])
         judged.append(judge(CLAIMS["fig2.falls"], ends, reading=reading))
@@ -89,9 +87,7 @@ def _undelivered(points: PaperPoints, figure: Figure) -> tuple[str, ...]:
     idle = [place.text for place in places if points.points[place].bench.delivery_flow <= 0.0]
     if not idle:
         return ()
-    return (
-        f"Not made: this pump delivers nothing at {'; '.join(idle)}, and Eqs. (3) to (5) have no value there.",
-    )
+    return (f"Not made: this pump delivers nothing at {'; '.join(idle)}, and Eqs. (3) to (5) have no value there.",)
 
 
 def case_one(points: PaperPoints) -> tuple[PaperPoint, ...]:

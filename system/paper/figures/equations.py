@@ -73,9 +73,7 @@ def _eq9(drive: SwashDrive) -> Judged:
 
 def _eq12(points: PaperPoints, drive: SwashDrive) -> Judged:
     ratio = azimuth_rate_ratio(ball_guide(points.pump), float(drive.swash_angle), ANGLES)
-    reason = (
-        "points of one retainer would turn at different speeds about its axis, so their distances would change"
-    )
+    reason = "points of one retainer would turn at different speeds about its axis, so their distances would change"
     impossible = _must_be_one("turning of the retainer's points over each other's", ratio)
     return judge(CLAIMS["equations.12"], range_of(ratio), reason=reason, impossible=impossible)
 
@@ -84,9 +82,7 @@ def _eq14(drive: SwashDrive) -> Judged:
     pushed = piston_velocity(drive, ANGLES, RATED)
     shrinks = RATED * _rate(lambda at: piston_displacement(drive, at), ANGLES)
     moved = float(np.abs(pushed - shrinks).mean() * np.pi / (RATED * stroke(drive)))
-    reason = (
-        "q_r of Eq. (19) is dV_c/dt of Eq. (18): counted twice, of opposite sign, the pump would deliver nothing"
-    )
+    reason = "q_r of Eq. (19) is dV_c/dt of Eq. (18): counted twice, of opposite sign, the pump would deliver nothing"
     impossible = _must_be_one("displacement left over the true one", np.array([moved]))
     return judge(CLAIMS["equations.14"], Range(moved, moved), reason=reason, impossible=impossible)
 

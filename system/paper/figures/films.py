@@ -18,9 +18,7 @@ FILM = FigureAxis("film", Unit.FILM)
 SHOWN_ANGLE = 1.5 * pi
 """Shaft angle (rad) of the film that is drawn: the middle of the delivery half."""
 NO_FIELD = "Films of given thickness have no field: --fidelity films or floating."
-GIVEN = (
-    "The film is the one that the pump file gives: only --fidelity floating finds how it follows the displacement."
-)
+GIVEN = "The film is the one that the pump file gives: only --fidelity floating finds how it follows the displacement."
 
 
 def fig8_of_films(pump: PumpDescription) -> FigureResult:

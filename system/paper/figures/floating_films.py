@@ -128,8 +128,7 @@ def _fig8(pump: PumpDescription, piston: Mapping[str, Any], remarks: tuple[str, 
     x, y, values = (np.array(one) for one in piston["field"])
     ratios = np.array(piston["eccentricity"]) / clearance
     courses = tuple(
-        Curve(f"at the film's {end}", np.array(piston["angle"]), own)
-        for end, own in zip(ENDS, ratios, strict=True)
+        Curve(f"at the film's {end}", np.array(piston["angle"]), own) for end, own in zip(ENDS, ratios, strict=True)
     )
     angle = FigureAxis("shaft angle from inner dead centre", Unit.ANGLE)
     panels = (

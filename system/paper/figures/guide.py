@@ -90,8 +90,7 @@ def fig19(points: PaperPoints) -> FigureResult:
     )  # fmt: skip
     rated = SPEEDS.index(RATED)
     remark = (
-        f"At rated speed: law {law[rated]:.1f} W, multibody {bodies[rated]:.1f} W, "
-        f"k as printed {printed[rated]:.1f} W."
+        f"At rated speed: law {law[rated]:.1f} W, multibody {bodies[rated]:.1f} W, k as printed {printed[rated]:.1f} W."
     )
     return FigureResult(Figure.FIG19, panels, judged, (remark, "Pressure enters none of the three."))
 

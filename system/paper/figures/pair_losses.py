@@ -10,16 +10,7 @@ from reynolds.numerics.arrays import Array
 from system.inputs.units import RPM
 from system.paper.figure import Curve, Figure, FigureAxis, Panel, PanelKind, Unit
 from system.paper.judge import FigureResult, Impossibility, Judged, Range, judge, range_of
-from system.paper.points import (
-    FULL,
-    PRESSURES,
-    RATED,
-    RATIOS,
-    SPEEDS,
-    LossReading,
-    PaperPoint,
-    PaperPoints,
-)
+from system.paper.points import FULL, PRESSURES, RATED, RATIOS, SPEEDS, LossReading, PaperPoint, PaperPoints
 from system.paper.statements import CLAIMS
 from system.pump.laws.friction_pairs import Pair
 
@@ -117,10 +108,7 @@ def fig17(points: PaperPoints) -> FigureResult:
             judge(CLAIMS["fig17.top"], _part(top), reading=reading),
             judge(CLAIMS["fig17.main"], _part(main), reading=reading, reason=_others_reason(every, reading)),
             judge(
-                CLAIMS["fig17.ball_guide"],
-                Range(guide, guide),
-                reading=reading,
-                reason=_guide_reason(rows[RATED][0]),
+                CLAIMS["fig17.ball_guide"], Range(guide, guide), reading=reading, reason=_guide_reason(rows[RATED][0])
             ),
         ]
     return FigureResult(Figure.FIG17, panels, tuple(judged))
@@ -185,8 +173,7 @@ def _leading(
     for reading in LossReading:
         leads = [uppermost(one, reading, 2) == {SLIPPER, PLATE} for one in row]
         shares = (
-            f"{pair_words(pair)} {_percent(np.array([one.share(pair, reading) for one in row]))} %"
-            for pair in MAIN
+            f"{pair_words(pair)} {_percent(np.array([one.share(pair, reading) for one in row]))} %" for pair in MAIN
         )
         judged.append(judge(CLAIMS[claim], _part(leads), reading=reading, reason=", ".join(shares)))
     return FigureResult(figure, panels, tuple(judged))

@@ -36,9 +36,7 @@ def table1(points: PaperPoints) -> FigureResult:
         )
         for name, value in found.items()
     )
-    remark = (
-        "The table itself is lost: every number that its text does not state is an assumption of the pump file."
-    )
+    remark = "The table itself is lost: every number that its text does not state is an assumption of the pump file."
     return FigureResult(Figure.TABLE1, (), judged, (remark,))
 
 

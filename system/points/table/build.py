@@ -72,9 +72,7 @@ class TableCase:
         """Name of a point's content: the pump, the solver with its inputs, the format, the place."""
         solver, point = self.solver, point_at(self, x)
         place = np.array([getattr(point, name) for name in INPUTS])
-        return content_key(
-            pump_key(self.pump), TABLE_FORMAT, solver.source.value, sorted(solver.stated.items()), place
-        )
+        return content_key(pump_key(self.pump), TABLE_FORMAT, solver.source.value, sorted(solver.stated.items()), place)
 
     def solve(self, x: Array) -> Array:
         """The gaps' means over the turn, by their ratios to the lumped law; after them the pump's numbers."""

@@ -56,9 +56,7 @@ def measured_outputs(values: Array) -> tuple[Output, ...]:
     return tuple(
         Output(
             name,
-            Measure.RELATIVE
-            if name.partition(".")[2] in OF_ORDER_ONE and np.all(column > 0.0)
-            else Measure.ABSOLUTE,
+            Measure.RELATIVE if name.partition(".")[2] in OF_ORDER_ONE and np.all(column > 0.0) else Measure.ABSOLUTE,
         )
         for name, column in zip(MEANINGS, values.T, strict=True)
     )

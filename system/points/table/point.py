@@ -92,9 +92,7 @@ def table_point(pump: PumpDescription, point: OperatingPoint, table: ResponseTab
     )
 
 
-def _leaks(
-    pump: PumpDescription, point: OperatingPoint, motion: PistonMotion, means: Mapping[str, float]
-) -> LeakTable:
+def _leaks(pump: PumpDescription, point: OperatingPoint, motion: PistonMotion, means: Mapping[str, float]) -> LeakTable:
     """Flow out of a chamber into each gap, of the table's mean and drag power: a G (p - p_case) + b C + c.
 
     G and C are the lumped law's, moments those at the pressure of its own cycle. The piston's drag flow is b C,

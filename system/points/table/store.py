@@ -18,14 +18,7 @@ from system.inputs.faults import Fault, InputFaults, nearest_path
 from system.inputs.units import Dimension
 from system.points.table.means import MEANINGS, TABLE_FORMAT
 from system.points.table.pump_numbers import NUMBERS, NumbersError
-from system.points.table.response_table import (
-    DIMENSIONS,
-    Failed,
-    ResponseTable,
-    TableOrigin,
-    box_text,
-    point_text,
-)
+from system.points.table.response_table import DIMENSIONS, Failed, ResponseTable, TableOrigin, box_text, point_text
 from system.points.table.sources import Source, with_held_ports
 from system.pump.operating import OperatingPoint
 from system.pump_file.file import resolved_toml
@@ -138,9 +131,7 @@ def own_table(path: Path, pump: PumpDescription) -> ResponseTable:
     table = read_table(path)
     if table.origin.pump_key != pump_key(pump):
         found = f"{path}, a table of {table.origin.pump} as it was then"
-        fault = Fault(
-            "--table", found, "a table of this very pump, inlet and case pressure", "swashfilm table PUMP"
-        )
+        fault = Fault("--table", found, "a table of this very pump, inlet and case pressure", "swashfilm table PUMP")
         raise InputFaults("response table", [fault])
     return table
 
@@ -192,12 +183,7 @@ def response_record(response: Response, dimensions: Mapping[str, Dimension]) -> 
             for axis in response.axes
         ],
         "outputs": [
-            {
-                "name": output.name,
-                "measure": output.measure.value,
-                "least": output.least,
-            }
-            | _errors(response, error, k)
+            {"name": output.name, "measure": output.measure.value, "least": output.least} | _errors(response, error, k)
             for k, output in enumerate(response.outputs)
         ],
         "points": {"learnt": len(response.learnt.points), "held_out": len(response.held_out.points)},

@@ -42,14 +42,7 @@ TRAIL = STAGE + KEPT * STAGES
 GAMMA = 0.25
 WEIGHTS = np.array([82889 / 524892, 0.0, 15625 / 83664, 69875 / 102672, -2260 / 8211, 0.25])
 EMBEDDED = np.array(
-    [
-        4586570599 / 29645900160,
-        0.0,
-        178811875 / 945068544,
-        814220225 / 1159782912,
-        -3700637 / 11593932,
-        61727 / 225920,
-    ]
+    [4586570599 / 29645900160, 0.0, 178811875 / 945068544, 814220225 / 1159782912, -3700637 / 11593932, 61727 / 225920]
 )
 TABLEAU = np.array(
     [
@@ -314,9 +307,7 @@ def revolution(chamber, table, ports, nodes, pressure, tolerance, pressures, pat
             size = max(size, 1e-4)
             grown = length * min(4.0, SAFETY * size**-0.25)
             if size > 1e-2 and taken > 1:
-                grown = min(
-                    grown, SAFETY * length * size**-0.25 * (length / last_length) * (last_size / size) ** 0.25
-                )
+                grown = min(grown, SAFETY * length * size**-0.25 * (length / last_length) * (last_size / size) ** 0.25)
             last_length, last_size = length, size
             wish = max(wish, grown) if length < wish else grown
         pressures[node - 1] = stages[0, PRESSURE]

@@ -130,9 +130,7 @@ def _orifice_flow(line: OrificeLine, pressure: Array, supply: Supply, oil: Chamb
 
 
 def _through(area: float, drop: Array, oil: ChamberProblem) -> tuple[Array, Array]:
-    law = orifice_coefficients(
-        area, oil.flow_coefficient, oil.density, oil.kinematic_viscosity, oil.critical_reynolds
-    )
+    law = orifice_coefficients(area, oil.flow_coefficient, oil.density, oil.kinematic_viscosity, oil.critical_reynolds)
     flow, slope = np.array([orifice(one, *law) for one in drop]).T
     return flow, slope
 

@@ -23,10 +23,7 @@ PORT_NAMES = ("delivery_port", "suction_port")
 def constants(problem: ChamberProblem) -> Constants:
     """A chamber problem as `kernels` reads it."""
     record = chamber_records(problem)
-    record["delivery_port"], record["suction_port"] = (
-        as_array(problem.delivery_port),
-        as_array(problem.suction_port),
-    )
+    record["delivery_port"], record["suction_port"] = (as_array(problem.delivery_port), as_array(problem.suction_port))
     return record, gap_cubics(problem.leaks, problem.growth), _port_cubics(problem)
 
 
@@ -90,9 +87,7 @@ def gap_cubics(leaks: LeakTable, growth: Array | None = None) -> Array:
     *points, _, samples = leaks.conductance.shape
     grown = np.zeros(samples) if growth is None else growth
     if grown.shape != (samples,):
-        raise ValueError(
-            f"growth of the chamber: found shape {grown.shape}, expected the leak table's ({samples},)"
-        )
+        raise ValueError(f"growth of the chamber: found shape {grown.shape}, expected the leak table's ({samples},)")
     rows = [leaks.conductance, leaks.drag_flow, np.broadcast_to(grown, (*points, 1, samples))]
     cubics = periodic_cubics(np.concatenate(rows, axis=-2).reshape(-1, samples))
     return np.ascontiguousarray(np.moveaxis(cubics.reshape(samples, *points, TABLE, 4), 0, -3))

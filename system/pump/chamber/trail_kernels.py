@@ -35,13 +35,7 @@ from system.pump.chamber.kernels import (
     step_size,
 )
 from system.pump.chamber.layout import INTEGRALS, PATHS, WAYS
-from system.pump.chamber.state_kernels import (
-    oil_change,
-    oil_volume,
-    outflows,
-    volume,
-    ways_out,
-)
+from system.pump.chamber.state_kernels import oil_change, oil_volume, outflows, volume, ways_out
 
 NOT_PERIODIC, TOO_ROUGH = 3, 4
 """Statuses beside those of `kernels`."""

@@ -14,9 +14,7 @@ from system.pump.laws.kinematics import SwashDrive
 def bore_axis(drive: SwashDrive, shaft_angle: float) -> Array:
     """Unit vector (3,) of a bore axis, out of the block; cones open towards the swash plate."""
     cone = drive.bore_cone_angle
-    return np.array(
-        [np.sin(cone) * np.cos(shaft_angle), np.sin(cone) * np.sin(shaft_angle), np.cos(cone)], dtype=float
-    )
+    return np.array([np.sin(cone) * np.cos(shaft_angle), np.sin(cone) * np.sin(shaft_angle), np.cos(cone)], dtype=float)
 
 
 def bore_sides(drive: SwashDrive, shaft_angle: float) -> Array:

@@ -153,9 +153,7 @@ def slipper_swash_plate_coulomb(friction: float, axial: Array, swash_angle: Arra
     return friction * np.abs(axial) / np.cos(swash_angle) * speed
 
 
-def slipper_swash_plate_shear(
-    viscosity: Array | float, land_area: float, speed: Array, film_thickness: float
-) -> Array:
+def slipper_swash_plate_shear(viscosity: Array | float, land_area: float, speed: Array, film_thickness: float) -> Array:
     """Shear loss mu A v_s^2/delta of one slipper's lands, A = pi (r2^2 - r1^2) in m2 of a single one."""
     return viscosity * land_area * speed**2 / film_thickness
 
@@ -198,9 +196,7 @@ def pads_shear(viscosity: Number, area: float, mean_speed: Number, film_thicknes
     return viscosity * area * mean_speed**2 / film_thickness
 
 
-def ball_guide_coulomb(
-    friction: float, spring: float, contact_latitude: float, mean_sliding_speed: Number
-) -> Number:
+def ball_guide_coulomb(friction: float, spring: float, contact_latitude: float, mean_sliding_speed: Number) -> Number:
     """Loss f F_s/sin(latitude) mean|dV| of ball guide and retainer.
 
     REF90's nominal law: it leaves the cos(gamma) of Eq. (23) out (see `retainer.uniform_normal_force`, 4 % at 16.2

@@ -74,9 +74,7 @@ def piston_velocity(drive: SwashDrive[Number], shaft_angle: Array | float, shaft
     Solves v = w (R/sin b) t sin phi/(1+t cos phi)^2; shaft_speed w in rad/s.
     """
     t = drive.cone_swash_product
-    return np.asarray(
-        shaft_speed * drive.stroke_scale * np.sin(shaft_angle) / (1.0 + t * np.cos(shaft_angle)) ** 2
-    )
+    return np.asarray(shaft_speed * drive.stroke_scale * np.sin(shaft_angle) / (1.0 + t * np.cos(shaft_angle)) ** 2)
 
 
 def piston_acceleration(drive: SwashDrive[Number], shaft_angle: Array | float, shaft_speed: Number) -> Array:
@@ -87,14 +85,10 @@ def piston_acceleration(drive: SwashDrive[Number], shaft_angle: Array | float, s
     """
     t = drive.cone_swash_product
     c, s = np.cos(shaft_angle), np.sin(shaft_angle)
-    return np.asarray(
-        shaft_speed**2 * drive.stroke_scale * (t * (1.0 + s**2) + c) / (1.0 + t * c) ** 3,
-    )
+    return np.asarray(shaft_speed**2 * drive.stroke_scale * (t * (1.0 + s**2) + c) / (1.0 + t * c) ** 3)
 
 
-def ball_acceleration_along_bore(
-    drive: SwashDrive[Number], shaft_angle: Array | float, shaft_speed: Number
-) -> Array:
+def ball_acceleration_along_bore(drive: SwashDrive[Number], shaft_angle: Array | float, shaft_speed: Number) -> Array:
     """Acceleration of the ball centre along its bore in m/s2, out of the block, in a frame that does not turn.
 
     Eq. (8) less the bore's share of the centripetal acceleration, w^2 r sin(b): the block carries an inclined bore
@@ -149,9 +143,7 @@ def swash_angle_for_stroke(stroke_length: Number, pitch_radius: float, bore_cone
     return np.arctan(stroke_length / (radius + root))
 
 
-def crossed_drive(
-    pitch_radius: float, bore_cone_angle: float, swash_angle: float, cross_angle: float
-) -> SwashDrive:
+def crossed_drive(pitch_radius: float, bore_cone_angle: float, swash_angle: float, cross_angle: float) -> SwashDrive:
     """The drive of a plate tilted by a swash angle g and, fixed and about the axis square to it, a cross angle k.
 
     The plate z = -x tan g + y tan k is one of tilt G, tan^2 G = tan^2 g + tan^2 k, whose dead centres come

@@ -44,11 +44,7 @@ def piston_drag_flow(piston_diameter: float, radial_clearance: float, velocity: 
 
 
 def slipper_conductance(
-    log_ratio: float,
-    film_thickness: float,
-    orifice_diameter: float,
-    orifice_length: float,
-    viscosity: Number,
+    log_ratio: float, film_thickness: float, orifice_diameter: float, orifice_length: float, viscosity: Number
 ) -> Number:
     """Leakage of one slipper per pascal: capillary orifice and parallel disc lands in series; paper Eq. (16).
 
@@ -61,11 +57,7 @@ def slipper_conductance(
 
 
 def slipper_leakage_short_orifice(
-    pressure_drop: Array | float,
-    conductance: float,
-    orifice_diameter: float,
-    flow_coefficient: float,
-    density: float,
+    pressure_drop: Array | float, conductance: float, orifice_diameter: float, flow_coefficient: float, density: float
 ) -> Array:
     """Leakage of one slipper in m3/s when its orifice also has an entry and exit loss.
 

@@ -39,9 +39,7 @@ def contact_point(guide: BallGuide, swash_angle: float, psi: Array | float) -> A
     sl, cl = np.sin(guide.contact_latitude), np.cos(guide.contact_latitude)
     sg, cg = np.sin(swash_angle), np.cos(swash_angle)
     psi = np.asarray(psi, dtype=float)
-    return guide.radius * np.stack(
-        [sl * cg + cl * sg * np.cos(psi), cl * cg * np.cos(psi) - sl * sg, cl * np.sin(psi)]
-    )
+    return guide.radius * np.stack([sl * cg + cl * sg * np.cos(psi), cl * cg * np.cos(psi) - sl * sg, cl * np.sin(psi)])
 
 
 def relative_locus(guide: BallGuide, swash_angle: float, psi: Array | float) -> Array:
@@ -54,9 +52,7 @@ def azimuth_rate_ratio(guide: BallGuide, swash_angle: Array | float, psi: Array 
     sl, cl = np.sin(guide.contact_latitude), np.cos(guide.contact_latitude)
     sg, cg = np.sin(swash_angle), np.cos(swash_angle)
     reach = cl * cg * np.cos(psi) - sl * sg
-    return np.asarray(
-        (reach**2 + (cl * np.sin(psi)) ** 2) / (cl**2 * cg - sl * cl * sg * np.cos(psi)),
-    )
+    return np.asarray((reach**2 + (cl * np.sin(psi)) ** 2) / (cl**2 * cg - sl * cl * sg * np.cos(psi)))
 
 
 def relative_velocity(
@@ -84,10 +80,7 @@ def relative_velocity(
 
 
 def mean_sliding_speed(
-    guide: BallGuide,
-    swash_angle: Number,
-    shaft_speed: Number,
-    motion: RetainerMotion = RetainerMotion.RIGID,
+    guide: BallGuide, swash_angle: Number, shaft_speed: Number, motion: RetainerMotion = RetainerMotion.RIGID
 ) -> Number:
     """Mean of |dV| round the contact circle in m/s: Eq. (25) per unit of uniform normal force and friction."""
     psi = 2.0 * np.pi * np.arange(QUADRATURE_POINTS) / QUADRATURE_POINTS

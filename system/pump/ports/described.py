@@ -17,11 +17,7 @@ from system.pump.ports.areas import MOST_GROOVES
 from system.pump.ports.lines import HeldPressure, Impedance, ImpedanceLine, Line, OrificeLine
 from system.pump.ports.relief_grooves import ReliefGroove, round_groove, v_groove
 
-_KEYS = {
-    GrooveShape.V: ("depth", "angle"),
-    GrooveShape.ROUND: ("depth", "width"),
-    GrooveShape.AREA: ("area",),
-}
+_KEYS = {GrooveShape.V: ("depth", "angle"), GrooveShape.ROUND: ("depth", "width"), GrooveShape.AREA: ("area",)}
 """The keys that belong to a shape."""
 
 
@@ -49,9 +45,7 @@ def groove_faults(ports: PortsSection) -> Iterator[Fault]:
     missing = [key for key, value in own.items() if value is None]
     if ports.grooves:
         for key in own.keys() - set(missing):
-            yield Fault(
-                f"ports.{key}", "beside grooves", "one of the two: grooves, or groove_start and groove_area"
-            )
+            yield Fault(f"ports.{key}", "beside grooves", "one of the two: grooves, or groove_start and groove_area")
     elif len(missing) == 1:
         yield Fault(f"ports.{missing[0]}", "missing", "groove_start and groove_area together, or neither")
     if len(ports.grooves) > MOST_GROOVES:

@@ -49,9 +49,7 @@ class Impedance:
 
     def __post_init__(self) -> None:
         rises = (
-            self.frequency.ndim == 1
-            and self.frequency.size > 1
-            and np.all(np.diff(self.frequency, prepend=0.0) > 0.0)
+            self.frequency.ndim == 1 and self.frequency.size > 1 and np.all(np.diff(self.frequency, prepend=0.0) > 0.0)
         )
         if not rises or self.value.shape != self.frequency.shape or np.any(self.value == 0.0):
             raise ValueError(

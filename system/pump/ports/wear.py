@@ -25,9 +25,7 @@ class PortWear(Generic[Number]):
 AS_DRAWN: PortWear[float] = PortWear(0.0, 1.0, 1.0)
 
 
-def worn_ports(
-    suction: PortOpening, delivery: PortOpening, wear: PortWear[float]
-) -> tuple[PortOpening, PortOpening]:
+def worn_ports(suction: PortOpening, delivery: PortOpening, wear: PortWear[float]) -> tuple[PortOpening, PortOpening]:
     """Suction and delivery port with their wear."""
     kidney = suction.kidney_area * wear.suction_area
     return replace(eroded(suction, wear), kidney_area=kidney), eroded(delivery, wear)

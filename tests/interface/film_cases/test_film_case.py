@@ -297,9 +297,7 @@ def test_parts_that_touch_between_the_points_of_the_mesh_do_touch(write, gap, po
 
 
 def test_a_gap_case_tells_all_its_faults_at_once(write):
-    text = (
-        GAP.replace('"10 um"', '"10"').replace('"270 deg"', '"270"').replace("[position]", "speed = 3\n[position]")
-    )
+    text = GAP.replace('"10 um"', '"10"').replace('"270 deg"', '"270"').replace("[position]", "speed = 3\n[position]")
     text += 'slope = "1 deg"\n[operating]\nspeed = "2100"\n'
     assert {fault.path for fault in faults_of(write(text)).faults} == {
         "operating.speed", "film.shaft_angle", "film.speed", "position.film_thickness", "position.slope",
@@ -338,9 +336,7 @@ def test_a_parallel_slipper_leaks_what_orifice_and_land_let_through(write):
     assert summary["position_source"] == "given"
 
 
-REST = (
-    'format = 1\n[film]\ngap = "slipper"\npump = "ref90"\nshaft_angle = "270 deg"\nchamber_pressure = "50 bar"\n'
-)
+REST = 'format = 1\n[film]\ngap = "slipper"\npump = "ref90"\nshaft_angle = "270 deg"\nchamber_pressure = "50 bar"\n'
 
 
 def test_a_stated_load_that_nothing_bears_is_no_number(tmp_path, capsys):

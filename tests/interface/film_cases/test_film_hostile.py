@@ -150,9 +150,7 @@ def test_a_film_that_bears_round_off_has_no_friction_coefficient(tmp_path):
 
 def test_the_warning_of_a_film_pulled_below_cavitation_names_the_law_that_conserves_mass(tmp_path):
     diverging = CASE.replace("2 - x", "1 + x").replace("viscosity", 'cavitation = "none"\nviscosity', 1)
-    warnings = {
-        warning["name"]: warning["text"] for warning in summary_of(tmp_path / "c.toml", diverging)["warnings"]
-    }
+    warnings = {warning["name"]: warning["text"] for warning in summary_of(tmp_path / "c.toml", diverging)["warnings"]}
     assert "'jfo'" in warnings["pressure_below_cavitation"]
 
 

@@ -121,12 +121,7 @@ def test_a_constant_is_a_key_of_a_study():
         ('"10 um"', '"10 um"\nh-0 = 1', "constants.h-0", ["a letter first"]),
         ("rise =", "rice =", "film.thickness", ["unknown name rise", "rice"]),
         ('["speed"', '["sped"', "film.velocity[0]", ["unknown name sped", "speed"]),
-        (
-            '{ pressure = "0 bar" }',
-            '{ pressure = "rize" }',
-            "boundary.left.pressure",
-            ["unknown name rize", "rise"],
-        ),
+        ('{ pressure = "0 bar" }', '{ pressure = "rize" }', "boundary.left.pressure", ["unknown name rize", "rise"]),
     ],
 )
 def test_a_fault_says_where_what_and_what_instead(old, new, path, words):

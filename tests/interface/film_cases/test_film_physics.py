@@ -234,9 +234,7 @@ def test_a_film_that_warms_itself_is_told(read):
 def test_a_film_hotter_than_its_oil_is_no_number(read):
     from reynolds import InputError
 
-    hot = read(
-        GRADE.replace('"1 m/s"', '"60 m/s"').replace('"10 um"', '"3 um"') + WALLS.replace("50 degC", "140 degC")
-    )
+    hot = read(GRADE.replace('"1 m/s"', '"60 m/s"').replace('"10 um"', '"3 um"') + WALLS.replace("50 degC", "140 degC"))
     with pytest.raises(InputError) as refused:
         solve_case(hot)
     for word in ("oil temperature", "a lower speed"):
@@ -248,14 +246,10 @@ def test_an_oil_that_thins_with_shear_drags_less(read):
     text = GIVEN.replace('"1 bar"', '"0 bar"')
     still, thin = (film_summary(solve_case(read(text + more))) for more in ("", THINNING))
     share = 0.2 + 0.8 * 1.01**-0.25
-    assert thin["friction_force_moving_N"][0] == pytest.approx(
-        share * still["friction_force_moving_N"][0], rel=1e-6
-    )
+    assert thin["friction_force_moving_N"][0] == pytest.approx(share * still["friction_force_moving_N"][0], rel=1e-6)
     eyring = film_summary(solve_case(read(text + '[oil]\nshear_law = "eyring"\neyring_stress = "5 kPa"\n')))
     share = np.arcsinh(0.6) / 0.6
-    assert eyring["friction_force_moving_N"][0] == pytest.approx(
-        share * still["friction_force_moving_N"][0], rel=1e-6
-    )
+    assert eyring["friction_force_moving_N"][0] == pytest.approx(share * still["friction_force_moving_N"][0], rel=1e-6)
     first = read(text + THINNING)
     assert read(first.resolved).resolved == first.resolved
 

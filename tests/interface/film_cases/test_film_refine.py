@@ -82,9 +82,7 @@ def test_a_finer_mesh_keeps_area_names_and_data(cell, build):
     children = fine.mesh.p[:, fine.mesh.t].mean(axis=1).reshape(2, 4, -1).mean(axis=1)
     np.testing.assert_allclose(children, centres, atol=0.05 if build is annulus else 1e-12)
     x, y = fine.mesh.p
-    np.testing.assert_allclose(
-        finer.point_data(3.0 * coarse.mesh.p[0] - coarse.mesh.p[1]), 3.0 * x - y, atol=1e-12
-    )
+    np.testing.assert_allclose(finer.point_data(3.0 * coarse.mesh.p[0] - coarse.mesh.p[1]), 3.0 * x - y, atol=1e-12)
     assert len(finer.cell_data(np.arange(coarse.mesh.nelements))) == fine.mesh.nelements
 
 
@@ -124,9 +122,7 @@ def test_data_of_a_mesh_file_go_along(tmp_path, monkeypatch):
     Path("step.toml").write_text(text, encoding="utf-8")
     assert main(["film", "step.toml", "--refine", "2", "-o", "run"]) == 0
     found = json.loads(Path("run/summary.json").read_text("utf-8"))["refinement"]["numbers"]["load_N"]
-    assert found["values"] == pytest.approx(
-        [60.9677, 60.9677], rel=1e-5
-    )  # Rayleigh's step is exact on either mesh
+    assert found["values"] == pytest.approx([60.9677, 60.9677], rel=1e-5)  # Rayleigh's step is exact on either mesh
     assert found["verdict"] == "converged to round-off"
 
 

@@ -93,9 +93,7 @@ def test_a_piston_in_the_middle_is_learnt_as_the_power_law_that_it_is(capsys):
     assert "Assumed values" in page.read_text("utf-8")
     assert main([*words, "-o", "again"]) == 0
     assert "11 points kept" in capsys.readouterr().err
-    assert np.array_equal(
-        read_gap_table(Path("again/table.npz")).response.learnt.values, table.response.learnt.values
-    )
+    assert np.array_equal(read_gap_table(Path("again/table.npz")).response.learnt.values, table.response.learnt.values)
 
 
 @pytest.mark.slow
@@ -115,9 +113,7 @@ def test_every_fault_is_told_at_once():
     assert "25 MPa" in faults_of(wrong)['table."film.chamber_pressure".to']
     told = faults_of(PISTON.replace("radial_clearance", "radial_clearence"))
     assert "radial_clearance" in told['table."pump.piston.radial_clearence"']
-    told = faults_of(
-        PISTON.partition("[table]")[0] + '[table]\npressure = 3\n"film.chamber_pressure" = ["1 MPa"]\n'
-    )
+    told = faults_of(PISTON.partition("[table]")[0] + '[table]\npressure = 3\n"film.chamber_pressure" = ["1 MPa"]\n')
     assert "key of the case" in told['table."pressure"']
     assert "{ from, to }" in told['table."film.chamber_pressure"']
     assert "[table]" in faults_of(PISTON.partition("[table]")[0])["table"]

@@ -264,9 +264,7 @@ def test_a_study_varies_the_pump_and_goes_on_after_a_break(monkeypatch):
     least = found["film thickness min / m"].astype(float)
     assert len(least) == 2
     assert least[0] != pytest.approx(least[1], rel=1e-3)
-    assert {"film_thickness_min_m.png", "course_tilt_rad.png"} <= {
-        path.name for path in Path("out/plots").iterdir()
-    }
+    assert {"film_thickness_min_m.png", "course_tilt_rad.png"} <= {path.name for path in Path("out/plots").iterdir()}
     with xarray.open_dataset("out/study.nc", engine="h5netcdf") as data:
         curves = data["course_film_thickness_min_m"]
         assert curves.dims == ("pump.slipper.rim_relief.depth", "shaft_angle_deg")

@@ -53,9 +53,7 @@ def child(program: str, *words: str) -> subprocess.CompletedProcess:
 def test_help_names_every_command_and_imports_nothing_heavy():
     heavy = {"numpy", "scipy", "numba", "skfem", "pint", "matplotlib", "pyvista", "xarray", "rich"}
     ended = child(
-        "import swashfilm.__main__ as m\n"
-        "try: m.main()\n"
-        f"finally: print('HEAVY', sorted({heavy!r} & set(sys.modules)))",
+        f"import swashfilm.__main__ as m\ntry: m.main()\nfinally: print('HEAVY', sorted({heavy!r} & set(sys.modules)))",
         "--help",
     )
     assert "HEAVY []" in ended.stdout

@@ -260,7 +260,6 @@ def test_warnings_are_explained(films):
     )
     assert set(re.findall(r'"name": "(\w+)"', sources)) <= explained
     checks = "".join(
-        (ROOT / "system" / "pump_file" / f"{of}.py").read_text("utf-8")
-        for of in ("geometry", "ports", "operating")
+        (ROOT / "system" / "pump_file" / f"{of}.py").read_text("utf-8") for of in ("geometry", "ports", "operating")
     )
     assert set(re.findall(r'CheckWarning\(\s*"([\w.]+)"', checks)) <= explained

@@ -86,9 +86,7 @@ def test_a_saved_run_is_the_commands_and_opens_again(point, tmp_path):
 
 
 def test_another_value_of_a_key(point):
-    wide = sf.run(
-        "ref90", speed="2100 rpm", pressure="350 bar", set={"valve_plate.film_thickness": "12 um"}, **LUMPED
-    )
+    wide = sf.run("ref90", speed="2100 rpm", pressure="350 bar", set={"valve_plate.film_thickness": "12 um"}, **LUMPED)
     assert wide.films.valve_plate.leakage_flow > 2.0 * point.films.valve_plate.leakage_flow
 
 

@@ -68,9 +68,7 @@ def test_a_map_leaves_its_files(run):
     assert len(list((run / "points").glob("*.json"))) == 22
     rows = list(csv.DictReader((run / "map.csv").open()))
     assert len(rows) == 18
-    assert {"shaft speed [rpm]", "delivery pressure [MPa]", "shaft_torque [N m]", "paper.overall [1]"} <= set(
-        rows[0]
-    )
+    assert {"shaft speed [rpm]", "delivery pressure [MPa]", "shaft_torque [N m]", "paper.overall [1]"} <= set(rows[0])
     shares = list(csv.reader((run / "shares.csv").open()))
     np.testing.assert_allclose([sum(map(float, row[6:])) for row in shares[1:]], 100.0, atol=0.1)
     page = (run / "report.html").read_text()
@@ -224,9 +222,7 @@ def test_solved_points_outlive_an_error(tmp_path, monkeypatch, capsys):
     assert list((tmp_path / "run.partial" / "points").glob("*.json"))
 
 
-@pytest.mark.parametrize(
-    ("least", "most"), [(44.1, 85.8), (97.3, 99.73), (99.9, 99.9), (0.0, 100.0), (-3.0, 12.0)]
-)
+@pytest.mark.parametrize(("least", "most"), [(44.1, 85.8), (97.3, 99.73), (99.9, 99.9), (0.0, 100.0), (-3.0, 12.0)])
 def test_contours_of_efficiencies_are_close_by_the_best(least, most):
     levels = efficiency_levels(np.array([least, most]))
     steps = np.diff(levels)
@@ -274,10 +270,7 @@ def test_duty_and_compare_leave_their_pages(run, tmp_path, capsys):
         ("time [s], sped [rpm], pressure [bar], displacement ratio [1]\n0,1,1,1\n1,1,1,1\n", "try:      speed"),
         ("time [s], speed [bar], pressure [bar], displacement ratio [1]\n0,1,1,1\n1,1,1,1\n", "rotational speed"),
         ("time [s], speed [rpm], pressure [bar], displacement ratio [1]\n0,x,1,1\n1,1,1,1\n", "speed, line 2"),
-        (
-            "time [s], speed [rpm], pressure [bar], displacement ratio [1]\n1,1,1,1\n0,1,1,1\n",
-            "order of their time",
-        ),
+        ("time [s], speed [rpm], pressure [bar], displacement ratio [1]\n1,1,1,1\n0,1,1,1\n", "order of their time"),
         (
             "time [s], speed [rpm], pressure [bar], displacement ratio [1]\n0,1500,200,1\n1,1500,500,1\n",
             "50 MPa at 1 s",

@@ -27,9 +27,7 @@ EVERY = [(kind, path) for kind, paths in FILES.items() for path in sorted(paths)
 
 
 def faults(kind, tables):
-    return [
-        f"{'.'.join(map(str, one.absolute_path))}: {one.message}" for one in VALIDATORS[kind].iter_errors(tables)
-    ]
+    return [f"{'.'.join(map(str, one.absolute_path))}: {one.message}" for one in VALIDATORS[kind].iter_errors(tables)]
 
 
 @pytest.mark.parametrize("kind", SCHEMAS)

@@ -87,9 +87,7 @@ def test_what_cannot_be_shown_is_refused(value):
 def test_rounded_quantities_are_near(dimension, value, digits):
     shown = format_quantity(value, dimension, digits=digits)
     offset = 273.15 if dimension is Dimension.TEMPERATURE else 0.0  # digits count from the freezing point
-    assert (
-        abs(parse_quantity(shown, dimension) - value) <= 0.51 * 10.0 ** (1 - digits) * abs(value - offset) + 1e-300
-    )
+    assert abs(parse_quantity(shown, dimension) - value) <= 0.51 * 10.0 ** (1 - digits) * abs(value - offset) + 1e-300
 
 
 @pytest.mark.parametrize(

@@ -23,10 +23,7 @@ FLOATING = ["run", "ref90_floating", "--fidelity", "floating"]
         ([*FLOATING, "--finer", "fine"], ["--finer", "'fine'", "a number"]),
         (["run", "ref90", "--finer", "1"], ["--finer", "--fidelity floating"]),
         ([*FLOATING, "--rgid"], ["--rgid", "unknown option", "--rigid"]),
-        (
-            ["run", "ref90", "--smooth", "--steps", "72"],
-            ["2 faults", "--smooth", "--steps", "--fidelity floating"],
-        ),
+        (["run", "ref90", "--smooth", "--steps", "72"], ["2 faults", "--smooth", "--steps", "--fidelity floating"]),
     ],
 )
 def test_bad_options_end_with_2_and_say_what_to_do(words, told, capsys, tmp_path, monkeypatch):
@@ -41,17 +38,7 @@ def test_bad_options_end_with_2_and_say_what_to_do(words, told, capsys, tmp_path
 def test_options_of_the_command_line():
     """Heat comes by a switch, the rest goes by one; fewer steps keep as many films; rigid walls mesh finer."""
     usual = FloatingOptions()
-    words = [
-        *FLOATING,
-        "--rigid",
-        "--isoviscous",
-        "--smooth",
-        "--no-cavitation",
-        "--steps",
-        "72",
-        "--finer",
-        "2",
-    ]
+    words = [*FLOATING, "--rigid", "--isoviscous", "--smooth", "--no-cavitation", "--steps", "72", "--finer", "2"]
     given = build_parser().parse_args(words)
     assert floating_faults(given, load_pump("ref90_floating"), given.fidelity) == []
     found = floating_options(given)

@@ -64,13 +64,9 @@ def test_columns_and_numbers_that_are_none_are_told(tmp_path):
 
 def test_loss_factors_are_a_full_grid(tmp_path):
     head = "# source: x\nfilm_ratio [1], reynolds [1], extra_length [1], loss_factor [1]\n"
-    found = read_step_losses(
-        file_of(tmp_path, head + "2, 0, .4, -1\n0.5, 0, .4, 1\n2, 5, .4, -.9\n0.5, 5, .4, 1.2\n")
-    )
+    found = read_step_losses(file_of(tmp_path, head + "2, 0, .4, -1\n0.5, 0, .4, 1\n2, 5, .4, -.9\n0.5, 5, .4, 1.2\n"))
     assert found.loss_factor.tolist() == [[1.0, 1.2], [-1.0, -0.9]]
-    assert set(faults_of(read_step_losses, file_of(tmp_path, head + "2, 0, .4, -1\n0.5, 1, .4, 1\n"))) == {
-        "reynolds"
-    }
+    assert set(faults_of(read_step_losses, file_of(tmp_path, head + "2, 0, .4, -1\n0.5, 1, .4, 1\n"))) == {"reynolds"}
     varied = head + "2, 0, .4, -1\n2, 1, .5, 1\n"
     assert set(faults_of(read_step_losses, file_of(tmp_path, varied))) == {"extra_length", "film_ratio"}
 
@@ -88,9 +84,7 @@ def test_a_run_tells_where_its_coefficients_are_from(tmp_path, monkeypatch):
     file_of(tmp_path, PORT)
     text = resolved_toml(load_pump("ref90"))
     kept = [line for line in text.splitlines() if not line.startswith(("flow_coefficient", "critical_reynolds"))]
-    pump = file_of(
-        tmp_path, "\n".join(kept).replace("[ports]", '[ports]\ncoefficient_file = "port.csv"'), "pump.toml"
-    )
+    pump = file_of(tmp_path, "\n".join(kept).replace("[ports]", '[ports]\ncoefficient_file = "port.csv"'), "pump.toml")
     assert run_command(["run", str(pump), "--fidelity", "lumped", "-o", "out"]) == 0
     summary = json.loads((tmp_path / "out" / "summary.json").read_text("utf-8"))
     (told,) = summary["coefficients"]

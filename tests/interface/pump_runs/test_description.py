@@ -328,8 +328,7 @@ def test_all_faults_at_once(faults_of):
 
 def test_a_check_waits_for_values_it_can_trust(faults_of):
     faults, _ = faults_of(
-        pump__pitch_radius='pitch_radius = "45 bar"',
-        slipper__land_outer_radius='land_outer_radius = "44 mm"',
+        pump__pitch_radius='pitch_radius = "45 bar"', slipper__land_outer_radius='land_outer_radius = "44 mm"'
     )
     assert set(faults) == {"pump.pitch_radius"}
 
@@ -383,9 +382,7 @@ def test_ref90_itself_is_doubtful_in_its_engaged_length_only():
 
 def test_operating_point_is_checked_all_at_once():
     pump = load_pump("ref90")
-    point = operating_point(
-        pump, displacement_ratio=1.5, inlet_pressure=-2e5, shaft_speed=0.0, delivery_pressure=-3e5
-    )
+    point = operating_point(pump, displacement_ratio=1.5, inlet_pressure=-2e5, shaft_speed=0.0, delivery_pressure=-3e5)
     paths = [fault.path for fault in check_operating_point(pump, point).faults]
     assert paths == [
         "operating.pressure",

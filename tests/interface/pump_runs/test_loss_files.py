@@ -9,15 +9,7 @@ import pytest
 
 from swashfilm.cli.app import run_command
 from swashfilm.runs.pump.edge_losses import loss_records, losses_left_out
-from system import (
-    InputFaults,
-    check_pump,
-    load_pump,
-    lumped_point,
-    operating_point,
-    read_step_losses,
-    resolved_toml,
-)
+from system import InputFaults, check_pump, load_pump, lumped_point, operating_point, read_step_losses, resolved_toml
 from system.inputs.coefficients.loss_files import read_groove_losses
 from system.maps.point import LumpedSolver, MapWork
 from system.pump.land_losses import land_losses
@@ -183,9 +175,7 @@ def test_single_slippers_files_are_told_at_their_own(tmp_path):
 
 def test_a_groove_s_reference_is_a_slipper_s(tmp_path):
     case = tmp_path / "groove.toml"
-    text = (
-        'format = 1\n[reference]\nkind = "groove"\nfilm_ratio = 3\nwidth_ratio = [1, 3]\nreynolds = 0\ncells = 2\n'
-    )
+    text = 'format = 1\n[reference]\nkind = "groove"\nfilm_ratio = 3\nwidth_ratio = [1, 3]\nreynolds = 0\ncells = 2\n'
     case.write_text(text, encoding="utf-8")
     assert run_command(["reference", str(case), "-o", str(tmp_path / "groove")]) == 0
     file = tmp_path / "groove" / "loss_factor.csv"

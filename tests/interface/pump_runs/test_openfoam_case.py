@@ -179,18 +179,7 @@ def test_what_is_wrong_with_a_case_is_told(tmp_path):
 
 
 def test_sizes_without_units_are_all_told(tmp_path):
-    words = [
-        "coefficients",
-        str(tmp_path),
-        "--inlet",
-        "a",
-        "--outlet",
-        "b",
-        "--throat-area",
-        "1",
-        "--density",
-        "2 m",
-    ]
+    words = ["coefficients", str(tmp_path), "--inlet", "a", "--outlet", "b", "--throat-area", "1", "--density", "2 m"]
     with pytest.raises(InputFaults) as told:
         run_command([*words, "--viscosity", "0 mm2/s"])
     assert [fault.path for fault in told.value.faults] == ["--throat-area", "--density", "--viscosity"]

@@ -193,12 +193,7 @@ def _rows(pump):
         ("piston.profile", [["0 mm", "0 um"], ["40 mm", "0 um"]], "places from 0 mm to 40 mm", "45 mm or more"),
         ("piston.profile", [["0 mm", "-15 um"], ["45 mm", "0 um"]], "protrudes by more", "more than -15 um"),
         ("piston.grooves", [["10 mm", "2 mm", "0 mm"]], "0 mm deep", "both more than 0"),
-        (
-            "piston.grooves",
-            [["1 mm", "2 mm", "1 mm"]],
-            "a groove 2 mm wide at 1 mm",
-            "between 0 and engaged_length",
-        ),
+        ("piston.grooves", [["1 mm", "2 mm", "1 mm"]], "a groove 2 mm wide at 1 mm", "between 0 and engaged_length"),
         (
             "piston.grooves",
             [["10 mm", "2 mm", "1 mm"], ["11 mm", "2 mm", "1 mm"]],
@@ -246,11 +241,7 @@ def test_bad_value(key, raw, found, expected):
             "materials.block.poissons_ratio",
             "0.5",
         ),
-        (
-            {"valve_plate.waviness": {"waves": 2.5, "amplitude": "1 um"}},
-            "valve_plate.waviness.waves",
-            "whole number",
-        ),
+        ({"valve_plate.waviness": {"waves": 2.5, "amplitude": "1 um"}}, "valve_plate.waviness.waves", "whole number"),
         ({"retainer.kind": "spring", "ball_guide.spring_preload": "0 N"}, "retainer.kind", "kind = 'clearance'"),
         ({"delivery_line.kind": "orifice"}, "delivery_line.volume", "such as '1 L'"),
         ({"delivery_line.volume": "1 L"}, "delivery_line.volume", "kind = 'orifice' or 'impedance'"),
@@ -266,11 +257,7 @@ def test_bad_value(key, raw, found, expected):
             "delivery_line.impedance",
             "frequencies that rise",
         ),
-        (
-            {"delivery_line.kind": "held", "delivery_line.volume": "1 L"},
-            "delivery_line.volume",
-            "kind = 'orifice'",
-        ),
+        ({"delivery_line.kind": "held", "delivery_line.volume": "1 L"}, "delivery_line.volume", "kind = 'orifice'"),
     ],
 )
 def test_what_does_not_fit_together(overrides, path, expected):

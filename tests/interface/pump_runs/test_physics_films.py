@@ -180,10 +180,7 @@ def test_films_that_cannot_be_solved_tell_why():
         (["run", "PUMP", "--fidelity", "floating"], "the lumped or the films fidelity"),
         (["map", "PUMP", "--plan", "point"], "--fidelity lumped, or --fidelity films --direct"),
         (["table", "PUMP", "--points", "32"], "the lumped or the films fidelity"),
-        (
-            ["reproduce", "fig8", "--fidelity", "floating", "--pump", "PUMP"],
-            "the lumped or the films fidelity",
-        ),
+        (["reproduce", "fig8", "--fidelity", "floating", "--pump", "PUMP"], "the lumped or the films fidelity"),
         (["film", "CASE"], "swashfilm run --fidelity lumped or films reads them"),
         (["transient", "TRANSIENT"], "swashfilm run --fidelity lumped or films reads them"),
     ],

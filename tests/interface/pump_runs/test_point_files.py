@@ -7,15 +7,7 @@ import pytest
 
 from gaps.shapes.profiles import PointsAround, measured
 from reynolds import InputError
-from system import (
-    ImpedanceLine,
-    InputFaults,
-    floating_parts,
-    load_pump,
-    lumped_point,
-    operating_point,
-    resolved_toml,
-)
+from system import ImpedanceLine, InputFaults, floating_parts, load_pump, lumped_point, operating_point, resolved_toml
 from system.pump.lumped import port_lines
 
 HEAD = "place [mm],material taken off [um]\n"
@@ -47,9 +39,7 @@ def test_a_worn_bore_comes_from_a_file_beside_the_pump(pump_file, tmp_path):
 
 
 def test_wear_around_a_part_in_columns_of_any_order(pump_file, tmp_path):
-    rows = [
-        f"{place * 1e-1 + turned * 1e-2},{place / 10},{turned}" for place in (26, 46) for turned in (0, 90, 200)
-    ]
+    rows = [f"{place * 1e-1 + turned * 1e-2},{place / 10},{turned}" for place in (26, 46) for turned in (0, 90, 200)]
     (tmp_path / "plate.csv").write_text(NET + "\n".join(rows), "utf-8")
     path = pump_file()
     text = path.read_text("utf-8").replace("land_radius_1", 'profile = "plate.csv"\nland_radius_1', 1)
@@ -76,16 +66,8 @@ def test_wear_around_a_part_in_columns_of_any_order(pump_file, tmp_path):
         ("place [bar],material taken off [um]\n0,1\n", "as place in line 2", "the head says [bar]"),
         (HEAD + "0,1\n", "worn.csv", "at least 2 rows"),
         (HEAD + "0,1\n44,1\n", "places from 0 mm to 44 mm", "45 mm or more"),
-        (
-            "place [mm],angle [deg],material taken off [um]\n0,0,1\n0,9,1\n45,0,1\n",
-            "0 rows at 45 mm, 9 deg",
-            "once",
-        ),
-        (
-            AROUND + "0,0,1\n0,360,1\n45,0,1\n45,360,1\n",
-            "angles from 0 deg to 360 deg",
-            "less than a turn",
-        ),
+        ("place [mm],angle [deg],material taken off [um]\n0,0,1\n0,9,1\n45,0,1\n", "0 rows at 45 mm, 9 deg", "once"),
+        (AROUND + "0,0,1\n0,360,1\n45,0,1\n45,360,1\n", "angles from 0 deg to 360 deg", "less than a turn"),
     ],
 )
 def test_a_file_that_is_none_is_told_once(text, found, expected, pump_file, tmp_path):

@@ -22,9 +22,7 @@ def film(pressure, load=0.0):
     )  # fmt: skip
     posed = PistonFilm(PistonShape(22e-3, 15e-6, 40e-3), drive, cells=(24, 6))
     position = np.array([7.5e-6, 0.0, 7.5e-6, 0.0])
-    return standing_piston_film(
-        posed, held_at(FilmSolver(posed.space_at(0.0)), standing_piston(posed), 0.0, position)
-    )
+    return standing_piston_film(posed, held_at(FilmSolver(posed.space_at(0.0)), standing_piston(posed), 0.0, position))
 
 
 def films(piston, other, physics=PLAIN):

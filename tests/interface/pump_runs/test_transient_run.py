@@ -93,12 +93,7 @@ course = "jump"
 @pytest.mark.parametrize(
     ("old", "new", "path", "told"),
     [
-        (
-            '[["0 s", "2.5 MPa"], ["5 ms", "0.6 MPa"]]',
-            '[["1 ms", "2.5 MPa"]]',
-            "control_pressure",
-            "rise from 0 s",
-        ),
+        ('[["0 s", "2.5 MPa"], ["5 ms", "0.6 MPa"]]', '[["1 ms", "2.5 MPa"]]', "control_pressure", "rise from 0 s"),
         ('"5 ms", "0.6 MPa"', '"5 ms", "6"', "control_pressure[1]", "with its unit"),
         ('[["0 s", "2.5 MPa"], ["5 ms", "0.6 MPa"]]', "2.5", "control_pressure", "rows such as"),
         ('"20 ms"', '"100 s"', "end", "at most 1000 turns"),

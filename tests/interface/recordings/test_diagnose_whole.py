@@ -19,16 +19,7 @@ import diagnosis.finding
 from reynolds import Array, NotConverged
 from swashfilm.__main__ import main
 from swashfilm.runs.diagnose.files import read_rows
-from system import (
-    BenchPoints,
-    ChannelName,
-    EffectId,
-    LumpedBench,
-    entry_of,
-    load_pump,
-    lumped_point,
-    operating_point,
-)
+from system import BenchPoints, ChannelName, EffectId, LumpedBench, entry_of, load_pump, lumped_point, operating_point
 
 PUMP = load_pump("ref90")
 EXAMPLES = Path(__file__).resolve().parents[3] / "examples" / "recordings"
@@ -166,9 +157,7 @@ def test_options_that_cannot_be_are_told(
     assert told in capsys.readouterr().err
 
 
-def test_a_recording_is_checked_without_being_diagnosed(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_a_recording_is_checked_without_being_diagnosed(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     """Its channels with units and what was taken of it; every fault of the readings at once."""
     folder = _record(tmp_path, 0.0)
     assert main(["check", str(folder)]) == 0

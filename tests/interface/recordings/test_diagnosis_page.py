@@ -58,9 +58,7 @@ def test_the_folder_holds_tables_and_a_page(study: Study, named: Diagnosis, tmp_
     rows = read_rows(tmp_path / "residuals.csv")
     assert len(rows) == 2 * PRESSURE.size
     flow = [row for row in rows if row["channel"] == "Q_case"]
-    before, after = (
-        np.sqrt(np.mean([float(row[key]) ** 2 for row in flow])) for key in ("pull_before", "pull_after")
-    )
+    before, after = (np.sqrt(np.mean([float(row[key]) ** 2 for row in flow])) for key in ("pull_before", "pull_after"))
     assert after < 1.3 < 2.0 < before
     assert float(flow[0]["p_out [bar]"]) == pytest.approx(50)
     assert float(flow[0]["measured"]) == pytest.approx(float(study.observations.values[0, 0]) / LPM, rel=1e-5)
@@ -69,11 +67,7 @@ def test_the_folder_holds_tables_and_a_page(study: Study, named: Diagnosis, tmp_
     assert opening["before"] == ""
     assert float(opening["after"]) == pytest.approx(0.4, abs=4 * float(opening["sigma"]))
     page = (tmp_path / "report.html").read_text("utf-8")
-    for part in (
-        "Bench &lt;4&gt;",
-        "film opens under pressure",
-        "point 3: far from its neighbours",
-    ):
+    for part in ("Bench &lt;4&gt;", "film opens under pressure", "point 3: far from its neighbours"):
         assert part in page
     (tmp_path / "report.html").unlink()
     assert main(["report", str(tmp_path)]) == 0
@@ -130,9 +124,7 @@ def test_a_right_name_lets_the_pulls_fall(named: Diagnosis) -> None:
 
 @pytest.mark.parametrize("kind", [Kind.NO_MISMATCH, Kind.UNKNOWN_PHYSICS])
 def test_a_page_without_a_claim(study: Study, named: Diagnosis, tmp_path: Path, kind: Kind) -> None:
-    found = replace(
-        agreeing(named), kind=kind, after=named.before, fit=HeldOut({}, {}, {}, {}, False, "not split")
-    )
+    found = replace(agreeing(named), kind=kind, after=named.before, fit=HeldOut({}, {}, {}, {}, False, "not split"))
     write_diagnosis_files(tmp_path, study, found)
     write_diagnose_page(tmp_path)
     page = (tmp_path / "report.html").read_text("utf-8")
@@ -201,8 +193,6 @@ def test_a_page_says_why_no_point_is_asked_for(named: Diagnosis) -> None:
     alone = replace(named, next_point=None)
     assert next_point_words(diagnosis_record(alone)).startswith("No fitted rival remains")
     failed = replace(alone, notes=("no next point can be proposed: fit of the leak: it stalled",))
-    assert (
-        next_point_words(diagnosis_record(failed)) == "No next point can be proposed: fit of the leak: it stalled."
-    )
+    assert next_point_words(diagnosis_record(failed)) == "No next point can be proposed: fit of the leak: it stalled."
     assert next_point_words(diagnosis_record(agreeing(named))) == ""
     assert next_point_words(diagnosis_record(named)).startswith("To separate")

@@ -166,9 +166,7 @@ def test_angles_and_times_are_part_of_where(named: Diagnosis) -> None:
 
 def test_temperatures_off_are_told_as_differences(named: Diagnosis) -> None:
     """An offset of 2 K is no temperature of -271 degC."""
-    off = ClaimedEffect(
-        E.T_CASE_OFFSET, None, 0.95, (), (Estimate("T_case.zero", 2.0, 0.3, Dimension.TEMPERATURE),)
-    )
+    off = ClaimedEffect(E.T_CASE_OFFSET, None, 0.95, (), (Estimate("T_case.zero", 2.0, 0.3, Dimension.TEMPERATURE),))
     assert "zero 2 +- 0.3 K" in statement(replace(named, kind=Kind.SENSOR_FAULT, effects=(off,)))
     warm = replace(
         named.fit, before={ChannelName.T_OUT: 2.0}, after={ChannelName.T_OUT: 0.5}, noise={ChannelName.T_OUT: 0.4}

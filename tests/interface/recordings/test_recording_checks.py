@@ -47,9 +47,7 @@ def _sound(seed: int = 1) -> Recording:
     channels = []
     for name, (unit, sigma) in UNITS.items():
         values[:, COLUMNS[ChannelName.named(name)]] = clean[name] + sigma * rng.standard_normal(len(speed))
-        channels.append(
-            RecordedChannel(ChannelName.named(name), name, unit, sigma, 0.0, 0.01 * sigma, 0, 0, 0, ())
-        )
+        channels.append(RecordedChannel(ChannelName.named(name), name, unit, sigma, 0.0, 0.01 * sigma, 0, 0, 0, ()))
     count = len(speed)
     steady = SteadyTable(values, np.arange(count), np.full(count, np.nan), np.ones(count))
     return Recording("map", "", "", Circuit.CLOSED, tuple(channels), steady, (), ())
@@ -65,9 +63,7 @@ def _with(name: str, change) -> Recording:
 
 
 def _told(recording: Recording) -> list:
-    return [
-        (note.kind, note.channel, note.text) for note in check_recording(recording, DISPLACEMENT, LIMITS).notes
-    ]
+    return [(note.kind, note.channel, note.text) for note in check_recording(recording, DISPLACEMENT, LIMITS).notes]
 
 
 @pytest.mark.parametrize("seed", range(5))
@@ -103,19 +99,13 @@ def test_units_off_by_a_factor_are_faults_with_the_unit_that_mends_them(name, fa
 def test_the_shaft_s_power_in_place_of_its_torque_is_told():
     speed = _sound().steady.column(ChannelName.SPEED)
     notes = _told(_with("torque", lambda x: 1e-3 * x * speed))
-    assert "torque is the shaft's power in kW" in " ".join(
-        text for kind, _, text in notes if kind is NoteKind.FAULT
-    )
+    assert "torque is the shaft's power in kW" in " ".join(text for kind, _, text in notes if kind is NoteKind.FAULT)
 
 
-@pytest.mark.parametrize(
-    ("name", "sigma", "share"), [("torque", 0.0, 6.0), ("Q_case", 1.0, 0.0), ("p_out", 1e9, 0.0)]
-)
+@pytest.mark.parametrize(("name", "sigma", "share"), [("torque", 0.0, 6.0), ("Q_case", 1.0, 0.0), ("p_out", 1e9, 0.0)])
 def test_a_repeatability_beyond_the_readings_is_a_fault(name, sigma, share):
     sound, named = _sound(), ChannelName.named(name)
-    channels = [
-        replace(one, sigma=sigma, sigma_relative=share) if one.name is named else one for one in sound.channels
-    ]
+    channels = [replace(one, sigma=sigma, sigma_relative=share) if one.name is named else one for one in sound.channels]
     faults = [note for note in _told(replace(sound, channels=tuple(channels))) if note[0] is NoteKind.FAULT]
     assert [channel for _, channel, _ in faults] == [named]
     assert "sigma_relative" in faults[0][2]
@@ -214,8 +204,7 @@ def test_two_pumps_in_one_recording_are_told():
 
 
 @pytest.mark.parametrize(
-    ("name", "change", "told"),
-    [("p_case", 1.3e6, "p_case is"), ("T_case", -9.0, "swapped"), ("T_in", 90.0, "degF")],
+    ("name", "change", "told"), [("p_case", 1.3e6, "p_case is"), ("T_case", -9.0, "swapped"), ("T_in", 90.0, "degF")]
 )
 def test_a_case_that_is_seldom_meant_is_told(name, change, told):
     kinds = {kind for kind, _, text in _told(_with(name, lambda x: x + change)) if told in text}
@@ -230,9 +219,7 @@ def test_copies_and_readings_without_noise_are_faults():
     values[1::2, COLUMNS[ChannelName.TORQUE]] += 0.3
     numbers = np.repeat(np.arange(len(values) // 2), 2)
     repeated = replace(recording, steady=replace(recording.steady, values=values, repeats=numbers))
-    found = {
-        n.channel for n in check_recording(repeated, DISPLACEMENT, LIMITS).notes if "without noise at" in n.text
-    }
+    found = {n.channel for n in check_recording(repeated, DISPLACEMENT, LIMITS).notes if "without noise at" in n.text}
     assert found == {ChannelName.Q_OUT, ChannelName.Q_IN, ChannelName.Q_CASE}
 
 
@@ -331,9 +318,7 @@ def test_nines_among_their_like_are_readings():
 
 def test_an_output_that_never_changes_is_a_fault():
     found = _told(_with("Q_case", lambda values: 0 * values + 1e-5))
-    assert (NoteKind.FAULT, ChannelName.Q_CASE) in {
-        (kind, channel) for kind, channel, text in found if "stuck" in text
-    }
+    assert (NoteKind.FAULT, ChannelName.Q_CASE) in {(kind, channel) for kind, channel, text in found if "stuck" in text}
 
 
 def test_a_recording_of_inputs_alone_is_a_fault():

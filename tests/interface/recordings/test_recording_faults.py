@@ -91,9 +91,7 @@ def _told(faults: list[Fault], path: str, found: str, expected: str) -> bool:
          "with column, unit"),
     ],
 )  # fmt: skip
-def test_what_is_wrong_with_a_form_is_told(
-    tmp_path: Path, form: str, path: str, found: str, expected: str
-) -> None:
+def test_what_is_wrong_with_a_form_is_told(tmp_path: Path, form: str, path: str, found: str, expected: str) -> None:
     faults = _faults(tmp_path, form)
     assert _told(faults, path, found, expected), faults
 

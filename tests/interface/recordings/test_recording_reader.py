@@ -59,11 +59,7 @@ def test_named_by_folder_form_or_table(tmp_path, name):
 
 def test_decimal_comma_and_other_units_give_the_same(tmp_path):
     (tmp_path / "b").mkdir()
-    rows = [
-        "16,666666666666668;10101325;122;3,6",
-        "25;20101325;123,8;5,4",
-        "33,333333333333336;30101325;125,6;7,2",
-    ]
+    rows = ["16,666666666666668;10101325;122;3,6", "25;20101325;123,8;5,4", "33,333333333333336;30101325;125,6;7,2"]
     table = "n;p;T;Q\n" + "\n".join(rows)
     form = (HEAD + STEADY + CHANNELS).replace("rpm", "rev/s").replace("bar", "Pa").replace("degC", "degF")
     one, other = read_recording(_written(tmp_path)), read_recording(
@@ -110,9 +106,7 @@ def test_calibration_class_lag_and_quantum(tmp_path):
 def test_repeatability_from_repeats_else_a_fault(tmp_path):
     rng = np.random.default_rng(1)
     point = np.repeat(np.arange(10), 3)
-    rows = [
-        f"{k},{1000 + 100 * k},{100 + 20 * k},50,{60 + 6 * k + 0.2 * rng.standard_normal():.4f}" for k in point
-    ]
+    rows = [f"{k},{1000 + 100 * k},{100 + 20 * k},50,{60 + 6 * k + 0.2 * rng.standard_normal():.4f}" for k in point]
     table = "k,n,p,T,Q\n" + "\n".join(rows)
     bare = CHANNELS.replace(", sigma = 0.08, sigma_relative = 0.0006", "")
     stated = HEAD + STEADY + 'repeats = "k"\n' + bare
@@ -131,8 +125,7 @@ def test_quantum_is_seen_in_the_readings(tmp_path):
 
 def test_round_levels_of_a_setting_are_no_steps_of_a_reading(tmp_path):
     rows = [
-        f"{k},{1000 + 7.3 * k:.1f},{100 + 1.01 * k:.2f},50,{60 + 0.013 * k:.3f},{0.2 + 0.01 * k:.2f}"
-        for k in range(60)
+        f"{k},{1000 + 7.3 * k:.1f},{100 + 1.01 * k:.2f},50,{60 + 0.013 * k:.3f},{0.2 + 0.01 * k:.2f}" for k in range(60)
     ]
     form = HEAD + STEADY + CHANNELS + 'displacement_ratio = { column = "e", unit = "1", sigma = 0.0 }\n'
     recording = read_recording(_written(tmp_path, form, "k,n,p,T,Q,e\n" + "\n".join(rows)))
@@ -145,9 +138,7 @@ def test_series_gives_its_plateaus(tmp_path):
     count = len(levels)
     speed, flow = levels + 0.5 * rng.standard_normal(count), 0.06 * levels + 0.1 * rng.standard_normal(count)
     rows = [f"{0.1 * k:.1f},{speed[k]:.3f},150,50,{flow[k]:.4f}" for k in range(count)]
-    form = (
-        HEAD + '[series]\nfile = "steady.csv"\ntime = { column = "t", unit = "s" }\nsteady = { window = "10 s" }\n'
-    )
+    form = HEAD + '[series]\nfile = "steady.csv"\ntime = { column = "t", unit = "s" }\nsteady = { window = "10 s" }\n'
     bare = CHANNELS.replace(", sigma = 0.08, sigma_relative = 0.0006", "")
     recording = read_recording(_written(tmp_path, form + bare, "t,n,p,T,Q\n" + "\n".join(rows)))
     assert len(recording.steady.values) == 3

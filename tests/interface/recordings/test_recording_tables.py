@@ -215,9 +215,7 @@ def test_tdms_scale_that_would_leave_raw_counts_is_refused(tmp_path, caplog):
 def test_mdf(tmp_path):
     asammdf = pytest.importorskip("asammdf")
     time = 0.1 * np.arange(5)
-    signals = [
-        asammdf.Signal(samples=x, timestamps=time, name=n) for n, x in (("speed", SPEED), ("torque", TORQUE))
-    ]
+    signals = [asammdf.Signal(samples=x, timestamps=time, name=n) for n, x in (("speed", SPEED), ("torque", TORQUE))]
     with asammdf.MDF(version="4.10") as file:
         file.append(signals)
         file.save(tmp_path / "a.mf4")

@@ -32,10 +32,7 @@ def test_what_decides_is_consistent() -> None:
 
 def test_the_head_of_the_file_names_numbers_that_are_there() -> None:
     """Each name of the list of added numbers is a key of its table."""
-    head, tables = (
-        FILE.read_text(encoding="utf-8").partition("# Sources")[0],
-        tomllib.loads(FILE.read_text("utf-8")),
-    )
+    head, tables = (FILE.read_text(encoding="utf-8").partition("# Sources")[0], tomllib.loads(FILE.read_text("utf-8")))
     listed = head.replace("\n#", "").partition("run with: ")[2].partition("; all of")[0]
     for part in listed.split("; "):
         table, _, names = part.partition("] ")

@@ -73,11 +73,7 @@ def test_sensors_have_a_parameter_for_what_is_uncertain():
     expected = {"torque.gain": 1e-3, "torque.zero": 0.25, "Q_case.zero": 1e-7, "p_out.zero": 1.5e4}
     assert {name: one.spread for name, one in found.items()} == {**expected, "displacement_ratio.zero": 5e-4}
     assert all(one.role is Role.SENSOR and one.centre == 0.0 for one in found.values())
-    more = (
-        drift_parameter(ChannelName.Q_CASE, 1e-6),
-        lag_parameter(ChannelName.Q_OUT, 30.0),
-        encoder_parameter(0.01),
-    )
+    more = (drift_parameter(ChannelName.Q_CASE, 1e-6), lag_parameter(ChannelName.Q_OUT, 30.0), encoder_parameter(0.01))
     assert {*found, *(one.name for one in more)} <= SENSOR_NAMES
     assert more[1].scale is Scale.HALF
 

@@ -75,18 +75,13 @@ def _valley(values: Array) -> Array:
 
 
 def _rosenbrock(bounds: tuple[float, float] = OPEN, wrong: float = 1.0) -> Posterior:
-    parameters = (
-        _parameter("x", 0.0, 3.0, bounds, Scale.NORMAL),
-        _parameter("y", 0.0, 3.0, OPEN, Scale.NORMAL),
-    )
+    parameters = (_parameter("x", 0.0, 3.0, bounds, Scale.NORMAL), _parameter("y", 0.0, 3.0, OPEN, Scale.NORMAL))
     start = np.array([-1.2, 1.0]) / 3.0
     return maximum_posterior(Law(parameters, _valley, wrong), _readings(np.zeros(2), 0.1), start)
 
 
 DOSE = np.array([77.6, 114.9, 141.1, 190.8, 239.9, 289.0, 332.8, 378.4, 434.8, 477.3, 536.8, 593.1, 689.1, 760.0])
-VOLUME = np.array(
-    [10.07, 14.73, 17.94, 23.93, 29.61, 35.18, 40.02, 44.82, 50.76, 55.05, 61.01, 66.4, 75.47, 81.78]
-)
+VOLUME = np.array([10.07, 14.73, 17.94, 23.93, 29.61, 35.18, 40.02, 44.82, 50.76, 55.05, 61.01, 66.4, 75.47, 81.78])
 CERTIFIED = {"b1": (2.3894212918e02, 2.7070075241e00), "b2": (5.5015643181e-04, 7.2668688436e-06)}
 
 
@@ -212,8 +207,7 @@ def test_too_few_steps_are_told() -> None:
     with pytest.raises(NotConverged, match=r"still promised .* more steps than 1"):
         maximum_posterior(
             Law(
-                (_parameter("x", 0.0, 3.0, OPEN, Scale.NORMAL), _parameter("y", 0.0, 3.0, OPEN, Scale.NORMAL)),
-                _valley,
+                (_parameter("x", 0.0, 3.0, OPEN, Scale.NORMAL), _parameter("y", 0.0, 3.0, OPEN, Scale.NORMAL)), _valley
             ),
             _readings(np.zeros(2), 0.1),
             np.array([-0.4, 0.33]),

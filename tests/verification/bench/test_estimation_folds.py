@@ -11,8 +11,7 @@ RNG = np.random.default_rng(11)
 
 
 @pytest.mark.parametrize(
-    "places",
-    [[1000, 1300, 1700, 2100], [0.28, 0.51, 0.77, 1.0], [10, 20, 50, 100, 200, 350], np.arange(1, 16), [3, 5]],
+    "places", [[1000, 1300, 1700, 2100], [0.28, 0.51, 0.77, 1.0], [10, 20, 50, 100, 200, 350], np.arange(1, 16), [3, 5]]
 )
 @pytest.mark.parametrize("scatter", [0.0, 0.01])
 def test_levels_are_found_again(places, scatter):

@@ -31,13 +31,7 @@ from system import (
 )
 from system.effects import switched
 from system.effects.catalogue import entries as catalogue
-from system.effects.opening_tables import (
-    COMPLIANCE,
-    OUTPUTS,
-    OpeningCase,
-    OpeningTable,
-    SolvedOpening,
-)
+from system.effects.opening_tables import COMPLIANCE, OUTPUTS, OpeningCase, OpeningTable, SolvedOpening
 from system.films.heat import slipper_heat
 from system.films.positions import given_slipper, instant_drives
 from system.films.problems import slipper_film
@@ -53,9 +47,7 @@ def made_up(gap: Gap, film: float = 10e-6) -> OpeningTable:
     """A table in which leakage rises and shear falls in proportion to the pressure, up to 60 MPa."""
 
     def samples(pressure):
-        return Samples(
-            pressure[:, None], np.column_stack([1.0 + SLOPE * pressure, 1.0 / (1.0 + SLOPE * pressure)])
-        )
+        return Samples(pressure[:, None], np.column_stack([1.0 + SLOPE * pressure, 1.0 / (1.0 + SLOPE * pressure)]))
 
     axes = (Axis("pressure", 0.0, 60e6),)
     learnt, held_out = samples(np.linspace(0.0, 60e6, 13)), samples(np.array([7e6, 33e6]))

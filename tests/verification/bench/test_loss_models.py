@@ -91,9 +91,7 @@ def test_wilson_by_hand() -> None:
     one = {name: getattr(at, name)[7] for name in ("speed", "pressure_difference", "ratio", "viscosity")}
     d = at.displacement / (2 * np.pi)
     flow = one["ratio"] * d * one["speed"] - 2e-9 * d * one["pressure_difference"] / one["viscosity"] - 1e-6
-    torque = (
-        (one["ratio"] + 0.02) * d * one["pressure_difference"] + 3e4 * d * one["viscosity"] * one["speed"] + 1.5
-    )
+    torque = (one["ratio"] + 0.02) * d * one["pressure_difference"] + 3e4 * d * one["viscosity"] * one["speed"] + 1.5
     assert bench.predict(values)[7] == pytest.approx([flow, torque], rel=1e-12)
 
 

@@ -10,13 +10,7 @@ import numpy as np
 import pytest
 
 from system import INPUTS, SIMULATED, BenchPoints, Channel, LumpedBench, Observations, load_pump, maximum_posterior
-from system.bench.calibration.equation_21 import (
-    EqTwentyOne,
-    eq_fits,
-    eq_twenty_one,
-    measured_losses,
-    paper_priors,
-)
+from system.bench.calibration.equation_21 import EqTwentyOne, eq_fits, eq_twenty_one, measured_losses, paper_priors
 
 PUMP = load_pump("ref90")
 GRID = np.array(list(product((1000, 1700, 2100), (5e6, 10e6, 15e6, 20e6, 25e6, 30e6, 35e6), (0.28, 0.51, 1.0))))

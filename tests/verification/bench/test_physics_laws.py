@@ -10,24 +10,12 @@ from reynolds import dynamic_viscosity
 from reynolds.laws.contact import gaussian_moment
 from system import CATALOGUE, BenchState, Gap, GapCourse, PortOpening, ReliefGroove, load_pump
 from system.effects.effect import neutral
-from system.effects.laws import (
-    contact as contact_laws,
-)
-from system.effects.laws import (
-    drag as drag_laws,
-)
-from system.effects.laws import (
-    film as film_laws,
-)
-from system.effects.laws import (
-    flow as flow_laws,
-)
-from system.effects.laws import (
-    port as port_laws,
-)
-from system.effects.laws import (
-    tipping as tipping_laws,
-)
+from system.effects.laws import contact as contact_laws
+from system.effects.laws import drag as drag_laws
+from system.effects.laws import film as film_laws
+from system.effects.laws import flow as flow_laws
+from system.effects.laws import port as port_laws
+from system.effects.laws import tipping as tipping_laws
 from system.effects.outside import outside
 from system.effects.state import warmed
 from system.pump.bench import NOTHING_OUTSIDE
@@ -102,13 +90,7 @@ def test_heating_meets_nahme_while_it_is_small(walls, factor):
 
 @pytest.mark.parametrize(
     ("resistance", "share", "throttled", "back"),
-    [
-        (5e-5, 0.0, 1.0, 0.0),
-        (0.0, 0.1, 1.0, 0.0),
-        (2e-3, 0.0, 1.0, 0.0),
-        (5e-5, 0.3, 1.0, 0.0),
-        (5e-5, 0.3, 0.2, 0.8),
-    ],
+    [(5e-5, 0.0, 1.0, 0.0), (0.0, 0.1, 1.0, 0.0), (2e-3, 0.0, 1.0, 0.0), (5e-5, 0.3, 1.0, 0.0), (5e-5, 0.3, 0.2, 0.8)],
 )
 def test_heating_solves_its_balance(resistance, share, throttled, back):
     """Heat of loss and throttling is what the walls take and the oil takes away; it thins by 2.5 %/K: to 1e-3."""
@@ -121,9 +103,7 @@ def test_heating_solves_its_balance(resistance, share, throttled, back):
     gained = 120.0 + ratio * 90.0 + throttled * 0.45e-6 * 35e6 * heat * 5e-6 / ratio
     if resistance > 0.0:
         walls = 405e-6 / resistance
-        assert rise * (walls + carried / rise) == pytest.approx(
-            gained * (1 + share * walls * rise / carried), rel=1e-3
-        )
+        assert rise * (walls + carried / rise) == pytest.approx(gained * (1 + share * walls * rise / carried), rel=1e-3)
     else:
         assert carried == pytest.approx(share * gained, rel=1e-3)
     values = {"piston": resistance, "slipper": 0.0, "valve_plate": 0.0, "carried_share": share}

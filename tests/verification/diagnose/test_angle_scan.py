@@ -16,10 +16,7 @@ STEPS = 360
 ANGLE = np.arange(STEPS) * 2 * np.pi / STEPS
 SIGMA = 4e4  # Pa
 LIMITS = load_thresholds().locate
-EVENTS = (
-    PortEvent(radians(181.0), "delivery groove begins"),
-    PortEvent(radians(220.0), "delivery kidney is open"),
-)
+EVENTS = (PortEvent(radians(181.0), "delivery groove begins"), PortEvent(radians(220.0), "delivery kidney is open"))
 
 
 def _trace(bump: float, seed: int, cycles: int = 0, memory: float = 0.6, scale: float = 1.0) -> TraceMisfit:

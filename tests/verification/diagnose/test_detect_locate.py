@@ -131,9 +131,7 @@ def _study(added: Array | float = 0.0, seed: int = 0) -> Study:
     """A study of readings of a pump within tolerance, with something added that the simulator lacks."""
     rng = np.random.default_rng([51, seed])
     pump = _pump()
-    values = np.array(
-        [parameter.value(xi) for parameter, xi in zip(pump.parameters, rng.normal(size=8), strict=True)]
-    )
+    values = np.array([parameter.value(xi) for parameter, xi in zip(pump.parameters, rng.normal(size=8), strict=True)])
     readings = pump.predict(values) + added + SIGMA * rng.normal(size=(POINTS, 3))
     return study_of(_map(), pump, toy_observations(readings), scaled_axes(_map()), _catalogue(), LIMITS)
 
@@ -283,8 +281,7 @@ def test_no_regions_are_flagged_without_a_mismatch(nulls: list[Detection]) -> No
 def test_an_effect_shows_in_its_channel_and_region() -> None:
     """Churning in the torque at high speed, opening in the drain flow at high pressure, from 8 sigma on."""
     churning, opening = (
-        locate(_study(_sized(effect, 8.0), seed=3), LIMITS)
-        for effect in (EffectId.CHURNING, EffectId.ELASTIC_OPENING)
+        locate(_study(_sized(effect, 8.0), seed=3), LIMITS) for effect in (EffectId.CHURNING, EffectId.ELASTIC_OPENING)
     )
     assert churning.channels[0] is ChannelName.TORQUE
     assert churning.region is not None

@@ -316,9 +316,7 @@ def test_what_the_likeliest_pair_is_made_of_is_refitted_alone() -> None:
     """A drain meter's zero of 300 sigma beside churning: neither alone is on the list of those to refit."""
     limits = replace(LIMITS, name=replace(LIMITS.name, shortlist=1))
     found = diagnose_study(_study(1, laws=((CHURNING, 0.2),), Q_case__zero=0.3), 0.025 * _axes()[3], limits)
-    alone = [
-        each for each in found.hypotheses if len(each.hypothesis.effects) == 1 and not each.hypothesis.other_form
-    ]
+    alone = [each for each in found.hypotheses if len(each.hypothesis.effects) == 1 and not each.hypothesis.other_form]
     fitted = {each.hypothesis.effects[0] for each in alone if each.posterior is not None}
     assert {claim.effect for claim in found.effects} == {EffectId.CHURNING, EffectId.Q_CASE_OFFSET}
     assert {EffectId.CHURNING, EffectId.Q_CASE_OFFSET} <= fitted

@@ -88,9 +88,7 @@ def _points() -> BenchPoints:
     pressure = np.linspace(5 * MPA, 20 * MPA, 24)
     speed = SPEED * (pressure / PRESSURE + 0.06 * np.sin(7 * np.arange(24)))
     same, order = np.ones(24), np.arange(24.0)
-    return BenchPoints(
-        speed, same, pressure, 1 * MPA * same, 0.1 * MPA * same, 323 * same, 323 * same, order, order
-    )
+    return BenchPoints(speed, same, pressure, 1 * MPA * same, 0.1 * MPA * same, 323 * same, 323 * same, order, order)
 
 
 def _recording(points: BenchPoints, flow: Array) -> Recording:
@@ -134,11 +132,7 @@ def _rivals(true: Law, seed: int, size: float = 0.3) -> tuple[Study, Contender, 
         Contender((one,), drain, fit, one.value, float(weight))
         for one, drain, fit, weight in zip(ids, simulators, fits, weights, strict=True)
     )
-    return (
-        Study(_recording(points, flow), simulators[0], readings, fits[0], (), {}, np.zeros((24, 4))),
-        first,
-        second,
-    )
+    return (Study(_recording(points, flow), simulators[0], readings, fits[0], (), {}, np.zeros((24, 4))), first, second)
 
 
 def _asked(point: NextPoint) -> BenchPoints:
@@ -215,9 +209,7 @@ def test_what_the_point_promises_comes_about() -> None:
         place = _repeated(_asked(found), LIMITS.readings)
         rng = np.random.default_rng(1000 + seed)
         one = next(forecasts(study, first, second, _asked(found))).odds(LIMITS.readings)[0]
-        flow = (
-            place.p_out / PRESSURE * LPM + 0.03 * LPM * _square(place) + SIGMA * rng.normal(size=LIMITS.readings)
-        )
+        flow = place.p_out / PRESSURE * LPM + 0.03 * LPM * _square(place) + SIGMA * rng.normal(size=LIMITS.readings)
         odds = log_density(study, first, place, flow[:, None]) - log_density(study, second, place, flow[:, None])
         settled.append(found.before + odds >= LIMITS.settled)
         foretold.append(one.chance(LIMITS.settled - found.before))

@@ -20,9 +20,7 @@ from system import BenchPoints, ChannelName, Component, EffectId, Gap, Parameter
 BAR, LPM, RPM = 1e5, 1.0 / 60000.0, 2.0 * np.pi / 60.0
 METER = 0.02 * LPM
 LIMITS = load_thresholds().next_point
-BOX = BenchBox(
-    ((100.0, 200.0), (50 * BAR, 350 * BAR), (0.3, 1.0), (320.0, 324.0)), 25 * BAR, 1 * BAR, 2.0, (9.0, 1.0)
-)
+BOX = BenchBox(((100.0, 200.0), (50 * BAR, 350 * BAR), (0.3, 1.0), (320.0, 324.0)), 25 * BAR, 1 * BAR, 2.0, (9.0, 1.0))
 
 
 @dataclass(frozen=True)

@@ -161,8 +161,7 @@ def test_what_tolerance_moves_is_no_window_though_a_flank_is_not_linear():
     turns = traced.traces(values, (1, 2), ANGLE)
     noise = 4e4 * np.random.default_rng(71).standard_normal(turns.shape)
     rows = tuple(
-        replace(row, block=replace(row.block, mean=turn))
-        for row, turn in zip(traced.rows, turns + noise, strict=True)
+        replace(row, block=replace(row.block, mean=turn)) for row, turn in zip(traced.rows, turns + noise, strict=True)
     )
     recorded, limits = replace(traced, rows=rows), load_thresholds().locate
     assert scan_angles(trace_misfits(recorded, CHANNEL, 0.01), (), limits, 1) is not None

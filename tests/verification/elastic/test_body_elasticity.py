@@ -46,8 +46,7 @@ def _bore(body: BodyMesh, supports: Supports) -> float:
 
 
 @pytest.mark.parametrize(
-    ("state", "supports", "lame"),
-    [("plane stress", Supports(), 3.688645), ("plane strain", BETWEEN_PLANES, 3.523810)],
+    ("state", "supports", "lame"), [("plane stress", Supports(), 3.688645), ("plane strain", BETWEEN_PLANES, 3.523810)]
 )
 @pytest.mark.parametrize("kind", ["ring", "sector", "section"])
 def test_lame_bore(kind, state, supports, lame, validation, refine):
@@ -88,9 +87,7 @@ def test_solid_piston(body, validation):
         expected=-1.0,
         obtained=1e6 * found,
         relative_tolerance=1e-4 if not body.axisymmetric else 1e-9,
-        note="uniform stress; hexahedra by parabolic arcs of 45 deg"
-        if not body.axisymmetric
-        else "uniform stress",
+        note="uniform stress; hexahedra by parabolic arcs of 45 deg" if not body.axisymmetric else "uniform stress",
     )
 
 
@@ -100,9 +97,7 @@ def test_patch(validation):
     mesh = body.mesh
     places = mesh.doflocs.copy()
     corners = np.arange(mesh.nvertices)
-    inside = corners[
-        np.all((places[:, corners].T > 1e-9) & (places[:, corners].T < [1.999, 0.999, 1.499]), axis=1)
-    ]
+    inside = corners[np.all((places[:, corners].T > 1e-9) & (places[:, corners].T < [1.999, 0.999, 1.499]), axis=1)]
     places[:, inside] += 0.1 * np.random.default_rng(1).uniform(-1.0, 1.0, (3, len(inside)))
     straight = type(mesh).from_mesh(_linear(mesh, places))
     crooked = BodyMesh(straight.with_boundaries({name: mesh.boundaries[name] for name in body.face_names}))
@@ -225,8 +220,7 @@ def test_thin_plate_does_not_lock(validation, refine):
 
 
 @pytest.mark.parametrize(
-    ("state", "supports", "modulus", "poisson"),
-    [("plane strain", BETWEEN_PLANES, 210e9 / (1.0 - 0.09), 0.3 / 0.7)],
+    ("state", "supports", "modulus", "poisson"), [("plane strain", BETWEEN_PLANES, 210e9 / (1.0 - 0.09), 0.3 / 0.7)]
 )
 def test_turning_ring(state, supports, modulus, poisson, validation, refine):
     density, speed, (a, b) = 7850.0, 1000.0, (BORE, OUTSIDE)
@@ -251,9 +245,7 @@ def test_turning_ring(state, supports, modulus, poisson, validation, refine):
     )
 
 
-@pytest.mark.parametrize(
-    "supports", [Supports(), Supports(clamped=("bottom",)), Supports(points=((0.0, 0.0, 0.0),))]
-)
+@pytest.mark.parametrize("supports", [Supports(), Supports(clamped=("bottom",)), Supports(points=((0.0, 0.0, 0.0),))])
 def test_compliance_is_symmetric(supports):
     """Maxwell's reciprocity, and never negative work."""
     space = body_space(block((10e-3, 8e-3, 3e-3), (4, 3, 1)))

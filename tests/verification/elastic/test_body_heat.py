@@ -44,9 +44,7 @@ FLUX = 2e4
 def test_wall_with_convection(tmp_path, validation):
     """T = T_ambient + q (1/h + t/k)."""
     size = (10e-3, 8e-3, 3e-3)
-    body = Body(
-        block(size, (2, 2, 1)), STEEL, Supports(), "top", Plane((0.0, 0.0, 1.0), origin=(0.0, 0.0, size[2]))
-    )
+    body = Body(block(size, (2, 2, 1)), STEEL, Supports(), "top", Plane((0.0, 0.0, 1.0), origin=(0.0, 0.0, size[2])))
     film = film_space(rectangle(size[:2], (6, 4)))  # three and two cells to a facet: nothing lies across
     found = heated_wall(body, film, WARM, {"bottom": Convection(800.0, 40.0)}, folder=tmp_path).temperature
     warm = found.reference + found.matrix @ np.full(len(film.vertices), FLUX)
@@ -71,9 +69,7 @@ def test_bore_with_convection(kind, validation, refine):
 
     def solve(n: int) -> float:
         radii = (a, b)
-        mesh = (
-            hollow_cylinder(radii, length, (n, 6 * n, 1)) if kind == "ring" else section(radii, length, (2 * n, 1))
-        )
+        mesh = hollow_cylinder(radii, length, (n, 6 * n, 1)) if kind == "ring" else section(radii, length, (2 * n, 1))
         space = body_space(mesh)
         face = space.face("inner")
         found = face_temperature(heated_body(space, WARM, {"outer": Convection(800.0, 40.0)}), face)

@@ -12,11 +12,7 @@ from reynolds.bodies.mesh_file import body_from_file
 
 SHAPES = {
     "block": (block((1.0, 2.0, 3.0), (1, 2, 2)), 6.0, {"top": 2.0, "left": 6.0, "front": 3.0}),
-    "ring": (
-        hollow_cylinder((1.0, 1.6), 2.0, (1, 24, 1)),
-        3.12 * np.pi,
-        {"inner": 4 * np.pi, "outer": 6.4 * np.pi},
-    ),
+    "ring": (hollow_cylinder((1.0, 1.6), 2.0, (1, 24, 1)), 3.12 * np.pi, {"inner": 4 * np.pi, "outer": 6.4 * np.pi}),
     "sector": (
         hollow_cylinder((1.0, 1.6), 2.0, (2, 4, 1), angles=(3.0, 3.8)),
         1.248,

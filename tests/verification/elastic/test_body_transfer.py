@@ -192,10 +192,7 @@ def test_section_takes_the_mean_around(tmp_path):
     nodal[film.vertex_dofs] = pressure
     found = [
         body_wall(Body(mesh, STEEL, Supports(), "inner", chart), film, folder=tmp_path).matrix @ nodal
-        for mesh in (
-            section((BORE, OUTSIDE), LENGTH, (3, 3)),
-            hollow_cylinder((BORE, OUTSIDE), LENGTH, (2, 12, 2)),
-        )
+        for mesh in (section((BORE, OUTSIDE), LENGTH, (3, 3)), hollow_cylinder((BORE, OUTSIDE), LENGTH, (2, 12, 2)))
     ]
     assert found[0] == pytest.approx(found[1], rel=3e-3)
 

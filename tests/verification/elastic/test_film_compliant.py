@@ -203,9 +203,7 @@ def test_soft_film_that_ruptures(kind, stiffness, validation, refine):
         space, thickness = _bearing_strip(cells)
         posed = film(thickness, VISCOSITY, velocity_moving=SLIDING)
         ends = {"left": Held(0.0), "right": Held(0.0)}
-        found = loads(
-            FilmSolver(space).solve(FilmProblem(space, posed, ends, kind, walls=winkler(space, stiffness)))
-        )
+        found = loads(FilmSolver(space).solve(FilmProblem(space, posed, ends, kind, walls=winkler(space, stiffness))))
         assert found.mass_balance_error < 1e-12
         assert (found.cavitated_area_fraction > 0.05) == (kind is not Cavitation.NONE)
         return found.load / WIDE, -found.flow["left"] / WIDE

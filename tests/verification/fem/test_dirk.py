@@ -207,9 +207,7 @@ def test_tangent(tableau):
     nodes = np.linspace(0.0, 0.3, 31)[1:]
 
     def end(first: np.ndarray) -> np.ndarray:
-        *_, taken = integrate(
-            tableau, _stages(_van_der_pol), State(0.0, first, first, start.rate), nodes, nodes_only
-        )
+        *_, taken = integrate(tableau, _stages(_van_der_pol), State(0.0, first, first, start.rate), nodes, nodes_only)
         return taken.state.q
 
     tangent = StateTangent(np.eye(2), np.eye(2))

@@ -14,9 +14,7 @@ from reynolds.equation.hourglass import saved_heat
 
 SIZE = (0.02, 0.013)
 SPACES = {
-    f"{cell.value}, degree {degree}": film_space(
-        rectangle(SIZE, (7, 5), cell=cell, periodic_x=True), degree=degree
-    )
+    f"{cell.value}, degree {degree}": film_space(rectangle(SIZE, (7, 5), cell=cell, periodic_x=True), degree=degree)
     for cell in Cell
     for degree in (1, 2)
 } | {

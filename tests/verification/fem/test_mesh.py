@@ -59,9 +59,7 @@ def test_area_and_boundary_lengths(cell, degree):
 def test_annulus_names(cell):
     mesh = annulus(1.0, 2.0, (3, 30), cell=cell)
     assert mesh.boundary_names == ("inner", "outer")
-    reach = {
-        name: np.abs(mesh.mesh.p[:, mesh.mesh.facets[:, on]]).max() for name, on in mesh.mesh.boundaries.items()
-    }
+    reach = {name: np.abs(mesh.mesh.p[:, mesh.mesh.facets[:, on]]).max() for name, on in mesh.mesh.boundaries.items()}
     assert reach == pytest.approx({"inner": 1.0, "outer": 2.0}, rel=1e-2)
 
 
@@ -160,9 +158,7 @@ def test_file_that_is_no_mesh(tmp_path):
 
 def test_file_with_other_cells(tmp_path):
     solid = _write(
-        tmp_path / "solid.vtu",
-        np.vstack([SQUARE[:3], [[0.0, 0.0, 1.0]]]),
-        [("tetra", np.array([[0, 1, 2, 3]]))],
+        tmp_path / "solid.vtu", np.vstack([SQUARE[:3], [[0.0, 0.0, 1.0]]]), [("tetra", np.array([[0, 1, 2, 3]]))]
     )
     with pytest.raises(FilmInputError, match="holds tetra"):
         mesh_from_file(solid)

@@ -22,17 +22,13 @@ def errors(flow, velocity, pressure):
     x, dx = fine.global_coordinates(), fine.dx
     off = np.asarray(p) - pressure(x)
     off = off - (off * dx).sum() / dx.sum()
-    return float(np.sqrt((((np.asarray(u) - velocity(x)) ** 2).sum(0) * dx).sum())), float(
-        np.sqrt((off**2 * dx).sum())
-    )
+    return float(np.sqrt((((np.asarray(u) - velocity(x)) ** 2).sum(0) * dx).sum())), float(np.sqrt((off**2 * dx).sum()))
 
 
 def enclosed(mesh, viscosity, velocity, force=None):
     space = taylor_hood(mesh)
     held_all = together(held(space, name, velocity) for name in mesh.boundaries)
-    return FlowProblem(
-        space, viscosity, held_all, None if force is None else body_force(space, force), enclosed=True
-    )
+    return FlowProblem(space, viscosity, held_all, None if force is None else body_force(space, force), enclosed=True)
 
 
 def triangles(n):

@@ -31,9 +31,7 @@ from reynolds import (
 SIZE = (0.02, 0.013)
 HELD = {"left": Held(3e6), "right": Held(1e6), "top": Held(2e6)}  # the bottom is closed
 SPACES = {
-    (cell, degree): film_space(rectangle(SIZE, (8, 6), cell=cell), degree=degree)
-    for cell in Cell
-    for degree in (1, 2)
+    (cell, degree): film_space(rectangle(SIZE, (8, 6), cell=cell), degree=degree) for cell in Cell for degree in (1, 2)
 }
 
 
@@ -172,9 +170,7 @@ def test_turned_frame(cell, turn):
     c, s = np.cos(turn), np.sin(turn)
     rotation = np.array([[c, -s], [s, c]])
     size = np.hypot(*still.friction_moving)
-    np.testing.assert_allclose(
-        turned.friction_moving, rotation @ still.friction_moving, rtol=1e-9, atol=1e-9 * size
-    )
+    np.testing.assert_allclose(turned.friction_moving, rotation @ still.friction_moving, rtol=1e-9, atol=1e-9 * size)
     np.testing.assert_allclose(
         (turned.moment_x, turned.moment_y), rotation @ (still.moment_x, still.moment_y), rtol=1e-8
     )

@@ -6,19 +6,7 @@ import numpy as np
 import pytest
 import skfem
 
-from reynolds import (
-    Cell,
-    FilmMesh,
-    FilmProblem,
-    FilmSolver,
-    FilmSpace,
-    Held,
-    Loads,
-    annulus,
-    film,
-    film_space,
-    loads,
-)
+from reynolds import Cell, FilmMesh, FilmProblem, FilmSolver, FilmSpace, Held, Loads, annulus, film, film_space, loads
 from reynolds.fem.mesh import loop_names
 
 VISCOSITY, THICKNESS = 0.03, 1e-5
@@ -37,10 +25,7 @@ def _annulus_loads(cell: Cell, n: int, *, inner: float = 0.0, squeeze: float = 0
     space = film_space(annulus(INNER, OUTER, (n, 6 * n), cell=cell))
     x, y = space.points
     posed = film(
-        space.sample(THICKNESS),
-        VISCOSITY,
-        velocity_moving=(-spin * y, spin * x),
-        squeeze=space.sample(squeeze),
+        space.sample(THICKNESS), VISCOSITY, velocity_moving=(-spin * y, spin * x), squeeze=space.sample(squeeze)
     )
     problem = FilmProblem(space, posed, {"inner": Held(inner), "outer": Held(0.0)})
     return loads(FilmSolver(space).solve(problem))

@@ -85,9 +85,7 @@ def test_steps_that_run_out_are_not_an_answer(space, monkeypatch):
     """One step is too few for a film that ruptures: the solver raises instead of handing out what it has."""
     monkeypatch.setattr(solve, "MAX_ITERATIONS", 1)
     opening = film(
-        space.sample(lambda x, y: 1e-5 * (1.0 + 0.9 * np.sin(600.0 * x))),
-        0.03,
-        velocity_moving=(np.ones((1, 1)), ZERO),
+        space.sample(lambda x, y: 1e-5 * (1.0 + 0.9 * np.sin(600.0 * x))), 0.03, velocity_moving=(np.ones((1, 1)), ZERO)
     )
     problem = FilmProblem(space, opening, {"left": Held(0.0), "right": Held(0.0)}, Cavitation.REYNOLDS)
     with pytest.raises(FilmNotConverged, match=r"not settled after 1 iterations.*Try: "):

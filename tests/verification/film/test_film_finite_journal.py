@@ -43,10 +43,7 @@ def _force(solution: FilmSolution) -> tuple[float, float]:
     """Force on the whole journal along the line of centres (to the smallest film) and across it."""
     space = solution.problem.space
     p, angle = point_fields(solution).pressure, space.points[0]
-    return (
-        float(-2.0 * np.sum(p * np.cos(angle) * space.area)),
-        float(2.0 * np.sum(p * np.sin(angle) * space.area)),
-    )
+    return (float(-2.0 * np.sum(p * np.cos(angle) * space.area)), float(2.0 * np.sum(p * np.sin(angle) * space.area)))
 
 
 @dataclass(frozen=True)

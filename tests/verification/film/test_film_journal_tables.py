@@ -268,8 +268,7 @@ def test_guembel(eccentricity, load, attitude, validation, refine):
 
 
 @pytest.mark.parametrize(
-    ("eccentricity", "load", "attitude"),
-    [(0.2, 0.345093, 75.431), (0.5, 1.500762, 53.680), (0.9, 48.012285, 20.826)],
+    ("eccentricity", "load", "attitude"), [(0.2, 0.345093, 75.431), (0.5, 1.500762, 53.680), (0.9, 48.012285, 20.826)]
 )
 def test_ocvirk(eccentricity, load, attitude, validation, refine):
     """So (D/L)^2 of ever shorter bearings, L/D = 2/n, on meshes refined with them: both errors of second order."""

@@ -35,9 +35,7 @@ def _solve(eccentricity: float, n: int, cavitation: Cavitation) -> FilmSolution:
     """Radius, radial clearance, viscosity and surface speed one; pressure zero at the largest film thickness."""
     space = film_space(rectangle((ROUND, WIDTH), (n, 1), cell=Cell.QUADRILATERAL))
     posed = film(
-        space.sample(lambda x, y: 1.0 + eccentricity * np.cos(x)),
-        1.0,
-        velocity_moving=(np.ones((1, 1)), ZERO),
+        space.sample(lambda x, y: 1.0 + eccentricity * np.cos(x)), 1.0, velocity_moving=(np.ones((1, 1)), ZERO)
     )
     return FilmSolver(space).solve(FilmProblem(space, posed, {"left": Held(0.0), "right": Held(0.0)}, cavitation))
 

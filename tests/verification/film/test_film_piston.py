@@ -9,18 +9,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from reynolds import (
-    Cavitation,
-    Cell,
-    FilmProblem,
-    FilmSolver,
-    Held,
-    film,
-    film_space,
-    loads,
-    point_fields,
-    rectangle,
-)
+from reynolds import Cavitation, Cell, FilmProblem, FilmSolver, Held, film, film_space, loads, point_fields, rectangle
 
 DIAMETER, LENGTH, CLEARANCE, PRESSURE, VISCOSITY = 20e-3, 30e-3, 10e-6, 30e6, 0.02
 RADIUS = DIAMETER / 2
@@ -34,11 +23,7 @@ def _solve(thickness, n: int) -> tuple[float, float, float]:
     held = {"bottom": Held(PRESSURE), "top": Held(0.0)}
     solution = FilmSolver(space).solve(FilmProblem(space, posed, held, Cavitation.NONE))
     pull = -point_fields(solution).pressure * np.cos(space.points[0] / RADIUS) * space.area
-    return (
-        float(np.sum(pull)),
-        float(np.sum(pull * (space.points[1] - LENGTH / 2))),
-        loads(solution).flow["top"],
-    )
+    return (float(np.sum(pull)), float(np.sum(pull * (space.points[1] - LENGTH / 2))), loads(solution).flow["top"])
 
 
 @pytest.mark.parametrize("eccentricity", [0.0, 0.5, 0.9])

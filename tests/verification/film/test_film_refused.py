@@ -120,9 +120,7 @@ def test_pockets_that_touch():
     assert loads(solution).mass_balance_error < 1e-12
 
 
-@pytest.mark.parametrize(
-    "pocket", [constant(-1e-8), constant(-1e-6), throttle(-1e6)], ids=["1e-8", "1e-6", "-1 MPa"]
-)
+@pytest.mark.parametrize("pocket", [constant(-1e-8), constant(-1e-6), throttle(-1e6)], ids=["1e-8", "1e-6", "-1 MPa"])
 def test_a_pocket_that_draws_more_than_a_cavity_has(pocket):
     """At cavitation pressure nothing drives oil there: the balance alone would take film fractions of -1e13."""
     problem = FilmProblem(FED, OPENING, {"top": Held(0.0), "bottom": pocket})

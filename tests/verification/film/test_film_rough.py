@@ -57,11 +57,9 @@ def phi_s(ratio, gamma):
 
 
 def phi_fs(ratio, gamma):
-    a3, p4, p5, p6 = {
-        1.0 / 3.0: (12.3, 2.32, 2.30, 0.10),
-        1.0: (11.1, 2.31, 2.38, 0.11),
-        3.0: (9.8, 2.25, 2.80, 0.18),
-    }[gamma]
+    a3, p4, p5, p6 = {1.0 / 3.0: (12.3, 2.32, 2.30, 0.10), 1.0: (11.1, 2.31, 2.38, 0.11), 3.0: (9.8, 2.25, 2.80, 0.18)}[
+        gamma
+    ]
     return a3 * ratio**p4 * np.exp(-p5 * ratio + p6 * ratio**2) if ratio < 7.0 else 0.0
 
 
@@ -174,9 +172,7 @@ def _slider_by_quadrature(surface_gamma: float, share: float, ratio: float) -> t
 def test_rough_slider(gamma, share, ratio, validation, refine):
     def solve(cells: int) -> tuple[float, float]:
         space = strip(cells)
-        posed = film(
-            space.sample(lambda x, y: ratio * SIGMA * (2.0 - x / LENGTH)), VISCOSITY, velocity_moving=MOVING
-        )
+        posed = film(space.sample(lambda x, y: ratio * SIGMA * (2.0 - x / LENGTH)), VISCOSITY, velocity_moving=MOVING)
         ends = {"left": Held(0.0), "right": Held(0.0)}
         found = loads(FilmSolver(space).solve(FilmProblem(space, posed, ends, surface=walls(gamma, share=share))))
         return found.load / WIDE, 1e6 * found.flow["right"] / WIDE

@@ -335,9 +335,7 @@ def _layer(x: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     return f, 0.25 * (STEEP * np.exp(STEEP * x) / np.expm1(100.0) - 0.25 * np.sin(0.5 * x))
 
 
-def _manufactured_error(
-    profile: Callable[[np.ndarray], tuple[np.ndarray, np.ndarray]], n: int, degree: int
-) -> float:
+def _manufactured_error(profile: Callable[[np.ndarray], tuple[np.ndarray, np.ndarray]], n: int, degree: int) -> float:
     """L2 error of div(H U - H^3 grad p) = -squeeze, the squeeze by complex steps through the analytic flow."""
     space = film_space(rectangle((2.0 * np.pi, 2.0), (n, n // 8), origin=(0.0, -1.0)), degree=degree)
     step = 1e-30

@@ -68,9 +68,7 @@ def _strip(length: float, n: int, cell: Cell) -> FilmSpace:
     return film_space(rectangle((length, 2.0 * length / n), (n, 2), cell=cell, periodic_y=True))
 
 
-def _solve(
-    space: FilmSpace, slider: Slider, left: Held, right: Held, thickness: np.ndarray | None = None
-) -> Found:
+def _solve(space: FilmSpace, slider: Slider, left: Held, right: Held, thickness: np.ndarray | None = None) -> Found:
     h = space.sample(lambda x, y: slider.thickness(x)) if thickness is None else thickness
     moving = (np.full((1, 1), slider.speed), ZERO)
     posed = film(h, slider.viscosity, velocity_moving=moving)

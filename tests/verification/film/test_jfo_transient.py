@@ -47,9 +47,7 @@ class Moment:
     lost: float
 
 
-def _march(
-    space: FilmSpace, step: float, until: float, cavitation: Cavitation = Cavitation.JFO
-) -> Iterator[Moment]:
+def _march(space: FilmSpace, step: float, until: float, cavitation: Cavitation = Cavitation.JFO) -> Iterator[Moment]:
     """The oscillating film from rest and full; one implicit step after the other."""
     solver, before = FilmSolver(space), None
     held = space.lumped(np.full((1, 1), _thickness(0.0)))

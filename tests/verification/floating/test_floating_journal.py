@@ -111,9 +111,7 @@ SIDES = {"top": Held(0.0)}  # the other end is the middle of the bearing, closed
 
 def _half(around: int) -> FilmSpace:
     return film_space(
-        rectangle(
-            (2.0 * np.pi * RADIUS, 0.5 * WIDTH), (around, around // 8), cell=Cell.QUADRILATERAL, periodic_x=True
-        )
+        rectangle((2.0 * np.pi * RADIUS, 0.5 * WIDTH), (around, around // 8), cell=Cell.QUADRILATERAL, periodic_x=True)
     )
 
 
@@ -199,9 +197,7 @@ def _turning(space: FilmSpace, inertia: Array | None) -> Floating:
     angle = 2.0 * np.pi * space.vertices[:, 0]
     modes = np.column_stack([np.cos(angle), np.sin(angle)])
     shape = FilmProblem(space, film(1.0, 1.0 / 6.0, velocity_moving=(np.ones((1, 1)), ZERO)), FEED)
-    return Floating(
-        "journal", lambda t: shape, lambda t: modes, lambda t, q, rate: steady(_pulse(t)), inertia=inertia
-    )
+    return Floating("journal", lambda t: shape, lambda t: modes, lambda t, q, rate: steady(_pulse(t)), inertia=inertia)
 
 
 def _bearing(around: int, across: int) -> FilmSpace:

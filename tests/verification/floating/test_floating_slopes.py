@@ -221,12 +221,8 @@ def test_what_flows_in_is_stored_or_leaves():
     changed = response(solver, solution, inflow)
     still = np.zeros((*solution.problem.space.area.shape, 1))
     stored = oil_slopes(solution, still, changed, solver.operators(solution))[:, 0].sum() / storage.step
-    more = replace(
-        solution.problem, storage=replace(storage, held_before=storage.held_before + 1e-4 * inflow[:, 0])
-    )
-    less = replace(
-        solution.problem, storage=replace(storage, held_before=storage.held_before - 1e-4 * inflow[:, 0])
-    )
+    more = replace(solution.problem, storage=replace(storage, held_before=storage.held_before + 1e-4 * inflow[:, 0]))
+    less = replace(solution.problem, storage=replace(storage, held_before=storage.held_before - 1e-4 * inflow[:, 0]))
     out = [float(solver.solve(p, solution).outflow[solution.held].sum()) for p in (more, less)]
     leaves = (out[0] - out[1]) / 2e-4 * storage.step
     assert stored + leaves == pytest.approx(inflow.sum(), rel=1e-5)

@@ -67,9 +67,7 @@ def plate(
     return Floating("plate", lambda t: film, lambda t: lift, lambda t, q, rate: steady(np.array([-load(t)])))
 
 
-def at_rest(
-    floating: Floating, space: FilmSpace, start: float, step: float = 1.0, steps: int = 3
-) -> FloatingStage:
+def at_rest(floating: Floating, space: FilmSpace, start: float, step: float = 1.0, steps: int = 3) -> FloatingStage:
     """The plate after steps that leave no squeeze."""
     solver, stage, q = FilmSolver(space), None, np.array([start])
     held = standing(floating, 0.0, q)
@@ -116,9 +114,7 @@ def test_rough_plate_rests_on_springs(surface, validation):
     pressed = 20e6
     gap = brentq(lambda h: float(contact_pressure(ROUGH, h).value) - pressed, -1e-6, 2e-6, xtol=1e-18)
     space = channel(6)
-    floating = plate(
-        space, winkler(space, STIFFNESS), (0.0, 0.0), lambda t: pressed * LENGTH * WIDE, ROUGH, surface
-    )
+    floating = plate(space, winkler(space, STIFFNESS), (0.0, 0.0), lambda t: pressed * LENGTH * WIDE, ROUGH, surface)
     stage = at_rest(floating, space, 1e-6, step=1e5)
     validation(
         case="Rough plate at rest on Winkler's foundation",

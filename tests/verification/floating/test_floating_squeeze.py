@@ -60,17 +60,12 @@ def _film(space: FilmSpace, held: dict[str, Boundary], asperities: Asperities | 
 
 
 def _sinking(
-    problem: FilmProblem,
-    outer: Outer | None = None,
-    pockets: dict | None = None,
-    inertia: np.ndarray | None = None,
+    problem: FilmProblem, outer: Outer | None = None, pockets: dict | None = None, inertia: np.ndarray | None = None
 ) -> Floating:
     """A flat wall that may only approach, under LOAD if nothing else is given."""
     pressed = steady(np.array([-LOAD])) if outer is None else outer
     up = np.ones((len(problem.space.vertices), 1))
-    return Floating(
-        "wall", lambda t: problem, lambda t: up, lambda t, q, rate: pressed, 0.0, pockets or {}, inertia
-    )
+    return Floating("wall", lambda t: problem, lambda t: up, lambda t, q, rate: pressed, 0.0, pockets or {}, inertia)
 
 
 def _position(floating: Floating, tableau: Tableau, steps: int) -> float:

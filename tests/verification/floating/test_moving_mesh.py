@@ -140,18 +140,12 @@ def test_waves_turn_with_their_part(part, validation):
     """A wavy part that spins: steady in its own frame, in which the other wall turns backwards."""
     waves = Profile((Waviness(2, 0.3 * CLEARANCE),))
     spin, other, step = 150.0, 40.0, 1e-7
-    spins = (
-        {"piston_spin": spin, "bore_spin": other}
-        if part == "piston"
-        else {"piston_spin": other, "bore_spin": spin}
-    )
+    spins = {"piston_spin": spin, "bore_spin": other} if part == "piston" else {"piston_spin": other, "bore_spin": spin}
     shape = replace(PistonShape(DIAMETER, CLEARANCE, GUIDE), **{part: waves})
     at_rest = {"reach": constant(40e-3), "velocity": constant(0.0)}
     moving = PistonFilm(shape, _drive(**at_rest, **spins), physics=FULL, cells=(48, 6))
     stored = _stepped(moving, np.zeros(4), step)
-    apart = {"piston_spin": 0.0, "bore_spin": 0.0} | {
-        "bore_spin" if part == "piston" else "piston_spin": other - spin
-    }
+    apart = {"piston_spin": 0.0, "bore_spin": 0.0} | {"bore_spin" if part == "piston" else "piston_spin": other - spin}
     problem = PistonFilm(shape, _drive(**at_rest, **apart), physics=FULL, cells=(48, 6)).problem_at(0.0)
     steady = FilmSolver(problem.space).solve(problem)
     size = float(np.abs(steady.pressure - FLOOD).max())

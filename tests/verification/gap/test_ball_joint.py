@@ -177,9 +177,7 @@ def test_axial_inertia_of_a_cone_is_not_the_bare_stroke_acceleration():
     axis = bore_axis(DRIVE, angle)
     place = _ball(DRIVE, angle) - CENTRE * axis
     sliding = float(piston_acceleration(DRIVE, angle, SPEED))
-    along = float(
-        swept_acceleration(place, axis, float(piston_velocity(DRIVE, angle, SPEED)), sliding, SPEED) @ axis
-    )
+    along = float(swept_acceleration(place, axis, float(piston_velocity(DRIVE, angle, SPEED)), sliding, SPEED) @ axis)
     radius = float(np.hypot(*place[:2]))
     assert along - sliding == pytest.approx(-(SPEED**2) * radius * np.sin(DRIVE.bore_cone_angle), rel=1e-12)
     # The place of the piston itself, differentiated twice.
@@ -187,9 +185,7 @@ def test_axial_inertia_of_a_cone_is_not_the_bare_stroke_acceleration():
 
     def at(angle: float) -> np.ndarray:
         height = float(piston_displacement(DRIVE, angle)) - float(piston_displacement(DRIVE, ANGLES[3]))
-        apex = (
-            _ball(DRIVE, ANGLES[3]) - float(ball_radius(DRIVE, ANGLES[3])) / np.sin(DRIVE.bore_cone_angle) * axis
-        )
+        apex = _ball(DRIVE, ANGLES[3]) - float(ball_radius(DRIVE, ANGLES[3])) / np.sin(DRIVE.bore_cone_angle) * axis
         distance = float(ball_radius(DRIVE, ANGLES[3])) / np.sin(DRIVE.bore_cone_angle) - CENTRE + height
         return apex + distance * bore_axis(DRIVE, angle)
 

@@ -301,10 +301,7 @@ def test_a_parallel_block_rubs_as_two_rings(validation, refine):
     def solve(n: int) -> float:
         film = BlockFilm(ALL_ROUND, drive(), cells=(n, 4 * n))
         solution = FilmSolver(film.space).solve(posed(film, 0.0, position))
-        return (
-            film.friction_torque(solution.problem.space, wall_shear(solution, None, solution.film.thickness))
-            * SPEED
-        )
+        return film.friction_torque(solution.problem.space, wall_shear(solution, None, solution.film.thickness)) * SPEED
 
     got = refine(solve, (2, 4, 8))
     validation(

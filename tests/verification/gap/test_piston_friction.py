@@ -46,9 +46,7 @@ def _let_go(film: PistonFilm, eccentricity: float) -> FloatingStage:
     """It stood parallel to its bore a moment ago."""
     start = started(floating_piston(film), 0.0, eccentricity * CLEARANCE * np.array([1.0, 0.0, 1.0, 0.0]))
     step = 1e-10
-    return solve_stage(
-        FilmSolver(film.space_at(0.0)), floating_piston(film), step, start.held, step, start.q, None
-    )
+    return solve_stage(FilmSolver(film.space_at(0.0)), floating_piston(film), step, start.held, step, start.q, None)
 
 
 def _at(
@@ -116,9 +114,7 @@ def test_pressure_pushes_a_piston_by_its_dents():
     assert dented.force - plain.force == pytest.approx(-0.5 * rim * (PRESSURE - CASE), rel=1e-6)
     assert dented.power - plain.power == pytest.approx(0.5 * rim * (PRESSURE - CASE) * OUTWARDS, rel=1e-6)
     flows = boundary_flows(stage.solution)
-    rigid, soft = (
-        film.chamber_flow(stage, flows, given) for given in (None, PistonDeformation(dents, dents, 0.0))
-    )
+    rigid, soft = (film.chamber_flow(stage, flows, given) for given in (None, PistonDeformation(dents, dents, 0.0)))
     assert soft - rigid == pytest.approx(-OUTWARDS * rim, rel=1e-9)
 
 

@@ -48,9 +48,7 @@ def flooded(**changed) -> PistonDrive:
     return drive(chamber=10e6, case_pressure=10e6, **changed)
 
 
-def held(
-    at: PistonDrive, position: Array, cells=CELLS, shape: PistonShape = SHAPE
-) -> tuple[PistonFilm, FloatingStage]:
+def held(at: PistonDrive, position: Array, cells=CELLS, shape: PistonShape = SHAPE) -> tuple[PistonFilm, FloatingStage]:
     film = PistonFilm(shape, at, cells=cells)
     return film, held_at(FilmSolver(film.space_at(0.0)), standing_piston(film), 0.0, position)
 

@@ -11,9 +11,7 @@ from gaps.shapes.profiles import PLAIN, Barrel, Crown, PointsAround, RingGroove,
 from reynolds import CONSTANT, Asperities, Cavitation, FilmInputError, Surface
 
 LENGTH = 40e-3
-WORN = PointsAround(
-    (0.0, 15e-3, LENGTH), (0.5, 2.0, 4.0), ((0.0, 1e-6, 2e-6), (3e-6, 1e-6, 0.0), (5e-6, 2e-6, 4e-6))
-)
+WORN = PointsAround((0.0, 15e-3, LENGTH), (0.5, 2.0, 4.0), ((0.0, 1e-6, 2e-6), (3e-6, 1e-6, 0.0), (5e-6, 2e-6, 4e-6)))
 SHAPES = [
     Barrel(LENGTH, 5e-6),
     Crown(LENGTH, -2e-6),

@@ -10,17 +10,7 @@ import numpy as np
 import pytest
 from scipy.special import ive
 
-from gaps import (
-    BushingPart,
-    PistonPart,
-    PistonWalls,
-    PlatePart,
-    Pose,
-    bushing_body,
-    part_wall,
-    piston_body,
-    plate_body,
-)
+from gaps import BushingPart, PistonPart, PistonWalls, PlatePart, Pose, bushing_body, part_wall, piston_body, plate_body
 from gaps.walls.parts import SlipperPart, closer_at_end, closer_at_start, slipper_body, slipper_walls
 from gaps.walls.piston import FaceGrid, face_grid
 from gaps.walls.user_mesh import CHAMBER, FILM
@@ -75,9 +65,7 @@ def test_bushing_in_its_web(poisson, validation, refine):
     exact = PRESSURE / 110e9 * shape * (1.0 / a - a / b**2)
 
     def solve(n: int) -> float:
-        return MICRON * float(
-            opened(face_grid(bushing_body(part, (n, 6 * n, 1)), a, even(GUIDE, 2), 12 * n)).mean()
-        )
+        return MICRON * float(opened(face_grid(bushing_body(part, (n, 6 * n, 1)), a, even(GUIDE, 2), 12 * n)).mean())
 
     found = refine(solve, (1, 2, 4), 3.0)
     validation(
@@ -158,9 +146,7 @@ def test_piston_under_its_chamber(validation, refine):
         return MICRON * float(found[ends[0]].mean()), MICRON * float(found[ends[1]].mean())
 
     found = refine(solve, (1, 2, 4), 3.0)
-    for place, more, column in zip(
-        ("chamber end", "other end"), (0.3 * PRESSURE * b / 210e9, 0.0), found, strict=True
-    ):
+    for place, more, column in zip(("chamber end", "other end"), (0.3 * PRESSURE * b / 210e9, 0.0), found, strict=True):
         validation(
             case="Hollow piston under its chamber's pressure",
             source="Lame, plane stress; accelerated bar",
@@ -332,9 +318,7 @@ def test_work_of_film_and_chamber_is_that_of_the_face(row):
     """int p w dA over the film + p V of chamber growth: what the bore's whole face takes at that pressure."""
     walls = grids()
     alone = PistonWalls(
-        GUIDE,
-        walls.bushing,
-        FaceGrid(walls.piston.rows, 0.0 * walls.piston.influence, 0.0 * walls.piston.by_chamber),
+        GUIDE, walls.bushing, FaceGrid(walls.piston.rows, 0.0 * walls.piston.influence, 0.0 * walls.piston.by_chamber)
     )
     whole, edge = unrolled(walls.bushing.rows), walls.bushing.rows[row]
     film = unrolled(walls.bushing.rows[row:])
@@ -381,9 +365,7 @@ def test_pocket_presses_on_slipper_and_plate(tmp_path):
     radius = np.hypot(*film.vertices.T)
     rim, edge = radius > 14e-3 * (1.0 - 1e-9), radius < 8e-3 * (1.0 + 1e-9)
     assert parts[1].matrix[edge, pocket].mean() > 5.0 * abs(parts[1].matrix[rim, pocket].mean())  # dents the plate
-    assert (
-        parts[0].matrix[rim, pocket].mean() > parts[0].matrix[edge, pocket].mean() > 0.0
-    )  # turns the flange back
+    assert parts[0].matrix[rim, pocket].mean() > parts[0].matrix[edge, pocket].mean() > 0.0  # turns the flange back
     fine = film_space(annulus(30e-3, 50e-3, (6, 40)))
     small, large = (
         PlatePart(30e-3, 50e-3, 10e-3, STEEL),
@@ -414,9 +396,7 @@ def test_grooves_press_on_slipper_and_plate(tmp_path):
 
     grooved, plain = SlipperLands(((8e-3, 10e-3), (11.5e-3, 14e-3))), SlipperLands(((8e-3, 14e-3),))
     for body in (
-        slipper_body(
-            SlipperPart(0.5e-3, 8e-3, 7e-3, 14e-3, 5e-3, BRONZE, grooves=grooved.closed_grooves), (9, 24, 1)
-        ),
+        slipper_body(SlipperPart(0.5e-3, 8e-3, 7e-3, 14e-3, 5e-3, BRONZE, grooves=grooved.closed_grooves), (9, 24, 1)),
         plate_body(PlatePart(0.0, 20e-3, 10e-3, STEEL, 8e-3, grooves=grooved.closed_grooves), (10, 24, 1)),
     ):
         groove = body_space(body.mesh).face("groove_1").gathered(1.0).sum()

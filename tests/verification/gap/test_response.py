@@ -85,9 +85,7 @@ def test_a_kink_is_told_by_its_error(learnt):
     error = learnt.held_out_error
     assert error.rms[1] > 10.0 * error.rms[0]
     worst = learnt.held_out.points[error.worst[1]]
-    assert abs(float(contact(worst[None])[0]) - float(learnt.at(worst[None])[0, 1])) == pytest.approx(
-        error.largest[1]
-    )
+    assert abs(float(contact(worst[None])[0]) - float(learnt.at(worst[None])[0, 1])) == pytest.approx(error.largest[1])
 
 
 def test_a_region_of_large_error_is_told(learnt):
@@ -110,8 +108,7 @@ def test_corners_are_worth_their_points():
     points, tried = dense(), held_out_points(AXES, 120, 30)
     rest = Response(AXES, (SMOOTH, KINKED), Samples(alone, both(alone)), Samples(tried, both(tried)))
     without, given = (
-        np.sqrt(np.mean(found.errors(Samples(points, both(points))) ** 2, axis=0))
-        for found in (rest, response(120))
+        np.sqrt(np.mean(found.errors(Samples(points, both(points))) ** 2, axis=0)) for found in (rest, response(120))
     )
     assert given[0] < 0.5 * without[0]
     assert given[1] < without[1]

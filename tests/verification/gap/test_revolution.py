@@ -194,15 +194,11 @@ def _journal(space: FilmSpace) -> Floating:
     angle = 2.0 * np.pi * space.vertices[:, 0]
     modes = np.column_stack([np.cos(angle), np.sin(angle)])
     shape = FilmProblem(
-        space,
-        film(1.0, 1.0 / 6.0, velocity_moving=(np.ones((1, 1)), ZERO)),
-        {"bottom": Held(0.0075), "top": Held(0.0)},
+        space, film(1.0, 1.0 / 6.0, velocity_moving=(np.ones((1, 1)), ZERO)), {"bottom": Held(0.0075), "top": Held(0.0)}
     )
 
     def load(time: float) -> Outer:
-        return steady(
-            0.004 * (1.2 + np.sin(2.0 * np.pi * time)) * np.array([1.0, 0.3 * np.cos(2.0 * np.pi * time)])
-        )
+        return steady(0.004 * (1.2 + np.sin(2.0 * np.pi * time)) * np.array([1.0, 0.3 * np.cos(2.0 * np.pi * time)]))
 
     return Floating("journal", lambda t: shape, lambda t: modes, lambda t, q, rate: load(t))
 
@@ -222,9 +218,7 @@ def test_journal_with_a_cavity():
     ends = []
     for side in (1.0, -1.0):
         begin = restarted(floating, 0.0, found.turn.last, found.turn.end + side * nudge)
-        *_, taken = integrate(
-            ALEXANDER_2, partial(solve_stage, solver, floating), begin, found.turn.times, nodes_only
-        )
+        *_, taken = integrate(ALEXANDER_2, partial(solve_stage, solver, floating), begin, found.turn.times, nodes_only)
         ends.append(taken.state.q)
     np.testing.assert_allclose((ends[0] - ends[1]) / 2.0, found.turn.slopes @ nudge, atol=2e-3 * 2e-5)
 

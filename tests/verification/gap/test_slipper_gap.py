@@ -58,9 +58,7 @@ def drive(
     return SlipperDrive(**(usual | changed))
 
 
-def held(
-    n: int, at: SlipperDrive, position: Array, shape: SlipperShape = SHAPE
-) -> tuple[SlipperFilm, FloatingStage]:
+def held(n: int, at: SlipperDrive, position: Array, shape: SlipperShape = SHAPE) -> tuple[SlipperFilm, FloatingStage]:
     film = SlipperFilm(shape, at, cells=(n, 6 * n))
     return film, held_at(FilmSolver(film.space), floating_slipper(film), 0.0, position)
 
@@ -184,9 +182,7 @@ def small_tilt_moment(rise: float, tilt: float) -> float:
     """
     source = 3.0 * tilt * rise / (OUTER * LOG)
     radius = np.array([INNER, OUTER])
-    outward, inward = np.linalg.solve(
-        np.column_stack([radius, 1.0 / radius]), -0.5 * source * radius * np.log(radius)
-    )
+    outward, inward = np.linalg.solve(np.column_stack([radius, 1.0 / radius]), -0.5 * source * radius * np.log(radius))
     logarithmic = (radius**4 / 4.0) * (np.log(radius) - 0.25)
     integral = 0.5 * source * logarithmic + outward * radius**4 / 4.0 + inward * radius**2 / 2.0
     return float(np.pi * (integral[1] - integral[0]))

@@ -359,9 +359,7 @@ def test_lift_and_leakage_of_a_grooved_slipper_by_closed_form(vented):
 def test_support_land_squeezes_but_does_not_seal():
     """Closing at V, edges at one pressure: 1.5 pi mu V r2^4/h^3 [1 - k^4 + (1 - k^2)^2/ln k] of each land."""
     lands = lands_between(5e-3, 10e-3, vented=[(7e-3, 8e-3)])
-    film = SlipperFilm(
-        SlipperShape(lands, WIDE), _drive(chamber_pressure=constant(0.0)), physics=FULL, cells=(32, 192)
-    )
+    film = SlipperFilm(SlipperShape(lands, WIDE), _drive(chamber_pressure=constant(0.0)), physics=FULL, cells=(32, 192))
     problem, rate = film.problem_at(0.0), -1e-4
     oil = replace(
         problem.film,

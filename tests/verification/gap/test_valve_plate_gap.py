@@ -101,12 +101,7 @@ def test_one_pressure_all_round(validation, refine):
     mean_squares = (r4**2 - r3**2) / np.log(r4 / r3) - (r2**2 - r1**2) / np.log(r2 / r1)
     exact = (
         ("leakage", "m3/s", conductance * (PRESSURE - CASE), "paper equation (17), all round"),
-        (
-            "separating force",
-            "N",
-            np.pi / 2.0 * mean_squares * (PRESSURE - CASE),
-            "closed form, logarithmic profile",
-        ),
+        ("separating force", "N", np.pi / 2.0 * mean_squares * (PRESSURE - CASE), "closed form, logarithmic profile"),
     )
     for (quantity, unit, expected, source), found in zip(exact, refine(solve, MESHES), strict=True):
         validation(

@@ -188,9 +188,7 @@ def test_a_standing_block_turns_in_the_film_of_the_turning_mesh():
     assert stage.film_force + stage.outer.force == pytest.approx(force, rel=1e-3, abs=1.0)
     told = standing_block_film(film, stage)
     assert told.friction_power == pytest.approx(SPEED * torque_of(film, turning), rel=1e-3)
-    assert told.leakage_flow == pytest.approx(
-        sum(loads(turning).flow[edge] for edge in ("inner", "outer")), rel=1e-3
-    )
+    assert told.leakage_flow == pytest.approx(sum(loads(turning).flow[edge] for edge in ("inner", "outer")), rel=1e-3)
 
 
 def test_the_spline_gives_tilts_their_leverage():

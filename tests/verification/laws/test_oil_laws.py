@@ -10,17 +10,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from reynolds import (
-    ISO_GRADES,
-    Barus,
-    BulkModulus,
-    Carreau,
-    FilmInputError,
-    Oil,
-    RationalDensity,
-    Roelands,
-    walther,
-)
+from reynolds import ISO_GRADES, Barus, BulkModulus, Carreau, FilmInputError, Oil, RationalDensity, Roelands, walther
 from reynolds.laws.density import (
     DOWSON_HIGGINSON,
     MINERAL_OIL_BUNSEN,
@@ -266,12 +256,7 @@ def test_viscosity_beyond_its_law_is_refused(law, pressure, words):
 
 @pytest.mark.parametrize(
     ("law", "pressure"),
-    [
-        (DOWSON_HIGGINSON, -0.5e9),
-        (BulkModulus(1e9), 2e9),
-        (Tait(1e9, 11.0), -0.1e9),
-        (DENSITY["free air"], -1.02e5),
-    ],
+    [(DOWSON_HIGGINSON, -0.5e9), (BulkModulus(1e9), 2e9), (Tait(1e9, 11.0), -0.1e9), (DENSITY["free air"], -1.02e5)],
 )
 def test_density_beyond_its_law_is_refused(law, pressure):
     with pytest.raises(FilmInputError, match="Pa"):

@@ -12,9 +12,7 @@ from reynolds.linear.multigrid.grid import grid_of
 from reynolds.linear.triangles import both_triangles
 
 
-def carried(
-    space: FilmSpace, cavity: np.ndarray, flow: tuple[float, float]
-) -> tuple[csc_array, np.ndarray, csc_array]:
+def carried(space: FilmSpace, cavity: np.ndarray, flow: tuple[float, float]) -> tuple[csc_array, np.ndarray, csc_array]:
     """Upper triangle, its mirror and the matrix: Poiseuille columns in the film, upwind ones in the cavity.
 
     An unknown of the cavity gives to each neighbour downstream in proportion to the flow along the way there.

@@ -122,9 +122,7 @@ def upwind(n: int, seed: int = 3) -> tuple[csc_array, np.ndarray, np.ndarray]:
     space = film_space(rectangle((1.0, 1.0), (n, n), cell=Cell.QUADRILATERAL))
     full = np.zeros((space.size, space.size))
     for cell in space.dofs:
-        full[np.ix_(cell, cell)] += (
-            np.array([[4, -1, -2, -1], [-1, 4, -1, -2], [-2, -1, 4, -1], [-1, -2, -1, 4]]) / 6
-        )
+        full[np.ix_(cell, cell)] += np.array([[4, -1, -2, -1], [-1, 4, -1, -2], [-2, -1, 4, -1], [-1, -2, -1, 4]]) / 6
     cavity = np.random.default_rng(seed).random(space.size) < 0.4
     flow = np.where(full < 0.0, np.triu(np.ones_like(full), 1), 0.0)  # to higher numbers only, an M-matrix
     transport = np.diag(flow.sum(axis=0) + 1e-3) - flow.T

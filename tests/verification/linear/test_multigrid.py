@@ -65,9 +65,7 @@ def test_it_agrees_with_a_direct_solve(cell, cells, around_x, around_y, shear, k
     answer, effort = multigrid.solve(load, 1e-13)
     assert effort.left <= 1e-12
     assert effort.steps < 25
-    np.testing.assert_allclose(
-        answer, spsolve(whole(upper).tocsc(), load), rtol=0.0, atol=1e-9 * np.abs(answer).max()
-    )
+    np.testing.assert_allclose(answer, spsolve(whole(upper).tocsc(), load), rtol=0.0, atol=1e-9 * np.abs(answer).max())
 
 
 @pytest.mark.parametrize("mesh", [annulus(1.0, 2.0, (9, 31)), rectangle((1.0, 2.0), (9, 10), periodic_x=True)])
@@ -181,9 +179,7 @@ def test_a_wide_deep_pocket_keeps_its_level(depth):
     space = film_space(rectangle((ROUND, 1.0), (160, 64), cell=Cell.QUADRILATERAL, periodic_x=True))
     x, y = space.points
     inside = (np.abs(x - 3.0) < 1.0) & (np.abs(y - 0.5) < 0.2)
-    upper = operator(
-        space, np.where(inside, depth, 1.0) * (1.0 + 0.6 * np.cos(x)), at_edges(space, "bottom", "top")
-    )
+    upper = operator(space, np.where(inside, depth, 1.0) * (1.0 + 0.6 * np.cos(x)), at_edges(space, "bottom", "top"))
     where = np.empty(space.size)
     where[space.vertex_dofs] = space.vertices[:, 0]
     load = np.where(at_edges(space, "bottom", "top"), 0.0, np.sin(where))

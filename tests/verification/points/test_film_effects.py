@@ -262,9 +262,7 @@ def test_barus_coefficient_takes_the_place_of_the_usual_one():
 
 
 WARMER = 20.0
-RATES = {
-    "thermal_clearance": {"piston": {"rate": 8e-3}, "slipper": {"rate": -4e-3}, "valve_plate": {"rate": 5e-3}}
-}
+RATES = {"thermal_clearance": {"piston": {"rate": 8e-3}, "slipper": {"rate": -4e-3}, "valve_plate": {"rate": 5e-3}}}
 DRAGGED = 3e-3
 """Of a leakage: drag flow of the piston, in proportion to its film, which the closed law leaves as it is."""
 
@@ -282,9 +280,7 @@ def test_a_clearance_that_warmth_changes_is_a_film_thickness():
         loss = OF_GAP[Gap(one)]
         viscous = by_law.pairs.loss(loss).mean_viscous
         assert viscous == pytest.approx(as_pump.pairs.loss(loss).mean_viscous, rel=1e-9)
-    np.testing.assert_array_equal(
-        leaks(films_point(pump, warm, **COARSE)), leaks(films_point(there, warm, **COARSE))
-    )
+    np.testing.assert_array_equal(leaks(films_point(pump, warm, **COARSE)), leaks(films_point(there, warm, **COARSE)))
 
 
 def test_a_pump_moved_to_another_temperature_keeps_its_films_there():
@@ -310,9 +306,7 @@ def test_a_film_that_warmth_closes_is_refused():
     with pytest.raises(InputError, match=r"thermal_clearance.slipper.rate: -0.02 1/K.*expected above -0.0158"):
         at_temperature(pump, pump.operating.temperature + 60.0)
     with pytest.raises(InputError, match=r"expected below 0\.0158"):
-        at_temperature(
-            extended({"thermal_clearance": {"piston": {"rate": 0.02}}}), pump.operating.temperature - 60.0
-        )
+        at_temperature(extended({"thermal_clearance": {"piston": {"rate": 0.02}}}), pump.operating.temperature - 60.0)
     warm = replace(operating_point(pump), temperature=pump.operating.temperature + 60.0)
     with pytest.raises(InputError, match="closed at"):
         lumped_point(pump, warm)

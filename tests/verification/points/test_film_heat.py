@@ -78,9 +78,7 @@ def warm(
     film: PistonFilm, heat: GapHeat, before: GapRevolution[PistonReport] | None = None
 ) -> GapRevolution[PistonReport]:
     solver, start, look = FilmSolver(film.space_at(0.0)), np.zeros(4), partial(piston_report, film)
-    return warm_revolution(
-        solver, floating_piston(film), SCHEDULE, start, look, heat, accuracy=ROUGHLY, before=before
-    )
+    return warm_revolution(solver, floating_piston(film), SCHEDULE, start, look, heat, accuracy=ROUGHLY, before=before)
 
 
 def cold(film: PistonFilm) -> GapRevolution[PistonReport]:
@@ -180,9 +178,7 @@ def test_oil_beyond_its_law_is_told():
     def ends(temperature: np.ndarray) -> np.ndarray:
         raise InputError("oil temperature", f"{temperature.max():.0f} K", "at most 300 K")
 
-    with pytest.raises(
-        FilmNotConverged, match="temperature of the piston at 30 deg: oil temperature: 313 K; expected"
-    ):
+    with pytest.raises(FilmNotConverged, match="temperature of the piston at 30 deg: oil temperature: 313 K; expected"):
         warm(piston(), replace(oil(THINNING, 0.0), thins=ends))
 
 

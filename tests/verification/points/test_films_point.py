@@ -188,9 +188,7 @@ def test_parts_stand_where_the_description_puts_them(rated):
     for angle, film in zip(gaps.shaft_angle, gaps.piston, strict=True):
         inner, case = film.position.reshape(2, 2)
         assert inner == pytest.approx(case)
-        assert inner @ driven.piston.outer(angle).reshape(2, 2).sum(axis=0) == pytest.approx(
-            off * film.required_load
-        )
+        assert inner @ driven.piston.outer(angle).reshape(2, 2).sum(axis=0) == pytest.approx(off * film.required_load)
     assert all(film.position[0] == pump.slipper.film_thickness for film in gaps.slipper)
     assert all(film.position[0] == pump.valve_plate.film_thickness for film in gaps.valve_plate)
     assert all(film.contact_load == 0.0 for film in films_of(rated))
@@ -260,13 +258,7 @@ def test_twice_the_film_angles(rated, validation):
             fine.pump_point.leakage_flow.total * LITRES_A_MINUTE,
             0.005,
         ),
-        (
-            "viscous loss, pistons",
-            "W",
-            pairs.piston_cylinder.mean_viscous,
-            twice.piston_cylinder.mean_viscous,
-            0.02,
-        ),
+        ("viscous loss, pistons", "W", pairs.piston_cylinder.mean_viscous, twice.piston_cylinder.mean_viscous, 0.02),
         (
             "viscous loss, slippers",
             "W",
@@ -314,9 +306,7 @@ def _on_both_meshes(point: FilmsPoint) -> dict[tuple[str, str], tuple[float, flo
     """(quantity, unit) -> mean over the film angles on the default mesh and on the doubled one."""
     gaps = point.gaps
     again = gap_cycle(point.rotor, point.parts, gaps.shaft_angle, gaps.chamber_pressure, finer=2)
-    coarse, fine = (
-        {"piston": c.piston, "slipper": c.slipper, "valve plate": c.valve_plate} for c in (gaps, again)
-    )
+    coarse, fine = ({"piston": c.piston, "slipper": c.slipper, "valve plate": c.valve_plate} for c in (gaps, again))
     found = {}
     for gap in coarse:
         both = coarse[gap], fine[gap]

@@ -55,9 +55,7 @@ def test_a_process_of_its_own_finds_the_same_piston():
             beside.fetch(lambda *_: None)
 
 
-@pytest.mark.parametrize(
-    "error", [FilmNotConverged("walls that touch", "less load"), InputError("slipper", "2", "3")]
-)
+@pytest.mark.parametrize("error", [FilmNotConverged("walls that touch", "less load"), InputError("slipper", "2", "3")])
 def test_errors_come_over_as_they_were(error):
     import pickle
 

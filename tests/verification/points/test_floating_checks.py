@@ -15,9 +15,7 @@ def told(name: str, overrides: dict[str, object] | None = None) -> str:
 def test_ref90_tips():
     """The film lifts 0.933 of the pistons' force, at 36.5 mm; what is left presses beyond the outer land."""
     found = told("ref90")
-    assert (
-        "valve_plate.land_radius_4: block tips: at 35 MPa the film's lift is 0.933 of the pistons' force" in found
-    )
+    assert "valve_plate.land_radius_4: block tips: at 35 MPa the film's lift is 0.933 of the pistons' force" in found
     assert "36.52 mm from the shaft" in found
     assert "lands about the pitch radius, 45 mm" in found
 

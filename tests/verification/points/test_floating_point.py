@@ -6,15 +6,7 @@ import numpy as np
 import pytest
 
 from reynolds import NotConverged
-from system import (
-    RIGID,
-    FloatingOptions,
-    FloatingPoint,
-    PumpDescription,
-    floating_point,
-    load_pump,
-    operating_point,
-)
+from system import RIGID, FloatingOptions, FloatingPoint, PumpDescription, floating_point, load_pump, operating_point
 from system.points.floating import FRICTION_TOLERANCE, PRESSURE_TOLERANCE
 from system.points.floating_exchange import leak_table, leakage_heat
 
@@ -48,9 +40,7 @@ def test_power_is_accounted_for(found, energy_balances):
 
     What is left is forces between 72 angles a turn: five times less than the project asks for.
     """
-    energy_balances(
-        case="REF90 floating, coarse films, 10 MPa, 2100 r/min: balances", checks=found.pump_point.checks
-    )
+    energy_balances(case="REF90 floating, coarse films, 10 MPa, 2100 r/min: balances", checks=found.pump_point.checks)
 
 
 def test_oil_is_kept_by_each_gap(found):

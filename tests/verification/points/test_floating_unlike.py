@@ -11,15 +11,7 @@ import numpy as np
 import pytest
 
 from gaps import Accuracy
-from system import (
-    RIGID,
-    FloatingOptions,
-    FloatingPoint,
-    PumpDescription,
-    floating_point,
-    load_pump,
-    operating_point,
-)
+from system import RIGID, FloatingOptions, FloatingPoint, PumpDescription, floating_point, load_pump, operating_point
 from system.points.floating import PRESSURE_TOLERANCE
 
 ROUGHLY = FloatingOptions(

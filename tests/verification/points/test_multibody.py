@@ -27,16 +27,7 @@ from system import (
 )
 from system.multibody.closure import closure
 from system.multibody.joints import wrench
-from system.multibody.kinematics import (
-    BoreCircle,
-    Plate,
-    axial_rates,
-    ball_motion,
-    circle_of,
-    cross,
-    dot,
-    swash_angle,
-)
+from system.multibody.kinematics import BoreCircle, Plate, axial_rates, ball_motion, circle_of, cross, dot, swash_angle
 from system.multibody.retainer import guide_contact, guide_loss
 from system.multibody.rotating_group import JointForces
 from system.pump.laws.kinematics import crossed_drive, slipper_sliding_speed
@@ -283,10 +274,7 @@ def test_bearings_share_the_side_force_as_stated():
     front, rear = joints.shaft.front[:2], joints.shaft.rear[:2]
     share = np.linalg.norm(front.mean(axis=1)) / np.linalg.norm((front + rear).mean(axis=1))
     assert share == pytest.approx(0.62, rel=1e-3)
-    assert {taken.path for taken in joints.group.places.taken} >= {
-        "bearings.front_position",
-        "block.spline_position",
-    }
+    assert {taken.path for taken in joints.group.places.taken} >= {"bearings.front_position", "block.spline_position"}
 
 
 @pytest.mark.parametrize("strokes", ["up", "down"])

@@ -127,9 +127,7 @@ def test_effects_are_read_from_a_file_and_written_back(tmp_path):
         assert load_pump(file) == one
         ((found, values),) = switched_on(load_pump(file))
         assert (found.id, found.pair) == (extension.id, extension.pair)
-        assert values.keys() == set(extension.grid[0]) | {
-            own.name.rpartition(".")[2] for own in extension.parameters
-        }
+        assert values.keys() == set(extension.grid[0]) | {own.name.rpartition(".")[2] for own in extension.parameters}
     assert "physics" not in text
 
 
@@ -142,9 +140,7 @@ def test_a_bench_map_reads_the_same_with_an_effect_stated_as_with_its_law(extens
     stated = LumpedBench(with_effect(extension), POINTS, SIMULATED, (), samples_per_pitch=SAMPLES_PER_PITCH)
     read = law.predict(values)
     np.testing.assert_allclose(stated.predict(np.array([])), read, rtol=1e-12)
-    asked = operating_point(
-        REF90, displacement_ratio=0.6, temperature=333.15, shaft_speed=300.0, inlet_pressure=1e5
-    )
+    asked = operating_point(REF90, displacement_ratio=0.6, temperature=333.15, shaft_speed=300.0, inlet_pressure=1e5)
     bench = lumped_point(with_effect(extension), asked).bench
     one = [bench.delivery_flow, bench.inlet_flow, bench.drain_flow, bench.shaft_torque]
     np.testing.assert_allclose(read[1], one, rtol=3e-5)

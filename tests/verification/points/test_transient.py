@@ -13,13 +13,7 @@ import pytest
 from reynolds import InputError
 from system import joint_forces, load_pump, lumped_point, operating_point, orifice_flow
 from system.multibody.transient import kernels as kernel
-from system.multibody.transient.solver import (
-    ControlPressure,
-    Transient,
-    TransientCase,
-    Transition,
-    run_transient,
-)
+from system.multibody.transient.solver import ControlPressure, Transient, TransientCase, Transition, run_transient
 
 DEGREES = np.pi / 180.0
 PUMPS = Path(__file__).parents[3] / "examples" / "pumps"
@@ -35,9 +29,7 @@ def run(
     stated: dict[str, object], control: ControlPressure, end: float, step: float | None = None, **asked: float
 ) -> Transient:
     pump = load_pump("ref90", stated)
-    return run_transient(
-        TransientCase(pump, operating_point(pump, **asked), control, end, step and step * DEGREES)
-    )
+    return run_transient(TransientCase(pump, operating_point(pump, **asked), control, end, step and step * DEGREES))
 
 
 @pytest.fixture(scope="module")
@@ -131,10 +123,7 @@ def test_the_actuator_keeps_its_oil(destroked):
     law = (case.pump.ports.flow_coefficient, oil.density, case.point.viscosity / oil.density, 150.0)
     control = destroked.rows[:, kernel.CONTROL]
     into = np.array(
-        [
-            float(orifice_flow(c - p, parts.actuator.orifice_area, *law))
-            for c, p in zip(control, pressure, strict=True)
-        ]
+        [float(orifice_flow(c - p, parts.actuator.orifice_area, *law)) for c, p in zip(control, pressure, strict=True)]
     )
     rate = into * np.exp(pressure / oil.bulk_modulus)
     passed = float(np.sum(0.5 * (rate[1:] + rate[:-1])) * destroked.step)

@@ -67,9 +67,7 @@ def test_sensors_afterwards_are_as_they_were(proof: SimpleNamespace, made: Simpl
     """The mean of many readings at one point is off by the campaign's own calibration and fault, at its end."""
     count, name, found = 2000, "Q_case", made.made
     whole = proof.campaigns.campaigns()["few"]
-    points = replace(
-        whole.points, **{one: np.repeat(value[:1], count) for one, value in vars(whole.points).items()}
-    )
+    points = replace(whole.points, **{one: np.repeat(value[:1], count) for one, value in vars(whole.points).items()})
     flow = np.full(count, 2e-5)
     truth = SimpleNamespace(Q_out=flow, Q_in=flow, Q_case=flow, torque=flow)
     columns = proof.sensors.read_after(

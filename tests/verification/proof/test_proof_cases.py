@@ -70,9 +70,7 @@ def test_what_a_tolerance_explains_has_a_small_score(proof: SimpleNamespace, sma
     """A shift of one tolerance in each of the plant's parts has a score below sqrt(their number): z^2 = sum of a^T
     A^T (S + A A^T)^-1 A a < |a|^2."""
     machine = proof.sizing.typical()
-    changed = replace(
-        machine, slipper_film=machine.slipper_film * 1.08, friction_piston=machine.friction_piston * 1.15
-    )
+    changed = replace(machine, slipper_film=machine.slipper_film * 1.08, friction_piston=machine.friction_piston * 1.15)
     moved = proof.sizing.shift(small, proof.recordings.NOTHING, (), changed)
     assert proof.sizing.z_of(small, moved) < np.sqrt(2.0)
 

@@ -180,9 +180,7 @@ def test_gates_of_small_sizes_and_gaps(proof: SimpleNamespace, right: object) ->
     """At z = 3 no mismatch is no suspicion; a gap claimed wrong is missed though the name is not right."""
     small = replace(right, score=3.0, claims=(), effects=("elastic_opening",), verdict="no_mismatch")
     doubted = replace(small, verdict="missing_physics", status="suspicion")
-    gate = next(
-        one for one in proof.gates.gates([small, doubted]) if "at z = 3" in one.name and "class" in one.name
-    )
+    gate = next(one for one in proof.gates.gates([small, doubted]) if "at z = 3" in one.name and "class" in one.name)
     assert gate.found.startswith("50.0% (1 of 2")
     assert gate.found.endswith("1 more told as no mismatch")
     elsewhere = replace(right, claims=(proof.outcome.Claimed("elastic_opening", "piston", 0.97, ()),))

@@ -100,11 +100,7 @@ def test_mass_balances_where_chambers_do_not_fill(plant: SimpleNamespace) -> Non
     at = replace(_points(plant, rpm=2200.0), p_in=1e5 * np.array([0.6, 0.7, 0.8]), p_case=1.1e5 * three)
     sound, starved = (plant.run(machine, at, plant.Hidden(suction=loss)) for loss in (0.0, 6e4))
     dense = 860.0 * np.exp((at.p_out - 101325.0) / 1.6e9)
-    left = (
-        starved.Q_in * 860.0 * np.exp((at.p_in - 101325.0) / 1.6e9)
-        - starved.Q_out * dense
-        - starved.Q_case * 860.0
-    )
+    left = starved.Q_in * 860.0 * np.exp((at.p_in - 101325.0) / 1.6e9) - starved.Q_out * dense - starved.Q_case * 860.0
     assert np.abs(left).max() < 1e-4 * starved.Q_in.max() * 860.0  # of the line's pressure, the density 4e-5
     for channel in ("Q_in", "Q_out"):
         share = getattr(starved, channel) / getattr(sound, channel)
@@ -139,9 +135,7 @@ def test_the_step_converges(plant: SimpleNamespace) -> None:
     machine, at = plant.ref90(), _points(plant)
     sigma = np.array([0.19 / 60e3, 0.31 / 60e3, 0.018 / 60e3, 0.55])
     fine = plant.run(machine, at, steps=2880).outputs
-    error = [
-        np.abs((plant.run(machine, at, steps=steps).outputs - fine) / sigma).max() for steps in (180, 360, 720)
-    ]
+    error = [np.abs((plant.run(machine, at, steps=steps).outputs - fine) / sigma).max() for steps in (180, 360, 720)]
     assert error[1] < 0.1
     assert error[1] < 0.5 * error[0]
     assert error[2] < 0.5 * error[1]

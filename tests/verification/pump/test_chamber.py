@@ -291,9 +291,7 @@ def test_a_starved_chamber_takes_in_what_its_orifice_passes():
     areas = opening_area(problem.suction_port, cycle.shaft_angle)
     taken = [orifice_flow(-p, area, *law) for p, area in zip(cycle.pressure, areas, strict=True)]
     density = np.exp(np.maximum(cycle.pressure, CAVITY_PRESSURE) / problem.bulk_modulus)
-    assert -cycle.outflow.suction == pytest.approx(
-        np.mean(density * taken) * 2 * np.pi / problem.shaft_speed, rel=2e-3
-    )
+    assert -cycle.outflow.suction == pytest.approx(np.mean(density * taken) * 2 * np.pi / problem.shaft_speed, rel=2e-3)
 
 
 def test_leak_spline_is_periodic_and_fourth_order():

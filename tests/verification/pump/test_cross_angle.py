@@ -82,11 +82,7 @@ def test_ports_and_face_lie_later_by_the_shift():
 
 
 def test_a_displacement_below_the_cross_angles_own_is_refused():
-    stated = {
-        "pump.cross_angle": "3 deg",
-        "pump.displacement": "91.4 cm3/rev",
-        "operating.displacement_ratio": 0.1,
-    }
+    stated = {"pump.cross_angle": "3 deg", "pump.displacement": "91.4 cm3/rev", "operating.displacement_ratio": 0.1}
     with pytest.raises(InputFaults, match=r"operating.displacement_ratio(?s:.*)at least 0.177"):
         load_pump("ref90", stated)
 

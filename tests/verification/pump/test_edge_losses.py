@@ -10,13 +10,7 @@ from gaps.films.slipper import hagen_poiseuille_conductance, supply
 from gaps.shapes.orifice_table import OrificeTable
 from reynolds import InputError
 from system import load_pump, lumped_point, operating_point, piston_motion
-from system.inputs.coefficients.edge_losses import (
-    KINETIC,
-    Edge,
-    LandPath,
-    LossCourse,
-    secant_conductance,
-)
+from system.inputs.coefficients.edge_losses import KINETIC, Edge, LandPath, LossCourse, secant_conductance
 from system.pump.land_losses import creeping_film_leaks, land_losses, orifice_table, with_inertia
 from system.pump.lumped import lumped_leaks
 
@@ -114,10 +108,7 @@ def test_extra_length_is_that_much_land(tmp_path, plain):
     assert found.slipper / plain.slipper == pytest.approx(log / (log + longer), abs=1e-5)
     logs = [
         (np.log(out / inner), 0.63 * plate.film_thickness * (1.0 / out + 1.0 / inner))
-        for inner, out in (
-            (plate.land_radius_1, plate.land_radius_2),
-            (plate.land_radius_3, plate.land_radius_4),
-        )
+        for inner, out in ((plate.land_radius_1, plate.land_radius_2), (plate.land_radius_3, plate.land_radius_4))
     ]
     share = sum(1.0 / (log + more) for log, more in logs) / sum(1.0 / log for log, _ in logs)
     assert found.valve_plate / plain.valve_plate == pytest.approx(share, abs=1e-5)
@@ -191,9 +182,7 @@ def test_a_bore_s_file_takes_the_place_of_its_length(tmp_path):
 
     def file(ratio):
         path = tmp_path / f"bore_{ratio:g}.csv"
-        rows = [
-            f"{opening:.12g}, {re}, {np.sqrt(re / (64.0 * ratio)):.12g}" for re in (0.01, 0.1, 10.0, 100.0, 400.0)
-        ]
+        rows = [f"{opening:.12g}, {re}, {np.sqrt(re / (64.0 * ratio)):.12g}" for re in (0.01, 0.1, 10.0, 100.0, 400.0)]
         head = ["# source: Poiseuille", "opening [mm2], reynolds [1], flow_coefficient [1]"]
         path.write_text("\n".join([*head, *rows]) + "\n", encoding="utf-8")
         return str(path)

@@ -5,15 +5,7 @@ from math import pi, sqrt
 import numpy as np
 import pytest
 
-from system import (
-    PumpDescription,
-    PumpPoint,
-    load_pump,
-    lumped_point,
-    opening_area,
-    operating_point,
-    port_openings,
-)
+from system import PumpDescription, PumpPoint, load_pump, lumped_point, opening_area, operating_point, port_openings
 from system.pump.chamber.layout import CAVITY_PRESSURE
 
 RPM = pi / 30
@@ -59,9 +51,7 @@ def test_suction_loss(validation, rpm):
 
 @pytest.mark.parametrize("loss", [1.0, 4.0])
 def test_a_line_loses_its_share_of_what_the_kidneys_lose(loss):
-    assert _lost_at_suction(_point(_behind(loss), 2100.0, 10e5)) == pytest.approx(
-        (1.0 + loss) * LOST[2100.0], rel=0.02
-    )
+    assert _lost_at_suction(_point(_behind(loss), 2100.0, 10e5)) == pytest.approx((1.0 + loss) * LOST[2100.0], rel=0.02)
 
 
 @pytest.mark.parametrize(("loss", "rpm", "inlet"), [(5.0, 2100.0, 0.0), (8.0, 1800.0, 0.0), (8.0, 2100.0, 0.5e5)])

@@ -39,11 +39,7 @@ def of_law(law: PlainLaw, openings=(1e-6, 1e-4)) -> FlowCoefficients:
     coefficient = np.exp(law.log_coefficient(np.log(numbers))[0])
     shape = len(openings), 1
     return FlowCoefficients(
-        Path("made.csv"),
-        "made",
-        np.array(openings),
-        np.tile(numbers * coefficient, shape),
-        np.tile(coefficient, shape),
+        Path("made.csv"), "made", np.array(openings), np.tile(numbers * coefficient, shape), np.tile(coefficient, shape)
     )
 
 
@@ -88,8 +84,7 @@ def test_flow_rises_with_the_drop_and_its_slope_is_that_of_its_differences():
         found, slope = flow(coefficients, law, area, drops)
         assert np.all(np.diff(found) > 0.0)
         around = (
-            flow(coefficients, law, area, drops * (1 + step))[0]
-            - flow(coefficients, law, area, drops * (1 - step))[0]
+            flow(coefficients, law, area, drops * (1 + step))[0] - flow(coefficients, law, area, drops * (1 - step))[0]
         )
         assert np.median(np.abs(around / (2.0 * step * drops) / slope - 1.0)) < 1e-6
         assert np.max(np.abs(around / (2.0 * step * drops) / slope - 1.0)) < 1e-2
@@ -118,9 +113,7 @@ def written(path: Path, rows) -> Path:
 def law_rows(law: PlainLaw, factor=1.0):
     numbers = np.geomspace(0.3, 3e4, 60)
     coefficient = np.exp(law.log_coefficient(np.log(numbers))[0])
-    return [
-        (a, n * c * factor, c * factor) for a in (0.1, 200.0) for n, c in zip(numbers, coefficient, strict=True)
-    ]
+    return [(a, n * c * factor, c * factor) for a in (0.1, 200.0) for n, c in zip(numbers, coefficient, strict=True)]
 
 
 def pump_with(file: Path | None, **stated):

@@ -64,9 +64,7 @@ def test_sliding_velocity_is_the_ball_centres_in_the_swash_plane(drive):
     steepest = np.array([-np.sin(drive.swash_angle), np.cos(drive.swash_angle), 0.0])
     in_plane = np.stack([steepest @ velocity, velocity[2]])
     scale = RATED_SPEED * drive.pitch_radius
-    np.testing.assert_allclose(
-        kin.slipper_sliding_velocity(drive, ANGLES, RATED_SPEED), in_plane, atol=1e-8 * scale
-    )
+    np.testing.assert_allclose(kin.slipper_sliding_velocity(drive, ANGLES, RATED_SPEED), in_plane, atol=1e-8 * scale)
     speed = np.linalg.norm(velocity, axis=0)
     np.testing.assert_allclose(kin.slipper_sliding_speed(drive, ANGLES, RATED_SPEED), speed, atol=1e-8 * scale)
 

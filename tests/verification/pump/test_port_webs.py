@@ -55,9 +55,7 @@ def test_ring_has_a_film_on_the_webs():
         ring = Ring(one, (2, 16))
         space = ring.turned(70.0 * DEGREES)
         x, y = space.vertices[space.cells].mean(axis=1).T
-        on_web = (
-            (np.hypot(x, y) > 31.5e-3) & (np.hypot(x, y) < 40.5e-3) & (np.abs(np.arctan2(x, y)) < 5.0 * DEGREES)
-        )
+        on_web = (np.hypot(x, y) > 31.5e-3) & (np.hypot(x, y) < 40.5e-3) & (np.abs(np.arctan2(x, y)) < 5.0 * DEGREES)
         assert on_web.sum() == 2 * 4
         assert ring.over_port(space)[on_web, 0].tolist() == [not is_film] * 8
 

@@ -54,9 +54,7 @@ def test_rigid_slip_has_the_seeds_magnitude():
     latitude, radius = GUIDE.contact_latitude, GUIDE.radius
     lift = np.sin(latitude) * (1 - np.cos(SWASH)) - np.cos(latitude) * np.cos(PSI) * np.sin(SWASH)
     size = radius * SPEED * np.sqrt(2 * (1 - np.cos(SWASH)) - lift**2)
-    np.testing.assert_allclose(
-        np.linalg.norm(relative_velocity(GUIDE, SWASH, PSI, SPEED), axis=0), size, rtol=1e-12
-    )
+    np.testing.assert_allclose(np.linalg.norm(relative_velocity(GUIDE, SWASH, PSI, SPEED), axis=0), size, rtol=1e-12)
 
 
 @pytest.mark.parametrize("motion", list(RetainerMotion))

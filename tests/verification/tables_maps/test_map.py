@@ -13,13 +13,7 @@ from system.inputs.sections.fields import fields_of
 from system.maps.compare import compare
 from system.maps.data import LOSSES, best_points, map_data
 from system.maps.duty import Cycle, duty
-from system.maps.interpolation import (
-    MapInterpolant,
-    check_points,
-    fresh_error,
-    left_out_error,
-    weights,
-)
+from system.maps.interpolation import MapInterpolant, check_points, fresh_error, left_out_error, weights
 from system.maps.plan import MapAxis, MapInput, paper_axes
 from system.maps.point import LumpedSolver, MapWork, point_numbers
 from system.pump.efficiency import EfficiencyDefinition

@@ -12,21 +12,10 @@ import pytest
 from reynolds import InputError
 from system import Pair, load_pump
 from system.paper.figure import Figure, Unit
-from system.paper.figures.efficiencies import (
-    drain_for_share,
-    fig2,
-    share_with_drain,
-    without_trapped_oil,
-)
+from system.paper.figures.efficiencies import drain_for_share, fig2, share_with_drain, without_trapped_oil
 from system.paper.figures.equations import equations
 from system.paper.figures.guide import turned
-from system.paper.figures.pair_losses import (
-    coefficient_for_share,
-    fig17,
-    fig18,
-    from_line,
-    zero_share,
-)
+from system.paper.figures.pair_losses import coefficient_for_share, fig17, fig18, from_line, zero_share
 from system.paper.judge import Impossibility, PaperClaim, Range, StatementVerdict, judge
 from system.paper.points import PRESSURES, LossReading, PaperPoint, PointFidelity, places_of, solve_points
 from system.paper.statements import CLAIMS

@@ -218,11 +218,7 @@ def test_dowson_integrals(validation):
     fall = np.exp(-s)
     exponential = tuple(
         value / a
-        for value in (
-            (1.0 - fall) / s,
-            (1.0 - fall * (1.0 + s)) / s**2,
-            (2.0 - fall * (s**2 + 2.0 * s + 2.0)) / s**3,
-        )
+        for value in ((1.0 - fall) / s, (1.0 - fall * (1.0 + s)) / s**2, (2.0 - fall * (s**2 + 2.0 * s + 2.0)) / s**3)
     )
     for law, viscosity, (f0, f1, second) in (
         ("linear in z", a + b * zeta, linear),
@@ -233,12 +229,7 @@ def test_dowson_integrals(validation):
         for quantity, expected, obtained, unit in (
             ("couette viscosity 1/F0", 1.0 / f0, found.couette_viscosity, "Pa s"),
             ("moving wall's share 1 - F1/F0", 1.0 - centre, found.moving_share, "1"),
-            (
-                "viscosity of pressure flow 1/(12 F2)",
-                1.0 / (12.0 * (second - centre * f1)),
-                found.viscosity,
-                "Pa s",
-            ),
+            ("viscosity of pressure flow 1/(12 F2)", 1.0 / (12.0 * (second - centre * f1)), found.viscosity, "Pa s"),
         ):
             validation(
                 case="Viscosity that varies across the film",

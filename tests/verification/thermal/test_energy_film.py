@@ -78,9 +78,7 @@ def missing(found: FilmTemperature) -> float:
 @pytest.mark.parametrize(("ratio", "count"), [(2.0, 6), (4.0, 4)])
 def test_adiabatic_slider(cell, ratio, count, validation):
     """All the power of the slider leaves with the oil; at ratio 4 part of it first flows back along the pad."""
-    found = solve_thermal(
-        wedge(square(12, cell), ratio), oil_heat(Adiabatic(), Adiabatic()), thinning, count=count
-    )
+    found = solve_thermal(wedge(square(12, cell), ratio), oil_heat(Adiabatic(), Adiabatic()), thinning, count=count)
     done = loads(found.film)
     power = -done.friction_moving[0] * SPEED
     validation(

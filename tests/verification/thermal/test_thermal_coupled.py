@@ -157,9 +157,7 @@ def test_pressure_law_is_the_films_own(cavitation):
     space = square(8)
     problem = replace(wedge(space), walls=winkler(space, 1e13), cavitation=cavitation)
     heat = oil_heat(GivenTemperature(INLET), GivenTemperature(INLET))
-    plain = replace(
-        problem, film=replace(problem.film, viscosity=np.full((1, 1), VISCOSITY)), fluid=Fluid(Barus(2e-8))
-    )
+    plain = replace(problem, film=replace(problem.film, viscosity=np.full((1, 1), VISCOSITY)), fluid=Fluid(Barus(2e-8)))
     expected = FilmSolver(space).solve(plain).pressure
     found = solve_thermal(problem, heat, unheated, tolerance=1e-9)
     assert found.film.pressure == pytest.approx(expected, rel=1e-7, abs=1e-7 * expected.max())
@@ -254,9 +252,7 @@ def test_wall_that_opens_by_its_heat(validation):
     count = len(space.vertices)
     gain = 0.5 * GAP / (VISCOSITY * SPEED**2 / GAP)
     grown = Grown(np.full(count, -0.1 * GAP), gain * np.eye(count))
-    heat = oil_heat(
-        ConductingBody(np.full(count, INLET), 1e-6 * np.eye(count), grown), Adiabatic(), ("bottom", "top")
-    )
+    heat = oil_heat(ConductingBody(np.full(count, INLET), 1e-6 * np.eye(count), grown), Adiabatic(), ("bottom", "top"))
     found = solve_thermal(sheared(space), heat, constant, tolerance=1e-9)
     rest = 0.9 * GAP
     flux = (-rest + np.sqrt(rest**2 + 4.0 * gain * VISCOSITY * SPEED**2)) / (2.0 * gain)
@@ -284,9 +280,7 @@ def test_plate_that_bends_and_warms(tmp_path):
         Plane((0.0, 0.0, 1.0), origin=(0.0, 0.0, size[2])),
     )  # fmt: skip
     space = square(9)
-    warm = heated_wall(
-        pad, space, Thermal(45.0, 12e-6, INLET), {"bottom": Convection(500.0, INLET)}, folder=tmp_path
-    )
+    warm = heated_wall(pad, space, Thermal(45.0, 12e-6, INLET), {"bottom": Convection(500.0, INLET)}, folder=tmp_path)
     elastic = body_wall(pad, space, folder=tmp_path)
     problem = replace(wedge(space), walls=elastic)
     body = ConductingBody(warm.temperature.reference, warm.temperature.matrix, warm.deformation)
@@ -311,9 +305,7 @@ def test_heating_in_time(validation):
     expected = INLET
     gain = step / (DENSITY * SPECIFIC_HEAT) * (SPEED / GAP) ** 2
     for _ in range(steps):
-        expected = brentq(
-            lambda t, b: t - b - gain * thinning(t, 0.0), expected, expected + 200.0, args=(expected,)
-        )
+        expected = brentq(lambda t, b: t - b - gain * thinning(t, 0.0), expected, expected + 200.0, args=(expected,))
     *_, last = march_thermal(
         lambda time: sheared(space), heat, thinning, steps * step, step, temperature=INLET, tolerance=1e-9
     )
@@ -340,9 +332,7 @@ def test_film_in_time_with_everything(walls):
         return replace(posed, walls=winkler(space, 2e13)) if walls else posed
 
     heat = oil_heat(Convecting(2e4, INLET), GivenTemperature(INLET + 10.0))
-    instants = list(
-        march_thermal(problem, heat, thinning, period, period / steps, temperature=INLET, shear=CARREAU)
-    )
+    instants = list(march_thermal(problem, heat, thinning, period, period / steps, temperature=INLET, shear=CARREAU))
     assert len(instants) >= steps
     for instant in instants:
         found = instant.solution

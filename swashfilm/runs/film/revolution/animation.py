@@ -58,9 +58,7 @@ def _first(figure: Any, data: xarray.Dataset) -> tuple[dict[str, Any], Any, Any]
         how = SHOWN[data[name].attrs["units"]]
         whole, axes = how.of(data[name].values), mosaic[name]
         limits = float(whole.min()), float(whole.max())
-        painted[name] = draw_map(
-            axes, *_film(data, 0, name), f"{title} / {how.unit}", colours=colours, limits=limits
-        )
+        painted[name] = draw_map(axes, *_film(data, 0, name), f"{title} / {how.unit}", colours=colours, limits=limits)
         axes.set(xlim=_ends(data["x"].values), ylim=_ends(data["y"].values))
     course = mosaic["course"]
     for name, colour in (("film_thickness_min", INK), ("film_thickness_mean", FILM)):

@@ -116,9 +116,7 @@ def _walls(study: RevolutionStudy) -> dict[str, float]:
     warmth = study.revolution.warmth
     if warmth is None:
         return {}
-    return {
-        f"{wall}_wall_temperature_K": float(at) for wall, at in zip(("fixed", "moving"), warmth.walls, strict=True)
-    }
+    return {f"{wall}_wall_temperature_K": float(at) for wall, at in zip(("fixed", "moving"), warmth.walls, strict=True)}
 
 
 def piston_end(study: RevolutionStudy) -> Array:

@@ -33,8 +33,5 @@ def refine_revolution(case: RevolutionCase, study: RevolutionStudy, meshes: int,
     return Refinement(
         tuple(row["dofs"] for row in rows),
         EXPECTED,
-        {
-            key: convergence([row[key] for row in rows], EXPECTED, max(abs(row[key]) for row in rows))
-            for key in NUMBERS
-        },
+        {key: convergence([row[key] for row in rows], EXPECTED, max(abs(row[key]) for row in rows)) for key in NUMBERS},
     )

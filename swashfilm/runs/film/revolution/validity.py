@@ -57,9 +57,7 @@ def _contact(case: GapOverTurn, parts: FloatingParts, found: GapRevolution[Any])
         )
 
 
-def pulled_together(
-    case: GapOverTurn, parts: FloatingParts, found: GapRevolution[Any]
-) -> Iterator[tuple[str, str]]:
+def pulled_together(case: GapOverTurn, parts: FloatingParts, found: GapRevolution[Any]) -> Iterator[tuple[str, str]]:
     """Yield a warning of slippers whose common pull tips the retainer."""
     retainer, z = slipper_retainer(case.rotor, parts), case.rotor.pump.pump.pistons
     angles, span = found.angles, float(found.angles[-1])

@@ -32,11 +32,7 @@ def study_dataset(study: StudyCase, outcomes: Sequence[StudyOutcome]) -> xarray.
     together = study.combine is Combine.TOGETHER
     dims = ["point"] if together else [axis.key for axis in study.axes]
     variables: dict[str, Any] = {
-        key: (
-            dims,
-            np.array([row.get(key, np.nan) for row in rows]).reshape(study.shape),
-            {"units": named(key)[1]},
-        )
+        key: (dims, np.array([row.get(key, np.nan) for row in rows]).reshape(study.shape), {"units": named(key)[1]})
         for key in keys
     }
     for name, texts in (("status", [o.status.value for o in outcomes]), ("reason", [o.reason for o in outcomes])):
@@ -102,9 +98,7 @@ def _warnings(solved: Sequence[StudyOutcome]) -> list[dict[str, str]]:
     for outcome in solved:
         for warning in outcome.summary["warnings"]:
             texts.setdefault(warning["name"], warning["text"])
-    return [
-        {"name": name, "text": f"at {count[name]} points; at the first: {text}"} for name, text in texts.items()
-    ]
+    return [{"name": name, "text": f"at {count[name]} points; at the first: {text}"} for name, text in texts.items()]
 
 
 def write_study_table(path: Path, study: StudyCase, outcomes: Sequence[StudyOutcome]) -> None:

@@ -35,9 +35,7 @@ def study_plots(data: xarray.Dataset) -> dict[str, Figure]:
     variables = [str(key) for key in data.data_vars if key not in ("status", "reason")]
     numbers = {key: data[key].values for key in variables if not key.startswith(COURSES)}
     size = sizes({key: float(np.nanmax(np.abs(values))) for key, values in numbers.items()}, {})
-    keys = [
-        key for key, values in numbers.items() if np.nanmax(values) - np.nanmin(values) > LEAST_CHANGE * size[key]
-    ]
+    keys = [key for key, values in numbers.items() if np.nanmax(values) - np.nanmin(values) > LEAST_CHANGE * size[key]]
     first = {"stribeck": _stribeck(ordered)} if set(STRIBECK) <= set(keys) else {}
     return first | {key: number_plot(ordered, key) for key in keys}
 

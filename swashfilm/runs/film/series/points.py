@@ -12,11 +12,7 @@ from swashfilm.case.file import Case
 from swashfilm.case.gap.instant import GapCase
 from swashfilm.case.gap.revolution import RevolutionCase
 from swashfilm.case.study import Point, StudyCase
-from swashfilm.runs.film.revolution.solve import (
-    revolution_course,
-    revolution_summary,
-    solve_revolution,
-)
+from swashfilm.runs.film.revolution.solve import revolution_course, revolution_summary, solve_revolution
 from swashfilm.runs.film.solve.study import solve_case
 from swashfilm.runs.film.summary import film_summary
 from system.work.kept_results import POINTS, KeptPoints, points_of_run, run_kept

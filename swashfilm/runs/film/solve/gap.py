@@ -12,10 +12,7 @@ import numpy as np
 from gaps.films.over_turn import constant
 from gaps.films.slipper import face_force
 from gaps.loads.ball_joint import lateral_force
-from gaps.standing.gap_film import (
-    GapFilm,
-    rest_from,
-)
+from gaps.standing.gap_film import GapFilm, rest_from
 from reynolds.numerics.arrays import Array
 from swashfilm.case.gap.instant import GapCase
 from swashfilm.case.gap.position import FaceLoad, PistonLoad, rim

@@ -57,9 +57,7 @@ def transient(stated: FilmStatement, report: Report) -> list[Moment]:
             film, heat = film_of(instant.solution), heat_of(instant.solution)
             hottest = None if heat is None else float(heat.temperature.max())
             kept = stated.time.is_output(instant.time, instant.step)
-            found.append(
-                Moment(instant.time, film if kept else None, heat if kept else None, hottest, loads(film))
-            )
+            found.append(Moment(instant.time, film if kept else None, heat if kept else None, hottest, loads(film)))
             report(stated.time.number(instant.time), stated.time.steps, f"t = {instant.time:.4g} s")
     except FilmNotConverged as reason:
         raise FilmNotConverged(f"at t = {now:.6g} s: {reason.what}", f"a smaller step; {reason.remedy}") from None
