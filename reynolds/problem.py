@@ -81,15 +81,14 @@ HALF = np.full((1, 1), 0.5)
 class Film:
     """Film thickness, oil and motion at the quadrature points of a space.
 
-    Each array is (cells | 1, points | 1): a length of one means "everywhere". SI: thickness m, viscosity Pa s,
-    wall velocities m/s (moving and fixed wall, x and y), squeeze = dh/dt at a fixed place, m/s.
-    `thickness_at_vertices` (vertices,) m, for pictures and the least film: if None it is
-    extrapolated from the quadrature points, which is exact for a smooth film and void for a step within a cell.
-    Where viscosity varies across the film (Dowson 1962), `viscosity` is that of pressure flow,
-    `couette_viscosity` (Pa s; None: the same) that of sliding, and `moving_share` w the moving wall's share:
-    mean velocity w U_moving + (1 - w) U_fixed, shear of the pressure gradient w h grad p on the moving wall and
-    (1 - w) h grad p on the fixed one.
-    Validity: thin (h much less than its length), laminar, inertia-free (rho U h^2/(mu L) << 1).
+    Each array is (cells | 1, points | 1): a length of one means "everywhere". SI: thickness m, viscosity Pa s, wall
+    velocities m/s (moving and fixed wall, x and y), squeeze = dh/dt at a fixed place, m/s. `thickness_at_vertices`
+    (vertices,) m, for pictures and the least film: if None it is extrapolated from the quadrature points, which is
+    exact for a smooth film and void for a step within a cell. Where viscosity varies across the film (Dowson 1962),
+    `viscosity` is that of pressure flow, `couette_viscosity` (Pa s; None: the same) that of sliding, and `moving_share`
+    w the moving wall's share: mean velocity w U_moving + (1 - w) U_fixed, shear of the pressure gradient w h grad p on
+    the moving wall and (1 - w) h grad p on the fixed one. Validity: thin (h much less than its length), laminar,
+    inertia-free (rho U h^2/(mu L) << 1).
     """
 
     thickness: Array
@@ -156,13 +155,12 @@ class Storage:
 class FilmProblem:
     """One film with its boundary conditions; a named boundary that is left out is closed (no flow).
 
-    `held_nodes` (size,) may hold further unknowns at a pressure: NaN where the film is free (regions of the
-    film plane that lie under a port). `fluid` gives viscosity and density over pressure, `surface`
-    the roughness of the walls, `asperities` their contact, and `walls` their compliance.
-    With `storage` the film is one step of a transient: it stores the change of its oil, beside
-    `film.squeeze`. Pressures in Pa on one common reference, gauge or absolute.
-    Where two held boundaries meet, their common unknowns are held by the later one.
-    Raises FilmInputError for a field of another space, or with a value that is not finite or out of range.
+    `held_nodes` (size,) may hold further unknowns at a pressure: NaN where the film is free (regions of the film plane
+    that lie under a port). `fluid` gives viscosity and density over pressure, `surface` the roughness of the walls,
+    `asperities` their contact, and `walls` their compliance. With `storage` the film is one step of a transient: it
+    stores the change of its oil, beside `film.squeeze`. Pressures in Pa on one common reference, gauge or absolute.
+    Where two held boundaries meet, their common unknowns are held by the later one. Raises FilmInputError for a field
+    of another space, or with a value that is not finite or out of range.
     """
 
     space: FilmSpace

@@ -140,8 +140,7 @@ def study(
 ) -> StudyRun:
     """Solve a study, a film case whose [study] table varies keys, as `swashfilm film`; raise InputFaults.
 
-    workers: number of processes; resume: run folder with finished points. A point without a result has its
-    reason.
+    workers: number of processes; resume: run folder with finished points. A point without a result has its reason.
     """
     with _door("study"), _case_file(case) as path:
         from swashfilm.case.study import StudyCase
@@ -282,8 +281,7 @@ def calibrate(
 ) -> CalibrationRun:
     """Fit coefficients of a pump to a recording, as `swashfilm calibrate`.
 
-    options: laws ("mixed_friction" or "none"), models ("all", "none" or names). Raises InputFaults and
-    NotConverged.
+    options: laws ("mixed_friction" or "none"), models ("all", "none" or names). Raises InputFaults and NotConverged.
     """
     with _door("calibrate"), _pump_file(pump) as name:
         from diagnosis.calibration import calibrate as found_by

@@ -17,8 +17,7 @@ from system.effects.effect import Kind
 def by_form(gained: float, thresholds: Thresholds) -> float:
     """Error of form of a law that gains `gained` nats over nothing, in units of the noise's gap; 1 at least.
 
-    A form off by a tenth leaves the share `true_to` of its gain: up to 300 nats that is less than the gap of a
-    class.
+    A form off by a tenth leaves the share `true_to` of its gain: up to 300 nats that is less than the gap of a class.
     """
     return max(1.0, thresholds.form.true_to * gained / thresholds.name.class_gap)
 

@@ -32,10 +32,9 @@ def scaling(
 ) -> Scaling | None:
     """Exponents n_k of signal = C prod x_k^n_k: least squares on the signal itself, part of which may be noise.
 
-    signal, sigma: (N,) in SI; coordinates: (N,) each, positive where a point counts; a coordinate whose
-    values vary by less than `least_range` times gets no exponent. Sigma of the exponents is scaled with the
-    residual of the power law (Birge 1932), where that is more than noise. None where too few points are left or
-    no power law is found.
+    signal, sigma: (N,) in SI; coordinates: (N,) each, positive where a point counts; a coordinate whose values vary by
+    less than `least_range` times gets no exponent. Sigma of the exponents is scaled with the residual of the power law
+    (Birge 1932), where that is more than noise. None where too few points are left or no power law is found.
     """
     used = np.isfinite(signal) & (sigma > 0)
     for values in coordinates.values():

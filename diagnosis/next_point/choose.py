@@ -39,13 +39,12 @@ class RankedPoint:
 class NextPoint:
     """The best point of a box for two explanations, and the odds after `limits.readings` readings there.
 
-    point.temperature: of the case; inlet_temperature: in K, by the recording's difference to the case. between:
-    the two as text, the likelier first; separates: their ids. before: ln odds of the first against the second by
-    the recording; gain: mean gain of the readings in nats; after: mean ln odds for the true one; chance: of odds
-    of 20 to 1 for it, each the lesser of both cases (first or second true). repeats: readings for a gain of
-    `limits.enough`, None if `limits.most_repeats` do not reach it. why: the reason as text; ranked: all points
-    with a computed gain, this one first; instead: another test that settles the two, as text; beyond: the box
-    exceeds the recorded range.
+    point.temperature: of the case; inlet_temperature: in K, by the recording's difference to the case. between: the two
+    as text, the likelier first; separates: their ids. before: ln odds of the first against the second by the recording;
+    gain: mean gain of the readings in nats; after: mean ln odds for the true one; chance: of odds of 20 to 1 for it,
+    each the lesser of both cases (first or second true). repeats: readings for a gain of `limits.enough`, None if
+    `limits.most_repeats` do not reach it. why: the reason as text; ranked: all points with a computed gain, this one
+    first; instead: another test that settles the two, as text; beyond: the box exceeds the recorded range.
     """
 
     box: BenchBox

@@ -34,9 +34,8 @@ class SeriesPoints:
 def series_points(form: SeriesSection, time: Array, readings: Array, channels: Sequence[ChannelForm]) -> SeriesPoints:
     """Return the steady points of a series: time (T,) in s, readings (T, C) in SI, columns as `channels`.
 
-    `SteadyRule` of the measured inputs decides which stretches are steady. The first `SETTLING` times the largest
-    lag of a stretch are left out. Raises TableFault for time that does not rise and a series without a steady
-    stretch.
+    `SteadyRule` of the measured inputs decides which stretches are steady. The first `SETTLING` times the largest lag
+    of a stretch are left out. Raises TableFault for time that does not rise and a series without a steady stretch.
     """
     time, readings, raster = on_raster(time, readings, form.raster or 0.0)
     stated = form.steady

@@ -77,9 +77,8 @@ class Candidate:
     """One action of an entry of the catalogue: its whitened column (n,) for one spread of `parameter`.
 
     extension: of one member of its grid; None for sensors and parameters, which the model has already; grid: the
-    member's place.
-    The size has the prior N(0, (w width)^2) in spreads for the widths w of the thresholds: width is 1 for an
-    extension, whose spread is its own size, and the fault factor for a parameter with a stated tolerance.
+    member's place. The size has the prior N(0, (w width)^2) in spreads for the widths w of the thresholds: width is 1
+    for an extension, whose spread is its own size, and the fault factor for a parameter with a stated tolerance.
     """
 
     entry: Entry

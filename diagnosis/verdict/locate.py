@@ -87,8 +87,7 @@ def of_explanation(study: Study, location: Location, added: Array, thresholds: T
 def without_explanation(study: Study, location: Location, explanation: Explanation, thresholds: Thresholds) -> Location:
     """The same with the shaft angle at which traces differ from a refit without its explanation.
 
-    For an explanation that acts on the chamber: tolerances alone may follow it (a worn groove is one cut too
-    long).
+    For an explanation that acts on the chamber: tolerances alone may follow it (a worn groove is one cut too long).
     """
     traces = unexplained_traces(study, explanation, thresholds)
     angle = scan_angles(traces, study.events, thresholds.locate, thresholds.seeds.locate)

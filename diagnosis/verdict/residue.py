@@ -33,10 +33,9 @@ def residue_notes(
 ) -> tuple[str, ...]:
     """Parts of the mismatch that the best explanation leaves, as text; () if it is complete.
 
-    A part of the map or a candidate that stands out of the residual counts where chance hardly makes it and its
-    square exceeds the share `material` of what is explained in its channel: a law of another form than the pump's
-    leaves a little at any size.
-    along: coordinates (N,) with which an effect may grow, by name.
+    A part of the map or a candidate that stands out of the residual counts where chance hardly makes it and its square
+    exceeds the share `material` of what is explained in its channel: a law of another form than the pump's leaves a
+    little at any size. along: coordinates (N,) with which an effect may grow, by name.
     """
     after, before = best.posterior, null.posterior
     if after is None or before is None:

@@ -47,9 +47,8 @@ class DrivenBody:
 class BallForces:
     """Forces of joint and films at one instant, N.
 
-    ball: force (3,) of the piston on the slipper; lift: of the slipper's film away from the plate, without
-    other pressing forces (retainer, spring); side: force (3,) of the bore's film on the piston,
-    across the bore.
+    ball: force (3,) of the piston on the slipper; lift: of the slipper's film away from the plate, without other
+    pressing forces (retainer, spring); side: force (3,) of the bore's film on the piston, across the bore.
     """
 
     ball: Array
@@ -139,14 +138,13 @@ def free_spins(
 ) -> Spins:
     """The spins at which the joint's friction and both films' drag balance about bore and plate normal.
 
-    `stated`: spins (rad/s) of piston and slipper that are given; None: free. `driven`: torques T (N m)
-    by which films turn piston and slipper that do not spin.
-    friction: mu |B| r of the joint, N m; drags: N m s, above zero. They are the least of friction |W| +
-    (piston_drag s_p^2 + slipper_drag s^2)/2 - T . s, a convex function of both, found by Newton's method.
-    A joint that rubs harder than the films drags the piston back against the block until neither turns in space
-    (s = 0, s_p = -w on a cylindrical block); without friction neither is turned (s = s_p = 0). Quasi-steady: at
-    a piston's inertia spins follow within some 1e-2 s, so that means over a turn belong here.
-    Raises FilmInputError for a drag that is not positive, FilmNotConverged where Newton's method does not settle.
+    `stated`: spins (rad/s) of piston and slipper that are given; None: free. `driven`: torques T (N m) by which films
+    turn piston and slipper that do not spin. friction: mu |B| r of the joint, N m; drags: N m s, above zero. They are
+    the least of friction |W| + (piston_drag s_p^2 + slipper_drag s^2)/2 - T . s, a convex function of both, found by
+    Newton's method. A joint that rubs harder than the films drags the piston back against the block until neither turns
+    in space (s = 0, s_p = -w on a cylindrical block); without friction neither is turned (s = s_p = 0). Quasi-steady:
+    at a piston's inertia spins follow within some 1e-2 s, so that means over a turn belong here. Raises FilmInputError
+    for a drag that is not positive, FilmNotConverged where Newton's method does not settle.
     """
     require_positive("free spins", shaft_speed=shaft_speed, piston_drag=piston_drag, slipper_drag=slipper_drag)
     free = np.array([spin is None for spin in stated])

@@ -29,12 +29,11 @@ Arc = tuple[float, float]
 class ValvePlateGeometry:
     """Land radii R1 < R2 < R3 < R4 (m), chambers, kidney arc (rad) and the ports' arcs.
 
-    Ports are sectors of the valve plate between R2 and R3, in pump angle, parted by the webs (from, to) in them
-    that are flush with its face; `turned` is the angle (rad) from which the plate's own angles count, its ports',
-    webs', pads' and face's; kidneys are taken as sectors of the
-    same width (rounded ends are not modelled: their effect on the webs is under 0.1 of a web). Radii are
-    distances from the shaft axis, also on a `sphere`: its radius is positive where the plate bulges into a hollow
-    block.
+    Ports are sectors of the valve plate between R2 and R3, in pump angle, parted by the webs (from, to) in them that
+    are flush with its face; `turned` is the angle (rad) from which the plate's own angles count, its ports', webs',
+    pads' and face's; kidneys are taken as sectors of the same width (rounded ends are not modelled: their effect on the
+    webs is under 0.1 of a web). Radii are distances from the shaft axis, also on a `sphere`: its radius is positive
+    where the plate bulges into a hollow block.
     """
 
     land_radii: tuple[float, float, float, float]

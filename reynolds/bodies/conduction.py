@@ -3,9 +3,8 @@
     - div(k grad T) = 0;  k dT/dn = q on the film's face, h (T_ambient - T) on cooled faces; T given on held ones
     sigma = lambda div u I + 2 mu eps(u) - (3 lambda + 2 mu) alpha (T - T_0) I
 
-Both are linear, so that their effect on the film is a `FaceResponse`: reference + matrix @ (heat at the face
-nodes). Transient heat is left out: a body's own time L^2 rho c/k is seconds to minutes, a revolution's
-milliseconds.
+Both are linear, so that their effect on the film is a `FaceResponse`: reference + matrix @ (heat at the face nodes).
+Transient heat is left out: a body's own time L^2 rho c/k is seconds to minutes, a revolution's milliseconds.
 """
 
 from __future__ import annotations

@@ -145,8 +145,7 @@ def heated_wall(
 ) -> HeatedWall:
     """The wall's temperature and thermal deformation by the film's heat flux at its vertices (steady, linear).
 
-    The deformation counts from the body at its unstrained temperature. Raises FilmInputError where no heat can
-    leave.
+    The deformation counts from the body at its unstrained temperature. Raises FilmInputError where no heat can leave.
     """
     space = body_space(body.mesh)
     face = space.face(body.face)

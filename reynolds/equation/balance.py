@@ -4,11 +4,10 @@ At unknown i, with nodal pressure p, film fraction theta and density ratio r,
 
     R_i = sum_j K_ij p_j + sum_j C_ij theta_j r_j + sum_j D_ij theta_j r_c + d(theta_i r_i M_i)/dt
 
-K is the conductance, C the convection by the walls, M the lumped content. D, the least diffusion that makes C + D
-an upwind scheme (Kuzmin and Turek 2002), vanishes where the film is full, since its rows sum to zero: the full
-film keeps its order of accuracy, a cavity moves with the walls without overshoot, and columns that sum to zero
-conserve mass to round-off. At an edge without inflow D takes the edge's film fraction out of the balance beside
-it.
+K is the conductance, C the convection by the walls, M the lumped content. D, the least diffusion that makes C + D an
+upwind scheme (Kuzmin and Turek 2002), vanishes where the film is full, since its rows sum to zero: the full film keeps
+its order of accuracy, a cavity moves with the walls without overshoot, and columns that sum to zero conserve mass to
+round-off. At an edge without inflow D takes the edge's film fraction out of the balance beside it.
 """
 
 from __future__ import annotations
@@ -192,8 +191,7 @@ class Balance:
     """Flow balance of each unknown, (size,) m3/s at reference density.
 
     net is R; flow_scale adds up the magnitudes (see `kernels.exchange`): the scale against which net is round-off.
-    storage_rate: growth of its oil; upwind_exchange: flow by upwinding (zero in a full film); both are part of
-    net.
+    storage_rate: growth of its oil; upwind_exchange: flow by upwinding (zero in a full film); both are part of net.
     """
 
     net: Array

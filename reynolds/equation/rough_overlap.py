@@ -19,12 +19,11 @@ from reynolds.problem import FilmProblem, FilmSolution
 def film_between(problem: FilmProblem, gap: Array) -> Tangent:
     """Film thickness (m) at a gap between mean planes (m), of any shape, and its slope by the gap.
 
-    The gap itself where nothing touches (no asperities). With asperities alone: hT = sigma [H N(H) + n(H)], the
-    mean distance of walls of Gaussian height, H = gap/sigma, with the summits' sigma; but the gap
-    itself between elastic walls, which keep it open. With a `Surface`, whose flow factors are functions of
-    the gap: the gap down to the range of Patir and Cheng (half a standard deviation or one), from there on an
-    exponential with the same value and slope. That continuation is ours: it keeps the film positive and is no
-    measurement.
+    The gap itself where nothing touches (no asperities). With asperities alone: hT = sigma [H N(H) + n(H)], the mean
+    distance of walls of Gaussian height, H = gap/sigma, with the summits' sigma; but the gap itself between elastic
+    walls, which keep it open. With a `Surface`, whose flow factors are functions of the gap: the gap down to the range
+    of Patir and Cheng (half a standard deviation or one), from there on an exponential with the same value and slope.
+    That continuation is ours: it keeps the film positive and is no measurement.
     """
     if problem.asperities is None or (problem.surface is None and problem.walls is not None):
         return Tangent(gap, np.ones((1,) * gap.ndim))

@@ -61,8 +61,7 @@ def element_tensors(
 def stretched(tensors: ElementTensors, scale: Array, steep_scale: Array) -> ElementTensors:
     """Tensors of a film whose lengths are `scale` (cells, points) those of its map, each cell a shape of its own.
 
-    Area times a gradient grows with the scale, area times two gradients does not. `steep_scale`: at the steep
-    ones.
+    Area times a gradient grows with the scale, area times two gradients does not. `steep_scale`: at the steep ones.
     """
     of = tensors.shape
     return replace(

@@ -4,10 +4,9 @@ Weak form of the Reynolds equation (Reynolds 1886): for every test function f
 
     int r h^3/(12 mu) grad p . grad f - int theta r h U . grad f + int d(theta r h)/dt f = - contour int q_n f
 
-with U the mean velocity of the two walls, theta the film fraction, r the density ratio and q_n the flow that
-leaves through the edge; theta and r are nodal, and their product is called filling. Fields are given at the
-quadrature points, (cells, points).
-Geometry enters by the tensors of the cells' shapes (`element_tensors`), or is recomputed in the loop.
+with U the mean velocity of the two walls, theta the film fraction, r the density ratio and q_n the flow that leaves
+through the edge; theta and r are nodal, and their product is called filling. Fields are given at the quadrature points,
+(cells, points). Geometry enters by the tensors of the cells' shapes (`element_tensors`), or is recomputed in the loop.
 
 `basis` and `points` are tuples as long as a cell has unknowns and quadrature points: the compiler knows the length
 of a tuple and unrolls the loops over it.

@@ -1,9 +1,8 @@
 """Sensitivity of a solved film to its thickness and to its oil before the step, by the solver's last factor.
 
-The balance R(p, theta; h, held before) = 0 of every unknown, differentiated at constant cavity: J d(p,
-theta) = - R_h dh + d(held before)/step, one right-hand side for each change. Exact between rigid
-walls; between elastic ones J leaves out the change of a cavity's upwinding with the deformation
-(`balance.slopes`): some 1e-4 of dQ/dq.
+The balance R(p, theta; h, held before) = 0 of every unknown, differentiated at constant cavity: J d(p, theta) = - R_h
+dh + d(held before)/step, one right-hand side for each change. Exact between rigid walls; between elastic ones J leaves
+out the change of a cavity's upwinding with the deformation (`balance.slopes`): some 1e-4 of dQ/dq.
 """
 
 from __future__ import annotations

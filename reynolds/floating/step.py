@@ -221,12 +221,11 @@ def solve_stage(
 ) -> FloatingStage:
     """The position at `time` (s), one implicit step (s) after the state `before`.
 
-    Afterwards the generalised forces balance to 1e-8 of the magnitudes that meet there (1e-6 where the film's
-    round-off allows no less), or do so along their slopes within a step that `close` allows. Newton's method
-    starts at `guess` (k,) m and, where that fails, at the position before; `last` warms the film. A Newton
-    step leaves a fifth of the least gap, or presses rough walls by three standard deviations at most, and is
-    halved until it brings the forces nearer to balance. Raises FilmNotConverged, with the film's reason, where
-    that fails; a shorter step may succeed.
+    Afterwards the generalised forces balance to 1e-8 of the magnitudes that meet there (1e-6 where the film's round-off
+    allows no less), or do so along their slopes within a step that `close` allows. Newton's method starts at `guess`
+    (k,) m and, where that fails, at the position before; `last` warms the film. A Newton step leaves a fifth of the
+    least gap, or presses rough walls by three standard deviations at most, and is halved until it brings the forces
+    nearer to balance. Raises FilmNotConverged, with the film's reason, where that fails; a shorter step may succeed.
     `functools.partial(solve_stage, solver, floating)` is a `dirk.StageSolver`.
     """
     instant = instant_of(solver, floating, time, step, before)

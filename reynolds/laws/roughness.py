@@ -6,9 +6,8 @@ Mean flow per width along x, wall 1 the moving and wall 2 the fixed one (h betwe
 A moving rough wall drags oil in its valleys, so that phi_s > 0 there: with crossing ridges the flow is exactly
 U/2 (2 h - E[h^-2]/E[h^-3]), that is phi_s = 3 sigma/h > 0 at first order.
 
-Peklenik's number is counted along the principal direction of the roughness (x unless a lay is given). The factors
-reach down to h/sigma = 0.5 or 1 and are continued below (`patir_cheng`); `beyond_range` gives the share of a film
-there.
+Peklenik's number is counted along the principal direction of the roughness (x unless a lay is given). The factors reach
+down to h/sigma = 0.5 or 1 and are continued below (`patir_cheng`); `beyond_range` gives the share of a film there.
 """
 
 from __future__ import annotations

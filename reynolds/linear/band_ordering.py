@@ -31,8 +31,7 @@ def line_order(graph: csr_array) -> Numbers:
 def _line(graph: csr_array) -> Numbers:
     """A line of unknowns across a connected graph, at an end if it has one, in order.
 
-    Half-way between two unknowns far apart the graph is cut across; the unknowns farthest from a cut are a line
-    too.
+    Half-way between two unknowns far apart the graph is cut across; the unknowns farthest from a cut are a line too.
     """
     one = int(np.argmax(_steps(graph, [0])))
     steps = _steps(graph, [one])

@@ -60,8 +60,7 @@ class WallBalance:
 def compliant_answer(balance: WallBalance, near: NearFactor | None = None) -> Answer:
     """The answer of J; every factor is made once.
 
-    `near` keeps the dense factor of a balance for later ones of its size. Raises FilmNotConverged where J is
-    singular.
+    `near` keeps the dense factor of a balance for later ones of its size. Raises FilmNotConverged where J is singular.
     """
     if isinstance(balance.wider, csr_array):
         return _sparse(csc_array(balance.rigid + balance.slope @ (balance.wider * balance.pressures[None, :])))

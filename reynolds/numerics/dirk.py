@@ -1,9 +1,8 @@
 """Steps in time for stiff motion: diagonally implicit Runge-Kutta methods with error control.
 
-The state of a motion is a vector y (size,): of a film the oil of each unknown, whose rate is its flow
-balance. A stage at time t is one step of implicit Euler, y = y_before + step rate(t, y), solved by
-the caller (a film with the force balance of its floating wall, or an equation of one line). A method combines
-its stages to a step of higher order.
+The state of a motion is a vector y (size,): of a film the oil of each unknown, whose rate is its flow balance. A stage
+at time t is one step of implicit Euler, y = y_before + step rate(t, y), solved by the caller (a film with the force
+balance of its floating wall, or an equation of one line). A method combines its stages to a step of higher order.
 """
 
 from __future__ import annotations

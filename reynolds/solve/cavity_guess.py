@@ -1,9 +1,8 @@
 """First guess of the cavity from coarser problems, for the active set.
 
-The front of a cavity moves by about one cell per step of the active set, so that a cold start costs steps in
-proportion to the mesh. Coarse problems are made of neighbouring unknowns (aggregation: Vanek, Mandel and
-Brezina 1996), so any mesh has them; each starts from the answer of the next coarser one (cascade: Bornemann and
-Deuflhard 1996).
+The front of a cavity moves by about one cell per step of the active set, so that a cold start costs steps in proportion
+to the mesh. Coarse problems are made of neighbouring unknowns (aggregation: Vanek, Mandel and Brezina 1996), so any
+mesh has them; each starts from the answer of the next coarser one (cascade: Bornemann and Deuflhard 1996).
 """
 
 from __future__ import annotations

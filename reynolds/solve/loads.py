@@ -22,16 +22,15 @@ from reynolds.problem import Cavitation, FilmSolution, Pocket
 class Loads:
     """Integrals of one film solution, SI.
 
-    load N (integral of p); contact_load N, borne by asperities besides; moment_x, moment_y N m (integrals of p y
-    and of -p x about the origin, p with the contact's pressure); friction_moving, friction_fixed N: force of oil
-    and contact on each wall (x, y); friction_torque_* N m about the origin; dissipation W, contact included; flow
-    m3/s by boundary name, positive out of the film; squeeze_flow m3/s, growth of the film's oil; cavity_flow m3/s,
-    supply (+) or sink (-) of the cavity under Reynolds' condition, else zero; film_fraction_min,
-    cavitated_area_fraction; mass_balance_error = |out + squeeze - cavity|, relative to the flow through the
-    boundaries or the flows within the film, whichever are larger; energy_balance_error likewise relative to the
-    dissipation, the walls' or the flows' power: round-off between smooth walls and with oil of constant density;
-    else the terms left out: the pressure on the asperities' flanks, by the shear stress factors, and the work of
-    compression.
+    load N (integral of p); contact_load N, borne by asperities besides; moment_x, moment_y N m (integrals of p y and of
+    -p x about the origin, p with the contact's pressure); friction_moving, friction_fixed N: force of oil and contact
+    on each wall (x, y); friction_torque_* N m about the origin; dissipation W, contact included; flow m3/s by boundary
+    name, positive out of the film; squeeze_flow m3/s, growth of the film's oil; cavity_flow m3/s, supply (+) or sink
+    (-) of the cavity under Reynolds' condition, else zero; film_fraction_min, cavitated_area_fraction;
+    mass_balance_error = |out + squeeze - cavity|, relative to the flow through the boundaries or the flows within the
+    film, whichever are larger; energy_balance_error likewise relative to the dissipation, the walls' or the flows'
+    power: round-off between smooth walls and with oil of constant density; else the terms left out: the pressure on the
+    asperities' flanks, by the shear stress factors, and the work of compression.
     """
 
     load: float
@@ -200,10 +199,9 @@ def pressure_integrals(solution: FilmSolution) -> tuple[float, float, float]:
 def boundary_flows(solution: FilmSolution) -> dict[str, float]:
     """Flow through each named boundary (m3/s, positive out), from the consistent nodal residuals.
 
-    A corner's Poiseuille flow is divided between the held boundaries that meet there by their length, its
-    Couette flow by their direction. The supply of a cavity at the boundary is not a flow through the
-    boundary. A closed boundary's flow is zero by construction; a second name of edges that have a condition under
-    their first one is left out.
+    A corner's Poiseuille flow is divided between the held boundaries that meet there by their length, its Couette flow
+    by their direction. The supply of a cavity at the boundary is not a flow through the boundary. A closed boundary's
+    flow is zero by construction; a second name of edges that have a condition under their first one is left out.
     """
     return _edge_flows(solution)[0]
 

@@ -148,8 +148,7 @@ class FilmSolver:
     def _cavity(self, problem: FilmProblem, setting: BoundaryValues, at: Iterate) -> NDArray[np.bool_]:
         """A first guess, from coarser problems under Reynolds' condition.
 
-        Under JFO, whose steps cost more, it is made exact for that condition; under Reynolds' the later steps do
-        so.
+        Under JFO, whose steps cost more, it is made exact for that condition; under Reynolds' the later steps do so.
         """
         matrix, load = symmetric_step(problem, setting, at, setting.held)
         obstacle = Obstacle(matrix.data, load, setting.held)

@@ -84,8 +84,7 @@ def step_correction(film_ratio: float, reynolds: Sequence[float], cells: int = 6
 def groove_correction(film_ratio: float, width_ratio: float, reynolds: Sequence[float], cells: int = 6) -> Correction:
     """Correction of a flow across a groove of width_ratio films, where the film is film_ratio times as thick.
 
-    `length` is the groove's in the film equation, width_ratio/film_ratio^3. Raises and valid as
-    `step_correction`.
+    `length` is the groove's in the film equation, width_ratio/film_ratio^3. Raises and valid as `step_correction`.
     """
     behind = SETTLED + SETTLED_BY_INERTIA * max(reynolds)
     space = taylor_hood(groove_mesh(1.0, film_ratio - 1.0, width_ratio, (SETTLED, behind), cells))

@@ -36,9 +36,8 @@ class HeldVelocities:
 class FlowProblem:
     """A flow to be solved: dynamic viscosity in Pa s, held velocities, and the momentum's other forces (N,).
 
-    Forces are N per m of width, about an axis N per radian. Where a boundary is neither held nor pushed, its
-    traction is zero. `enclosed`: velocity is held all round, the pressure is known up to a constant, its first
-    unknown is zero.
+    Forces are N per m of width, about an axis N per radian. Where a boundary is neither held nor pushed, its traction
+    is zero. `enclosed`: velocity is held all round, the pressure is known up to a constant, its first unknown is zero.
     """
 
     space: StokesSpace

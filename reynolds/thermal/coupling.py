@@ -1,9 +1,8 @@
 """Coupling of a film and its oil: viscosity by shear, by temperature or by both, and walls that deform by heat.
 
-The unknowns are the viscosity at the levels across the film, over that of the resting oil under the same
-pressure, and the deformation of the film by its walls' heat. A round maps them through the generalised Reynolds
-equation, whose own Newton method follows the pressure, temperatures and shear rates;
-Anderson's extrapolation replaces a relaxation factor.
+The unknowns are the viscosity at the levels across the film, over that of the resting oil under the same pressure, and
+the deformation of the film by its walls' heat. A round maps them through the generalised Reynolds equation, whose own
+Newton method follows the pressure, temperatures and shear rates; Anderson's extrapolation replaces a relaxation factor.
 """
 
 from __future__ import annotations

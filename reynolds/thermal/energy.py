@@ -172,10 +172,9 @@ def solve_energy(
     """The temperature of a solved film, whose viscosities follow `profile`.
 
     `start` (size, m + 2) K is a first guess; `before` (size, m + 2) K is the temperature one time step ago, needed
-    where the film problem has a storage, unless the temperature follows `at_once`: without dT/dt, stored oil
-    having the temperature of its place. Afterwards the energy balance closes to 1e-9 of the heat
-    passed (1e-8 where conduction outweighs convection 1e4 times). Raises FilmInputError where oil enters without a
-    temperature, and FilmNotConverged.
+    where the film problem has a storage, unless the temperature follows `at_once`: without dT/dt, stored oil having the
+    temperature of its place. Afterwards the energy balance closes to 1e-9 of the heat passed (1e-8 where conduction
+    outweighs convection 1e4 times). Raises FilmInputError where oil enters without a temperature, and FilmNotConverged.
     """
     terms = _terms(solution, heat, profile, before, at_once)
     matrix, right = _equations(solution, heat, profile, terms)

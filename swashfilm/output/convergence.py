@@ -31,9 +31,8 @@ class ConvergenceKind(Enum):
 class Convergence:
     """A number on meshes each twice finer than the one before, and its limit.
 
-    order: observed on the three finest meshes, None where it is not defined; extrapolated: the limit; error: error
-    bar of the limit, 1.25 or 3 times the error estimate of the finest mesh. Both are None where no order is
-    observed.
+    order: observed on the three finest meshes, None where it is not defined; extrapolated: the limit; error: error bar
+    of the limit, 1.25 or 3 times the error estimate of the finest mesh. Both are None where no order is observed.
     """
 
     values: tuple[float, ...]

@@ -37,10 +37,9 @@ class Interrupted(KeyboardInterrupt):
 def run_folder(name: str, wanted: Path | None = None) -> Iterator[Path]:
     """Yield a folder for a run's files; at the end it becomes `wanted`, or `runs/<name>-<n>` with the next free n.
 
-    After an error or Interrupted only solved points are kept, and their folder is printed. After Ctrl-C the
-    `.partial` folder is kept if it holds results, and Interrupted names it. Raises InputFaults for a `wanted` that
-    holds files or cannot be created, and where another run has filled it meanwhile (the results then remain in the
-    `.partial` folder).
+    After an error or Interrupted only solved points are kept, and their folder is printed. After Ctrl-C the `.partial`
+    folder is kept if it holds results, and Interrupted names it. Raises InputFaults for a `wanted` that holds files or
+    cannot be created, and where another run has filled it meanwhile (the results then remain in the `.partial` folder).
     """
     final, partial = _claim(name, wanted)
     try:

@@ -42,11 +42,10 @@ _OUT, _IN, _CASE, _TORQUE = range(len(SIMULATED))
 def components(solved: Solved, warmer: Solved, channels: tuple[ChannelName, ...]) -> Mapping[Component, Array]:
     """Contribution of each component to the readings (N, C) of a solved map, SI: a share more of it is a mismatch.
 
-    Leakage by gap, friction by pair, displacement, compression and commutation as the model has them; a sensor's
-    is its reading. Flows and drag that the model leaves out have the size UNIT_SHARE: cross flow (delivery to
-    inlet) and drain flow (delivery to case) with the root of the pressure difference, drag in the case with the
-    square of speed; the thermal state is the change by the viscosity of case oil warmer by WARMER, the map
-    `warmer`.
+    Leakage by gap, friction by pair, displacement, compression and commutation as the model has them; a sensor's is its
+    reading. Flows and drag that the model leaves out have the size UNIT_SHARE: cross flow (delivery to inlet) and drain
+    flow (delivery to case) with the root of the pressure difference, drag in the case with the square of speed; the
+    thermal state is the change by the viscosity of case oil warmer by WARMER, the map `warmer`.
     """
     whole = truth(solved)
     found = {

@@ -114,15 +114,14 @@ class BenchState(Generic[Value]):
 class Effects(Generic[Value]):
     """Changes by a law at N points and M angles; ones and zeros change nothing.
 
-    conductance, viscous, coulomb: (3, N, M), factors on leakage, shear and Coulomb friction of the gaps in the
-    order of `Gap`; extra_coulomb: (5, N, M), W, of one piston, one slipper, the valve plate, one socket, the ball
-    guide. Then (N,) each, flows in m3/s of volume at the port they leave: cross_flow (delivery to inlet),
-    drain_flow (delivery to case), drain_from_inlet; torque in N m on the shaft; ideal: factor on the
-    displacement; intake: share of the displaced volume that is filled with oil; delivery_reading: factor on the
-    reading of the delivery's meter; groove_advance in rad and groove_area, factor: earlier and wider opening of
-    the relief grooves ahead of both kidneys; suction_area: factor on the kidney of the suction side; carried_off:
-    W, power of the flows and the torque, a sink of the power balance. Effects[float]: one point, its
-    arrays (3, M) and (5, M).
+    conductance, viscous, coulomb: (3, N, M), factors on leakage, shear and Coulomb friction of the gaps in the order of
+    `Gap`; extra_coulomb: (5, N, M), W, of one piston, one slipper, the valve plate, one socket, the ball guide. Then
+    (N,) each, flows in m3/s of volume at the port they leave: cross_flow (delivery to inlet), drain_flow (delivery to
+    case), drain_from_inlet; torque in N m on the shaft; ideal: factor on the displacement; intake: share of the
+    displaced volume that is filled with oil; delivery_reading: factor on the reading of the delivery's meter;
+    groove_advance in rad and groove_area, factor: earlier and wider opening of the relief grooves ahead of both
+    kidneys; suction_area: factor on the kidney of the suction side; carried_off: W, power of the flows and the torque,
+    a sink of the power balance. Effects[float]: one point, its arrays (3, M) and (5, M).
     """
 
     conductance: Array

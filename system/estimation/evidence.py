@@ -1,9 +1,8 @@
 """Comparison of hypotheses: evidence of a fit, scores and evidences of columns that were not fitted.
 
-A column v is the whitened change of all readings by one spread of a parameter that the fit does not have. With
-the fit's slopes A, precision H = A^T A + 1 and residual r everything follows from g = v.r and G = v.(v - A H^-1
-A^T v): linear and Gaussian, exact where the readings are linear in the parameters. All evidences are natural
-logarithms.
+A column v is the whitened change of all readings by one spread of a parameter that the fit does not have. With the
+fit's slopes A, precision H = A^T A + 1 and residual r everything follows from g = v.r and G = v.(v - A H^-1 A^T v):
+linear and Gaussian, exact where the readings are linear in the parameters. All evidences are natural logarithms.
 """
 
 from __future__ import annotations
@@ -36,9 +35,8 @@ class Sign(Enum):
 class Score:
     """A column against a residual, the fitted parameters projected out.
 
-    z: size over sigma; size, sigma in spreads of the column's parameter; projected: the whitened column (n,) less
-    the part that the fitted parameters absorb. A column that they absorb completely has z = size = 0, sigma =
-    inf.
+    z: size over sigma; size, sigma in spreads of the column's parameter; projected: the whitened column (n,) less the
+    part that the fitted parameters absorb. A column that they absorb completely has z = size = 0, sigma = inf.
     """
 
     z: float

@@ -1,9 +1,8 @@
 """The peak of the posterior, by damped Gauss-Newton steps. Slopes propose a step, a prediction decides it.
 
-Levenberg (1944) and Marquardt (1963), with bounds. Each step corrects the slopes (Broyden 1965), so that
-approximate slopes still lead to the peak of the true objective. They are computed again at the peak, and where a
-step achieves little of its predicted reduction. A step that leaves the floor of a curved valley is curved back to
-it.
+Levenberg (1944) and Marquardt (1963), with bounds. Each step corrects the slopes (Broyden 1965), so that approximate
+slopes still lead to the peak of the true objective. They are computed again at the peak, and where a step achieves
+little of its predicted reduction. A step that leaves the floor of a curved valley is curved back to it.
 """
 
 from __future__ import annotations

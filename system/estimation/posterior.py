@@ -34,10 +34,9 @@ class FitEffort:
 class Posterior:
     """Parameters at the peak of the posterior, or at the peak of its linear form about the prior mean.
 
-    xi, values: (k,), standard numbers and SI values. residual: (n,), whitened, one for each reading;
-    slopes: (n, k), d prediction / d xi, whitened; precision: (k, k) = slopes^T slopes + 1; objective: residual^2 +
-    xi^2; log_evidence: natural logarithm, without the constants that all hypotheses on these readings share;
-    predictions: (N, C) in SI.
+    xi, values: (k,), standard numbers and SI values. residual: (n,), whitened, one for each reading; slopes: (n, k), d
+    prediction / d xi, whitened; precision: (k, k) = slopes^T slopes + 1; objective: residual^2 + xi^2; log_evidence:
+    natural logarithm, without the constants that all hypotheses on these readings share; predictions: (N, C) in SI.
     """
 
     parameters: tuple[Parameter, ...]

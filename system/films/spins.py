@@ -28,9 +28,8 @@ class SpinTorques:
 def spins(pump: PumpDescription, point: OperatingPoint, drive: SwashDrive, torques: SpinTorques) -> Spins:
     """Spins (rad/s) of the piston relative to the block and of the slipper in space, constant over the turn.
 
-    spin_ratio times shaft speed where stated; where left out, that at which the joint's friction and the films'
-    drags balance (`gaps.loads.ball_joint.free_spins`); the bore is along the shaft, as the cone's mean over
-    the turn does.
+    spin_ratio times shaft speed where stated; where left out, that at which the joint's friction and the films' drags
+    balance (`gaps.loads.ball_joint.free_spins`); the bore is along the shaft, as the cone's mean over the turn does.
     """
     speed, ratios = point.shaft_speed, (pump.piston.spin_ratio, pump.slipper.spin_ratio)
     piston, slipper = (None if ratio is None else ratio * speed for ratio in ratios)

@@ -146,9 +146,8 @@ def parse_quantity(text: object, dimension: Dimension, *, difference: bool = Fal
 def format_quantity(value: float, dimension: Dimension, digits: int | None = None) -> str:
     """Return an SI value as text with its unit, in the unit people read it in.
 
-    With `digits` it is rounded to that many; without, `parse_quantity` gives back the same float to the
-    last bit (the SI unit is used where no shorter decimal does so). Raises ValueError for a value that is
-    not finite.
+    With `digits` it is rounded to that many; without, `parse_quantity` gives back the same float to the last bit (the
+    SI unit is used where no shorter decimal does so). Raises ValueError for a value that is not finite.
     """
     if not math.isfinite(value):
         raise ValueError(f"{dimension.noun} of {value} {dimension.si_unit} cannot be shown")

@@ -24,8 +24,7 @@ class Cycle:
     """Inputs of a map over time (s), SI, (N,) each and linear between rows; inputs that the map holds may be left
     out.
 
-    A repeated time is a step. Raises InputError for fewer than two rows, and for times that fall or do not
-    pass.
+    A repeated time is a step. Raises InputError for fewer than two rows, and for times that fall or do not pass.
     """
 
     time: Array

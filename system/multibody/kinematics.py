@@ -109,8 +109,7 @@ def ball_motion(circle: BoreCircle, plate: Plate, shaft_angle: Array, speed: flo
 def swept(place: Array, axis: Array, way: Array, gain: Array, speed: float) -> Array:
     """Acceleration (3, N) of points that slide along axes which turn with the shaft.
 
-    s'' a + 2 w s' z x a - w^2 r, r from the shaft's axis: `gaps.loads.ball_joint.swept_acceleration` at all
-    angles.
+    s'' a + 2 w s' z x a - w^2 r, r from the shaft's axis: `gaps.loads.ball_joint.swept_acceleration` at all angles.
     """
     inward = speed**2 * (place - SHAFT * place[2])
     return np.asarray(gain * axis + 2.0 * speed * way * cross(SHAFT, axis) - inward)

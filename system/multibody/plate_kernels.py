@@ -1,9 +1,8 @@
 """Compiled kinematics of a piston under a swash plate that swings: place along the bore and its derivatives.
 
-Frame of the pump, x to the inner dead centre of the plate's own axes, y along the tilt axis, z along the shaft
-out of the block, origin where the plane of the ball centres at zero tilt cuts the shaft. The ball is on its
-bore's axis at C + s a, C = R (cos phi, sin phi, 0), and in the plane through the tilt axis at P = (offset, 0, 0)
-with normal n:
+Frame of the pump, x to the inner dead centre of the plate's own axes, y along the tilt axis, z along the shaft out of
+the block, origin where the plane of the ball centres at zero tilt cuts the shaft. The ball is on its bore's axis at C +
+s a, C = R (cos phi, sin phi, 0), and in the plane through the tilt axis at P = (offset, 0, 0) with normal n:
 
     s = n . (P - C)/(n . a),   n = (sin g, -tan k cos g, cos g),   k the cross angle.
 

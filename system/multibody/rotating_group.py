@@ -83,9 +83,8 @@ class ChamberLoads:
 class JointForces:
     """All joints at N shaft angles, vectors (3, N) in N and wrenches (6, N) about the pump's origin.
 
-    loads, sets: of each chamber over its own angle, of one where chambers are equal. hold: of the retainer on a
-    slipper over its own angle; guide: of the ball guide on the retainer; guide_spline: of the shaft on the ball
-    guide.
+    loads, sets: of each chamber over its own angle, of one where chambers are equal. hold: of the retainer on a slipper
+    over its own angle; guide: of the ball guide on the retainer; guide_spline: of the shaft on the ball guide.
     """
 
     group: TurningGroup

@@ -1,10 +1,9 @@
 """Block, ball guide, shaft and swash plate: loads of splines, valve plate, bearings and trunnion.
 
-Wrenches are (6, N): force N and moment N m about the pump's origin, on the shaft's axis in the face of the valve
-plate, over N shaft angles. The block is balanced about the shaft and turns with it. The valve plate supports it
-along the shaft and about both axes across, the spline sideways and about the shaft. On a spherical valve plate
-part of the sideways force is the plate's; here the spline takes all of it. The ball guide moves freely along the
-shaft.
+Wrenches are (6, N): force N and moment N m about the pump's origin, on the shaft's axis in the face of the valve plate,
+over N shaft angles. The block is balanced about the shaft and turns with it. The valve plate supports it along the
+shaft and about both axes across, the spline sideways and about the shaft. On a spherical valve plate part of the
+sideways force is the plate's; here the spline takes all of it. The ball guide moves freely along the shaft.
 """
 
 from __future__ import annotations
@@ -91,9 +90,8 @@ def shaft_reactions(on_shaft: Array, places: GroupPlaces, drag: ShaftDrag) -> Sh
 def plate_reactions(on_plate: Array, places: GroupPlaces, tilt_axis: Array, swash_angle: float) -> PlateReactions:
     """Reactions on the swash plate at rest under on_plate (6, N): trunnion in the pivot, and actuator at its pin.
 
-    tilt_axis (3,) unit vector; a turn about it makes the swash angle (rad) larger. The pin lies in the plate's
-    plane through the tilt axis, `arm` from it, where a push out of the block tilts the plate in its stroking
-    sense.
+    tilt_axis (3,) unit vector; a turn about it makes the swash angle (rad) larger. The pin lies in the plate's plane
+    through the tilt axis, `arm` from it, where a push out of the block tilts the plate in its stroking sense.
     """
     pivot = places.pivot * SHAFT
     about_pivot = on_plate[3:] - np.cross(pivot, on_plate[:3], axis=0)

@@ -1,9 +1,8 @@
 """The films fidelity: leakage and viscous friction of the three gaps from films at given positions.
 
-The parts have the positions of the pump's description. Chamber pressure and films are solved in turn until the
-pressure of the whole revolution repeats. Coulomb losses are those of the lumped fidelity, since a smooth film has
-no contact. Films solve some effects of [physics] themselves (`film_effects`); the others act as at the lumped
-fidelity.
+The parts have the positions of the pump's description. Chamber pressure and films are solved in turn until the pressure
+of the whole revolution repeats. Coulomb losses are those of the lumped fidelity, since a smooth film has no contact.
+Films solve some effects of [physics] themselves (`film_effects`); the others act as at the lumped fidelity.
 """
 
 from __future__ import annotations

@@ -39,11 +39,10 @@ SETTLED = 1e-7
 def lumped_point(pump: PumpDescription, point: OperatingPoint, tolerance: float = TOLERANCE) -> PumpPoint:
     """One periodic operating point of a pump with films of given thickness: REF90's nominal loss model.
 
-    Chambers that differ have each its own cycle; what rubs about the shaft takes the mean of pumps with chambers
-    like each. Effects of [physics] see the gaps as they are without any; then chambers are solved once more.
-    Raises NotConverged when the chamber pressure does not become periodic, InputError for a film that warmth
-    closes. Valid for films thick against their
-    roughness at the viscosity of the case; docs/theory.md, What is left out, lists the rest.
+    Chambers that differ have each its own cycle; what rubs about the shaft takes the mean of pumps with chambers like
+    each. Effects of [physics] see the gaps as they are without any; then chambers are solved once more. Raises
+    NotConverged when the chamber pressure does not become periodic, InputError for a film that warmth closes. Valid for
+    films thick against their roughness at the viscosity of the case; docs/theory.md, What is left out, lists the rest.
     """
     found = kinds(pump)
     expansion(pump, point.temperature)

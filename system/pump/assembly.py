@@ -83,14 +83,13 @@ class PointChecks:
 class PumpPoint:
     """One operating point of a pump, periodic: SI, pressures gauge.
 
-    Per chamber, arrays over `cycle.shaft_angle`: `cycle` (where chambers differ their mean, each at its own angle,
-    and so `leaks` and `pairs`), `delivery_area`, `suction_area` in m2; `chambers`: the cycle of each, of one where
-    they are alike. Whole pump:
-    `delivery_flow_ripple` in m3/s over the same angles (volume at chamber pressure through the delivery port);
-    `delivery`, `suction`: pressure of either port and what its line takes; `shaft_torque` in N m, from the forces
-    on the rotating group; `leakage_flow` of each gap (mean over the revolution, all chambers, volume at case
-    pressure); `exchange`, what the gaps exchange beside; `bench`, what a test bench reads;
-    `geometric_displacement` and `derived_displacement` in m3 per revolution.
+    Per chamber, arrays over `cycle.shaft_angle`: `cycle` (where chambers differ their mean, each at its own angle, and
+    so `leaks` and `pairs`), `delivery_area`, `suction_area` in m2; `chambers`: the cycle of each, of one where they are
+    alike. Whole pump: `delivery_flow_ripple` in m3/s over the same angles (volume at chamber pressure through the
+    delivery port); `delivery`, `suction`: pressure of either port and what its line takes; `shaft_torque` in N m, from
+    the forces on the rotating group; `leakage_flow` of each gap (mean over the revolution, all chambers, volume at case
+    pressure); `exchange`, what the gaps exchange beside; `bench`, what a test bench reads; `geometric_displacement` and
+    `derived_displacement` in m3 per revolution.
     """
 
     point: OperatingPoint
@@ -163,9 +162,8 @@ def put_together(
     """The pump from its chambers' cycle, the friction of its pairs, the shaft's torque (N,) N m by forces and the
     heat (W) of the flow through each gap.
 
-    The bench reads the torque of `power.shaft_work`, good to the chambers' integration; the torque from forces is
-    good to the sampled angles. Where a line of stated orifice sets a port's pressure, the point is given at that
-    pressure.
+    The bench reads the torque of `power.shaft_work`, good to the chambers' integration; the torque from forces is good
+    to the sampled angles. Where a line of stated orifice sets a port's pressure, the point is given at that pressure.
     """
     problem, cycle, asked = ported.problem, ported.cycle, point
     point = met_point(point, ported)

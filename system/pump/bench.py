@@ -144,9 +144,8 @@ def paper_efficiency(reading: BenchReading) -> Efficiency:
 def iso_efficiency(reading: BenchReading, derived_displacement: float) -> Efficiency:
     """Efficiencies of ISO 4391 as measured by ISO 4409, with the derived displacement V_i of ISO 8426 (m3/rev).
 
-    Overall (p2 q2 - p1 q1)/(2 pi n T), volumetric q2/(n V_i), hydromechanical (p2 - p1) V_i/(2 pi T). Their
-    product differs from the overall one by p1 (q1 - q2) over the shaft power. Raises ValueError without shaft
-    power.
+    Overall (p2 q2 - p1 q1)/(2 pi n T), volumetric q2/(n V_i), hydromechanical (p2 - p1) V_i/(2 pi T). Their product
+    differs from the overall one by p1 (q1 - q2) over the shaft power. Raises ValueError without shaft power.
     """
     r = reading
     overall = _overall(r)

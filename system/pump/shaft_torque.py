@@ -7,9 +7,8 @@ z the shaft's axis (the plate's pressure and friction hold the slipper's moments
 
     torque = sum over chambers of z . [r x (lift n - T) + M + r x m_s a_s + r_c x m_p a_p] + rubbing about z.
 
-No power, work or flow enters: against the sum of all sinks this is a check of the energy balance, not its
-definition. Leaving out the slipper's moments of inertia and the growth of its film, as `gaps.loads.ball_joint`
-does.
+No power, work or flow enters: against the sum of all sinks this is a check of the energy balance, not its definition.
+Leaving out the slipper's moments of inertia and the growth of its film, as `gaps.loads.ball_joint` does.
 """
 
 from __future__ import annotations
@@ -53,9 +52,8 @@ class GroupMasses:
 class ChamberForces:
     """Forces on one piston and its slipper over N shaft angles, those that bear them left out.
 
-    along_bore (N,) N on the piston, out of the block: pressure and friction; on_slipper (2, N) N of the plate
-    along its steepest line and tilt axis; joint (N,) N m: friction moment of the joint on the slipper about the
-    shaft.
+    along_bore (N,) N on the piston, out of the block: pressure and friction; on_slipper (2, N) N of the plate along its
+    steepest line and tilt axis; joint (N,) N m: friction moment of the joint on the slipper about the shaft.
     """
 
     along_bore: Array
@@ -68,10 +66,9 @@ def chamber_torque(
 ) -> Array:
     """Torque (N,) N m that one piston with its slipper asks of the shaft at shaft angles (N,) rad.
 
-    The joint's force follows from the slipper's balance in the plate and the piston's along its bore, the lift
-    from the slipper's across the plate (as `gaps.loads.ball_joint.ball_forces`, all angles at once). A
-    frictionless massless piston under a force F asks for -F R sin(phi) tan(gamma) on a cylindrical block.
-    Validity: constant shaft speed.
+    The joint's force follows from the slipper's balance in the plate and the piston's along its bore, the lift from the
+    slipper's across the plate (as `gaps.loads.ball_joint.ball_forces`, all angles at once). A frictionless massless
+    piston under a force F asks for -F R sin(phi) tan(gamma) on a cylindrical block. Validity: constant shaft speed.
     """
     outward = np.stack([np.cos(shaft_angle), np.sin(shaft_angle), np.zeros_like(shaft_angle)])
     onward = np.stack([-outward[1], outward[0], outward[2]])

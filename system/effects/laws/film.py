@@ -114,10 +114,9 @@ def film_heating(values: Values, courses: Courses, state: BenchState) -> Effects
 class HeatShares:
     """Shares of a film's heat by path, each 0 to 1; the defaults are those of films solved with heat.
 
-    carried: share of the heat that leaves with the oil before it reaches a wall; throttled: share of 0.45 K/MPa
-    that warms the film above the case: 1 where oil comes as warm as the case, less where it comes from cooler
-    chambers; carry_over: share of the film's own warm oil in the oil that sliding draws in (Ettles 1969: .7 to .9
-    of pads).
+    carried: share of the heat that leaves with the oil before it reaches a wall; throttled: share of 0.45 K/MPa that
+    warms the film above the case: 1 where oil comes as warm as the case, less where it comes from cooler chambers;
+    carry_over: share of the film's own warm oil in the oil that sliding draws in (Ettles 1969: .7 to .9 of pads).
     """
 
     carried: float = 0.0

@@ -1,9 +1,8 @@
 """Compiled solution of a pump whose swash plate swings: chambers, actuator and plate over equal steps of shaft
 angle.
 
-Chambers and actuator conserve the mass of their oil as the chamber kernels do, by their implicit method of order
-4; over a step the plate is known to second order, g + g' t + g'' t^2/2. The plate follows virtual work on its
-tilt,
+Chambers and actuator conserve the mass of their oil as the chamber kernels do, by their implicit method of order 4;
+over a step the plate is known to second order, g + g' t + g'' t^2/2. The plate follows virtual work on its tilt,
 
     (I + m sum s_g^2) g'' = sum s_g [A (p - p_case) + f - m (s_phiphi w^2 + 2 s_phig w g' + s_gg g'^2
                             - w^2 sin b (R + s sin b))] + M_actuator - M_spring - c g' - M_t g'/(g'^2 + r^2)^(1/2)

@@ -197,8 +197,7 @@ def uppermost(point: PaperPoint, reading: LossReading, count: int) -> set[Pair]:
 def coefficient_for_share(point: PaperPoint, pair: Pair, share: float, reading: LossReading) -> float:
     """Factor on a pair's Coulomb coefficient at which the pair has this share.
 
-    All other losses stay: share (rest + c k + s) = c k + s, with s the pair's own shear (0 of mixed
-    coefficients).
+    All other losses stay: share (rest + c k + s) = c k + s, with s the pair's own shear (0 of mixed coefficients).
     """
     own = point.coulomb[list(Pair).index(pair)]
     shear = point.loss(pair, reading) - own

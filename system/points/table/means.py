@@ -75,10 +75,9 @@ class SolvedPoint:
 class LawMoments:
     """One chamber by the lumped law at a given pressure, means over the turn, of the gaps (3,).
 
-    flow: of the pressure flow G (p - p_case), m3/s; drag_flow, one: of the law's drag flow, m3/s (only in the
-    piston's gap), and of a flow of 1 m3/s; all three by mass, at case pressure. power: scale of the drag power,
-    W: the oil dragged in the piston's gap, the pressure flow in the others, in which the law has no drag; above:
-    p - p_case, Pa.
+    flow: of the pressure flow G (p - p_case), m3/s; drag_flow, one: of the law's drag flow, m3/s (only in the piston's
+    gap), and of a flow of 1 m3/s; all three by mass, at case pressure. power: scale of the drag power, W: the oil
+    dragged in the piston's gap, the pressure flow in the others, in which the law has no drag; above: p - p_case, Pa.
     """
 
     flow: Array

@@ -95,9 +95,8 @@ def table_point(pump: PumpDescription, point: OperatingPoint, table: ResponseTab
 def _leaks(pump: PumpDescription, point: OperatingPoint, motion: PistonMotion, means: Mapping[str, float]) -> LeakTable:
     """Flow out of a chamber into each gap, of the table's mean and drag power: a G (p - p_case) + b C + c.
 
-    G and C are the lumped law's, moments those at the pressure of its own cycle. The piston's drag flow is b C,
-    the others' is c. A conductance is not negative: where drag exceeds the whole flow, a is 0 and c keeps the
-    mean flow.
+    G and C are the lumped law's, moments those at the pressure of its own cycle. The piston's drag flow is b C, the
+    others' is c. A conductance is not negative: where drag exceeds the whole flow, a is 0 and c keeps the mean flow.
     """
     law = lumped_leaks(pump, point, motion)
     cycle = solve_cycle(chamber_problem(pump, point, motion, law), motion.shaft_angle.size)

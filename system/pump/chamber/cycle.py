@@ -87,11 +87,10 @@ class ChamberCycle(TurnTotals):
 def solve_cycle(problem: ChamberProblem, samples: int, tolerance: float = TOLERANCE) -> ChamberCycle:
     """The periodic revolution of a chamber, sampled at `samples` equidistant shaft angles.
 
-    Integrates Eq. (14) in its conservative form (see `state_kernels`) from break to break of the ports,
-    turn by turn, until the oil in the chamber where a turn begins repeats to PERIODICITY. Raises NotConverged when
-    it does not within REVOLUTION_LIMIT turns or when a step fails. Where the pressure falls to
-    CAVITY_PRESSURE a cavity opens and fills again; the ports' and case's oil is always
-    liquid.
+    Integrates Eq. (14) in its conservative form (see `state_kernels`) from break to break of the ports, turn by turn,
+    until the oil in the chamber where a turn begins repeats to PERIODICITY. Raises NotConverged when it does not within
+    REVOLUTION_LIMIT turns or when a step fails. Where the pressure falls to CAVITY_PRESSURE a cavity opens and fills
+    again; the ports' and case's oil is always liquid.
     """
     nodes, sample_nodes = turn_nodes(problem.suction_port, problem.delivery_port, samples)
     course = Course.over(nodes)

@@ -247,11 +247,10 @@ def revolution(chamber, table, ports, nodes, pressure, tolerance, pressures, pat
     """One turn from a pressure at nodes[0]: mass at the end less that at the start, steps taken, refused, status.
 
     Steps end on every node (ascending shaft angles over one turn, breaks of the ports among them). `pressures`,
-    `path_rates` (mass per radian by path) and `passed` (mass by path since nodes[0]) receive the solution at
-    nodes[1:], `totals` (2 x INTEGRALS) the integrals and the sums of their local error estimates, `trail` (any
-    number, TRAIL) the first steps taken. Every step keeps
-    the error of p, and of the work and throttling energy relative to one stroke's, below `tolerance` times the
-    port pressure difference.
+    `path_rates` (mass per radian by path) and `passed` (mass by path since nodes[0]) receive the solution at nodes[1:],
+    `totals` (2 x INTEGRALS) the integrals and the sums of their local error estimates, `trail` (any number, TRAIL) the
+    first steps taken. Every step keeps the error of p, and of the work and throttling energy relative to one stroke's,
+    below `tolerance` times the port pressure difference.
     """
     c = chamber[0]
     scale = tolerance * (abs(c.delivery_pressure - c.inlet_pressure) + 1e5)

@@ -20,12 +20,11 @@ ROOM = 256
 def chamber_map(constants, tables, ports, nodes, firsts, control, pressures, totals, statuses):
     """The periodic revolution of the chamber at each of P points: `cycle.solve_cycle`'s without its checks.
 
-    constants (P,) of CHAMBER, tables (P, N, 7, 4), ports (P, M, 2, 4): the points' constants; nodes: their nodes
-    end to end, those of point i from firsts[i] to firsts[i + 1]; control: tolerance, periodicity, turns. A point
-    is periodic when `oil_change` over a turn is no more than `periodicity` times its port pressure difference,
-    within `turns`. Filled: pressures (P, samples) Pa at equidistant angles from 0, totals (P, 2
-    INTEGRALS), statuses (P,). Returned: the steps of all points end to end, (T, TRAIL), and where each one's
-    begin, (P + 1,).
+    constants (P,) of CHAMBER, tables (P, N, 7, 4), ports (P, M, 2, 4): the points' constants; nodes: their nodes end to
+    end, those of point i from firsts[i] to firsts[i + 1]; control: tolerance, periodicity, turns. A point is periodic
+    when `oil_change` over a turn is no more than `periodicity` times its port pressure difference, within `turns`.
+    Filled: pressures (P, samples) Pa at equidistant angles from 0, totals (P, 2 INTEGRALS), statuses (P,). Returned:
+    the steps of all points end to end, (T, TRAIL), and where each one's begin, (P + 1,).
     """
     trail, begins = np.empty((ROOM * constants.size, TRAIL)), np.zeros(constants.size + 1, np.int64)
     for point in range(constants.size):

@@ -1,8 +1,7 @@
 """Chambers and the volumes behind both ports, periodic together: port pressure ripple and flow ripple.
 
-Where all chambers are alike the ports repeat with each piston pitch, else with the turn. Given port pressures over
-that time, the chambers' cycles say what comes in; `ports_volume` answers with better pressures, mixed by
-Anderson's rule.
+Where all chambers are alike the ports repeat with each piston pitch, else with the turn. Given port pressures over that
+time, the chambers' cycles say what comes in; `ports_volume` answers with better pressures, mixed by Anderson's rule.
 """
 
 from __future__ import annotations
@@ -88,12 +87,11 @@ def ported_cycle(
 ) -> PortedCycle:
     """The periodic revolution of a pump's chambers together with the volumes behind its ports.
 
-    `problems`: one for all chambers, or one for each of z. They give the ports' mean pressures: held, met by an
-    orifice of free area, or where an orifice of stated area begins its search. draws in m3/s at zero gauge
-    pressure: what films take from delivery and suction port, a mean or over a pitch from shaft angle 0,
-    (samples/pistons,); where chambers differ over the turn, (samples,).
-    Raises NotConverged when ports and chambers do not agree within ROUND_LIMIT rounds, where a port cavitates, and
-    as `solve_cycle`.
+    `problems`: one for all chambers, or one for each of z. They give the ports' mean pressures: held, met by an orifice
+    of free area, or where an orifice of stated area begins its search. draws in m3/s at zero gauge pressure: what films
+    take from delivery and suction port, a mean or over a pitch from shaft angle 0, (samples/pistons,); where chambers
+    differ over the turn, (samples,). Raises NotConverged when ports and chambers do not agree within ROUND_LIMIT
+    rounds, where a port cavitates, and as `solve_cycle`.
     """
     solved = _Solved.by(problems, samples, tolerance)
     repeats, problem = pistons if len(problems) == 1 else 1, problems[0]
