@@ -1,18 +1,18 @@
-from .calibration import Calibration as Calibration
-from .calibration import calibrate as calibrate
+from .calibration import Calibration as Calibration, calibrate as calibrate
 from .checks.check import check_recording as check_recording
 from .explain.ranked import Explanation as Explanation
-from .finding import DiagnosisResult as DiagnosisResult
-from .finding import diagnose as diagnose
+from .finding import DiagnosisResult as DiagnosisResult, diagnose as diagnose
 from .next_point.operating_box import BenchBox as BenchBox
 from .procedure.next_test import with_next_point as with_next_point
 from .procedure.stages import diagnose_study as diagnose_study
-from .recording.model import Circuit as Circuit
-from .recording.model import NoteKind as NoteKind
-from .recording.model import RecordedChannel as RecordedChannel
-from .recording.model import Recording as Recording
-from .recording.model import SteadyTable as SteadyTable
-from .recording.model import TraceBlock as TraceBlock
+from .recording.model import (
+    Circuit as Circuit,
+    NoteKind as NoteKind,
+    RecordedChannel as RecordedChannel,
+    Recording as Recording,
+    SteadyTable as SteadyTable,
+    TraceBlock as TraceBlock,
+)
 from .recording.reader import read_recording as read_recording
 from .report.json_file import write_diagnosis as write_diagnosis
 from .report.text import statement as statement

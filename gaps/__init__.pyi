@@ -1,54 +1,60 @@
-from .films.block import BlockDrive as BlockDrive
-from .films.block import BlockFilm as BlockFilm
-from .films.block import floating_block as floating_block
-from .films.block import standing_block as standing_block
+from .films.block import (
+    BlockDrive as BlockDrive,
+    BlockFilm as BlockFilm,
+    floating_block as floating_block,
+    standing_block as standing_block,
+)
 from .films.friction import wall_shear as wall_shear
-from .films.over_turn import PeriodicCurve as PeriodicCurve
-from .films.over_turn import constant as constant
-from .films.physics import Effect as Effect
-from .films.physics import FilmLaws as FilmLaws
-from .films.physics import Physics as Physics
-from .films.piston import PistonDrive as PistonDrive
-from .films.piston import PistonFilm as PistonFilm
-from .films.piston import PistonShape as PistonShape
-from .films.piston import floating_piston as floating_piston
-from .films.piston import standing_piston as standing_piston
-from .films.reports import Active as Active
-from .films.reports import SlipperReport as SlipperReport
-from .films.reports import block_report as block_report
-from .films.reports import piston_report as piston_report
-from .films.reports import slipper_report as slipper_report
-from .films.slipper import PocketOrifice as PocketOrifice
-from .films.slipper import SlipperDrive as SlipperDrive
-from .films.slipper import SlipperFilm as SlipperFilm
-from .films.slipper import SlipperShape as SlipperShape
-from .films.slipper import face_force as face_force
-from .films.slipper import floating_slipper as floating_slipper
-from .loads.ball_joint import DrivenBody as DrivenBody
-from .loads.ball_joint import ball_forces as ball_forces
-from .loads.ball_joint import swept_acceleration as swept_acceleration
-from .response import Axis as Axis
-from .response import Response as Response
+from .films.over_turn import PeriodicCurve as PeriodicCurve, constant as constant
+from .films.physics import Effect as Effect, FilmLaws as FilmLaws, Physics as Physics
+from .films.piston import (
+    PistonDrive as PistonDrive,
+    PistonFilm as PistonFilm,
+    PistonShape as PistonShape,
+    floating_piston as floating_piston,
+    standing_piston as standing_piston,
+)
+from .films.reports import (
+    Active as Active,
+    SlipperReport as SlipperReport,
+    block_report as block_report,
+    piston_report as piston_report,
+    slipper_report as slipper_report,
+)
+from .films.slipper import (
+    PocketOrifice as PocketOrifice,
+    SlipperDrive as SlipperDrive,
+    SlipperFilm as SlipperFilm,
+    SlipperShape as SlipperShape,
+    face_force as face_force,
+    floating_slipper as floating_slipper,
+)
+from .loads.ball_joint import (
+    DrivenBody as DrivenBody,
+    ball_forces as ball_forces,
+    swept_acceleration as swept_acceleration,
+)
+from .response import Axis as Axis, Response as Response
 from .revolution.film_heat import warm_revolution as warm_revolution
-from .revolution.march import GapRevolution as GapRevolution
-from .revolution.march import run_revolution as run_revolution
-from .revolution.schedule import Accuracy as Accuracy
-from .revolution.schedule import Schedule as Schedule
-from .revolution.schedule import evenly as evenly
-from .shapes.profiles import DepthPoints as DepthPoints
-from .shapes.profiles import EdgeRelief as EdgeRelief
-from .shapes.profiles import Profile as Profile
-from .shapes.profiles import Waviness as Waviness
-from .shapes.slipper_lands import SlipperLands as SlipperLands
-from .shapes.slipper_lands import slipper_mesh as slipper_mesh
+from .revolution.march import GapRevolution as GapRevolution, run_revolution as run_revolution
+from .revolution.schedule import Accuracy as Accuracy, Schedule as Schedule, evenly as evenly
+from .shapes.profiles import (
+    DepthPoints as DepthPoints,
+    EdgeRelief as EdgeRelief,
+    Profile as Profile,
+    Waviness as Waviness,
+)
+from .shapes.slipper_lands import SlipperLands as SlipperLands, slipper_mesh as slipper_mesh
 from .shapes.valve_plate_ring import ValvePlateGeometry as ValvePlateGeometry
 from .standing.gap_film import GapFilm as GapFilm
-from .walls.parts import BushingPart as BushingPart
-from .walls.parts import PistonPart as PistonPart
-from .walls.parts import PlatePart as PlatePart
-from .walls.parts import Pose as Pose
-from .walls.parts import bushing_body as bushing_body
-from .walls.parts import part_wall as part_wall
-from .walls.parts import piston_body as piston_body
-from .walls.parts import plate_body as plate_body
+from .walls.parts import (
+    BushingPart as BushingPart,
+    PistonPart as PistonPart,
+    PlatePart as PlatePart,
+    Pose as Pose,
+    bushing_body as bushing_body,
+    part_wall as part_wall,
+    piston_body as piston_body,
+    plate_body as plate_body,
+)
 from .walls.piston import PistonWalls as PistonWalls

@@ -1,98 +1,82 @@
-from .bodies.chart import Cylinder as Cylinder
-from .bodies.chart import Plane as Plane
-from .bodies.chart import Side as Side
-from .bodies.chart import face_normals as face_normals
-from .bodies.elasticity import Elastic as Elastic
-from .bodies.elasticity import structure as structure
-from .bodies.foundation import Compliance as Compliance
-from .bodies.foundation import both as both
-from .bodies.foundation import half_space as half_space
-from .bodies.foundation import winkler as winkler
-from .bodies.mesh import BodyMesh as BodyMesh
-from .bodies.mesh import block as block
-from .bodies.mesh import disc as disc
-from .bodies.mesh import hollow_cylinder as hollow_cylinder
-from .bodies.mesh import section as section
+from .bodies.chart import Cylinder as Cylinder, Plane as Plane, Side as Side, face_normals as face_normals
+from .bodies.elasticity import Elastic as Elastic, structure as structure
+from .bodies.foundation import Compliance as Compliance, both as both, half_space as half_space, winkler as winkler
+from .bodies.mesh import (
+    BodyMesh as BodyMesh,
+    block as block,
+    disc as disc,
+    hollow_cylinder as hollow_cylinder,
+    section as section,
+)
 from .bodies.space import body_space as body_space
-from .bodies.supports import Supports as Supports
-from .bodies.supports import rigid_motions as rigid_motions
-from .bodies.wall import Body as Body
-from .bodies.wall import body_wall as body_wall
-from .bodies.wall import heated_wall as heated_wall
+from .bodies.supports import Supports as Supports, rigid_motions as rigid_motions
+from .bodies.wall import Body as Body, body_wall as body_wall, heated_wall as heated_wall
 from .equation.balance import stiffness as stiffness
-from .equation.coefficients import at_points as at_points
-from .equation.coefficients import isotropic as isotropic
-from .errors import FilmInputError as FilmInputError
-from .errors import FilmNotConverged as FilmNotConverged
-from .errors import InputError as InputError
-from .errors import NotConverged as NotConverged
-from .fem.mesh import Cell as Cell
-from .fem.mesh import FilmMesh as FilmMesh
-from .fem.mesh import annulus as annulus
-from .fem.mesh import mesh_from_file as mesh_from_file
-from .fem.mesh import read_mesh_file as read_mesh_file
-from .fem.mesh import rectangle as rectangle
-from .fem.mesh import ring as ring
-from .fem.space import FilmSpace as FilmSpace
-from .fem.space import film_space as film_space
-from .floating.coordinates import generalised_force as generalised_force
-from .floating.coordinates import modes_on as modes_on
-from .floating.load_search import RigidLoad as RigidLoad
-from .floating.load_search import carry_load as carry_load
-from .floating.problem import Floating as Floating
-from .floating.problem import Outer as Outer
-from .floating.problem import steady as steady
+from .equation.coefficients import at_points as at_points, isotropic as isotropic
+from .errors import (
+    FilmInputError as FilmInputError,
+    FilmNotConverged as FilmNotConverged,
+    InputError as InputError,
+    NotConverged as NotConverged,
+)
+from .fem.mesh import (
+    Cell as Cell,
+    FilmMesh as FilmMesh,
+    annulus as annulus,
+    mesh_from_file as mesh_from_file,
+    read_mesh_file as read_mesh_file,
+    rectangle as rectangle,
+    ring as ring,
+)
+from .fem.space import FilmSpace as FilmSpace, film_space as film_space
+from .floating.coordinates import generalised_force as generalised_force, modes_on as modes_on
+from .floating.load_search import RigidLoad as RigidLoad, carry_load as carry_load
+from .floating.problem import Floating as Floating, Outer as Outer, steady as steady
 from .floating.rest import held_at as held_at
 from .floating.start import started as started
-from .floating.step import FloatingStage as FloatingStage
-from .floating.step import solve_stage as solve_stage
-from .floating.step import standing as standing
-from .laws.contact import Asperities as Asperities
-from .laws.contact import contact_pressure as contact_pressure
-from .laws.density import BulkModulus as BulkModulus
-from .laws.density import RationalDensity as RationalDensity
-from .laws.fluid import CONSTANT as CONSTANT
-from .laws.fluid import Fluid as Fluid
-from .laws.oil import ISO_GRADES as ISO_GRADES
-from .laws.oil import Oil as Oil
-from .laws.oil import dynamic_viscosity as dynamic_viscosity
-from .laws.oil import walther as walther
+from .floating.step import FloatingStage as FloatingStage, solve_stage as solve_stage, standing as standing
+from .laws.contact import Asperities as Asperities, contact_pressure as contact_pressure
+from .laws.density import BulkModulus as BulkModulus, RationalDensity as RationalDensity
+from .laws.fluid import CONSTANT as CONSTANT, Fluid as Fluid
+from .laws.oil import ISO_GRADES as ISO_GRADES, Oil as Oil, dynamic_viscosity as dynamic_viscosity, walther as walther
 from .laws.rheology import Carreau as Carreau
 from .laws.roughness import Surface as Surface
-from .laws.viscosity import Barus as Barus
-from .laws.viscosity import Roelands as Roelands
+from .laws.viscosity import Barus as Barus, Roelands as Roelands
 from .numerics.arrays import Array as Array
-from .numerics.dirk import ALEXANDER_2 as ALEXANDER_2
-from .numerics.dirk import BACKWARD_EULER as BACKWARD_EULER
-from .numerics.dirk import Tableau as Tableau
-from .numerics.dirk import advance as advance
-from .numerics.dirk import integrate as integrate
-from .numerics.dirk import nodes_only as nodes_only
-from .problem import ZERO as ZERO
-from .problem import Boundary as Boundary
-from .problem import Cavitation as Cavitation
-from .problem import Film as Film
-from .problem import FilmProblem as FilmProblem
-from .problem import FilmSolution as FilmSolution
-from .problem import Held as Held
-from .problem import Pocket as Pocket
-from .problem import Storage as Storage
-from .problem import film as film
-from .problem import no_feed as no_feed
+from .numerics.dirk import (
+    ALEXANDER_2 as ALEXANDER_2,
+    BACKWARD_EULER as BACKWARD_EULER,
+    Tableau as Tableau,
+    advance as advance,
+    integrate as integrate,
+    nodes_only as nodes_only,
+)
+from .problem import (
+    ZERO as ZERO,
+    Boundary as Boundary,
+    Cavitation as Cavitation,
+    Film as Film,
+    FilmProblem as FilmProblem,
+    FilmSolution as FilmSolution,
+    Held as Held,
+    Pocket as Pocket,
+    Storage as Storage,
+    film as film,
+    no_feed as no_feed,
+)
 from .solve.export import write_vtu as write_vtu
-from .solve.loads import Loads as Loads
-from .solve.loads import boundary_flows as boundary_flows
-from .solve.loads import loads as loads
-from .solve.loads import point_fields as point_fields
+from .solve.loads import Loads as Loads, boundary_flows as boundary_flows, loads as loads, point_fields as point_fields
 from .solve.solver import FilmSolver as FilmSolver
 from .solve.transient import march as march
-from .thermal.energy import FilmTemperature as FilmTemperature
-from .thermal.energy import Heat as Heat
-from .thermal.energy import solve_energy as solve_energy
-from .thermal.film import ThermalSolution as ThermalSolution
-from .thermal.film import march_thermal as march_thermal
-from .thermal.film import solve_thermal as solve_thermal
-from .thermal.walls import Adiabatic as Adiabatic
-from .thermal.walls import Convecting as Convecting
-from .thermal.walls import GivenTemperature as GivenTemperature
-from .thermal.walls import Turning as Turning
+from .thermal.energy import FilmTemperature as FilmTemperature, Heat as Heat, solve_energy as solve_energy
+from .thermal.film import (
+    ThermalSolution as ThermalSolution,
+    march_thermal as march_thermal,
+    solve_thermal as solve_thermal,
+)
+from .thermal.walls import (
+    Adiabatic as Adiabatic,
+    Convecting as Convecting,
+    GivenTemperature as GivenTemperature,
+    Turning as Turning,
+)

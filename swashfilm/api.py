@@ -16,8 +16,7 @@ from importlib import import_module
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from reynolds.errors import InputError
-from reynolds.errors import NotConverged as NotConverged
+from reynolds.errors import InputError, NotConverged as NotConverged
 from swashfilm.cli.app import options_of, parse
 from swashfilm.console.inputs import COMMAND_LINE
 from system.inputs.faults import Fault, InputFaults, nearest_choice, nearest_path

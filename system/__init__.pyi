@@ -1,93 +1,72 @@
 from .bench.calibration.extended_pump import extended_pump as extended_pump
 from .bench.outputs import SIMULATED as SIMULATED
 from .bench.parameters import base_parameters as base_parameters
-from .bench.points import BenchPoints as BenchPoints
-from .bench.points import operating_at as operating_at
+from .bench.points import BenchPoints as BenchPoints, operating_at as operating_at
 from .bench.simulator import LumpedBench as LumpedBench
 from .description.gap import Gap as Gap
-from .description.pump import PumpDescription as PumpDescription
-from .description.pump import PumpSection as PumpSection
+from .description.pump import PumpDescription as PumpDescription, PumpSection as PumpSection
 from .description.tolerances import tolerances as tolerances
-from .effects.catalogue.entries import CATALOGUE as CATALOGUE
-from .effects.catalogue.entries import EXTENSIONS as EXTENSIONS
-from .effects.catalogue.entries import entry_of as entry_of
+from .effects.catalogue.entries import CATALOGUE as CATALOGUE, EXTENSIONS as EXTENSIONS, entry_of as entry_of
 from .effects.components import Component as Component
-from .effects.effect import BenchState as BenchState
-from .effects.effect import EffectId as EffectId
-from .effects.effect import GapCourse as GapCourse
-from .effects.effect import Kind as Kind
+from .effects.effect import BenchState as BenchState, EffectId as EffectId, GapCourse as GapCourse, Kind as Kind
 from .effects.extension import Extension as Extension
-from .estimation.fit import FitLimits as FitLimits
-from .estimation.fit import best_posterior as best_posterior
-from .estimation.fit import maximum_posterior as maximum_posterior
-from .estimation.observations import Channel as Channel
-from .estimation.observations import Observations as Observations
-from .estimation.parameters import Parameter as Parameter
-from .estimation.parameters import Role as Role
-from .estimation.parameters import Scale as Scale
-from .estimation.posterior import Posterior as Posterior
-from .estimation.posterior import linear_posterior as linear_posterior
+from .estimation.fit import (
+    FitLimits as FitLimits,
+    best_posterior as best_posterior,
+    maximum_posterior as maximum_posterior,
+)
+from .estimation.observations import Channel as Channel, Observations as Observations
+from .estimation.parameters import Parameter as Parameter, Role as Role, Scale as Scale
+from .estimation.posterior import Posterior as Posterior, linear_posterior as linear_posterior
 from .estimation.simulator import Simulator as Simulator
 from .films.cycle import SMOOTH as SMOOTH
-from .films.drives import Drives as Drives
-from .films.drives import drives as drives
-from .films.drives import no_rubbing as no_rubbing
-from .films.parts import FloatingParts as FloatingParts
-from .films.parts import floating_parts as floating_parts
+from .films.drives import Drives as Drives, drives as drives, no_rubbing as no_rubbing
+from .films.parts import FloatingParts as FloatingParts, floating_parts as floating_parts
 from .films.problems import RIGID as RIGID
-from .films.rotor import Rotor as Rotor
-from .films.rotor import rotor as rotor
-from .films.rotor import valve_plate_geometry as valve_plate_geometry
-from .inputs.channels import INPUTS as INPUTS
-from .inputs.channels import OUTPUTS as OUTPUTS
-from .inputs.channels import ChannelName as ChannelName
+from .films.rotor import Rotor as Rotor, rotor as rotor, valve_plate_geometry as valve_plate_geometry
+from .inputs.channels import INPUTS as INPUTS, OUTPUTS as OUTPUTS, ChannelName as ChannelName
 from .inputs.coefficients.flow_files import read_flow_coefficients as read_flow_coefficients
 from .inputs.coefficients.loss_files import read_step_losses as read_step_losses
-from .inputs.faults import Fault as Fault
-from .inputs.faults import InputFaults as InputFaults
+from .inputs.faults import Fault as Fault, InputFaults as InputFaults
 from .inputs.units import Dimension as Dimension
 from .maps.data import MapData as MapData
 from .maps.duty import Duty as Duty
 from .maps.plan import map_plan as map_plan
 from .multibody.assumed import assumptions as assumptions
 from .multibody.rotating_group import joint_forces as joint_forces
-from .points.films import FilmsPoint as FilmsPoint
-from .points.films import films_point as films_point
-from .points.floating import FloatingPoint as FloatingPoint
-from .points.floating import floating_point as floating_point
-from .points.floating_gaps import FloatingOptions as FloatingOptions
-from .points.floating_gaps import slipper_revolution as slipper_revolution
+from .points.films import FilmsPoint as FilmsPoint, films_point as films_point
+from .points.floating import FloatingPoint as FloatingPoint, floating_point as floating_point
+from .points.floating_gaps import FloatingOptions as FloatingOptions, slipper_revolution as slipper_revolution
 from .points.lumped import lumped_point as lumped_point
 from .points.table.build import build_table as build_table
 from .points.table.point import table_point as table_point
 from .points.table.store import find_table as find_table
 from .points.transmission import transmission as transmission
-from .pump.assembly import PointWarning as PointWarning
-from .pump.assembly import PumpPoint as PumpPoint
-from .pump.laws.directions import bore_axis as bore_axis
-from .pump.laws.directions import plate_axes as plate_axes
+from .pump.assembly import PointWarning as PointWarning, PumpPoint as PumpPoint
+from .pump.laws.directions import bore_axis as bore_axis, plate_axes as plate_axes
 from .pump.laws.friction_pairs import Pair as Pair
-from .pump.laws.kinematics import SwashDrive as SwashDrive
-from .pump.laws.kinematics import piston_acceleration as piston_acceleration
-from .pump.laws.kinematics import piston_displacement as piston_displacement
-from .pump.laws.kinematics import piston_velocity as piston_velocity
-from .pump.laws.kinematics import slipper_acceleration as slipper_acceleration
-from .pump.laws.kinematics import slipper_sliding_velocity as slipper_sliding_velocity
-from .pump.laws.kinematics import stroke as stroke
-from .pump.laws.leakage import piston_conductance as piston_conductance
-from .pump.laws.leakage import slipper_conductance as slipper_conductance
-from .pump.laws.leakage import valve_plate_conductance as valve_plate_conductance
-from .pump.lumped import piston_area as piston_area
-from .pump.lumped import piston_motion as piston_motion
-from .pump.lumped import port_openings as port_openings
-from .pump.operating import OperatingPoint as OperatingPoint
-from .pump.operating import operating_point as operating_point
-from .pump.ports.areas import PortOpening as PortOpening
-from .pump.ports.areas import break_angles as break_angles
-from .pump.ports.areas import opening_area as opening_area
-from .pump.ports.areas import orifice_flow as orifice_flow
+from .pump.laws.kinematics import (
+    SwashDrive as SwashDrive,
+    piston_acceleration as piston_acceleration,
+    piston_displacement as piston_displacement,
+    piston_velocity as piston_velocity,
+    slipper_acceleration as slipper_acceleration,
+    slipper_sliding_velocity as slipper_sliding_velocity,
+    stroke as stroke,
+)
+from .pump.laws.leakage import (
+    piston_conductance as piston_conductance,
+    slipper_conductance as slipper_conductance,
+    valve_plate_conductance as valve_plate_conductance,
+)
+from .pump.lumped import piston_area as piston_area, piston_motion as piston_motion, port_openings as port_openings
+from .pump.operating import OperatingPoint as OperatingPoint, operating_point as operating_point
+from .pump.ports.areas import (
+    PortOpening as PortOpening,
+    break_angles as break_angles,
+    opening_area as opening_area,
+    orifice_flow as orifice_flow,
+)
 from .pump.ports.lines import ImpedanceLine as ImpedanceLine
 from .pump.ports.relief_grooves import ReliefGroove as ReliefGroove
-from .pump_file.file import check_pump as check_pump
-from .pump_file.file import load_pump as load_pump
-from .pump_file.file import resolved_toml as resolved_toml
+from .pump_file.file import check_pump as check_pump, load_pump as load_pump, resolved_toml as resolved_toml

@@ -16,12 +16,9 @@ from swashfilm.console.terminal import show
 from swashfilm.runs.calibrate import command as calibrate
 from swashfilm.runs.diagnose import command as diagnose
 from swashfilm.runs.film import command as film
-from swashfilm.runs.map import command as operating_map
-from swashfilm.runs.map import compare_command as compare
-from swashfilm.runs.map import duty_command as duty
+from swashfilm.runs.map import command as operating_map, compare_command as compare, duty_command as duty
 from swashfilm.runs.pump import command as run
-from swashfilm.runs.reference import coefficients_command as coefficients
-from swashfilm.runs.reference import command as reference
+from swashfilm.runs.reference import coefficients_command as coefficients, command as reference
 from swashfilm.runs.reproduce import command as reproduce
 from swashfilm.runs.table import command as table
 from swashfilm.runs.transient import command as transient

@@ -20,8 +20,7 @@ from numpy.typing import NDArray
 from scipy.sparse import csc_array
 
 from reynolds.errors import FilmInputError
-from reynolds.linear.multigrid import coarsening_kernels, grid_kernels
-from reynolds.linear.multigrid import cycle_kernels as kernels
+from reynolds.linear.multigrid import coarsening_kernels, cycle_kernels as kernels, grid_kernels
 from reynolds.linear.multigrid.coarsest_kernels import SQUARE, Coarsest
 from reynolds.linear.multigrid.grid import Grid
 from reynolds.linear.multigrid.line_kernels import GridLevels

@@ -5,9 +5,7 @@ from __future__ import annotations
 from system.effects.components import Component
 from system.effects.effect import EffectId, Kind
 from system.effects.extension import THEORY, Entry, Extension, Law, Values
-from system.effects.laws import drag as drag_laws
-from system.effects.laws import flow as flow_laws
-from system.effects.laws import port as port_laws
+from system.effects.laws import drag as drag_laws, flow as flow_laws, port as port_laws
 from system.effects.priors import half, path_of, signed
 from system.estimation.parameters import Parameter, Role, Scale
 from system.inputs.channels import ChannelName

@@ -4,8 +4,7 @@ import math
 import re
 
 import pytest
-from hypothesis import given, settings
-from hypothesis import strategies as st
+from hypothesis import given, settings, strategies as st
 
 from system import Dimension
 from system.inputs.units import QuantityError, format_quantity, parse_quantity, unit_scale

@@ -7,8 +7,7 @@ from importlib.resources import files
 from pathlib import Path
 
 import pytest
-from hypothesis import given, settings
-from hypothesis import strategies as st
+from hypothesis import given, settings, strategies as st
 
 from system import InputFaults, PumpDescription, check_pump, load_pump, operating_point, resolved_toml
 from system.inputs.faults import key_lines

@@ -5,8 +5,7 @@ import logging
 import h5py
 import numpy as np
 import pytest
-from hypothesis import given, settings
-from hypothesis import strategies as st
+from hypothesis import given, settings, strategies as st
 from scipy.io import savemat
 
 from diagnosis.recording.tables.read import read_columns

@@ -10,12 +10,14 @@ from reynolds import dynamic_viscosity
 from reynolds.laws.contact import gaussian_moment
 from system import CATALOGUE, BenchState, Gap, GapCourse, PortOpening, ReliefGroove, load_pump
 from system.effects.effect import neutral
-from system.effects.laws import contact as contact_laws
-from system.effects.laws import drag as drag_laws
-from system.effects.laws import film as film_laws
-from system.effects.laws import flow as flow_laws
-from system.effects.laws import port as port_laws
-from system.effects.laws import tipping as tipping_laws
+from system.effects.laws import (
+    contact as contact_laws,
+    drag as drag_laws,
+    film as film_laws,
+    flow as flow_laws,
+    port as port_laws,
+    tipping as tipping_laws,
+)
 from system.effects.outside import outside
 from system.effects.state import warmed
 from system.pump.bench import NOTHING_OUTSIDE

@@ -11,8 +11,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 import skfem
-from hypothesis import given, settings
-from hypothesis import strategies as st
+from hypothesis import given, settings, strategies as st
 from scipy.spatial import Delaunay
 
 from reynolds import (

@@ -7,8 +7,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
-from hypothesis import strategies as st
+from hypothesis import given, settings, strategies as st
 
 from reynolds import ISO_GRADES, Barus, BulkModulus, Carreau, FilmInputError, Oil, RationalDensity, Roelands, walther
 from reynolds.laws.density import (

@@ -5,8 +5,7 @@ import pytest
 
 from gaps import DrivenBody, ball_forces, swept_acceleration
 from system import bore_axis, load_pump, operating_point, piston_area, plate_axes, rotor
-from system.pump.laws import friction_pairs as pairs
-from system.pump.laws import kinematics as kin
+from system.pump.laws import friction_pairs as pairs, kinematics as kin
 
 RATED_SPEED = 2100.0 * 2.0 * np.pi / 60.0
 ANGLES = np.linspace(0.0, 2.0 * np.pi, 721)

@@ -17,6 +17,7 @@ from reynolds import (
     Array,
     Asperities,
     Barus,
+    Body as SolidBody,
     Carreau,
     Cavitation,
     Cell,
@@ -47,7 +48,6 @@ from reynolds import (
     walther,
     winkler,
 )
-from reynolds import Body as SolidBody
 from reynolds.bodies.conduction import Convection, Thermal
 from reynolds.laws.contact import boundary_shear
 from reynolds.laws.viscosity import RoelandsIndex, barus
