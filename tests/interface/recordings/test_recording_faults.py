@@ -77,7 +77,7 @@ def _told(faults: list[Fault], path: str, found: str, expected: str) -> bool:
             "channel.T_case.sigma_relative", "0.1", "at most 0",
         ),
         (WHOLE.replace(STEADY, STEADY + 'repeats = "m"\n'), "steady.repeats", "'m'", "one of the columns"),
-        (HEAD + SERIES.replace('time = { column = "t", unit = "s" }\n', "") + CHANNELS, "series.time", "no such",
+        (HEAD + SERIES.replace('time = { column = "t", unit = "s" }\n', "") + CHANNELS, "series.time", "missing",
          "with column, unit"),
         (HEAD + SERIES.replace('"s"', '"rpm"') + CHANNELS, "series.time.unit", "rpm", "a time"),
         (HEAD + SERIES + "steady = { slope = 0 }\n" + CHANNELS, "series.steady.slope", "0", "more than 0"),
@@ -87,7 +87,7 @@ def _told(faults: list[Fault], path: str, found: str, expected: str) -> bool:
         (WHOLE + TRACES.replace('point = "k"\n', ""), "traces.point", "missing", "the name of a column"),
         (WHOLE + TRACES.replace("traces.csv", "none.csv"), "traces.file", "no file", "table"),
         (WHOLE + TRACES.replace(", sigma = 0.4", ""), "traces.p_chamber.sigma", "fewer than 3", "one sigma"),
-        (WHOLE + TRACES.replace('angle = { column = "angle", unit = "deg" }\n', ""), "traces.angle", "no such",
+        (WHOLE + TRACES.replace('angle = { column = "angle", unit = "deg" }\n', ""), "traces.angle", "missing",
          "with column, unit"),
     ],
 )  # fmt: skip

@@ -41,7 +41,7 @@ def test_every_effect_that_has_a_name_has_one_entry():
     )
     assert all(bool(entry.extensions) == (entry.verdict is Kind.MISSING_PHYSICS) for entry in CATALOGUE)
     assert entry_of(EffectId.CHURNING).extensions[0].parameters[0].name == "churning.factor"
-    with pytest.raises(ValueError, match="no catalogue"):
+    with pytest.raises(ValueError, match="not in the catalogue"):
         entry_of(EffectId.UNKNOWN_PHYSICS)
 
 
