@@ -5,8 +5,6 @@ continue it. Between learnt points runs a cubic radial basis interpolant with a 
 RBFInterpolator), in inputs scaled to the unit box. Its error is what the held-out points show, nothing else.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 from enum import Enum

@@ -1,7 +1,5 @@
 """Errors of the program: an input that cannot be used, and a solution that was not found."""
 
-from __future__ import annotations
-
 
 class InputError(ValueError):
     """An input that cannot be used: where, what was found, what was expected."""

@@ -4,8 +4,6 @@
 one pressure field with the evidence of its quality.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from enum import Enum

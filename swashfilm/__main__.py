@@ -1,7 +1,5 @@
 """Entry point of the command: threads, exit codes and error messages. Imports nothing heavy."""
 
-from __future__ import annotations
-
 import os
 import sys
 from collections.abc import Sequence

@@ -18,8 +18,6 @@ no work on it, so that moments count about it. The pressing forces are all force
 and slippers but those of film and kidneys, D'Alembert's included (`wrench_about`).
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from functools import lru_cache

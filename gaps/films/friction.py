@@ -4,8 +4,6 @@ A floating film keeps contact apart from its oil: asperities bear by the gap bet
 while the thickness of the oil stays positive (`reynolds.equation.rough_overlap`). Rubbing follows the same rule.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Quantities over one turn of the shaft, interpolated between known angles: the drive of a floating part."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property

@@ -12,8 +12,6 @@ The mesh spans what is engaged and stretches as the piston moves; wall velocitie
 elastic walls its rows are closer at both edges.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from functools import lru_cache

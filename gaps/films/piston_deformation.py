@@ -9,8 +9,6 @@ g the film's deformation by unit pressure in the chamber, s the chamber's growth
 both, the power of walls and chamber is the film's dissipation and the change of elastic energy, zero over a turn.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

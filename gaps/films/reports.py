@@ -1,7 +1,5 @@
 """Report of a floating film at one stage: flows, heat, friction, contact and limiting state of each gap."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from enum import Enum
 from typing import TypeVar

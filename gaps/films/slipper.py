@@ -9,8 +9,6 @@ rise along y), m, rises over the outer radius r2 of the last land:
 Boundaries: pocket, case, and groove_1, groove_2, .. between lands (`gaps.shapes.slipper_lands`).
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 

@@ -9,8 +9,6 @@ G are the known forces on either body. The slipper's motion in the plate fixes B
 fixes the rest of B; the lift of the slipper's film and the force L of the bore follow.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

@@ -4,8 +4,6 @@ Kidneys and webs at the chambers' pressure, spread evenly around; a logarithm ov
 delivery pressure, half at suction pressure; a cylindrical block, the spline in the plane of the ball centres.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import NamedTuple

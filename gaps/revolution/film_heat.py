@@ -7,8 +7,6 @@ its resistance. Rounds of motion with the viscosity so found, and of temperature
 rates and cavities of that motion, until viscosity stays.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from time import perf_counter

@@ -1,7 +1,5 @@
 """Temperatures of a gap over the turn: its oil's viscosity by place and shaft angle, and its heat flows."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass, field, replace
 
 import numpy as np

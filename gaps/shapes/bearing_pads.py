@@ -4,8 +4,6 @@ They are fixed to the plate while the block turns over them; a run of pads is al
 about pump angle 0.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterable
 from dataclasses import dataclass, replace
 

@@ -5,8 +5,6 @@ Power), straight between nodes in logarithms, so that either follows from the ot
 flow is laminar (Re grows with lambda^2), above the last one Cd stays.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

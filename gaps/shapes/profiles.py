@@ -5,8 +5,6 @@ radius on a face. `angle` (rad) goes round the part. Positive depths open the fi
 shape's depth or slope jumps it has a knee, at which a mesh does well to have a line; the rest of it is smooth.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from typing import NamedTuple, Protocol

@@ -4,8 +4,6 @@ A groove is closed, and takes the one pressure at which as much flows in as out,
 lies beyond the first vented groove seals nothing; it supports.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterable
 from dataclasses import dataclass, replace
 from itertools import pairwise

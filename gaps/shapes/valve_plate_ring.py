@@ -6,8 +6,6 @@ over a port are at its pressure and are no film; a port's edge is taken at the n
 bearing pads (`gaps.shapes.bearing_pads`) are cells of their own, fixed to the plate.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass, replace
 
 import numpy as np

@@ -3,8 +3,6 @@
 Thickness and viscosity are those under the film's pressure, so that flows are linear in the pressures.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import replace
 

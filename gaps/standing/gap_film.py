@@ -1,7 +1,5 @@
 """Film of a gap whose part stands still at one instant, at a given position or at rest: load borne, and report."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from functools import partial
 from typing import Generic

@@ -4,8 +4,6 @@ Heat crosses a film in less than a millisecond, so that films of a turn are warm
 so that each has one temperature, at which it conducts the heat of all films of the turn.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import replace
 

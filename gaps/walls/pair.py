@@ -1,7 +1,5 @@
 """Elastic walls of a gap, for any mesh of its film and any pose of its parts."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from functools import lru_cache

@@ -10,8 +10,6 @@ A part lies in its film's own axes: slipper and valve plate under the plane z = 
 body's finer dents have the size of its face's cells. `own` puts a user's mesh in place of any of them.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from pathlib import Path

@@ -10,8 +10,6 @@ are loaded too: bore and piston beyond it, and the piston's own chamber faces, b
 volume grows in turn.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path

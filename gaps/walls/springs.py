@@ -3,8 +3,6 @@
 The wall of closed laws for the flow of a deformed gap: bodies spread a load, springs do not.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass, field
 
 import numpy as np

@@ -4,8 +4,6 @@ In place of the body that `gaps.walls.parts` makes from the part's sizes, and in
 film, faces held or sliding, and faces that pressures beside the film press on, by the names of those pressures.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from pathlib import Path

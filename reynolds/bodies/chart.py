@@ -1,7 +1,5 @@
 """Charts of a film on its wall: from the film plane (x, y) to points and outward normals of the body."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from enum import Enum
 from typing import Protocol

@@ -7,8 +7,6 @@ Both are linear, so that their effect on the film is a `FaceResponse`: reference
 Transient heat is left out: a body's own time L^2 rho c/k is seconds to minutes, a revolution's milliseconds.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any

@@ -8,8 +8,6 @@ body's mean position is then the gap's own position, and compliance stays symmet
 Validity: small strain, one isotropic material, no vibration.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from typing import Any
 

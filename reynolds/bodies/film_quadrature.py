@@ -4,8 +4,6 @@ A film cell may lie across several facets of the body, whose shape functions hav
 the film's own would press the body in spots. Where facets are much smaller than cells, cells are split.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any

@@ -1,7 +1,5 @@
 """Elastic walls without a mesh of their own, and the sum of two walls."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

@@ -3,8 +3,6 @@
 Hexahedra whose edges are parabolas through the true arcs; face names are API.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from itertools import pairwise

@@ -1,7 +1,5 @@
 """Body meshes from files: any meshio format with hexahedra or tetrahedra and named faces."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 from pathlib import Path
 from typing import Any

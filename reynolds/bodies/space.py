@@ -5,8 +5,6 @@ The 20-node hexahedron is not used: on cells that are no parallelepipeds, as in 
 loses its order (Arnold, Boffi and Falk 2002) and has four times the error on a thin clamped disc (measured).
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from functools import cached_property
 

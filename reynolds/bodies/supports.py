@@ -1,7 +1,5 @@
 """Supports of a body, and the motions that they leave."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

@@ -12,8 +12,6 @@ Two meshes draw one circle by different polygons. A film point that lies beyond 
 than that takes the nearest point of the face: force and work stay the same, moments up to that distance.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from functools import cached_property
 

@@ -4,8 +4,6 @@ Signs: positive opens the film. Everything expensive is done once per body and f
 mesh may change freely after that.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from pathlib import Path

@@ -10,8 +10,6 @@ its order of accuracy, a cavity moves with the walls without overshoot, and colu
 round-off. At an edge without inflow D takes the edge's film fraction out of the balance beside it.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from functools import cached_property
 

@@ -3,8 +3,6 @@
 Values and, for Newton's method, their slopes by pressure and by film thickness, at the quadrature points.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import cached_property

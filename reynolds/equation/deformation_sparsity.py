@@ -1,7 +1,5 @@
 """The fixed sparsity patterns of a balance between elastic walls: made once for a mesh."""
 
-from __future__ import annotations
-
 from copy import copy
 from dataclasses import dataclass
 from functools import cached_property

@@ -9,8 +9,6 @@ In a uniform film K is then the exact integral for rectangles of sides up to 1 t
 sides keep t = 0, since there a linear pressure has a part of the mode. Mode: Flanagan and Belytschko 1981.
 """
 
-from __future__ import annotations
-
 import numpy as np
 from numpy.typing import NDArray
 

@@ -4,8 +4,6 @@ The gap between mean planes may have either sign where asperities are pressed to
 and is stored between the summits.
 """
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np

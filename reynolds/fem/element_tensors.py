@@ -4,8 +4,6 @@ Cells of one shape share their tensors, so that a regular mesh has a handful of 
 two cells are alike each has its own. Assembly is then field times tensor, summed into a fixed pattern.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass, replace
 
 import numpy as np

@@ -4,8 +4,6 @@ Boundary names are API. Built-in shapes: `rectangle` (left, right, bottom, top) 
 A mesh from a file keeps its own names; other edges are named by their place.
 """
 
-from __future__ import annotations
-
 import contextlib
 import io
 import struct

@@ -1,7 +1,5 @@
 """Checks of a film mesh from a file: all faults of its points and cells at once."""
 
-from __future__ import annotations
-
 import numpy as np
 from numpy.typing import NDArray
 

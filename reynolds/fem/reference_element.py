@@ -1,7 +1,5 @@
 """Basis, geometry and quadrature on the reference cell of a film's elements."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from functools import cached_property
 

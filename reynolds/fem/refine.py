@@ -1,7 +1,5 @@
 """A film mesh refined uniformly: every edge halved, names kept, data interpolated."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass, replace
 
 import numpy as np

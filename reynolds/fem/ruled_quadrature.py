@@ -1,7 +1,5 @@
 """Formulas on meshes whose quadrature points lie in rows and columns: a function of x alone costs one row."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property

@@ -1,7 +1,5 @@
 """The fixed sparsity pattern of one mesh: coupled unknowns and the indices of their entries."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from functools import cached_property
 

@@ -6,8 +6,6 @@ direction, so that int k grad p . grad f is the same on both. Equations and fiel
 Pa/m along it); coordinates x, y are those of the map. Source: do Carmo 1976, conformal maps.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

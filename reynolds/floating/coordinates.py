@@ -4,8 +4,6 @@ q_j in m, phi_j without unit (a tilt counts as the rise over a reference radius)
 Q_j = int (p - p_reference + p_contact) phi_j dA is in N and Q_j dq_j is work.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property

@@ -3,8 +3,6 @@
 The film's thickness is then a shape, to which h = shape + separation + slope_x x + slope_y y adds a rigid motion.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 

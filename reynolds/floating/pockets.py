@@ -4,8 +4,6 @@ A pocket's oil counts as the film's: where the pocket falls to cavitation pressu
 part that lifts off leaves a cavity behind where its supply does not follow.
 """
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np

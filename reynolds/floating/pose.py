@@ -1,7 +1,5 @@
 """A floating film at a position, before it is solved: its shape there, and its distance from touching."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass, replace
 
 import numpy as np

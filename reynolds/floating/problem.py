@@ -9,8 +9,6 @@ mostly with M = 0, and with the squeeze of the film in the oil that it stores. `
 step, `numerics.dirk` and `numerics.shooting` march with such steps.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 

@@ -4,8 +4,6 @@ Rest is found by implicit Euler with steps that grow. Long steps forget the way 
 found is stable and near the start; a motion without rest ends in an error with its cause.
 """
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np

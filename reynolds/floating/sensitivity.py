@@ -5,8 +5,6 @@ dh + d(held before)/step, one right-hand side for each change. Exact between rig
 out the change of a cavity's upwinding with the deformation (`balance.slopes`): some 1e-4 of dQ/dq.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Start of a march of a floating film: its oil at a position, and the change of the oil with the position."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np

@@ -1,7 +1,5 @@
 """One implicit step of a floating film: the position at which its forces balance, by Newton's method."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from functools import cached_property

@@ -1,7 +1,5 @@
 """A floating film tried at one position: its forces, which are to balance, and their exact slopes."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass, replace
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Contact of rough walls: Greenwood and Tripp by the exact integral, boundary friction, lambda ratio."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from functools import lru_cache
 

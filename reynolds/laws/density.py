@@ -4,8 +4,6 @@ A pressure law gives the density over that at zero gauge pressure, so that every
 equation counts mass at reference density and needs no more.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

@@ -5,8 +5,6 @@ mean speed of the walls, R the reduced radius along the motion and, other than i
 + (1 - nu2^2)/E2]. Validity: fully flooded, isothermal, Newtonian, elastic-piezoviscous; ellipticity 1 .. 8.
 """
 
-from __future__ import annotations
-
 import numpy as np
 from numpy.typing import ArrayLike
 

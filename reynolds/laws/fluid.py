@@ -1,7 +1,5 @@
 """Laws of the oil in pressure: viscosity and density, each with its slope for Newton's method."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import lru_cache

@@ -3,8 +3,6 @@
 The film solver is a Newton method, so that every law gives its derivative.
 """
 
-from __future__ import annotations
-
 from typing import NamedTuple
 
 import numpy as np

@@ -1,7 +1,5 @@
 """The oil: viscosity over temperature (Walther; ASTM D341) and the ISO viscosity grades (ISO 3448)."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

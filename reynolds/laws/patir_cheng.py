@@ -7,8 +7,6 @@ slope it has at the limit. That continuation is ours: smooth and positive for th
 measurement. FilmInputError for gamma outside 1/9 .. 9.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass
 

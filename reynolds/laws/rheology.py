@@ -5,8 +5,6 @@ Each is a published function of shear rate gamma (1/s, its magnitude counts) and
 share of mu0, so that it follows temperature and pressure.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

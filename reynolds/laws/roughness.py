@@ -10,8 +10,6 @@ Peklenik's number is counted along the principal direction of the roughness (x u
 down to h/sigma = 0.5 or 1 and are continued below (`patir_cheng`); `beyond_range` gives the share of a film there.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import NamedTuple

@@ -1,7 +1,5 @@
 """Viscosity over temperature (Walther, Vogel) and over pressure (Barus, Roelands), each with its slope."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

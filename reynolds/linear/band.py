@@ -6,8 +6,6 @@ side next to nothing. Film columns are symmetric and diagonally dominant, those 
 such a matrix needs no exchange of rows (Golub and Van Loan 2013, 3.4.10); where one does, the residual shows it.
 """
 
-from __future__ import annotations
-
 import numpy as np
 from numpy.typing import NDArray
 from scipy.sparse import csc_array, csr_array

@@ -5,8 +5,6 @@ curved and twice as long as necessary; from a whole line across the film it stay
 fronts go both ways round.
 """
 
-from __future__ import annotations
-
 import numpy as np
 from numpy.typing import NDArray
 from scipy.sparse import csr_array

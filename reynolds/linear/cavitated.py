@@ -7,8 +7,6 @@ the flow that a cavity returns to the film beyond its next unknown: 7 to 11 step
 7e2 to 6e4 unknowns; a long front where a film reforms takes 14 to 50, more on finer meshes.
 """
 
-from __future__ import annotations
-
 import numpy as np
 from numpy.typing import NDArray
 from scipy.sparse import csc_array

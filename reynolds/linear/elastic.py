@@ -8,8 +8,6 @@ GMRES takes 30 to 100 steps of .9 ms a load). Beyond, for more loads on one bala
 factor is made and kept: GMRES on J J_before^-1 takes a few steps.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass
 

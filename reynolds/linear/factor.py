@@ -6,8 +6,6 @@ about 1e5 unknowns; above, conjugate gradients with algebraic multigrid (Ruge-St
 since fill grows faster than the mesh. Where one stalls, the next one takes over.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from typing import Any
 

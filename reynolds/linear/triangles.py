@@ -1,7 +1,5 @@
 """Both triangles of a matrix of symmetric pattern by columns, from its upper triangle and the mirrored entries."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

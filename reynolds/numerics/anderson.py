@@ -1,7 +1,5 @@
 """Anderson's extrapolation of a fixed point x = g(x) (Anderson 1965, Walker and Ni 2011)."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from reynolds.numerics.arrays import Array

@@ -3,8 +3,6 @@
 Folder: the argument, else SWASHFILM_CACHE, else XDG_CACHE_HOME/swashfilm, else ~/.cache/swashfilm.
 """
 
-from __future__ import annotations
-
 import hashlib
 import logging
 import os

@@ -1,7 +1,5 @@
 """GMRES (Saad and Schultz 1986) for operators given by their action on a vector."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 
 import numpy as np

@@ -7,8 +7,6 @@ to Newton's step (1 - M')^-1 (M(q) - q), the whole way at once; near an unstable
 against the motion, it grows along the motion. The result is that of a march of many turns.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from typing import Generic, Protocol, TypeVar

@@ -1,7 +1,5 @@
 """Boundary conditions of a film problem at its unknowns, checked, and a first pressure for fed pockets."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass
 

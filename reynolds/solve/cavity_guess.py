@@ -5,8 +5,6 @@ to the mesh. Coarse problems are made of neighbouring unknowns (aggregation: Van
 mesh has them; each starts from the answer of the next coarser one (cascade: Bornemann and Deuflhard 1996).
 """
 
-from __future__ import annotations
-
 from copy import copy
 from dataclasses import dataclass
 

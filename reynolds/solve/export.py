@@ -1,7 +1,5 @@
 """Film fields for ParaView: VTU files of a plane or curved film, and PVD series over shaft angle or time."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterable, Mapping
 from pathlib import Path
 from xml.sax.saxutils import quoteattr

@@ -1,7 +1,5 @@
 """Iterates of the film solver: states, their balance, and steps between them."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Integrals of a film solution: load, moments, wall friction, dissipation, flows and their balances."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import dataclass
 

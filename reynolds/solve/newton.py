@@ -1,7 +1,5 @@
 """One step of Newton's method: the balance linearised for the change of every pressure or film fraction."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np

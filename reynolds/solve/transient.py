@@ -3,8 +3,6 @@
 Mass is conserved to round-off at every step, whatever its size; time enters to first order.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 from typing import Generic, Protocol, TypeVar

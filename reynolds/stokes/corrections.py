@@ -9,8 +9,6 @@ factor is inertia's at one Reynolds number Re = u h/nu. All are ratios: flows ar
 where the density is Re. dp is between static pressures: energy recovered in a wider film behind is a gain.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 

@@ -3,8 +3,6 @@
 rho (u . grad) u = div(2 mu sym grad u) - grad p + f,   div u = 0
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 

@@ -3,8 +3,6 @@
 Boundaries have names: "inlet" at the left, "outlet" at the right end, "axis" where y = 0 is one, "wall" elsewhere.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Results of a solved flow: flux, pressure at an end, and turning places of the flow along a wall."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

@@ -5,8 +5,6 @@ Navier-Stokes equations using the finite element technique", Computers and Fluid
 the distance r from it; integrals are per radian, with r as their weight, in place of per metre of width.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass
 from enum import Enum

@@ -7,8 +7,6 @@ round-off, without a further approximation. Each part of it, driven by pressure 
 by a wall, has its own shape across the film, of mean one, so that mass is conserved for any shapes.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

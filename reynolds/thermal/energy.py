@@ -17,8 +17,6 @@ balance closes to the error of the linear solve, and a uniform temperature stays
 the film equation, and rho c U h^2/(k L) of any size; density and c are constant here.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 

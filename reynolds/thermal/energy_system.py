@@ -4,8 +4,6 @@ Heat moves with the oil, so that block Gauss-Seidel in the order of the flow is 
 couplings: oil that circulates or flows back along a wall, and walls that conduct heat from place to place.
 """
 
-from __future__ import annotations
-
 import numpy as np
 from numpy.typing import NDArray
 

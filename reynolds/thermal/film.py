@@ -1,7 +1,5 @@
 """Film and temperature together, steady or in time; the oil may thin with shear too."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 from typing import cast

@@ -11,8 +11,6 @@ the moving one. With the fluidity 1/mu at the levels the generalised Reynolds eq
 so that viscosity = 1/(12 f2), couette_viscosity = 1/f0 and moving_share = int c = 1 - zbar of a `Film`.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass, replace
 from functools import lru_cache
 

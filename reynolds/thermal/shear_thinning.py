@@ -4,8 +4,6 @@ At each unknown the shear rate follows from the profile across the film, (mu_c (
 a vector in the film plane whose magnitude counts; viscosity then varies across the film, and along it.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from typing import cast
 

@@ -4,8 +4,6 @@ Heat flux q (W/m2) counts from the oil into the wall. The film is coupled to eac
 (W/(m2 K)), of the order of k/h.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Protocol

@@ -3,8 +3,6 @@
 argparse prints the help within 0.3 s; a command imports its own modules when it runs.
 """
 
-from __future__ import annotations
-
 import argparse
 from collections.abc import Sequence
 from typing import Any, NoReturn

@@ -1,7 +1,5 @@
 """Command `swashfilm check`: the content of a file with all defaults, or its faults, without a run."""
 
-from __future__ import annotations
-
 import argparse
 from collections.abc import Mapping
 from pathlib import Path

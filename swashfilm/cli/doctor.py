@@ -1,7 +1,5 @@
 """Command `swashfilm doctor`: examination of this machine."""
 
-from __future__ import annotations
-
 import argparse
 import sys
 

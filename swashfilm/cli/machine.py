@@ -1,7 +1,5 @@
 """Examination of this machine: interpreter, packages, caches, memory, graphics."""
 
-from __future__ import annotations
-
 import os
 import platform
 import re

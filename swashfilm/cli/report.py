@@ -1,7 +1,5 @@
 """Command `swashfilm report`: the page of a run folder, written again."""
 
-from __future__ import annotations
-
 import argparse
 import json
 from collections.abc import Callable

@@ -1,7 +1,5 @@
 """Command `swashfilm schema`: JSON Schema of a kind of file, for editors."""
 
-from __future__ import annotations
-
 import argparse
 import json
 from importlib import import_module

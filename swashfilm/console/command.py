@@ -1,7 +1,5 @@
 """Command of the program: its name, its options, and its function."""
 
-from __future__ import annotations
-
 import argparse
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass

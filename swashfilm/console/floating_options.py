@@ -1,7 +1,5 @@
 """Options of the command line for runs with floating gaps: steps, mesh and physics."""
 
-from __future__ import annotations
-
 import argparse
 from dataclasses import replace
 

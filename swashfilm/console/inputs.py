@@ -1,7 +1,5 @@
 """Inputs common to all commands: kind of file, text of the pump file."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """Levels of an input on the command line: `1000,1300,1700rpm`, `500..2500rpm:9`, or both in one list."""
 
-from __future__ import annotations
-
 import re
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Exit code of a run in points."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from typing import Any
 

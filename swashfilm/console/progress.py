@@ -1,7 +1,5 @@
 """Progress of a long computation: a bar with the remaining time on a terminal, plain lines in a log."""
 
-from __future__ import annotations
-
 import sys
 import time
 from collections.abc import Iterator

@@ -1,7 +1,5 @@
 """Convergence of a number over meshes: observed order, extrapolated value and error bar (Roache 1994)."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 from enum import Enum

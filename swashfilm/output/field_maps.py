@@ -1,7 +1,5 @@
 """Maps of a film's fields over its plane."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from typing import Any
 

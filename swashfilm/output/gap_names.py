@@ -1,7 +1,5 @@
 """Names of a gap's pictures, files and limits."""
 
-from __future__ import annotations
-
 FIELDS = "fields"
 
 

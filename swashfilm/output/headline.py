@@ -1,7 +1,5 @@
 """Headline numbers of a film's summary, each with its name and unit."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from typing import Any
 

@@ -4,8 +4,6 @@ VTK ends the whole process with a segmentation fault where the machine lacks gra
 only the picture is lost. The child runs this module as a program.
 """
 
-from __future__ import annotations
-
 import json
 import os
 import signal

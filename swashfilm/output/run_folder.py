@@ -3,8 +3,6 @@
 A run writes into `<folder>.partial`, which is renamed to `<folder>` when the run is complete.
 """
 
-from __future__ import annotations
-
 import json
 import os
 import re

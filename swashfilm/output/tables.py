@@ -1,7 +1,5 @@
 """Tables of text: title and rows, every number with its unit."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 
 Table = tuple[str, Sequence[Sequence[str]]]

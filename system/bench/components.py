@@ -1,7 +1,5 @@
 """Contribution of each part of a pump's balance to a bench's readings: possible places of a mismatch."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import replace
 

@@ -1,7 +1,5 @@
 """Flows and torque of a pump at the points of a bench map, before sensors read them."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

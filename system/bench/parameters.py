@@ -1,7 +1,5 @@
 """The uncertain parameters of a pump, and the pump that given values of them make."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import fields, replace
 from math import inf

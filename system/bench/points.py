@@ -1,7 +1,5 @@
 """The steady points of a test bench, as arrays: what a simulator of a whole map is asked for."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 from reynolds.numerics.arrays import Array

@@ -1,7 +1,5 @@
 """The ports of the valve plate at the points of a bench map: turned by a cross angle, worn at their grooves."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

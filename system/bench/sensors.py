@@ -1,7 +1,5 @@
 """Errors of sensors: gain, zero, drift and lag of outputs, zeros of inputs."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 from math import inf

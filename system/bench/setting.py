@@ -1,7 +1,5 @@
 """A pump at the points of a bench map with given values of its parameters: what all readings come from."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property

@@ -1,7 +1,5 @@
 """Values assumed where a pump file leaves a key out, each with its name and reason."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 from system.inputs.units import Dimension, format_quantity

@@ -4,8 +4,6 @@ A table that is left out is an effect that is off. Keys are the parameters of `s
 by the same names and within the same bounds.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass, fields
 from typing import Annotated
 

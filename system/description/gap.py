@@ -1,7 +1,5 @@
 """The three gaps of a pump, by name."""
 
-from __future__ import annotations
-
 from enum import Enum
 
 

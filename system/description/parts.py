@@ -3,8 +3,6 @@
 Every key may be left out; `system.films.parts` says what is then taken, and why.
 """
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 from enum import Enum

@@ -1,7 +1,5 @@
 """Tolerances of a pump that its file states."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from typing import Annotated
 

@@ -1,7 +1,5 @@
 """Tolerances of a pump before anything is measured: one sigma of each uncertain parameter."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass, fields
 
 from system.description.assumptions import Assumption

@@ -1,7 +1,5 @@
 """Effects applied to a pump, at N points of a bench map or at one: its stroke, its leakage, its ports."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 

@@ -1,7 +1,5 @@
 """The parts of a pump's balance that a mismatch can be laid at: leakage paths, friction pairs, sensors."""
 
-from __future__ import annotations
-
 from enum import Enum
 
 

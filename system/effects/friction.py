@@ -1,7 +1,5 @@
 """Friction of the seven pairs as effects change it."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 from reynolds.numerics.arrays import Array

@@ -1,7 +1,5 @@
 """The three gaps over the turn at points of a bench map, as inputs of the laws of effects."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from reynolds.numerics.arrays import Array

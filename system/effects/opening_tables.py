@@ -7,8 +7,6 @@ walls and other films too: at the pressure x p h0/h, x the share of the computed
 have the whole shape of the lands, unlike a closed form.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 

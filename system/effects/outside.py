@@ -1,7 +1,5 @@
 """Contributions of effects to a bench's readings that do not pass through the chambers."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from system.effects.effect import BenchState, Effects, Value

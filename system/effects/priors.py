@@ -1,7 +1,5 @@
 """Priors of extensions: range of the parameters of a law before any recording."""
 
-from __future__ import annotations
-
 from math import log
 
 from system.description.gap import Gap

@@ -1,7 +1,5 @@
 """Common inputs of several laws at a bench point: displaced and dead volume, orifices, warmer oil."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 
 import numpy as np

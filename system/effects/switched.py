@@ -1,7 +1,5 @@
 """The effects that a pump's description switches on, with the values it states."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Mapping, Sequence
 from functools import reduce
 

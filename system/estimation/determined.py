@@ -1,7 +1,5 @@
 """Combinations of parameters that the readings do not determine."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

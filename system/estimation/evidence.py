@@ -5,8 +5,6 @@ fit's slopes A, precision H = A^T A + 1 and residual r everything follows from g
 linear and Gaussian, exact where the readings are linear in the parameters. All evidences are natural logarithms.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 from enum import Enum

@@ -5,8 +5,6 @@ slopes still lead to the peak of the true objective. They are computed again at 
 little of its predicted reduction. A step that leaves the floor of a curved valley is curved back to it.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from math import inf

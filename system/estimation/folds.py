@@ -1,7 +1,5 @@
 """Points left out together: levels of a map's axis, and the predictions of a fit without them."""
 
-from __future__ import annotations
-
 import numpy as np
 from numpy.typing import NDArray
 

@@ -1,7 +1,5 @@
 """Evidence of a fit about its peak, with priors that end at bounds."""
 
-from __future__ import annotations
-
 import numpy as np
 from scipy.special import log_ndtr
 

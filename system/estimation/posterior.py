@@ -1,7 +1,5 @@
 """The posterior of the parameters about its peak."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass, replace
 from functools import cached_property
 from time import process_time

@@ -1,7 +1,5 @@
 """Readings that took no part in a fit, as the fit predicts them."""
 
-from __future__ import annotations
-
 import numpy as np
 from numpy.typing import NDArray
 from scipy.linalg import cho_factor, cho_solve

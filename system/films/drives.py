@@ -5,8 +5,6 @@ Every sampled shaft angle has the balance of forces of piston and slipper with t
 films comes from the revolutions before (`Rubbing`).
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 

@@ -4,8 +4,6 @@ Each part passes heat to its far side, which has the case's temperature: plates 
 out to the middle of the web, a piston along its axis to both ends.
 """
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

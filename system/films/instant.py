@@ -1,7 +1,5 @@
 """Leakage and shear of one gap's film at one instant, its parts at the positions of the pump file."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from typing import assert_never
 

@@ -3,8 +3,6 @@
 Every value taken is an `Assumption`, which a result names; nothing is assumed in silence.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass, replace

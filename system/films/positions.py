@@ -1,7 +1,5 @@
 """Positions of the parts by the pump file: eccentricity, film thicknesses, tilts; and the drives at one angle."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from reynolds.numerics.arrays import Array

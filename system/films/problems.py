@@ -1,7 +1,5 @@
 """The films of a pump's three gaps: its parts and their drives on meshes."""
 
-from __future__ import annotations
-
 from gaps.films.block import BlockDrive, BlockFilm
 from gaps.films.physics import Effect, Physics
 from gaps.films.piston import PistonDrive, PistonFilm

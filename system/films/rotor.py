@@ -1,7 +1,5 @@
 """A pump's rotating group at an operating point, and the ring that it turns on."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from functools import cached_property
 

@@ -1,7 +1,5 @@
 """Spins of piston and slipper about their own axes: stated, or free between ball joint and films."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 

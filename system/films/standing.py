@@ -1,7 +1,5 @@
 """Gaps with parts held across their films: mesh, solver, given position and report of each."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from functools import partial

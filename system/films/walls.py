@@ -1,7 +1,5 @@
 """The bodies of the parts that float, by their sizes: as far as the pump file has them, else by what is usual."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping
 from dataclasses import replace

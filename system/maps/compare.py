@@ -1,7 +1,5 @@
 """Comparison of two maps: over their common box, number by number, with the possible error of interpolation."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 

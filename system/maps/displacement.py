@@ -1,7 +1,5 @@
 """Derived displacement: the displacement at zero pressure difference from readings of flow (ISO 8426)."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass, replace
 from math import nan
 

@@ -1,7 +1,5 @@
 """A duty cycle by a map: energies over the time, each with the error that the map between its levels has."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import dataclass
 

@@ -1,7 +1,5 @@
 """A map between its levels: smooth along each axis, with an error that fresh points have shown."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property

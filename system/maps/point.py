@@ -1,7 +1,5 @@
 """One point of an operating map: its solver, the key of its content, and the numbers that are kept of it."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import astuple, dataclass, replace
 from enum import Enum

@@ -1,7 +1,5 @@
 """Assumptions of a pump: every value that its file leaves out."""
 
-from __future__ import annotations
-
 from gaps.films.physics import Physics
 from system.description.assumptions import Assumption, Taken
 from system.description.pump import PumpDescription

@@ -5,8 +5,6 @@ plate, valve plate, bearings and drive. Joints within it cancel if each acts on 
 sums do not contain them.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

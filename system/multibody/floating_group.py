@@ -1,7 +1,5 @@
 """Forces between all parts where the gaps float: friction and pressure are those of the solved films."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from reynolds.numerics.arrays import Array

@@ -12,8 +12,6 @@ L acts at two places, the case edge of the guiding land and its inner end, by th
 plate's moment balances the moments on the slipper about the ball.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

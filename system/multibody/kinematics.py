@@ -4,8 +4,6 @@ Frame and definitions as in `plate_kernels`; exact for a cone, a cross angle and
 fixed plate whose tilt axis meets the shaft these are Eqs. (6)-(8), `system.pump.laws.kinematics`.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Places of the joints of the rotating group: from the pump file, or assumed and listed."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 from system.description.assumptions import Assumption, Taken

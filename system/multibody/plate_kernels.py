@@ -11,8 +11,6 @@ Numbers and arrays are accepted.
 
 # mypy: allow-untyped-defs, allow-incomplete-defs, no-check-untyped-defs
 
-from __future__ import annotations
-
 import numba
 import numpy as np
 

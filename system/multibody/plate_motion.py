@@ -5,8 +5,6 @@ the shaft by a pin at `arm` from the tilt axis: its displacement is arm (sin g -
 sin g) where its pressure strokes the plate down; the spring acts against it.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

@@ -12,8 +12,6 @@ the smallest in the sense of least squares are used: those of equal springs at t
 part that balances the moment.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

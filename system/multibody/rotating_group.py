@@ -7,8 +7,6 @@ ball guide (`retainer_body`), block, shaft and swash plate (`shaft_body`). Pump 
 differ have each its own pressure and masses, and the mean friction of all.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 

@@ -6,8 +6,6 @@ shaft and about both axes across, the spline sideways and about the shaft. On a 
 sideways force is the plate's; here the spline takes all of it. The ball guide moves freely along the shaft.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Bench readings at the paper's test plan, made from solved points, and Eq. (21) of the same points."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 
 import numpy as np

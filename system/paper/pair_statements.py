@@ -1,7 +1,5 @@
 """Statements of the paper's text on its friction pairs and their motion; the others are in `statements`."""
 
-from __future__ import annotations
-
 from math import inf
 
 from system.paper.figure import Figure

@@ -1,7 +1,5 @@
 """Operating points of the figures of Xu, Hu, Zhang and Mao (2017), solved once by a fidelity and read two ways."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass, replace
 from enum import Enum

@@ -1,7 +1,5 @@
 """All figures of Xu, Hu, Zhang and Mao (2017) by one call."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from enum import Enum

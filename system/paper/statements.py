@@ -1,7 +1,5 @@
 """Statements of the paper's text on its figures, one by one."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from math import inf
 

@@ -1,7 +1,5 @@
 """Effects of [physics] at one operating point, chambers and losses of which are those of any fidelity."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 
 import numpy as np

@@ -8,8 +8,6 @@
 All other effects remain the closed laws of the lumped fidelity.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace

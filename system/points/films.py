@@ -5,8 +5,6 @@ of the whole revolution repeats. Coulomb losses are those of the lumped fidelity
 Films solve some effects of [physics] themselves (`film_effects`); the others act as at the lumped fidelity.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 

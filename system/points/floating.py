@@ -6,8 +6,6 @@ Friction of the three gaps is shear of their films and contact of their asperiti
 ball joint rubs by its forces and spins; the other pairs are the lumped fidelity's.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from contextlib import nullcontext
 from dataclasses import dataclass, replace

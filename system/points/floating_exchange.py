@@ -4,8 +4,6 @@ Arrays over n equidistant angles of a chamber from 0, those of the gaps' reporte
 pitch is known where chambers are equal; then it repeats.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 

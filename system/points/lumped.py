@@ -1,7 +1,5 @@
 """One operating point at the lumped fidelity, with the effects that the pump's [physics] switches on."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 
 import numpy as np

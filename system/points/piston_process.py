@@ -4,8 +4,6 @@ The piston takes about as long as the other two together. Its process keeps the 
 only drives and reports are exchanged.
 """
 
-from __future__ import annotations
-
 import multiprocessing
 import signal
 from collections.abc import Iterator

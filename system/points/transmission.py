@@ -1,7 +1,5 @@
 """A hydrostatic transmission: a pump drives a motor round a closed circuit, both in the lumped fidelity."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass, replace
 
 from system.description.pump import PumpDescription

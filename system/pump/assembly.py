@@ -1,7 +1,5 @@
 """From one chamber's cycle and the pair losses to the pump: flows, torque, powers. The same for every fidelity."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from enum import Enum

@@ -2,8 +2,6 @@
 
 Eqs. (1)-(5) of Xu, Hu, Zhang and Mao (2017), ISO 4391/4409, and an energy-exact split."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from typing import Generic
 

@@ -5,8 +5,6 @@ and torques of chambers add. Chambers with the same parts are of one kind; where
 for all. Results by chamber come as a tuple: of one where all are alike, else of z, chamber 1 first.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TypeVar

@@ -1,7 +1,5 @@
 """Films of given thickness where [physics] changes the thickness itself: as it warms, or before pressure acts."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import replace
 from typing import Any

@@ -4,8 +4,6 @@ Pockets, kidneys, grooves and the case are deep beside films: of steps the deepe
 grooves those of the deepest film ratio, at their own width. Films count as thick as film_thickness says.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from functools import lru_cache
 from itertools import pairwise

@@ -1,7 +1,5 @@
 """The lumped fidelity: films of given thickness, leakage by Eqs. (15)-(17), REF90's nominal losses."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from typing import Generic, Protocol
 

@@ -1,7 +1,5 @@
 """The operating point: what is asked of the pump, and the viscosity its oil then has."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass, replace
 from typing import Any, Generic, TypeVar, cast
 

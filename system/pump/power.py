@@ -1,7 +1,5 @@
 """Power balance of the shaft: each sink computed on its own."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass, replace
 from typing import Generic
 

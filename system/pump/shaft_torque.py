@@ -11,8 +11,6 @@ No power, work or flow enters: against the sum of all sinks this is a check of t
 Leaving out the slipper's moments of inertia and the growth of its film, as `gaps.loads.ball_joint` does.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 

@@ -3,8 +3,6 @@
 Each mesh is compared with the place of its film in the part's own axes: a cylinder about z, or rings in z = 0.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator
 from dataclasses import dataclass, replace

@@ -5,8 +5,6 @@ could be read, however much else is wrong. `system.pump_file.geometry`, `system.
 `system.pump_file.operating` hold them.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Collection, Iterable, Iterator
 from dataclasses import dataclass
 

@@ -1,7 +1,5 @@
 """Pump files: TOML with units to a PumpDescription and back; every fault of a file at once."""
 
-from __future__ import annotations
-
 import json
 from collections.abc import Mapping
 from dataclasses import asdict

@@ -1,7 +1,5 @@
 """Checks of the films at their given positions: are they films, thin against their lands and open everywhere?"""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator
 

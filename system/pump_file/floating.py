@@ -1,7 +1,5 @@
 """Checks of a pump whose gaps are to float: can its parts find a film at all? Warnings: a run will show it."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator
 

@@ -1,7 +1,5 @@
 """Checks of the geometry: does the pump described fit together?"""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator
 from itertools import pairwise

@@ -1,7 +1,5 @@
 """Checks of the files by which lands and bores lose: do they hold for this pump?"""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator, Sequence
 from itertools import pairwise

@@ -1,7 +1,5 @@
 """Checks of the operating point: can the pump be run there, and is it within its rating and its model?"""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator
 from dataclasses import replace

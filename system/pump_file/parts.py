@@ -1,7 +1,5 @@
 """Checks of the parts' own shapes and holds, where a pump file states them, and of single parts."""
 
-from __future__ import annotations
-
 import math
 from collections import Counter
 from collections.abc import Iterable, Iterator

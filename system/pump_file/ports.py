@@ -1,7 +1,5 @@
 """Checks of the valve plate's ports: do kidneys and relief grooves open and shut one after the other?"""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable, Iterator
 from dataclasses import replace

@@ -1,7 +1,5 @@
 """JSON Schema of a pump file."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from typing import Any
 

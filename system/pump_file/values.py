@@ -1,7 +1,5 @@
 """Checks of values that can be read but that no part has: masses beyond solid steel, friction beyond dry steel."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator
 from dataclasses import fields

@@ -1,7 +1,5 @@
 """Results of parts kept in a folder, one file per part, named by content, so that no part is solved twice."""
 
-from __future__ import annotations
-
 import json
 import logging
 import os

@@ -1,7 +1,5 @@
 """Means of equal dataclasses."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import fields, is_dataclass, replace
 from functools import cache

@@ -1,7 +1,5 @@
 """Progress callback of a long computation."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 
 Report = Callable[[int, int, str], None]

@@ -1,7 +1,5 @@
 """Points from which a response is learnt: solved once each, kept by content, in parallel processes on request."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path

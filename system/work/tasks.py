@@ -1,7 +1,5 @@
 """Work in parts whose results are kept: the name of a part, and its outcome."""
 
-from __future__ import annotations
-
 import json
 import os
 import platform

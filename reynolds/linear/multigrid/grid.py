@@ -3,8 +3,6 @@
 Coordinates are not used: a ring, a stretched or a moved rectangle and one with sewn seams are all grids.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

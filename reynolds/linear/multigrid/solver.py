@@ -8,8 +8,6 @@ conjugate gradients. All of it is in single precision, unless a film jumps beyon
 asks for double; the residual and the steps are in double.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from enum import Enum
 from math import log10

@@ -1,7 +1,5 @@
 """The run folder of a calibration: tables that programs and the page read."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Any

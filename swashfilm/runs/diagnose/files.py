@@ -1,7 +1,5 @@
 """Files of a diagnosis in its run folder, for programs and for the page."""
 
-from __future__ import annotations
-
 import csv
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from pathlib import Path

@@ -1,7 +1,5 @@
 """The run folder of a diagnosis, from a finding."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 from diagnosis.finding import DiagnosisResult

@@ -1,7 +1,5 @@
 """Mesh convergence of a film: the same case on meshes each twice finer, and the limits of its numbers."""
 
-from __future__ import annotations
-
 import csv
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass

@@ -1,7 +1,5 @@
 """Duty cycle of a CSV file: time and operating point of the pump, one column each, units in the head."""
 
-from __future__ import annotations
-
 import csv
 import math
 import re

@@ -1,7 +1,5 @@
 """Command `swashfilm duty`: its options, its faults, its output."""
 
-from __future__ import annotations
-
 import argparse
 from pathlib import Path
 

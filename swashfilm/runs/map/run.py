@@ -1,7 +1,5 @@
 """Run of an operating map: points solved and stored one by one, then tables, pictures and page."""
 
-from __future__ import annotations
-
 import math
 import time
 from collections.abc import Mapping

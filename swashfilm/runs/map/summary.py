@@ -1,7 +1,5 @@
 """Summary of an operating map, summary.json: plan, solved points, best points, displacement, errors."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Mapping
 from typing import Any
 

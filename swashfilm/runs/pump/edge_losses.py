@@ -1,7 +1,5 @@
 """Files of edge losses of lands and bores in a run: source, range, and warnings beyond the range."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any

@@ -1,7 +1,5 @@
 """Films of a pump for ParaView: surfaces in their position in the pump, series over the shaft angle."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Floating gaps of a run: fields, summary, part of the page."""
 
-from __future__ import annotations
-
 import csv
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass

@@ -1,7 +1,5 @@
 """Files of flow coefficients in a run: source, range, and warnings beyond the range."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

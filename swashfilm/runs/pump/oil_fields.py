@@ -1,7 +1,5 @@
 """State of the oil in a pump's films: viscosity and the equivalent temperature, where they vary."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Page of an operating point: self-contained report.html from the files of the run folder."""
 
-from __future__ import annotations
-
 import json
 from collections.abc import Mapping
 from pathlib import Path

@@ -1,7 +1,5 @@
 """Summary of an operating point, summary.json: headline numbers in SI with units in the keys, and checks."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import asdict, fields
 from typing import Any

@@ -1,7 +1,5 @@
 """Validity of the films of an operating point: warnings, each with its number, limit and remedy."""
 
-from __future__ import annotations
-
 from swashfilm.output.gap_names import LARGEST_RIGID_PRESSURE
 from swashfilm.runs.pump.data import gap_films
 from swashfilm.runs.pump.summary import gap_statement

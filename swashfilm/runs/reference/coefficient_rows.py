@@ -1,7 +1,5 @@
 """Rows of coefficient files from computed flows, each below a comment with its case."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from pathlib import Path
 

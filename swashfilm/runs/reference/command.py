@@ -1,7 +1,5 @@
 """Command `swashfilm reference`: its options, its output."""
 
-from __future__ import annotations
-
 import argparse
 from pathlib import Path
 

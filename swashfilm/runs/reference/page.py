@@ -1,7 +1,5 @@
 """Page of `swashfilm reference`: report.html from the files of the run folder."""
 
-from __future__ import annotations
-
 import json
 from collections.abc import Iterator, Mapping
 from pathlib import Path

@@ -1,7 +1,5 @@
 """Run of `swashfilm reference`: flows solved, coefficients written with their range of validity."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Sequence
 from importlib.metadata import version
 from pathlib import Path

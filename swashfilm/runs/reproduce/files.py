@@ -1,7 +1,5 @@
 """Files of a reproduction: claims as JSON and table, numbers of the curves, and pictures."""
 
-from __future__ import annotations
-
 import csv
 from collections.abc import Iterator, Sequence
 from math import isfinite

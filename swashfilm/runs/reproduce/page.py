@@ -1,7 +1,5 @@
 """Pages of a reproduction from the files of its run folder: report.html, and the same in Markdown."""
 
-from __future__ import annotations
-
 import json
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence

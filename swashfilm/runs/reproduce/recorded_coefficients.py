@@ -1,7 +1,5 @@
 """Fig. 13 of the paper by a recording: coefficients fitted to readings of a bench."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 from diagnosis.calibration import calibrate

@@ -1,7 +1,5 @@
 """Run of the paper's figures: computed, judged and written to a run folder."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path

@@ -1,7 +1,5 @@
 """Case of a gap with a table [table]: ranges of its keys for the response table."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path

@@ -1,7 +1,5 @@
 """Response table of one gap: its numbers over ranges of keys of its case; built, stored and evaluated."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from importlib.metadata import version

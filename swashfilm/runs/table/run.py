@@ -1,7 +1,5 @@
 """Run of a response table: built or completed, and written to a run folder with its error."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any

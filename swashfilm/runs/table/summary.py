@@ -1,7 +1,5 @@
 """Summary of a pump's point by a response table: its origin, the films of the gaps, and its error."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Mapping
 from dataclasses import asdict
 from pathlib import Path

@@ -1,7 +1,5 @@
 """Transient case of a TOML file: pump, control pressure over time, and duration, validated."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path

@@ -1,7 +1,5 @@
 """Command `swashfilm transient`: displacement in time."""
 
-from __future__ import annotations
-
 import argparse
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """A transient of displacement, from case to result."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 from swashfilm.output.run_folder import write_json

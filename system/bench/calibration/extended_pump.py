@@ -1,7 +1,5 @@
 """Pump with the parameters of a fit, its effects switched on; [tolerance] from the fit of a calibration."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from dataclasses import fields, replace
 from typing import Any

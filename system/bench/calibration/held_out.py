@@ -1,7 +1,5 @@
 """Calibration: prediction of held-out levels by a fitted pump and by the loss models of the literature."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from enum import Enum

@@ -1,7 +1,5 @@
 """Friction of the films over their Hersey number, as a fit has it."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 

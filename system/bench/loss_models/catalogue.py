@@ -1,7 +1,5 @@
 """The loss models by name, as readings ask for them."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 
 from system.bench.loss_models.mccandlish_dorey import MCCANDLISH_DOREY

@@ -1,7 +1,5 @@
 """A loss model: terms of a flow and of a torque loss, each a coefficient times a column over the points."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from enum import Enum

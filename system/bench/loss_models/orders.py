@@ -1,7 +1,5 @@
 """Orders of a polynomial by cross-validation: those that predict levels left out the best."""
 
-from __future__ import annotations
-
 from dataclasses import astuple
 from itertools import product
 

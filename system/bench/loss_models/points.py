@@ -1,7 +1,5 @@
 """Variables of loss models: speed, pressure difference, displacement ratio and the oil, scaled by the pump."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

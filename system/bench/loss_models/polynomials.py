@@ -4,8 +4,6 @@ Written in shifted Legendre polynomials of w/w_rated, dp/p_rated and eps, which 
 do and lose no digits.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass
 from itertools import product

@@ -1,7 +1,5 @@
 """The catalogue: every effect that can be named, without unknown physics."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 from system.description.gap import Gap

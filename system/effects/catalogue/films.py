@@ -1,7 +1,5 @@
 """The catalogue of effects in films: oil under pressure, heat and shear; faces that touch or separate."""
 
-from __future__ import annotations
-
 from system.description.gap import Gap
 from system.effects.components import Component
 from system.effects.effect import EffectId, Kind

@@ -1,7 +1,5 @@
 """The catalogue of effects outside the films: filling, drag, other paths, ports, swash plate."""
 
-from __future__ import annotations
-
 from system.effects.components import Component
 from system.effects.effect import EffectId, Kind
 from system.effects.extension import THEORY, Entry, Extension, Law, Values

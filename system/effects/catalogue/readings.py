@@ -1,7 +1,5 @@
 """The catalogue of causes that are no missing physics: faulty meters, parameters with wrong stated values."""
 
-from __future__ import annotations
-
 from system.effects.catalogue.films import FILM_CHANNELS, FRICTION, LEAKAGE
 from system.effects.components import Component
 from system.effects.effect import EffectId, Kind

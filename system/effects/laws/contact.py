@@ -1,7 +1,5 @@
 """Laws of faces that touch: friction of boundary layers where films no longer part them."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import replace
 

@@ -1,7 +1,5 @@
 """Laws of drag on the shaft outside the seven pairs: oil in the case, seal, charge pump, ports."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import replace
 

@@ -1,7 +1,5 @@
 """Laws of the films: viscosity over pressure, temperature and shear rate; walls that deform or expand."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 

@@ -1,7 +1,5 @@
 """Laws of oil that goes another way: past the chambers, into the case, or not into the chamber at all."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import replace
 

@@ -1,7 +1,5 @@
 """Laws of the swash plate and the ports: a plate that deflects, grooves that wear, a line that resonates."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import replace
 

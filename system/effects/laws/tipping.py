@@ -1,7 +1,5 @@
 """Laws of parts that lose their seat: slippers that lift off the plate, a block that tips on its valve plate."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import replace
 

@@ -13,8 +13,6 @@ moment presses the plate on one, it rests, and the moment on the stop is reporte
 
 # mypy: allow-untyped-defs, allow-incomplete-defs, no-check-untyped-defs
 
-from __future__ import annotations
-
 import numba
 import numpy as np
 

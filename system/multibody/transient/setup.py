@@ -1,7 +1,5 @@
 """Initial data of a compiled transient: its constants, and oil at rest in chambers and actuator."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np

@@ -1,7 +1,5 @@
 """A pump in time while its swash plate swings: a control pressure that steps or ramps, at the lumped fidelity."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass, field, replace
 from enum import Enum
 

@@ -6,8 +6,6 @@ over the chambers; X the ball's place, A its acceleration, q_drag the drag flow 
 Losses are those of `system.pump.lumped` at each instant's tilt, sliding and pressure.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 
 import numpy as np

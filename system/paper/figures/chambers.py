@@ -1,7 +1,5 @@
 """Figs. 10 and 11: areas of the ports over a turn, and the chamber pressure that they make."""
 
-from __future__ import annotations
-
 from math import pi
 
 import numpy as np

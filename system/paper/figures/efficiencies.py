@@ -1,7 +1,5 @@
 """Figs. 2 and 3: efficiency and losses as a bench reads them."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from dataclasses import replace
 from math import radians

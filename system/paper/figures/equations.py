@@ -1,7 +1,5 @@
 """Equations that print otherwise than they can be: printed over true, and why no pump could meet them."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Fig. 8 by films solved at given positions, and how a film is drawn."""
 
-from __future__ import annotations
-
 from math import pi
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Figs. 8 and 9 by gaps that float: piston and slipper, each alone under the pressure of the lumped chamber."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from math import inf

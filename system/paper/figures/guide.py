@@ -1,7 +1,5 @@
 """Figs. 15 and 19: ball guide and retainer, by the paper's equations and by rigid bodies."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from reynolds.numerics.arrays import Array

@@ -1,7 +1,5 @@
 """Figs. 16 to 18 and 20 to 22: losses of the seven pairs, and their shares."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Sequence
 
 import numpy as np

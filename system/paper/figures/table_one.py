@@ -1,7 +1,5 @@
 """Table 1: the simulated pump against the values in the paper's text."""
 
-from __future__ import annotations
-
 from system.paper.figure import Figure
 from system.paper.judge import FigureResult, Range, judge
 from system.paper.points import FULL, PRESSURES, RATED, LossReading, PaperPoints

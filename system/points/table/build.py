@@ -1,7 +1,5 @@
 """Building a pump's response table: its box of operating points, and the response learnt from the solved ones."""
 
-from __future__ import annotations
-
 from collections.abc import Collection, Sequence
 from dataclasses import dataclass, replace
 from importlib.metadata import version

@@ -4,8 +4,6 @@ The lumped law contains pressure, speed and viscosity already; the ratio is of o
 taken at the solved point's own chamber pressure, so that they describe the gap alone.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

@@ -1,7 +1,5 @@
 """The table fidelity: the lumped kernel with film physics inside, by the ratios of a response table."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 

@@ -5,8 +5,6 @@ angle, which is the law's, and its chamber pressure. So held-out points are run 
 numbers compared with those solved.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import dataclass
 

@@ -4,8 +4,6 @@ A table belongs to a pump as it is, its inlet and case pressure included, at any
 displacement ratio and viscosity in its box. Ports' lines belong to the run: points are solved at held pressures.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import dataclass
 

@@ -1,7 +1,5 @@
 """Sources of the points of a response table: a fidelity that solves the films, by one call."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from enum import Enum

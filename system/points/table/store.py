@@ -1,7 +1,5 @@
 """Response tables on disk: kept in one folder, found by the content of their pump."""
 
-from __future__ import annotations
-
 import json
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import asdict, replace

@@ -8,8 +8,6 @@ chamber. The gaps' leakage is q(phi, p) = G(phi) (p - p_case) + C(phi) from a ta
 grow besides by what the parts themselves move, and the pressures behind the ports may vary over the turn.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from typing import Any
 

@@ -9,8 +9,6 @@ ACM Transactions on Mathematical Software 20, p. 496: from how the error has gro
 
 # mypy: allow-untyped-defs, allow-incomplete-defs, no-check-untyped-defs
 
-from __future__ import annotations
-
 import numba
 import numpy as np
 

@@ -3,8 +3,6 @@
 The column of a quantity of several paths, ports or gaps is that of the first; the others follow in their order.
 """
 
-from __future__ import annotations
-
 PATHS = 5
 """Number of paths out of the chamber."""
 DELIVERY, SUCTION, PISTON, SLIPPER, VALVE_PLATE = range(PATHS)

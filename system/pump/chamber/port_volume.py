@@ -8,8 +8,6 @@ integrated once, so that the oil which came in by any shaft angle is what the ch
 between the angles included. M equidistant times in a period, from shaft angle 0; integrals by Fourier transform.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from typing import assert_never
 

@@ -1,7 +1,5 @@
 """One displacement chamber at an operating point: geometry, oil, ports, leaking gaps."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from typing import Generic
 

@@ -12,8 +12,6 @@ TABLE, 4) has the gaps' conductances and drag flows and the growth of the volume
 
 # mypy: allow-untyped-defs, allow-incomplete-defs, no-check-untyped-defs
 
-from __future__ import annotations
-
 import numba
 import numpy as np
 

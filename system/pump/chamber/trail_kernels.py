@@ -7,8 +7,6 @@ cancel (internal numerical differentiation; Bock 1981, Springer Series in Chemic
 
 # mypy: allow-untyped-defs, allow-incomplete-defs, no-check-untyped-defs
 
-from __future__ import annotations
-
 import numba
 import numpy as np
 

@@ -1,7 +1,5 @@
 """Integrals over one turn of a chamber by name: mass out by each path, work, energy left in the paths."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from typing import Any, Generic
 

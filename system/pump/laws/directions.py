@@ -3,8 +3,6 @@
 Pump frame: z along the shaft from valve plate to swash plate, x to the inner dead centre.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from reynolds.numerics.arrays import Array

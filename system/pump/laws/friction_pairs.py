@@ -4,8 +4,6 @@ Every loss is Coulomb friction, f x normal force x sliding speed, plus the shear
 thickness. All functions work on arrays over shaft angle; forces in N, speeds in m/s, losses in W.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 from enum import Enum

@@ -5,8 +5,6 @@ scale R tan(gamma)/cos(beta) in place of the paper's (R/sin(beta)) t, t = tan(be
 and finite for a cylindrical block (beta = 0). All are valid for t < 1 (the swash plane cuts every bore axis).
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from typing import Generic
 

@@ -6,8 +6,6 @@ Each law is a conductance in m3/(s Pa): leakage flow = conductance x (chamber pr
 piston adds the oil that its moving wall carries along.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from reynolds.numerics.arrays import Array

@@ -5,8 +5,6 @@ touch on a circle of latitude of the ball. Coordinates: x along the shaft, origi
 angle round the retainer's own axis, zero in the plane of the largest tilt.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from enum import Enum
 

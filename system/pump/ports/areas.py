@@ -5,8 +5,6 @@ kidney opens linearly, stays open and closes linearly, and grooves behind it shu
 suction port counts its angles from the inner dead centre (shaft angle 0), the delivery port from the outer (pi).
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numba

@@ -1,7 +1,5 @@
 """Relief grooves of the pump description: their law, and what is wrong with those that are stated."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator
 from typing import assert_never

@@ -6,8 +6,6 @@ the plain law, whatever the drop. Beyond the file's openings its edges hold; bel
 laminar (Cd grows with lambda), above its largest Cd stays.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from functools import lru_cache
 

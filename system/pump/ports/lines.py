@@ -4,8 +4,6 @@ A line's flow is counted out of the port, m3/s of oil at the port's pressure; a 
 volume belongs to the port: pipe and passages up to where the orifice sits or the impedance was measured.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

@@ -5,8 +5,6 @@ kidney or, shutting last, behind it. Its throat is the section under the kidney'
 narrowest that the oil passes.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numba

@@ -1,7 +1,5 @@
 """Ports whose grooves and kidneys are not as drawn: how they are cut, and how they wear."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass, replace
 from typing import Generic
 

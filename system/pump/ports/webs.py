@@ -1,7 +1,5 @@
 """Webs that part a port of the valve plate into several kidneys: what they cover of the block kidney over them."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numba

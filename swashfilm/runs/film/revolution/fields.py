@@ -1,7 +1,5 @@
 """Kept films of a turn for ParaView: surfaces in their position in the pump, a series over the shaft angle."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Page of a gap over the turn: report.html from the files of the run folder."""
 
-from __future__ import annotations
-
 import csv
 import json
 from collections.abc import Iterator, Mapping

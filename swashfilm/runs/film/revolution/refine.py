@@ -1,7 +1,5 @@
 """Mesh convergence of a gap over the turn: the same turn on meshes each twice finer."""
 
-from __future__ import annotations
-
 from swashfilm.case.gap.revolution import RevolutionCase
 from swashfilm.output.convergence import convergence
 from swashfilm.runs.film.refine import Refinement

@@ -1,7 +1,5 @@
 """Run of one gap over the turn: solved, and written to a run folder as tables, fields and a page."""
 
-from __future__ import annotations
-
 from pathlib import Path
 from typing import Any
 

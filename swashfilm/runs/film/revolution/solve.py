@@ -1,7 +1,5 @@
 """Solution of one gap over the turn: its films and headline numbers."""
 
-from __future__ import annotations
-
 import time
 from dataclasses import dataclass, field
 from typing import Any

@@ -1,7 +1,5 @@
 """Validity of a gap over the turn: warnings, each with its number, limit and remedy."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from typing import Any
 

@@ -1,7 +1,5 @@
 """Run folder of a study: its run, tables, plots and page."""
 
-from __future__ import annotations
-
 import json
 from collections.abc import Iterator, Mapping
 from pathlib import Path

@@ -1,7 +1,5 @@
 """Points of a study: each a separate film, stored when it is solved, with the reason of a failure."""
 
-from __future__ import annotations
-
 import hashlib
 from collections.abc import Mapping
 from dataclasses import dataclass

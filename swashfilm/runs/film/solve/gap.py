@@ -1,7 +1,5 @@
 """Solution of a pump gap's film at one instant: at a given position or at equilibrium."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from enum import Enum

@@ -1,7 +1,5 @@
 """Solution of a film case."""
 
-from __future__ import annotations
-
 import time
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
