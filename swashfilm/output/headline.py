@@ -56,8 +56,12 @@ def named(key: str) -> tuple[str, str]:
 def titled(key: str) -> str:
     """Return the title of a column or an axis, such as `load / N`."""
     words, unit = named(key)
-    shown = f"({unit})" if any(sign in unit for sign in " /") else unit
-    return f"{words} / {shown}" if unit else words
+    return f"{words} / {bracketed(unit)}" if unit else words
+
+
+def bracketed(unit: str) -> str:
+    """Return the unit as it stands behind a stroke: in brackets where it has a blank or a stroke itself."""
+    return f"({unit})" if any(sign in unit for sign in " /") else unit
 
 
 def sizes(numbers: Mapping[str, float], least: Mapping[str, float]) -> dict[str, float]:

@@ -25,6 +25,12 @@ def expect_files(folder: Path, names: Sequence[str], whose: str) -> None:
         raise InputFaults(str(folder), [Fault(name, "no such file", whose) for name in missing])
 
 
+def read_summary(folder: Path, needed: Sequence[str] = (), whose: str = "") -> dict[str, Any]:
+    """Return the content of a run folder's summary.json; raise as `expect_files` where a file of `needed` lacks."""
+    expect_files(folder, needed, whose)
+    return json.loads((folder / "summary.json").read_text("utf-8"))
+
+
 def write_page(folder: Path, template: str, **content: Any) -> Path:
     """Write report.html, one self-contained file, from a template of this room; return its path.
 

@@ -177,11 +177,11 @@ def plotted(draw: Callable[[], Figure | None]) -> list[Axes]:
     return [] if figure is None else list(figure.axes)
 
 
-def read_netcdf(path: Path) -> xarray.Dataset:
-    """Return the data set of a NetCDF file, loaded whole."""
+def read_netcdf(path: Path, group: str | None = None) -> xarray.Dataset:
+    """Return the data set of a NetCDF file, or of one group in it, loaded whole."""
     import xarray
 
-    with xarray.open_dataset(path, engine="h5netcdf") as data:
+    with xarray.open_dataset(path, group=group, engine="h5netcdf") as data:
         return data.load()
 
 

@@ -1,6 +1,8 @@
 """Tables of text: title and rows, every number with its unit."""
 
-from collections.abc import Sequence
+import csv
+from collections.abc import Iterable, Sequence
+from pathlib import Path
 
 Table = tuple[str, Sequence[Sequence[str]]]
 """Title and rows of cells."""
@@ -13,3 +15,17 @@ def aligned(rows: Sequence[Sequence[str]]) -> list[str]:
     return [
         "  " + "  ".join(f"{cell:<{width}}" for cell, width in zip(row, widths, strict=False)).rstrip() for row in rows
     ]
+
+
+def write_csv(path: Path, head: Iterable[str], rows: Iterable[Iterable[object]]) -> None:
+    """Write a head and rows of cells as CSV."""
+    with path.open("w", newline="", encoding="utf-8") as file:
+        table = csv.writer(file)
+        table.writerow(head)
+        table.writerows(rows)
+
+
+def read_csv(path: Path) -> list[list[str]]:
+    """Return the rows of a CSV, the head first."""
+    with path.open(newline="", encoding="utf-8") as file:
+        return list(csv.reader(file))

@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
-from swashfilm.output.page import expect_files, inlined, write_page
+from swashfilm.output.page import inlined, read_summary, write_page
 from swashfilm.runs.calibrate import plots as calibrate_plots
 from swashfilm.runs.diagnose.files import read_rows
 from system.bench.calibration.held_out import PHYSICS
@@ -22,13 +21,13 @@ Row = Mapping[str, str]
 
 def write_calibrate_page(folder: Path) -> Path:
     """Write report.html of a calibration; raises InputFaults where one of its files is not there."""
-    expect_files(folder, FILES, "a calibration's run folder")
+    summary = read_summary(folder, FILES, "a calibration's run folder")
     tables = {name: read_rows(folder / f"{name}.csv") for name in TABLES}
     pictures = {name: inlined(png) for name, png in _pictures(tables).items()}
     return write_page(
         folder,
         "calibrate",
-        summary=_summary(folder),
+        summary=summary,
         sentences=headline(folder),
         pairs=pair_table(folder),
         undetermined=[tuple(row.values()) for row in tables["undetermined"]],
@@ -41,7 +40,7 @@ def write_calibrate_page(folder: Path) -> Path:
 
 def headline(folder: Path) -> tuple[str, ...]:
     """The result in sentences."""
-    own = _summary(folder)
+    own = read_summary(folder)
     sentences = [
         f"{own['parameters']} parameters fitted to {own['readings']} readings at {own['points']} points: "
         f"chi-square per reading {own['chi2_per_reading']:.3f}.",
@@ -123,11 +122,6 @@ def _parameter(row: Row) -> tuple[str, ...]:
         f"{float(row['sigma_over_prior [1]']):.2f}",
         row["source"],
     )
-
-
-def _summary(folder: Path) -> dict[str, Any]:
-    found: dict[str, Any] = json.loads((folder / "summary.json").read_text("utf-8"))
-    return found
 
 
 def _pictures(tables: Mapping[str, Sequence[Row]]) -> dict[str, Figure]:

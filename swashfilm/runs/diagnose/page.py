@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -14,7 +13,7 @@ from diagnosis.procedure.pump_comparison import HYDRAULIC, SHAFT, WITH, WITHOUT
 from diagnosis.report.format import chance
 from diagnosis.report.json_file import read_diagnosis
 from reynolds.numerics.arrays import Array
-from swashfilm.output.page import expect_files, inlined, write_page
+from swashfilm.output.page import inlined, read_summary, write_page
 from swashfilm.runs.diagnose import plots as diagnose_plots
 from swashfilm.runs.diagnose.fields import film_pictures
 from swashfilm.runs.diagnose.files import TRACES, read_rows
@@ -37,12 +36,11 @@ MOST_COURSES = 2
 
 def write_diagnose_page(folder: Path) -> Path:
     """Write report.html of a diagnosis; raises InputFaults where one of its files is not there."""
-    expect_files(folder, FILES, "a diagnosis's run folder")
+    summary = read_summary(folder, FILES, "a diagnosis's run folder")
     found = read_diagnosis(folder / "diagnosis.json")
     tables = {name: read_rows(folder / f"{name}.csv") for name in TABLES}
     if (folder / TRACES).is_file():
         tables["traces"] = read_rows(folder / TRACES)
-    summary = read_summary(folder)
     return write_page(
         folder,
         "diagnose",
@@ -62,12 +60,6 @@ def write_diagnose_page(folder: Path) -> Path:
         next_point=next_point_words(found),
         pictures={name: inlined(png) for name, png in _pictures(found, tables).items()},
     )
-
-
-def read_summary(folder: Path) -> dict[str, Any]:
-    """Content of summary.json of a run folder."""
-    found: dict[str, Any] = json.loads((folder / "summary.json").read_text("utf-8"))
-    return found
 
 
 def channel_rows(found: Mapping[str, Any]) -> Iterator[tuple[str, ...]]:

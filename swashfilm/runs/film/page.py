@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import csv
-import json
 from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -13,7 +12,7 @@ import numpy as np
 from swashfilm.output.field_maps import MapField, draw_map
 from swashfilm.output.figures import figure_of
 from swashfilm.output.headline import named
-from swashfilm.output.page import expect_files, inlined, write_page
+from swashfilm.output.page import inlined, read_summary, write_page
 from swashfilm.output.result import read_netcdf
 from swashfilm.runs.film.history import last_of
 from swashfilm.runs.film.refine import refinement_head, refinement_rows
@@ -40,8 +39,7 @@ def write_film_page(folder: Path) -> Path:
 
     The page is self-contained. Raises InputFaults where one of the three files is missing.
     """
-    expect_files(folder, ("summary.json", "resolved.toml", "results.nc"), "a film's run folder")
-    summary = json.loads((folder / "summary.json").read_text("utf-8"))
+    summary = read_summary(folder, ("summary.json", "resolved.toml", "results.nc"), "a film's run folder")
     return write_page(
         folder,
         "film",

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import csv
 from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -13,6 +12,7 @@ from reynolds.equation.rough_overlap import vertex_thickness
 from reynolds.laws.contact import boundary_shear, contact_area, contact_pressure, lambda_ratio
 from reynolds.laws.roughness import beyond_range
 from swashfilm.output.headline import titled
+from swashfilm.output.tables import write_csv
 from swashfilm.runs.film.solve.transient import Moment
 
 if TYPE_CHECKING:
@@ -107,10 +107,7 @@ def history_columns(history: Sequence[Moment]) -> dict[str, list[float]]:
 def write_history(path: Path, history: Sequence[Moment]) -> None:
     """Write a CSV with one line per step: time and headline numbers, SI, units in the heads."""
     columns = history_columns(history)
-    with path.open("w", newline="", encoding="utf-8") as file:
-        table = csv.writer(file)
-        table.writerow([titled(key) for key in columns])
-        table.writerows(zip(*columns.values(), strict=True))
+    write_csv(path, [titled(key) for key in columns], zip(*columns.values(), strict=True))
 
 
 def vertex_fields(study: FilmStudy) -> dict[str, tuple[np.ndarray, str]]:

@@ -1,6 +1,5 @@
 """Mesh convergence of a film: the same case on meshes each twice finer, and the limits of its numbers."""
 
-import csv
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
@@ -15,6 +14,7 @@ from swashfilm.case.file import FilmCase
 from swashfilm.case.gap.instant import GapCase
 from swashfilm.output.convergence import Convergence, convergence
 from swashfilm.output.headline import headline_numbers, named, sizes
+from swashfilm.output.tables import write_csv
 from swashfilm.runs.film.solve.study import FilmStudy, solve_case
 from swashfilm.runs.film.summary import film_summary
 from system.inputs.faults import Fault, InputFaults
@@ -130,11 +130,9 @@ def refinement_head(found: Mapping[str, Any]) -> tuple[str, ...]:
 
 def write_refinement(path: Path, found: Refinement) -> None:
     """Write a CSV of the numbers: key, unit, value on each mesh, order, limit, error bar, verdict."""
-    with path.open("w", newline="", encoding="utf-8") as file:
-        table = csv.writer(file)
-        meshes = [f"{dofs} unknowns" for dofs in found.dofs]
-        table.writerow(["number", "unit", *meshes, "order", "limit", "error", "verdict"])
-        for key, number in found.numbers.items():
-            words, unit = named(key)
-            limits = ["" if value is None else value for value in (number.order, number.extrapolated, number.error)]
-            table.writerow([words, unit, *number.values, *limits, number.verdict.value])
+    rows = []
+    for key, number in found.numbers.items():
+        limits = ["" if value is None else value for value in (number.order, number.extrapolated, number.error)]
+        rows.append([*named(key), *number.values, *limits, number.verdict.value])
+    meshes = [f"{dofs} unknowns" for dofs in found.dofs]
+    write_csv(path, ["number", "unit", *meshes, "order", "limit", "error", "verdict"], rows)

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import csv
-import json
 from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -11,8 +9,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from swashfilm.output.figures import figure_of
-from swashfilm.output.page import keep_pictures, kept_pictures, write_page
+from swashfilm.output.page import keep_pictures, kept_pictures, read_summary, write_page
 from swashfilm.output.run_folder import write_json
+from swashfilm.output.tables import write_csv
 from swashfilm.runs.map.duty import duty_summary
 from swashfilm.runs.map.plots import Slice, contours, difference_levels, efficiency_levels, held_words, shown, slice_of
 from system.maps.compare import MapComparison
@@ -115,19 +114,20 @@ def duty_rows(summary: Mapping[str, Any]) -> Iterator[tuple[str, ...]]:
 
 def _write_table(path: Path, summary: Mapping[str, Any]) -> None:
     places = [f"at {given.words} [{given.unit}]" for given in MapInput]
-    with path.open("w", newline="", encoding="utf-8") as file:
-        table = csv.writer(file)
-        heads = "number", "unit", "A mean", "B mean", "largest B - A", "interpolation may miss there"
-        table.writerow([*heads, *places])
-        for row in summary["differences"]:
-            numbers = [row[name] for name in ("one", "other", "largest", "error")]
-            at = [row["at"][given.value] for given in MapInput]
-            table.writerow([row["words"], row["unit"], *(f"{number:.8g}" for number in (*numbers, *at))])
+    heads = "number", "unit", "A mean", "B mean", "largest B - A", "interpolation may miss there"
+    rows = []
+    for row in summary["differences"]:
+        numbers = [
+            *(row[name] for name in ("one", "other", "largest", "error")),
+            *(row["at"][one.value] for one in MapInput),
+        ]
+        rows.append([row["words"], row["unit"], *(f"{number:.8g}" for number in numbers)])
+    write_csv(path, [*heads, *places], rows)
 
 
 def write_compare_page(folder: Path) -> Path:
     """Write report.html of a comparison's run folder from its summary.json and plots/."""
-    summary = json.loads((folder / "summary.json").read_text("utf-8"))
+    summary = read_summary(folder)
     return write_page(
         folder,
         "compare",

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import csv
-import json
 import shutil
 from collections.abc import Iterator, Mapping
 from pathlib import Path
@@ -13,8 +11,9 @@ import numpy as np
 
 from reynolds.numerics.arrays import Array
 from swashfilm.output.figures import figure_of
-from swashfilm.output.page import keep_pictures, write_page
+from swashfilm.output.page import keep_pictures, read_summary, write_page
 from swashfilm.output.run_folder import write_json
+from swashfilm.output.tables import read_csv, write_csv
 from swashfilm.runs.map.plots import COLOURS
 from system.inputs.faults import Fault, InputFaults
 from system.maps.data import MapData
@@ -127,18 +126,14 @@ def _write_course(path: Path, interpolant: MapInterpolant, cycle: Cycle) -> None
     power["loss [W]"] = numbers["shaft_power"] - numbers["hydraulic_power"]
     power["sum p Q / shaft power [1]"] = numbers["hydraulic_power"] / numbers["shaft_power"]
     power["delivery flow [m3/s]"] = numbers["delivery_flow"]
-    with path.open("w", newline="", encoding="utf-8") as file:
-        table = csv.writer(file)
-        table.writerow([*shown, *power])
-        for row in zip(*(np.broadcast_to(one, time.shape) for one in (shown | power).values()), strict=True):
-            table.writerow([f"{value:.8g}" for value in row])
+    rows = zip(*(np.broadcast_to(one, time.shape) for one in (shown | power).values()), strict=True)
+    write_csv(path, [*shown, *power], ([f"{value:.8g}" for value in row] for row in rows))
 
 
 def write_duty_page(folder: Path) -> Path:
     """Write report.html and plots/ of a duty's run folder from its summary.json and course.csv."""
-    summary = json.loads((folder / "summary.json").read_text("utf-8"))
-    with (folder / COURSE).open(encoding="utf-8") as file:
-        head, *rows = csv.reader(file)
+    summary = read_summary(folder)
+    head, *rows = read_csv(folder / COURSE)
     course = dict(zip(head, np.array(rows, dtype=float).T, strict=True))
     pictures = duty_plots(course, summary)
     return write_page(

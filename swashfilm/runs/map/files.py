@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import csv
 import json
 from collections.abc import Mapping, Sequence
 from datetime import UTC, datetime
@@ -12,6 +11,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from swashfilm.output.result import read_netcdf
+from swashfilm.output.tables import write_csv
 from system.inputs.faults import Fault, InputFaults, nearest_path
 from system.maps.data import MapData, best_points, objects
 from system.maps.interpolation import MapError
@@ -140,11 +141,8 @@ def _makes_a_map(place: Path) -> str:
 
 def read_map(path: Path) -> tuple[MapData, MapError | None]:
     """Return the map of a file of `write_map`, with its error; raise InputFaults for any other file."""
-    import xarray
-
     try:
-        with xarray.open_dataset(path, engine="h5netcdf") as dataset:
-            dataset.load()
+        dataset = read_netcdf(path)
         return map_of(dataset), _error(dataset)
     except (OSError, KeyError, ValueError, TypeError) as reason:
         found = f"not a map of swashfilm ({type(reason).__name__}: {reason})"
@@ -199,12 +197,11 @@ def write_tables(folder: Path, data: MapData) -> None:
     losses, whole = data.losses, data.loss
     shares = {f"{words} [%]": 100.0 * loss / whole for words, loss in losses.items()}
     _write(folder / "shares.csv", inputs | {"loss [W]": whole} | shares)
-    with (folder / "best.csv").open("w", newline="", encoding="utf-8") as file:
-        table = csv.writer(file)
-        table.writerow(["definition", "overall efficiency [%]", *inputs])
-        for best in best_points(data):
-            place = [f"{column[best.index]:.8g}" for column in inputs.values()]
-            table.writerow([best.definition.value, f"{100.0 * best.overall:.6g}", *place])
+    rows = [
+        [best.definition.value, f"{100.0 * best.overall:.6g}", *(f"{one[best.index]:.8g}" for one in inputs.values())]
+        for best in best_points(data)
+    ]
+    write_csv(folder / "best.csv", ["definition", "overall efficiency [%]", *inputs], rows)
 
 
 def _input_columns(data: MapData) -> dict[str, np.ndarray]:
@@ -219,11 +216,8 @@ def _input_columns(data: MapData) -> dict[str, np.ndarray]:
 
 
 def _write(path: Path, columns: Mapping[str, np.ndarray]) -> None:
-    with path.open("w", newline="", encoding="utf-8") as file:
-        table = csv.writer(file)
-        table.writerow(columns)
-        for row in zip(*(values.flat for values in columns.values()), strict=True):
-            table.writerow([_cell(value) for value in row])
+    rows = zip(*(values.flat for values in columns.values()), strict=True)
+    write_csv(path, columns, ([_cell(value) for value in row] for row in rows))
 
 
 def _cell(value: object) -> str:

@@ -1,11 +1,10 @@
 """Page of an operating map: report.html from the files of the run folder."""
 
-import json
 from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
-from swashfilm.output.page import expect_files, keep_pictures, write_page
+from swashfilm.output.page import keep_pictures, read_summary, write_page
 from swashfilm.runs.map.files import MAP, read_map
 from swashfilm.runs.map.plots import map_plots
 
@@ -19,8 +18,7 @@ _SHOWN = {"W": (1e-3, "kW"), "Nm": (1.0, "N m"), "m3_per_s": (6e4, "L/min")}
 
 def write_map_page(folder: Path) -> Path:
     """Write report.html and plots/ of a map's folder; raise InputFaults where one of its files is missing."""
-    expect_files(folder, FILES, "a map's run folder")
-    summary = json.loads((folder / "summary.json").read_text("utf-8"))
+    summary = read_summary(folder, FILES, "a map's run folder")
     pictures = map_plots(read_map(folder / MAP)[0]) if summary["solved"] else {}
     return write_page(
         folder,

@@ -1,6 +1,5 @@
 """Floating gaps of a run: fields, summary, part of the page."""
 
-import csv
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass
 from pathlib import Path
@@ -14,6 +13,8 @@ from swashfilm.case.gap.physics import PHYSICS_HEAD, effect_rows
 from swashfilm.console.fidelity import Fidelity
 from swashfilm.output.gap_names import FIELDS, TITLES, vtu_name
 from swashfilm.output.page import inlined
+from swashfilm.output.result import read_netcdf
+from swashfilm.output.tables import read_csv
 from swashfilm.runs.film.revolution.data import revolution_dataset, write_convergence, write_series
 from swashfilm.runs.film.revolution.fields import write_revolution_fields
 from swashfilm.runs.film.revolution.plots import film_text, revolution_plots
@@ -209,17 +210,14 @@ def _nearest(kept: Kept, place: str, gap: str, angle: float) -> str:
 
 def floating_view(folder: Path, summary: Mapping[str, Any]) -> dict[str, Any]:
     """Return the floating gaps for the template: rows with their head, pictures with captions, turns."""
-    import xarray
-
     pictures = []
     shown: list[tuple[str, str, tuple[str, ...]]] = [(gap, TITLES[gap], SHOWN) for gap in GAPS]
     for place, kind in summary["unlike"].items():
         shown += [(f"{place}/{gap}", f"{TITLES[gap]}, {_numbers(kind)}", SHOWN_UNLIKE) for gap in kind["gaps"]]
     for group, title, names in shown:
-        with xarray.open_dataset(folder / "results.nc", group=group, engine="h5netcdf") as data:
-            drawn = revolution_plots(data.load())
+        drawn = revolution_plots(read_netcdf(folder / RESULTS, group))
         pictures += [(inlined(drawn[name]), f"{title}: {CAPTIONS[name]}") for name in names if name in drawn]
-    turns = {TITLES[gap]: _table(folder / f"{gap}_convergence.csv") for gap in GAPS}
+    turns = {TITLES[gap]: read_csv(folder / f"{gap}_convergence.csv") for gap in GAPS}
     return {
         "head": HEAD, "rows": floating_rows(summary), "pictures": pictures, "turns": turns,
         "physics_head": PHYSICS_HEAD,
@@ -249,8 +247,3 @@ def floating_rows(summary: Mapping[str, Any]) -> list[tuple[str, ...]]:
 
 def _numbers(kind: Mapping[str, Any]) -> str:
     return "chamber " + ", ".join(str(number) for number in kind["chambers"])
-
-
-def _table(path: Path) -> list[list[str]]:
-    with path.open(newline="", encoding="utf-8") as file:
-        return list(csv.reader(file))

@@ -1,6 +1,5 @@
 """Page of an operating point: self-contained report.html from the files of the run folder."""
 
-import json
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
@@ -9,7 +8,8 @@ import numpy as np
 
 from swashfilm.console.fidelity import Fidelity
 from swashfilm.output.gap_names import TITLES
-from swashfilm.output.page import expect_files, inlined, write_page
+from swashfilm.output.page import inlined, read_summary, write_page
+from swashfilm.output.result import read_netcdf
 from swashfilm.runs.pump import plots as pump_plots
 from swashfilm.runs.pump.data import GAPS
 from swashfilm.runs.pump.floating import floating_view
@@ -28,12 +28,8 @@ def write_pump_page(folder: Path) -> Path:
 
     The page includes 3D pictures of the folder. Raises InputFaults where one of the three is missing.
     """
-    import xarray
-
-    expect_files(folder, ("summary.json", "resolved.toml", "results.nc"), "a pump's run folder")
-    summary = json.loads((folder / "summary.json").read_text("utf-8"))
-    with xarray.open_dataset(folder / "results.nc", engine="h5netcdf") as data:
-        data.load()
+    summary = read_summary(folder, ("summary.json", "resolved.toml", "results.nc"), "a pump's run folder")
+    data = read_netcdf(folder / "results.nc")
     floats = Fidelity(summary["fidelity"]) is Fidelity.FLOATING
     return write_page(
         folder,

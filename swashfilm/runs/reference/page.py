@@ -1,11 +1,10 @@
 """Page of `swashfilm reference`: report.html from the files of the run folder."""
 
-import json
 from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
-from swashfilm.output.page import expect_files, inlined, write_page
+from swashfilm.output.page import inlined, read_summary, write_page
 from swashfilm.runs.reference.plots import coefficient_plot
 
 HEAD = (
@@ -21,8 +20,7 @@ HEAD = (
 
 def write_reference_page(folder: Path) -> Path:
     """Write report.html of a run folder; raise InputFaults where one of its files is missing."""
-    expect_files(folder, ("summary.json", "input.toml"), "a reference's run folder")
-    summary = json.loads((folder / "summary.json").read_text("utf-8"))
+    summary = read_summary(folder, ("summary.json", "input.toml"), "a reference's run folder")
     flows = [inlined(path.read_bytes()) for path in sorted(folder.glob("flow_*.png"))]
     return write_page(
         folder,

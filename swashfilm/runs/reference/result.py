@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-import json
 from pathlib import Path
 from typing import TYPE_CHECKING, ClassVar
 
+from swashfilm.output.page import read_summary
 from swashfilm.output.result import Result, plotted, read_table
 from swashfilm.output.tables import Table
 from swashfilm.runs.reference.page import HEAD, reference_rows
@@ -25,7 +25,7 @@ class ReferenceRun(Result):
     @staticmethod
     def read_data(folder: Path) -> xarray.Dataset:
         """Return the table of coefficients of a run folder."""
-        return read_table(folder / json.loads((folder / "summary.json").read_text("utf-8"))["table"])
+        return read_table(folder / read_summary(folder)["table"])
 
     def tables(self) -> list[Table]:
         """Return coefficients by Reynolds number."""

@@ -1,6 +1,5 @@
 """Files of a reproduction: claims as JSON and table, numbers of the curves, and pictures."""
 
-import csv
 from collections.abc import Iterator, Sequence
 from math import isfinite
 from pathlib import Path
@@ -9,6 +8,7 @@ from typing import Any
 from swashfilm.output.figures import png_of
 from swashfilm.output.page import PLOTS
 from swashfilm.output.run_folder import write_json
+from swashfilm.output.tables import write_csv
 from swashfilm.runs.reproduce.plots import figure_picture
 from system.paper.figure import FigureAxis, Panel
 from system.paper.judge import FigureResult, Judged, Range
@@ -87,23 +87,18 @@ def _write_table(path: Path, rows: Sequence[Row]) -> None:
     """Write one row per statement and reading; ranges as two columns in SI."""
     head = ["id", "figure", "words", "quantity", "unit", "expected low", "expected high", "fidelity", "reading",
             "found low", "found high", "verdict", "reason", "impossible"]  # fmt: skip
-    with path.open("w", encoding="utf-8", newline="") as file:
-        writer = csv.writer(file)
-        writer.writerow(head)
-        for row in rows:
-            impossible = row["impossible"]["text"] if row["impossible"] else ""
-            plain = [row[name] for name in ("id", "figure", "words", "quantity", "unit")]
-            ends = [*row["expected"], row["fidelity"], row["reading"], *row["found"]]
-            writer.writerow([*plain, *ends, row["verdict"], row["reason"], impossible])
+    lines = []
+    for row in rows:
+        impossible = row["impossible"]["text"] if row["impossible"] else ""
+        ends = [*row["expected"], row["fidelity"], row["reading"], *row["found"]]
+        lines.append([*(row[name] for name in head[:5]), *ends, row["verdict"], row["reason"], impossible])
+    write_csv(path, head, lines)
 
 
 def _write_curves(path: Path, panels: Sequence[Panel]) -> None:
     """Write all points of all curves and fields, in the units of their axes."""
-    with path.open("w", encoding="utf-8", newline="") as file:
-        writer = csv.writer(file)
-        writer.writerow(["panel", "curve", "x", "x unit", "y", "y unit", "one sigma of y", "value", "value unit"])
-        for panel in panels:
-            writer.writerows(_points(panel))
+    head = ["panel", "curve", "x", "x unit", "y", "y unit", "one sigma of y", "value", "value unit"]
+    write_csv(path, head, (row for panel in panels for row in _points(panel)))
 
 
 def _points(panel: Panel) -> Iterator[list[str]]:

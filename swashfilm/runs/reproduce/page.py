@@ -7,7 +7,7 @@ from itertools import groupby
 from pathlib import Path
 from typing import Any
 
-from swashfilm.output.page import PLOTS, expect_files, inlined, write_page
+from swashfilm.output.page import PLOTS, inlined, read_summary, write_page
 from swashfilm.runs.reproduce.files import CLAIMS
 from system.paper.judge import StatementVerdict
 
@@ -23,7 +23,6 @@ Row = Mapping[str, Any]
 
 def write_reproduce_page(folder: Path) -> Path:
     """Write report.html of a reproduction; raise InputFaults where one of its files is missing."""
-    expect_files(folder, FILES, "a reproduction's run folder")
     summary, rows = _read(folder)
     return write_page(
         folder,
@@ -41,8 +40,9 @@ def write_reproduce_page(folder: Path) -> Path:
 
 
 def _read(folder: Path) -> tuple[Row, list[Row]]:
-    summary = json.loads((folder / "summary.json").read_text("utf-8"))
-    return summary, json.loads((folder / CLAIMS).read_text("utf-8"))["claims"]
+    return read_summary(folder, FILES, "a reproduction's run folder"), json.loads((folder / CLAIMS).read_text("utf-8"))[
+        "claims"
+    ]
 
 
 def statements(rows: Sequence[Row], figure: str) -> Iterator[tuple[Row, list[Row]]]:

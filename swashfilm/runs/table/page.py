@@ -1,13 +1,12 @@
 """Page of a response table: report.html from the files of the run folder."""
 
-import json
 from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
 from gaps.response import Measure
 from swashfilm.output.headline import named
-from swashfilm.output.page import expect_files, inlined, write_page
+from swashfilm.output.page import inlined, read_summary, write_page
 from swashfilm.runs.table.plots import table_plots
 from system.inputs.units import Dimension, format_quantity
 from system.points.table.store import read_response
@@ -19,8 +18,7 @@ FILES = ("summary.json", "resolved.toml", "table.json", "table.npz")
 
 def write_table_page(folder: Path) -> Path:
     """Write report.html of a table's run folder; raise InputFaults where one of its files is missing."""
-    expect_files(folder, FILES, "a table's run folder")
-    summary = json.loads((folder / "summary.json").read_text("utf-8"))
+    summary = read_summary(folder, FILES, "a table's run folder")
     response = read_response(folder / "table.json", summary["table_format"], lambda _, response: response)
     pictures = table_plots(response, summary)
     return write_page(

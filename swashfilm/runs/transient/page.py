@@ -1,13 +1,13 @@
 """Page of a transient: report.html from the files of the run folder."""
 
-import json
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from swashfilm.output.page import expect_files, inlined, write_page
+from swashfilm.output.page import inlined, read_summary, write_page
+from swashfilm.output.result import read_netcdf
 from swashfilm.runs.transient import plots as transient_plots
 from system.inputs.units import LPM
 
@@ -16,12 +16,8 @@ FILES = ("summary.json", "resolved.toml", "results.nc")
 
 def write_transient_page(folder: Path) -> Path:
     """Write report.html of a transient's run folder; raise InputFaults where one of its files is missing."""
-    import xarray
-
-    expect_files(folder, FILES, "a transient's run folder")
-    summary = json.loads((folder / "summary.json").read_text("utf-8"))
-    with xarray.open_dataset(folder / "results.nc", engine="h5netcdf") as data:
-        data.load()
+    summary = read_summary(folder, FILES, "a transient's run folder")
+    data = read_netcdf(folder / "results.nc")
     pictures = {
         "Swash angle, control pressure and actuator pressure": transient_plots.plate_plot(data),
         "Moments on the swash plate by cause; positive: increase the angle; thick: means over a piston pitch":

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import csv
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
@@ -14,6 +13,7 @@ from gaps.films.reports import Active
 from gaps.revolution.turn import GapInstant
 from reynolds.equation.rough_overlap import vertex_thickness
 from reynolds.numerics.arrays import Array
+from swashfilm.output.tables import write_csv
 from swashfilm.runs.film.revolution.solve import RevolutionStudy, friction_power, tilt
 from system.description.gap import Gap
 from system.films.rotor import engaged_share
@@ -158,28 +158,22 @@ def write_series(path: Path, data: xarray.Dataset) -> None:
     """Write a CSV of the series: one line per shaft angle, units in the heads; `active` names the limits."""
     names = [str(name) for name in data.data_vars if data[name].dims == ("shaft_angle",)]
     numbers = [name for name in names if not name.startswith("active_")]
-    with path.open("w", newline="", encoding="utf-8") as file:
-        table = csv.writer(file)
-        shown = {name: SHOWN[data[name].attrs["units"]] for name in numbers}
-        table.writerow(["shaft_angle [deg]", *(f"{name} [{how.unit}]" for name, how in shown.items()), "active"])
-        columns = [how.of(data[name].values) for name, how in shown.items()]
-        for k, angle in enumerate(np.degrees(data["shaft_angle"].values)):
-            row = [f"{value:.8g}" for value in (angle, *(column[k] for column in columns))]
-            table.writerow([*row, active_at(data, k)])
-
-
-def active_at(data: xarray.Dataset, k: int) -> str:
-    """Return the limits of the film at the k-th instant, in words joined by +."""
-    return "+".join(kind.value for kind in Active if data[f"active_{kind.value}"].values[k])
+    shown = {name: SHOWN[data[name].attrs["units"]] for name in numbers}
+    columns = [np.degrees(data["shaft_angle"].values), *(how.of(data[name].values) for name, how in shown.items())]
+    active = {kind.value: data[f"active_{kind.value}"].values for kind in Active}
+    rows = [
+        [*(f"{value:.8g}" for value in numbers_here), "+".join(name for name, limits in active.items() if limits[k])]
+        for k, numbers_here in enumerate(zip(*columns, strict=True))
+    ]
+    write_csv(path, ["shaft_angle [deg]", *(f"{name} [{how.unit}]" for name, how in shown.items()), "active"], rows)
 
 
 def write_convergence(path: Path, study: RevolutionStudy) -> None:
     """Write a CSV of the turns: change of position in each, and the multipliers of the last one."""
     closing = study.revolution.closing
     sizes = sorted(np.abs(closing.multipliers), reverse=True)
-    with path.open("w", newline="", encoding="utf-8") as file:
-        table = csv.writer(file)
-        table.writerow(["turn", "change [um]", *(f"multiplier_{k + 1} [-]" for k in range(len(sizes)))])
-        for turn, change in enumerate(closing.changes, start=1):
-            last = turn == closing.turns
-            table.writerow([turn, f"{change * 1e6:.6g}", *(f"{size:.6g}" if last else "" for size in sizes)])
+    rows = [
+        [turn, f"{change * 1e6:.6g}", *(f"{size:.6g}" if turn == closing.turns else "" for size in sizes)]
+        for turn, change in enumerate(closing.changes, start=1)
+    ]
+    write_csv(path, ["turn", "change [um]", *(f"multiplier_{k + 1} [-]" for k in range(len(sizes)))], rows)

@@ -1,14 +1,14 @@
 """Page of a gap over the turn: report.html from the files of the run folder."""
 
-import csv
-import json
 from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
 from swashfilm.case.gap.physics import PHYSICS_HEAD, effect_rows
 from swashfilm.output.gap_names import TITLES
-from swashfilm.output.page import expect_files, inlined, write_page
+from swashfilm.output.page import inlined, read_summary, write_page
+from swashfilm.output.result import read_netcdf
+from swashfilm.output.tables import read_csv
 from swashfilm.runs.film.page import summary_rows
 from swashfilm.runs.film.refine import refinement_head, refinement_rows
 from swashfilm.runs.film.revolution.plots import revolution_plots
@@ -23,14 +23,8 @@ def write_revolution_page(folder: Path) -> Path:
 
     The page is self-contained. Raises InputFaults where one of the four files is missing.
     """
-    import xarray
-
-    expect_files(folder, FILES, "a film's run folder")
-    summary = json.loads((folder / "summary.json").read_text("utf-8"))
-    with xarray.open_dataset(folder / "results.nc", engine="h5netcdf") as data:
-        pictures = revolution_plots(data.load())
-    with (folder / "convergence.csv").open(newline="", encoding="utf-8") as file:
-        convergence = list(csv.reader(file))
+    summary = read_summary(folder, FILES, "a film's run folder")
+    pictures = revolution_plots(read_netcdf(folder / "results.nc"))
     refinement = summary.get("refinement")
     return write_page(
         folder,
@@ -41,7 +35,7 @@ def write_revolution_page(folder: Path) -> Path:
         rows=list(revolution_rows(summary)),
         physics=[PHYSICS_HEAD, *effect_rows(summary["physics_left_out"], summary["physics_seconds"])],
         refinement=[refinement_head(refinement), *refinement_rows(refinement)] if refinement else [],
-        convergence=convergence,
+        convergence=read_csv(folder / "convergence.csv"),
         case=(folder / "resolved.toml").read_text("utf-8"),
     )
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import csv
 from collections import Counter
 from collections.abc import Mapping, Sequence
 from pathlib import Path
@@ -11,7 +10,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from swashfilm.case.study import Combine, StudyCase
-from swashfilm.output.headline import headline_numbers, named, titled
+from swashfilm.output.headline import bracketed, headline_numbers, named, titled
+from swashfilm.output.tables import write_csv
 from swashfilm.runs.film.series.courses import course_variables
 from swashfilm.runs.film.series.points import StudyOutcome
 from system.work.tasks import PartStatus
@@ -105,17 +105,10 @@ def write_study_table(path: Path, study: StudyCase, outcomes: Sequence[StudyOutc
     """Write a CSV with one line per point: varied keys, headline numbers (SI), status and reason."""
     rows: list[Mapping[str, float]] = [headline_numbers(outcome.summary) for outcome in outcomes]
     keys = list(dict.fromkeys(key for row in rows for key in row))
-    with path.open("w", newline="", encoding="utf-8") as file:
-        table = csv.writer(file)
-        axes = [f"{axis.key} / {_bracketed(axis.unit)}" if axis.unit else axis.key for axis in study.axes]
-        table.writerow([*axes, *(titled(key) for key in keys), "status", "reason"])
-        for outcome, row in zip(outcomes, rows, strict=True):
-            values = [
-                axis.labels[k] if axis.numbers is None else axis.numbers[k]
-                for axis, k in zip(study.axes, outcome.point, strict=True)
-            ]
-            table.writerow([*values, *(row.get(key, "") for key in keys), outcome.status.value, outcome.reason])
-
-
-def _bracketed(unit: str) -> str:
-    return f"({unit})" if any(sign in unit for sign in " /") else unit
+    axes = [f"{axis.key} / {bracketed(axis.unit)}" if axis.unit else axis.key for axis in study.axes]
+    lines = []
+    for outcome, row in zip(outcomes, rows, strict=True):
+        places = zip(study.axes, outcome.point, strict=True)
+        values = [axis.labels[k] if axis.numbers is None else axis.numbers[k] for axis, k in places]
+        lines.append([*values, *(row.get(key, "") for key in keys), outcome.status.value, outcome.reason])
+    write_csv(path, [*axes, *(titled(key) for key in keys), "status", "reason"], lines)

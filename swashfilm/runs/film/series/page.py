@@ -1,6 +1,5 @@
 """Run folder of a study: its run, tables, plots and page."""
 
-import json
 from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Any
@@ -8,7 +7,8 @@ from typing import Any
 from swashfilm.case.study import StudyCase
 from swashfilm.output.figures import png_of
 from swashfilm.output.headline import named
-from swashfilm.output.page import PLOTS, expect_files, inlined, write_page
+from swashfilm.output.page import PLOTS, inlined, read_summary, write_page
+from swashfilm.output.result import read_netcdf
 from swashfilm.output.run_folder import write_json
 from swashfilm.runs.film.series.courses import course_plots
 from swashfilm.runs.film.series.data import study_dataset, study_summary, write_study_table
@@ -36,12 +36,8 @@ def run_study(
 
 def write_study_page(folder: Path) -> Path:
     """Write report.html and plots/ of a study's run folder from its summary.json, study.nc and input.toml."""
-    import xarray
-
-    expect_files(folder, ("summary.json", "study.nc", "input.toml"), "a study's run folder")
-    summary = json.loads((folder / "summary.json").read_text("utf-8"))
-    with xarray.open_dataset(folder / "study.nc", engine="h5netcdf") as data:
-        data.load()
+    summary = read_summary(folder, ("summary.json", "study.nc", "input.toml"), "a study's run folder")
+    data = read_netcdf(folder / "study.nc")
     pictures = {key: png_of(figure) for key, figure in (course_plots(data) | study_plots(data)).items()}
     (folder / PLOTS).mkdir(exist_ok=True)
     for key, png in pictures.items():
