@@ -77,24 +77,6 @@ class PaperClaim:
     taken: str = ""
 
 
-OURS = "a bound of ours; the paper gives none"
-"""Remark on a bound that the paper does not state."""
-
-
-def share_claim(
-    name: str, figure: Figure, words: str, quantity: str, low: float, high: float, taken: str = ""
-) -> PaperClaim:
-    """A statement about a share, shown in percent."""
-    return PaperClaim(name, figure, words, quantity, Unit.SHARE, Range(low, high), taken)
-
-
-def number_claim(
-    name: str, figure: Figure, words: str, quantity: str, low: float, high: float, taken: str = ""
-) -> PaperClaim:
-    """A statement about a bare number."""
-    return PaperClaim(name, figure, words, quantity, Unit.NUMBER, Range(low, high), taken)
-
-
 @dataclass(frozen=True)
 class Impossibility:
     """Quantity outside a bound within which it would have to lie for any number of ours to meet a statement.
