@@ -123,16 +123,6 @@ def _plate_fits(path: str, pump: PumpDescription, body: BodySection | None, *, o
     yield from _fits(path, body, replace(place, shape=f"{place.shape}, kidneys and ports filled"), ("held",))
 
 
-BODY_CHECKS = (
-    piston_mesh_fits,
-    bore_mesh_fits,
-    slipper_mesh_fits,
-    swash_plate_mesh_fits,
-    block_mesh_fits,
-    valve_plate_mesh_fits,
-)
-
-
 def _fits(path: str, body: BodySection, place: _Place, wanted: tuple[str, ...]) -> Iterator[Finding]:
     """All that is wrong with a mesh at its place; `wanted`: faces without which a load or a hold is missing."""
     own = by_names(body)

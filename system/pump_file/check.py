@@ -5,7 +5,7 @@ could be read, however much else is wrong. `system.pump_file.geometry`, `system.
 `system.pump_file.operating` hold them.
 """
 
-from collections.abc import Callable, Collection, Iterable, Iterator
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
 from dataclasses import dataclass
 
 from system.description.pump import PumpDescription
@@ -53,6 +53,11 @@ def needs(*paths: str) -> Callable[[Callable[[PumpDescription], Iterator[Finding
         return Check(function.__name__, frozenset(paths), function)
 
     return named
+
+
+def checks_in(module: Mapping[str, object]) -> tuple[Check, ...]:
+    """Return the checks among the names of a module, in the order of their definition."""
+    return tuple(one for one in module.values() if isinstance(one, Check))
 
 
 def run_checks(checks: Iterable[Check], pump: PumpDescription, trusted: Collection[str] | None = None) -> CheckReport:

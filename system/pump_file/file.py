@@ -27,25 +27,14 @@ from system.inputs.sections.values import HERE
 from system.inputs.sections.writer import section_rows
 from system.inputs.toml_table import toml_tables
 from system.pump.ports.flow_coefficients import file_law
-from system.pump_file.bodies import BODY_CHECKS
-from system.pump_file.check import CheckReport, run_checks
-from system.pump_file.films import FILM_CHECKS
-from system.pump_file.geometry import GEOMETRY_CHECKS
-from system.pump_file.losses import LOSS_CHECKS
-from system.pump_file.operating import OPERATING_CHECKS
-from system.pump_file.parts import PARTS_CHECKS, single_parts_checked
-from system.pump_file.ports import PORT_CHECKS
-from system.pump_file.values import VALUE_CHECKS
+from system.pump_file import bodies, films, geometry, losses, operating, parts, ports, values
+from system.pump_file.check import CheckReport, checks_in, run_checks
+from system.pump_file.parts import single_parts_checked
 
-_CHECKS = (
-    *GEOMETRY_CHECKS,
-    *PORT_CHECKS,
-    *LOSS_CHECKS,
-    *FILM_CHECKS,
-    *OPERATING_CHECKS,
-    *PARTS_CHECKS,
-    *BODY_CHECKS,
-    *VALUE_CHECKS,
+_CHECKS = tuple(
+    check
+    for module in (geometry, ports, losses, films, operating, parts, bodies, values)
+    for check in checks_in(vars(module))
 )
 GRADE_KEYS = ("kinematic_viscosity_40C", "kinematic_viscosity_100C")
 LAW_KEYS = ("flow_coefficient", "critical_reynolds")

@@ -66,12 +66,3 @@ def _open(table: str, film: float, radius: float, tilts: dict[str, float]) -> It
             f"less than film_thickness, {length(film)}",
             f"tilts below {angle(math.atan(film / radius))} together, or a larger film_thickness",
         )
-
-
-FILM_CHECKS = (
-    piston_film_is_thin,
-    slipper_film_is_thin,
-    valve_plate_film_is_thin,
-    slipper_film_is_open,
-    valve_plate_film_is_open,
-)

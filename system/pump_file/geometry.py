@@ -299,23 +299,3 @@ def front_bearing_is_before_the_rear(pump: PumpDescription) -> Iterator[Finding]
     if front is not None and rear is not None and front <= rear:
         found = f"{length(front)} with a rear bearing at {length(rear)}"
         yield Fault("bearings.front_position", found, "above rear_position: heights over the valve plate")
-
-
-GEOMETRY_CHECKS = (
-    swash_plate_cuts_every_bore,
-    displacement_is_that_of_the_geometry,
-    slippers_clear_each_other,
-    slipper_land_has_a_width,
-    slipper_grooves_lie_in_the_land,
-    orifice_opens_into_the_pocket,
-    slipper_is_not_lifted_off,
-    valve_plate_lands_are_in_order,
-    pads_lie_beyond_the_lands,
-    kidneys_lie_between_the_lands,
-    kidneys_leave_webs,
-    port_opening_fits_the_kidney,
-    bores_clear_each_other,
-    piston_stays_in_its_bore,
-    bearings_share_the_side_force,
-    front_bearing_is_before_the_rear,
-)

@@ -90,11 +90,3 @@ def _unlike(key: str, found: LossFactors, widths: Sequence[float]) -> Iterator[F
 
 def _area(size: float) -> str:
     return format_quantity(size, Dimension.AREA, digits=4)
-
-
-LOSS_CHECKS = (
-    pocket_losses_are_of_steps,
-    kidney_losses_are_of_steps,
-    groove_losses_are_of_grooves,
-    bore_coefficients_are_a_table,
-)

@@ -14,7 +14,7 @@ from system.inputs.units import Dimension, format_quantity, to_absolute, to_gaug
 from system.pump.laws.kinematics import ball_acceleration_along_bore, crossed_drive, drive_at_ratio, least_ratio
 from system.pump.lumped import SAMPLES_PER_PITCH, block_spring, piston_area
 from system.pump.operating import OperatingPoint
-from system.pump_file.check import CheckReport, CheckWarning, Finding, angle, needs, pressure, run_checks
+from system.pump_file.check import CheckReport, CheckWarning, Finding, angle, checks_in, needs, pressure, run_checks
 
 # Below this an oil has given off its dissolved air and its light fractions boil; a mineral oil itself boils below
 # 0.1 kPa at 50 degC. The model is one of liquid oil: assumption, order of magnitude.
@@ -123,22 +123,6 @@ def displacement_ratio_is_possible(pump: PumpDescription) -> Iterator[Finding]:
 
 
 @needs(
-    "operating.displacement_ratio", "pump.cross_angle", "pump.swash_angle_max", "pump.bore_cone_angle",
-    "pump.pitch_radius",
-)  # fmt: skip
-def cross_angle_leaves_the_displacement(pump: PumpDescription) -> Iterator[Finding]:
-    """The cross angle cannot be set back: with it alone the pistons still move."""
-    part, ratio = pump.pump, pump.operating.displacement_ratio
-    cross = abs(part.cross_angle or 0.0)
-    if math.tan(part.bore_cone_angle) * math.hypot(math.tan(part.swash_angle_max), math.tan(cross)) >= 1.0:
-        return
-    least = least_ratio(crossed_drive(part.pitch_radius, part.bore_cone_angle, part.swash_angle_max, cross))
-    if ratio < least:
-        expected = f"at least {least:.4g}, what the cross angle of {angle(cross)} displaces alone"
-        yield Fault("operating.displacement_ratio", f"{ratio:g}", expected)
-
-
-@needs(
     "oil.kinematic_viscosity_40C",
     "oil.kinematic_viscosity_100C",
     "operating.temperature",
@@ -159,6 +143,22 @@ def oil_has_a_viscosity(pump: PumpDescription) -> Iterator[Finding]:
     except InputError as reason:
         shown = format_quantity(temperature, Dimension.TEMPERATURE, digits=4)
         yield Fault("operating.temperature", shown, f"where the oil's law holds: {reason.expected}")
+
+
+@needs(
+    "operating.displacement_ratio", "pump.cross_angle", "pump.swash_angle_max", "pump.bore_cone_angle",
+    "pump.pitch_radius",
+)  # fmt: skip
+def cross_angle_leaves_the_displacement(pump: PumpDescription) -> Iterator[Finding]:
+    """The cross angle cannot be set back: with it alone the pistons still move."""
+    part, ratio = pump.pump, pump.operating.displacement_ratio
+    cross = abs(part.cross_angle or 0.0)
+    if math.tan(part.bore_cone_angle) * math.hypot(math.tan(part.swash_angle_max), math.tan(cross)) >= 1.0:
+        return
+    least = least_ratio(crossed_drive(part.pitch_radius, part.bore_cone_angle, part.swash_angle_max, cross))
+    if ratio < least:
+        expected = f"at least {least:.4g}, what the cross angle of {angle(cross)} displaces alone"
+        yield Fault("operating.displacement_ratio", f"{ratio:g}", expected)
 
 
 @needs("pump.pistons", "operating.speed")
@@ -208,21 +208,7 @@ def spring_holds_the_slippers(pump: PumpDescription) -> Iterator[Finding]:
         )
 
 
-OPERATING_CHECKS = (
-    delivery_is_above_cavitation,
-    inlet_is_above_cavitation,
-    case_is_above_cavitation,
-    pump_raises_pressure,
-    pressure_is_within_rating,
-    oil_is_little_compressed,
-    speed_is_within_rating,
-    displacement_ratio_is_possible,
-    oil_has_a_viscosity,
-    cross_angle_leaves_the_displacement,
-    impedances_reach_the_ripple,
-    suction_flows_from_its_tank,
-    spring_holds_the_slippers,
-)
+OPERATING_CHECKS = checks_in(globals())
 
 
 def check_operating_point(pump: PumpDescription, point: OperatingPoint) -> CheckReport:

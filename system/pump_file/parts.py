@@ -104,12 +104,20 @@ def _places(path: str, rows: Rows, start: float, end: float) -> Iterator[Finding
         yield Fault(path, found, f"places from {length(start)} or less to {length(end)} or more")
 
 
-@needs("swash_plate.angle_min", "pump.swash_angle_max")
-def stops_are_apart(pump: PumpDescription) -> Iterator[Finding]:
-    """The swash plate's lower stop is below the upper one, and no farther over centre than that."""
-    low, high = pump.swash_plate.angle_min, pump.pump.swash_angle_max
-    if low is not None and not -high <= low < high:
-        yield Fault("swash_plate.angle_min", angle(low), f"{angle(-high)} to below {angle(high)}, swash_angle_max")
+@needs("piston.grooves", "piston.engaged_length")
+def piston_grooves_lie_apart(pump: PumpDescription) -> Iterator[Finding]:
+    """Ring grooves lie on the piston in order, with land between them."""
+    grooves = pump.piston.grooves or ()
+    for middle, width, depth in grooves:
+        if width <= 0.0 or depth <= 0.0:
+            yield Fault("piston.grooves", f"{length(width)} wide, {length(depth)} deep", "both more than 0")
+        elif middle - width / 2 <= 0.0 or middle + width / 2 >= pump.piston.engaged_length:
+            found = f"a groove {length(width)} wide at {length(middle)}"
+            yield Fault("piston.grooves", found, f"between 0 and engaged_length, {length(pump.piston.engaged_length)}")
+    for (first, wide, _), (second, wider, _) in pairwise(grooves):
+        if second - first <= (wide + wider) / 2:
+            found = f"grooves at {length(first)} and {length(second)}"
+            yield Fault("piston.grooves", found, f"more than {length((wide + wider) / 2)} apart, in growing order")
 
 
 def _net(path: str, rows: Rows) -> Iterator[Finding]:
@@ -137,22 +145,6 @@ def _leaves_clearance(path: str, rows: Rows, clearance: float) -> Iterator[Findi
         )
 
 
-@needs("piston.grooves", "piston.engaged_length")
-def piston_grooves_lie_apart(pump: PumpDescription) -> Iterator[Finding]:
-    """Ring grooves lie on the piston in order, with land between them."""
-    grooves = pump.piston.grooves or ()
-    for middle, width, depth in grooves:
-        if width <= 0.0 or depth <= 0.0:
-            yield Fault("piston.grooves", f"{length(width)} wide, {length(depth)} deep", "both more than 0")
-        elif middle - width / 2 <= 0.0 or middle + width / 2 >= pump.piston.engaged_length:
-            found = f"a groove {length(width)} wide at {length(middle)}"
-            yield Fault("piston.grooves", found, f"between 0 and engaged_length, {length(pump.piston.engaged_length)}")
-    for (first, wide, _), (second, wider, _) in pairwise(grooves):
-        if second - first <= (wide + wider) / 2:
-            found = f"grooves at {length(first)} and {length(second)}"
-            yield Fault("piston.grooves", found, f"more than {length((wide + wider) / 2)} apart, in growing order")
-
-
 @needs("piston.edge_relief", "piston.engaged_length")
 def piston_edge_leaves_a_land(pump: PumpDescription) -> Iterator[Finding]:
     """The relieved edge of the piston is shorter than half of what the bore holds of it."""
@@ -175,18 +167,18 @@ def slipper_rim_lies_on_the_land(pump: PumpDescription) -> Iterator[Finding]:
         yield from _relief("slipper.rim_relief", pump.slipper.rim_relief, land, "the land's width")
 
 
+@needs("piston.barrel", "piston.engaged_length")
+def barrel_is_shallow(pump: PumpDescription) -> Iterator[Finding]:
+    """A crowned piston falls little over its half length."""
+    yield from _steep("piston.barrel", pump.piston.barrel, pump.piston.engaged_length / 2)
+
+
 def _relief(path: str, relief: ReliefSection | None, widest: float, name: str) -> Iterator[Finding]:
     if relief is None:
         return
     if relief.width > widest * (1.0 + 1e-9):
         yield Fault(f"{path}.width", length(relief.width), f"at most {name}, {length(widest)}")
     yield from _steep(f"{path}.depth", relief.depth, relief.width)
-
-
-@needs("piston.barrel", "piston.engaged_length")
-def barrel_is_shallow(pump: PumpDescription) -> Iterator[Finding]:
-    """A crowned piston falls little over its half length."""
-    yield from _steep("piston.barrel", pump.piston.barrel, pump.piston.engaged_length / 2)
 
 
 @needs("slipper.crown", "slipper.land_outer_radius")
@@ -222,12 +214,6 @@ def sphere_reaches_over_the_face(pump: PumpDescription) -> Iterator[Finding]:
     )
 
 
-def _steep(path: str, depth: float | None, width: float) -> Iterator[Finding]:
-    if depth is not None and width > 0.0 and abs(depth) > STEEPEST * width:
-        limit = f"{length(STEEPEST * width)} (1 % of {length(width)}: above it the film is no thin film)"
-        yield CheckWarning(path, length(depth), limit, "check the unit: um, not mm?")
-
-
 @needs("retainer.kind", "ball_guide.spring_preload", "ball_guide.spring_stiffness", "ball_guide.spring_compression")
 def a_spring_presses_the_retainer(pump: PumpDescription) -> Iterator[Finding]:
     """A retainer that a spring is to press has one."""
@@ -235,6 +221,12 @@ def a_spring_presses_the_retainer(pump: PumpDescription) -> Iterator[Finding]:
     if part.kind is RetainerKind.SPRING and not block_spring(pump) > 0.0:
         found = "'spring' with a ball guide whose spring does not press"
         yield Fault("retainer.kind", found, "a spring_preload above zero, or kind = 'clearance'")
+
+
+def _steep(path: str, depth: float | None, width: float) -> Iterator[Finding]:
+    if depth is not None and width > 0.0 and abs(depth) > STEEPEST * width:
+        limit = f"{length(STEEPEST * width)} (1 % of {length(width)}: above it the film is no thin film)"
+        yield CheckWarning(path, length(depth), limit, "check the unit: um, not mm?")
 
 
 @needs()
@@ -261,26 +253,12 @@ def spins_are_stated(pump: PumpDescription) -> Iterator[Finding]:
             )
 
 
-PARTS_CHECKS = (
-    guide_lies_in_the_bore,
-    centre_of_mass_lies_in_the_piston,
-    piston_profile_fits,
-    bore_profile_fits,
-    slipper_profile_fits,
-    valve_plate_profile_fits,
-    piston_grooves_lie_apart,
-    piston_edge_leaves_a_land,
-    bore_edge_leaves_a_land,
-    slipper_rim_lies_on_the_land,
-    barrel_is_shallow,
-    crown_is_shallow,
-    waves_are_shallow,
-    sphere_reaches_over_the_face,
-    a_spring_presses_the_retainer,
-    lines_have_the_keys_of_their_kinds,
-    spins_are_stated,
-    stops_are_apart,
-)
+@needs("swash_plate.angle_min", "pump.swash_angle_max")
+def stops_are_apart(pump: PumpDescription) -> Iterator[Finding]:
+    """The swash plate's lower stop is below the upper one, and no farther over centre than that."""
+    low, high = pump.swash_plate.angle_min, pump.pump.swash_angle_max
+    if low is not None and not -high <= low < high:
+        yield Fault("swash_plate.angle_min", angle(low), f"{angle(-high)} to below {angle(high)}, swash_angle_max")
 
 
 def single_parts_checked(checks: Iterable[Check], pump: PumpDescription, report: CheckReport) -> CheckReport:

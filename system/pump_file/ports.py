@@ -44,6 +44,42 @@ def _at_delivery(pump: PumpDescription, finding: Finding) -> Finding:
     return replace(finding, path=finding.path.replace("ports.", "ports.delivery.", 1))
 
 
+@needs("ports.coefficient_file")
+@of_sides
+def coefficients_are_of_few_openings(pump: PumpDescription) -> Iterator[Finding]:
+    """A file of a port has no more openings than the chamber's table of it."""
+    table = pump.ports.coefficient_file
+    if table is not None and table.opening.size > MOST_OPENINGS:
+        yield Fault("ports.coefficient_file", f"{table.opening.size} openings", f"at most {MOST_OPENINGS}")
+
+
+@needs("ports.delivery.coefficient_file")
+def delivery_coefficients_are_beside_those_of_ports(pump: PumpDescription) -> Iterator[Finding]:
+    """A file of the delivery port's own needs one of [ports]."""
+    delivery = pump.ports.delivery
+    if delivery is not None and delivery.coefficient_file is not None and pump.ports.coefficient_file is None:
+        key = "ports.delivery.coefficient_file"
+        yield Fault(key, "without ports.coefficient_file", "one of [ports] too, or of [ports] alone")
+
+
+def _angles(ports: PortsSection) -> dict[str, float]:
+    """Angles of a port that grow, by key."""
+    start = {} if ports.groove_start is None else {"groove_start": ports.groove_start}
+    return start | {name: getattr(ports, name) for name in _KIDNEY_ANGLES}
+
+
+def _last(ports: PortsSection) -> tuple[str, float]:
+    """Key and angle at which a port shuts."""
+    ends = {f"grooves.{n}.end": groove.end for n, groove in enumerate(ports.grooves, start=1)}
+    return max(({"kidney_end": ports.kidney_end} | ends).items(), key=itemgetter(1))
+
+
+def _first(ports: PortsSection) -> tuple[str, float]:
+    """Key and angle at which a port begins to open."""
+    starts = {f"grooves.{n}.start": groove.start for n, groove in enumerate(ports.grooves, start=1)}
+    return min((_angles(ports) | starts).items(), key=itemgetter(1))
+
+
 @needs(*_KIDNEY)
 @of_sides
 def ports_open_in_order(pump: PumpDescription) -> Iterator[Finding]:
@@ -74,24 +110,6 @@ def ports_shut_before_the_other_opens(pump: PumpDescription) -> Iterator[Finding
                     f"a smaller {last[0]} or a larger {first[0]}",
                 ),
             )
-
-
-def _angles(ports: PortsSection) -> dict[str, float]:
-    """Angles of a port that grow, by key."""
-    start = {} if ports.groove_start is None else {"groove_start": ports.groove_start}
-    return start | {name: getattr(ports, name) for name in _KIDNEY_ANGLES}
-
-
-def _last(ports: PortsSection) -> tuple[str, float]:
-    """Key and angle at which a port shuts."""
-    ends = {f"grooves.{n}.end": groove.end for n, groove in enumerate(ports.grooves, start=1)}
-    return max(({"kidney_end": ports.kidney_end} | ends).items(), key=itemgetter(1))
-
-
-def _first(ports: PortsSection) -> tuple[str, float]:
-    """Key and angle at which a port begins to open."""
-    starts = {f"grooves.{n}.start": groove.start for n, groove in enumerate(ports.grooves, start=1)}
-    return min((_angles(ports) | starts).items(), key=itemgetter(1))
 
 
 @needs("valve_plate.kidney_arc", *_KIDNEY)
@@ -157,33 +175,3 @@ def webs_part_the_port(pump: PumpDescription) -> Iterator[Finding]:
             within = f"within {angle(last)} to {angle(end)}, in growing order, with port on both sides"
             yield Fault("ports.webs", found, within)
         last = max(last, stop)
-
-
-@needs("ports.delivery.coefficient_file")
-def delivery_coefficients_are_beside_those_of_ports(pump: PumpDescription) -> Iterator[Finding]:
-    """A file of the delivery port's own needs one of [ports]."""
-    delivery = pump.ports.delivery
-    if delivery is not None and delivery.coefficient_file is not None and pump.ports.coefficient_file is None:
-        key = "ports.delivery.coefficient_file"
-        yield Fault(key, "without ports.coefficient_file", "one of [ports] too, or of [ports] alone")
-
-
-@needs("ports.coefficient_file")
-@of_sides
-def coefficients_are_of_few_openings(pump: PumpDescription) -> Iterator[Finding]:
-    """A file of a port has no more openings than the chamber's table of it."""
-    table = pump.ports.coefficient_file
-    if table is not None and table.opening.size > MOST_OPENINGS:
-        yield Fault("ports.coefficient_file", f"{table.opening.size} openings", f"at most {MOST_OPENINGS}")
-
-
-PORT_CHECKS = (
-    coefficients_are_of_few_openings,
-    delivery_coefficients_are_beside_those_of_ports,
-    ports_open_in_order,
-    ports_shut_before_the_other_opens,
-    ports_belong_to_the_kidney,
-    grooves_fit_the_port,
-    grooves_are_smaller_than_the_kidney,
-    webs_part_the_port,
-)

@@ -16,41 +16,6 @@ HEAVY = 1.5  # times the solid cylinder: to spare for a ball and heavier alloys
 DRY_FRICTION = 1.0  # of steel on steel without any oil; boundary layers have 0.08 .. 0.15
 
 
-@needs("piston.mass", "piston.engaged_length", "piston.overhang", "pump.piston_diameter")
-def piston_is_no_heavier_than_steel(pump: PumpDescription) -> Iterator[Finding]:
-    """A piston weighs no more than solid steel of its diameter, engaged length and overhang."""
-    solid = STEEL_DENSITY * piston_area(pump) * (pump.piston.engaged_length + pump.piston.overhang)
-    yield from _heavy("piston.mass", pump.piston.mass, solid)
-
-
-@needs("slipper.mass", "slipper.land_outer_radius", "slipper.centre_of_mass_to_ball")
-def slipper_is_no_heavier_than_steel(pump: PumpDescription) -> Iterator[Finding]:
-    """A slipper weighs no more than a solid cylinder about its rim, twice as high as wide."""
-    radius = pump.slipper.land_outer_radius
-    yield from _heavy("slipper.mass", pump.slipper.mass, 4.0 * math.pi * radius**3 * STEEL_DENSITY)
-
-
-def _heavy(path: str, mass: float, solid: float) -> Iterator[Finding]:
-    if mass > HEAVY * solid:
-        yield CheckWarning(
-            path,
-            format_quantity(mass, Dimension.MASS, digits=4),
-            f"{format_quantity(HEAVY * solid, Dimension.MASS, digits=3)}, {HEAVY:g} times solid steel of its size",
-            "check the unit: g, not kg?",
-        )
-
-
-@needs(*(f"friction.{key}" for key in _PAIRS))
-def friction_is_below_that_of_dry_steel(pump: PumpDescription) -> Iterator[Finding]:
-    """No Coulomb coefficient exceeds one."""
-    for key in _PAIRS:
-        value = getattr(pump.friction, key)
-        if value > DRY_FRICTION:
-            yield CheckWarning(
-                f"friction.{key}", f"{value:g}", f"{DRY_FRICTION:g} (dry steel)", "a share, not percent?"
-            )
-
-
 @needs("oil.pressure_viscosity", "physics.viscosity_pressure.coefficient")
 def oil_thickens_by_one_coefficient(pump: PumpDescription) -> Iterator[Finding]:
     """[oil] and [physics.viscosity_pressure] state the same coefficient of Barus."""
@@ -63,9 +28,36 @@ def oil_thickens_by_one_coefficient(pump: PumpDescription) -> Iterator[Finding]:
         )
 
 
-VALUE_CHECKS = (
-    oil_thickens_by_one_coefficient,
-    piston_is_no_heavier_than_steel,
-    slipper_is_no_heavier_than_steel,
-    friction_is_below_that_of_dry_steel,
-)
+@needs("piston.mass", "piston.engaged_length", "piston.overhang", "pump.piston_diameter")
+def piston_is_no_heavier_than_steel(pump: PumpDescription) -> Iterator[Finding]:
+    """A piston weighs no more than solid steel of its diameter, engaged length and overhang."""
+    solid = STEEL_DENSITY * piston_area(pump) * (pump.piston.engaged_length + pump.piston.overhang)
+    yield from _heavy("piston.mass", pump.piston.mass, solid)
+
+
+def _heavy(path: str, mass: float, solid: float) -> Iterator[Finding]:
+    if mass > HEAVY * solid:
+        yield CheckWarning(
+            path,
+            format_quantity(mass, Dimension.MASS, digits=4),
+            f"{format_quantity(HEAVY * solid, Dimension.MASS, digits=3)}, {HEAVY:g} times solid steel of its size",
+            "check the unit: g, not kg?",
+        )
+
+
+@needs("slipper.mass", "slipper.land_outer_radius", "slipper.centre_of_mass_to_ball")
+def slipper_is_no_heavier_than_steel(pump: PumpDescription) -> Iterator[Finding]:
+    """A slipper weighs no more than a solid cylinder about its rim, twice as high as wide."""
+    radius = pump.slipper.land_outer_radius
+    yield from _heavy("slipper.mass", pump.slipper.mass, 4.0 * math.pi * radius**3 * STEEL_DENSITY)
+
+
+@needs(*(f"friction.{key}" for key in _PAIRS))
+def friction_is_below_that_of_dry_steel(pump: PumpDescription) -> Iterator[Finding]:
+    """No Coulomb coefficient exceeds one."""
+    for key in _PAIRS:
+        value = getattr(pump.friction, key)
+        if value > DRY_FRICTION:
+            yield CheckWarning(
+                f"friction.{key}", f"{value:g}", f"{DRY_FRICTION:g} (dry steel)", "a share, not percent?"
+            )
