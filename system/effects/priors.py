@@ -1,10 +1,13 @@
-"""Priors of extensions: range of the parameters of a law before any recording."""
+"""Entries of the catalogue by their laws, and priors of these laws: ranges of parameters before any recording."""
 
 from math import log
 
 from system.description.gap import Gap
-from system.effects.effect import EffectId
+from system.effects.components import Component
+from system.effects.effect import EffectId, Kind
+from system.effects.extension import Entry, Extension, Law, Values
 from system.estimation.parameters import Parameter, Role, Scale
+from system.inputs.channels import ChannelName
 from system.inputs.units import Dimension
 
 
@@ -33,3 +36,32 @@ def scale_of(effect: EffectId, key: str, grid: tuple[float, ...], dimension: Dim
         path_of(effect, key), Role.EXTENSION, Scale.LOG, grid[0], 0.5 * log(ratio), grid[0] / ratio,
         grid[-1] * ratio, dimension, "between the members of its grid",
     )  # fmt: skip
+
+
+def size_of(
+    effect: EffectId, key: str, spread: float, upper: float, dimension: Dimension | None, source: str
+) -> Parameter:
+    """A size of an effect of the whole pump, as `half`."""
+    return half(path_of(effect, key), spread, upper, dimension, source)
+
+
+def whole(
+    effect: EffectId, law: Law, *sizes: Parameter, grid: tuple[Values, ...] = ({},), scales: tuple[Parameter, ...] = ()
+) -> tuple[Extension, ...]:
+    """The one extension of an effect by a law of the whole pump."""
+    return (Extension(effect, None, law, sizes, grid, scales),)
+
+
+def missing_physics(
+    extensions: tuple[Extension, ...],
+    components: tuple[Component, ...],
+    channels: tuple[ChannelName, ...],
+    twins: tuple[EffectId, ...],
+    regime: str,
+    sentence: str,
+    source: str,
+) -> Entry:
+    """The entry of an effect that the plain loss model leaves out."""
+    return Entry(
+        extensions[0].id, Kind.MISSING_PHYSICS, extensions, components, channels, regime, twins, sentence, source
+    )

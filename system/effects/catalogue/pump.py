@@ -1,10 +1,10 @@
 """The catalogue of effects outside the films: filling, drag, other paths, ports, swash plate."""
 
 from system.effects.components import Component
-from system.effects.effect import EffectId, Kind
-from system.effects.extension import THEORY, Entry, Extension, Law, Values
+from system.effects.effect import EffectId
+from system.effects.extension import THEORY
 from system.effects.laws import drag as drag_laws, flow as flow_laws, port as port_laws
-from system.effects.priors import half, path_of, signed
+from system.effects.priors import missing_physics, path_of, signed, size_of, whole
 from system.estimation.parameters import Parameter, Role, Scale
 from system.inputs.channels import ChannelName
 from system.inputs.units import RPM, Dimension
@@ -14,52 +14,26 @@ CASE_SEALS = (0.0, 1.5e-6)
 RESONANCES = tuple(RPM * speed for speed in (600.0, 900.0, 1200.0, 1500.0, 1800.0, 2100.0, 2400.0, 2700.0, 3000.0))
 
 
-def _entry(
-    extension: Extension,
-    components: tuple[Component, ...],
-    channels: tuple[ChannelName, ...],
-    twins: tuple[EffectId, ...],
-    regime: str,
-    sentence: str,
-    source: str,
-) -> Entry:
-    return Entry(
-        extension.id, Kind.MISSING_PHYSICS, (extension,), components, channels, regime, twins, sentence, source
-    )
-
-
-def _whole(
-    effect: EffectId, law: Law, *sizes: Parameter, grid: tuple[Values, ...] = ({},), scales: tuple[Parameter, ...] = ()
-) -> Extension:
-    return Extension(effect, None, law, sizes, grid, scales)
-
-
 def _share_of_clearance() -> Parameter:
     name, source = path_of(EffectId.CONTROL_FLOW, "laminar"), "between an orifice and a clearance alone"
     return Parameter(name, Role.EXTENSION, Scale.NORMAL, 0.0, 0.5, 0.0, 1.0, None, source)
 
 
-def _size(
-    effect: EffectId, key: str, spread: float, upper: float, dimension: Dimension | None, source: str
-) -> Parameter:
-    return half(path_of(effect, key), spread, upper, dimension, source)
-
-
 E = EffectId
 FILLING_ENTRIES = (
-    _entry(
-        _whole(
+    missing_physics(
+        whole(
             E.ENTRAINED_AIR, flow_laws.entrained_air,
-            _size(E.ENTRAINED_AIR, "void", 0.01, 0.05, None, "up to 5 % behind a poor tank"),
+            size_of(E.ENTRAINED_AIR, "void", 0.01, 0.05, None, "up to 5 % behind a poor tank"),
         ),
         (Component.DISPLACEMENT,), FLOWS, (E.DISPLACEMENT, E.Q_OUT_GAIN, E.Q_IN_GAIN),
         "low inlet pressure, every speed", "bubbles of air take the place of oil in the chambers",
         "Nykaenen et al. 2000",
     ),
-    _entry(
-        _whole(
+    missing_physics(
+        whole(
             E.INCOMPLETE_FILLING, flow_laws.incomplete_filling,
-            _size(E.INCOMPLETE_FILLING, "inlet_loss", 1.0, 10.0, None, "1: as much again as the kidneys"),
+            size_of(E.INCOMPLETE_FILLING, "inlet_loss", 1.0, 10.0, None, "1: as much again as the kidneys"),
         ),
         (Component.DISPLACEMENT,), (*FLOWS, ChannelName.TORQUE),
         (E.SLIPPER_LIFT, E.BLOCK_TIPPING, E.ENTRAINED_AIR),
@@ -68,44 +42,44 @@ FILLING_ENTRIES = (
     ),
 )  # fmt: skip
 DRAG_ENTRIES = (
-    _entry(
-        _whole(
+    missing_physics(
+        whole(
             E.CHURNING, drag_laws.churning,
-            _size(E.CHURNING, "factor", 1.0, 3.0, None, "1: Wendt's drum and the pistons' drag, +-50 %"),
+            size_of(E.CHURNING, "factor", 1.0, 3.0, None, "1: Wendt's drum and the pistons' drag, +-50 %"),
         ),
         (Component.CASE_DRAG,), (ChannelName.TORQUE,), (E.SHEAR_THINNING, E.PORT_THROTTLING),
         "high speed, every pressure", "the rotating group churns the oil in the case", "Wendt 1933",
     ),
-    _entry(
-        _whole(
+    missing_physics(
+        whole(
             E.SEAL_DRAG, drag_laws.seal_drag,
-            _size(E.SEAL_DRAG, "torque", 1.0, 5.0, Dimension.TORQUE, ".3 to 1 N m of a lip seal"),
+            size_of(E.SEAL_DRAG, "torque", 1.0, 5.0, Dimension.TORQUE, ".3 to 1 N m of a lip seal"),
             grid=tuple({"per_case_pressure": rise} for rise in CASE_SEALS),
         ),
         (Component.CASE_DRAG,), (ChannelName.TORQUE,), (E.TORQUE_OFFSET, E.CHARGE_PUMP_DRAG),
         "everywhere alike", "the shaft's seal drags", THEORY,
     ),
-    _entry(
-        _whole(
+    missing_physics(
+        whole(
             E.CHARGE_PUMP_DRAG, drag_laws.charge_pump_drag,
-            _size(E.CHARGE_PUMP_DRAG, "volume", 20e-6, 40e-6, Dimension.DISPLACEMENT, "a fifth of the pump's own"),
+            size_of(E.CHARGE_PUMP_DRAG, "volume", 20e-6, 40e-6, Dimension.DISPLACEMENT, "a fifth of the pump's own"),
         ),
         (Component.CASE_DRAG,), (ChannelName.TORQUE,), (E.SEAL_DRAG, E.TORQUE_OFFSET),
         "in proportion to the inlet pressure", "the shaft drives a charge pump too", THEORY,
     ),
-    _entry(
-        _whole(
+    missing_physics(
+        whole(
             E.PORT_THROTTLING, drag_laws.port_throttling,
-            _size(E.PORT_THROTTLING, "factor", 1.0, 5.0, None, "1: a kidney each way"),
+            size_of(E.PORT_THROTTLING, "factor", 1.0, 5.0, None, "1: a kidney each way"),
         ),
         (Component.COMMUTATION,), (ChannelName.TORQUE,), (E.CHURNING,),
         "high speed and large displacement", "passages behind the ports throttle the flow",
         "Schlosser 1961",
     ),
-    _entry(
-        _whole(
+    missing_physics(
+        whole(
             E.COMPRESSION_LOSS, drag_laws.compression_loss,
-            _size(E.COMPRESSION_LOSS, "share", 0.3, 1.0, None, "all of it without relief grooves"),
+            size_of(E.COMPRESSION_LOSS, "share", 0.3, 1.0, None, "all of it without relief grooves"),
         ),
         (Component.COMPRESSION, Component.COMMUTATION), (ChannelName.TORQUE,),
         (E.FRICTION_COEFFICIENT, E.CHARGE_PUMP_DRAG, E.TORQUE_GAIN),
@@ -114,29 +88,29 @@ DRAG_ENTRIES = (
     ),
 )  # fmt: skip
 FLOW_ENTRIES = (
-    _entry(
-        _whole(
+    missing_physics(
+        whole(
             E.PORT_SHORT_CIRCUIT, flow_laws.port_short_circuit,
-            _size(E.PORT_SHORT_CIRCUIT, "area", 2e-7, 3e-6, Dimension.AREA, ".06 mm2 is .7 L/min at 35 MPa"),
+            size_of(E.PORT_SHORT_CIRCUIT, "area", 2e-7, 3e-6, Dimension.AREA, ".06 mm2 is .7 L/min at 35 MPa"),
         ),
         (Component.CROSS_FLOW,), FLOWS, (E.LAMINAR_CROSS_LEAK, E.DISPLACEMENT, E.Q_OUT_GAIN),
         "every speed and temperature, with the root of pressure", "an orifice joins delivery and inlet",
         THEORY,
     ),
-    _entry(
-        _whole(
+    missing_physics(
+        whole(
             E.LAMINAR_CROSS_LEAK, flow_laws.laminar_cross_leak,
-            _size(E.LAMINAR_CROSS_LEAK, "conductance", 1.2e-14, 1.2e-12, Dimension.VOLUME,
-                  "1 L/min at 35 MPa and 25 mPa s"),
+            size_of(E.LAMINAR_CROSS_LEAK, "conductance", 1.2e-14, 1.2e-12, Dimension.VOLUME,
+                    "1 L/min at 35 MPa and 25 mPa s"),
         ),
         (Component.CROSS_FLOW,), FLOWS, (E.PORT_SHORT_CIRCUIT,),
         "every speed, more when hot, in proportion to pressure", "a narrow gap joins delivery and inlet",
         "catalogue of ids",
     ),
-    _entry(
-        _whole(
+    missing_physics(
+        whole(
             E.CONTROL_FLOW, flow_laws.control_flow,
-            _size(E.CONTROL_FLOW, "area", 2e-7, 2e-6, Dimension.AREA, "bleeds of .6 to 1 mm at reduced pressure"),
+            size_of(E.CONTROL_FLOW, "area", 2e-7, 2e-6, Dimension.AREA, "bleeds of .6 to 1 mm at reduced pressure"),
             grid=({"laminar": 0.0}, {"laminar": 1.0}), scales=(_share_of_clearance(),),
         ),
         (Component.DRAIN_FLOW,), (ChannelName.Q_CASE, ChannelName.Q_OUT), (E.Q_CASE_OFFSET, E.SQUEEZE_PUMPING),
@@ -144,28 +118,28 @@ FLOW_ENTRIES = (
     ),
 )  # fmt: skip
 PORT_ENTRIES = (
-    _entry(
-        _whole(
+    missing_physics(
+        whole(
             E.NOTCH_EROSION, port_laws.notch_erosion,
-            _size(E.NOTCH_EROSION, "advance", 0.03, 0.15, Dimension.ANGLE, "up to 5 deg"),
-            _size(E.NOTCH_EROSION, "widening", 0.3, 3.0, None, ".5 mm2 of a 4 mm2 throat is little"),
+            size_of(E.NOTCH_EROSION, "advance", 0.03, 0.15, Dimension.ANGLE, "up to 5 deg"),
+            size_of(E.NOTCH_EROSION, "widening", 0.3, 3.0, None, ".5 mm2 of a 4 mm2 throat is little"),
         ),
         (Component.COMMUTATION,), (ChannelName.P_CHAMBER, *FLOWS, ChannelName.TORQUE),
         (E.PORT_SHORT_CIRCUIT, E.COMPRESSION_LOSS),
         "shaft angles where ports begin to open", "relief grooves are worn: ports open sooner", THEORY,
     ),
-    _entry(
-        _whole(
+    missing_physics(
+        whole(
             E.SWASH_DROOP, port_laws.swash_droop,
-            _size(E.SWASH_DROOP, "rate", 5e-11, 3e-10, Dimension.ANGLE_COMPLIANCE, ".05 to .15 deg at 35 MPa"),
-            _size(E.SWASH_DROOP, "play", 1e-3, 3e-3, Dimension.ANGLE, ".05 to .15 deg"),
+            size_of(E.SWASH_DROOP, "rate", 5e-11, 3e-10, Dimension.ANGLE_COMPLIANCE, ".05 to .15 deg at 35 MPa"),
+            size_of(E.SWASH_DROOP, "play", 1e-3, 3e-3, Dimension.ANGLE, ".05 to .15 deg"),
         ),
         (Component.DISPLACEMENT,), (*FLOWS, ChannelName.TORQUE), (E.DISPLACEMENT, E.TORQUE_GAIN),
         "high pressure and small displacement, every speed, flow and torque alike",
         "the swash plate deflects under load", THEORY,
     ),
-    _entry(
-        _whole(
+    missing_physics(
+        whole(
             E.LINE_RESONANCE, port_laws.line_resonance,
             signed(path_of(E.LINE_RESONANCE, "height"), 0.01, 0.03, None, ".5 to 3 % of turbine meters"),
             grid=tuple({"speed": speed} for speed in RESONANCES),
