@@ -5,6 +5,7 @@ from dataclasses import astuple, dataclass, replace
 from enum import Enum
 from functools import cached_property
 from importlib.metadata import version
+from operator import attrgetter
 from typing import Protocol
 
 import numpy as np
@@ -163,79 +164,60 @@ class Quantity:
         return tuple(f"{self.name}.{member}" if member else self.name for member in self.members.value)
 
 
-def _of_bench(name: str, unit: str, words: str) -> Quantity:
-    return Quantity(name, unit, words, Members.PUMP, lambda solved, _: getattr(solved.pump_point.bench, name))
+def _of_pump(name: str, unit: str, words: str, place: str) -> Quantity:
+    """Return a number of the whole pump, by its place in a solved point."""
+    read = attrgetter(place)
+    return Quantity(name, unit, words, Members.PUMP, lambda solved, _: read(solved.pump_point))
 
 
-def _of_power(name: str, field: str, words: str) -> Quantity:
-    return Quantity(name, "W", words, Members.PUMP, lambda solved, _: getattr(solved.pump_point.power, field))
+def _of_gaps(name: str, unit: str, words: str, place: str) -> Quantity:
+    """Return a number of each gap, by the place of the gaps in a solved point."""
+    read = attrgetter(place)
+    return Quantity(name, unit, words, Members.GAP, lambda solved, gap: getattr(read(solved), gap))
+
+
+def _of_pairs(name: str, words: str, part: str) -> Quantity:
+    """Return a part of the loss of each friction pair."""
+    return Quantity(
+        name, "W", words, Members.PAIR, lambda solved, pair: getattr(solved.pump_point.pairs.loss(Pair(pair)), part)
+    )
 
 
 QUANTITIES = (
-    _of_bench("delivery_flow", "m3/s", "flow out of the delivery port, at its pressure"),
-    _of_bench("inlet_flow", "m3/s", "flow into the inlet, at its pressure"),
-    _of_bench("drain_flow", "m3/s", "flow out of the case, at its pressure"),
-    _of_bench("shaft_torque", "N m", "mean shaft torque"),
-    Quantity(
-        "port_delivery_pressure", "Pa", "mean pressure at the delivery port, gauge", Members.PUMP,
-        lambda solved, _: solved.pump_point.bench.delivery_pressure,
-    ),
-    Quantity(
-        "port_inlet_pressure", "Pa", "mean pressure at the inlet, gauge", Members.PUMP,
-        lambda solved, _: solved.pump_point.bench.inlet_pressure,
-    ),
-    _of_bench("drain_pressure", "Pa", "pressure in the case, gauge"),
-    _of_power("shaft_power", "shaft", "power at the shaft"),
-    _of_power("hydraulic_power", "hydraulic", "p Q summed over delivery, inlet and case"),
-    _of_power("compression_power", "elastic", "stored in the oil that leaves, less that which enters"),
-    _of_power("ripple_power", "ripple", "what pulsing of both ports' lines takes"),
-    _of_power("throttling_delivery", "throttling_delivery", "loss in the delivery port"),
-    _of_power("throttling_suction", "throttling_suction", "loss in the suction port"),
-    _of_power("extended_loss", "extended", "carried off by effects of [physics]"),
-    Quantity(
-        "pair_loss", "W", "loss of a friction pair", Members.PAIR,
-        lambda solved, pair: solved.pump_point.pairs.loss(Pair(pair)).mean,
-    ),
-    Quantity(
-        "pair_loss_coulomb", "W", "Coulomb part of a friction pair's loss", Members.PAIR,
-        lambda solved, pair: solved.pump_point.pairs.loss(Pair(pair)).mean_coulomb,
-    ),
-    Quantity(
-        "leakage_loss", "W", "turned into heat by the flow through a gap", Members.GAP,
-        lambda solved, gap: getattr(solved.pump_point.power.leakage, gap),
-    ),
-    Quantity(
-        "leakage_flow", "m3/s", "flow through a gap into the case, at its pressure", Members.GAP,
-        lambda solved, gap: getattr(solved.pump_point.leakage_flow, gap),
-    ),
-    Quantity(
-        "film_mean", "m", "mean film of a gap over area and turn", Members.GAP,
-        lambda solved, gap: getattr(solved.film_mean, gap),
-    ),
-    Quantity(
-        "film_least", "m", "least film of a gap anywhere in the turn", Members.GAP,
-        lambda solved, gap: getattr(solved.film_least, gap),
-    ),
+    _of_pump("delivery_flow", "m3/s", "flow out of the delivery port, at its pressure", "bench.delivery_flow"),
+    _of_pump("inlet_flow", "m3/s", "flow into the inlet, at its pressure", "bench.inlet_flow"),
+    _of_pump("drain_flow", "m3/s", "flow out of the case, at its pressure", "bench.drain_flow"),
+    _of_pump("shaft_torque", "N m", "mean shaft torque", "bench.shaft_torque"),
+    _of_pump("port_delivery_pressure", "Pa", "mean pressure at the delivery port, gauge", "bench.delivery_pressure"),
+    _of_pump("port_inlet_pressure", "Pa", "mean pressure at the inlet, gauge", "bench.inlet_pressure"),
+    _of_pump("drain_pressure", "Pa", "pressure in the case, gauge", "bench.drain_pressure"),
+    _of_pump("shaft_power", "W", "power at the shaft", "power.shaft"),
+    _of_pump("hydraulic_power", "W", "p Q summed over delivery, inlet and case", "power.hydraulic"),
+    _of_pump("compression_power", "W", "stored in the oil that leaves, less that which enters", "power.elastic"),
+    _of_pump("ripple_power", "W", "what pulsing of both ports' lines takes", "power.ripple"),
+    _of_pump("throttling_delivery", "W", "loss in the delivery port", "power.throttling_delivery"),
+    _of_pump("throttling_suction", "W", "loss in the suction port", "power.throttling_suction"),
+    _of_pump("extended_loss", "W", "carried off by effects of [physics]", "power.extended"),
+    _of_pairs("pair_loss", "loss of a friction pair", "mean"),
+    _of_pairs("pair_loss_coulomb", "Coulomb part of a friction pair's loss", "mean_coulomb"),
+    _of_gaps("leakage_loss", "W", "turned into heat by the flow through a gap", "pump_point.power.leakage"),
+    _of_gaps("leakage_flow", "m3/s", "flow through a gap into the case, at its pressure", "pump_point.leakage_flow"),
+    _of_gaps("film_mean", "m", "mean film of a gap over area and turn", "film_mean"),
+    _of_gaps("film_least", "m", "least film of a gap anywhere in the turn", "film_least"),
     Quantity(
         "chamber_pressure_peak", "Pa", "highest chamber pressure, gauge", Members.PUMP,
         lambda solved, _: float(max(np.max(own.pressure) for own in solved.pump_point.chambers)),
     ),
-    Quantity(
-        "geometric_displacement", "m3/rev", "stroke times piston area, all pistons", Members.PUMP,
-        lambda solved, _: solved.pump_point.geometric_displacement,
+    _of_pump("geometric_displacement", "m3/rev", "stroke times piston area, all pistons", "geometric_displacement"),
+    _of_pump(
+        "swept_displacement", "m3/rev", "what chambers without leakage would deliver at no pressure",
+        "derived_displacement",
     ),
-    Quantity(
-        "swept_displacement", "m3/rev", "what chambers without leakage would deliver at no pressure", Members.PUMP,
-        lambda solved, _: solved.pump_point.derived_displacement,
+    _of_pump(
+        "energy_balance_error", "1", "torque of forces against all sinks, of the shaft power",
+        "checks.energy_balance_error",
     ),
-    Quantity(
-        "energy_balance_error", "1", "torque of forces against all sinks, of the shaft power", Members.PUMP,
-        lambda solved, _: solved.pump_point.checks.energy_balance_error,
-    ),
-    Quantity(
-        "mass_balance_error", "1", "of the delivered mass", Members.PUMP,
-        lambda solved, _: solved.pump_point.checks.mass_balance_error,
-    ),
+    _of_pump("mass_balance_error", "1", "of the delivered mass", "checks.mass_balance_error"),
 )  # fmt: skip
 """All that is kept of a point."""
 
