@@ -20,9 +20,8 @@ from diagnosis.thresholds import Thresholds
 from reynolds.numerics.arrays import Array
 from system.effects.effect import Kind
 from system.estimation.evidence import Sign, project, score
-from system.estimation.laplace import laplace
 from system.estimation.parameters import Role
-from system.estimation.posterior import Posterior
+from system.estimation.posterior import Posterior, laplace
 from system.estimation.whitening import Whitening, whitener
 
 from .baselines import gaussian_process, sparse_regression

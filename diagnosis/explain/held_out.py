@@ -13,9 +13,8 @@ from diagnosis.explain.ranked import HeldOut
 from diagnosis.study.model import Study
 from diagnosis.thresholds import HeldOutLimits, Thresholds
 from reynolds.numerics.arrays import Array
-from system.estimation.folds import left_out
+from system.estimation.folds import left_out, log_predictive
 from system.estimation.posterior import Posterior
-from system.estimation.predictive import log_predictive
 from system.inputs.channels import ChannelName
 
 Marks = NDArray[np.bool_]

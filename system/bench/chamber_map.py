@@ -1,4 +1,4 @@
-"""Chamber pressure over the turn at all points of a bench map at once: the lumped fidelity's, point by point."""
+"""Ports and chamber pressure over the turn at all points of a bench map at once, in the lumped fidelity."""
 
 from __future__ import annotations
 
@@ -6,9 +6,9 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from reynolds.numerics.arrays import Array
-from system.bench.ports import map_ports
 from system.description.pump import PumpDescription
 from system.inputs.units import TURN
 from system.pump.chamber import kernels as kernel
@@ -16,10 +16,48 @@ from system.pump.chamber.cycle import PERIODICITY, REVOLUTION_LIMIT, unsolved
 from system.pump.chamber.layout import CAVITY_PRESSURE, INTEGRALS
 from system.pump.chamber.map_kernels import beside_map, chamber_map
 from system.pump.chamber.problem import Chamber, LeakTable
-from system.pump.chamber.setup import PORT_NAMES, chamber_records, gap_cubics
+from system.pump.chamber.setup import PORT_NAMES, chamber_records, gap_cubics, turn_nodes
 from system.pump.chamber.state_kernels import CHAMBER
 from system.pump.chamber.turn import Gaps, Paths, TurnTotals, turn_totals
+from system.pump.lumped import port_openings
+from system.pump.ports.areas import as_array
 from system.pump.ports.wear import PortWear
+
+
+@dataclass(frozen=True)
+class MapPorts:
+    """Suction and delivery port at N points, as compiled code reads them.
+
+    suction, delivery: (N, PORT_SIZE); nodes: every point's nodes of a turn, end to end, of point i from firsts[i]
+    to firsts[i + 1].
+    """
+
+    suction: Array
+    delivery: Array
+    nodes: Array
+    firsts: NDArray[np.int64]
+
+
+def map_ports(pump: PumpDescription, shift: Array, wear: PortWear[Array], samples: int) -> MapPorts:
+    """The ports at N points, later by shift (N,) rad (`SwashDrive.dead_centre_shift`), with their wear.
+
+    Nodes are the breaks of the ports and, of an even number of samples, every second: over steps no
+    longer the stages give the pressure as well as the steps do. Equal points share the work.
+    """
+    rows = np.column_stack([shift, *vars(wear).values()])
+    kinds, of_point = np.unique(rows, axis=0, return_inverse=True)
+    found = [_kind(pump, *map(float, kind), samples=samples) for kind in kinds]
+    by_point = [found[kind] for kind in of_point.ravel()]
+    suction, delivery, nodes = zip(*by_point, strict=True)
+    firsts = np.cumsum([0, *(own.size for own in nodes)])
+    return MapPorts(np.stack(suction), np.stack(delivery), np.concatenate(nodes), firsts)
+
+
+def _kind(pump: PumpDescription, shift: float, *wear: float, samples: int) -> tuple[Array, Array, Array]:
+    suction, delivery = port_openings(pump, shift, PortWear(*wear))
+    ends = samples // 2 if samples % 2 == 0 else samples
+    return as_array(suction), as_array(delivery), turn_nodes(suction, delivery, ends)[0]
+
 
 OF_GAPS = ("case_pressure", "kinematic_viscosity")
 """Constants of a chamber that act by its gaps alone; ports turn from laminar to turbulent at a few kPa."""

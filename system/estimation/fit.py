@@ -15,9 +15,8 @@ import numpy as np
 from reynolds.errors import NotConverged
 from reynolds.numerics.arrays import Array
 from system.estimation.bounded_step import Bounds, Quadratic, bounded_step
-from system.estimation.laplace import laplace, log_mass
 from system.estimation.observations import Observations
-from system.estimation.posterior import FitEffort, Posterior, standard_slopes, values_at
+from system.estimation.posterior import FitEffort, Posterior, laplace, log_mass, standard_slopes, values_at
 from system.estimation.simulator import Simulator
 from system.estimation.whitening import Whitening, whitener
 

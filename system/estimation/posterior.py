@@ -1,4 +1,4 @@
-"""The posterior of the parameters about its peak."""
+"""The posterior of the parameters about its peak, and its evidence, with priors that end at bounds."""
 
 from dataclasses import dataclass, replace
 from functools import cached_property
@@ -6,15 +6,35 @@ from time import process_time
 
 import numpy as np
 from scipy.linalg import cho_factor, cho_solve
+from scipy.special import log_ndtr
 
 from reynolds.errors import InputError
 from reynolds.numerics.arrays import Array
 from system.estimation.bounded_step import Bounds
-from system.estimation.laplace import laplace
 from system.estimation.observations import Observations
 from system.estimation.parameters import Parameter
 from system.estimation.simulator import Simulator
 from system.estimation.whitening import Whitening, whitener
+
+
+def laplace(objective: float, precision: Array) -> float:
+    """ln evidence -J/2 - ln det(precision)/2 of a peak (Laplace 1774; MacKay 2003, chapter 27).
+
+    J = r.r + xi.xi; constants that all hypotheses on the same readings share are left out. Exact where the
+    readings are linear in the parameters and no bound is near.
+    """
+    return -0.5 * objective - 0.5 * float(np.linalg.slogdet(precision)[1])
+
+
+def log_mass(centre: Array, sigma: Array, lowest: Array, highest: Array) -> Array:
+    """ln of the mass of N(centre, sigma^2) between two bounds, without loss of digits in either tail."""
+    low, high = (lowest - centre) / sigma, (highest - centre) / sigma
+    mirrored = low > 0
+    low, high = np.where(mirrored, -high, low), np.where(mirrored, -low, high)
+    upper, lower = log_ndtr(high), log_ndtr(low)
+    mass: Array = upper + np.log1p(-np.exp(lower - upper))
+    return mass
+
 
 UNINFORMED = 1e-9  # share of its prior variance by which a parameter must be known better to have a pull
 

@@ -15,8 +15,12 @@ from swashfilm.output.gap_names import FIELDS, TITLES, vtu_name
 from swashfilm.output.page import inlined
 from swashfilm.output.result import read_netcdf
 from swashfilm.output.tables import read_csv
-from swashfilm.runs.film.revolution.data import revolution_dataset, write_convergence, write_series
-from swashfilm.runs.film.revolution.fields import write_revolution_fields
+from swashfilm.runs.film.revolution.data import (
+    revolution_dataset,
+    write_convergence,
+    write_revolution_fields,
+    write_series,
+)
 from swashfilm.runs.film.revolution.plots import film_text, revolution_plots
 from swashfilm.runs.film.revolution.solve import RevolutionStudy, revolution_summary
 from swashfilm.runs.pump.data import GAPS, PICTURED_TURN

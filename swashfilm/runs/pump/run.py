@@ -19,8 +19,7 @@ from swashfilm.runs.pump.flow_coefficients import coefficient_warnings
 from swashfilm.runs.pump.forces import force_warnings, forces_summary, write_forces
 from swashfilm.runs.pump.page import write_pump_page
 from swashfilm.runs.pump.result import PumpRun
-from swashfilm.runs.pump.summary import pump_summary
-from swashfilm.runs.pump.validity import films_warnings
+from swashfilm.runs.pump.summary import films_warnings, pump_summary
 from swashfilm.runs.table.summary import point_by_table, table_point_summary, table_point_warnings
 from system.description.pump import PumpDescription
 from system.multibody.floating_group import floating_joint_forces

@@ -1,4 +1,4 @@
-"""Summary of an operating point, summary.json: headline numbers in SI with units in the keys, and checks."""
+"""Summary of an operating point, summary.json: headline numbers in SI with units in the keys, checks, warnings."""
 
 from collections.abc import Sequence
 from dataclasses import asdict, fields
@@ -8,6 +8,7 @@ import numpy as np
 
 from gaps.standing.gap_film import GapFilm
 from swashfilm.console.fidelity import Fidelity
+from swashfilm.output.gap_names import LARGEST_RIGID_PRESSURE
 from swashfilm.runs.pump.data import gap_films
 from swashfilm.runs.pump.edge_losses import loss_records
 from swashfilm.runs.pump.flow_coefficients import coefficient_records
@@ -27,6 +28,7 @@ ABBREVIATION = {
     Pair.FRONT_BEARING: "FB",
     Pair.REAR_BEARING: "RB",
 }
+LARGEST_SAMPLING_ERROR = 0.02
 
 
 def pump_summary(
@@ -196,3 +198,46 @@ def _checks(point: PumpPoint, films: FilmsPoint | None) -> dict[str, float]:
             "film_angle_sampling_error": films.sampling_error,
         }
     return checks
+
+
+def films_warnings(films: FilmsPoint) -> list[str]:
+    """Return all warnings of a films point, `name: text` each."""
+    return [*unsupported_loads(films), *impossible_pressures(films), *few_angles(films)]
+
+
+def unsupported_loads(films: FilmsPoint) -> list[str]:
+    """Return a warning for each gap whose film, at some angle, does not support its load at the given position."""
+    return [
+        f"load_not_carried: {gap.replace('_', ' ')}: {gap_statement(series)}; contact, squeeze or another "
+        "position supplies the difference: --fidelity floating computes it"
+        for gap, series in gap_films(films).items()
+        if not all(film.holds_its_load for film in series)
+    ]
+
+
+def impossible_pressures(films: FilmsPoint) -> list[str]:
+    """Return a warning for each gap whose film pressure exceeds the limit of rigid walls and isoviscous oil."""
+    found = []
+    for gap, series in gap_films(films).items():
+        physics = getattr(films.physics, gap)
+        if physics.elastic_walls and physics.pressure_viscosity:
+            continue
+        peak = max(film.loads.pressure_max for film in series)
+        if peak > LARGEST_RIGID_PRESSURE:
+            found.append(
+                f"film_pressure_beyond_rigid: {gap.replace('_', ' ')}: film pressure up to {peak * 1e-6:.0f} MPa "
+                f"(limit {LARGEST_RIGID_PRESSURE * 1e-6:.0f} MPa: walls deform and viscosity rises before); state "
+                "a smaller eccentricity or tilt, a larger clearance, or both effects in [physics]: "
+                f"compliance in [physics.elastic_opening.{gap}] and [physics.viscosity_pressure]"
+            )
+    return found
+
+
+def few_angles(films: FilmsPoint) -> list[str]:
+    """Return a warning where the leakage depends on the number of film angles."""
+    if films.sampling_error <= LARGEST_SAMPLING_ERROR:
+        return []
+    return [
+        f"film_angles_too_few: leakage changes by {films.sampling_error:.1%} when every second film angle is left "
+        f"out (limit {LARGEST_SAMPLING_ERROR:.0%}); from Python, films_point(pump, point, positions_per_pitch=8)"
+    ]

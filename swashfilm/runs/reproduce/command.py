@@ -111,7 +111,7 @@ def _recording_of(options: argparse.Namespace) -> Recording | None:
     """Return the checked recording to which Fig. 13 is fitted; raise InputFaults where it is not suitable."""
     if options.recording is None:
         return None
-    from swashfilm.runs.reproduce.recorded_coefficients import recording_for_fig13
+    from swashfilm.runs.reproduce.run import recording_for_fig13
 
     return recording_for_fig13(options.recording, _pump_of(options))
 

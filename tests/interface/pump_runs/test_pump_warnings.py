@@ -8,7 +8,7 @@ import pytest
 from gaps import Effect, PistonDrive, PistonFilm, PistonShape, constant, standing_piston
 from gaps.standing.gap_film import standing_piston_film
 from reynolds import FilmSolver, held_at
-from swashfilm.runs.pump.validity import few_angles, impossible_pressures, unsupported_loads
+from swashfilm.runs.pump.summary import few_angles, impossible_pressures, unsupported_loads
 from system import SMOOTH
 from system.films.cycle import PLAIN, GapPhysics
 

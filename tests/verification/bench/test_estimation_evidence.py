@@ -14,8 +14,7 @@ from reynolds import Array
 from system import Channel, Observations, Parameter, Role, Scale, linear_posterior, maximum_posterior
 from system.estimation.determined import undetermined
 from system.estimation.evidence import Sign, mixture_evidence, multiplier_evidence, multiplier_evidences_without, score
-from system.estimation.laplace import log_mass
-from system.estimation.posterior import settled
+from system.estimation.posterior import log_mass, settled
 
 POINTS = 12
 FREE = (-np.inf, np.inf)

@@ -22,7 +22,7 @@ from system import (
     linear_posterior,
     maximum_posterior,
 )
-from system.estimation.predictive import log_predictive, predictive
+from system.estimation.folds import log_predictive, predictive
 from system.estimation.whitening import Whitening, autocorrelation, whitener
 
 POINTS = 30

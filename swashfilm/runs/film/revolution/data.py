@@ -21,6 +21,11 @@ from system.films.rotor import engaged_share
 if TYPE_CHECKING:
     import xarray
 
+
+from reynolds.solve.export import write_pvd, write_vtu
+from swashfilm.output.gap_names import FIELDS, vtu_name
+from system.films.places import place_of
+
 POSITIONS = {
     Gap.PISTON: ("eccentricity_x_inner", "eccentricity_y_inner", "eccentricity_x_case", "eccentricity_y_case"),
     Gap.SLIPPER: ("film_thickness_under_ball", "rise_x", "rise_y"),
@@ -177,3 +182,18 @@ def write_convergence(path: Path, study: RevolutionStudy) -> None:
         for turn, change in enumerate(closing.changes, start=1)
     ]
     write_csv(path, ["turn", "change [um]", *(f"multiplier_{k + 1} [-]" for k in range(len(sizes)))], rows)
+
+
+def write_revolution_fields(folder: Path, study: RevolutionStudy) -> None:
+    """Write fields/<gap>_NNN.vtu of every kept film and, over them, <gap>.pvd (time = shaft angle in degrees).
+
+    With solved temperature the files hold `film_temperature` (K), its mean over the thickness.
+    """
+    (folder / FIELDS).mkdir(exist_ok=True)
+    gap, entries, warm = study.case.gap.value, [], film_temperatures(study)
+    for k, (angle, film) in enumerate(study.revolution.turn.films.items()):
+        name = f"{FIELDS}/{vtu_name(gap, k)}"
+        place = place_of(study.case.gap, study.case.rotor, study.parts, angle)
+        write_vtu(folder / name, film, place, None if warm is None else {"film_temperature": warm[k]})
+        entries.append((float(np.degrees(angle)), 0, name))
+    write_pvd(folder / f"{gap}.pvd", entries)
