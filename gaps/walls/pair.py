@@ -24,7 +24,6 @@ from gaps.walls.parts import (
 from gaps.walls.piston import ChamberInfluence, PistonWalls, face_grid
 from reynolds.bodies.compliance import ElasticWalls, full
 from reynolds.bodies.foundation import Compliance, both
-from reynolds.bodies.wall import Body
 from reynolds.fem.space import FilmSpace
 
 KEPT = 2.5e8  # bytes of walls that are kept as parts turn
@@ -66,7 +65,9 @@ class PlateWalls:
                 return walls
         angles = (pose.moving, pose.fixed)
         one, two = (
-            part_wall(_plane_body(part), in_part_axes(film, angle))
+            part_wall(
+                slipper_body(part) if isinstance(part, SlipperPart) else plate_body(part), in_part_axes(film, angle)
+            )
             for part, angle in zip(self.parts, angles, strict=True)
         )
         found = both(one, two)
@@ -91,10 +92,6 @@ def while_turning(walls_at: Callable[[float], ElasticWalls], angle: float, colum
     before, share = divmod(angle / column, 1.0)
     one, two = (full(walls_at((before + k) * column).matrix) for k in (0, 1))
     return Compliance((1.0 - share) * one + share * two)
-
-
-def _plane_body(part: SlipperPart | PlatePart) -> Body:
-    return slipper_body(part) if isinstance(part, SlipperPart) else plate_body(part)
 
 
 @dataclass(frozen=True)

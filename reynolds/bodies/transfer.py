@@ -62,10 +62,6 @@ class Transfer:
         """Deformation (vertices, ...) m from displacements (face nodes, ...) m into the body, in mean square."""
         return self.rule.fitted(csr_array(self.rule.by_vertex.T @ self.normal_share) @ into)
 
-    def deformation_by_force(self, compliance: Array) -> Array:
-        """Deformation by film pressure (vertices, size) m/Pa from a face's compliance (nodes, nodes) m/N."""
-        return np.asarray((self.force.T @ self.deformation(compliance).T).T)
-
     def temperature(self, nodal: Array) -> Array:
         """Temperature (vertices, ...) from values at the face nodes (face nodes, ...), in mean square."""
         return self.rule.fitted(self.heat.T @ nodal)
@@ -106,7 +102,8 @@ def _splits(film: FilmSpace, face: Face) -> int:
 def _found(face: Face, places: Array, normals: Array, rule: FilmRule) -> tuple[NDArray[np.int64], Array]:
     """The facet that holds each film point or is nearest, (points,), and where in it, (points, dim - 1)."""
     slack = BEYOND * np.repeat(_longest_edge(rule.film.vertices[rule.film.cells]), rule.area.shape[1])
-    edge = BEYOND * _longest_edge(face.places[face.facets[:, : _corners(face)]])
+    corners = {3: 2, 6: 3}.get(face.facets.shape[1], 4)  # of a facet: the first of its nodes
+    edge = BEYOND * _longest_edge(face.places[face.facets[:, :corners]])
     point, facet = _candidates(face, places, normals, float(slack.max()))
     reference, off = _projected(face, facet, places[point], normals[point])
     size = np.linalg.norm(np.ptp(face.places[face.facets], axis=1), axis=1)[facet]
@@ -133,11 +130,6 @@ def _not_covered(face: Face, lost: Array, flat: Array, held: NDArray[np.bool_]) 
         f"{y1:.6g} m, up to {far * 1e3:.4g} mm from its nearest node"
     )
     return found, "a face that reaches under the whole film"
-
-
-def _corners(face: Face) -> int:
-    """Corners of a facet, which are the first of its nodes."""
-    return {3: 2, 6: 3}.get(face.facets.shape[1], 4)
 
 
 def _longest_edge(corners: Array) -> Array:

@@ -40,7 +40,8 @@ def thickness_load(solution: FilmSolution, thicker: Array, parts: Operators) -> 
 
     `parts`: the operators of the solution's balance (`FilmSolver.operators`).
     """
-    problem, state = solution.problem, _state(solution)
+    problem = solution.problem
+    state = FilmState(solution.pressure, solution.film_fraction, solution.deformation)
     space, terms, tensors = problem.space, parts.transport, problem.space.tensors
     filling = state.film_fraction * density(problem, state.pressure)[0]
     driven = along(terms.conductance_slope, steep_gradient(space, state.pressure))
@@ -85,7 +86,3 @@ def oil_slopes(solution: FilmSolution, thicker: Array, changed: FilmSensitivity,
     return np.asarray(
         fraction * ratio * grown + content * (ratio * changed.film_fraction + fraction * ratio_slope * changed.pressure)
     )
-
-
-def _state(solution: FilmSolution) -> FilmState:
-    return FilmState(solution.pressure, solution.film_fraction, solution.deformation)

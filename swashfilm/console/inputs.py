@@ -1,12 +1,19 @@
 """Inputs common to all commands: kind of file, text of the pump file."""
 
+import argparse
 from collections.abc import Mapping
 from pathlib import Path
+from typing import Any
 
 from system.inputs.faults import Fault, InputFaults
 
 COMMAND_LINE = "command line"
 """Source of the faults of options."""
+
+
+def given(options: argparse.Namespace, option: str) -> Any:
+    """Return what the command line states for an option; None where it is left out."""
+    return getattr(options, option[2:].replace("-", "_"))
 
 
 def given_text(pump: str, stated: Mapping[str, object]) -> str:

@@ -34,7 +34,8 @@ class Numbers(Mapping[str, Any]):
         self._keys = {_attribute(key): key for key in values}
 
     def __getitem__(self, key: str) -> Any:
-        return _wrapped(self._values[key])
+        value = self._values[key]
+        return Numbers(value) if isinstance(value, Mapping) else value
 
     def __iter__(self) -> Iterator[str]:
         return iter(self._values)
@@ -57,10 +58,6 @@ class Numbers(Mapping[str, Any]):
 
 def _attribute(key: str) -> str:
     return named(key)[0].replace(" ", "_").replace(",", "")
-
-
-def _wrapped(value: Any) -> Any:
-    return Numbers(value) if isinstance(value, Mapping) else value
 
 
 def _shown(key: str, value: Any) -> str:

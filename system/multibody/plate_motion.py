@@ -110,7 +110,8 @@ def _actuator(
     force = taken.value("actuator.spring_preload", stated.spring_preload, 0.0, "no spring", Dimension.FORCE)
     area = stated.area
     if area is None:
-        moment = _largest_moment(pump, point)
+        # that keeps the plate at rest, over the turn
+        moment = float(np.max(np.abs(joint_forces(pump, lumped_point(pump, point)).plate.control)))
         needed = moment / (arm * np.cos(plate.angle_max)) + force
         holding = control_pressure - point.case_pressure
         why = f"the highest control pressure holds the pump's largest moment, {moment:.4g} N m, and the spring"
@@ -129,8 +130,3 @@ def _actuator(
         ),
         rate, force,
     )  # fmt: skip
-
-
-def _largest_moment(pump: PumpDescription, point: OperatingPoint) -> float:
-    """Largest moment over the turn that keeps the plate at rest at a point, N m."""
-    return float(np.max(np.abs(joint_forces(pump, lumped_point(pump, point)).plate.control)))

@@ -145,7 +145,7 @@ def floating_point(
     gaps: tuple[FloatingGaps, ...] | None = None
     rounds: list[Round] = []
     with piston_beside(group.parts) if side_by_side else nullcontext() as beside:
-        while not rounds or not _settled(rounds[-1], options):
+        while not rounds or not (_exact(rounds[-1], options) and _agree(rounds[-1])):
             if len(rounds) == ROUND_LIMIT:
                 raise _not_settled(rounds[-1])
             closing = replace(asked, options=_loosened(options, rounds, at.pump.pump.pistons))
@@ -248,10 +248,6 @@ def _agree(taken: Round, times: float = 1.0) -> bool:
 
 def _exact(taken: Round, options: FloatingOptions) -> bool:
     return taken.steps == options.steps and taken.closed == options.accuracy.closed
-
-
-def _settled(taken: Round, options: FloatingOptions) -> bool:
-    return _exact(taken, options) and _agree(taken)
 
 
 def _not_settled(taken: Round) -> NotConverged:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -41,29 +40,7 @@ def add_calibrate_options(command: argparse.ArgumentParser) -> None:
 
 def run_calibrate_command(options: argparse.Namespace) -> int:
     """Run `swashfilm calibrate` and return its exit code; raises InputFaults with every fault of the options."""
-    return _calibrate(options, loss_models(options))
-
-
-def loss_models(options: argparse.Namespace) -> list[LossModelName]:
-    """The loss models of a command line; raises InputFaults for other names and laws."""
-    from system.bench.loss_models.model import LossModelName
-
-    faults: list[Fault] = []
-    if options.laws not in LAWS:
-        nearest = nearest_choice(options.laws, LAWS)
-        faults.append(Fault("--laws", repr(options.laws), f"one of {', '.join(LAWS)}", nearest))
-    known = [name.value for name in LossModelName]
-    asked = {ALL: known, NONE: []}.get(options.models, options.models.split(","))
-    for name in asked:
-        if name not in known:
-            expected = f"{ALL}, {NONE}, or of {', '.join(known)}"
-            faults.append(Fault("--models", repr(name), expected, nearest_choice(name, known)))
-    if faults:
-        raise InputFaults(COMMAND_LINE, faults)
-    return [LossModelName(name) for name in asked]
-
-
-def _calibrate(options: argparse.Namespace, models: Sequence[LossModelName]) -> int:
+    models = loss_models(options)
     from diagnosis.calibration import calibrate
     from diagnosis.recording.model import NoteKind
     from diagnosis.study.acceptance import checked_recording, other_pump
@@ -93,6 +70,25 @@ def _calibrate(options: argparse.Namespace, models: Sequence[LossModelName]) -> 
     show(f"the fitted pump is {final_folder(folder) / CALIBRATED}")
     show(f"results in {final_folder(folder)}")
     return 0
+
+
+def loss_models(options: argparse.Namespace) -> list[LossModelName]:
+    """The loss models of a command line; raises InputFaults for other names and laws."""
+    from system.bench.loss_models.model import LossModelName
+
+    faults: list[Fault] = []
+    if options.laws not in LAWS:
+        nearest = nearest_choice(options.laws, LAWS)
+        faults.append(Fault("--laws", repr(options.laws), f"one of {', '.join(LAWS)}", nearest))
+    known = [name.value for name in LossModelName]
+    asked = {ALL: known, NONE: []}.get(options.models, options.models.split(","))
+    for name in asked:
+        if name not in known:
+            expected = f"{ALL}, {NONE}, or of {', '.join(known)}"
+            faults.append(Fault("--models", repr(name), expected, nearest_choice(name, known)))
+    if faults:
+        raise InputFaults(COMMAND_LINE, faults)
+    return [LossModelName(name) for name in asked]
 
 
 COMMAND = Command(

@@ -44,7 +44,7 @@ def residual_maps(rows: Sequence[Row]) -> Figure:
         for axes, (level, key) in zip(line, places, strict=True):
             own = [row for row in rows if row["channel"] == channel and _of_level(row, level)]
             drawn = _map(axes, own, key, most)
-            axes.set_title(f"{_when(key)}{_title(level)}", fontsize=8, pad=3)
+            axes.set_title(f"{key.removeprefix('pull_')}{_title(level)}", fontsize=8, pad=3)
         line[0].set_ylabel(f"{channel}\np_out / bar", fontsize=8)
     for axes in grid[-1]:
         axes.set_xlabel("speed / rpm", fontsize=8)
@@ -187,10 +187,6 @@ def _of_level(row: Row, level: tuple[float, float]) -> bool:
     lower, upper = level
     text = row["displacement_ratio [1]"]
     return not text or lower <= float(text) <= upper
-
-
-def _when(key: str) -> str:
-    return key.removeprefix("pull_")
 
 
 def _title(level: tuple[float, float]) -> str:

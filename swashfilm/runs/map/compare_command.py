@@ -77,13 +77,15 @@ def _both(one: str, other: str) -> tuple[Known, Known]:
 
     Raises InputFaults with every fault of both.
     """
+    from swashfilm.runs.map.files import map_file, read_map
     from system.maps.plan import paper_axes
+    from system.pump_file.file import load_pump
 
     loaded: list[Known | PumpDescription] = []
     wrong: list[InputFaults] = []
     for name in (one, other):
         try:
-            loaded.append(_pump_of(name) if _is_pump(name) else _map_of(name))
+            loaded.append(load_pump(name) if _is_pump(name) else read_map(map_file(Path(name))))
         except InputFaults as reason:
             wrong.append(reason)
     if len(wrong) == 1:
@@ -111,18 +113,6 @@ def _is_pump(name: str) -> bool:
         fault = Fault("map or pump", f"'{name}'", "the run folder of a map, its map.nc, or a pump", near)
         raise InputFaults("command line", [fault])
     return False
-
-
-def _pump_of(name: str) -> PumpDescription:
-    from system.pump_file.file import load_pump
-
-    return load_pump(name)
-
-
-def _map_of(name: str) -> Known:
-    from swashfilm.runs.map.files import map_file, read_map
-
-    return read_map(map_file(Path(name)))
 
 
 def _lumped_map(pump: PumpDescription, axes: tuple[MapAxis, ...]) -> Known:

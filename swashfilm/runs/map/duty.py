@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import shutil
 from collections.abc import Iterator, Mapping
+from dataclasses import asdict
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -17,7 +18,7 @@ from swashfilm.output.tables import read_csv, write_csv
 from swashfilm.runs.map.plots import COLOURS
 from system.inputs.faults import Fault, InputFaults
 from system.maps.data import MapData
-from system.maps.duty import Cycle, Duty, Energy, duty
+from system.maps.duty import Cycle, Duty, duty
 from system.maps.interpolation import MapError, MapInterpolant, left_out_error
 from system.maps.plan import MapInput
 
@@ -68,18 +69,14 @@ def duty_summary(data: MapData, found: Duty) -> dict[str, Any]:
         "solver": data.words,
         "duration_s": found.duration,
         "shown_by": found.shown_by,
-        "volume_m3": _energy(found.volume),
-        "energy_J": {words: _energy(energy) for words, energy in found.energies.items()},
+        "volume_m3": asdict(found.volume),
+        "energy_J": {words: asdict(energy) for words, energy in found.energies.items()},
         "efficiency": {
-            definition.value: _energy(energy) | {"label": definition.label, "formula": definition.formula}
+            definition.value: asdict(energy) | {"label": definition.label, "formula": definition.formula}
             for definition, energy in found.efficiency.items()
         },
         "marked": dict(found.marked),
     }
-
-
-def _energy(energy: Energy) -> dict[str, float]:
-    return {"value": energy.value, "error": energy.error}
 
 
 def energy_rows(summary: Mapping[str, Any]) -> Iterator[tuple[str, ...]]:

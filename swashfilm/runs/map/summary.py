@@ -88,7 +88,11 @@ def _displacements(data: MapData) -> Iterator[dict[str, Any]]:
             continue
         derived = data.toet.get(index)
         levels = zip(data.axes[2:], index, strict=True)
-        levels_in_words = [axis.input.text(axis.values[k]) for axis, k in levels if _varies_here(axis)]
+        levels_in_words = [
+            axis.input.text(axis.values[k])
+            for axis, k in levels
+            if axis.input is MapInput.RATIO or len(axis.values) > 1
+        ]
         yield {
             "at": ", ".join(levels_in_words),
             "geometric_m3_per_rev": float(np.mean(data.values["geometric_displacement"][:, :, *index][here])),
@@ -96,10 +100,6 @@ def _displacements(data: MapData) -> Iterator[dict[str, Any]]:
             "toet_m3_per_rev": derived.value if derived else None,
             "toet_sigma_m3_per_rev": derived.sigma if derived and np.isfinite(derived.sigma) else None,
         }
-
-
-def _varies_here(axis: MapAxis) -> bool:
-    return axis.input is MapInput.RATIO or len(axis.values) > 1
 
 
 def _interpolation(error: MapError | None, data: MapData) -> dict[str, Any] | None:

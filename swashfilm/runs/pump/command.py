@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 from swashfilm.case.gap.switches import add_switches
 from swashfilm.console.command import Command
 from swashfilm.console.fidelity import Fidelity
-from swashfilm.console.inputs import COMMAND_LINE, expect, given_text
+from swashfilm.console.inputs import COMMAND_LINE, expect, given, given_text
 from swashfilm.console.terminal import show, show_result
 from system.inputs.faults import Fault, InputFaults, nearest_choice
 from system.inputs.units import with_point
@@ -130,7 +130,7 @@ def _overrides(options: argparse.Namespace) -> tuple[dict[str, object], list[Fau
         else:
             stated[key.strip()] = toml_value(value.strip())
     for option, (path, example, what) in _OVERRIDES.items():
-        text = getattr(options, option[2:].replace("-", "_"))
+        text = given(options, option)
         if text is None:
             continue
         stated[path] = text

@@ -8,7 +8,6 @@ import numpy as np
 
 from reynolds.numerics.arrays import Array
 from system.description.pump import PumpDescription, SlipperSection
-from system.inputs.coefficients.edge_losses import LandPath
 from system.inputs.coefficients.file_table import FileTable
 from system.inputs.coefficients.loss_files import LossFactors
 from system.inputs.units import Dimension, format_quantity
@@ -82,7 +81,7 @@ def loss_warnings(pump: PumpDescription, point: PumpPoint) -> list[str]:
     found = []
     for key, own, lands, flow in stated:
         if own is not None:
-            number = _reynolds(lands, flow, kinematic)
+            number = np.array([lands.largest_reynolds(one, kinematic) for one in np.atleast_1d(flow)])
             found += _beyond(key, own.path, number, float(own.reynolds[-1]))
     if (bore := pump.slipper.orifice_file) is not None:
         number = 4.0 * np.abs(slipper) / (np.pi * pump.slipper.orifice_diameter * kinematic)
@@ -108,11 +107,6 @@ def _flows(point: PumpPoint) -> Array:
     """Return the pressure flow (m3/s) of one chamber into each gap, (3, N), at the angles of its leakage."""
     every = point.cycle.pressure.size // point.leaks.conductance.shape[-1]
     return point.leaks.conductance * (point.cycle.pressure[::every] - point.point.case_pressure)
-
-
-def _reynolds(path: LandPath, flow: Array, kinematic_viscosity: float) -> Array:
-    """Return the largest u h/nu at an edge, for each flow."""
-    return np.array([path.largest_reynolds(one, kinematic_viscosity) for one in np.atleast_1d(flow)])
 
 
 def _beyond(key: str, path: Path, reynolds: Array, largest: float) -> list[str]:

@@ -113,6 +113,7 @@ def floating_summary(found: FloatingPoint, warnings: list[str]) -> dict[str, Any
         for gaps in by_place.values()
     )
     summary, last = pump_summary(found.rotor.pump, found.pump_point, None, texts), found.rounds[-1]
+    at, spent = found.kinds[0].rotor, {leg: sum(one.spent[leg] for one in found.rounds) for leg in Leg}
     checks = {
         "coupling_rounds": len(found.rounds),
         "coupling_pressure_change": last.pressure_change,
@@ -123,7 +124,7 @@ def floating_summary(found: FloatingPoint, warnings: list[str]) -> dict[str, Any
     return summary | {
         "fidelity": Fidelity.FLOATING.value,
         "gaps": here,
-        "spin_ratio": _spin_ratios(found.kinds[0].rotor),
+        "spin_ratio": {part: spin / at.point.shaft_speed for part, spin in asdict(at.spins).items()},
         "unlike": {
             _place(kind): {"chambers": [k + 1 for k in kind.chambers], "gaps": gaps}
             for kind, gaps in zip(found.kinds[1:], others, strict=True)
@@ -132,7 +133,7 @@ def floating_summary(found: FloatingPoint, warnings: list[str]) -> dict[str, Any
         "cost": {
             "solve_seconds": sum(one.seconds for one in found.rounds),
             "rounds_seconds": [one.seconds for one in found.rounds],
-            "physics_seconds": {leg.value: time for leg, time in _spent(found).items() if time > 0.0},
+            "physics_seconds": {leg.value: time for leg, time in spent.items() if time > 0.0},
         },
         "physics_left_out": [effect.value for effect in found.options.physics.left_out],
         "assumptions": list(
@@ -141,16 +142,6 @@ def floating_summary(found: FloatingPoint, warnings: list[str]) -> dict[str, Any
             )
         ),
     }
-
-
-def _spin_ratios(rotor: Rotor) -> dict[str, float]:
-    """Return the spin speeds of piston and slipper over the shaft speed, as in pump files."""
-    return {part: spin / rotor.point.shaft_speed for part, spin in asdict(rotor.spins).items()}
-
-
-def _spent(found: FloatingPoint) -> dict[Leg, float]:
-    """Return the time (s) of the gaps for each march, in all rounds."""
-    return {leg: sum(one.spent[leg] for one in found.rounds) for leg in Leg}
 
 
 def write_floating(folder: Path, found: FloatingPoint) -> dict[Path, list[Path]]:

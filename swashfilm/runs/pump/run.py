@@ -38,11 +38,6 @@ if TYPE_CHECKING:
     import xarray
 
 
-def no_fields(folder: Path) -> list[str]:
-    """Write nothing: the point has no film fields."""
-    return []
-
-
 @dataclass(frozen=True)
 class PumpCase:
     """One operating point to solve: the pump, the text of its file, and the fidelity of its films.
@@ -63,7 +58,7 @@ def solve_pump(case: PumpCase, report: Report = silent) -> PumpRun:
     """Solve a pump at its operating point; raise NotConverged and FilmNotConverged."""
     match case.fidelity:
         case Fidelity.LUMPED:
-            return _lumped(case)
+            return lumped_run(case, lumped_point(case.pump, operating_point(case.pump)))
         case Fidelity.FILMS:
             return _films(case, report)
         case Fidelity.FLOATING:
@@ -72,10 +67,6 @@ def solve_pump(case: PumpCase, report: Report = silent) -> PumpRun:
             return _by_table(case)
         case _:
             assert_never(case.fidelity)
-
-
-def _lumped(case: PumpCase) -> PumpRun:
-    return lumped_run(case, lumped_point(case.pump, operating_point(case.pump)))
 
 
 def lumped_run(case: PumpCase, point: PumpPoint) -> PumpRun:
@@ -127,7 +118,7 @@ def _run(
     summary: dict[str, Any],
     joints: JointForces,
     films: Callable[[], xarray.Dataset] | None = None,
-    fields: Callable[[Path], list[str]] = no_fields,
+    fields: Callable[[Path], list[str]] | None = None,
 ) -> PumpRun:
     """Return the run of a solved point: summary with forces, data with those of films, and files."""
     summary["forces"] = forces_summary(joints, point)
@@ -147,7 +138,7 @@ def _run(
         write_tables(folder, arrays)
         write_pair_table(folder / "pairs.csv", point, summary)
         write_forces(folder, joints)
-        added = fields(folder)
+        added = fields(folder) if fields else []
         write_json(folder / "summary.json", summary | {"warnings": summary["warnings"] + added})
         write_pump_page(folder)
         return added

@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from swashfilm.console.command import Command
-from swashfilm.console.inputs import COMMAND_LINE
+from swashfilm.console.inputs import COMMAND_LINE, given
 from swashfilm.console.terminal import show_table
 from system.inputs.faults import Fault, InputFaults
 from system.inputs.units import Dimension, QuantityError, parse_quantity
@@ -120,7 +120,7 @@ def _passage(options: argparse.Namespace, area: float) -> FilmPassage | None:
     from system.inputs.coefficients.film_passages import FilmPassage
 
     needed = (*FILM_SIZES, "--film-ratio")
-    stated = [option for option in (*needed, "--width-ratio") if _given(options, option) is not None]
+    stated = [option for option in (*needed, "--width-ratio") if given(options, option) is not None]
     if not stated:
         return None
     faults = [
@@ -138,15 +138,11 @@ def _passage(options: argparse.Namespace, area: float) -> FilmPassage | None:
     return FilmPassage(film, area, ratio, before, behind, width)
 
 
-def _given(options: argparse.Namespace, option: str) -> object:
-    return getattr(options, option[2:].replace("-", "_"))
-
-
 def _sizes(options: argparse.Namespace, sizes: dict[str, tuple[Dimension, str]]) -> list[float]:
     """Return the options' values in SI; raise InputFaults with every fault."""
     found, faults = [], []
     for option, (dimension, _) in sizes.items():
-        text = _given(options, option)
+        text = given(options, option)
         try:
             found.append(parse_quantity(text, dimension))
             if not found[-1] > 0.0:

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from swashfilm.case.gap.switches import SWITCHES, add_switches
 from swashfilm.console.command import Command
-from swashfilm.console.inputs import COMMAND_LINE
+from swashfilm.console.inputs import COMMAND_LINE, given
 from swashfilm.console.terminal import show, show_result, show_table
 from system.inputs.faults import Fault, InputFaults, nearest_choice
 
@@ -150,9 +150,9 @@ def _word_faults(options: argparse.Namespace) -> list[Fault]:
 def _command(options: argparse.Namespace) -> str:
     """Return the command that writes the same page."""
     names = ("--fidelity", "--pump", "--recording", "--steps", "--finer")
-    given = {name: getattr(options, name[2:]) for name in names}
-    words = [f" {name} {text}" for name, text in given.items() if text not in (None, _LUMPED)]
-    words += [f" {switch}" for switch in SWITCHES if getattr(options, switch[2:].replace("-", "_"))]
+    stated = {name: given(options, name) for name in names}
+    words = [f" {name} {text}" for name, text in stated.items() if text not in (None, _LUMPED)]
+    words += [f" {switch}" for switch in SWITCHES if given(options, switch)]
     return f"swashfilm reproduce {options.figure}{''.join(words)} --page {options.page}"
 
 

@@ -58,7 +58,7 @@ def _lines(axes: Any, panel: Panel) -> None:
         x, y = panel.x.unit.factor * curve.x, panel.y.unit.factor * curve.y
         sigma = None if curve.sigma is None else panel.y.unit.factor * curve.sigma
         axes.errorbar(x, y, sigma, fmt=dashes, marker=marker, markersize=3.0, linewidth=1.3, elinewidth=0.8,
-                      capsize=2.0, color=_colour(k), label=curve.name)  # fmt: skip
+                      capsize=2.0, color=COLOURS[k % len(COLOURS)], label=curve.name)  # fmt: skip
     axes.grid(visible=True, alpha=0.3)
     _legend(axes, panel)
     if panel.kind is PanelKind.LOGARITHMIC:
@@ -115,10 +115,6 @@ def _field(figure: Any, axes: Any, panel: Panel) -> None:
         axes.legend(fontsize=7, loc="lower right")
     if x.size * y.size < 100:
         axes.plot(*(one.ravel() for one in np.meshgrid(x, y)), ".", color="white", markersize=2.5)
-
-
-def _colour(number: int) -> str:
-    return COLOURS[number % len(COLOURS)]
 
 
 def _words(axis: FigureAxis) -> str:

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 
 from swashfilm.case.gap.switches import add_switches, switched_keys
 from swashfilm.console.command import Command
-from swashfilm.console.inputs import COMMAND_LINE
+from swashfilm.console.inputs import COMMAND_LINE, given
 from swashfilm.console.terminal import show_result
 from system.inputs.faults import Fault, InputFaults, nearest_choice
 from system.inputs.units import with_point
@@ -120,7 +120,7 @@ def _gap_case(options: argparse.Namespace) -> tuple[GapTableCase, int]:
     """Return the gap's table of a command line, and the number of workers; raise InputFaults with every fault."""
     from swashfilm.runs.table.gap_case import load_gap_table
 
-    given = {option: _given(options, option) for option in [*RANGES, *HELD, "--steps", "--finer"]}
+    given = {option: given(options, option) for option in [*RANGES, *HELD, "--steps", "--finer"]}
     given["--source"] = None if options.source == _SOURCE else options.source
     stated = "a key of [table] or of the case"
     faults = [Fault(name, "an option beside a gap's case", stated) for name, text in given.items() if text]
@@ -140,7 +140,7 @@ def _case(options: argparse.Namespace) -> tuple[TableCase, int]:
     from system.points.table.sources import Source
 
     faults: list[Fault] = []
-    single = {option for option in RANGES if ".." not in (_given(options, option) or "..")}
+    single = {option for option in RANGES if ".." not in (given(options, option) or "..")}
     counts = _counts(options, faults, max(1, len(RANGES) - len(single)))
     ranges = _ranges(options, faults, single)
     sources = [source.value for source in Source]
@@ -177,7 +177,7 @@ def _pump(options: argparse.Namespace, faults: list[Fault], single: Collection[s
 
     keys = HELD | {option: RANGES[option] for option in single}
     stated: dict[str, object] = {
-        path: text for option, (path, *_) in keys.items() if (text := _given(options, option)) is not None
+        path: text for option, (path, *_) in keys.items() if (text := given(options, option)) is not None
     }
     if "--displacement" in single:
         try:
@@ -203,7 +203,7 @@ def _ranges(options: argparse.Namespace, faults: list[Fault], single: Collection
     dimensions = (Dimension.ANGULAR_SPEED, Dimension.PRESSURE, None, Dimension.TEMPERATURE)
     return [
         _range(faults, option, text, dimension, example)
-        if option not in single and (text := _given(options, option)) is not None
+        if option not in single and (text := given(options, option)) is not None
         else None
         for (option, (_, example, _)), dimension in zip(RANGES.items(), dimensions, strict=True)
     ]
@@ -236,11 +236,6 @@ def _count(faults: list[Fault], option: str, text: str | None, default: int, lea
         return int(text)
     faults.append(Fault(option, repr(text), f"a number, {least} to 10000"))
     return default
-
-
-def _given(options: argparse.Namespace, option: str) -> str | None:
-    found: str | None = getattr(options, option[2:].replace("-", "_"))
-    return found
 
 
 COMMAND = Command(

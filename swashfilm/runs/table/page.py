@@ -5,9 +5,8 @@ from pathlib import Path
 from typing import Any
 
 from gaps.response import Measure
-from swashfilm.output.headline import named
 from swashfilm.output.page import inlined, read_summary, write_page
-from swashfilm.runs.table.plots import table_plots
+from swashfilm.runs.table.plots import table_plots, words_of
 from system.inputs.units import Dimension, format_quantity
 from system.points.table.store import read_response
 
@@ -28,7 +27,7 @@ def write_table_page(folder: Path) -> Path:
         held=list(held_rows(summary)),
         numbers=list(number_rows(summary)),
         errors=list(error_rows(summary)),
-        meanings=[(_words(row), row["meaning"]) for kind in KINDS for row in summary.get(kind, [])],
+        meanings=[(words_of(row["name"]), row["meaning"]) for kind in KINDS for row in summary.get(kind, [])],
         failed=[(place_text(summary["axes"], one["at"]), one["reason"]) for one in summary["failed"]],
         pictures={text: inlined(png) for text, png in pictures.items()},
         resolved=(folder / "resolved.toml").read_text("utf-8"),
@@ -59,11 +58,7 @@ def number_rows(summary: Mapping[str, Any]) -> Iterator[tuple[str, ...]]:
 def _rows_of(summary: Mapping[str, Any], kind: str) -> Iterator[tuple[str, ...]]:
     for row in summary.get(kind, []):
         errors = (_error_text(row["measure"], row[key]) for key in ("held_out_rms", "held_out_largest"))
-        yield _words(row), *errors, place_text(summary["axes"], row["held_out_worst_at"])
-
-
-def _words(row: Mapping[str, Any]) -> str:
-    return named(row["name"])[0].replace("_", " ")
+        yield words_of(row["name"]), *errors, place_text(summary["axes"], row["held_out_worst_at"])
 
 
 def _error_text(measure: str, error: float) -> str:

@@ -49,7 +49,8 @@ def _groups(response: Response) -> Groups:
     return found
 
 
-def _words(name: str) -> str:
+def words_of(name: str) -> str:
+    """Return the name of an output in words, without its unit."""
     return named(name)[0].replace("_", " ")
 
 
@@ -60,7 +61,7 @@ def _errors(response: Response) -> Figure:
     axes.barh(rows - 0.2, np.maximum(error.largest, 1e-6), 0.38, color="#c8a27c", label="largest")
     axes.barh(rows + 0.2, np.maximum(error.rms, 1e-6), 0.38, color="#3c7a8c", label="rms")
     axes.axvline(LARGE_ERROR, color="#b55a00", linestyle="--")
-    axes.set_yticks(rows, [f"{_words(output.name)} ({output.measure.value})" for output in response.outputs])
+    axes.set_yticks(rows, [f"{words_of(output.name)} ({output.measure.value})" for output in response.outputs])
     axes.set(xscale="log", xlabel="error", xlim=(1e-5, max(0.1, 1.3 * float(error.largest.max()))))
     axes.tick_params(axis="y", labelsize=8)
     axes.invert_yaxis()
@@ -80,7 +81,7 @@ def _parity(response: Response, record: Mapping[str, Any]) -> Figure:
         for whose, k in members:
             axes.plot(
                 factor * solved[:, k], factor * by_table[:, k], "o", markersize=3.5, alpha=0.8,
-                color=COLOURS[whose], label=_words(whose),
+                color=COLOURS[whose], label=words_of(whose),
             )  # fmt: skip
         ends = [*axes.get_xlim(), *axes.get_ylim()]
         axes.plot([min(ends), max(ends)], [min(ends), max(ends)], color="#1c2328", linewidth=0.8)
@@ -109,7 +110,7 @@ def _courses(response: Response, record: Mapping[str, Any]) -> Figure:
             title, factor = _shown(what, members, record)
             axes = grid[i, j]
             for whose, k in members:
-                axes.plot(places, factor * by_table[:, k], color=COLOURS[whose], label=_words(whose))
+                axes.plot(places, factor * by_table[:, k], color=COLOURS[whose], label=words_of(whose))
                 axes.plot(dots, factor * response.held_out.values[:, k], ".", color=COLOURS[whose], alpha=0.35)
             if axis.spacing is Spacing.LOGARITHMIC:
                 _logarithmic(axes)
@@ -125,7 +126,7 @@ def _courses(response: Response, record: Mapping[str, Any]) -> Figure:
 def _shown(what: str, members: Sequence[tuple[str, int]], record: Mapping[str, Any]) -> tuple[str, float]:
     """Return the title of outputs in one picture, with their unit, and its factor on SI."""
     how = SHOWN[record["outputs"][members[0][1]]["unit"]]
-    return (_words(what) if how.unit == "-" else f"{_words(what)} / {how.unit}"), how.factor
+    return (words_of(what) if how.unit == "-" else f"{words_of(what)} / {how.unit}"), how.factor
 
 
 def _axis_words(axis: Axis, row: Mapping[str, Any]) -> str:

@@ -1,6 +1,6 @@
 """Figs. 16 to 18 and 20 to 22: losses of the seven pairs, and their shares."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 
 import numpy as np
 
@@ -255,8 +255,4 @@ def _part(met: Sequence[bool]) -> Range:
 
 
 def _percent(shares: Array) -> str:
-    return " ".join(f"{value:.1f}" for value in _shown(shares))
-
-
-def _shown(shares: Array) -> Iterator[float]:
-    yield from (100.0 * shares).tolist()
+    return " ".join(f"{value:.1f}" for value in 100.0 * shares)
