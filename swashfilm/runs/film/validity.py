@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -9,7 +10,7 @@ import numpy as np
 from reynolds.laws.contact import boundary_shear, contact_pressure, lambda_ratio
 from reynolds.laws.fluid import isoviscous
 from reynolds.laws.roughness import beyond_range
-from reynolds.problem import Cavitation, FilmProblem, FilmSolution
+from reynolds.problem import Cavitation, FilmSolution
 from reynolds.solve.loads import dissipated
 from swashfilm.runs.film.solve.gap import gap_warnings
 
@@ -31,53 +32,55 @@ VACUUM = -101325.0  # Pa, gauge
 LEAST_LAMBDA = 1.0  # h/sigma; below, contacts support most of the load
 LARGEST_ISOVISCOUS_PRESSURE = 50e6  # Pa; the viscosity of a mineral oil is about three times its low-pressure value
 
+Warned = tuple[str, str]
+"""Name and text of a warning."""
+
 
 def film_warnings(study: FilmStudy) -> list[dict[str, str]]:
     """Return name and text of each warning of a solved film."""
+    found = [
+        *_flow_warnings(study),
+        *_mesh_warnings(study.solution),
+        *_rough_warnings(study),
+        *_pressure_warnings(study),
+        *_supply_warnings(study),
+        *_heat_warnings(study),
+        *_size_warnings(study),
+    ]
+    own = [] if study.gap is None else gap_warnings(study.gap)
+    return own + [{"name": name, "text": text} for name, text in found]
+
+
+def _flow_warnings(study: FilmStudy) -> Iterator[Warned]:
+    """Yield warnings of a cavity that makes oil, of a film that is not thin, and of oil under tension."""
     problem, integrals = study.solution.problem, study.loads
-    found = [] if study.gap is None else gap_warnings(study.gap)
     through = integrals.throughput
     share = abs(integrals.cavity_flow) / through if through > 0.0 else np.inf * abs(integrals.cavity_flow)
     if integrals.cavity_flow != 0.0 and share > LARGEST_CAVITY_FLOW:
         verb = "makes" if integrals.cavity_flow > 0.0 else "swallows"
-        found.append(
-            {
-                "name": "cavity_does_not_conserve_mass",
-                "text": f"Reynolds' condition {verb} oil in the cavity, {share:.2%} of the throughput "
-                f"(limit {LARGEST_CAVITY_FLOW:.0%}): inflow and outflow differ",
-            }
+        yield (
+            "cavity_does_not_conserve_mass",
+            f"Reynolds' condition {verb} oil in the cavity, {share:.2%} of the throughput "
+            f"(limit {LARGEST_CAVITY_FLOW:.0%}): inflow and outflow differ",
         )
     thick = _thickness_ratio(study.solution)
     if thick > LARGEST_THICKNESS_RATIO:
-        found.append(
-            {
-                "name": "film_not_thin",
-                "text": f"the mean film is {thick:.2g} of the film's extent (limit {LARGEST_THICKNESS_RATIO:.2g} "
-                "for Reynolds' equation): check the unit (um, not mm?) and the mesh (in metres?)",
-            }
+        yield (
+            "film_not_thin",
+            f"the mean film is {thick:.2g} of the film's extent (limit {LARGEST_THICKNESS_RATIO:.2g} "
+            "for Reynolds' equation): check the unit (um, not mm?) and the mesh (in metres?)",
         )
     lowest = float(study.solution.pressure.min())
     if problem.cavitation is Cavitation.NONE and lowest < problem.cavitation_pressure:
-        found.append(
-            {
-                "name": "pressure_below_cavitation",
-                "text": f"the film is pulled down to {lowest:.4g} Pa, below its cavitation pressure "
-                f"{problem.cavitation_pressure:.4g} Pa: oil would cavitate; choose cavitation = 'jfo'",
-            }
+        yield (
+            "pressure_below_cavitation",
+            f"the film is pulled down to {lowest:.4g} Pa, below its cavitation pressure "
+            f"{problem.cavitation_pressure:.4g} Pa: oil would cavitate; choose cavitation = 'jfo'",
         )
-    return (
-        found
-        + _mesh_warnings(study.solution)
-        + _rough_warnings(study)
-        + _pressure_warnings(study)
-        + _supply_warnings(study)
-        + _heat_warnings(study)
-        + _size_warnings(study)
-    )
 
 
-def _mesh_warnings(solution: FilmSolution) -> list[dict[str, str]]:
-    """Return a warning of a mesh with few pressure unknowns, or with large changes of the film within a cell."""
+def _mesh_warnings(solution: FilmSolution) -> Iterator[Warned]:
+    """Yield a warning of a mesh with few pressure unknowns, or with large changes of the film within a cell."""
     few, thickness = int(np.count_nonzero(~solution.held)), solution.film.thickness
     fall = float(np.max(thickness.max(axis=1) / thickness.min(axis=1)))
     reasons = []
@@ -85,27 +88,25 @@ def _mesh_warnings(solution: FilmSolution) -> list[dict[str, str]]:
         reasons.append(f"pressure is solved at only {few} points (fewer than {FEW_UNKNOWNS})")
     if fall > LARGEST_FALL:
         reasons.append(f"the film changes {fall:.3g} times within a cell (limit {LARGEST_FALL:g})")
-    if not reasons:
-        return []
-    return [{"name": "coarse_mesh", "text": f"{', '.join(reasons)}: --refine 3 measures the error"}]
+    if reasons:
+        yield "coarse_mesh", f"{', '.join(reasons)}: --refine 3 measures the error"
 
 
-def _heat_warnings(study: FilmStudy) -> list[dict[str, str]]:
-    """Return warnings of an isothermal film with notable heat, and of a film too hot for oil."""
+def _heat_warnings(study: FilmStudy) -> Iterator[Warned]:
+    """Yield a warning of an isothermal film with notable heat, or of a film too hot for oil."""
     if study.heat is not None:
-        hottest = float(study.heat.temperature.max())
-        text = (
-            f"the film reaches {hottest - 273.15:.0f} degC (limit {HOTTEST - 273.15:.0f} degC for mineral oils, "
-            "which age quickly above it): use more flow, a thicker film, or walls with more heat transfer"
+        if (hottest := float(study.heat.temperature.max())) > HOTTEST:
+            yield (
+                "film_hot",
+                f"the film reaches {hottest - 273.15:.0f} degC (limit {HOTTEST - 273.15:.0f} degC for mineral oils, "
+                "which age quickly above it): use more flow, a thicker film, or walls with more heat transfer",
+            )
+    elif not study.gap and not study.history and (rise := _least_rise(study)) > LARGEST_RISE:
+        yield (
+            "temperature_not_solved",
+            f"the film's heat raises its temperature by about {rise:.3g} K even between cold walls (limit "
+            f"{LARGEST_RISE:g} K for an isothermal film): the viscosity falls; add a table [thermal]",
         )
-        return [{"name": "film_hot", "text": text}] if hottest > HOTTEST else []
-    if study.gap or study.history or (rise := _least_rise(study)) <= LARGEST_RISE:
-        return []
-    text = (
-        f"the film's heat raises its temperature by about {rise:.3g} K even between cold walls (limit "
-        f"{LARGEST_RISE:g} K for an isothermal film): the viscosity falls; add a table [thermal]"
-    )
-    return [{"name": "temperature_not_solved", "text": text}]
 
 
 def _least_rise(study: FilmStudy) -> float:
@@ -140,42 +141,34 @@ def thinned_by(study: FilmStudy) -> int:
     return max(1, int(np.ceil(size / MOST_BYTES)))
 
 
-def _size_warnings(study: FilmStudy) -> list[dict[str, str]]:
-    every = thinned_by(study)
-    if every == 1:
-        return []
-    text = (
-        f"results.nc holds one of every {every} written films, to stay below {MOST_BYTES * 1e-6:g} MB; all are "
-        "in film_NNNN.vtu; with fewer outputs or a coarser mesh results.nc holds all of them"
-    )
-    return [{"name": "results_thinned", "text": text}]
+def _size_warnings(study: FilmStudy) -> Iterator[Warned]:
+    if (every := thinned_by(study)) > 1:
+        yield (
+            "results_thinned",
+            f"results.nc holds one of every {every} written films, to stay below {MOST_BYTES * 1e-6:g} MB; all are "
+            "in film_NNNN.vtu; with fewer outputs or a coarser mesh results.nc holds all of them",
+        )
 
 
-def _rough_warnings(study: FilmStudy) -> list[dict[str, str]]:
+def _rough_warnings(study: FilmStudy) -> Iterator[Warned]:
     solution, surface = study.solution, study.solution.problem.surface
     if surface is None:
-        return []
-    found = []
+        return
     least = float(lambda_ratio(solution.film.thickness.min(), surface.composite_roughness))
     if least < LEAST_LAMBDA:
-        found.append(
-            {
-                "name": "boundary_lubrication",
-                "text": f"the least lambda ratio h/sigma is {least:.3g} (limit {LEAST_LAMBDA:g}): contacts "
-                f"support most of the load there, beyond the range of the film equation{_boundary_remedy(study)}",
-            }
+        yield (
+            "boundary_lubrication",
+            f"the least lambda ratio h/sigma is {least:.3g} (limit {LEAST_LAMBDA:g}): contacts "
+            f"support most of the load there, beyond the range of the film equation{_boundary_remedy(study)}",
         )
     beyond = beyond_range(solution.film.thickness, surface)
     if beyond.fraction > 0.0:
-        found.append(
-            {
-                "name": "flow_factors_out_of_range",
-                "text": f"h/sigma is {beyond.lowest_ratio:.3g} at the least, below the {beyond.limit:g} down to "
-                f"which Patir and Cheng's flow factors are published, on {beyond.fraction:.1%} of the film: "
-                "they are extrapolated; use a thicker film or smoother walls",
-            }
+        yield (
+            "flow_factors_out_of_range",
+            f"h/sigma is {beyond.lowest_ratio:.3g} at the least, below the {beyond.limit:g} down to "
+            f"which Patir and Cheng's flow factors are published, on {beyond.fraction:.1%} of the film: "
+            "they are extrapolated; use a thicker film or smoother walls",
         )
-    return found
 
 
 def _boundary_remedy(study: FilmStudy) -> str:
@@ -188,48 +181,34 @@ def _boundary_remedy(study: FilmStudy) -> str:
     return "" if study.solution.problem.asperities else "; a table [contact] adds the load on the asperities"
 
 
-def _pressure_warnings(study: FilmStudy) -> list[dict[str, str]]:
-    """Return a warning of isoviscous films of high pressure; gaps of pumps have another warning."""
+def _pressure_warnings(study: FilmStudy) -> Iterator[Warned]:
+    """Yield a warning of isoviscous films of high pressure; gaps of pumps have another warning."""
     highest = study.loads.pressure_max
-    if study.gap or highest <= LARGEST_ISOVISCOUS_PRESSURE or not _isoviscous(study):
-        return []
-    return [
-        {
-            "name": "viscosity_without_pressure",
-            "text": f"the film reaches {highest * 1e-6:.3g} MPa (limit {LARGEST_ISOVISCOUS_PRESSURE * 1e-6:g} "
+    constant = study.heat is None and study.solution.problem.fluid.viscosity is isoviscous
+    if constant and not study.gap and highest > LARGEST_ISOVISCOUS_PRESSURE:
+        yield (
+            "viscosity_without_pressure",
+            f"the film reaches {highest * 1e-6:.3g} MPa (limit {LARGEST_ISOVISCOUS_PRESSURE * 1e-6:g} "
             "MPa for a constant viscosity): viscosity is several times higher; add pressure_law in [oil], and "
             "elastic walls, [elastic]",
-        }
-    ]
+        )
 
 
-def _supply_warnings(study: FilmStudy) -> list[dict[str, str]]:
-    """Return warnings of a starved film, and of a cavitation pressure below vacuum."""
-    found = []
-    problem, fraction = study.solution.problem, study.solution.film_fraction
-    if study.gap is None and not study.history and float(fraction.min()) < LEAST_FILM_FRACTION:
-        found.append(
-            {
-                "name": "film_runs_dry",
-                "text": f"the film fraction falls to {float(fraction.min()):.2g} (limit {LEAST_FILM_FRACTION:g}): "
-                "no oil reaches a part of the film; is its inflow edge closed? A boundary that is not named is "
-                "closed",
-            }
+def _supply_warnings(study: FilmStudy) -> Iterator[Warned]:
+    """Yield warnings of a starved film, and of a cavitation pressure below vacuum."""
+    problem, least = study.solution.problem, float(study.solution.film_fraction.min())
+    if study.gap is None and not study.history and least < LEAST_FILM_FRACTION:
+        yield (
+            "film_runs_dry",
+            f"the film fraction falls to {least:.2g} (limit {LEAST_FILM_FRACTION:g}): no oil reaches a part of the "
+            "film; is its inflow edge closed? A boundary that is not named is closed",
         )
     if problem.cavitation is not Cavitation.NONE and problem.cavitation_pressure < VACUUM:
-        found.append(
-            {
-                "name": "cavitation_below_vacuum",
-                "text": f"the cavitation pressure is {problem.cavitation_pressure * 1e-5:.4g} bar gauge (vacuum: "
-                f"{VACUUM * 1e-5:.4g} bar): oil cavitates before; is the value absolute, not gauge?",
-            }
+        yield (
+            "cavitation_below_vacuum",
+            f"the cavitation pressure is {problem.cavitation_pressure * 1e-5:.4g} bar gauge (vacuum: "
+            f"{VACUUM * 1e-5:.4g} bar): oil cavitates before; is the value absolute, not gauge?",
         )
-    return found
-
-
-def _isoviscous(study: FilmStudy) -> bool:
-    problem: FilmProblem = study.solution.problem
-    return study.heat is None and problem.fluid.viscosity is isoviscous
 
 
 def _thickness_ratio(solution: FilmSolution) -> float:

@@ -13,18 +13,16 @@ from gaps.films.reports import Active
 from gaps.revolution.turn import GapInstant
 from reynolds.equation.rough_overlap import vertex_thickness
 from reynolds.numerics.arrays import Array
+from reynolds.solve.export import write_pvd, write_vtu
+from swashfilm.output.gap_names import FIELDS, vtu_name
 from swashfilm.output.tables import write_csv
 from swashfilm.runs.film.revolution.solve import RevolutionStudy, friction_power, tilt
 from system.description.gap import Gap
+from system.films.places import place_of
 from system.films.rotor import engaged_share
 
 if TYPE_CHECKING:
     import xarray
-
-
-from reynolds.solve.export import write_pvd, write_vtu
-from swashfilm.output.gap_names import FIELDS, vtu_name
-from system.films.places import place_of
 
 POSITIONS = {
     Gap.PISTON: ("eccentricity_x_inner", "eccentricity_y_inner", "eccentricity_x_case", "eccentricity_y_case"),

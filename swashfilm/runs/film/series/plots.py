@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from swashfilm.output.figures import figure_of
-from swashfilm.output.headline import sizes, titled
+from swashfilm.output.headline import bracketed, sizes, titled
 
 if TYPE_CHECKING:
     import xarray
@@ -171,7 +171,7 @@ def _axis_title(data: xarray.Dataset, dim: str) -> str:
     if dim not in data.coords:
         return ", ".join(_axis_title(data, str(name)) for name in data.coords if data[name].dims == (dim,))
     unit = data[dim].attrs.get("units", "")
-    return f"{dim} / {f'({unit})' if '/' in unit or ' ' in unit else unit}" if unit else dim
+    return f"{dim} / {bracketed(unit)}" if unit else dim
 
 
 def _text(value: object) -> str:
