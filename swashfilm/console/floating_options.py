@@ -8,7 +8,7 @@ from reynolds.errors import InputError
 from swashfilm.case.gap.revolution import FINER
 from swashfilm.case.gap.switches import SWITCHES
 from swashfilm.console.fidelity import Fidelity
-from swashfilm.console.inputs import given
+from swashfilm.console.inputs import option_value
 from system.description.pump import SINGLE_PARTS, PumpDescription
 from system.effects.switched import hold_plain
 from system.inputs.faults import Fault
@@ -91,4 +91,4 @@ def _finer_faults(options: argparse.Namespace) -> list[Fault]:
 
 
 def _switched(options: argparse.Namespace) -> list[str]:
-    return [switch for switch in SWITCHES if given(options, switch)]
+    return [switch for switch in SWITCHES if option_value(options, switch)]

@@ -9,11 +9,23 @@ from system.inputs.faults import Fault, InputFaults
 
 COMMAND_LINE = "command line"
 """Source of the faults of options."""
+RECORDING = "folder with a recording.toml, or a table beside one"
+"""Help on the path of a recording."""
 
 
-def given(options: argparse.Namespace, option: str) -> Any:
+def option_value(options: argparse.Namespace, option: str) -> Any:
     """Return what the command line states for an option; None where it is left out."""
     return getattr(options, option[2:].replace("-", "_"))
+
+
+def whole(
+    faults: list[Fault], option: str, text: str | None, usual: int, bounds: tuple[int, int], what: str = "a number"
+) -> int:
+    """Return the whole number of an option, `usual` where it is left out; list the fault of one out of bounds."""
+    if text is None or (text.isdecimal() and bounds[0] <= int(text) <= bounds[1]):
+        return usual if text is None else int(text)
+    faults.append(Fault(option, repr(text), f"{what}, {bounds[0]} to {bounds[1]}"))
+    return usual
 
 
 def given_text(pump: str, stated: Mapping[str, object]) -> str:

@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from swashfilm.console.command import Command
-from swashfilm.console.inputs import COMMAND_LINE
+from swashfilm.console.inputs import COMMAND_LINE, RECORDING
 from swashfilm.console.terminal import show, show_table
 from system.inputs.faults import Fault, InputFaults, nearest_choice
 
@@ -21,21 +21,11 @@ ALL, NONE = "all", "none"
 def add_calibrate_options(command: argparse.ArgumentParser) -> None:
     """Add the arguments of `swashfilm calibrate`."""
     command.add_argument("pump", metavar="PUMP", help="built-in name (ref90) or pump file (a few sizes suffice)")
-    command.add_argument(
-        "recording", type=Path, metavar="RECORDING", help="folder with a recording.toml, or a table beside one"
-    )
-    command.add_argument(
-        "--laws",
-        metavar=f"{{{','.join(LAWS)}}}",
-        default=LAWS[0],
-        help="friction law tried beside constant coefficients: over the Hersey number, or none",
-    )
-    command.add_argument(
-        "--models",
-        metavar="NAME,..",
-        default=ALL,
-        help="loss models compared by the same cross-validation: names separated by commas, all, or none",
-    )
+    command.add_argument("recording", type=Path, metavar="RECORDING", help=RECORDING)
+    what = "friction law tried beside constant coefficients: over the Hersey number, or none"
+    command.add_argument("--laws", metavar=f"{{{','.join(LAWS)}}}", default=LAWS[0], help=what)
+    what = "loss models compared by the same cross-validation: names separated by commas, all, or none"
+    command.add_argument("--models", metavar="NAME,..", default=ALL, help=what)
 
 
 def run_calibrate_command(options: argparse.Namespace) -> int:

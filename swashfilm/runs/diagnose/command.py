@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from swashfilm.console.command import Command
-from swashfilm.console.inputs import COMMAND_LINE
+from swashfilm.console.inputs import COMMAND_LINE, RECORDING, whole
 from swashfilm.console.terminal import show, show_table
 from system.inputs.faults import Fault, InputFaults
 
@@ -23,25 +23,13 @@ USUAL_WORKERS = 4  # at most, where not stated: more wait for each other
 def add_diagnose_options(command: argparse.ArgumentParser) -> None:
     """Add the arguments of `swashfilm diagnose`."""
     command.add_argument("pump", metavar="PUMP", help="built-in name (ref90) or pump file (a few sizes suffice)")
-    command.add_argument(
-        "recording", type=Path, metavar="RECORDING", help="folder with a recording.toml, or a table beside one"
-    )
-    command.add_argument(
-        "--apply",
-        type=Path,
-        metavar="FILE.toml",
-        help="write the fitted pump with the effects found, for `swashfilm run FILE.toml --fidelity lumped`",
-    )
-    command.add_argument(
-        "--workers",
-        metavar="N",
-        help=f"processes that fit hypotheses side by side (as many as cores, {USUAL_WORKERS} at most)",
-    )
-    command.add_argument(
-        "--film-tables",
-        action="store_true",
-        help="elastic walls by solved films, which take about a minute, once for each pump",
-    )
+    command.add_argument("recording", type=Path, metavar="RECORDING", help=RECORDING)
+    what = "write the fitted pump with the effects found, for `swashfilm run FILE.toml --fidelity lumped`"
+    command.add_argument("--apply", type=Path, metavar="FILE.toml", help=what)
+    what = f"processes that fit hypotheses side by side (as many as cores, {USUAL_WORKERS} at most)"
+    command.add_argument("--workers", metavar="N", help=what)
+    what = "elastic walls by solved films, which take about a minute, once for each pump"
+    command.add_argument("--film-tables", action="store_true", help=what)
 
 
 def run_diagnose_command(options: argparse.Namespace) -> int:
@@ -85,8 +73,12 @@ def run_diagnose_command(options: argparse.Namespace) -> int:
 
 def workers_and_file(options: argparse.Namespace) -> tuple[int, Path | None]:
     """Number of processes and file of the fitted pump; raises InputFaults with the faults of both."""
+    from system.work.processes import cores
+
     faults: list[Fault] = []
-    workers, apply = _workers(options, faults), _apply(options, faults)
+    usual = min(cores(), USUAL_WORKERS)
+    workers = whole(faults, "--workers", options.workers, usual, (1, MOST_WORKERS), "a number of processes")
+    apply = _apply(options, faults)
     if faults:
         raise InputFaults(COMMAND_LINE, faults)
     return workers, apply
@@ -127,18 +119,6 @@ def _channel_rows(recording: Recording) -> Sequence[tuple[str, ...]]:
             noise = f"{sigma:.2g} {difference_unit(channel.name)}".removesuffix(" 1")
             rows.append((channel.name.value, str(known.size), span, noise))
     return rows
-
-
-def _workers(options: argparse.Namespace, faults: list[Fault]) -> int:
-    from system.work.processes import cores
-
-    text = options.workers
-    if text is None:
-        return min(cores(), USUAL_WORKERS)
-    if not (text.isdecimal() and 1 <= int(text) <= MOST_WORKERS):
-        faults.append(Fault("--workers", repr(text), f"a number of processes, 1 to {MOST_WORKERS}"))
-        return 1
-    return int(text)
 
 
 def _apply(options: argparse.Namespace, faults: list[Fault]) -> Path | None:

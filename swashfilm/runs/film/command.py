@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from swashfilm.case.gap.switches import add_switches, switched_keys
 from swashfilm.console.command import Command
-from swashfilm.console.inputs import COMMAND_LINE, expect
+from swashfilm.console.inputs import COMMAND_LINE, expect, whole
 from swashfilm.console.terminal import show, show_result
 from system.inputs.faults import Fault, InputFaults
 
@@ -60,8 +60,11 @@ def film_case(options: argparse.Namespace) -> tuple[Case | StudyCase, int, int]:
     from swashfilm.runs.film.refine import check_refinement
 
     expect(options.case, "film", "run")
-    meshes = _count("--refine", options.refine, "a number of meshes", 2, 5)
-    workers = _count("--workers", options.workers, "a number of processes", 1, 64)
+    faults: list[Fault] = []
+    meshes = whole(faults, "--refine", options.refine, 1, (2, 5), "a number of meshes")
+    workers = whole(faults, "--workers", options.workers, 1, (1, 64), "a number of processes")
+    if faults:
+        raise InputFaults(COMMAND_LINE, faults)
     case = load_film(options.case, switched_keys(options))
     _check_options(options, case)
     if meshes > 1 and not isinstance(case, (StudyCase, RevolutionCase)):
@@ -124,14 +127,6 @@ def _check_options(options: argparse.Namespace, case: Case | StudyCase) -> None:
     ]
     if faults:
         raise InputFaults(COMMAND_LINE, faults)
-
-
-def _count(option: str, text: str | None, what: str, least: int, most: int) -> int:
-    if text is None:
-        return 1
-    if not (text.isdecimal() and least <= int(text) <= most):
-        raise InputFaults(COMMAND_LINE, [Fault(option, repr(text), f"{what}, {least} to {most}")])
-    return int(text)
 
 
 COMMAND = Command("film", "one film: a free one or a gap of a pump", add_film_options, run_film)

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 
 from swashfilm.console.command import Command
 from swashfilm.console.fidelity import Fidelity
-from swashfilm.console.inputs import COMMAND_LINE, expect, given, given_text
+from swashfilm.console.inputs import COMMAND_LINE, expect, given_text, option_value
 from swashfilm.console.terminal import show, show_result
 from system.inputs.faults import Fault, InputFaults, nearest_choice
 
@@ -124,7 +124,7 @@ def _axes(options: argparse.Namespace, faults: list[Fault]) -> list[MapAxis]:
 
     axes = {axis.input: axis for axis in paper_axes()} if options.plan == "paper" else {}
     for option, (name, example, _) in LEVELS.items():
-        text = given(options, option)
+        text = option_value(options, option)
         if text is None:
             continue
         found = map_axis(option, text, MapInput[name], example)
@@ -139,11 +139,11 @@ def _word_faults(options: argparse.Namespace) -> Iterator[Fault]:
     """Yield the faults of words and numbers of the command line that do not depend on the pump."""
     names = [fidelity.value for fidelity in FIDELITIES]
     for option, known in (("--plan", PLANS), ("--fidelity", names)):
-        word = given(options, option)
+        word = option_value(options, option)
         if word not in known:
             yield Fault(option, repr(word), f"one of {', '.join(known)}", nearest_choice(word, known))
     for option, least, most in (("--check", 0, 10000), ("--workers", 1, 256)):
-        text = given(options, option)
+        text = option_value(options, option)
         if text is not None and not (text.isdecimal() and least <= int(text) <= most):
             yield Fault(option, repr(text), f"a number, {least} to {most}")
     if options.table and options.fidelity != Fidelity.TABLE.value:

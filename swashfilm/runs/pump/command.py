@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 from swashfilm.case.gap.switches import add_switches
 from swashfilm.console.command import Command
 from swashfilm.console.fidelity import Fidelity
-from swashfilm.console.inputs import COMMAND_LINE, expect, given, given_text
+from swashfilm.console.inputs import COMMAND_LINE, expect, given_text, option_value
 from swashfilm.console.terminal import show, show_result
 from system.inputs.faults import Fault, InputFaults, nearest_choice
 from system.inputs.units import with_point
@@ -36,25 +36,18 @@ def add_run_options(command: argparse.ArgumentParser) -> None:
     command.add_argument("pump", nargs="?", default="ref90", metavar="PUMP", help="built-in name (ref90) or pump file")
     for option, (_, example, what) in _OVERRIDES.items():
         command.add_argument(option, metavar=example, help=f"{what}; default: that of the pump file")
-    command.add_argument(
-        "--fidelity",
-        metavar=f"{{{','.join(_FIDELITIES)}}}",
-        default=Fidelity.FILMS.value,
-        help="films of given thickness (lumped), solved at given positions (films), at positions by balance of "
-        "forces (floating), or by a response table (table)",
+    what = (
+        "films of given thickness (lumped), solved at given positions (films), at positions by balance of forces "
+        "(floating), or by a response table (table)"
     )
-    command.add_argument(
-        "--table", type=Path, metavar="FILE.json", help="response table in place of the stored one of this pump"
-    )
+    metavar = f"{{{','.join(_FIDELITIES)}}}"
+    command.add_argument("--fidelity", metavar=metavar, default=Fidelity.FILMS.value, help=what)
+    what = "response table in place of the stored one of this pump"
+    command.add_argument("--table", type=Path, metavar="FILE.json", help=what)
     command.add_argument("--steps", metavar="N", help="floating gaps: reported angles per turn (360)")
     command.add_argument("--finer", metavar="X", help="floating gaps: factor on the cells each way (.5; --rigid: 1)")
-    command.add_argument(
-        "--set",
-        action="append",
-        default=[],
-        metavar="KEY=VALUE",
-        help="another value of a key of the pump file, such as valve_plate.film_thickness=10um; may be repeated",
-    )
+    what = "another value of a key of the pump file, such as valve_plate.film_thickness=10um; may be repeated"
+    command.add_argument("--set", action="append", default=[], metavar="KEY=VALUE", help=what)
     add_switches(command)
 
 
@@ -130,7 +123,7 @@ def _overrides(options: argparse.Namespace) -> tuple[dict[str, object], list[Fau
         else:
             stated[key.strip()] = toml_value(value.strip())
     for option, (path, example, what) in _OVERRIDES.items():
-        text = given(options, option)
+        text = option_value(options, option)
         if text is None:
             continue
         stated[path] = text

@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from swashfilm.console.command import Command
-from swashfilm.console.inputs import COMMAND_LINE, given
+from swashfilm.console.inputs import COMMAND_LINE, option_value
 from swashfilm.console.terminal import show_table
 from system.inputs.faults import Fault, InputFaults
 from system.inputs.units import Dimension, QuantityError, parse_quantity
@@ -16,6 +16,7 @@ if TYPE_CHECKING:
     from system.inputs.coefficients.film_passages import FilmPassage
     from system.inputs.coefficients.openfoam_case import CaseFlow
 
+Rows = list[tuple[str, str]]
 SIZES = {
     "--throat-area": (Dimension.AREA, "narrowest section of the flow; of a film, that of the thinner one"),
     "--density": (Dimension.DENSITY, "density of the liquid"),
@@ -43,13 +44,8 @@ def add_coefficient_options(command: argparse.ArgumentParser) -> None:
         command.add_argument(option, metavar=f"'{dimension.example}'", help=what)
     for option, what in FILM_RATIOS.items():
         command.add_argument(option, type=float, metavar="R", help=what)
-    command.add_argument(
-        "-o",
-        "--output",
-        type=Path,
-        metavar="FILE.csv",
-        help="coefficient file to which the row is added; created where absent",
-    )
+    what = "coefficient file to which the row is added; created where absent"
+    command.add_argument("-o", "--output", type=Path, metavar="FILE.csv", help=what)
 
 
 def run_coefficients_command(options: argparse.Namespace) -> int:
@@ -73,12 +69,7 @@ def run_coefficients_command(options: argparse.Namespace) -> int:
 
 
 def _write_port(
-    options: argparse.Namespace,
-    found: CaseFlow,
-    rows: list[tuple[str, str]],
-    area: float,
-    density: float,
-    viscosity: float,
+    options: argparse.Namespace, found: CaseFlow, rows: Rows, area: float, density: float, viscosity: float
 ) -> None:
     """Print and write the flow coefficient of a port or bore."""
     from swashfilm.runs.reference.coefficient_rows import port_row
@@ -91,12 +82,7 @@ def _write_port(
 
 
 def _write_film(
-    options: argparse.Namespace,
-    found: CaseFlow,
-    rows: list[tuple[str, str]],
-    passage: FilmPassage,
-    density: float,
-    viscosity: float,
+    options: argparse.Namespace, found: CaseFlow, rows: Rows, passage: FilmPassage, density: float, viscosity: float
 ) -> None:
     """Print and write extra length and loss factor of a step or groove."""
     from swashfilm.runs.reference.coefficient_rows import known_extra_length, loss_row
@@ -120,7 +106,7 @@ def _passage(options: argparse.Namespace, area: float) -> FilmPassage | None:
     from system.inputs.coefficients.film_passages import FilmPassage
 
     needed = (*FILM_SIZES, "--film-ratio")
-    stated = [option for option in (*needed, "--width-ratio") if given(options, option) is not None]
+    stated = [option for option in (*needed, "--width-ratio") if option_value(options, option) is not None]
     if not stated:
         return None
     faults = [
@@ -142,7 +128,7 @@ def _sizes(options: argparse.Namespace, sizes: dict[str, tuple[Dimension, str]])
     """Return the options' values in SI; raise InputFaults with every fault."""
     found, faults = [], []
     for option, (dimension, _) in sizes.items():
-        text = given(options, option)
+        text = option_value(options, option)
         try:
             found.append(parse_quantity(text, dimension))
             if not found[-1] > 0.0:

@@ -3,7 +3,7 @@
 from collections.abc import Iterator, Sequence
 from importlib.metadata import version
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
@@ -13,9 +13,6 @@ from swashfilm.runs.reference.case import FEWEST_CELLS, ReferenceCase, Reference
 from swashfilm.runs.reference.passages import Passage, SolvedPassage
 from system.inputs.csv_table import write_table
 from system.work.progress import Report
-
-if TYPE_CHECKING:
-    pass
 
 OF_PORTS = (ReferenceKind.ORIFICE, ReferenceKind.SLOT)
 FILES = {kind: "port_coefficient.csv" if kind in OF_PORTS else "loss_factor.csv" for kind in ReferenceKind}

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from swashfilm.case.gap.switches import SWITCHES, add_switches
 from swashfilm.console.command import Command
-from swashfilm.console.inputs import COMMAND_LINE, given
+from swashfilm.console.inputs import COMMAND_LINE, option_value, whole
 from swashfilm.console.terminal import show, show_result, show_table
 from system.inputs.faults import Fault, InputFaults, nearest_choice
 
@@ -141,18 +141,16 @@ def _word_faults(options: argparse.Namespace) -> list[Fault]:
     if options.recording is not None and (options.figure not in (ALL, _TUNED) or options.fidelity != _LUMPED):
         found = f"with {options.figure}, --fidelity {options.fidelity}"
         faults.append(Fault("--recording", found, f"{_TUNED} or {ALL}, --fidelity {_LUMPED}: only they use it"))
-    workers = options.workers
-    if workers is not None and not (workers.isdecimal() and 1 <= int(workers) <= 256):
-        faults.append(Fault("--workers", repr(workers), "a number, 1 to 256"))
+    whole(faults, "--workers", options.workers, 1, (1, 256))
     return faults
 
 
 def _command(options: argparse.Namespace) -> str:
     """Return the command that writes the same page."""
     names = ("--fidelity", "--pump", "--recording", "--steps", "--finer")
-    stated = {name: given(options, name) for name in names}
+    stated = {name: option_value(options, name) for name in names}
     words = [f" {name} {text}" for name, text in stated.items() if text not in (None, _LUMPED)]
-    words += [f" {switch}" for switch in SWITCHES if given(options, switch)]
+    words += [f" {switch}" for switch in SWITCHES if option_value(options, switch)]
     return f"swashfilm reproduce {options.figure}{''.join(words)} --page {options.page}"
 
 

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 
 from swashfilm.case.gap.switches import add_switches, switched_keys
 from swashfilm.console.command import Command
-from swashfilm.console.inputs import COMMAND_LINE, given
+from swashfilm.console.inputs import COMMAND_LINE, option_value, whole
 from swashfilm.console.terminal import show_result
 from system.inputs.faults import Fault, InputFaults, nearest_choice
 from system.inputs.units import with_point
@@ -23,20 +23,18 @@ if TYPE_CHECKING:
     from system.work.progress import Report
 
 _SOURCE = "films"
+MOST = 10000  # points, or processes
 RANGES = {
     "--speed": ("operating.speed", "500rpm..2500rpm", "shaft speeds (0.2 .. 1.2 of the rated one)"),
     "--pressure": (
-        "operating.pressure",
-        "5MPa..40MPa",
+        "operating.pressure", "5MPa..40MPa",
         "delivery pressures, gauge (0.05 above inlet and case .. 1.15 of the rated one)",
     ),
     "--displacement": ("operating.displacement_ratio", "0.1..1.0", "fractions of the full displacement (0.1 .. 1)"),
     "--temperature": (
-        "operating.temperature",
-        "20degC..100degC",
-        "temperatures, for the oil's viscosity (20 .. 100 degC)",
+        "operating.temperature", "20degC..100degC", "temperatures, for the oil's viscosity (20 .. 100 degC)",
     ),
-}
+}  # fmt: skip
 """Key of the pump file, example and meaning of each input of a table; a single value keeps it constant."""
 HELD = {
     "--inlet-pressure": ("operating.inlet_pressure", "25bar", "pressure at the inlet, gauge"),
@@ -120,7 +118,7 @@ def _gap_case(options: argparse.Namespace) -> tuple[GapTableCase, int]:
     """Return the gap's table of a command line, and the number of workers; raise InputFaults with every fault."""
     from swashfilm.runs.table.gap_case import load_gap_table
 
-    given = {option: given(options, option) for option in [*RANGES, *HELD, "--steps", "--finer"]}
+    given = {option: option_value(options, option) for option in [*RANGES, *HELD, "--steps", "--finer"]}
     given["--source"] = None if options.source == _SOURCE else options.source
     stated = "a key of [table] or of the case"
     faults = [Fault(name, "an option beside a gap's case", stated) for name, text in given.items() if text]
@@ -140,7 +138,7 @@ def _case(options: argparse.Namespace) -> tuple[TableCase, int]:
     from system.points.table.sources import Source
 
     faults: list[Fault] = []
-    single = {option for option in RANGES if ".." not in (given(options, option) or "..")}
+    single = {option for option in RANGES if ".." not in (option_value(options, option) or "..")}
     counts = _counts(options, faults, max(1, len(RANGES) - len(single)))
     ranges = _ranges(options, faults, single)
     sources = [source.value for source in Source]
@@ -165,9 +163,9 @@ def _counts(options: argparse.Namespace, faults: list[Fault], inputs: int) -> tu
 
     learnt, held_out = usual_counts(inputs)
     return (
-        _count(faults, "--points", options.points, learnt, 2 ** (inputs + 1)),
-        _count(faults, "--held-out", options.held_out, held_out, FEWEST_HELD_OUT),
-        _count(faults, "--workers", options.workers, 1, 1),
+        whole(faults, "--points", options.points, learnt, (2 ** (inputs + 1), MOST)),
+        whole(faults, "--held-out", options.held_out, held_out, (FEWEST_HELD_OUT, MOST)),
+        whole(faults, "--workers", options.workers, 1, (1, MOST)),
     )
 
 
@@ -177,7 +175,7 @@ def _pump(options: argparse.Namespace, faults: list[Fault], single: Collection[s
 
     keys = HELD | {option: RANGES[option] for option in single}
     stated: dict[str, object] = {
-        path: text for option, (path, *_) in keys.items() if (text := given(options, option)) is not None
+        path: text for option, (path, *_) in keys.items() if (text := option_value(options, option)) is not None
     }
     if "--displacement" in single:
         try:
@@ -203,7 +201,7 @@ def _ranges(options: argparse.Namespace, faults: list[Fault], single: Collection
     dimensions = (Dimension.ANGULAR_SPEED, Dimension.PRESSURE, None, Dimension.TEMPERATURE)
     return [
         _range(faults, option, text, dimension, example)
-        if option not in single and (text := given(options, option)) is not None
+        if option not in single and (text := option_value(options, option)) is not None
         else None
         for (option, (_, example, _)), dimension in zip(RANGES.items(), dimensions, strict=True)
     ]
@@ -227,15 +225,6 @@ def _range(faults: list[Fault], option: str, text: str, dimension: object, examp
     else:
         return low, high
     return None
-
-
-def _count(faults: list[Fault], option: str, text: str | None, default: int, least: int) -> int:
-    if text is None:
-        return default
-    if text.isdecimal() and least <= int(text) <= 10000:
-        return int(text)
-    faults.append(Fault(option, repr(text), f"a number, {least} to 10000"))
-    return default
 
 
 COMMAND = Command(
