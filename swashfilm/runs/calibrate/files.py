@@ -62,7 +62,7 @@ def summary(found: Calibration, title: str) -> dict[str, Any]:
 
 
 def parameter_rows(fit: Posterior) -> Iterator[Row]:
-    """Every parameter: its prior one sigma either way, bounds, fitted value, sigma over prior's."""
+    """Every parameter: its prior one sigma either way, bounds, fitted value, sigma / prior sigma."""
     for at, parameter in enumerate(fit.parameters):
         sigma = float(np.sqrt(fit.covariance[at, at]))
         held = fit.xi[at] <= parameter.lowest or fit.xi[at] >= parameter.highest

@@ -44,11 +44,11 @@ def headline(folder: Path) -> tuple[str, ...]:
     sentences = [
         f"{own['parameters']} parameters fitted to {own['readings']} readings at {own['points']} points: "
         f"chi-square per reading {own['chi2_per_reading']:.3f}.",
-        f"combinations of parameters left to their priors: {own['undetermined']} (undetermined.csv).",
+        f"combinations of parameters that the data do not determine: {own['undetermined']} (undetermined.csv).",
     ]
     law = own["hersey"]
     if law is not None:
-        odds = f"{law['evidence_nats']:+.1f} nats for it"
+        odds = f"{law['evidence_nats']:+.1f} nats in favour"
         words = "the data support" if law["carried"] else "the data do not support"
         sentences.append(f"{words} a friction that depends on the Hersey number: {odds}.")
         if law["carried"]:
@@ -57,16 +57,16 @@ def headline(folder: Path) -> tuple[str, ...]:
     for row in read_rows(folder / "parameters.csv"):
         if row["at_bound"] == "yes" and float(row["mean"]) != 0.0:  # what may only add is often 0
             sentences.append(
-                f"at its bound is held {row['name']}, {row['mean']} {row['unit']}".removesuffix(" 1") + "."
+                f"parameter {row['name']} is at its bound, {row['mean']} {row['unit']}".removesuffix(" 1") + "."
             )
     return tuple(text[0].upper() + text[1:] for text in sentences)
 
 
 def pair_table(folder: Path) -> list[tuple[str, ...]]:
-    """(pair, prior, fitted, sigma over prior's) of the friction coefficients, with a head."""
+    """(pair, prior, fitted, sigma / prior sigma) of the friction coefficients, with a head."""
     rows = [row for row in read_rows(folder / "parameters.csv") if row["name"].startswith("friction.")]
     return [
-        ("pair", "prior", "one sigma of it", "fitted", "sigma over prior's"),
+        ("pair", "prior", "one sigma of the prior", "fitted", "sigma / prior sigma"),
         *(
             (
                 row["name"].removeprefix("friction.").replace("_", " "),
@@ -102,7 +102,7 @@ def held_out_table(folder: Path) -> list[tuple[str, ...]]:
     head = ["model", "coefficients"]
     for channel, split in cells:
         one = next(row for row in rows if (row["channel"], row["left_out"]) == (channel, split))
-        how = "fitted" if split == "none" else f"{split} out"
+        how = "fitted" if split == "none" else f"{split} held out"
         head.append(f"{channel} / {one['unit']}, {how}")
     found = [tuple(head)]
     for model in dict.fromkeys(row["model"] for row in rows):

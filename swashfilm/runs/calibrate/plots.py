@@ -54,7 +54,7 @@ def coefficients_over_displacement(rows: Sequence[Row]) -> Figure:
 
 
 def friction_curves(rows: Sequence[Row]) -> Figure:
-    """Coefficient of each film over the Hersey numbers met under load, one sigma as a band."""
+    """Coefficient of each film over its Hersey numbers under load, one sigma as a band."""
     figure = figure_of(7.5, 4.0)
     axes = figure.subplots()
     for colour, gap in zip(COLOURS, dict.fromkeys(row["gap"] for row in rows), strict=False):
@@ -85,7 +85,7 @@ def held_out_models(rows: Sequence[Row]) -> Figure:
             own = {row["model"]: row for row in rows if (row["channel"], row["left_out"]) == (channel, split)}
             sizes = [float(own[model]["rms"]) / float(own[model]["noise"]) for model in models]
             places = np.arange(len(models)) + 0.2 * (shift - (len(splits) - 1) / 2)
-            label = "fitted to all" if split == "none" else f"{split} levels out"
+            label = "fitted to all" if split == "none" else f"{split} levels held out"
             axes.barh(places, sizes, 0.18, color=shade, label=label)
         axes.axvline(1.0, color=NOISE, linestyle="--")
         axes.set(xscale="log", xlim=(LEAST, None))

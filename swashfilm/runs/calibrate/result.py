@@ -35,7 +35,7 @@ class CalibrationRun(Result):
         found._hersey = read_rows(folder / "hersey.csv")
         found._tables = [("Friction coefficients: prior, fitted, sigma over the prior's", pair_table(folder))]
         if len(compared := held_out_table(folder)) > 1:
-            found._tables.append(("Error of models at levels left out", compared))
+            found._tables.append(("Error of models at held-out levels", compared))
         return found
 
     @staticmethod
@@ -44,7 +44,7 @@ class CalibrationRun(Result):
         return read_table(folder / "parameters.csv")
 
     def tables(self) -> list[Table]:
-        """Friction coefficients, and errors of models at levels left out."""
+        """Friction coefficients, and errors of models at held-out levels."""
         return self._tables
 
     def __repr__(self) -> str:

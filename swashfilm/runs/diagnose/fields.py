@@ -27,7 +27,7 @@ _FIELD_OF = {
     EffectId.VISCOSITY_PRESSURE: "film_viscosity",
     EffectId.VISCOSITY_GRADE: "film_viscosity",
 }
-"""The field that an effect changes; of all others the thickness."""
+"""The field that an effect changes; thickness for effects without an entry."""
 
 
 def write_film_fields(folder: Path, films: FilmsPoint) -> None:
@@ -71,7 +71,7 @@ def _beside(data: list[xarray.Dataset], names: tuple[str, str], gap: str, shown:
 
 
 def _field(data: xarray.Dataset, gap: str, name: str) -> np.ndarray:
-    """A field of the gap's pictured film; oil that is as in the case has its temperature and viscosity."""
+    """A field of the gap's pictured film; without heating, the case's temperature and viscosity."""
     if f"{gap}_{name}" in data:
         return np.asarray(data[f"{gap}_{name}"].values[pictured(data, gap)])
     return np.full(data.sizes[f"{gap}_vertex"], data.attrs[name.removeprefix("film_")])

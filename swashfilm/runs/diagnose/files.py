@@ -27,7 +27,7 @@ from system.inputs.channels import ChannelName
 
 KIND = "diagnosis"
 TRACES = "trace_residuals.csv"
-"""In the run folder of a recording with traces: what residuals.csv is of steady readings."""
+"""Table of the traces in the run folder of a recording, as residuals.csv is of the steady readings."""
 
 
 def write_diagnosis_files(
@@ -109,6 +109,6 @@ def write_rows(path: Path, rows: Iterable[Mapping[str, str]]) -> None:
 
 
 def read_rows(path: Path) -> list[dict[str, str]]:
-    """Read what `write_rows` wrote."""
+    """Rows of a file by `write_rows`."""
     with path.open(encoding="utf-8", newline="") as file:
         return list(csv.DictReader(file))

@@ -30,7 +30,7 @@ FILES = (
 TABLES = ("residuals", "hypotheses", "parameters", "next_points", "changes", "films")
 MOST_POINTS = 8
 AXES = ("p_out [bar]", "speed [rpm]", "displacement_ratio [1]", "T_case [degC]")
-FAINT = 0.3  # sigma, rms: what adds less to a channel is not drawn there
+FAINT = 0.3  # sigma, rms: smaller additions to a channel are not drawn
 MOST_COURSES = 2
 
 
@@ -75,7 +75,7 @@ CHANNEL_HEAD = ("channel", "chi2 per reading", "share", "held out, before", "aft
 
 
 def place_rows(found: Mapping[str, Any]) -> Iterator[tuple[str, str]]:
-    """(property, value) of the place of the mismatch, or of parts that stand out without a claim."""
+    """(property, value) of the place of the mismatch, or of a local mismatch without a claim."""
     where, steady = found["where"], set(found["where"]["channels"]) - {"p_chamber"}
     if where["channels"]:
         yield "channels", ", ".join(where["channels"])
@@ -116,11 +116,11 @@ def parameter_rows(rows: Sequence[Mapping[str, str]]) -> Iterator[tuple[str, ...
     """(parameter, stated, before, after, pulls): free parameters first, then by pull."""
     ranked = sorted(rows, key=lambda row: -abs(float(row["pull_after"] or "inf")))
     for row in ranked:
-        unit, pull = row["unit"], f"{float(row['pull_after']):.2f}" if row["pull_after"] else "set free"
+        unit, pull = row["unit"], f"{float(row['pull_after']):.2f}" if row["pull_after"] else "free"
         yield (
             row["name"],
             _quantity(unit, float(row["prior"]), float(row["prior_sigma"])),
-            _quantity(unit, float(row["before"])) if row["before"] else "not there",
+            _quantity(unit, float(row["before"])) if row["before"] else "not in the fit",
             _quantity(unit, float(row["after"]), float(row["sigma"])),
             f"{float(row['pull_before']):.2f} -> {pull}" if row["pull_before"] else f"- -> {pull}",
         )
@@ -169,7 +169,7 @@ def next_point_words(found: Mapping[str, Any]) -> str:
 
 
 def _quantity(unit: str, value: float, sigma: float | None = None) -> str:
-    """A value in SI, with its sigma, in the unit that people read it in; of temperatures it is a difference."""
+    """A value in SI, with its sigma, in its reading unit; temperatures are differences."""
     dimension = next((one for one in Dimension if one.si_unit == unit), None)
     if dimension is not None and dimension is not Dimension.TEMPERATURE:
         unit = reading_unit(value or sigma or 0.0, dimension)
@@ -179,7 +179,7 @@ def _quantity(unit: str, value: float, sigma: float | None = None) -> str:
 
 
 def _plain(value: float, digits: int) -> str:
-    """A number of so many digits, of those before the point all, without an exponent where it can be helped."""
+    """A number of `digits` significant digits, or all digits before the decimal point where these are more."""
     return f"{value:.{digits}g}" if abs(value) < 10.0**digits else f"{value:.0f}"
 
 

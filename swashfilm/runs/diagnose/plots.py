@@ -19,7 +19,7 @@ BEFORE, AFTER, NOISE = "#b55a00", "#3c7a8c", "#9aa4ab"
 WIDTH = 10.0  # inches, of every picture that is as wide as the page
 MOST_BARS = 12
 MOST_LEVELS = 4
-SEEN = 0.05  # % of the shaft power, below which a loss is not drawn
+LEAST_LOSS = 0.05  # % of the shaft power, below which a loss is not drawn
 RATIO_STEP = 0.1
 """Points whose displacement ratios differ by less are drawn together."""
 
@@ -71,14 +71,14 @@ def held_out_bars(held_out: Mapping[str, Mapping[str, Any]]) -> Figure:
 
 
 def hypothesis_bars(rows: Sequence[Row]) -> Figure:
-    """The likeliest hypotheses: probability, and how far behind the best each lies."""
+    """The most probable hypotheses: probability, and difference of log evidence to the best."""
     ranked = sorted(rows, key=lambda row: -float(row["probability"]))[:MOST_BARS]
     figure = figure_of(WIDTH, 1.0 + 0.34 * len(ranked))
     axes, places = figure.subplots(), np.arange(len(ranked))
     axes.barh(places, [float(row["probability"]) for row in ranked], 0.6, color=AFTER)
     for place, row in enumerate(ranked):
         size = f", z {float(row['z']):.3g}" if float(row["z"] or 0.0) else ""  # the unknown has no one size
-        text = f"{float(row['behind [nats]']):.3g} nats behind{size}"
+        text = f"{float(row['behind [nats]']):.3g} nats below the best{size}"
         axes.text(float(row["probability"]) + 0.01, place, text, va="center", fontsize=8)
     axes.set_yticks(places, [row["hypothesis"].replace("_", " ") for row in ranked], fontsize=8)
     axes.set(xlim=(0.0, 1.35), xlabel="probability", xticks=np.linspace(0, 1, 6))
@@ -87,7 +87,7 @@ def hypothesis_bars(rows: Sequence[Row]) -> Figure:
 
 
 def pull_changes(rows: Sequence[Row]) -> Figure:
-    """Pulls of the parameters that either fit drags the most, from before to after, of those that both hold."""
+    """Largest pulls of the parameters that both fits have, from before to after."""
     common = [row for row in rows if row["pull_before"] and row["pull_after"]]
     ranked = sorted(common, key=lambda row: -max(abs(float(row[key])) for key in ("pull_before", "pull_after")))
     ranked = ranked[:MOST_BARS]
@@ -99,7 +99,7 @@ def pull_changes(rows: Sequence[Row]) -> Figure:
     for values, colour, label in zip(ends, (BEFORE, AFTER), ("before", "after"), strict=True):
         axes.plot(values, places, "o", color=colour, label=label)
     axes.set_yticks(places, [row["name"] for row in ranked], fontsize=8)
-    axes.set_xlabel("pull; grey: within two, as of most values that are stated rightly")
+    axes.set_xlabel("pull; grey: within two, as for most values that are stated correctly")
     axes.invert_yaxis()
     _legend_above(axes)
     return figure
@@ -114,9 +114,9 @@ def effect_courses(rows: Sequence[Row], courses: Sequence[tuple[str, str]]) -> F
         left = _column(own, "measured") - (_column(own, "after") - added)
         axes.errorbar(
             place, left, _column(own, "sigma"), fmt="o", markersize=4, color=BEFORE, markerfacecolor="none",
-            ecolor=NOISE, label="measured less simulated without it", alpha=0.8,
+            ecolor=NOISE, label="measured - simulated without it", alpha=0.8,
         )  # fmt: skip
-        axes.plot(place, added, "x", color=AFTER, markeredgewidth=1.8, label="what it adds", zorder=3)
+        axes.plot(place, added, "x", color=AFTER, markeredgewidth=1.8, label="contribution of the finding", zorder=3)
         axes.axhline(0.0, color="#1c2328", linewidth=0.8)
         name, _, unit = axis.partition(" [")
         axes.set(xlabel=f"{name} / {unit.rstrip(']')}", ylabel=f"{channel} / {own[0]['unit'].replace('degC', 'K')}")
@@ -129,7 +129,7 @@ def loss_bars(rows: Sequence[Row], whole: Mapping[str, float]) -> Figure:
     """Parts of the shaft power, without and with the finding, in % of each one's shaft power; `whole` in W."""
     runs = tuple(whole)
     shares = {row["quantity"]: [100.0 * float(row[run]) / whole[run] for run in runs] for row in rows}
-    shown = {name: both for name, both in shares.items() if max(map(abs, both)) >= SEEN}
+    shown = {name: both for name, both in shares.items() if max(map(abs, both)) >= LEAST_LOSS}
     figure = figure_of(WIDTH, 1.0 + 0.36 * len(shown))
     axes, places = figure.subplots(), np.arange(len(shown))
     for at, (run, colour) in enumerate(zip(runs, (BEFORE, AFTER), strict=True)):
@@ -143,7 +143,7 @@ def loss_bars(rows: Sequence[Row], whole: Mapping[str, float]) -> Figure:
 
 
 def _legend_above(axes: Axes) -> None:
-    """The legend in a row over the axes, where it hides nothing."""
+    """The legend in a row above the axes."""
     axes.legend(fontsize=8, ncols=3, loc="lower right", bbox_to_anchor=(1.0, 1.0), frameon=False)
 
 

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 Row = Mapping[str, str]
 FITS = {
     "stated [bar]": ("#a274ad", "pump as described"),
-    "before [bar]": ("#b55a00", "before: fitted without the finding"),
+    "before [bar]": ("#b55a00", "before: fit without the finding"),
     "after [bar]": ("#3c7a8c", "after"),
 }
 NOISE, WINDOW = "#9aa4ab", "#e8d9a0"
@@ -27,7 +27,7 @@ QUARTERS = np.arange(0, 361, 90)
 def trace_residuals(rows: Sequence[Row], window: Sequence[float] | None, settings: Mapping[str, str]) -> Figure:
     """The traces that differ most before: recorded pressure, and recorded less simulated, on one scale.
 
-    window: shaft angles in deg between which they stand out; settings: by point, the text above it.
+    window: shaft angles in deg of the local mismatch; settings: by point, the text above it.
     """
     points = worst_points(rows)
     rows = [row for row in rows if row["point"] in points]
@@ -58,7 +58,7 @@ def trace_residuals(rows: Sequence[Row], window: Sequence[float] | None, setting
 
 
 def _residual(rows: Sequence[Row], key: str) -> Array:
-    """Measured less simulated, bar."""
+    """Measured minus predicted, bar."""
     found: Array = _column(rows, "measured [bar]") - _column(rows, key)
     return found
 

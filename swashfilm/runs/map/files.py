@@ -67,7 +67,7 @@ def map_dataset(data: MapData, error: MapError | None) -> xarray.Dataset:
     variables["toet_displacement"] = (
         dims[2:], _toet(data), _about("m^3", "derived displacement a revolution by Toet (ISO 8426-1)"),
     )  # fmt: skip
-    variables["status"] = (dims, _texts(data.status), {"long_name": "what became of the point"})
+    variables["status"] = (dims, _texts(data.status), {"long_name": "status of the point"})
     variables["reason"] = (dims, _texts(data.reason), {"long_name": "why there is no result"})
     texts = objects([json.dumps([list(one) for one in remarks]) for remarks in data.warnings.flat], data.shape)
     variables["warnings"] = (dims, texts, {"long_name": "warnings of the point: names and texts, JSON"})

@@ -128,11 +128,11 @@ def test_a_page_without_a_claim(study: Study, named: Diagnosis, tmp_path: Path, 
     write_diagnosis_files(tmp_path, study, found)
     write_diagnose_page(tmp_path)
     page = (tmp_path / "report.html").read_text("utf-8")
-    assert "<h2>What</h2>" not in page
+    assert "<h2>Claimed effects</h2>" not in page
 
 
 def test_a_value_claimed_to_be_wrong_is_shown_as_stated(study: Study, named: Diagnosis, tmp_path: Path) -> None:
-    """Its prior is the stated one and not the tenfold of the hypothesis; no pull of a prior that was set free."""
+    """Its prior is the stated one and not the tenfold of the hypothesis; no pull of a freed prior."""
     free = tuple(one.widened(10.0) if one.name == "film" else one for one in named.after.parameters)
     found = replace(named, after=replace(named.after, parameters=free))
     write_diagnosis_files(tmp_path, study, found)
@@ -142,7 +142,7 @@ def test_a_value_claimed_to_be_wrong_is_shown_as_stated(study: Study, named: Dia
     kept = ("friction",)
     sums = tuple(sum(fit.pulls[fit.index(name)] ** 2 for name in kept) for fit in (named.before, named.after))
     assert pull_sums(found.before, found.after) == pytest.approx(sums)
-    assert "set free" in (tmp_path / "report.html").read_text("utf-8")
+    assert " free</td>" in (tmp_path / "report.html").read_text("utf-8")
 
 
 @pytest.mark.parametrize("gone", ["speed [rpm]", "p_out [bar]", "both"])
