@@ -11,6 +11,8 @@ from gaps.films.over_turn import constant
 from gaps.films.slipper import face_force
 from gaps.loads.ball_joint import lateral_force
 from gaps.standing.gap_film import GapFilm, rest_from
+from reynolds.errors import FilmNotConverged
+from reynolds.floating.step import FloatingStage
 from reynolds.numerics.arrays import Array
 from swashfilm.case.gap.instant import GapCase
 from swashfilm.case.gap.position import FaceLoad, PistonLoad, rim
@@ -18,7 +20,7 @@ from system.description.gap import Gap
 from system.films.drives import Drives
 from system.films.places import place_of
 from system.films.positions import NO_RUBBING, instant_drives
-from system.films.standing import standing_gap
+from system.films.standing import StandingGap, standing_gap
 from system.points.floating_gaps import BLOCK_START, SLIPPER_START
 
 START = {
@@ -26,6 +28,8 @@ START = {
     Gap.SLIPPER: np.array([SLIPPER_START, 0.0, 0.0]),
     Gap.VALVE_PLATE: np.array([BLOCK_START, 0.0, 0.0]),
 }
+THIN = np.array([1e-7, 0.0, 0.0])
+"""m. Between flat faces a parallel film as thin as this supports the limit load of the hydrostatic balance."""
 
 
 class PositionSource(Enum):
@@ -52,13 +56,25 @@ def solve_gap(case: GapCase) -> GapStudy:
     """
     drives = _loaded(case, instant_drives(case.rotor, case.parts, case.shaft_angle, case.chamber_pressure))
     gap = standing_gap(case.gap, case.rotor, case.parts, drives, case.physics, case.finer)
-    if case.position is None:
-        stage = rest_from(gap.solver, gap.floating, gap.time(case.shaft_angle), START[case.gap])
-    else:
-        stage = gap.held_at(case.shaft_angle, case.position)
+    stage = _at_rest(gap, case) if case.position is None else gap.held_at(case.shaft_angle, case.position)
     found = gap.report(stage)
     source = PositionSource.REST if case.position is None else PositionSource.GIVEN
     return GapStudy(found, source, (NO_RUBBING, *(str(one) for one in case.parts.taken)))
+
+
+def _at_rest(gap: StandingGap[Any, Any], case: GapCase) -> FloatingStage:
+    """Return the part at rest; raise FilmNotConverged, between smooth faces with their limit load."""
+    try:
+        return rest_from(gap.solver, gap.floating, gap.time(case.shaft_angle), START[case.gap])
+    except FilmNotConverged as reason:
+        if case.gap is Gap.PISTON or case.physics.roughness:
+            raise
+        film = gap.report(gap.held_at(case.shaft_angle, THIN))
+        limit = f"{film.carried_load:.5g} N"
+        raise FilmNotConverged(
+            f"{reason.what}; a parallel film of {1e6 * THIN[0]:g} um supports {limit} of {film.required_load:.5g} N",
+            f"a load below {limit} near the middle of the film, or rough walls, whose contact supports the rest",
+        ) from reason
 
 
 def _loaded(case: GapCase, drives: Drives) -> Drives:
