@@ -1,4 +1,4 @@
-"""A bench map in which nothing is missing: the simulation fits it to its noise."""
+"""Bench map without a left-out effect: residuals at the noise."""
 
 from pathlib import Path
 

@@ -1,4 +1,4 @@
-"""A block that tips, on the floating block of two pumps.
+"""Tipping of the block, on the floating block of two pumps.
 
 REF90's lands lift 0.93 of the pistons' force, but 8 mm further in than the pistons press: what is left acts
 outside the outer land. ref90_floating has the same pistons and lands under them.

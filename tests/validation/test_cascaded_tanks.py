@@ -1,4 +1,4 @@
-"""Cascaded tanks: what a model leaves out, named from a real record and shown on another.
+"""Cascaded tanks: missing physics identified in one measured record and verified on another.
 
 recordings/cascaded_tanks by examples/cascaded_tanks: the engine of the pump's diagnosis with another model.
 """

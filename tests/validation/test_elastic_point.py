@@ -1,4 +1,4 @@
-"""A coupled point whose gaps float between walls that give way, in oil that stiffens with pressure."""
+"""Coupled point with floating gaps, elastic walls and viscosity over pressure."""
 
 import pytest
 

@@ -1,4 +1,4 @@
-"""Volumetric efficiency of a hydrostatic transmission: the band that a drawing leaves open, beside 399 units.
+"""Volumetric efficiency of a hydrostatic transmission: band by the drawing's tolerances, and 399 units.
 
 recordings/hst196: end-of-line tests of two like machines of 196 mL/r (examples/hst196/band.py, which names what is
 not given and how far it may be off). One operating point, motor over pump speed. The data's author has the piston

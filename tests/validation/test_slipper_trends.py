@@ -1,4 +1,4 @@
-"""The floating slipper over the turn: trends and sizes of the paper and of what loss models leave out.
+"""Floating slipper over the turn: trends of the paper, sizes of effects that loss models neglect.
 
 ref90_floating, rigid walls and oil of constant viscosity, chamber pressure by the lumped cycle: the paper's
 Fig. 9, and mixed friction (B1), micro-motion (B5) and lift (B6). Their sizes are estimated as ranges: the

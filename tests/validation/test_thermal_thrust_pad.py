@@ -1,4 +1,4 @@
-"""Film temperature: a large tilting pad thrust bearing, beside another open code.
+"""Film temperature: a large tilting pad thrust bearing, and another open code.
 
 ROSS (petrobras/ross, test_thrust_pad.py) prints its own results for a hydro generator's bearing of 13.3 MN: finite
 volumes on 10 x 10 cells, one temperature over the film thickness, adiabatic walls, oil entering at 40 degC.

@@ -1,4 +1,4 @@
-"""The ZeMA rig: a leak that is concealed, named from real cycles with its size.
+"""ZeMA rig: a concealed leak identified from measured cycles, with its size.
 
 recordings/uci_hydraulic by examples/uci_hydraulic: the engine of the pump's diagnosis, a model of the rig.
 """
@@ -46,7 +46,7 @@ def test_the_concealed_leak_is_named(leak: ModuleType, shared: Path, validation,
     assert first.name == "leak through an orifice"
     assert first.evidence - second.evidence > ODDS
     validation(
-        case="ZeMA rig, leak concealed", source=SOURCE, quantity=f"bore of orifice {switched}", unit="mm",
+        case="ZeMA rig, concealed leak", source=SOURCE, quantity=f"bore of orifice {switched}", unit="mm",
         expected=1e3 * bore, obtained=1e3 * leak.diameter(first.size("area")[0]),
         tolerance=1e3 * bore * (np.sqrt(COEFFICIENTS[1] / COEFFICIENTS[0]) - 1.0),
     )  # fmt: skip

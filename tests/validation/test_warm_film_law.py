@@ -1,4 +1,4 @@
-"""The heat balance of `film_heating` against films solved with heat: REF90's slipper and ring at their places."""
+"""Heat balance of `film_heating` against films solved with heat: REF90's slipper and valve plate."""
 
 from __future__ import annotations
 
@@ -119,7 +119,7 @@ def test_a_warm_film_leaks_as_its_heat_balance_says(validation, gap, rpm, pressu
     area = float(found.film.problem.space.area.sum())
     state, rise = law_of(gap, at, pressure, half * conductance(cold) * pressure, shear, area)
     validation(
-        case="Warm film at its place",
+        case="Warm film at a given position",
         source="film solved with heat across and along it, walls of their parts' resistance",
         quantity=f"ln of leakage over cold, {gap.value}, {rpm} rpm, {pressure / 1e6:g} MPa, {celsius} degC",
         unit="-",

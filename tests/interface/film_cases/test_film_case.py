@@ -345,7 +345,8 @@ def test_a_stated_load_that_nothing_bears_is_no_number(tmp_path, capsys):
     case.write_text(REST + '[load]\nforce = "13000 N"\n[physics]\nsurfaces = "smooth"\n')
     assert main(["film", str(case), "-o", str(tmp_path / "run")]) == 3
     said = capsys.readouterr().err
-    assert "no rest" in said and "Try: a load below" in said
+    assert "no rest" in said
+    assert "Try: a load below" in said
     assert not (tmp_path / "run").exists()
 
 

@@ -1,4 +1,4 @@
-"""Pumps of which little is known: the rest of REF90, scaled; a sound pump for every size and number of pistons."""
+"""Scaled pumps: missing values by REF90, for every size and number of pistons."""
 
 import math
 

@@ -1,4 +1,4 @@
-"""Fits: peaks of the posterior found by predictions that decide and slopes that lead."""
+"""Fits: peaks of the posterior."""
 
 from __future__ import annotations
 

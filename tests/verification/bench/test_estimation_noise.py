@@ -1,4 +1,4 @@
-"""Noise: of inputs, of digital steps, with memory; and what it leaves of parameters."""
+"""Noise of inputs, of digitisation and with memory; resulting uncertainty of parameters."""
 
 from __future__ import annotations
 

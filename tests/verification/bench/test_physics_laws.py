@@ -1,4 +1,4 @@
-"""Laws of the physics left out against their authors' numbers and their limits."""
+"""Laws of [physics] against published numbers and limits."""
 
 import pickle
 
@@ -51,7 +51,7 @@ def courses(
 def test_barus_leakage_of_sheet_a3(validation, megapascal, factor):
     found = film_laws.viscosity_pressure({"coefficient": 2e-8}, courses(pressure=megapascal * 1e6), state(2100))
     validation(
-        case="Leakage of oil that thickens",
+        case="Leakage with viscosity over pressure",
         source="Barus 1893",
         quantity=f"leakage over that of constant viscosity, {megapascal} MPa",
         unit="-",
@@ -305,7 +305,7 @@ def test_droop_of_a_fixed_angle(validation, degrees, ratio, lost):
     at = state(2100, ratio=ratio, inlet=0.0)
     found = port_laws.swash_droop({"rate": np.deg2rad(degrees) / 35e6, "play": 0.0}, courses(), at)
     validation(
-        case="A swash plate that gives way",
+        case="Elastic swash plate",
         source="closed form, tan(g - x)/tan(g)",
         quantity=f"displacement lost to {degrees} deg, displacement ratio {ratio}",
         unit="%",

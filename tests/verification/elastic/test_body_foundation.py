@@ -1,4 +1,4 @@
-"""Walls that give way without a mesh: Winkler's springs and the elastic half-space.
+"""Elastic walls without a mesh: Winkler's springs and the elastic half-space.
 
 Boussinesq 1885, Love 1929, Johnson 1985.
 """

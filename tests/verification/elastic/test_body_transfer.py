@@ -102,7 +102,7 @@ def test_work_is_the_same_on_either_side(kind, tmp_path, validation):
         return float(np.sum(at * film.area))
 
     validation(
-        case="Work of one pressure on another's opening",
+        case="Reciprocal work of two pressures",
         source="Betti 1872",
         quantity=f"difference when exchanged / work, {kind}",
         unit="1",

@@ -1,4 +1,4 @@
-"""Film equation: walls that give way.
+"""Film equation: elastic walls.
 
 Springs side by side (Winkler 1867) leave closed forms or ordinary differential equations of one dimension; a thin
 elastic layer must tend to them.

@@ -1,4 +1,4 @@
-"""Film equation: soft, rough walls that touch.
+"""Film equation: elastic, rough walls in contact.
 
 All that answers to pressure at once: springs or a half-space, roughness, contact, and the oil. A spring under film
 and contact pressure leaves one equation of one unknown.

@@ -1,4 +1,4 @@
-"""Film meshes: names, seams, files that hold one and files that do not."""
+"""Film meshes: names, seams, valid and invalid files."""
 
 from __future__ import annotations
 

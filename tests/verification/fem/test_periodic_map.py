@@ -1,4 +1,4 @@
-"""Periodic motion: from turn to turn by linearised turns.
+"""Periodic motion by linearised turns.
 
 On equations of one or two lines, with the turn taken by the steps in time.
 """
@@ -95,7 +95,7 @@ def test_film_that_sways(stiffness, validation):
     what = f"k/(c w) = {stiffness / (DAMPING * speed):.3g}"
     tolerance = 1e-3  # of two stages and 360 steps: (2 pi/360)^2 = 3e-4
     validation(
-        case="Hydrostatic film under a swaying load, periodic",
+        case="Hydrostatic film under an oscillating load, periodic",
         source=source,
         quantity=f"amplitude, {what}",
         unit="m",
@@ -104,7 +104,7 @@ def test_film_that_sways(stiffness, validation):
         relative_tolerance=tolerance,
     )
     validation(
-        case="Hydrostatic film under a swaying load, periodic",
+        case="Hydrostatic film under an oscillating load, periodic",
         source=source,
         quantity=f"phase, {what}",
         unit="rad",
@@ -113,7 +113,7 @@ def test_film_that_sways(stiffness, validation):
         tolerance=tolerance,
     )
     validation(
-        case="Hydrostatic film under a swaying load, periodic",
+        case="Hydrostatic film under an oscillating load, periodic",
         source=source,
         quantity=f"what a turn leaves of a disturbance, {what}",
         unit="1",

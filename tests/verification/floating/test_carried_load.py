@@ -1,4 +1,4 @@
-"""A film that finds the position at which it bears its load: sliders, squeeze, contact on springs, pivots."""
+"""Film at the position that supports its load: sliders, squeeze, contact on springs, pivots."""
 
 from __future__ import annotations
 

@@ -90,7 +90,7 @@ def test_long_bearing_that_sways(validation, refine):
     first = refine(lambda n: _swayed(256, n, BACKWARD_EULER), (16, 32, 64), order=1.0)
     for name, found in (("two stages", fine), ("implicit Euler", first)):
         validation(
-            case="Long journal bearing squeezed by a swaying load",
+            case="Long journal bearing squeezed by an oscillating load",
             source="closed form: e/(1 - e^2)^1/2 = F C^2/(12 pi mu R^3 B w) sin wt",
             quantity=f"eccentricity ratio, {name}",
             unit="1",

@@ -1,4 +1,4 @@
-"""Floating films: walls that give way, and that touch.
+"""Floating films: elastic walls and contact.
 
 Plates that float over springs side by side (Winkler 1867) have closed forms at rest; over a closed turn springs
 give back what they took.

@@ -1,4 +1,4 @@
-"""The piston's film on a mesh that stretches with it: what is stored must be what the walls bring.
+"""Piston film on a stretching mesh: storage against the walls' displacement.
 
 Steps are of implicit Euler from a full film one step before, at given positions, so that pressures have closed
 forms.

@@ -1,4 +1,4 @@
-"""Floating films at rest: the position at which film and load balance while the drive stands still."""
+"""Floating films at rest: positions of balance under a constant drive."""
 
 from __future__ import annotations
 
@@ -76,7 +76,7 @@ def test_slider_finds_its_film(ratio, start, validation, refine):
 
     found = refine(rest, (20, 40, 80))
     validation(
-        case="Wide wedge floats at the film that carries its load",
+        case="Wide wedge floating under its load",
         source="Rayleigh 1918, closed form",
         quantity=f"outlet film, h1/h0 = {ratio:g}, from {start * 1e6:g} um",
         unit="m",

@@ -1,4 +1,4 @@
-"""The ball joint: piston and slipper as rigid bodies, whose forces and moments must add up to their inertia.
+"""Ball joint: forces and moments on piston and slipper against their inertia.
 
 The sums are formed here from places and vectors in space; nothing of the code's coordinates enters them.
 """

@@ -1,4 +1,4 @@
-"""Outer bearing pads of the valve plate: their own lift and friction beside the ring's, by closed forms."""
+"""Outer bearing pads of the valve plate: lift and friction by closed forms."""
 
 from dataclasses import replace
 

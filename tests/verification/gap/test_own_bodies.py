@@ -1,4 +1,4 @@
-"""Parts by meshes of the user's: read from files, they are the bodies that they were, under their gaps' films.
+"""Parts by meshes of the user: the same bodies after a round trip through files, under their films.
 
 Lame's bushing on meshes of tetrahedra, built-in parts written to files and read back, and where a mesh lies.
 """

@@ -101,7 +101,7 @@ def test_oil_carried_by_the_piston(ratio, validation):
     """At one pressure a parallel piston drags pi d c v/2 out with it, whatever its eccentricity."""
     film = told(flooded(velocity=2.89), pushed(ratio, (0.6, 0.8)))
     validation(
-        case="Piston gap, oil carried by the moving wall",
+        case="Piston gap, drag flow of the moving wall",
         source="paper equation (15), second term, sign corrected",
         quantity=f"flow out of the chamber, eccentricity ratio {ratio:g}",
         unit="m3/s",

@@ -1,4 +1,4 @@
-"""A gap over the revolution: floating films whose turn closes.
+"""Gap over the revolution: periodic floating films.
 
 A plate on a spring and an oil film against its closed form; a journal with a cavity against a march of many turns.
 """

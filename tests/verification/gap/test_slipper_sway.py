@@ -1,4 +1,4 @@
-"""A hydrostatic slipper under a load that wavers over the turn: amplitude, phase and memory of its motion."""
+"""Hydrostatic slipper under an oscillating load: amplitude, phase and memory of its motion."""
 
 from __future__ import annotations
 
@@ -84,7 +84,7 @@ def test_sway(share, validation, refine):
         names, ("1", "rad", "1"), expected, refine(solve, (4, 8, 16)), strict=True
     ):
         validation(
-            case="Hydrostatic slipper under a load that wavers",
+            case="Hydrostatic slipper under an oscillating load",
             source="closed form: hydrostatic stiffness, squeeze of film and pocket",
             quantity=f"{quantity}, k/(c w) = {share:g}",
             unit=unit,

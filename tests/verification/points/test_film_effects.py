@@ -1,4 +1,4 @@
-"""[physics] at the films fidelity: closed forms that films must meet, two ways to state one thing, all effects."""
+"""[physics] at the films fidelity: closed forms, equivalent inputs, all effects."""
 
 from dataclasses import replace
 

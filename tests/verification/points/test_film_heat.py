@@ -1,4 +1,4 @@
-"""A floating gap that warms: closed forms of a turning piston in the middle of its bore, and its heat balance."""
+"""Floating gap with heat: closed forms of a turning piston in the middle of its bore, and its heat balance."""
 
 from __future__ import annotations
 
@@ -103,7 +103,7 @@ def test_no_heat_passes_the_walls(validation):
     assert found.warmth is not None
     flows = found.warmth.flows
     validation(
-        case="Turning piston between walls that no heat passes",
+        case="Turning piston between adiabatic walls",
         source="heat balance, closed form",
         quantity="temperature rise of the leakage",
         unit="K",

@@ -1,4 +1,4 @@
-"""The pump whose gaps float: gaps and chambers agree, and all power is accounted for."""
+"""Pump with floating gaps: agreement of gaps and chambers, power balance."""
 
 from __future__ import annotations
 

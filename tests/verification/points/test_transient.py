@@ -164,7 +164,7 @@ def test_a_plate_swings_on_its_spring(validation):
     rate = np.sqrt((2e6 * 0.06**2 - 4.5 * mass * pump.pump.pitch_radius**2 * 100.0**2) / turned)
     expected = low + (found.swash_angle[0] - low) * np.cos(rate * 0.006)
     validation(
-        case="swash plate that swings on its spring alone",
+        case="swash plate oscillating on its spring",
         source="cosine of its natural frequency, closed form",
         quantity="angle after 6 ms",
         unit="deg",

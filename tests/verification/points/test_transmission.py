@@ -1,4 +1,4 @@
-"""A hydrostatic transmission: a pump and a motor round a closed circuit, against closed forms."""
+"""Hydrostatic transmission: a pump and a motor in a closed circuit, against closed forms."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Chambers that no longer fill, behind an inlet line that loses pressure, against the closed form."""
+"""Incomplete filling of chambers behind an inlet line with losses, against the closed form."""
 
 from math import pi, sqrt
 

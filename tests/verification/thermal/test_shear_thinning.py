@@ -1,4 +1,4 @@
-"""Film equation: oils that thin with shear.
+"""Film equation: shear-thinning oils.
 
 Parallel plates in closed form, and by quadrature of the stress, which is linear across the film whatever the oil;
 an inclined slider by the same quadrature at every place, its flow found from the ends' pressure.
@@ -88,7 +88,7 @@ def test_couette(law, cell, validation):
     """Uniform shear: the stress is mu(U/h) U/h on any mesh, with any levels."""
     found = loads(solve_shear(posed(strip(4, cell), velocity=SLIDING), law, count=3).film)
     validation(
-        case="Couette flow of an oil that thins",
+        case="Couette flow of a shear-thinning oil",
         source="mu(U/h) U/h, closed form",
         quantity=f"stress on the moving wall, {type(law).__name__}, {cell.value}",
         unit="Pa",
@@ -104,7 +104,7 @@ def test_couette_of_a_power_law(validation):
     found = loads(solve_shear(posed(strip(4), velocity=SLIDING), Carreau(0.0, time, n)).film)
     reduced = time * SPEED / GAP
     validation(
-        case="Couette flow of an oil that thins",
+        case="Couette flow of a shear-thinning oil",
         source="power law, K gamma^n",
         quantity="stress on the moving wall, Carreau at lambda gamma = 1000",
         unit="Pa",
@@ -125,7 +125,7 @@ def test_poiseuille_of_ree_and_eyring(high, validation):
         for count in (8, 12)
     ]
     validation(
-        case="Poiseuille flow of an oil that thins",
+        case="Poiseuille flow of a shear-thinning oil",
         source="Ree-Eyring's law, closed form",
         quantity=f"flow per width at a wall stress of {a:g} tau0, 12 levels",
         unit="mm2/s",
@@ -163,7 +163,7 @@ def test_couette_and_poiseuille(law, high, validation):
         values.append((-found.friction_moving[0] / (LENGTH * WIDE), found.flow["right"] / WIDE))
     for k, (quantity, unit) in enumerate((("stress on the moving wall", "Pa"), ("flow per width", "m2/s"))):
         validation(
-            case="Couette and Poiseuille flow of an oil that thins",
+            case="Couette and Poiseuille flow of a shear-thinning oil",
             source="stress linear across the film: root and Gauss quadrature",
             quantity=f"{quantity}, {type(law).__name__}, {high * 1e-6:g} MPa, 16 levels",
             unit=unit,
@@ -244,7 +244,7 @@ def test_wide_slider(law, ratio, validation, refine):
     columns = refine(solve, (32, 64, 128))
     for quantity, expected, column in zip(("load", "friction"), _slider(law, ratio), columns, strict=True):
         validation(
-            case="Wide slider, an oil that thins",
+            case="Wide slider, shear-thinning oil",
             source="stress linear across the film: roots and Gauss quadrature at each place",
             quantity=f"{quantity} per width, inlet/outlet {ratio:g}, {type(law).__name__}",
             unit="N/m",

@@ -1,4 +1,4 @@
-"""Film temperature together with all else: shear thinning, contact, soft walls, bodies that expand, time."""
+"""Film temperature with other physics: shear thinning, contact, elastic walls, thermal expansion, time."""
 
 from __future__ import annotations
 
@@ -140,7 +140,7 @@ def test_shear_and_temperature_across_couette(validation):
          found.heat.to_moving / LENGTH**2),
     ):  # fmt: skip
         validation(
-            case="Couette flow of an oil that thins with shear and temperature",
+            case="Couette flow of an oil thinning with shear and temperature",
             source="boundary value problem across the film (scipy.integrate.solve_bvp)",
             quantity=quantity,
             unit=unit,
