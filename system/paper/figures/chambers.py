@@ -102,9 +102,7 @@ def _trapped(point: PaperPoint) -> str:
     angle, pressure = np.array(point.shaft_angle), point.chamber_pressure
     at = int(np.argmax(pressure))
     return (
-        f"Outside the statement's region: at {Unit.PRESSURE.factor * point.bench.delivery_pressure:.0f} MPa "
-        "the chamber "
-        f"peaks at {Unit.PRESSURE.factor * pressure[at]:.1f} MPa at {np.degrees(angle[at]):.0f} deg, by where "
-        "the "
-        "pump file lets the kidneys shut and the grooves begin."
+        f"Outside the statement's region: at {Unit.PRESSURE.factor * point.bench.delivery_pressure:.0f} MPa the "
+        f"chamber peaks at {Unit.PRESSURE.factor * pressure[at]:.1f} MPa at {np.degrees(angle[at]):.0f} deg, by where "
+        "the pump file lets the kidneys shut and the grooves begin."
     )

@@ -98,8 +98,7 @@ def _solved(cells: Sequence[EqFit]) -> Judged:
     ranks = range_of(float(fit.rank) for fit in cells)
     printed = range_of(float(np.max(np.abs(fit.printed))) for fit in cells)
     reason = (
-        "at one speed and displacement every pair's loss is straight in pressure: plain least squares, as "
-        "printed, "
+        "at one speed and displacement every pair's loss is straight in pressure: plain least squares, as printed, "
         f"gives coefficients of up to {printed.low:.2g} to {printed.high:.2g}"
     )
     rank = float(max(fit.rank for fit in cells))

@@ -72,8 +72,7 @@ def fig3(points: PaperPoints) -> FigureResult:
     near = Unit.PRESSURE.factor * near_zero(points.pump)
     remarks = (
         f"Case 3 (rated point): volumetric loss {split.volumetric:.0f} W, hydro-mechanical "
-        f"{split.hydromechanical:.0f} W, share {100.0 * split.hydromechanical_share:.1f} %; the text states no "
-        "number.",
+        f"{split.hydromechanical:.0f} W, share {100.0 * split.hydromechanical_share:.1f} %; the text states no number.",
         f"'Near 0' of Case 2 is taken as {near:.3g} MPa at the delivery port, half a MPa above the inlet's.",
     )
     return FigureResult(Figure.FIG3, tuple(panels), tuple(judged), remarks)
@@ -138,16 +137,14 @@ def _best_reason(points: PaperPoints, best: float, reading: LossReading) -> str:
     stated, own = points.points[at], open_longer.overall(reading)
     text = (
         f"ports throttle {stated.throttling:.0f} W there, {open_longer.throttling:.0f} W if the kidneys shut at "
-        f"{np.degrees(LATE_END):.0f} deg in place of the {np.degrees(points.pump.ports.kidney_end):.0f} deg "
-        "assumed: "
+        f"{np.degrees(LATE_END):.0f} deg in place of the {np.degrees(points.pump.ports.kidney_end):.0f} deg assumed: "
         f"then {100.0 * own:.1f} % in place of {100.0 * best:.1f} %"
     )
     if reading is LossReading.MIXED:
         return text
     mixed = 100.0 * open_longer.overall(LossReading.MIXED)
     return (
-        f"{text}, and {mixed:.1f} % without the {sum(stated.viscous):.0f} W of the films' shear, which is "
-        "counted "
+        f"{text}, and {mixed:.1f} % without the {sum(stated.viscous):.0f} W of the films' shear, which is counted "
         "beside coefficients that hold it in the paper"
     )
 
@@ -208,10 +205,9 @@ def _steady_drain(points: PaperPoints, reading: LossReading) -> str:
     drain = drain_for_share(last.split(reading), expected.low, _falls(last))
     first = [share_with_drain(one.split(reading), drain, _falls(one)) for one in case_one(points)]
     return (
-        f"{Range(expected.low, expected.low).text(Unit.SHARE)} at 35 MPa need {Unit.FLOW.factor * drain:.1f} "
-        "L/min into the case beside the gaps; the same flow at every pressure would make Case 1 "
-        f"{range_of(first).text(Unit.SHARE)}: control or flushing flow of the bench, which no gap of the pump "
-        "shows"
+        f"{Range(expected.low, expected.low).text(Unit.SHARE)} at 35 MPa need {Unit.FLOW.factor * drain:.1f} L/min "
+        "into the case beside the gaps; the same flow at every pressure would make Case 1 "
+        f"{range_of(first).text(Unit.SHARE)}: control or flushing flow of the bench, which no gap of the pump shows"
     )
 
 

@@ -41,8 +41,7 @@ def fig16(points: PaperPoints) -> FigureResult:
     return FigureResult(Figure.FIG16, panels, tuple(judged), (
         "No text gives the test points: Eq. (2) is applied to what a bench of this pump would read.",
         "(g) prints 0.52 of the displacement where the test plan has 51 %.",
-        "Fig. 16 speaks of pressure differences, the rest of pressures: here the gauge pressure at the "
-        "delivery port.",
+        "Fig. 16 speaks of pressure differences, the rest of pressures: here the gauge pressure at the delivery port.",
     ))  # fmt: skip
 
 
@@ -78,8 +77,7 @@ def _bench_reason(points: PaperPoints, reading: LossReading) -> str:
     beside = rated.split(reading).hydromechanical - float(rated.pair_losses(reading).sum())
     return (
         f"Eq. (2) counts {beside:.0f} W beside the pairs at the rated point, throttling in the ports "
-        f"({rated.throttling:.0f} W) less what Eq. (1) charges too much for compression; at full displacement "
-        "and "
+        f"({rated.throttling:.0f} W) less what Eq. (1) charges too much for compression; at full displacement and "
         f"rated speed it departs by {100.0 * from_line(np.array(PRESSURES), bench):.1f} % from a straight line"
     )
 
@@ -210,8 +208,7 @@ def _share_reason(points: PaperPoints, every: Sequence[PaperPoint], pair: Pair, 
     stated = getattr(points.pump.friction, pair.value)
     needed = min(coefficient_for_share(one, pair, expected.high, reading) for one in every) * stated
     return (
-        f"spans {100.0 * spans:.0f} % of the paper's range; its upper end takes a coefficient of {needed:.2g} "
-        "or more, "
+        f"spans {100.0 * spans:.0f} % of the paper's range; its upper end takes a coefficient of {needed:.2g} or more, "
         f"all else as it is ({stated:.2g}; the paper's are 0.008 to 0.03)"
     )
 
@@ -231,8 +228,7 @@ def _guide_reason(point: PaperPoint) -> str:
 def _affine_reason(losses: Array) -> str:
     left = zero_share(losses)
     return (
-        f"of the losses at 5 MPa {100.0 * left.min():.0f} to {100.0 * left.max():.0f} % would be left at no "
-        "pressure: "
+        f"of the losses at 5 MPa {100.0 * left.min():.0f} to {100.0 * left.max():.0f} % would be left at no pressure: "
         "spring, inertia, the suction half's charge pressure and the films' shear do not go with it"
     )
 
