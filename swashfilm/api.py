@@ -56,20 +56,10 @@ _SI = {
 }
 _OF_COMMAND_LINE = ("-o", "--output", "--help", "--csv", "--animate", "--apply", "--page")
 _RESULTS = (
-    "swashfilm.runs.pump.result.PumpRun",
-    "swashfilm.runs.film.result.FilmRun",
-    "swashfilm.runs.film.revolution.result.RevolutionRun",
-    "swashfilm.runs.film.series.result.StudyRun",
-    "swashfilm.runs.map.result.MapRun",
-    "swashfilm.runs.map.result.DutyRun",
-    "swashfilm.runs.map.result.CompareRun",
-    "swashfilm.runs.table.result.TableRun",
-    "swashfilm.runs.transient.result.TransientRun",
-    "swashfilm.runs.reference.result.ReferenceRun",
-    "swashfilm.runs.reproduce.result.Reproduction",
-    "swashfilm.runs.diagnose.result.DiagnosisRun",
-    "swashfilm.runs.calibrate.result.CalibrationRun",
-)
+    "pump", "film", "film.revolution", "film.series", "map", "table", "transient", "reference", "reproduce", "diagnose",
+    "calibrate",
+)  # fmt: skip
+"""Rooms of `swashfilm.runs` with results."""
 
 
 def run(
@@ -334,9 +324,10 @@ def open(folder: str | Path) -> Result:
 
 
 def _result_classes() -> Iterator[type[Result]]:
-    for place in _RESULTS:
-        module, _, name = place.rpartition(".")
-        yield getattr(import_module(module), name)
+    """Yield the classes of results; one without kinds is the base of the others."""
+    for room in _RESULTS:
+        module = import_module(f"swashfilm.runs.{room}.result")
+        yield from (one for one in vars(module).values() if isinstance(one, type) and getattr(one, "kinds", None))
 
 
 def _words(command: str, positional: Sequence[object], given: Mapping[str, object]) -> argparse.Namespace:
@@ -431,12 +422,8 @@ def _map_file(of: MapRun | str | Path) -> Iterator[Path]:
 def _map_or_pump(of: MapRun | str | Path | PumpDescription) -> Iterator[str]:
     from system.description.pump import PumpDescription
 
-    if isinstance(of, PumpDescription):
-        with _pump_file(of) as name:
-            yield name
-        return
-    with _map_file(of) as path:
-        yield str(path)
+    with _pump_file(of) if isinstance(of, PumpDescription) else _map_file(of) as place:
+        yield str(place)
 
 
 @contextmanager

@@ -65,12 +65,9 @@ def standing_piston_gap(
 ) -> StandingGap[PistonFilm, PistonReport]:
     """The piston gap, on meshes `finer` times the usual."""
     film = piston_film(rotor, parts, drive, physics, finer_cells(Gap.PISTON, finer))
+    solver, report = FilmSolver(film.space_at(0.0)), partial(standing_piston_film, film)
     return StandingGap(
-        film,
-        standing_piston(film),
-        FilmSolver(film.space_at(0.0)),
-        lambda angle: given_piston(rotor.pump, drive.outer(angle)),
-        partial(standing_piston_film, film),
+        film, standing_piston(film), solver, lambda angle: given_piston(rotor.pump, drive.outer(angle)), report
     )
 
 
@@ -79,13 +76,8 @@ def standing_slipper_gap(
 ) -> StandingGap[SlipperFilm, SlipperReport]:
     """The slipper gap, on meshes `finer` times the usual."""
     film = slipper_film(rotor, parts, drive, physics, finer_cells(Gap.SLIPPER, finer))
-    return StandingGap(
-        film,
-        floating_slipper(film),
-        FilmSolver(film.space),
-        partial(given_slipper, rotor),
-        partial(standing_slipper_film, film),
-    )
+    solver, report = FilmSolver(film.space), partial(standing_slipper_film, film)
+    return StandingGap(film, floating_slipper(film), solver, partial(given_slipper, rotor), report)
 
 
 def standing_block_gap(
@@ -93,13 +85,8 @@ def standing_block_gap(
 ) -> StandingGap[BlockFilm, BlockReport]:
     """The valve-plate gap, on meshes `finer` times the usual."""
     film = block_film(rotor, parts, drive, physics, finer_cells(Gap.VALVE_PLATE, finer))
-    return StandingGap(
-        film,
-        standing_block(film),
-        FilmSolver(film.space),
-        lambda angle: given_block(rotor.pump),
-        partial(standing_block_film, film),
-    )
+    solver, report = FilmSolver(film.space), partial(standing_block_film, film)
+    return StandingGap(film, standing_block(film), solver, lambda angle: given_block(rotor.pump), report)
 
 
 def standing_gap(

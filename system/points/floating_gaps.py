@@ -228,13 +228,8 @@ def _run(
 ) -> GapRevolution[Reported]:
     solver, accuracy = FilmSolver(space), options.accuracy
     try:
-        if heat is None:
-            return run_revolution(
-                solver, floating, schedule, start, report_of, accuracy=accuracy, before=before, report=report
-            )
-        return warm_revolution(
-            solver, floating, schedule, start, report_of, heat, accuracy=accuracy, before=before, report=report
-        )
+        march = run_revolution if heat is None else partial(warm_revolution, heat=heat)
+        return march(solver, floating, schedule, start, report_of, accuracy=accuracy, before=before, report=report)
     except FilmNotConverged as reason:
         if not options.physics.elastic_walls:
             raise
