@@ -13,55 +13,56 @@ from system.inputs.faults import Fault, InputFaults
 
 def run_check_command(options: argparse.Namespace) -> int:
     """Run `swashfilm check` and return its exit code; raise InputFaults with every fault of the file."""
-    from system.inputs.toml_table import read_toml
-    from system.multibody.assumed import assumptions
-    from system.pump_file.file import builtin_pumps, check_pump, resolved_toml
+    from system.pump_file.file import builtin_pumps
 
-    is_pump = options.file in builtin_pumps()
-    if not is_pump:
-        path = Path(options.file)
-        tables = {} if is_recording(path, ()) else read_toml(path)[1]
-        if is_recording(path, list(tables)):
-            check_recording_command(path)
-            show(f"{path}: ok")
-            return 0
-        if "transient" in tables:
-            from swashfilm.runs.transient.case import load_transient
-
-            show(load_transient(path).resolved)
-            show(f"{path}: ok")
-            return 0
-        if "reference" in tables:
-            from swashfilm.runs.reference.case import load_reference
-
-            show("\n".join(passage.words for passage in load_reference(path).passages))
-            show(f"{path}: ok")
-            return 0
-        is_film = bool({"film", "gap"} & set(tables))
-        is_pump = isinstance(tables.get("pump"), dict) and not is_film
-        if not is_pump and not is_film:
-            fault = Fault(
-                "file",
-                f"tables {', '.join(tables) or 'none'}",
-                "[pump] (a pump file), [film] (a film case), [transient], [reference] or [channel] (a recording)",
-            )
-            raise InputFaults(options.file, [fault])
-    if is_pump:
-        from diagnosis.study.scaled_pump import load_known_pump
-
-        known = load_known_pump(options.file)
-        show(resolved_toml(known.pump))
-        for one in assumptions(known.pump):
-            show(f"# {one}")
-        for warning in check_pump(known.pump).warnings:
-            show(f"warning: {warning}")
-        if known.scant:
-            show("an incomplete pump file: values that it leaves out are those of ref90, scaled, as above;")
-            show("diagnose and calibrate accept it, all other commands need a complete file")
+    if options.file in builtin_pumps():
+        _show_pump(options.file)
     else:
-        show(_checked_film(Path(options.file), tables))
+        _show_file(options.file)
     show(f"{options.file}: ok")
     return 0
+
+
+def _show_file(file: str) -> None:
+    """Show a file by its kind; raise InputFaults for a file of none."""
+    from system.inputs.toml_table import read_toml
+
+    path = Path(file)
+    tables = {} if is_recording(path, ()) else read_toml(path)[1]
+    if is_recording(path, list(tables)):
+        check_recording_command(path)
+    elif "transient" in tables:
+        from swashfilm.runs.transient.case import load_transient
+
+        show(load_transient(path).resolved)
+    elif "reference" in tables:
+        from swashfilm.runs.reference.case import load_reference
+
+        show("\n".join(passage.words for passage in load_reference(path).passages))
+    elif {"film", "gap"} & set(tables):
+        show(_checked_film(path, tables))
+    elif isinstance(tables.get("pump"), dict):
+        _show_pump(file)
+    else:
+        kinds = "[pump] (a pump file), [film] (a film case), [transient], [reference] or [channel] (a recording)"
+        raise InputFaults(file, [Fault("file", f"tables {', '.join(tables) or 'none'}", kinds)])
+
+
+def _show_pump(file: str) -> None:
+    """Show a pump with all that it assumes, and its warnings."""
+    from diagnosis.study.scaled_pump import load_known_pump
+    from system.multibody.assumed import assumptions
+    from system.pump_file.file import check_pump, resolved_toml
+
+    known = load_known_pump(file)
+    show(resolved_toml(known.pump))
+    for one in assumptions(known.pump):
+        show(f"# {one}")
+    for warning in check_pump(known.pump).warnings:
+        show(f"warning: {warning}")
+    if known.scant:
+        show("an incomplete pump file: values that it leaves out are those of ref90, scaled, as above;")
+        show("diagnose and calibrate accept it, all other commands need a complete file")
 
 
 def _checked_film(path: Path, tables: Mapping[str, Any]) -> str:

@@ -57,8 +57,7 @@ def _page_of(folder: Path) -> Callable[[Path], Path]:
         expected = f"one of {', '.join(PAGES)}"
         raise InputFaults(str(folder), [Fault("summary.json", f"kind {kind!r}", expected)])
     module, _, name = PAGES[kind].rpartition(".")
-    writer: Callable[[Path], Path] = getattr(import_module(module), name)
-    return writer
+    return getattr(import_module(module), name)
 
 
 def _add_options(command: argparse.ArgumentParser) -> None:

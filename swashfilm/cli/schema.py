@@ -25,8 +25,7 @@ def run_schema_command(options: argparse.Namespace) -> int:
 def schema_of(kind: str) -> dict[str, object]:
     """Return the JSON Schema (draft 2020-12) of a kind of file, one of SCHEMAS."""
     module, _, name = SCHEMAS[kind].rpartition(".")
-    found: dict[str, object] = getattr(import_module(module), name)()
-    return found
+    return getattr(import_module(module), name)()
 
 
 def _add_options(command: argparse.ArgumentParser) -> None:

@@ -60,5 +60,4 @@ def _varimax(axes: Array) -> Array:
         if size.sum() < reached * (1.0 + STILL):
             break
         reached = size.sum()
-    rotated: Array = axes @ turn
-    return rotated
+    return axes @ turn

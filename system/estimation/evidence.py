@@ -56,8 +56,7 @@ def score(posterior: Posterior, column: Array) -> Score:
 def project(posterior: Posterior, columns: Array) -> Array:
     """Whitened columns (n,) or (n, m) less the part that the fitted parameters absorb: v - A H^-1 A^T v."""
     taken = cho_solve(cho_factor(posterior.precision), posterior.slopes.T @ columns)
-    left: Array = columns - posterior.slopes @ taken
-    return left
+    return columns - posterior.slopes @ taken
 
 
 def mixture_evidence(found: Score, widths: Sequence[float], sign: Sign) -> float:

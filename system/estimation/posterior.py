@@ -32,8 +32,7 @@ def log_mass(centre: Array, sigma: Array, lowest: Array, highest: Array) -> Arra
     mirrored = low > 0
     low, high = np.where(mirrored, -high, low), np.where(mirrored, -low, high)
     upper, lower = log_ndtr(high), log_ndtr(low)
-    mass: Array = upper + np.log1p(-np.exp(lower - upper))
-    return mass
+    return upper + np.log1p(-np.exp(lower - upper))
 
 
 UNINFORMED = 1e-9  # share of its prior variance by which a parameter must be known better to have a pull
@@ -72,16 +71,14 @@ class Posterior:
     @cached_property
     def covariance(self) -> Array:
         """(k, k), of xi: the inverse of the precision."""
-        inverse: Array = cho_solve(cho_factor(self.precision), np.eye(self.xi.size))
-        return inverse
+        return cho_solve(cho_factor(self.precision), np.eye(self.xi.size))
 
     @cached_property
     def pulls(self) -> Array:
         """(k,), xi / sqrt(1 - its variance): N(0, 1) where the priors are right; 0 without information."""
         gained = 1.0 - np.diag(self.covariance)
         informed = gained > UNINFORMED
-        pulls: Array = np.where(informed, self.xi / np.sqrt(np.where(informed, gained, 1.0)), 0.0)
-        return pulls
+        return np.where(informed, self.xi / np.sqrt(np.where(informed, gained, 1.0)), 0.0)
 
     def index(self, name: str) -> int:
         """The index of a parameter in every vector. Raises InputError for an unknown name."""

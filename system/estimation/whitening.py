@@ -55,14 +55,12 @@ class Whitening:
             white[own] = factor @ white[own]
         known = np.zeros(self.measured.shape + white.shape[1:])
         known[self.measured] = white
-        back: Array = np.einsum("nij,nj...->ni...", np.linalg.inv(self.factors), known)
-        return back
+        return np.einsum("nij,nj...->ni...", np.linalg.inv(self.factors), known)
 
     @property
     def sigma(self) -> Array:
         """(N, C) in SI: one sigma of each reading, with what its inputs bring."""
-        spread: Array = np.sqrt((np.linalg.inv(self.factors) ** 2).sum(axis=2))
-        return spread
+        return np.sqrt((np.linalg.inv(self.factors) ** 2).sum(axis=2))
 
 
 def whitener(observations: Observations, input_slopes: Array) -> Whitening:

@@ -40,25 +40,20 @@ class MapSolver(Protocol):
     @property
     def words(self) -> str:
         """Name of the solver for people."""
-        ...
 
     @property
     def stated(self) -> Mapping[str, str]:
         """Inputs of the numbers besides pump and point."""
-        ...
 
     @property
     def cost(self) -> float:
         """Seconds a point."""
-        ...
 
     def reads(self, pump: PumpDescription) -> PumpDescription:
         """The pump without tables that nothing here reads."""
-        ...
 
     def solve(self, pump: PumpDescription, point: OperatingPoint) -> SolvedPoint:
         """The point; raises as the fidelity."""
-        ...
 
 
 @dataclass(frozen=True)

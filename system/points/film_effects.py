@@ -103,7 +103,7 @@ def film_effects(rotor: Rotor, parts: FloatingParts, pump: PumpDescription, phys
         on = {gap: own.including(Effect.PRESSURE_VISCOSITY) for gap, own in on.items()}
         taken = [one for one in taken if one.path != "oil.pressure_viscosity"]
     if stated.elastic_opening is not None:
-        soft = {gap: softened(pump, gap, _laws(parts, gap).walls) for gap in Gap}
+        soft = {gap: softened(pump, gap, getattr(parts, _PART[gap]).laws.walls) for gap in Gap}
         parts = _with_laws(parts, lambda gap, laws: replace(laws, walls=soft[gap] or laws.walls))
         on = {gap: own.including(Effect.ELASTIC_WALLS) if soft[gap] else own for gap, own in on.items()}
     if stated.film_heating is not None:
@@ -199,11 +199,6 @@ def resisting(wanted: float, across: float, one: float, two: float) -> float:
         return even_rise(across, times * one, times * two) - wanted
 
     return float(brentq(missing, 0.0, most))
-
-
-def _laws(parts: FloatingParts, gap: Gap) -> FilmLaws:
-    found: FilmLaws = getattr(parts, _PART[gap]).laws
-    return found
 
 
 def _with_laws(parts: FloatingParts, changed: Callable[[Gap, FilmLaws], FilmLaws]) -> FloatingParts:

@@ -222,17 +222,18 @@ def edged_leaks(pump: PumpDescription, point: OperatingPoint, gaps: GapCycle) ->
 def gap_exchange(gaps: GapCycle, cycle: ChamberCycle, pistons: int, point: OperatingPoint) -> GapExchange:
     """Power of the oil that moving walls drag along, and the flow from the ports into the valve plate's film."""
     by_chamber = chamber_exchange(cycle, pistons * point.shaft_speed / TURN).drag_power
-    return GapExchange(
-        drag_power=replace(by_chamber, valve_plate=float(gaps.drag_power.mean())),
-        delivery_draw=float(np.mean([film.report.delivery_draw for film in gaps.valve_plate])),
-        suction_draw=float(np.mean([film.report.suction_draw for film in gaps.valve_plate])),
-    )
+    return GapExchange(replace(by_chamber, valve_plate=float(gaps.drag_power.mean())), *_mean_draws(gaps))
+
+
+def _mean_draws(gaps: GapCycle) -> tuple[float, float]:
+    """Flow from delivery and suction port into the valve plate's film, mean, m3/s."""
+    reports = [film.report for film in gaps.valve_plate]
+    return float(np.mean([one.delivery_draw for one in reports])), float(np.mean([one.suction_draw for one in reports]))
 
 
 def port_draws(gaps: GapCycle, point: OperatingPoint, bulk_modulus: float) -> tuple[float, float]:
     """Flow from delivery and suction port into the valve plate's film, mean, m3/s at zero gauge pressure."""
-    delivery = float(np.mean([film.report.delivery_draw for film in gaps.valve_plate]))
-    suction = float(np.mean([film.report.suction_draw for film in gaps.valve_plate]))
+    delivery, suction = _mean_draws(gaps)
     dense = np.exp(np.array([point.delivery_pressure, point.inlet_pressure]) / bulk_modulus)
     return delivery * float(dense[0]), suction * float(dense[1])
 

@@ -178,10 +178,8 @@ def _round(
     driven = drives_of(asked, group)
     gaps = gap_revolutions(asked, group, driven, before, beside, report)
     problems = chamber_problems(asked, group, point, piston_motion(pump, point), gaps)
-    pressures, samples = (
-        (asked.rotor.point.delivery_pressure, asked.rotor.point.inlet_pressure),
-        asked.shaft_angle.size,
-    )
+    pressures = asked.rotor.point.delivery_pressure, asked.rotor.point.inlet_pressure
+    samples = asked.shaft_angle.size
     drawn = samples // pistons if group.kinds.alike else samples
     draws = port_draws(gaps[0].block, pressures, pump.oil.bulk_modulus, drawn)
     ported = ported_cycle(problems, port_lines(pump, point), pistons, samples, draws=draws)

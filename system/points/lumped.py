@@ -92,13 +92,11 @@ def _ported(
             for kind, (own, motion, leak) in enumerate(zip(found.pumps, motions, leaks, strict=True))
         ]
         ported = ported_cycle(found.by_chamber(problems), lines, pistons, samples, tolerance)
-        before, leaks = (
-            leaks,
-            [
-                _slowed(own, point, leak, ported.cycles[found.of_chamber.index(kind)])
-                for kind, (own, leak) in enumerate(zip(found.pumps, creeping, strict=True))
-            ],
-        )
+        before = leaks
+        leaks = [
+            _slowed(own, point, leak, ported.cycles[found.of_chamber.index(kind)])
+            for kind, (own, leak) in enumerate(zip(found.pumps, creeping, strict=True))
+        ]
         pairs = zip(leaks, before, strict=True)
         if all(np.allclose(one.conductance, other.conductance, SETTLED, 0.0) for one, other in pairs):
             return ported

@@ -74,8 +74,7 @@ class PistonBeside:
             elif isinstance(received, Exception):
                 raise received
             else:
-                found: tuple[Found, ...] = received
-                return found
+                return received
 
 
 @contextmanager

@@ -62,7 +62,6 @@ class Pressed(Protocol):
     @property
     def pressure(self) -> Array:
         """(N,), or (P, N) at P operating points."""
-        ...
 
 
 @dataclass(frozen=True)

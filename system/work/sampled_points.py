@@ -27,25 +27,20 @@ class SamplingTask(Protocol):
     @property
     def axes(self) -> tuple[Axis, ...]:
         """The inputs."""
-        ...
 
     @property
     def learnt(self) -> int:
         """Number of points to learn from."""
-        ...
 
     @property
     def held_out(self) -> int:
         """Number of points that measure the error."""
-        ...
 
     def key(self, x: Array) -> str:
         """Name of the content of a place (d,) in the box."""
-        ...
 
     def solve(self, x: Array) -> Array:
         """The outputs (m,) there; raises NotConverged, FilmNotConverged, InputError or InputFaults."""
-        ...
 
 
 @dataclass(frozen=True)

@@ -52,11 +52,9 @@ class Work(Protocol[GivenPart]):
 
     def key(self, part: GivenPart) -> str:
         """Name of all that the part's result depends on; raises InputFaults for an invalid part."""
-        ...
 
     def solve(self, part: GivenPart) -> Record:
         """The part's record; raises NotConverged, FilmNotConverged, InputError or InputFaults."""
-        ...
 
 
 class Executor(Protocol):
@@ -65,11 +63,9 @@ class Executor(Protocol):
     @property
     def workers(self) -> int:
         """Number of parts that run at a time."""
-        ...
 
     def attempts(self, task: Callable[[Part], Result], parts: Sequence[Part]) -> Iterator[Attempt[Part, Result]]:
         """Result of each part, in the order of completion."""
-        ...
 
 
 def done_part(work: Work[Part], part: Part) -> PartOutcome:

@@ -59,8 +59,7 @@ def trace_residuals(rows: Sequence[Row], window: Sequence[float] | None, setting
 
 def _residual(rows: Sequence[Row], key: str) -> Array:
     """Measured minus predicted, bar."""
-    found: Array = _column(rows, "measured [bar]") - _column(rows, key)
-    return found
+    return _column(rows, "measured [bar]") - _column(rows, key)
 
 
 def _spans(window: Sequence[float] | None) -> list[tuple[float, float]]:

@@ -136,33 +136,27 @@ def power_rows(summary: Mapping[str, Any]) -> Rows:
 
 def gap_rows(summary: Mapping[str, Any]) -> Rows:
     """Return (gap, given film, leakage, friction power, statement)."""
-    rows: Rows = []
-    for gap, report in summary["gaps"].items():
-        rows.append(
-            (
-                TITLES[gap],
-                f"{report['film_thickness_mean_m'] * 1e6:.2f} um (least {report['film_thickness_min_m'] * 1e6:.2f} um)",
-                f"{report['leakage_flow_mean_m3_per_s'] * LPM:.4f} L/min",
-                f"{report['friction_power_mean_W']:.1f} W",
-                report["statement"],
-            )
+    return [
+        (
+            TITLES[gap],
+            f"{report['film_thickness_mean_m'] * 1e6:.2f} um (least {report['film_thickness_min_m'] * 1e6:.2f} um)",
+            f"{report['leakage_flow_mean_m3_per_s'] * LPM:.4f} L/min",
+            f"{report['friction_power_mean_W']:.1f} W",
+            report["statement"],
         )
-    return rows
+        for gap, report in summary["gaps"].items()
+    ]
 
 
 def ripple_rows(summary: Mapping[str, Any]) -> Rows:
     """Return (ripple, peak to peak, its orders z, 2 z and 3 z)."""
     ripple = summary["ripple"]
-    units = {"Pa": (1e-6, "MPa"), "m3_per_s": (LPM, "L/min"), "Nm": (1.0, "N m")}
+    shown_in = {
+        "delivery_pressure": (1e-6, "MPa"), "delivery_flow": (LPM, "L/min"), "inlet_pressure": (1e-6, "MPa"),
+        "inlet_flow": (LPM, "L/min"), "shaft_torque": (1.0, "N m"),
+    }  # fmt: skip
     rows: Rows = []
-    for name, unit in (
-        ("delivery_pressure", "Pa"),
-        ("delivery_flow", "m3_per_s"),
-        ("inlet_pressure", "Pa"),
-        ("inlet_flow", "m3_per_s"),
-        ("shaft_torque", "Nm"),
-    ):
-        scale, shown = units[unit]
+    for name, (scale, shown) in shown_in.items():
         keys = [key for key in ripple if key.startswith(name)]
         rows.append((name.replace("_", " "), *(f"{scale * ripple[key]:.3g} {shown}" for key in keys)))
     return rows

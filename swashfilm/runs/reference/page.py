@@ -8,14 +8,9 @@ from swashfilm.output.page import inlined, read_summary, write_page
 from swashfilm.runs.reference.plots import coefficient_plot
 
 HEAD = (
-    "passage",
-    "Re",
-    "extra length / h",
-    "loss factor",
-    "flow coefficient",
-    "drop / drop by film equation",
+    "passage", "Re", "extra length / h", "loss factor", "flow coefficient", "drop / drop by film equation",
     "mesh error",
-)
+)  # fmt: skip
 
 
 def write_reference_page(folder: Path) -> Path:

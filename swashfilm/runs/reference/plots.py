@@ -91,5 +91,4 @@ def _on_grid(places: Triangulation, values: Array, x: Array, y: Array) -> Array:
     """Return values at vertices on a grid (len(y), len(x)), masked outside the mesh."""
     from matplotlib.tri import LinearTriInterpolator
 
-    found: Array = LinearTriInterpolator(places, values)(*np.meshgrid(x, y))
-    return found
+    return LinearTriInterpolator(places, values)(*np.meshgrid(x, y))

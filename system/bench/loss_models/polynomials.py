@@ -57,7 +57,6 @@ def _legendre(*degrees: int) -> Callable[[LossPoints], Array]:
             legval(2.0 * scaled - 1.0, [0.0] * degree + [1.0])
             for scaled, degree in zip(points.scaled, degrees, strict=True)
         )
-        found: Array = x * y * z
-        return found
+        return x * y * z
 
     return column

@@ -96,6 +96,7 @@ def table_axes(
     rated = pump.pump
     low, high = speeds or (SPEEDS[0] * rated.rated_speed, SPEEDS[1] * rated.rated_speed)
     cold, hot = temperatures or TEMPERATURES
+    thin, thick = (dynamic_viscosity(pump.oil.fluid, at) for at in (hot, cold))
     floor = max(pump.operating.inlet_pressure, pump.operating.case_pressure)
     if pressures and pressures[0] <= floor:
         found, least = (format_quantity(value, Dimension.PRESSURE, digits=4) for value in (pressures[0], floor))
@@ -107,12 +108,7 @@ def table_axes(
         Axis(SPEED, low, high, Spacing.LOGARITHMIC),
         Axis(PRESSURE, *(pressures or (lowest, PRESSURES[1] * rated.rated_pressure)), Spacing.LOGARITHMIC),
         Axis(RATIO, *(ratios or RATIOS), Spacing.LOGARITHMIC),
-        Axis(
-            VISCOSITY,
-            dynamic_viscosity(pump.oil.fluid, hot),
-            dynamic_viscosity(pump.oil.fluid, cold),
-            Spacing.LOGARITHMIC,
-        ),
+        Axis(VISCOSITY, thin, thick, Spacing.LOGARITHMIC),
     )
     return tuple(axis for axis in box if axis.name not in held)
 

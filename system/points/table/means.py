@@ -118,7 +118,8 @@ def mean_ratios(pump: PumpDescription, solved: SolvedPoint) -> Array:
         (
             leakage[k],
             drag_ratio[k],
-            net_loss(found, gap) / by_law.loss(pair).mean,
+            # less the power that dragged oil returns: the net load on the shaft
+            (found.pairs.loss(pair).mean - float(getattr(found.exchange.drag_power, gap))) / by_law.loss(pair).mean,
             found.pairs.loss(pair).mean_coulomb / found.pairs.loss(pair).mean,
             getattr(solved.film_mean, gap) / getattr(given, gap),
             getattr(solved.film_least, gap) / getattr(given, gap),
@@ -140,8 +141,3 @@ def plate_flow(pump: PumpDescription, point: OperatingPoint) -> float:
     """Leakage of the valve plate by the lumped law, m3/s, were half of the chambers at delivery pressure."""
     one = float(lumped_leaks(pump, point, piston_motion(pump, point)).conductance[2, 0])
     return 0.5 * pump.pump.pistons * one * (point.delivery_pressure - point.case_pressure)
-
-
-def net_loss(point: PumpPoint, gap: str) -> float:
-    """Loss of a gap's pair less the power that dragged oil returns, W: the net load on the shaft."""
-    return point.pairs.loss(GAP_PAIRS[gap]).mean - float(getattr(point.exchange.drag_power, gap))

@@ -3,7 +3,7 @@
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from enum import Enum
-from typing import Protocol, assert_never
+from typing import Protocol
 
 import numpy as np
 
@@ -33,16 +33,13 @@ class PointSolver(Protocol):
     @property
     def source(self) -> Source:
         """The fidelity behind it."""
-        ...
 
     @property
     def stated(self) -> Mapping[str, str]:
         """Inputs of its numbers."""
-        ...
 
     def solve(self, pump: PumpDescription, point: OperatingPoint) -> SolvedPoint:
         """The point solved; raises NotConverged or FilmNotConverged."""
-        ...
 
 
 @dataclass(frozen=True)
@@ -104,13 +101,7 @@ class FloatingSolver:
 
 def solver_of(source: Source, options: FloatingOptions) -> PointSolver:
     """The solver of the points of a source; `options` are those of floating gaps."""
-    match source:
-        case Source.FILMS:
-            return FilmsSolver()
-        case Source.FLOATING:
-            return FloatingSolver(options)
-        case _:
-            assert_never(source)
+    return FilmsSolver() if source is Source.FILMS else FloatingSolver(options)
 
 
 def with_held_ports(pump: PumpDescription) -> PumpDescription:

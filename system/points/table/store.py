@@ -1,7 +1,7 @@
 """Response tables on disk: kept in one folder, found by the content of their pump."""
 
 import json
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import asdict, replace
 from pathlib import Path
 from typing import Any, TypeVar
@@ -9,7 +9,6 @@ from typing import Any, TypeVar
 import numpy as np
 
 from gaps.response import Axis, HeldOutError, Measure, Output, Response, Samples, Spacing
-from reynolds.numerics.arrays import Array
 from reynolds.numerics.cache import content_key
 from system.description.pump import PumpDescription
 from system.inputs.faults import Fault, InputFaults, nearest_path
@@ -94,19 +93,13 @@ def _numbers(rows: Sequence[Mapping[str, Any]], response: Response) -> NumbersEr
     return NumbersError(tuple(Measure(row["measure"]) for row in rows), HeldOutError(rms, largest, worst))
 
 
-def tables_of(pump: PumpDescription, folder: Path | None = None) -> Iterator[ResponseTable]:
-    """Every kept table of a pump; one that cannot be read raises as `read_table`."""
-    for path in sorted(tables_folder(folder).glob(f"{pump_key(pump)}-*.json")):
-        yield read_table(path)
-
-
 def find_table(pump: PumpDescription, point: OperatingPoint, folder: Path | None = None) -> ResponseTable:
     """The kept table of a pump whose box contains a point: of the last source in `Source`, then with the most
     points.
 
     Raises InputFaults where there is none, with the boxes of the other tables.
     """
-    tables = list(tables_of(pump, folder))
+    tables = [read_table(path) for path in sorted(tables_folder(folder).glob(f"{pump_key(pump)}-*.json"))]
     fit = [table for table in tables if table.holds(point)]
     if fit:
         sources = list(Source)
@@ -164,7 +157,7 @@ def _errors(response: Response, error: HeldOutError, k: int) -> dict[str, Any]:
     return {
         "held_out_rms": float(error.rms[k]),
         "held_out_largest": float(error.largest[k]),
-        "held_out_worst_at": _row(response.held_out.points[error.worst[k]]),
+        "held_out_worst_at": response.held_out.points[error.worst[k]].tolist(),
     }
 
 
@@ -200,7 +193,3 @@ def _axes(record: Mapping[str, Any]) -> tuple[Axis, ...]:
 
 def _outputs(record: Mapping[str, Any]) -> tuple[Output, ...]:
     return tuple(Output(row["name"], Measure(row["measure"]), row["least"]) for row in record["outputs"])
-
-
-def _row(values: Array) -> list[float]:
-    return [float(value) for value in values]

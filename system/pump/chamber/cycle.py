@@ -141,8 +141,7 @@ def flow_energy(pressure: Array | float, bulk_modulus: float) -> Array:
 def specific_volume(pressure: Number, bulk_modulus: float) -> Number:
     """Volume of liquid oil at a pressure in Pa over its volume at zero gauge pressure: exp(-p/K)."""
     found: Any = np.exp(-pressure / bulk_modulus)
-    volume: Number = float(found) if isinstance(pressure, float) else found
-    return volume
+    return float(found) if isinstance(pressure, float) else found
 
 
 def _cycle(problem: ChamberProblem, effort: Effort, course: Course, checks: ChamberChecks) -> ChamberCycle:

@@ -76,8 +76,7 @@ class FrictionPairs(Generic[Number]):
 
     def loss(self, pair: Pair) -> PairLoss[Number]:
         """The loss of one pair."""
-        found: PairLoss[Number] = getattr(self, pair.value)
-        return found
+        return getattr(self, pair.value)
 
     @property
     def power(self) -> Number:
