@@ -44,16 +44,9 @@ Case = str | Path | Mapping[str, Any]
 """Path of a case file, its text, or its tables."""
 
 _SI = {
-    "speed": "rad/s",
-    "pressure": "Pa",
-    "temperature": "K",
-    "inlet_pressure": "Pa",
-    "case_pressure": "Pa",
-    "speeds": "rad/s",
-    "pressures": "Pa",
-    "temperatures": "K",
-    "inlet_pressures": "Pa",
-}
+    **dict.fromkeys(("speed", "speeds"), "rad/s"), **dict.fromkeys(("temperature", "temperatures"), "K"),
+    **dict.fromkeys(("pressure", "pressures", "inlet_pressure", "inlet_pressures", "case_pressure"), "Pa"),
+}  # fmt: skip
 _OF_COMMAND_LINE = ("-o", "--output", "--help", "--csv", "--animate", "--apply", "--page")
 _RESULTS = (
     "pump", "film", "film.revolution", "film.series", "map", "table", "transient", "reference", "reproduce", "diagnose",

@@ -63,13 +63,9 @@ class PlateWalls:
         for known, at, walls in self._built:
             if known.pattern is film.pattern and at == pose and np.array_equal(known.vertices, film.vertices):
                 return walls
-        angles = (pose.moving, pose.fixed)
-        one, two = (
-            part_wall(
-                slipper_body(part) if isinstance(part, SlipperPart) else plate_body(part), in_part_axes(film, angle)
-            )
-            for part, angle in zip(self.parts, angles, strict=True)
-        )
+        bodies = (slipper_body(part) if isinstance(part, SlipperPart) else plate_body(part) for part in self.parts)
+        turned = zip(bodies, (pose.moving, pose.fixed), strict=True)
+        one, two = (part_wall(body, in_part_axes(film, angle)) for body, angle in turned)
         found = both(one, two)
         self._built.append((film, pose, found))
         del self._built[: -max(2, int(KEPT / (8.0 * np.prod(found.matrix.shape))))]

@@ -22,27 +22,11 @@ from swashfilm.runs.table import command as table
 from swashfilm.runs.transient import command as transient
 from system.inputs.faults import Fault, InputFaults, nearest_choice
 
-COMMANDS: dict[str, Command] = {
-    module.COMMAND.name: module.COMMAND
-    for module in (
-        run,
-        film,
-        table,
-        transient,
-        operating_map,
-        duty,
-        compare,
-        diagnose,
-        calibrate,
-        reference,
-        coefficients,
-        reproduce,
-        report,
-        check,
-        doctor,
-        schema,
-    )
-}
+_MODULES = (
+    run, film, table, transient, operating_map, duty, compare, diagnose, calibrate, reference, coefficients, reproduce,
+    report, check, doctor, schema,
+)  # fmt: skip
+COMMANDS: dict[str, Command] = {module.COMMAND.name: module.COMMAND for module in _MODULES}
 
 
 def run_command(words: Sequence[str]) -> int:

@@ -42,11 +42,6 @@ class Extension:
         """All that a fit of one member sets free: the sizes and the scales."""
         return (*self.parameters, *self.scales)
 
-    @property
-    def neutral(self) -> dict[str, float]:
-        """Parameters by name with which the law changes nothing: their centres."""
-        return {parameter.name: parameter.centre for parameter in self.parameters}
-
     def stated(self, values: Mapping[str, float]) -> dict[str, float]:
         """The law's values by its own keys, as a pump file's table states them, of parameters by name."""
         return {**self.grid[0], **{_key(one): values[one.name] for one in self.free if one.name in values}}
