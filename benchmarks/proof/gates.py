@@ -50,7 +50,7 @@ def _alarms(outcomes: Outcomes) -> tuple[Gate, ...]:
         _share("false alarm on nulls: something is claimed", nulls, is_named, at_most=0.03),
         _wilson("false alarm on nulls, upper end of Wilson's interval", nulls, is_named, 0.065),
         _share("wrong, P >= 0.9 and unflagged, all cases", outcomes, is_grave, at_most=0.01),
-        _share("no diagnosis came about, all cases", outcomes, _is_failed, at_most=0.0),
+        _share("no diagnosis, all cases", outcomes, _is_failed, at_most=0.0),
     )
 
 
@@ -66,7 +66,7 @@ def _names(outcomes: Outcomes) -> tuple[Gate, ...]:
         _share("truth in the 95 % set at z = 5", medium, in_set, at_least=0.95),
         _beside(
             _share("a suspicion or a class at z = 3", small, _abstains, at_least=0.60),
-            f"{sum(one.verdict == NULL for one in small)} more told as no mismatch",
+            f"{sum(one.verdict == NULL for one in small)} more with the verdict no mismatch",
         ),
         _share("wrong names at z = 3", small, is_wrong_name, at_most=0.02),
         _share("both of two effects, z = 10 each", pairs, is_right, at_least=0.95),
@@ -94,12 +94,12 @@ def _places(outcomes: Outcomes) -> tuple[Gate, ...]:
     traced = [one for one in outcomes if one.part == "trace"]
     sound = [one for one in outcomes if one.truth == NULL and one.campaign == TRACED]
     return (
-        _share("channel at z >= 8, of those that see a mismatch", _seen(clear), _channel, at_least=0.99),
-        _share("gap claimed at z >= 8, of those that see a mismatch and have one", placed, _gap, at_least=0.90),
+        _share("channel at z >= 8, of cases with a mismatch found", _seen(clear), _channel, at_least=0.99),
+        _share("gap claimed at z >= 8, of cases with a mismatch found and a gap", placed, _gap, at_least=0.90),
         _median("region, points in both over points in one, right names at z >= 8", right, region_overlap,
                 at_least=0.7),
-        _median("shaft angle off, deg, of what shows in traces only", traced, turn_error, at_most=4.0),
-        _share("a shaft angle told where nothing is concealed", sound, _turned, at_most=0.05),
+        _median("error of the shaft angle, deg, of effects in traces only", traced, turn_error, at_most=4.0),
+        _share("a shaft angle named where nothing is concealed", sound, _turned, at_most=0.05),
     )  # fmt: skip
 
 
@@ -112,7 +112,7 @@ def _fits(outcomes: Outcomes) -> tuple[Gate, ...]:
     return (
         _median("held-out residual over noise, right names at z >= 8", right, _left, at_most=1.1),
         _beside(over, f"the right name's fit is the truth's own in {sum(map(_is_own, clear))}"),
-        _median("removed share of what the noise stated does not explain", to_remove, removed, at_least=0.90),
+        _median("removed share of the residual beyond the stated noise", to_remove, removed, at_least=0.90),
         _removed_of_all(right, [one for one in outcomes if one.truth == NULL]),
         _coverage(outcomes),
         _number("Brier score of the likeliest, on the declared mix", outcomes, brier, 0.06),
@@ -177,11 +177,9 @@ def _asked(outcomes: Outcomes) -> tuple[Gate, ...]:
     left_open = [one.worth for one in outcomes if one.worth is not None and abs(one.worth.before) < LIMITS.settled]
     promised = [worth for worth in left_open if worth.promised >= LIMITS.promised]
     return (
-        _share("pairs left open, settled by the point asked for, 3 readings", left_open, _by_asked, at_least=0.8),
-        _share(
-            "pairs left open, settled where the verdict says that the point does", promised, _by_asked, at_least=0.8
-        ),
-        _share("pairs left open, settled by a point drawn at random", left_open, _by_other, at_most=0.3),
+        _share("open pairs settled by the requested point, 3 readings", left_open, _by_asked, at_least=0.8),
+        _share("open pairs settled where the verdict says so", promised, _by_asked, at_least=0.8),
+        _share("open pairs settled by a random point", left_open, _by_other, at_most=0.3),
     )
 
 
@@ -198,7 +196,7 @@ def _settles(worth: Worth, told: float) -> bool:
 
 
 def _removed_of_all(right: Outcomes, nulls: Outcomes) -> Gate:
-    name, asked = ("removed share, all right names together, of what is not left where nothing is concealed", ">= 0.9")
+    name, asked = ("removed share, all right names together, of the residual beyond that of nulls", ">= 0.9")
     floor = left_by_nothing(nulls)
     known = [one for one in right if all((one.campaign, channel) in floor for channel in one.heldout)]
     if not known:
@@ -208,7 +206,7 @@ def _removed_of_all(right: Outcomes, nulls: Outcomes) -> Gate:
 
 
 def _coverage(outcomes: Outcomes) -> Gate:
-    name, asked = "90 % intervals of parameters that hold the truth", "86 % to 94 %"
+    name, asked = "90 % intervals of parameters that contain the truth", "86 % to 94 %"
     parts = dict.fromkeys(one.part for one in outcomes if one.covered)
     held = {part: [inside for one in outcomes if one.part == part for inside in one.covered.values()] for part in parts}
     inside = [one for part in held.values() for one in part]

@@ -22,49 +22,56 @@ from .told import Told, load_told
 PICTURE = "proof_calibration.png"
 HEAD = """# Proof of the diagnosis
 
-What `swashfilm diagnose` makes of recordings of a plant that shares nothing with it (`benchmarks/proof/plant`:
-chambers by balance of mass, films integrated along their length, other laws for every concealed effect, unlike
-pistons), read by sensors with noise that has memory and tails, with calibrations within what they state, and with
-steps. Each machine is drawn within the stated tolerances. What is concealed is sized by its score z: the length of
-the shift in the readings, in sigma, once all that is uncertain has had its part; z is computed by the plant alone.
-Sizes of their own have a worn groove, which shows in chamber traces alone, and an inlet line by which chambers no
-longer fill: that begins at a knee, beyond which a single point is moved by tens of sigma.
+Results of `swashfilm diagnose` on recordings of simulated plants. The plant (`benchmarks/proof/plant`) shares nothing
+with the program. It has chambers by balance of mass, films integrated along their length, unlike pistons, and another
+law for every concealed effect. Its sensors have noise with memory and heavy tails, calibration errors within the stated
+class, and steps. Each machine is drawn within the stated tolerances.
 
-    mkdir -p build/proof && tar -xf benchmarks/proof/outcomes.tar.xz -C build/proof    lays out what is behind this
-    python benchmarks/proof.py                 runs what is not there yet, then writes this page
-    python benchmarks/proof.py --cases 0       writes this page from what is there
+The size of a concealed effect is its score z: the length of the shift in the readings, in sigma, that remains after the
+uncertain parameters are fitted. The plant alone computes z. Two effects have sizes of their own. A worn groove shows in
+chamber traces only. An inlet line with incomplete filling begins at a knee, beyond which a single point moves by tens
+of sigma.
+
+    mkdir -p build/proof && tar -xf benchmarks/proof/outcomes.tar.xz -C build/proof    unpacks the outcomes of this page
+    python benchmarks/proof.py                 runs the missing cases, then writes this page
+    python benchmarks/proof.py --cases 0       writes this page from the outcomes
     python benchmarks/proof.py --write graded 3 FOLDER    one recording, for `swashfilm diagnose ref90 FOLDER`
 
-Campaigns: `map` has 112 points (4 strokes, 4 speeds, 7 pressures, one temperature, chamber traces at four),
-`ovens` 168 at three inlet temperatures, `scattered` 90 over stroke, speed, pressure, temperature, charge and case
-pressure, `short` 60 such points at one charge pressure that is not measured, `open circuit` 100 out of a tank, the
-last twenty with the inlet throttled step by step, `no inlet meter` 140 without `Q_in`. Each reads `Q_out`, `Q_in`,
-`Q_case` and `torque` but where said.
+Campaigns:
+
+- `map`: 112 points (4 strokes, 4 speeds, 7 pressures, one temperature), chamber traces at four of them.
+- `ovens`: 168 points at three inlet temperatures.
+- `scattered`: 90 points over stroke, speed, pressure, temperature, charge and case pressure.
+- `short`: 60 such points at one charge pressure that is not measured.
+- `open circuit`: 100 points from a tank, the last twenty with the inlet throttled step by step.
+- `no inlet meter`: 140 points without `Q_in`.
+
+Unless stated otherwise each campaign measures `Q_out`, `Q_in`, `Q_case` and `torque`.
 
 """
 HASH_OF_RUN = (
     "The cases were run under sha256 `9853d599eb9c3f80b8e2f29f2c91b767b1fe8ae5c9ea90bf07db6d322a8494f0` of this "
-    "file. It had fewer numbers:\nthose that its first lines name stood in the code then, with the same values."
+    "file. It had fewer numbers:\nthe code had those of its first lines, with the same values."
 )
 GATES = """
-The gates were set before the program was written. A case without a number where one is due counts as missed.
+The gates were set before the program was written. A case without a required number counts as missed.
 
-- Small sizes: the gate asks for a suspicion or a class. At z = 3 a recording is often rightly taken as one without
-  mismatch; such verdicts are counted beside.
-- A gap counts where the truth has one, whatever was claimed; of a suspicion, which claims nothing, as missed.
-- A true region is where the channel told first is moved by at least half of what it is moved at most; a true
-  window holds four fifths of the square by which chamber pressures differ.
-- The truth's own fit has the catalogue's law of what is concealed, which is not the plant's law. A right name's
-  fit is that fit: the line above can be missed by other names only. Readings have tails beyond the noise that they
-  state, which no law removes: of what the noise stated does not explain they are a part, and at z = 8 most. The
-  share of all right names together takes off what nulls of the same campaign leave in the same channel: the excess
-  of one case scatters as much as it is large.
-- A pair is left open where the recording leaves its odds below 20 to 1, one of the two being the truth, and is
-  settled from there on, by three readings that the plant's bench takes. The verdict says that a point settles it
-  where that has a chance of 80 % at least, whichever of the two is true, and else that no point of an ordinary
-  bench does.
-- Intervals are those of parameters that mean the same to plant and simulation, under right names. Clearance of
-  the piston, eccentricity and sealing length are told apart by no recording of this kind and are not among them.
+- Small sizes: the gate requires a suspicion or a class. At z = 3 a recording is often rightly taken as one without
+  mismatch; such verdicts are counted separately.
+- Gap: counts where the truth has a gap, whatever the claim. A suspicion claims nothing and counts as missed.
+- Region: the true region is where the first-named channel shifts by at least half of its largest shift.
+- Window: the true window holds four fifths of the squared difference of the chamber pressures.
+- The truth's own fit has the catalogue's law of the concealed effect, which is not the plant's law. The fit of a right
+  name is that fit, so only other names can miss the gate above.
+- Readings have tails beyond the stated noise, which no law removes. They are a part of the residual that the stated
+  noise does not explain; at z = 8 they are most of it.
+- The removed share of all right names together subtracts the residual of nulls of the same campaign and channel,
+  because the excess of one case scatters as much as its size.
+- An open pair: the recording leaves the odds below 20 to 1, and one of the two is the truth. Three readings of the
+  plant's bench at the requested point may settle it. The verdict says that a point settles the pair where its chance is
+  at least 80 %, whichever of the two is true; otherwise it says that no point of an ordinary bench does.
+- Intervals are those of parameters with the same meaning in plant and simulation, under right names. No recording of
+  this kind separates clearance of the piston, eccentricity and sealing length; they are not among them.
 - Probabilities are those of ids, the gaps of one id together.
 """
 
@@ -82,7 +89,7 @@ def write_page(results: Path, page: Path, seed: int) -> None:
         pieces += [_gates(outcomes), GATES, _calibration(), _grades(outcomes), _rivals(outcomes)]
     bench = [one for one in kept if one.part == GIVEN]
     if bench:
-        pieces.append("\n## Recordings that are given with their answers\n\n" + _given(bench))
+        pieces.append("\n## Recordings with known answers\n\n" + _given(bench))
     pieces += [_section(each) for each in map(partial(load_told, results), TITLES) if each is not None]
     if outcomes:
         pieces.append(_cases(outcomes))
@@ -109,11 +116,11 @@ def _seeds(part: Part, seed: int) -> str:
 def _gates(outcomes: Sequence[Outcome]) -> str:
     words = {True: "held", False: "**missed**", None: "no case yet"}
     rows = [(one.name, one.asked, one.found, words[one.passed]) for one in gates(outcomes)]
-    return "\n## Gates\n\n" + _table(("gate", "asked", "found", ""), rows)
+    return "\n## Gates\n\n" + _table(("gate", "required", "found", ""), rows)
 
 
 def _calibration() -> str:
-    return f"\n## Do probabilities mean what they say?\n\n![reliability diagram]({PICTURE})\n"
+    return f"\n## Calibration of the probabilities\n\n![reliability diagram]({PICTURE})\n"
 
 
 def _grades(outcomes: Sequence[Outcome]) -> str:
@@ -130,7 +137,7 @@ def _grades(outcomes: Sequence[Outcome]) -> str:
                 part.value, f"{asked:g}" if asked else own_size, str(len(at)), str(seen), str(told),
                 str(sum(map(is_right, at))), str(sum(map(is_wrong_name, at))), str(sum(map(is_grave, at))),
             ))  # fmt: skip
-    head = ("part", "z", "cases", "mismatch seen", "of it suspicion", "right", "wrong name", "wrong and sure")
+    head = ("part", "z", "cases", "mismatch found", "of it suspicion", "right", "wrong name", "wrong and sure")
     return "\n## By size\n\n" + _table(head, rows)
 
 
@@ -147,7 +154,7 @@ def _rivals(outcomes: Sequence[Outcome]) -> str:
             _of(sum(bool(one.claims) for one in unknown), unknown),
         )
         for name, seen in (
-            ("this diagnosis, what it claims", is_named), ("this diagnosis, suspicions counted", _sees)
+            ("this diagnosis, claims", is_named), ("this diagnosis, with suspicions", _sees)
         )
     ]  # fmt: skip
     for name in judged[0].rivals if judged else ():
@@ -157,13 +164,19 @@ def _rivals(outcomes: Sequence[Outcome]) -> str:
             _of(sum(set(one.rivals[name].named) == set(one.effects) for one in clear), clear),
             _of(sum(_listed(one.rivals[name].named) for one in unknown), unknown),
         ))  # fmt: skip
-    head = ("way", "alarm on nulls", "alarm at z >= 8", "that very id at z >= 8", "name for what is in no catalogue")
-    return "\n## Beside other ways, and with parts taken out\n\n" + _table(head, rows)
+    head = (
+        "way",
+        "alarm on nulls",
+        "alarm at z >= 8",
+        "the right id at z >= 8",
+        "name for an effect outside the catalogue",
+    )
+    return "\n## Comparison with other methods, and ablations\n\n" + _table(head, rows)
 
 
 WAYS = {
-    "screen": "its linear screen alone", "no input noise": "screen without noise of the inputs",
-    "fluid law held": "screen with the oil's law held", "no unknown physics": "screen without unknown physics",
+    "screen": "linear screen alone", "no input noise": "screen without noise of the inputs",
+    "fluid law held": "screen with the oil's law fixed", "no unknown physics": "screen without unknown physics",
     "no signs": "screen without signs", "largest residual": "largest residual, usual suspect",
     "stepwise BIC": "stepwise by BIC on the catalogue's columns",
     "sparse regression": "sparse regression on textbook terms", "Gaussian process": "Gaussian-process discrepancy",

@@ -151,9 +151,9 @@ def test_a_point_is_worth_what_it_settles(proof: SimpleNamespace, right: object)
     settled = replace(right, worth=proof.outcome.Worth(6.0, 0.0, 0.0, 0.9))
     beyond = replace(right, worth=proof.outcome.Worth(1.0, 0.1, 0.0, 0.02))
     found = {gate.name: gate for gate in proof.gates.gates([left_open, settled, beyond])}
-    by_asked = found["pairs left open, settled by the point asked for, 3 readings"]
-    promised = found["pairs left open, settled where the verdict says that the point does"]
-    by_other = found["pairs left open, settled by a point drawn at random"]
+    by_asked = found["open pairs settled by the requested point, 3 readings"]
+    promised = found["open pairs settled where the verdict says so"]
+    by_other = found["open pairs settled by a random point"]
     assert (by_asked.passed, by_asked.cases) == (False, 2)
     assert (promised.passed, promised.cases) == (True, 1)
     assert (by_other.passed, by_other.cases) == (True, 2)
@@ -182,7 +182,7 @@ def test_gates_of_small_sizes_and_gaps(proof: SimpleNamespace, right: object) ->
     doubted = replace(small, verdict="missing_physics", status="suspicion")
     gate = next(one for one in proof.gates.gates([small, doubted]) if "at z = 3" in one.name and "class" in one.name)
     assert gate.found.startswith("50.0% (1 of 2")
-    assert gate.found.endswith("1 more told as no mismatch")
+    assert gate.found.endswith("1 more with the verdict no mismatch")
     elsewhere = replace(right, claims=(proof.outcome.Claimed("elastic_opening", "piston", 0.97, ()),))
     gap = next(one for one in proof.gates.gates([right, elsewhere]) if one.name.startswith("gap claimed"))
     assert gap.found.startswith("50.0% (1 of 2")
@@ -194,7 +194,7 @@ def test_gates_of_kinds(proof: SimpleNamespace, right: object) -> None:
     strange = replace(fault, verdict="unknown_physics", claims=())
     gates = {gate.name: gate for gate in proof.gates.gates([fault, strange, replace(fault, verdict="none")])}
     assert gates["sensor called physics"].found.startswith("100.0% (2 of 2")
-    assert gates["no diagnosis came about, all cases"].passed is False
+    assert gates["no diagnosis, all cases"].passed is False
 
 
 def test_what_nulls_leave_is_no_ones_to_remove(proof: SimpleNamespace, right: object) -> None:
@@ -203,8 +203,8 @@ def test_what_nulls_leave_is_no_ones_to_remove(proof: SimpleNamespace, right: ob
                    verdict="no_mismatch", heldout={"Q_case": (1.1**0.5, 1.1**0.5, 1.0)})  # fmt: skip
     found = replace(right, heldout={"Q_case": (2.0, 1.39**0.5, 1.0)})
     gates = {gate.name: gate for gate in proof.gates.gates([null, found])}
-    assert gates["removed share of what the noise stated does not explain"].found.startswith("0.87")
-    pooled = gates["removed share, all right names together, of what is not left where nothing is concealed"]
+    assert gates["removed share of the residual beyond the stated noise"].found.startswith("0.87")
+    pooled = gates["removed share, all right names together, of the residual beyond that of nulls"]
     assert pooled.found == "0.90 of 1 (0.90 to 0.90)"
     assert proof.removed.removed_of_all([found], proof.removed.left_by_nothing([null]))[0] == pytest.approx(0.9)
 
