@@ -98,7 +98,7 @@ class Impossibility:
     def text(self) -> str:
         """In words."""
         alone = Range(self.value, self.value).text(self.unit)
-        return f"{self.quantity}: {alone}, where the statement needs {self.bound.text(self.unit)}"
+        return f"{self.quantity}: {alone}; the statement needs {self.bound.text(self.unit)}"
 
 
 @dataclass(frozen=True)

@@ -66,9 +66,9 @@ def count_words(rows: Sequence[Row]) -> str:
 
 
 def why(row: Row) -> str:
-    """Return reason and impossibility of a verdict, in words."""
+    """Return reason and impossibility of a verdict in sentences, each after a space; empty without."""
     impossible = row["impossible"]["text"] if row["impossible"] else ""
-    return "; ".join(text for text in (row["reason"], impossible) if text)
+    return "".join(f" {text[0].upper()}{text[1:]}." for text in (row["reason"], impossible) if text)
 
 
 def markdown_page(folder: Path, command: str) -> str:
@@ -94,11 +94,11 @@ def markdown_page(folder: Path, command: str) -> str:
 
 def _statement(claim: Row, found: Sequence[Row]) -> Iterator[str]:
     assumed = f" ({claim['taken']})" if claim["taken"] else ""
-    words = f'"{claim["words"]}" - {claim["quantity"]}'
-    yield f"**{claim['id']}** {words}: expected {claim['expected_text']}{assumed}."
+    yield f'**{claim["id"]}** "{claim["words"]}"'
+    yield ""
+    yield f"Quantity: {claim['quantity']}. Expected: {claim['expected_text']}{assumed}."
     yield ""
     for row in found:
         reading = f"{row['reading']}: " if row["reading"] else ""
-        reason = why(row)
-        yield f"- {reading}{row['found_text']}: **{row['verdict']}**" + (f"; {reason}." if reason else ".")
+        yield f"- {reading}{row['found_text']}: **{row['verdict']}**.{why(row)}"
     yield ""

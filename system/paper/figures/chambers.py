@@ -102,7 +102,7 @@ def _trapped(point: PaperPoint) -> str:
     angle, pressure = np.array(point.shaft_angle), point.chamber_pressure
     at = int(np.argmax(pressure))
     return (
-        f"Outside the statement's region: at {Unit.PRESSURE.factor * point.bench.delivery_pressure:.0f} MPa the "
-        f"chamber peaks at {Unit.PRESSURE.factor * pressure[at]:.1f} MPa at {np.degrees(angle[at]):.0f} deg, by where "
-        "the pump file lets the kidneys shut and the grooves begin."
+        f"Outside the statement's region the chamber peaks at {Unit.PRESSURE.factor * pressure[at]:.1f} MPa at "
+        f"{np.degrees(angle[at]):.0f} deg, with {Unit.PRESSURE.factor * point.bench.delivery_pressure:.0f} MPa at the "
+        "port. The end of the kidneys and the start of the grooves in the pump file cause it."
     )

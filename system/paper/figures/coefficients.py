@@ -29,8 +29,8 @@ def fig13(model: PaperPoints, source: PaperPoints) -> FigureResult:
         LossReading.WITH_SHEAR: eq_fits(equation, losses, points, rated),
         LossReading.MIXED: eq_fits(equation.mixed, losses, points, rated),
     }
-    own = ", the model's own, so that the fit finds its own numbers" if source.fidelity is model.fidelity else ""
-    remarks = f"Readings are {MADE}: of {source.fidelity.value} points{own}; with a bench's noise, seed {SEED}."
+    own = " They are the model's own, so the fit finds its own numbers." if source.fidelity is model.fidelity else ""
+    remarks = f"Readings are {MADE}: {source.fidelity.value} points with a bench's noise, seed {SEED}.{own}"
     return fig13_of(fits, (remarks,))
 
 
@@ -89,8 +89,8 @@ def _rank(fits: Sequence[EqFit]) -> str:
     ranks = ", ".join(f"{fit.rank} at {100.0 * fit.ratio:.0f} %" for fit in fits if fit.ratio is not None)
     whole = fits[-1]
     return (
-        f"Of {len(_names(whole))} coefficients Eq. (21)'s points at rated speed and one displacement determine "
-        f"(rank) {ranks}; all {whole.points} points together {whole.rank}."
+        f"Number of the {len(_names(whole))} coefficients that Eq. (21)'s points at rated speed and one displacement "
+        f"determine (rank): {ranks}. All {whole.points} points together determine {whole.rank}."
     )
 
 
@@ -98,8 +98,8 @@ def _solved(cells: Sequence[EqFit]) -> Judged:
     ranks = range_of(float(fit.rank) for fit in cells)
     printed = range_of(float(np.max(np.abs(fit.printed))) for fit in cells)
     reason = (
-        "at one speed and displacement every pair's loss is straight in pressure: plain least squares, as printed, "
-        f"gives coefficients of up to {printed.low:.2g} to {printed.high:.2g}"
+        "at one speed and displacement every pair's loss is linear in pressure. Plain least squares, as printed, "
+        f"give coefficients of up to {printed.low:.2g} to {printed.high:.2g}"
     )
     rank = float(max(fit.rank for fit in cells))
     impossible = Impossibility("rank of the seven points' matrix", Unit.NUMBER, rank, Range(low=7.0))
@@ -107,9 +107,9 @@ def _solved(cells: Sequence[EqFit]) -> Judged:
 
 
 _WHY = {
-    LossReading.WITH_SHEAR: "that of coefficients that hold the films' shear, which is counted beside these",
-    LossReading.MIXED: "shear of films of given thickness is the same at every pressure, and only pairs whose "
-    "loss hardly rises with pressure can hold it",
+    LossReading.WITH_SHEAR: "The paper's coefficients include the films' shear, these do not",
+    LossReading.MIXED: "Shear of films of given thickness is the same at every pressure, so only coefficients of pairs "
+    "whose loss hardly rises with pressure can include it",
 }
 
 
@@ -124,8 +124,9 @@ def _in_range(cells: Sequence[EqFit], reading: LossReading) -> Judged:
     found = range_of(float(fit.posterior.values[at]) for fit in cells)
     low, high = RANGES[Pair(furthest)]
     reason = (
-        f"with bounds and priors; furthest is {furthest.replace('_', ' ')}, {found.text(Unit.NUMBER)}, where the "
-        f"paper's range is {low:g} to {high:g}: {_WHY[reading]}; left are {_left(cells):.1f} sigma in the mean"
+        f"fit with bounds and priors. The furthest coefficient is {furthest.replace('_', ' ')}, "
+        f"{found.text(Unit.NUMBER)}; the paper's range is {low:g} to {high:g}. {_WHY[reading]}. The rms residual is "
+        f"{_left(cells):.1f} sigma"
     )
     far = max(beyond.values())
     return judge(CLAIMS["fig13.range"], Range(far, far), reading=reading, reason=reason)
@@ -146,8 +147,8 @@ def _widths(whole: EqFit, reading: LossReading) -> str:
         for name, value, width in zip(names, posterior.values, spread, strict=True)
     )
     return (
-        f"All {whole.points} points together, {reading.value}, and how wide still of the prior: {shown}; left are "
-        f"{_left([whole]):.1f} sigma in the mean."
+        f"Fit of all {whole.points} points, {reading.value} (in brackets: sigma over the prior's): {shown}. The rms "
+        f"residual is {_left([whole]):.1f} sigma."
     )
 
 

@@ -72,8 +72,9 @@ def fig3(points: PaperPoints) -> FigureResult:
     near = Unit.PRESSURE.factor * near_zero(points.pump)
     remarks = (
         f"Case 3 (rated point): volumetric loss {split.volumetric:.0f} W, hydro-mechanical "
-        f"{split.hydromechanical:.0f} W, share {100.0 * split.hydromechanical_share:.1f} %; the text states no number.",
-        f"'Near 0' of Case 2 is taken as {near:.3g} MPa at the delivery port, half a MPa above the inlet's.",
+        f"{split.hydromechanical:.0f} W, share {100.0 * split.hydromechanical_share:.1f} %; the text states no "
+        "number.",
+        f"'Near 0' of Case 2 is taken as {near:.3g} MPa at the delivery port, 0.5 MPa above the inlet's.",
     )
     return FigureResult(Figure.FIG3, tuple(panels), tuple(judged), remarks)
 
@@ -136,16 +137,16 @@ def _best_reason(points: PaperPoints, best: float, reading: LossReading) -> str:
     open_longer = paper_point(PaperWork(without_trapped_oil(points.pump), points.fidelity).solved(at))
     stated, own = points.points[at], open_longer.overall(reading)
     text = (
-        f"ports throttle {stated.throttling:.0f} W there, {open_longer.throttling:.0f} W if the kidneys shut at "
-        f"{np.degrees(LATE_END):.0f} deg in place of the {np.degrees(points.pump.ports.kidney_end):.0f} deg assumed: "
-        f"then {100.0 * own:.1f} % in place of {100.0 * best:.1f} %"
+        f"the ports throttle {stated.throttling:.0f} W at this point. With kidneys that close at "
+        f"{np.degrees(LATE_END):.0f} deg, not at the assumed {np.degrees(points.pump.ports.kidney_end):.0f} deg, they "
+        f"throttle {open_longer.throttling:.0f} W, and the efficiency is {100.0 * own:.1f} %, not {100.0 * best:.1f} %"
     )
     if reading is LossReading.MIXED:
         return text
     mixed = 100.0 * open_longer.overall(LossReading.MIXED)
     return (
-        f"{text}, and {mixed:.1f} % without the {sum(stated.viscous):.0f} W of the films' shear, which is counted "
-        "beside coefficients that hold it in the paper"
+        f"{text}. Without the {sum(stated.viscous):.0f} W of the films' shear, which the paper's coefficients include, "
+        f"it is {mixed:.1f} %"
     )
 
 
@@ -191,11 +192,12 @@ def _needed_drain(points: PaperPoints, reading: LossReading) -> str:
     )
     stated = CLAIMS["fig3.case2"].expected.low
     left = [Range(one, one).text(Unit.SHARE) for one in (laminar, orifice, stated)]
-    passes = "an orifice's" if orifice >= stated else "one that hardly rises with pressure"
+    passes = "that of an orifice" if orifice >= stated else "one that hardly rises with pressure"
     return (
-        f"it takes {range_of(needed).text(Unit.FLOW)} into the case at 5 MPa beside the gaps' flow; the least of "
-        f"it through laminar gaps would leave {left[0]} at 35 MPa and 13 %, through an orifice {left[1]}, where "
-        f"Case 2 states {left[2]} or more: not a flow of the pump's gaps, but {passes}, as control or flushing"
+        f"the statement needs {range_of(needed).text(Unit.FLOW)} into the case at 5 MPa in addition to the gaps' flow. "
+        f"The least of it gives a share of {left[0]} at 35 MPa and 13 % through laminar gaps, and of {left[1]} through "
+        f"an orifice; Case 2 states {left[2]} or more. So it is no flow of the pump's gaps, but {passes}: control or "
+        "flushing"
     )
 
 
@@ -205,9 +207,10 @@ def _steady_drain(points: PaperPoints, reading: LossReading) -> str:
     drain = drain_for_share(last.split(reading), expected.low, _falls(last))
     first = [share_with_drain(one.split(reading), drain, _falls(one)) for one in case_one(points)]
     return (
-        f"{Range(expected.low, expected.low).text(Unit.SHARE)} at 35 MPa need {Unit.FLOW.factor * drain:.1f} L/min "
-        "into the case beside the gaps; the same flow at every pressure would make Case 1 "
-        f"{range_of(first).text(Unit.SHARE)}: control or flushing flow of the bench, which no gap of the pump shows"
+        f"a share of {Range(expected.low, expected.low).text(Unit.SHARE)} at 35 MPa needs "
+        f"{Unit.FLOW.factor * drain:.1f} L/min into the case in addition to the gaps' flow. The same flow at every "
+        f"pressure makes Case 1 {range_of(first).text(Unit.SHARE)}. Control or flushing flow of the bench is such a "
+        "flow, that of a gap is not"
     )
 
 

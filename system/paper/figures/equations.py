@@ -1,4 +1,4 @@
-"""Equations that print otherwise than they can be: printed over true, and why no pump could meet them."""
+"""Equations with misprints: printed over true value, and the impossibility that follows from each."""
 
 from collections.abc import Callable
 
@@ -58,21 +58,21 @@ def _eq8(drive: SwashDrive) -> Judged:
     by_velocity = _rate(lambda at: piston_velocity(drive, at, RATED), angle) * RATED
     over = printed_acceleration(drive, angle, RATED) / by_velocity
     true = float(np.max(np.abs(piston_acceleration(drive, angle, RATED) / by_velocity - 1.0)))
-    reason = f"tan(cone) tan(swash) is missing before cos(phi); with it the ratio is 1 within {true:.0e}"
+    reason = f"the factor tan(cone) tan(swash) of cos(phi) is missing. With it the ratio is 1 within {true:.0e}"
     return judge(claim, range_of(over), reason=reason, impossible=_must_be_one("print over derivative", over))
 
 
 def _eq9(drive: SwashDrive) -> Judged:
     over = printed_sliding_speed(drive, ANGLES, RATED) / slipper_sliding_speed(drive, ANGLES, RATED)
-    reason = "the derivative of the ball centre's place on the plate, which Eq. (6) fixes, is another"
-    impossible = _must_be_one("print over derivative of the place", over)
+    reason = "Eq. (6) fixes the ball centre's position on the plate, and the derivative of this position differs"
+    impossible = _must_be_one("print over derivative of the position", over)
     return judge(CLAIMS["equations.9"], range_of(over), reason=reason, impossible=impossible)
 
 
 def _eq12(points: PaperPoints, drive: SwashDrive) -> Judged:
     ratio = azimuth_rate_ratio(ball_guide(points.pump), float(drive.swash_angle), ANGLES)
-    reason = "points of one retainer would turn at different speeds about its axis, so their distances would change"
-    impossible = _must_be_one("turning of the retainer's points over each other's", ratio)
+    reason = "points of one retainer would turn at different speeds, so their distances would change"
+    impossible = _must_be_one("ratio of rates of turning between the retainer's points", ratio)
     return judge(CLAIMS["equations.12"], range_of(ratio), reason=reason, impossible=impossible)
 
 
@@ -80,8 +80,8 @@ def _eq14(drive: SwashDrive) -> Judged:
     pushed = piston_velocity(drive, ANGLES, RATED)
     shrinks = RATED * _rate(lambda at: piston_displacement(drive, at), ANGLES)
     moved = float(np.abs(pushed - shrinks).mean() * np.pi / (RATED * stroke(drive)))
-    reason = "q_r of Eq. (19) is dV_c/dt of Eq. (18): counted twice, of opposite sign, the pump would deliver nothing"
-    impossible = _must_be_one("displacement left over the true one", np.array([moved]))
+    reason = "the flow q_r of Eq. (19) is dV_c/dt of Eq. (18). With both, of opposite sign, the pump delivers nothing"
+    impossible = _must_be_one("displacement by the print over the true one", np.array([moved]))
     return judge(CLAIMS["equations.14"], Range(moved, moved), reason=reason, impossible=impossible)
 
 
@@ -92,8 +92,8 @@ def _eq15(points: PaperPoints) -> Judged:
     moving = np.abs(motion.velocity) > 0.1 * np.abs(motion.velocity).max()
     printed = -0.5 * np.pi * pump.pump.piston_diameter * pump.piston.radial_clearance * motion.velocity
     over = printed[moving] / lumped_leaks(pump, point, motion).drag_flow[0][moving]
-    reason = "velocity by Eq. (7) is positive out of the block, and a wall drags oil its own way"
-    impossible = _must_be_one("dragged flow in print over that of a film between moving wall and rest", over)
+    reason = "velocity by Eq. (7) is positive out of the block, and a wall drags oil in its own direction"
+    impossible = _must_be_one("printed drag flow over that of a film between a moving and a fixed wall", over)
     return judge(CLAIMS["equations.15"], range_of(over), reason=reason, impossible=impossible)
 
 

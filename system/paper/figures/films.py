@@ -16,7 +16,7 @@ FILM = FigureAxis("film", Unit.FILM)
 SHOWN_ANGLE = 1.5 * pi
 """Shaft angle (rad) of the film that is drawn: the middle of the delivery half."""
 NO_FIELD = "Films of given thickness have no field: --fidelity films or floating."
-GIVEN = "The film is the one that the pump file gives: only --fidelity floating finds how it follows the displacement."
+GIVEN = "The film is that of the pump file. Only --fidelity floating computes it over the displacement."
 
 
 def fig8_of_films(pump: PumpDescription) -> FigureResult:
@@ -36,7 +36,7 @@ def fig8_of_films(pump: PumpDescription) -> FigureResult:
 
 
 def film_panel(field: FigureField, shaft_angle: float) -> Panel:
-    """A piston's film at a shaft angle (rad) as the paper's Fig. 8 has it."""
+    """A piston's film at a shaft angle (rad) as in the paper's Fig. 8."""
     return Panel(
         f"Film of the piston at {np.degrees(shaft_angle):.0f} deg", PanelKind.FIELD,
         FigureAxis("angle round the piston", Unit.ANGLE), FigureAxis("length ratio", Unit.NUMBER), field=field,

@@ -34,8 +34,8 @@ FLOATING_RATIOS = RATIOS[1:]
 """Displacements at which the gaps float, all at rated speed and pressure."""
 ENDS = ("inner end", "case edge")
 ALONE = (
-    "Each gap floats alone under the pressure of the lumped chamber: friction of the films on the parts between "
-    "them is left out."
+    "Each gap floats separately under the pressure of the lumped chamber, without the films' friction on the parts "
+    "between them."
 )
 
 
@@ -135,18 +135,18 @@ def _fig8(pump: PumpDescription, piston: Mapping[str, Any], remarks: tuple[str, 
               FigureAxis("eccentricity over clearance", Unit.NUMBER), courses),
     )  # fmt: skip
     mean, over = piston["mean"], float(values.mean() / values.min())
-    wider = f"clearance {clearance * 1e6:g} um: its mean exceeds it by relieved edges and elastic walls"
-    least = f"least film anywhere {piston['least'] * 1e6:.2f} um (below 0 rough walls overlap), "
+    wider = f"the clearance is {clearance * 1e6:g} um; relieved edges and elastic walls make the mean film thicker"
+    least = f"the least film is {piston['least'] * 1e6:.2f} um (below 0 rough walls overlap), the mean "
     judged = (
         judge(CLAIMS["fig8.mean"], Range(mean, mean), reason=wider),
         judge(CLAIMS["fig8.nonuniform"], Range(over, over),
-              reason=f"{least}contact {piston['contact']:.0f} N in the mean"),
+              reason=f"{least}contact load {piston['contact']:.0f} N"),
     )  # fmt: skip
     given = pump.piston.eccentricity_ratio
     remark = (
-        f"Eccentricity over clearance in the mean of the turn: {ratios[0].mean():.2f} at the film's inner end, "
-        f"{ratios[1].mean():.2f} at its case edge, where it tilts on opposite sides; Eq. (15) knows that of a "
-        f"parallel piston, for which the pump file gives {given:g}."
+        f"Mean eccentricity over clearance: {ratios[0].mean():.2f} at the film's inner end, {ratios[1].mean():.2f} at "
+        f"its case edge, on opposite sides of a tilted piston. Eq. (15) has the one eccentricity of a parallel piston, "
+        f"{given:g} by the pump file."
     )
     return FigureResult(Figure.FIG8, panels, judged, (remark, *remarks))
 
@@ -178,4 +178,4 @@ def _slipper_films(records: Sequence[Mapping[str, Mapping[str, float]]]) -> str:
     films = " ".join(f"{record['slipper']['mean'] * 1e6:.2f}" for record in records)
     bear = " ".join(f"{record['slipper']['contact']:.0f}" for record in records)
     at = " ".join(f"{100.0 * ratio:.0f}" for ratio in FLOATING_RATIOS)
-    return f"at {at} % of displacement {films} um, asperities bear {bear} N"
+    return f"at {at} % of displacement the mean film is {films} um, and asperities bear {bear} N"

@@ -31,11 +31,11 @@ def fig15(points: PaperPoints) -> FigureResult:
     panels = (
         Panel(
             "Relative locus, in the pump", PanelKind.TRUE_SCALE,
-            FigureAxis("square to the shaft, in the plane of tilt", Unit.LENGTH), shaft,
+            FigureAxis("normal to the shaft, in the plane of tilt", Unit.LENGTH), shaft,
             tuple(Curve(name, way[1], way[0]) for name, way in laws.items()),
         ),
         Panel(
-            "Relative locus, seen from the ball guide", PanelKind.TRUE_SCALE,
+            "Relative locus, on the ball guide", PanelKind.TRUE_SCALE,
             FigureAxis("round the ball guide", Unit.LENGTH), shaft,
             tuple(Curve(name, way[2] * np.cos(AZIMUTHS) - way[1] * np.sin(AZIMUTHS), way[0])
                   for name, way in laws.items()),
@@ -43,11 +43,10 @@ def fig15(points: PaperPoints) -> FigureResult:
     )  # fmt: skip
     sizes = " x ".join(f"{Unit.LENGTH.factor * float(np.ptp(row)):.2f}" for row in printed[:2])
     remarks = (
-        f"The locus spans {sizes} mm, along the shaft and square to it in the plane of tilt; along the tilt "
-        "axis nothing.",
-        "Wear patterns of Fig. 15 (b) are a photograph: nothing here compares with it.",
+        f"The locus spans {sizes} mm along the shaft and normal to it in the plane of tilt, and 0 along the tilt axis.",
+        "Fig. 15 (b) is a photograph of wear patterns, without a counterpart here.",
     )
-    reason = "a statement in closed form has no start-up, in which the paper's simulation differs"
+    reason = "the closed form has no start-up, in which the paper's simulation differs"
     judged = (judge(CLAIMS["fig15.agrees"], Range(0.0, off / length), reason=reason),)
     return FigureResult(Figure.FIG15, panels, judged, remarks)
 
@@ -81,16 +80,15 @@ def fig19(points: PaperPoints) -> FigureResult:
     tilt = 1.0 / float(np.cos(drive.swash_angle))
     judged = (
         judge(CLAIMS["fig19.agrees"], range_of(apart[:-1]),
-              reason=f"the guide's own balance gives normals 1/cos(swash angle) = {tilt:.4f} times those of "
-              "the law"),
+              reason=f"normals by the guide's balance are 1/cos(swash angle) = {tilt:.4f} times those of the law"),
         judge(CLAIMS["fig19.rated"], _same(float(apart[-1] / np.mean(apart[:-1]))),
-              reason="rigid bodies in a prescribed motion do not vibrate, in which the paper sees the cause"),
+              reason="the paper names vibration as the cause; rigid bodies in a prescribed motion do not vibrate"),
     )  # fmt: skip
     rated = SPEEDS.index(RATED)
     remark = (
         f"At rated speed: law {law[rated]:.1f} W, multibody {bodies[rated]:.1f} W, k as printed {printed[rated]:.1f} W."
     )
-    return FigureResult(Figure.FIG19, panels, judged, (remark, "Pressure enters none of the three."))
+    return FigureResult(Figure.FIG19, panels, judged, (remark, "None of the three depends on pressure."))
 
 
 def _over_pressure(points: PaperPoints) -> tuple[Curve, ...]:

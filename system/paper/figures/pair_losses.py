@@ -23,12 +23,12 @@ _SHARE = FigureAxis("share of the pairs' loss", Unit.SHARE)
 
 
 def pair_words(pair: Pair) -> str:
-    """A pair's name as people read it."""
+    """A pair's name in words."""
     return pair.value.replace("_", " ")
 
 
 def fig16(points: PaperPoints) -> FigureResult:
-    """Hydromechanical loss over pressure: sum of the pairs, and Eq. (2) as a bench has it."""
+    """Hydromechanical loss over pressure: sum of the pairs, and Eq. (2) of a bench."""
     cases = [points.over_pressure(speed, ratio) for speed, ratio in PRINTED]
     panels = tuple(_case(*each) for each in zip("abcdefgh", PRINTED, cases, strict=True))
     judged = []
@@ -39,9 +39,9 @@ def fig16(points: PaperPoints) -> FigureResult:
         judged.append(judge(CLAIMS["fig16.linear"], Range(0.0, departs), reading=reading))
         judged.append(judge(CLAIMS["fig16.agrees"], over, reading=reading, reason=_bench_reason(points, reading)))
     return FigureResult(Figure.FIG16, panels, tuple(judged), (
-        "No text gives the test points: Eq. (2) is applied to what a bench of this pump would read.",
+        "No text gives the test points: Eq. (2) is applied to the readings of a simulated bench.",
         "(g) prints 0.52 of the displacement where the test plan has 51 %.",
-        "Fig. 16 speaks of pressure differences, the rest of pressures: here the gauge pressure at the delivery port.",
+        "Fig. 16 has pressure differences, the other figures pressures; here both are gauge at the delivery port.",
     ))  # fmt: skip
 
 
@@ -76,9 +76,9 @@ def _bench_reason(points: PaperPoints, reading: LossReading) -> str:
     rated, bench = row[-1], _by_bench(row, reading)
     beside = rated.split(reading).hydromechanical - float(rated.pair_losses(reading).sum())
     return (
-        f"Eq. (2) counts {beside:.0f} W beside the pairs at the rated point, throttling in the ports "
-        f"({rated.throttling:.0f} W) less what Eq. (1) charges too much for compression; at full displacement and "
-        f"rated speed it departs by {100.0 * from_line(np.array(PRESSURES), bench):.1f} % from a straight line"
+        f"at the rated point Eq. (2) contains {beside:.0f} W besides the pairs: throttling in the ports "
+        f"({rated.throttling:.0f} W) less the excess of Eq. (1) for compression. At full displacement and rated speed "
+        f"its distance from a straight line is {100.0 * from_line(np.array(PRESSURES), bench):.1f} %"
     )
 
 
@@ -208,8 +208,8 @@ def _share_reason(points: PaperPoints, every: Sequence[PaperPoint], pair: Pair, 
     stated = getattr(points.pump.friction, pair.value)
     needed = min(coefficient_for_share(one, pair, expected.high, reading) for one in every) * stated
     return (
-        f"spans {100.0 * spans:.0f} % of the paper's range; its upper end takes a coefficient of {needed:.2g} or more, "
-        f"all else as it is ({stated:.2g}; the paper's are 0.008 to 0.03)"
+        f"the computed range spans {100.0 * spans:.0f} % of the paper's. The upper end needs a coefficient of "
+        f"{needed:.2g} or more in place of {stated:.2g}; the paper's are 0.008 to 0.03"
     )
 
 
@@ -222,14 +222,14 @@ def _others_reason(every: Sequence[PaperPoint], reading: LossReading) -> str:
 
 def _guide_reason(point: PaperPoint) -> str:
     shares = ", ".join(f"{100.0 * point.share(GUIDE, reading):.1f} % {reading.value}" for reading in LossReading)
-    return f"{shares}: whether the films' shear is counted in the sum of all pairs decides"
+    return f"the share is {shares}; it depends on the films' shear in the sum of all pairs"
 
 
 def _affine_reason(losses: Array) -> str:
     left = zero_share(losses)
     return (
-        f"of the losses at 5 MPa {100.0 * left.min():.0f} to {100.0 * left.max():.0f} % would be left at no pressure: "
-        "spring, inertia, the suction half's charge pressure and the films' shear do not go with it"
+        f"{100.0 * left.min():.0f} to {100.0 * left.max():.0f} % of the losses at 5 MPa remain at zero pressure, since "
+        "spring, inertia, charge pressure in the suction half and the films' shear do not depend on it"
     )
 
 
@@ -241,7 +241,7 @@ def zero_share(losses: Array) -> Array:
 
 def _left_at_zero(losses: Array) -> Impossibility:
     largest = float(zero_share(losses).max())
-    quantity = "largest part of a pair's loss at 5 MPa that is left at no pressure"
+    quantity = "largest part of a pair's loss at 5 MPa that remains at zero pressure"
     return Impossibility(quantity, Unit.SHARE, largest, Range(-0.05, 0.05))
 
 

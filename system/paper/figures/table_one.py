@@ -34,13 +34,13 @@ def table1(points: PaperPoints) -> FigureResult:
         )
         for name, value in found.items()
     )
-    remark = "The table itself is lost: every number that its text does not state is an assumption of the pump file."
+    remark = "The table is lost. Every number that the text does not state is an assumption of the pump file."
     return FigureResult(Figure.TABLE1, (), judged, (remark,))
 
 
 def _holding_shear(points: PaperPoints, pair: Pair) -> str:
     """A pair's coefficient with the film's shear in it, as in the paper."""
-    text = "a start value in the paper, to be tuned"
+    text = "the paper's value is a start value for its fit"
     ends = [points.at(RATED, pressure, FULL) for pressure in (PRESSURES[-1], PRESSURES[0])]
     mixed, alone = (
         [one.loss(pair, reading) for one in ends] for reading in (LossReading.WITH_SHEAR, LossReading.MIXED)
@@ -50,6 +50,6 @@ def _holding_shear(points: PaperPoints, pair: Pair) -> str:
     stated = getattr(points.pump.friction, pair.value)
     held = [stated * both / own for both, own in zip(mixed, alone, strict=True)]
     return (
-        f"{text}; the film's shear is counted beside it, held in it the coefficient would be {held[0]:.4f} at 35 "
-        f"MPa and {held[1]:.4f} at 5, rated speed and full displacement"
+        f"{text}. Here the film's shear is separate; a coefficient that includes it is {held[0]:.4f} at 35 MPa and "
+        f"{held[1]:.4f} at 5 MPa, rated speed and full displacement"
     )

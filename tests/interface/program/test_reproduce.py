@@ -78,7 +78,7 @@ def test_figures_are_listed(capsys):
 
 def test_what_means_nothing_in_a_fidelity_says_so(tmp_path, capsys):
     assert main(["reproduce", "fig9", "-o", str(tmp_path / "run")]) == 0
-    assert "only --fidelity floating" in capsys.readouterr().out
+    assert "Only --fidelity floating" in capsys.readouterr().out
     summary = json.loads((tmp_path / "run" / "summary.json").read_text("utf-8"))
     assert "floating" in summary["figures"][0]["remarks"][0]
 
@@ -141,7 +141,7 @@ def test_coefficients_are_tuned_to_a_recording(tmp_path):
     assert solved["verdict"] == "contradicted by physics"
     assert solved["found"][1] < 4.0
     told = " ".join(json.loads((folder / "summary.json").read_text("utf-8"))["figures"][0]["remarks"])
-    whole = told.split("All 112 points together, with shear", 1)[1]
+    whole = told.split("Fit of all 112 points, with shear", 1)[1]
     prior = 0.5 * np.log(0.03 / 0.008)
     planted = {"piston cylinder": 0.030, "slipper swash plate": 0.0070, "valve plate cylinder": 0.013}
     for name, true in planted.items():
