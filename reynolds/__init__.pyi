@@ -34,7 +34,7 @@ from .floating.load_search import RigidLoad as RigidLoad, carry_load as carry_lo
 from .floating.problem import Floating as Floating, Outer as Outer, steady as steady
 from .floating.rest import held_at as held_at
 from .floating.start import started as started
-from .floating.step import FloatingStage as FloatingStage, solve_stage as solve_stage, standing as standing
+from .floating.step import FloatingStage as FloatingStage, full_film as full_film, solve_stage as solve_stage
 from .laws.contact import Asperities as Asperities, contact_pressure as contact_pressure
 from .laws.density import BulkModulus as BulkModulus, RationalDensity as RationalDensity
 from .laws.fluid import CONSTANT as CONSTANT, Fluid as Fluid

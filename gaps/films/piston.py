@@ -229,7 +229,7 @@ class PistonFilm:
         """
         solution, drive = stage.solution, self.drive
         space, (around, along) = solution.problem.space, self._points
-        above = evaluate(solution, stage.borne)[0] - drive.case_pressure
+        above = evaluate(solution, stage.wall_pressure)[0] - drive.case_pressure
         chamber = self._driven(stage.time).chamber_pressure - drive.case_pressure
         taken_off = self._relief(stage.time, *self._vertices).depth
         slope = self._relief(stage.time, around, along).along

@@ -45,13 +45,13 @@ def piston_deformation(
     walls: BoreWalls, stage: FloatingStage, pose: Pose, chamber_pressure: float
 ) -> PistonDeformation:
     """Deformation of both parts by the film, its contact and the chamber's pressure (Pa)."""
-    shape, borne = stage.instant.shape, stage.borne
+    shape, wall_pressure = stage.instant.shape, stage.wall_pressure
     assert shape.walls is not None
     space, bare = shape.space, walls.by_chamber(shape.space, pose)
-    on_film = evaluate(stage.solution, borne)[0]
+    on_film = evaluate(stage.solution, wall_pressure)[0]
     return PistonDeformation(
-        film=full(shape.walls.matrix) @ borne + chamber_pressure * bare.deformation,
-        piston=full(walls.piston_at(space, pose).matrix) @ borne + chamber_pressure * bare.piston,
+        film=full(shape.walls.matrix) @ wall_pressure + chamber_pressure * bare.deformation,
+        piston=full(walls.piston_at(space, pose).matrix) @ wall_pressure + chamber_pressure * bare.piston,
         chamber_growth=float(np.sum(on_film * space.sample_vertices(bare.deformation) * space.area))
         + chamber_pressure * bare.chamber_growth,
     )

@@ -1,4 +1,4 @@
-"""Film of a gap whose part stands still at one instant, at a given position or at rest: load borne, and report."""
+"""Film of a gap whose part stands still at one instant, at a given position or at rest: supported load, and report."""
 
 from dataclasses import dataclass
 from functools import partial
@@ -106,7 +106,7 @@ def standing_piston_film(film: PistonFilm, stage: FloatingStage) -> GapFilm[Pist
     """Film of a piston that does not move across its bore (`gaps.films.piston.standing_piston`)."""
     across = stage.outer.force.reshape(2, 2).sum(axis=0)
     required = float(np.hypot(*across))
-    borne = (stage.film_force + stage.contact_force).reshape(2, 2).sum(axis=0)
+    supported = (stage.film_force + stage.contact_force).reshape(2, 2).sum(axis=0)
     report = piston_report(film, stage, standing=True)
     return GapFilm(
         solution=stage.solution,
@@ -115,7 +115,7 @@ def standing_piston_film(film: PistonFilm, stage: FloatingStage) -> GapFilm[Pist
         report=report,
         friction_power=report.friction.power,
         required_load=required,
-        carried_load=-float(borne @ across) / max(required, 1e-300),
+        carried_load=-float(supported @ across) / max(required, 1e-300),
     )
 
 

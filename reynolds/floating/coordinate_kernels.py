@@ -14,7 +14,7 @@ _FAST = {"cache": True, "fastmath": {"contract"}, "error_model": "numpy"}
 
 
 @njit(**_FAST)
-def weigh(dofs, value, area, modes, basis, points, out):
+def integrate(dofs, value, area, modes, basis, points, out):
     """out[i, j] = int f_i phi_j, m2 times the mode's unit."""
     out[:] = 0.0
     for e in range(dofs.shape[0]):

@@ -52,7 +52,7 @@ class Modes:
     def film_weights(self) -> Array:
         """int f_i phi_j over the film alone, (size, k) m2."""
         space, out = self.space, np.empty(self.pockets.shape)
-        kernels.weigh(space.dofs, space.reference.value, space.area, self.at_points, *space.reference.loops, out)
+        kernels.integrate(space.dofs, space.reference.value, space.area, self.at_points, *space.reference.loops, out)
         return out
 
 

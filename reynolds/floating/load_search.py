@@ -81,7 +81,7 @@ def carry_load(problem: FilmProblem, load: RigidLoad, solve: Solve | None = None
     bears more and a thicker one that bears less, so that it is stable, and closed in by regula falsi (Illinois:
     Dowell and Jarratt 1971). Tilts: Newton's method with Broyden's updates (1965) from there.
     `solve` gives the film of a problem (left out: `FilmSolver`, each film warming the next). Raises
-    FilmNotConverged, with the nearest load borne, where no position bears the load; also as `solve` does.
+    FilmNotConverged, with the nearest supported load, where no position bears the load; also as `solve` does.
     """
     search = _LoadSearch(problem, load, solve or _warmed(problem))
     for lean in search.leans():
@@ -90,7 +90,7 @@ def carry_load(problem: FilmProblem, load: RigidLoad, solve: Solve | None = None
             found = found if search.free == [0] else search.newton(found.position)
         except _Nowhere:
             continue
-        return LoadedFilm(found.position, found.solution, *found.borne, found.rest, search.films)
+        return LoadedFilm(found.position, found.solution, *found.supported, found.rest, search.films)
     raise search.verdict()
 
 
@@ -114,11 +114,11 @@ class _Nowhere(Exception):
 
 @dataclass(frozen=True)
 class _Tried:
-    """A film at a position: load borne (N, N m), misses that are to vanish, least gap by its shape (m)."""
+    """A film at a position: supported load (N, N m), misses that are to vanish, least gap by its shape (m)."""
 
     position: Position
     solution: FilmSolution
-    borne: tuple[float, float, float]
+    supported: tuple[float, float, float]
     misses: Array
     gap: float
 
@@ -170,16 +170,16 @@ class _LoadSearch:
             thickness_at_vertices=None if corners is None else corners + position.of(*space.vertices.T),
         )
         solution = self._solve(replace(self._problem, film=film))
-        borne = _borne(solution)
+        supported = _supported(solution)
         gap = float((self._shape + position.of(self._x, self._y)).min())
-        tried = _Tried(position, solution, borne, self._misses(borne), gap)
+        tried = _Tried(position, solution, supported, self._misses(supported), gap)
         if self._best is None or tried.rest < self._best.rest:
             self._best = tried
         return tried
 
-    def _misses(self, borne: tuple[float, float, float]) -> Array:
+    def _misses(self, supported: tuple[float, float, float]) -> Array:
         """Force near the load relative to it, -1 .. 1 however far; moments over the load at the film's edge."""
-        load, (force, moment_x, moment_y) = self._load, borne
+        load, (force, moment_x, moment_y) = self._load, supported
         size = 0.5 * (max(force, 0.0) + load.force)
         misses = [max((force - load.force) / size, -2.0)]
         for moment, wanted in ((moment_y, load.moment_y), (moment_x, load.moment_x)):
@@ -300,21 +300,21 @@ class _LoadSearch:
         return float((self._shape + position.of(self._x, self._y)).min())
 
     def verdict(self) -> FilmNotConverged:
-        """The error with the nearest load borne."""
+        """The error with the nearest supported load."""
         assert self._best is not None
         best, load = self._best, self._load
         asked = f"{load.force:.6g} N" + ("" if self.free == [0] else " and its moments")
         at = best.position
         tilts = "" if self.free == [0] else f", slopes {at.slope_x:.3g} and {at.slope_y:.3g}"
-        moments = "" if self.free == [0] else f" with moments {best.borne[1]:.4g} and {best.borne[2]:.4g} N m"
+        moments = "" if self.free == [0] else f" with moments {best.supported[1]:.4g} and {best.supported[2]:.4g} N m"
         return FilmNotConverged(
-            f"no position of the walls bears {asked}; nearest after {self.films} films: {best.borne[0]:.6g} N"
+            f"no position of the walls bears {asked}; nearest after {self.films} films: {best.supported[0]:.6g} N"
             f"{moments} at separation {at.separation:.4g} m{tilts}",
             "a load that this shape can bear, another shape or speed, or a load nearer to the middle of the film",
         )
 
 
-def _borne(solution: FilmSolution) -> tuple[float, float, float]:
+def _supported(solution: FilmSolution) -> tuple[float, float, float]:
     """Force (N) and moments (N m) of film and contact."""
     force, moment_x, moment_y = pressure_integrals(solution)
     problem = solution.problem

@@ -10,7 +10,7 @@ import numpy as np
 
 from reynolds.errors import FilmInputError, FilmNotConverged
 from reynolds.floating.problem import Floating
-from reynolds.floating.step import FloatingStage, standing
+from reynolds.floating.step import FloatingStage, full_film
 from reynolds.floating.trial import instant_of
 from reynolds.numerics.arrays import Array
 from reynolds.numerics.dirk import BACKWARD_EULER, AcceptedStep, S, StageSolver, State, advance
@@ -33,7 +33,7 @@ def held_at(
     Raises FilmInputError where walls overlap, FilmNotConverged where the film does not settle.
     """
     q = np.asarray(q, dtype=float)
-    instant = instant_of(solver, floating, time, FOR_EVER, standing(floating, time, q))
+    instant = instant_of(solver, floating, time, FOR_EVER, full_film(floating, time, q))
     return FloatingStage(time, instant.tried(q, warm), instant, films=1, steps=0, shift=np.zeros_like(q))
 
 
@@ -63,7 +63,7 @@ def come_to_rest(solve: StageSolver[S], start: State[S], step: float, allowed: f
         if still == STILL:
             return taken
         # The next guess is the place itself: a rate is no guide over a step four times as long.
-        state = replace(taken.state, rate=np.zeros_like(state.rate), bend=0.0)
+        state = replace(taken.state, rate=np.zeros_like(state.rate), acceleration=0.0)
         since += 1
         if GROWTH * step < refused or since >= PATIENCE:
             step, refused = GROWTH * step, np.inf

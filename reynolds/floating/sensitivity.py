@@ -47,12 +47,12 @@ def thickness_load(solution: FilmSolution, thicker: Array, parts: Operators) -> 
     driven = along(terms.conductance_slope, steep_gradient(space, state.pressure))
     mode = hourglass_slope(space, terms.conductance, terms.conductance_slope, state.pressure)
     full = at_points(space, filling)
-    carried = (full * part for part in terms.flux_slope)
+    convected = (full * part for part in terms.flux_slope)
     per_second = 0.0 if problem.storage is None else terms.content_slope / problem.storage.step
     out = np.empty((space.size, thicker.shape[2]))
     generalised_kernels.thicken(
         space.dofs, tensors.shape, space.reference.value, tensors.steep_gradient, tensors.gradient, signs(space),
-        space.area, *(space.everywhere(part) for part in (*driven, mode, *carried, np.atleast_2d(per_second))),
+        space.area, *(space.everywhere(part) for part in (*driven, mode, *convected, np.atleast_2d(per_second))),
         filling, thicker, *space.reference.loops, out,
     )  # fmt: skip
     if problem.cavitation is Cavitation.JFO and bool(np.any(state.film_fraction != 1.0)):
@@ -80,7 +80,7 @@ def oil_slopes(solution: FilmSolution, thicker: Array, changed: FilmSensitivity,
         opened = deformation_slope(problem, solution.deformation) @ changed.pressure
         thicker = thicker + space.reference.geometry_value @ opened[space.cells]
     wider = np.ascontiguousarray(terms.content_slope[:, :, None] * thicker)
-    generalised_kernels.weigh(space.dofs, space.reference.value, space.area, wider, *space.reference.loops, grown)
+    generalised_kernels.integrate(space.dofs, space.reference.value, space.area, wider, *space.reference.loops, grown)
     content, fraction = parts.content[:, None], solution.film_fraction[:, None]
     ratio, ratio_slope = ratio[:, None], ratio_slope[:, None]
     return np.asarray(

@@ -11,7 +11,7 @@ from reynolds.fem.space import FilmSpace
 from reynolds.floating.pockets import pockets_grown
 from reynolds.floating.problem import Floating
 from reynolds.floating.sensitivity import FilmSensitivity, oil_slopes
-from reynolds.floating.step import FloatingStage, solve_stage, standing
+from reynolds.floating.step import FloatingStage, full_film, solve_stage
 from reynolds.numerics.arrays import Array
 from reynolds.numerics.dirk import State, StateTangent
 from reynolds.solve.solver import FilmSolver
@@ -24,15 +24,15 @@ NEAR = 1e-9  # of the mesh: round-off of a place
 def started(floating: Floating, time: float, q: Array) -> State[FloatingStage]:
     """A full film at rest at a position (k,) m, with the tangent of its position.
 
-    Raises FilmInputError where walls overlap, as `standing` does.
+    Raises FilmInputError where walls overlap, as `full_film` does.
     """
     q = np.asarray(q, dtype=float)
     columns = []
     for nudge in NUDGE * np.eye(len(q)):
-        ahead, behind = (standing(floating, time, q + sign * nudge) for sign in (1.0, -1.0))
+        ahead, behind = (full_film(floating, time, q + sign * nudge) for sign in (1.0, -1.0))
         columns.append((ahead - behind) / (2.0 * NUDGE))
     tangent = StateTangent(np.eye(len(q)), np.column_stack(columns))
-    return State(time, q, standing(floating, time, q), np.zeros(len(q)), tangent=tangent)
+    return State(time, q, full_film(floating, time, q), np.zeros(len(q)), tangent=tangent)
 
 
 def pressed(solver: FilmSolver, floating: Floating, start: State[FloatingStage], step: float) -> State[FloatingStage]:
@@ -72,7 +72,8 @@ def restarted(floating: Floating, time: float, last: State[FloatingStage], q: Ar
         found = f"{least:.3g} m3 of oil at an unknown, {np.abs(q - stage.q).max():.3g} m from the last position"
         raise FilmInputError(f"{floating.name}, start of a turn", found, "a position nearer to it")
     warm = stage if np.array_equal(seats, np.arange(len(oil))) else None
-    return State(time, np.asarray(q, dtype=float), held, last.rate, last.bend, warm, StateTangent(np.eye(k), slopes))
+    tangent = StateTangent(np.eye(k), slopes)
+    return State(time, np.asarray(q, dtype=float), held, last.rate, last.acceleration, warm, tangent)
 
 
 def seats_of(space: FilmSpace, other: FilmSpace) -> NDArray[np.intp]:

@@ -124,7 +124,7 @@ class FloatingStage:
         return contact.force + self._along(lambda: contact.slopes + contact.by_pressure(self.by_position.pressure))
 
     @property
-    def borne(self) -> Array:
+    def wall_pressure(self) -> Array:
         """Pressure (size,) Pa of the film on its walls and, where these are elastic, of the asperities too."""
         contact = self.trial.contact
         if not isinstance(contact, SoftContact):
@@ -235,7 +235,7 @@ def solve_stage(
     return FloatingStage(time, found, instant, search.films, search.steps, *search.rest)
 
 
-def standing(floating: Floating, time: float, q: Array, rate: Array | None = None) -> Array:
+def full_film(floating: Floating, time: float, q: Array, rate: Array | None = None) -> Array:
     """State of a full film at a position (k,) m, as `FloatingStage.holds`: the start of a march.
 
     The film is at the pressures of its boundaries; `rate` (k,) m/s counts where walls have inertia (None: at

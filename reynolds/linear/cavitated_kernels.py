@@ -154,10 +154,10 @@ def _sweep(m, rest):
     """Solve for the cavity downstream, in place: `rest` of the film ends less the cavity's flow into it."""
     for place in range(m.order.shape[0]):
         j = m.order[place]
-        carried = rest[j] / m.diagonal[j]
+        scaled = rest[j] / m.diagonal[j]
         for k in range(m.begin[place], m.begin[place + 1]):
-            rest[m.row[k]] -= m.value[k] * carried
-        rest[j] = carried
+            rest[m.row[k]] -= m.value[k] * scaled
+        rest[j] = scaled
 
 
 @njit(**_FAST)

@@ -147,13 +147,13 @@ class _Reduced:
         change, wanted = np.empty_like(load), np.zeros((self._size, *load.shape[1:]))
         wanted[: self._free.size] = load[self._free]
         wanted[self._met] -= self._back @ load[self._rest]
-        borne = self._reduced(wanted, tolerance)
-        change[self._free] = borne[: self._free.size]
+        solved = self._reduced(wanted, tolerance)
+        change[self._free] = solved[: self._free.size]
         if self._contact.nnz:
-            change[self._free] -= self._contact @ (self._opens @ borne)
+            change[self._free] -= self._contact @ (self._opens @ solved)
         change[self._alone] = (load[self._alone].T / self._diagonal).T
         if self._factor is not None:
-            change[self._rest] = self._factor.solve(load[self._rest] - self._forth @ borne)
+            change[self._rest] = self._factor.solve(load[self._rest] - self._forth @ solved)
         return change
 
 

@@ -94,15 +94,15 @@ class StateTangent:
 class State(Generic[S]):
     """Between two steps: time s, position q (k,) m, state y (size,), rate dq/dt (k,) m/s, the last stage.
 
-    The rate enters the error of the step to come and, with its own rate `bend` (k,) m/s2, the guess of it, not its
-    result: zero where they are not known. The tangent, if any, is propagated.
+    The rate enters the error of the next step and, with the acceleration (k,) m/s2, its first guess, not its result.
+    Both are zero where they are not known. The tangent, if any, is propagated.
     """
 
     time: float
     q: Array
     held: Array
     rate: Array
-    bend: Array | float = 0.0
+    acceleration: Array | float = 0.0
     stage: S | None = None
     tangent: StateTangent | None = None
 
@@ -137,7 +137,7 @@ def advance(tableau: Tableau, solve: StageSolver[S], state: State[S], step: floa
     tangent = state.tangent
     held = _beside(state.held, None if tangent is None else tangent.held)  # column 0, its tangents after it
     held_rates: list[Array] = []
-    q_rates, bend, at = [state.rate], state.bend, 0.0
+    q_rates, acceleration, at = [state.rate], state.acceleration, 0.0
     stage = state.stage
     for number, (row, place) in enumerate(zip(tableau.matrix, tableau.places, strict=True)):
         own = row[number] * step
@@ -145,7 +145,7 @@ def advance(tableau: Tableau, solve: StageSolver[S], state: State[S], step: floa
         q_before = state.q + _sum(row[:number], q_rates[1:], step)
         held_before = np.ascontiguousarray(before[:, 0])
         passed, at = (place - at) * step, place
-        guess = q_before + own * (q_rates[-1] + passed * bend)
+        guess = q_before + own * (q_rates[-1] + passed * acceleration)
         stage = solve(state.time + place * step, held_before, own, guess, stage)
         after = stage.holds[:, None]
         if tangent is not None:
@@ -153,9 +153,9 @@ def advance(tableau: Tableau, solve: StageSolver[S], state: State[S], step: floa
             after = _beside(stage.holds, tangent.held)
         held_rates.append((after - before) / own)
         q_rates.append((stage.q - q_before) / own)
-        bend = (q_rates[-1] - q_rates[-2]) / passed
+        acceleration = (q_rates[-1] - q_rates[-2]) / passed
     assert stage is not None
-    end = State(state.time + step, stage.q, stage.holds, q_rates[-1], bend, stage, tangent)
+    end = State(state.time + step, stage.q, stage.holds, q_rates[-1], acceleration, stage, tangent)
     return AcceptedStep(end, step, np.asarray(_sum(tableau.error, q_rates, step)))
 
 

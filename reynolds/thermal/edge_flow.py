@@ -62,7 +62,7 @@ def edge_flow(solution: FilmSolution, profile: FlowProfile) -> EdgeFlow:
         raise FilmInputError("film space", f"degree {space.degree}", "degree 1 where the film's heat is carried")
     slots, lower, higher = _edges(space)
     parts = _parts(solution)[:, slots]
-    shapes = (profile.driven, profile.sliding, profile.standing)
+    shapes = (profile.driven, profile.sliding, profile.fixed)
     flow = sum(p[:, None] * 0.5 * (s[lower] + s[higher]) for p, s in zip(parts, shapes, strict=True))
     flow = np.ascontiguousarray(flow)
     neighbours = _neighbours(lower, higher, space.size)
@@ -99,10 +99,10 @@ def _parts(solution: FilmSolution) -> Array:
 def _with_walls(solution: FilmSolution) -> Array:
     """Flows with the moving and with the fixed wall (2, entries)."""
     space, reference = solution.problem.space, solution.problem.space.reference
-    standing = _standing(solution)
-    moving = [whole - part for whole, part in zip(solution.flux, standing, strict=True)]
+    from_fixed = _fixed_wall_flux(solution)
+    moving = [whole - part for whole, part in zip(solution.flux, from_fixed, strict=True)]
     # Flow over a line of the map: what crosses a length of the film, times their ratio.
-    flows = [np.asarray(part * space.scale) for part in (*moving, *standing)]
+    flows = [np.asarray(part * space.scale) for part in (*moving, *from_fixed)]
     filling = solution.film_fraction * density(solution.problem, solution.pressure)[0]
     out = np.empty((2, len(space.pattern.indices)))
     energy_kernels.wall_flows(
@@ -121,7 +121,7 @@ def _shares(dragged: Array) -> Array:
     return np.stack([share, 1.0 - share])
 
 
-def _standing(solution: FilmSolution) -> tuple[Array, Array]:
+def _fixed_wall_flux(solution: FilmSolution) -> tuple[Array, Array]:
     """Flow per width with the fixed wall's motion in a full film, h (1 - w) U_fixed along x and y (m2/s)."""
     film = solution.film
     x, y = (film.thickness * (1.0 - film.moving_share) * along for along in film.velocity_fixed)
@@ -158,17 +158,17 @@ def _leaving(solution: FilmSolution, profile: FlowProfile) -> Array:
     """
     problem, space = solution.problem, solution.problem.space
     filling = solution.film_fraction * density(problem, solution.pressure)[0]
-    standing = _standing(solution)
-    moving = [whole - part for whole, part in zip(solution.flux, standing, strict=True)]
+    from_fixed = _fixed_wall_flux(solution)
+    moving = [whole - part for whole, part in zip(solution.flux, from_fixed, strict=True)]
     dragged = np.zeros((2, space.size))
     for name in problem.boundary:
         nodes = space.edge_dofs[name]
-        for part, along in enumerate((moving, standing)):
+        for part, along in enumerate((moving, from_fixed)):
             nodal = np.column_stack([space.to_unknowns(flux)[nodes] for flux in along])
             dragged[part, nodes] += filling[nodes] * np.sum(nodal * space.edge_normal[name], axis=1)
     out = np.where(open_unknowns(solution), solution.outflow, 0.0)
     driven = out - dragged.sum(axis=0)
-    parts = ((driven, profile.driven), (dragged[0], profile.sliding), (dragged[1], profile.standing))
+    parts = ((driven, profile.driven), (dragged[0], profile.sliding), (dragged[1], profile.fixed))
     return np.asarray(sum(flow[:, None] * shape for flow, shape in parts))
 
 

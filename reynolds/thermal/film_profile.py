@@ -94,7 +94,7 @@ class FlowProfile:
     """Distribution of the flow over the film at each unknown; shapes (size, m) at the Gauss points, of mean one.
 
     viscosity, couette_viscosity (Pa s) and moving_share (size,) as in `Film`; `sliding` the velocity from
-    the moving wall's motion over its mean, `standing` that from the fixed wall's, `driven` that from the pressure
+    the moving wall's motion over its mean, `fixed` that from the fixed wall's, `driven` that from the pressure
     gradient. Dissipation is spread likewise: `sliding_heat`, `driven_heat`, and `mixed_heat` of their product,
     which has the mean zero: the mixed part per area is 2 h (U_moving - U_fixed) . grad p mixed_heat.
     """
@@ -104,7 +104,7 @@ class FlowProfile:
     couette_viscosity: Array
     moving_share: Array
     sliding: Array
-    standing: Array
+    fixed: Array
     driven: Array
     sliding_heat: Array
     driven_heat: Array
@@ -124,16 +124,16 @@ def dowson(across: FilmLevels, viscosity: Array) -> FlowProfile:
     from_centre = zeta - ((fluidity * zeta) @ weights / f0)[:, None]
     bending = fluidity * from_centre
     f2 = bending * zeta @ weights
-    carried = fluidity @ across.integral.T / f0[:, None]
-    share = carried @ weights
+    couette = fluidity @ across.integral.T / f0[:, None]
+    share = couette @ weights
     driven = -bending @ across.integral.T
     return FlowProfile(
         levels=across,
         viscosity=1.0 / (12.0 * f2),
         couette_viscosity=1.0 / f0,
         moving_share=share,
-        sliding=carried / share[:, None],
-        standing=(1.0 - carried) / (1.0 - share)[:, None],
+        sliding=couette / share[:, None],
+        fixed=(1.0 - couette) / (1.0 - share)[:, None],
         driven=driven / (driven @ weights)[:, None],
         sliding_heat=fluidity / f0[:, None],
         driven_heat=bending * from_centre / f2[:, None],
@@ -184,7 +184,7 @@ def velocity(profile: FlowProfile, thickness: Array, moving: Array, fixed: Array
     return np.asarray(
         profile.driven * driven[:, None]
         + profile.sliding * (share * moving)[:, None]
-        + profile.standing * ((1.0 - share) * fixed)[:, None]
+        + profile.fixed * ((1.0 - share) * fixed)[:, None]
     )
 
 

@@ -25,9 +25,9 @@ from reynolds import (
     advance,
     annulus,
     film_space,
+    full_film,
     no_feed,
     solve_stage,
-    standing,
     started,
     steady,
 )
@@ -79,7 +79,7 @@ def test_a_pocket_fills_what_its_supply_sends():
 def test_pockets_that_are_none():
     floating = _pulled(Held(0.0))
     with pytest.raises(FilmInputError, match="part, pockets: Held at boundary inner; expected a Pocket"):
-        standing(floating, 0.0, np.array([START]))
+        full_film(floating, 0.0, np.array([START]))
     free = _pulled(Pocket(no_feed))
     with pytest.raises(FilmInputError, match=r"part, pocket inner: -.* m3; expected a volume above"):
         filled(free, free.shape_at(0.0), np.array([-1e-4]))

@@ -29,11 +29,11 @@ from reynolds import (
     Outer,
     Surface,
     film_space,
+    full_film,
     generalised_force,
     modes_on,
     rectangle,
     solve_stage,
-    standing,
 )
 from reynolds.equation.rough_overlap import film_between
 from reynolds.floating.coordinates import contact_force
@@ -128,7 +128,7 @@ def _marched(case: Case) -> tuple[Floating, FilmSolver, FloatingStage, Array]:
     """After some steps from rest: the last stage and what was held before it."""
     space, floating = _journal(case)
     solver, stage, q = FilmSolver(space), None, np.array([0.5 * CLEARANCE, 0.0])
-    held, rate = standing(floating, 0.0, q), np.zeros(2)
+    held, rate = full_film(floating, 0.0, q), np.zeros(2)
     for k in range(STEPS):
         before = held
         stage = solve_stage(solver, floating, STEP * (k + 1), before, STEP, q + STEP * rate, stage)

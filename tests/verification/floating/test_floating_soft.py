@@ -31,10 +31,10 @@ from reynolds import (
     Surface,
     contact_pressure,
     film_space,
+    full_film,
     half_space,
     rectangle,
     solve_stage,
-    standing,
     steady,
     winkler,
 )
@@ -70,7 +70,7 @@ def plate(
 def at_rest(floating: Floating, space: FilmSpace, start: float, step: float = 1.0, steps: int = 3) -> FloatingStage:
     """The plate after steps that leave no squeeze."""
     solver, stage, q = FilmSolver(space), None, np.array([start])
-    held = standing(floating, 0.0, q)
+    held = full_film(floating, 0.0, q)
     for k in range(steps):
         stage = solve_stage(solver, floating, step * (k + 1), held, step, q, stage)
         held, q = stage.holds, stage.q

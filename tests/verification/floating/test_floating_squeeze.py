@@ -38,11 +38,11 @@ from reynolds import (
     contact_pressure,
     film,
     film_space,
+    full_film,
     generalised_force,
     modes_on,
     rectangle,
     solve_stage,
-    standing,
     started,
     steady,
 )
@@ -165,7 +165,7 @@ def test_one_implicit_step(step):
     floating, solver = _sinking(_film(space, SHORE)), FilmSolver(space)
     c = _resistance(space, SHORE)
     expected = brentq(lambda h: c * (START - h) / step - LOAD * h**3, 1e-9, START, xtol=1e-18)
-    before = standing(floating, 0.0, np.array([START]))
+    before = full_film(floating, 0.0, np.array([START]))
     for guess in (START, -1e-6, 10.0 * START):
         stage = solve_stage(solver, floating, step, before, step, np.array([guess]), None)
         assert stage.q[0] == pytest.approx(expected, rel=1e-7)
@@ -182,7 +182,7 @@ def test_step_with_inertia():
         rate = (h - START) / step
         return -c * rate / h**3 - LOAD - mass * (rate - speed) / step
 
-    before = standing(floating, 0.0, np.array([START]), np.array([speed]))
+    before = full_film(floating, 0.0, np.array([START]), np.array([speed]))
     stage = solve_stage(FilmSolver(space), floating, step, before, step, np.array([START]), None)
     assert stage.q[0] == pytest.approx(brentq(rest, 1e-7, START, xtol=1e-18), rel=1e-7)
     assert stage.holds[-1] == pytest.approx((stage.q[0] - START) / step)
@@ -198,7 +198,7 @@ def test_comes_to_rest_on_its_roughness(load):
     floating = _sinking(_film(space, SHORE, ROUGH), steady(np.array([-load])))
     area = 0.02 * 0.005
     expected = brentq(lambda gap: float(contact_pressure(ROUGH, gap).value) * area - load, -2e-6, 4e-6, xtol=1e-15)
-    before = standing(floating, 0.0, np.array([START]))
+    before = full_film(floating, 0.0, np.array([START]))
     stage = solve_stage(FilmSolver(space), floating, 1e12, before, 1e12, np.array([START]), None)
     assert (expected < 0.0) == (load == 1e4)
     assert stage.q[0] == pytest.approx(expected, abs=1e-6 * ROUGH.height)
@@ -233,7 +233,7 @@ def _lifted(n: int, step: float) -> FloatingStage:
     pockets = {"inner": np.array([np.pi * INNER**2])}
     floating = _sinking(_film(space, fed), steady(np.array([-CARRIED])), pockets)
     at = np.array([_hydrostatic_film()])
-    return solve_stage(FilmSolver(space), floating, step, standing(floating, 0.0, at), step, at, None)
+    return solve_stage(FilmSolver(space), floating, step, full_film(floating, 0.0, at), step, at, None)
 
 
 def test_hydrostatic_slipper(validation, refine):
@@ -268,7 +268,7 @@ def test_hydrostatic_slipper(validation, refine):
 def test_nothing_to_float_on():
     """A wall pulled off by more than a film can hold has no position; the error names part and time."""
     floating = _sinking(_film(_strip(), SHORE), steady(np.array([1.0])))
-    before = standing(floating, 0.0, np.array([START]))
+    before = full_film(floating, 0.0, np.array([START]))
     solver = FilmSolver(floating.shape_at(0.0).space)
     with pytest.raises(FilmNotConverged, match=r"wall at 0\.001 s"):
         solve_stage(solver, floating, 1e-3, before, 1e-3, np.array([START]), None)
@@ -276,13 +276,13 @@ def test_nothing_to_float_on():
 
 def test_walls_that_overlap_at_the_start():
     with pytest.raises(FilmInputError, match="wall at 0 s: a least gap of -1e-06 m; expected walls apart"):
-        standing(_sinking(_film(_strip(), SHORE)), 0.0, np.array([-1e-6]))
+        full_film(_sinking(_film(_strip(), SHORE)), 0.0, np.array([-1e-6]))
 
 
 def test_smooth_walls_that_touch():
     """A step after which a film of some molecules would be left names that, and what would bear the load."""
     floating = _sinking(_film(_strip(), SHORE))
-    before = standing(floating, 0.0, np.array([START]))
+    before = full_film(floating, 0.0, np.array([START]))
     solver = FilmSolver(floating.shape_at(0.0).space)
     with pytest.raises(FilmNotConverged, match=r"walls that touch: least gap 1.*asperities"):
         solve_stage(solver, floating, 1e13, before, 1e13, np.array([START]), None)

@@ -32,11 +32,11 @@ from reynolds import (
     FilmProblem,
     FilmSolver,
     Storage,
+    full_film,
     generalised_force,
     held_at,
     modes_on,
     solve_stage,
-    standing,
 )
 from reynolds.floating.coordinates import contact_force
 from reynolds.floating.start import seats_of
@@ -236,7 +236,7 @@ def test_a_tilt_that_stands_in_space_is_the_film_of_the_standing_frame(validatio
     def solve(steps: int) -> tuple[float, ...]:
         step = 0.02 / SPEED / steps
         problem = posed(film, time, position)
-        oil = standing(floating, time - step, position)[: problem.space.size]
+        oil = full_film(floating, time - step, position)[: problem.space.size]
         stored = replace(problem, storage=Storage(oil, step))
         return tuple(lifted(film, stored, time, position))
 
@@ -280,7 +280,7 @@ def test_a_parallel_block_sinks_as_two_lands(validation, refine):
         lift = lifted(free, posed(free, 0.0, start), 0.0, start)[0]
         film = BlockFilm(ALL_ROUND, drive(press=(-lift - excess, 0.0, 0.0)), cells=(n, 4 * n))
         floating = floating_block(film)
-        before = standing(floating, 0.0, start)
+        before = full_film(floating, 0.0, start)
         stage = solve_stage(FilmSolver(film.space), floating, step, before, step, start, None)
         return float(stage.q[0] - film_thickness) / step
 

@@ -38,12 +38,12 @@ from reynolds import (
     body_space,
     face_normals,
     film_space,
+    full_film,
     generalised_force,
     held_at,
     loads,
     modes_on,
     solve_stage,
-    standing,
 )
 from reynolds.bodies.transfer import transfer
 from reynolds.fem.sphere import Sphere
@@ -207,7 +207,7 @@ def test_block_finds_its_place_on_the_sphere():
     press = (-borne[0] - 200.0, -borne[2] * RADII[3] - 5.0, borne[1] * RADII[3])
     film = BlockFilm(PORTS, drive(half_and_half, 2.5e6, 90e-3, press), laws=laws)
     floating = floating_block(film)
-    before = standing(floating, 0.0, start)
+    before = full_film(floating, 0.0, start)
     stage = solve_stage(FilmSolver(film.space), floating, step, before, step, start, None)
     total = stage.film_force + stage.contact_force + stage.outer.force
     assert np.abs(total).max() < 1e-6 * abs(press[0])
