@@ -69,7 +69,4 @@ def come_to_rest(solve: StageSolver[S], start: State[S], step: float, allowed: f
             step, refused = GROWTH * step, np.inf
         else:
             still = 0
-    raise FilmNotConverged(
-        f"no rest after {MOST_STEPS} steps, last move {moved:.2g} m",
-        "a smaller force nearer the middle of the film, or contact of rough walls",
-    )
+    raise FilmNotConverged(f"no rest after {MOST_STEPS} steps, last move {moved:.2g} m", "a smaller force, rough walls")

@@ -93,18 +93,11 @@ def fig19(points: PaperPoints) -> FigureResult:
 
 def _over_pressure(points: PaperPoints) -> tuple[Curve, ...]:
     """Loss of the pair in the solved points, speed by speed."""
+    pair, shear, x = Pair.BALL_GUIDE_RETAINER, LossReading.WITH_SHEAR, np.array(PRESSURES)
+    rows = {speed: points.over_pressure(speed, FULL) for speed in SPEEDS}
     return tuple(
-        Curve(
-            f"{speed / RPM:.0f} r/min",
-            np.array(PRESSURES),
-            np.array(
-                [
-                    one.loss(Pair.BALL_GUIDE_RETAINER, LossReading.WITH_SHEAR)
-                    for one in points.over_pressure(speed, FULL)
-                ]
-            ),
-        )
-        for speed in SPEEDS
+        Curve(f"{speed / RPM:.0f} r/min", x, np.array([one.loss(pair, shear) for one in row]))
+        for speed, row in rows.items()
     )
 
 
