@@ -64,8 +64,9 @@ def channel_section(name: ChannelName) -> type[ChannelSection]:
         parts.append(("calibration", calibration, field(default=calibration(), kw_only=True)))
     if dimension is Dimension.PRESSURE:
         parts.append(("reference", PressureReference | None, None))  # where it differs from the file's
-    if dimension is Dimension.TEMPERATURE:  # its zero is no zero of the quantity, so no share of it is meant
-        parts.append(("sigma_relative", Annotated[float, Limits(least=0.0, most=0.0)] | None, None))
+    if dimension is Dimension.TEMPERATURE:
+        none = Limits(least=0.0, most=0.0, why="a share of a temperature has no meaning; state sigma")
+        parts.append(("sigma_relative", Annotated[float, none] | None, None))
     words = {"__doc__": f"[{name.value}]: {dimension.noun if dimension else 'a pure number'}"}
     return make_dataclass(name.value, parts, bases=(ChannelSection,), frozen=True, namespace=words)
 

@@ -180,7 +180,8 @@ def read_oil(oil: Table, *, with_viscosity: bool, with_heat: bool) -> OilSection
         key = "grade" if "grade" in oil.values else GRADE_KEYS[0]
         oil.fault(key, "a viscosity beside film.viscosity", "one of the two")
     elif stated.temperature_coefficient is not None and not with_viscosity:
-        oil.fault("temperature_coefficient", "no film.viscosity", "film.viscosity, which decreases with it")
+        expected = "no such key: the viscosities at 40 and 100 degC give the decrease; or film.viscosity in their place"
+        oil.fault("temperature_coefficient", "a decrease with temperature without film.viscosity", expected)
     needed = [*(() if with_viscosity else GRADE_KEYS), *(_OF_HEAT if with_heat else ())]
     needed += _AT_TEMPERATURE if with_heat or not with_viscosity else ()
     for key in (*needed, *_constants(oil, stated, reading)):

@@ -34,13 +34,14 @@ AnySection = TypeVar("AnySection", bound=Section)
 
 @dataclass(frozen=True)
 class Limits:
-    """Marks a field whose number is bounded, in SI; fewest: rows of a list."""
+    """Marks a field whose number is bounded, in SI; fewest: rows of a list; why: the reason, where it is not plain."""
 
     above: float | None = None
     least: float | None = None
     below: float | None = None
     most: float | None = None
     fewest: int = 0
+    why: str = ""
 
 
 @dataclass(frozen=True)

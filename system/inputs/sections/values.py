@@ -113,7 +113,7 @@ def broken_limit(field: FieldType, value: object) -> str:
         if limit is not None and not kept(float(value), float(limit)):
             dimension = None if field.difference else field.dimension
             shown = f"{limit:g}" if dimension is None else format_quantity(limit, dimension, digits=4)
-            return f"{words} {shown}"
+            return f"{words} {shown}" + (f": {limits.why}" if limits.why else "")
     return ""
 
 

@@ -324,6 +324,10 @@ def test_a_warm_body_takes_the_heat_and_grows_into_the_film(read):
             GIVEN + "[oil]" + GRADE.partition("[oil]")[2].replace('grade = "ISO VG 46"', "") + WALLS,
             "oil.temperature_coefficient", ["the decrease of viscosity"],
         ),
+        (
+            GRADE + 'temperature_coefficient = "0.03 1/K"\n', "oil.temperature_coefficient",
+            ["without film.viscosity", "40 and 100 degC"],
+        ),
         (GIVEN + "[elastic]\n", "elastic", ["an empty table", "winkler"]),
         (GIVEN + '[elastic]\nwinkler = "1e13 Pa"\n', "elastic.winkler", ["not a stiffness per area"]),
         (GIVEN + PLATE.replace('"plate"', '"plat"'), "elastic.fixed.kind", ["plate"]),

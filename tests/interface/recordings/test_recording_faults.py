@@ -74,7 +74,7 @@ def _told(faults: list[Fault], path: str, found: str, expected: str) -> bool:
         ),
         (
             WHOLE + 'T_case = { column = "k", unit = "degC", sigma_relative = 0.1 }\n',
-            "channel.T_case.sigma_relative", "0.1", "at most 0",
+            "channel.T_case.sigma_relative", "0.1", "at most 0: a share of a temperature has no meaning",
         ),
         (WHOLE.replace(STEADY, STEADY + 'repeats = "m"\n'), "steady.repeats", "'m'", "one of the columns"),
         (HEAD + SERIES.replace('time = { column = "t", unit = "s" }\n', "") + CHANNELS, "series.time", "missing",
