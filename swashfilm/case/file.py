@@ -26,7 +26,7 @@ from swashfilm.case.tables.elastic import read_elastic
 from swashfilm.case.tables.load import read_load
 from swashfilm.case.tables.oil import OilSection, oil_viscosity, read_oil
 from swashfilm.case.tables.roughness import read_roughness
-from swashfilm.case.tables.thermal import check_bodies, read_thermal
+from swashfilm.case.tables.thermal import read_thermal
 from swashfilm.case.tables.time_steps import initial_film_fraction, read_time
 from system.inputs.faults import InputFaults
 from system.inputs.toml_table import Table, fault_lines, read_toml
@@ -109,7 +109,7 @@ def _free_film(path: Path, text: str, top: Table, film: Table) -> FilmCase | Non
 def _stated(top: Table, film: Table, reader: FieldReader, order: int | None, folder: Path) -> FilmStatement | None:
     """Return the statement of the case; None with its faults listed."""
     faults = len(top.faults)
-    thermal, time, load = read_thermal(top), read_time(top), read_load(top, film)
+    time, load = read_time(top), read_load(top, film)
     is_shape = film.get("load") is not None
     viscosity, oil = _viscosity(top, film, reader)
     parts: dict[str, Any] = {
@@ -125,8 +125,9 @@ def _stated(top: Table, film: Table, reader: FieldReader, order: int | None, fol
         "initial_film_fraction": initial_film_fraction(top, film, reader),
     }
     parts["boundary"] = read_boundaries(top, reader, parts["cavitation_pressure"])
-    elastic = read_elastic(top, reader.mesh, folder)
-    check_bodies(top, thermal, elastic)
+    elastic = read_elastic(top, reader.mesh.film_mesh if reader.mesh else None, folder)
+    is_sound = elastic is not None or top.get("elastic") is None
+    thermal = read_thermal(top, (elastic.bodies if elastic else {}) if is_sound else None)
     rough = read_roughness(top)
     film.close()
     _check_order(film, parts, with_heat=top.get("thermal") is not None)

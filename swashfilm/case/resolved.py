@@ -6,9 +6,7 @@ from swashfilm.case.gap.instant import FORMAT
 from swashfilm.case.statement import FilmStatement, Velocity
 from swashfilm.case.tables.boundary import BoundaryStatement
 from swashfilm.case.tables.constants import constant_rows
-from swashfilm.case.tables.elastic import elastic_rows
 from swashfilm.case.tables.load import load_rows
-from swashfilm.case.tables.thermal import thermal_rows
 from system.inputs.sections.writer import section_rows
 from system.inputs.units import Dimension, format_quantity
 
@@ -38,8 +36,8 @@ def resolved_text(stated: FilmStatement) -> str:
     rows += [f'"{name}" = {{ {_boundary(entry)} }}' for name, entry in stated.boundary.items()]
     if stated.oil:
         rows += section_rows("oil", stated.oil)
-    rows += ["", *thermal_rows(stated.thermal)] if stated.thermal else []
-    rows += ["", *elastic_rows(stated.elastic)] if stated.elastic else []
+    rows += section_rows("thermal", stated.thermal) if stated.thermal else []
+    rows += section_rows("elastic", stated.elastic.stated) if stated.elastic else []
     rows += stated.rough.rows if stated.rough else []
     rows += section_rows("time", stated.time) if stated.time else []
     return "\n".join(rows) + "\n"

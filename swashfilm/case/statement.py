@@ -14,7 +14,7 @@ from swashfilm.case.tables.boundary import BoundaryStatement
 from swashfilm.case.tables.elastic import ElasticStatement
 from swashfilm.case.tables.oil import OilSection
 from swashfilm.case.tables.roughness import RoughWalls
-from swashfilm.case.tables.thermal import ThermalStatement
+from swashfilm.case.tables.thermal import ThermalSection
 from swashfilm.case.tables.time_steps import TimeSection
 
 Velocity = tuple[Field, Field]
@@ -40,7 +40,7 @@ class FilmStatement:
     boundary: Mapping[str, BoundaryStatement]
     initial_film_fraction: Field
     oil: OilSection | None = None
-    thermal: ThermalStatement | None = None
+    thermal: ThermalSection | None = None
     elastic: ElasticStatement | None = None
     rough: RoughWalls | None = None
     time: TimeSection | None = None

@@ -7,7 +7,8 @@ from typing import Annotated
 
 from system.description.parts import GrooveSection, GrooveShape
 from system.inputs.coefficients.flow_files import FlowCoefficients
-from system.inputs.sections.fields import Angle, Area, FlowFile, Limits, Positive, Webs, fields_of, with_values
+from system.inputs.sections.fields import Angle, Area, FlowFile, Limits, Positive, Webs, fields_of
+from system.inputs.sections.reader import with_values
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -10,7 +10,7 @@ from operator import itemgetter
 from system.description.ports import PortsSection
 from system.description.pump import PumpDescription
 from system.inputs.faults import Fault
-from system.inputs.sections.fields import with_values
+from system.inputs.sections.reader import with_values
 from system.inputs.units import Dimension, format_quantity
 from system.pump.ports.described import groove_faults, throats
 from system.pump.ports.flow_coefficients import MOST_OPENINGS

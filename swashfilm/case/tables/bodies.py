@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from dataclasses import dataclass
 from enum import Enum
 from pathlib import Path
+from typing import Annotated, Literal
 
 import numpy as np
 
@@ -15,14 +16,13 @@ from reynolds.bodies.mesh_file import body_from_file
 from reynolds.bodies.supports import Supports
 from reynolds.bodies.wall import Body
 from reynolds.errors import InputError
-from swashfilm.case.fields.mesh import MESH_FILE, CaseMesh
+from reynolds.numerics.arrays import Array
 from system.description.parts import MeshUnit
-from system.inputs.toml_table import Table
-from system.inputs.units import Dimension
+from system.inputs.sections.fields import Elasticity, FaceName, FaceNames, Length, Limits, Several, Text
+from system.inputs.units import Dimension, format_quantity
 
-UPWARDS = Plane((0.0, 0.0, 1.0))
-Cells = tuple[int, int, int]
-Faces = tuple[str, ...]
+UPWARDS: Chart = Plane((0.0, 0.0, 1.0))
+Cells = Annotated[tuple[int, int, int], Several(3), Limits(least=1)]
 
 
 class BodyKind(Enum):
@@ -40,6 +40,16 @@ class BodyKind(Enum):
     SHAFT = "shaft"
 
 
+class Support(Enum):
+    """Faces of a body that are held."""
+
+    BOTTOM = "bottom"
+    EDGE = "edge"
+    BACK = "back"
+    ENDS = "ends"
+    FREE = "free"
+
+
 class Around(Enum):
     """Side of its cylinder on which a body of a file lies."""
 
@@ -47,113 +57,170 @@ class Around(Enum):
     SHAFT = "shaft"
 
 
-def built_body(entry: Table, kind: BodyKind, elastic: Elastic | None, mesh: CaseMesh) -> Body | None:
-    """Return a body of one of the named kinds under the film of `mesh`; None, its faults listed."""
-    points = mesh.film_mesh.mesh.p
-    if kind is BodyKind.PLATE:
-        return _plate(entry, elastic, points)
-    return (_flat if kind in (BodyKind.DISC, BodyKind.RING) else _round)(entry, kind, elastic, points)
+@dataclass(frozen=True, kw_only=True)
+class _Kind:
+    kind: BodyKind
 
 
-def _plate(entry: Table, elastic: Elastic | None, points: np.ndarray) -> Body | None:
-    cells, thickness = _cells(entry), entry.positive("thickness", Dimension.LENGTH)
-    faces = _support(entry, {"bottom": ("bottom",), "edge": ("left", "right", "front", "back"), "free": ()})
-    if cells is None or thickness is None or faces is None:
-        return None
-    (x, y), (width, length) = points.min(axis=1).tolist(), np.ptp(points, axis=1).tolist()
-    return _body(
-        entry, lambda: block((width, length, thickness), cells, origin=(x, y, -thickness)), elastic, faces, "top"
-    )
+@dataclass(frozen=True, kw_only=True)
+class _Material:
+    youngs_modulus: Elasticity
+    poissons_ratio: Annotated[float, Limits(above=-1.0, below=0.5)]
+
+    @property
+    def elastic(self) -> Elastic:
+        """The material."""
+        return Elastic(self.youngs_modulus, self.poissons_ratio)
 
 
-def _flat(entry: Table, kind: BodyKind, elastic: Elastic | None, points: np.ndarray) -> Body | None:
-    """Return a disc or an annular plate about the origin, by default with the film's radii."""
-    reach = np.hypot(*points)
-    cells, thickness = _cells(entry), entry.positive("thickness", Dimension.LENGTH)
-    outer = entry.positive("outer_radius", Dimension.LENGTH, float(reach.max()))
-    is_ring = kind is BodyKind.RING
-    inner = entry.positive("inner_radius", Dimension.LENGTH, float(reach.min())) if is_ring else 0.0
-    faces = _support(entry, {"bottom": ("bottom",), "edge": ("outer",), "free": ()})
-    if cells is None or thickness is None or outer is None or inner is None or faces is None:
-        return None
+@dataclass(frozen=True, kw_only=True)
+class HalfSpaceSection(_Material, _Kind):
+    """A half-space, much larger than the film."""
 
-    def build() -> BodyMesh:
-        if is_ring:
-            return hollow_cylinder((inner, outer), thickness, cells, bottom=-thickness)
-        return disc(outer, thickness, cells, bottom=-thickness)
-
-    return _body(entry, build, elastic, faces, "top")
+    kind: Literal[BodyKind.HALF_SPACE]
 
 
-def _round(entry: Table, kind: BodyKind, elastic: Elastic | None, points: np.ndarray) -> Body | None:
-    """Return a bush or a hollow shaft as long as the film."""
-    bush = kind is BodyKind.BUSH
-    cells, radius = _cells(entry), entry.positive("radius", Dimension.LENGTH)
-    other = entry.positive("outer_radius" if bush else "inner_radius", Dimension.LENGTH)
-    faces = _support(entry, {"back": ("outer" if bush else "inner",), "ends": ("bottom", "top"), "free": ()})
-    if cells is None or radius is None or other is None or faces is None:
-        return None
-    radii = (radius, other) if bush else (other, radius)
-    if radii[0] >= radii[1]:
-        expected = f"{'less' if bush else 'more'} than {'outer' if bush else 'inner'}_radius"
-        entry.fault("radius", str(entry.values["radius"]), expected)
-        return None
-    base, length = float(points[1].min()), float(np.ptp(points[1]))
-    chart = Cylinder(radius, Side.BORE if bush else Side.SHAFT)
-    face = "inner" if bush else "outer"
-    return _body(entry, lambda: hollow_cylinder(radii, length, cells, bottom=base), elastic, faces, face, chart)
+@dataclass(frozen=True, kw_only=True)
+class _Flat(_Material, _Kind):
+    thickness: Length
+    cells: Cells
+    support: Literal[Support.BOTTOM, Support.EDGE, Support.FREE]
 
 
-def file_body(entry: Table, elastic: Elastic | None, folder: Path) -> Body | None:
-    """Return a body of a mesh file, its named face at z = 0 or on a cylinder about z; None, faults listed."""
-    face, clamped = entry.get("face"), entry.get("clamped") or []
-    radius = entry.positive("radius", Dimension.LENGTH) if entry.get("radius") is not None else None
-    around = entry.choice("side", Around, Around.BORE)
-    unit = entry.choice("unit", MeshUnit, MeshUnit.METRE)
-    path = entry.file("mesh", folder, MESH_FILE)
-    if unit is None or path is None:
-        return None
+@dataclass(frozen=True, kw_only=True)
+class PlateSection(_Flat):
+    """A plate as wide as the film's rectangle; cells along x, y and its thickness."""
+
+    kind: Literal[BodyKind.PLATE]
+
+
+@dataclass(frozen=True, kw_only=True)
+class DiscSection(_Flat):
+    """A disc about the origin; cells across its core, in rings around it, along its axis."""
+
+    kind: Literal[BodyKind.DISC]
+    outer_radius: Length | None = None  # left out: the film's
+
+
+@dataclass(frozen=True, kw_only=True)
+class RingSection(_Flat):
+    """An annular plate about the origin; cells across, around, along its axis."""
+
+    kind: Literal[BodyKind.RING]
+    outer_radius: Length | None = None  # left out: the film's
+    inner_radius: Length | None = None  # left out: the film's
+
+
+@dataclass(frozen=True, kw_only=True)
+class _Round(_Material, _Kind):
+    radius: Length  # of the film
+    cells: Cells
+    support: Literal[Support.BACK, Support.ENDS, Support.FREE]
+
+
+@dataclass(frozen=True, kw_only=True)
+class BushSection(_Round):
+    """A bush around a film as long as itself; cells along its radius, around, along its axis."""
+
+    kind: Literal[BodyKind.BUSH]
+    outer_radius: Length
+
+
+@dataclass(frozen=True, kw_only=True)
+class ShaftSection(_Round):
+    """A hollow shaft in a film as long as itself; cells along its radius, around, along its axis."""
+
+    kind: Literal[BodyKind.SHAFT]
+    inner_radius: Length
+
+
+@dataclass(frozen=True, kw_only=True)
+class _File:
+    mesh: Annotated[Path, Text.FILE]
+    unit: MeshUnit = MeshUnit.METRE  # of its coordinates
+
+
+@dataclass(frozen=True, kw_only=True)
+class FileBodySection(_Material, _File):
+    """A body of a mesh file, its face at z = 0 or on a cylinder about z."""
+
+    face: FaceName
+    clamped: FaceNames = ()
+    radius: Length | None = None  # of the cylinder
+    side: Around = Around.BORE  # of the cylinder on which the body lies
+
+
+BuiltForm = PlateSection | DiscSection | RingSection | BushSection | ShaftSection
+BodyForm = HalfSpaceSection | BuiltForm | FileBodySection
+
+
+def body_under(stated: BuiltForm | FileBodySection, film: Array) -> Body:
+    """Return the body under the vertices of a film, (2, vertices) m; raise InputError at the key that is wrong."""
+    if isinstance(stated, FileBodySection):
+        return _of_file(stated)
+    face, chart = "top", UPWARDS
+    if isinstance(stated, _Round):
+        is_bush = isinstance(stated, BushSection)
+        face, side = ("inner", Side.BORE) if is_bush else ("outer", Side.SHAFT)
+        chart = Cylinder(stated.radius, side)
+    mesh = _meshed(stated, film)
     try:
-        mesh = body_from_file(path, unit.metres)
+        return Body(mesh, stated.elastic, Supports(clamped=_clamped(stated)), face, chart)
     except InputError as reason:
-        entry.fault("mesh", reason.found, reason.expected)
-        return None
-    for key, wanted in (("face", [face]), ("clamped", clamped if isinstance(clamped, list) else [clamped])):
-        if unknown := [name for name in wanted if name not in mesh.face_names]:
-            entry.fault(key, repr(unknown[0]), f"one of {', '.join(mesh.face_names)}")
-            return None
-    chart: Chart = UPWARDS
-    if radius is not None:
-        chart = Cylinder(radius, Side.BORE if around is Around.BORE else Side.SHAFT)
-    return _body(entry, lambda: mesh, elastic, tuple(clamped), str(face), chart)
+        raise InputError("cells", reason.found, reason.expected) from None
 
 
-def _body(
-    entry: Table, build: Callable[[], BodyMesh], elastic: Elastic | None, clamped: Faces, face: str,
-    chart: Chart = UPWARDS,
-) -> Body | None:  # fmt: skip
-    if elastic is None:
-        return None
+def _meshed(stated: BuiltForm, film: Array) -> BodyMesh:
+    """Return the mesh of a body; raise InputError at the key that is wrong."""
+    (x, y), (width, length), reach = film.min(axis=1).tolist(), np.ptp(film, axis=1).tolist(), np.hypot(*film)
     try:
-        return Body(build(), elastic, Supports(clamped=clamped), face, chart)
+        match stated:
+            case PlateSection(thickness=deep, cells=cells):
+                return block((width, length, deep), cells, origin=(x, y, -deep))
+            case DiscSection(thickness=deep, cells=cells, outer_radius=outer):
+                return disc(outer or float(reach.max()), deep, cells, bottom=-deep)
+            case RingSection(thickness=deep, cells=cells, outer_radius=outer, inner_radius=inner):
+                radii = inner or float(reach.min()), outer or float(reach.max())
+                return hollow_cylinder(radii, deep, cells, bottom=-deep)
+            case BushSection(cells=cells, radius=inner, outer_radius=outer):
+                radii = inner, outer
+            case ShaftSection(cells=cells, inner_radius=inner, radius=outer):
+                radii = inner, outer
+        if radii[0] < radii[1]:
+            return hollow_cylinder(radii, length, cells, bottom=y)
     except InputError as reason:
-        entry.fault("cells", reason.found, reason.expected)
-        return None
+        raise InputError("cells", reason.found, reason.expected) from None
+    shown = format_quantity(stated.radius, Dimension.LENGTH, digits=4)
+    raise InputError("radius", shown, "less than outer_radius, more than inner_radius")
 
 
-def _cells(entry: Table) -> Cells | None:
-    raw = entry.get("cells")
-    if not isinstance(raw, list) or len(raw) != 3 or any(type(count) is not int or count < 1 for count in raw):
-        found = "missing" if raw is None else repr(raw)
-        entry.fault("cells", found, "three whole numbers from 1 on, such as [8, 8, 2]")
-        return None
-    return raw[0], raw[1], raw[2]
+def _clamped(stated: BuiltForm) -> tuple[str, ...]:
+    """Return the faces of a support."""
+    match stated.support:
+        case Support.BOTTOM:
+            return ("bottom",)
+        case Support.EDGE:
+            return ("left", "right", "front", "back") if isinstance(stated, PlateSection) else ("outer",)
+        case Support.BACK:
+            return ("outer",) if isinstance(stated, BushSection) else ("inner",)
+        case Support.ENDS:
+            return ("bottom", "top")
+        case Support.FREE:
+            return ()
 
 
-def _support(entry: Table, known: Mapping[str, Faces]) -> Faces | None:
-    """Return the held faces, by the name of a support."""
-    raw = entry.get("support")
-    if raw not in known:
-        entry.fault("support", "missing" if raw is None else repr(raw), f"one of {', '.join(known)}")
-        return None
-    return known[str(raw)]
+def _of_file(stated: FileBodySection) -> Body:
+    """Return the body of a file; raise InputError at the key of what is wrong with it."""
+    try:
+        mesh = body_from_file(stated.mesh, stated.unit.metres)
+    except InputError as reason:
+        raise InputError("mesh", reason.found, reason.expected) from None
+    for key, names in (("face", (stated.face,)), ("clamped", stated.clamped)):
+        if unknown := [name for name in names if name not in mesh.face_names]:
+            raise InputError(key, repr(unknown[0]), f"one of {', '.join(mesh.face_names)}")
+    side = Side.BORE if stated.side is Around.BORE else Side.SHAFT
+    chart = UPWARDS if stated.radius is None else Cylinder(stated.radius, side)
+    try:
+        return Body(mesh, stated.elastic, Supports(clamped=stated.clamped), stated.face, chart)
+    except InputError as reason:
+        raise InputError("mesh", reason.found, reason.expected) from None

@@ -2,120 +2,74 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import reduce
 from pathlib import Path
+from typing import Annotated
 
 from reynolds.bodies.compliance import ElasticWalls
-from reynolds.bodies.elasticity import Elastic
 from reynolds.bodies.foundation import both, half_space, winkler
 from reynolds.bodies.wall import Body, body_wall
 from reynolds.errors import InputError
+from reynolds.fem.mesh import FilmMesh
 from reynolds.fem.space import FilmSpace
-from swashfilm.case.fields.mesh import CaseMesh
-from swashfilm.case.tables.bodies import BodyKind, built_body, file_body
-from system.inputs.toml_table import Table, quoted
-from system.inputs.units import Dimension, format_quantity
+from swashfilm.case.tables.bodies import BodyForm, HalfSpaceSection, body_under
+from system.inputs.sections.fields import Positive
+from system.inputs.sections.reader import table_section
+from system.inputs.toml_table import Table
+from system.inputs.units import Dimension
 
 
-@dataclass(frozen=True)
-class WallStatement:
-    """A wall's body under the film (None: a half-space of `elastic`), and its entry as a case file writes it."""
+@dataclass(frozen=True, kw_only=True)
+class ElasticSection:
+    """[elastic]: walls that deform under the film's pressure; a body left out is rigid."""
 
-    body: Body | None
-    elastic: Elastic
-    text: str
+    winkler: Annotated[float, Dimension.FOUNDATION, Positive] | None = None  # springs side by side
+    moving: BodyForm | None = None
+    fixed: BodyForm | None = None
 
-    def compliance(self, space: FilmSpace) -> ElasticWalls:
-        """Return the compliance of the wall; raise InputError where it does not lie under the film."""
-        return half_space(space, self.elastic) if self.body is None else body_wall(self.body, space)
+    def __post_init__(self) -> None:
+        if self.winkler is None and not self.walls:
+            raise ValueError('winkler = "1e13 Pa/m", or bodies: moving = {...}, fixed = {...}')
+
+    @property
+    def walls(self) -> Mapping[str, BodyForm]:
+        """The walls that are bodies, by name."""
+        return {key: wall for key, wall in (("moving", self.moving), ("fixed", self.fixed)) if wall is not None}
 
 
 @dataclass(frozen=True)
 class ElasticStatement:
-    """Springs under the film (Pa/m), body of the moving and of the fixed wall; None for a rigid one."""
+    """The table, and its bodies under the film by wall; half-spaces are none of these."""
 
-    stiffness: float | None
-    moving: WallStatement | None
-    fixed: WallStatement | None
+    stated: ElasticSection
+    bodies: Mapping[str, Body]
 
     def walls(self, space: FilmSpace) -> ElasticWalls:
-        """Return the compliance of all walls; raise InputError as `WallStatement.compliance`."""
-        parts: list[ElasticWalls] = [] if self.stiffness is None else [winkler(space, self.stiffness)]
-        parts += [_under(wall, key, space) for key, wall in (("moving", self.moving), ("fixed", self.fixed)) if wall]
+        """Return the compliance of all walls; raise InputError where a body does not lie under the film."""
+        stiffness = self.stated.winkler
+        parts: list[ElasticWalls] = [] if stiffness is None else [winkler(space, stiffness)]
+        for key, wall in self.stated.walls.items():
+            try:
+                is_endless = isinstance(wall, HalfSpaceSection)
+                parts.append(half_space(space, wall.elastic) if is_endless else body_wall(self.bodies[key], space))
+            except InputError as reason:
+                raise InputError(f"elastic.{key}", f"{reason.where}: {reason.found}", reason.expected) from None
         return reduce(both, parts)
 
 
-def _under(wall: WallStatement, key: str, space: FilmSpace) -> ElasticWalls:
-    """Return the compliance of a wall; its fault is reported at `elastic.moving` or `elastic.fixed`."""
-    try:
-        return wall.compliance(space)
-    except InputError as reason:
-        raise InputError(f"elastic.{key}", f"{reason.where}: {reason.found}", reason.expected) from None
-
-
-def read_elastic(top: Table, mesh: CaseMesh | None, folder: Path) -> ElasticStatement | None:
-    """Return the [elastic] table; None where there is none, or with its faults listed."""
-    table = top.table("elastic")
-    if table is None:
+def read_elastic(top: Table, film: FilmMesh | None, folder: Path) -> ElasticStatement | None:
+    """Return the [elastic] table with its bodies under a film; None where there is none, or with its faults listed."""
+    stated = table_section(top, "elastic", ElasticSection, folder)
+    if stated is None or film is None:
         return None
-    before = len(table.faults)
-    stiffness = table.positive("winkler", Dimension.FOUNDATION) if table.get("winkler") is not None else None
-    moving, fixed = (_wall(table, key, mesh, folder) for key in ("moving", "fixed"))
-    table.close()
-    if not table.values:
-        top.fault("elastic", "an empty table", 'winkler = "1e13 Pa/m", or bodies: moving = {...}, fixed = {...}')
-    return None if len(table.faults) > before else ElasticStatement(stiffness, moving, fixed)
-
-
-def _wall(table: Table, key: str, mesh: CaseMesh | None, folder: Path) -> WallStatement | None:
-    entry = table.table(key)
-    if entry is None:
-        return None
-    elastic, text = _elastic(entry), _text(entry, folder)
-    if "mesh" in entry.values:
-        body = file_body(entry, elastic, folder)
-        entry.close()
-        return WallStatement(body, body.elastic, text) if body else None
-    kind = entry.choice("kind", BodyKind)
-    if kind is BodyKind.HALF_SPACE:
-        entry.close()
-        return WallStatement(None, elastic, text) if elastic else None
-    if kind is None or mesh is None:
-        return None
-    body = built_body(entry, kind, elastic, mesh)
-    entry.close()
-    return WallStatement(body, body.elastic, text) if body else None
-
-
-def _elastic(entry: Table) -> Elastic | None:
-    modulus, poisson = entry.positive("youngs_modulus", Dimension.ELASTICITY), entry.number("poissons_ratio")
-    if modulus is None or poisson is None:
-        return None
-    try:
-        return Elastic(modulus, poisson)
-    except InputError as reason:
-        entry.fault("poissons_ratio", reason.found, reason.expected)
-        return None
-
-
-def _text(entry: Table, folder: Path) -> str:
-    """Return the entry as written in the case file, with the absolute path of its mesh."""
-
-    def shown(key: str, value: object) -> str:
-        if isinstance(value, list):
-            return f"[{', '.join(shown('', part) for part in value)}]"
-        if key == "mesh":
-            value = str((folder / str(value)).resolve())
-        return quoted(value) if isinstance(value, str) else str(value)
-
-    return "{ " + ", ".join(f"{key} = {shown(key, value)}" for key, value in entry.values.items()) + " }"
-
-
-def elastic_rows(stated: ElasticStatement) -> list[str]:
-    """Return the table as text of a case file."""
-    rows = ["[elastic]"]
-    if stated.stiffness is not None:
-        rows.append(f'winkler = "{format_quantity(stated.stiffness, Dimension.FOUNDATION)}"')
-    walls = (("moving", stated.moving), ("fixed", stated.fixed))
-    return rows + [f"{key} = {wall.text}" for key, wall in walls if wall]
+    bodies = {}
+    for key, wall in stated.walls.items():
+        if isinstance(wall, HalfSpaceSection):
+            continue
+        try:
+            bodies[key] = body_under(wall, film.mesh.p)
+        except InputError as reason:
+            top.fault(f"elastic.{key}.{reason.where}", reason.found, reason.expected)
+    return ElasticStatement(stated, bodies) if len(bodies) == len(stated.walls) else None

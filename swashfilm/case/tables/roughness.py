@@ -2,15 +2,23 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from typing import Annotated
 
 from reynolds.errors import InputError
 from reynolds.laws.contact import Asperities, composite_modulus
 from reynolds.laws.roughness import Surface
-from system.inputs.sections.fields import AnyLength, ArealDensity, Elasticity, Length, NotNegative
-from system.inputs.sections.reader import Reading, read_section
+from system.inputs.sections.fields import (
+    AnyLength,
+    ArealDensity,
+    Elasticity,
+    Length,
+    Limits,
+    NotNegative,
+    Positive,
+    Several,
+)
+from system.inputs.sections.reader import Reading, read_section, table_section
 from system.inputs.sections.writer import section_rows
 from system.inputs.toml_table import Table
 from system.inputs.units import Dimension
@@ -38,9 +46,27 @@ class ContactSection:
     asperity_density: ArealDensity
     asperity_radius: Length
     asperity_height: Length | None = None  # standard deviation of summits; left out: the walls' composite
-    composite_modulus: Elasticity  # E' of both walls, or youngs_modulus and poissons_ratio of the two
+    composite_modulus: Elasticity | None = None  # E' of both walls, in place of the two keys below
+    youngs_modulus: Annotated[tuple[float, float], Several(2), Dimension.ELASTICITY, Positive] | None = None  # by wall
+    poissons_ratio: Annotated[tuple[float, float], Several(2), Limits(above=-1.0, below=0.5)] | None = None  # by wall
     summit_height: AnyLength = 0.0
     friction_coefficient: float
+
+    def __post_init__(self) -> None:
+        of_walls = {"youngs_modulus": self.youngs_modulus, "poissons_ratio": self.poissons_ratio}
+        for key, pair in of_walls.items():
+            if (pair is None) is (self.composite_modulus is None):
+                found = "missing" if pair is None else f"{key} beside composite_modulus"
+                raise InputError(key, found, "composite_modulus, or youngs_modulus and poissons_ratio of the two walls")
+
+    @property
+    def modulus(self) -> float:
+        """E' of both walls, Pa."""
+        if self.youngs_modulus is None or self.poissons_ratio is None:
+            assert self.composite_modulus is not None
+            return self.composite_modulus
+        (one, other), (ratio, other_ratio) = self.youngs_modulus, self.poissons_ratio
+        return composite_modulus(one, ratio, other, other_ratio)
 
 
 @dataclass(frozen=True)
@@ -62,7 +88,7 @@ def read_roughness(top: Table) -> RoughWalls | None:
     surface, rows = _surface(table)
     if contact is None or surface is None:
         return RoughWalls(surface, None, tuple(rows)) if surface else None
-    asperities, more = _asperities(contact, surface)
+    asperities, more = _asperities(top, surface)
     return RoughWalls(surface, asperities, (*rows, *more)) if asperities else None
 
 
@@ -95,32 +121,17 @@ def _surface(table: Table) -> tuple[Surface | None, list[str]]:
     return surface, [*section_rows("roughness", found)]
 
 
-def _asperities(table: Table, surface: Surface) -> tuple[Asperities | None, list[str]]:
-    special = {"contact.youngs_modulus": _modulus, "contact.poissons_ratio": lambda *_: {}}
-    reading = Reading(special=special, faults=table.faults)
-    stated = read_section("contact", ContactSection, table.values, reading)
-    if reading.faulty:
+def _asperities(top: Table, surface: Surface) -> tuple[Asperities | None, list[str]]:
+    stated = table_section(top, "contact", ContactSection)
+    if stated is None:
         return None, []
     height = surface.composite_roughness if stated.asperity_height is None else stated.asperity_height
     try:
         asperities = Asperities(
-            stated.asperity_density, stated.asperity_radius, height, stated.composite_modulus,
+            stated.asperity_density, stated.asperity_radius, height, stated.modulus,
             stated.friction_coefficient, stated.summit_height,
         )  # fmt: skip
     except InputError as reason:
-        table.fault("friction_coefficient", reason.found, reason.expected)
+        top.fault("contact.friction_coefficient", reason.found, reason.expected)
         return None, []
     return asperities, [*section_rows("contact", replace(stated, asperity_height=height))]
-
-
-def _modulus(_: object, values: Mapping[str, object], reading: Reading) -> Mapping[str, float]:
-    """Return E' of both walls from the moduli and Poisson's ratios of the two; none with its fault noted."""
-    table = Table("contact", values, reading.faults)
-    moduli, ratios = table.pair("youngs_modulus", Dimension.ELASTICITY), table.get("poissons_ratio")
-    is_pair = isinstance(ratios, list) and len(ratios) == 2
-    if not is_pair or not all(isinstance(ratio, (int, float)) and -1.0 < ratio < 0.5 for ratio in ratios):
-        table.fault("poissons_ratio", repr(ratios), "two numbers between -1 and 0.5, of the two walls")
-    elif moduli is not None:
-        return {"composite_modulus": composite_modulus(moduli[0], ratios[0], moduli[1], ratios[1])}
-    reading.faulty.add("contact.composite_modulus")
-    return {}

@@ -4,35 +4,87 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from enum import Enum
+from typing import Annotated
 
+from reynolds.bodies.conduction import Convection, HeldTemperature, Thermal
+from reynolds.bodies.wall import Body, heated_wall
+from reynolds.errors import InputError
 from reynolds.fem.space import FilmSpace
 from reynolds.thermal.energy import Heat
 from reynolds.thermal.film_profile import DEFAULT_LEVELS
-from reynolds.thermal.walls import Adiabatic, Convecting, GivenTemperature, Turning, Wall
-from swashfilm.case.tables.elastic import ElasticStatement
+from reynolds.thermal.walls import Adiabatic, ConductingBody, Convecting, GivenTemperature, Turning, Wall
 from swashfilm.case.tables.oil import OilSection
-from swashfilm.case.tables.warm_bodies import WarmBody, read_warm_body
+from system.inputs.sections.fields import Conductivity, Limits, Positive, Temperature
+from system.inputs.sections.reader import table_section
 from system.inputs.toml_table import Table
-from system.inputs.units import Dimension, format_quantity
-
-_WALLS = (
-    "{ temperature }, { heat_transfer_coefficient, outer_temperature }, 'adiabatic', 'turning', or "
-    "{ thermal_conductivity, thermal_expansion, unstrained_temperature, faces } of the body of [elastic]"
-)
-_MOST_LEVELS = 12
+from system.inputs.units import Dimension
 
 
-@dataclass(frozen=True)
-class ThermalStatement:
-    """Both walls, the temperature (K) of entering oil, and the number of levels across the film."""
+class PlainWall(Enum):
+    """Walls without numbers: no heat flux, or one temperature of a wall that turns fast and takes no heat in all."""
 
-    fixed_wall: Wall | WarmBody
-    moving_wall: Wall | WarmBody
-    inlet_temperature: float | None
-    levels: int
+    ADIABATIC = "adiabatic"
+    TURNING = "turning"
+
+
+@dataclass(frozen=True, kw_only=True)
+class HeldSection:
+    """A surface at this temperature."""
+
+    temperature: Temperature
+
+
+@dataclass(frozen=True, kw_only=True)
+class CooledSection:
+    """A surface that its surroundings cool or heat."""
+
+    heat_transfer_coefficient: Annotated[float, Dimension.HEAT_TRANSFER, Positive]
+    outer_temperature: Temperature
+
+
+@dataclass(frozen=True, kw_only=True)
+class WarmBodySection:
+    """The body of [elastic] on this side: it conducts heat and expands; a face not named passes no heat."""
+
+    thermal_conductivity: Conductivity
+    thermal_expansion: Annotated[float, Dimension.TEMPERATURE_COEFFICIENT] = 0.0
+    unstrained_temperature: Temperature
+    faces: Mapping[str, HeldSection | CooledSection]
+
+    def __post_init__(self) -> None:
+        if not self.faces:
+            raise InputError("faces", "none", "at least one, through which the heat leaves")
+
+    def under(self, body: Body, space: FilmSpace) -> ConductingBody:
+        """Return the wall for the film's heat problem; raise InputError for an unknown face."""
+        if unknown := [name for name in self.faces if name not in body.mesh.face_names]:
+            raise InputError("thermal wall, faces", f"'{unknown[0]}'", f"one of {', '.join(body.mesh.face_names)}")
+        thermal = Thermal(self.thermal_conductivity, self.thermal_expansion, self.unstrained_temperature)
+        surroundings = {
+            name: HeldTemperature(face.temperature)
+            if isinstance(face, HeldSection)
+            else Convection(face.heat_transfer_coefficient, face.outer_temperature)
+            for name, face in self.faces.items()
+        }
+        found = heated_wall(body, space, thermal, surroundings)
+        return ConductingBody(found.temperature.reference, found.temperature.matrix, found.deformation)
+
+
+WallForm = PlainWall | HeldSection | CooledSection | WarmBodySection
+
+
+@dataclass(frozen=True, kw_only=True)
+class ThermalSection:
+    """[thermal]: temperature of the film, between two walls."""
+
+    fixed_wall: WallForm
+    moving_wall: WallForm
+    inlet_temperature: Temperature | None = None  # left out: that of the oil
+    levels: Annotated[int, Limits(least=2, most=12)] = DEFAULT_LEVELS  # across the film
 
     @property
-    def walls(self) -> Mapping[str, Wall | WarmBody]:
+    def walls(self) -> Mapping[str, WallForm]:
         """Both walls by their names in [elastic]."""
         return {"fixed": self.fixed_wall, "moving": self.moving_wall}
 
@@ -43,11 +95,7 @@ class ThermalStatement:
         return usual
 
     def heat(
-        self,
-        oil: OilSection,
-        temperatures: Mapping[str, float | None],
-        elastic: ElasticStatement | None,
-        space: FilmSpace,
+        self, oil: OilSection, temperatures: Mapping[str, float | None], bodies: Mapping[str, Body], space: FilmSpace
     ) -> Heat:
         """Return the heat problem; `temperatures` (K) by boundary, None where the inlet temperature holds.
 
@@ -58,100 +106,35 @@ class ThermalStatement:
         assert oil.thermal_conductivity is not None
         usual = self.inlet(oil)
         inflow = {name: usual if kelvin is None else kelvin for name, kelvin in temperatures.items()}
-        fixed, moving = (_under(wall, elastic, key, space) for key, wall in self.walls.items())
+        fixed, moving = (_wall(wall, bodies.get(key), space) for key, wall in self.walls.items())
         return Heat(
-            oil.density,
-            oil.specific_heat,
-            oil.thermal_conductivity,
-            fixed,
-            moving,
-            inflow,
+            oil.density, oil.specific_heat, oil.thermal_conductivity, fixed, moving, inflow,
             oil.thermal_expansion or 0.0,
-        )
+        )  # fmt: skip
 
 
-def _under(wall: Wall | WarmBody, elastic: ElasticStatement | None, key: str, space: FilmSpace) -> Wall:
-    if not isinstance(wall, WarmBody):
-        return wall
-    stated = getattr(elastic, key)
-    return wall.under(stated.body, space)
+def _wall(stated: WallForm, body: Body | None, space: FilmSpace) -> Wall:
+    match stated:
+        case HeldSection(temperature=kelvin):
+            return GivenTemperature(kelvin)
+        case CooledSection(heat_transfer_coefficient=coefficient, outer_temperature=outer):
+            return Convecting(coefficient, outer)
+        case WarmBodySection():
+            assert body is not None
+            return stated.under(body, space)
+        case PlainWall.ADIABATIC:
+            return Adiabatic()
+        case PlainWall.TURNING:
+            return Turning()
 
 
-def check_bodies(top: Table, stated: ThermalStatement | None, elastic: ElasticStatement | None) -> None:
-    """List a fault for a conducting body that [elastic] does not have; a half-space is not such a body."""
+def read_thermal(top: Table, bodies: Mapping[str, Body] | None) -> ThermalSection | None:
+    """Return the [thermal] table; None where there is none, or with its faults listed.
+
+    A wall that is a body is one of `bodies`, those of [elastic] (None: it has a fault itself); no half-space is.
+    """
+    stated = table_section(top, "thermal", ThermalSection)
     for key, wall in stated.walls.items() if stated else ():
-        if isinstance(wall, WarmBody) and getattr(getattr(elastic, key, None), "body", None) is None:
+        if isinstance(wall, WarmBodySection) and bodies is not None and key not in bodies:
             top.fault(f"thermal.{key}_wall", "a body's conductivity", f"elastic.{key}, a body of a kind with sizes")
-
-
-def read_thermal(top: Table) -> ThermalStatement | None:
-    """Return the [thermal] table; None where there is none, or with its faults listed."""
-    table = top.table("thermal")
-    if table is None:
-        return None
-    fixed, moving = _wall(table, "fixed_wall"), _wall(table, "moving_wall")
-    inlet = table.positive("inlet_temperature", Dimension.TEMPERATURE) if table.get("inlet_temperature") else None
-    levels = table.get("levels")
-    levels = DEFAULT_LEVELS if levels is None else levels
-    if type(levels) is not int or not 2 <= levels <= _MOST_LEVELS:
-        table.fault("levels", repr(levels), f"a whole number of levels across the film, 2 to {_MOST_LEVELS}")
-        levels = None
-    table.close()
-    if fixed is None or moving is None or levels is None:
-        return None
-    return ThermalStatement(fixed, moving, inlet, levels)
-
-
-def _wall(table: Table, key: str) -> Wall | WarmBody | None:
-    raw = table.get(key)
-    if raw == "adiabatic":
-        return Adiabatic()
-    if raw == "turning":
-        return Turning()
-    if not isinstance(raw, dict):
-        table.fault(key, "missing" if raw is None else repr(raw), _WALLS)
-        return None
-    wall = Table(table.name(key), raw, table.faults)
-    if "thermal_conductivity" in raw:
-        return read_warm_body(wall)
-    if "temperature" in raw:
-        for other in ("heat_transfer_coefficient", "outer_temperature"):
-            if wall.get(other) is not None:
-                wall.fault(other, f"{other} beside a temperature", "one of the two, " + _WALLS)
-        kelvin = wall.positive("temperature", Dimension.TEMPERATURE)
-        wall.close()
-        return None if kelvin is None else GivenTemperature(kelvin)
-    coefficient = wall.positive("heat_transfer_coefficient", Dimension.HEAT_TRANSFER)
-    outer = wall.positive("outer_temperature", Dimension.TEMPERATURE)
-    wall.get("temperature")
-    wall.close()
-    return None if coefficient is None or outer is None else Convecting(coefficient, outer)
-
-
-def thermal_rows(stated: ThermalStatement) -> list[str]:
-    """Return the table as text of a case file."""
-    rows = ["[thermal]", f"fixed_wall = {_written(stated.fixed_wall)}", f"moving_wall = {_written(stated.moving_wall)}"]
-    if stated.inlet_temperature is not None:
-        rows.append(f'inlet_temperature = "{format_quantity(stated.inlet_temperature, Dimension.TEMPERATURE)}"')
-    return [*rows, f"levels = {stated.levels}"]
-
-
-def _written(wall: Wall | WarmBody) -> str:
-    def kelvin(value: object) -> str:
-        assert isinstance(value, float)
-        return format_quantity(value, Dimension.TEMPERATURE)
-
-    match wall:
-        case WarmBody():
-            return wall.text
-        case Adiabatic():
-            return '"adiabatic"'
-        case Turning():
-            return '"turning"'
-        case GivenTemperature(temperature):
-            return f'{{ temperature = "{kelvin(temperature)}" }}'
-        case Convecting(coefficient, outer):
-            assert isinstance(coefficient, float)
-            shown = format_quantity(coefficient, Dimension.HEAT_TRANSFER)
-            return f'{{ heat_transfer_coefficient = "{shown}", outer_temperature = "{kelvin(outer)}" }}'
-    raise AssertionError(wall)
+    return stated

@@ -5,13 +5,14 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from typing import Annotated
 
+from reynolds.errors import InputError
 from swashfilm.case.fields.expressions import ExpressionError, parse_expression
 from swashfilm.case.fields.field import Field, Formula
 from swashfilm.case.fields.reader import FieldReader
 from system.inputs.sections.fields import Limits, Positive
-from system.inputs.sections.reader import Reading, read_section
+from system.inputs.sections.reader import table_section
 from system.inputs.toml_table import Table
-from system.inputs.units import Dimension
+from system.inputs.units import Dimension, format_quantity
 
 MOST_STEPS = 1_000_000
 Duration = Annotated[float, Dimension.TIME, Positive]
@@ -24,6 +25,11 @@ class TimeSection:
     end: Duration
     step: Duration
     outputs: Annotated[int, Limits(least=1)] = 50  # written films, equally spaced in time
+
+    def __post_init__(self) -> None:
+        if self.step > self.end or self.end > self.step * MOST_STEPS:
+            found = format_quantity(self.step, Dimension.TIME, digits=4)
+            raise InputError("step", found, f"at most the end, in at most {MOST_STEPS} steps")
 
     @property
     def steps(self) -> int:
@@ -47,17 +53,8 @@ class TimeSection:
 
 def read_time(top: Table) -> TimeSection | None:
     """Return the [time] table; None where there is none, or with its faults listed."""
-    table = top.table("time")
-    if table is None:
-        return None
-    reading = Reading(faults=table.faults)
-    stated = read_section("time", TimeSection, table.values, reading)
-    if reading.faulty:
-        return None
-    if stated.step > stated.end or stated.end > stated.step * MOST_STEPS:
-        table.fault("step", str(table.values["step"]), f"at most the end, in at most {MOST_STEPS} steps")
-        return None
-    return replace(stated, outputs=min(stated.outputs, stated.steps))
+    stated = table_section(top, "time", TimeSection)
+    return replace(stated, outputs=min(stated.outputs, stated.steps)) if stated else None
 
 
 def initial_film_fraction(top: Table, film: Table, reader: FieldReader) -> Field | None:

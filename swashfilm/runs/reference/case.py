@@ -23,8 +23,8 @@ MOST_REYNOLDS = 2000.0
 WIDEST = 100.0
 """Largest ratio of two sizes of a passage: the cell size across the smaller one applies to the whole mesh."""
 Numbers = tuple[float, ...]
-Ratios = Annotated[Numbers, Several.OF_THEM, Limits(least=1.0 / WIDEST, most=WIDEST)]
-Sizes = Annotated[Numbers, Several.OF_THEM, Dimension.LENGTH, Positive]
+Ratios = Annotated[Numbers, Several(), Limits(least=1.0 / WIDEST, most=WIDEST)]
+Sizes = Annotated[Numbers, Several(), Dimension.LENGTH, Positive]
 
 
 class ReferenceKind(Enum):
@@ -41,7 +41,7 @@ class PassageSection:
     """[reference]: a passage whose flow is solved."""
 
     kind: ReferenceKind
-    reynolds: Annotated[Numbers, Several.OF_THEM, Limits(least=0.0, most=MOST_REYNOLDS)]
+    reynolds: Annotated[Numbers, Several(), Limits(least=0.0, most=MOST_REYNOLDS)]
     cells: Annotated[int, Limits(least=FEWEST_CELLS, most=MOST_CELLS)] = CELLS  # across the passage
 
 
@@ -56,7 +56,7 @@ class StepSection(PassageSection):
 class FilmGrooveSection(PassageSection):
     """[reference]: a groove across a film."""
 
-    film_ratio: Annotated[Numbers, Several.OF_THEM, Limits(above=1.0, most=WIDEST)]  # film in the groove / film
+    film_ratio: Annotated[Numbers, Several(), Limits(above=1.0, most=WIDEST)]  # film in the groove / film
     width_ratio: Ratios  # width of the groove / film
 
 

@@ -15,7 +15,7 @@ from dataclasses import MISSING, Field, dataclass, fields, is_dataclass
 from enum import Enum
 from pathlib import Path
 from types import NoneType, UnionType
-from typing import Annotated, Any, ClassVar, Protocol, TypeVar, Union, get_args, get_origin, get_type_hints
+from typing import Annotated, Any, ClassVar, Literal, Protocol, TypeVar, Union, get_args, get_origin, get_type_hints
 
 from system.inputs.body_file import BodyFile, read_body_file
 from system.inputs.coefficients.flow_files import FlowCoefficients, read_flow_coefficients
@@ -77,10 +77,24 @@ class Difference(Enum):
     OF_TWO = "difference"
 
 
-class Several(Enum):
-    """Marks a field that is one value or a list of such, each within the limits; a tuple in SI."""
+@dataclass(frozen=True)
+class Several:
+    """Marks a field that is a tuple of values, each within the limits: a list of `count`; of 0 any list, or one."""
 
-    OF_THEM = "or a list of them"
+    count: int = 0
+
+
+@dataclass(frozen=True)
+class FormulaOf:
+    """Marks a field that is a quantity (None: a number) or a formula; `Reading.formula` reads it.
+
+    positive: above zero everywhere. place, time: whether it may depend on position, and on time.
+    """
+
+    dimension: Dimension | None
+    positive: bool = False
+    place: bool = True
+    time: bool = True
 
 
 class Text(Enum):
@@ -181,12 +195,13 @@ _Mark = TypeVar("_Mark")
 class FieldType:
     """One field of a section: its plain types, its marks, and whether a file must have the key.
 
-    listed: a list of sections; meaning: the comment behind the field.
+    listed: a list of sections; named: the value of any name, in a table of such; meaning: the comment behind the field.
     """
 
     types: tuple[type, ...]
     marks: tuple[object, ...]
     listed: bool
+    named: FieldType | None
     required: bool
     meaning: str
 
@@ -201,9 +216,14 @@ class FieldType:
         return tuple(mark for mark in self.marks if isinstance(mark, Points))
 
     @property
-    def several(self) -> bool:
-        """True for one value or a list of them."""
-        return self._mark(Several) is not None
+    def several(self) -> Several | None:
+        """How many values a list of them has; None for a single value."""
+        return self._mark(Several)
+
+    @property
+    def formula(self) -> FormulaOf | None:
+        """Dimension and names of a formula, None for another field."""
+        return self._mark(FormulaOf)
 
     @property
     def format(self) -> Format | None:
@@ -241,19 +261,25 @@ class FieldType:
         return self._mark(FromFile)
 
     @property
-    def choice(self) -> type[Enum] | None:
-        """Choices of a field that is one of them, None for another."""
-        return next((part for part in self.types if issubclass(part, Enum)), None)
+    def choices(self) -> tuple[Enum, ...]:
+        """Choices of a field that is one of them, none for another."""
+        kind = next((part for part in self.types if issubclass(part, Enum)), None)
+        return () if kind is None else tuple(mark for mark in self.marks if isinstance(mark, kind)) or tuple(kind)
 
     @property
     def table(self) -> type[Any] | None:
         """Section of a field that is a table, None for another."""
-        return None if self.listed else self._section
+        return None if self.listed or self.forms else next(iter(self._sections), None)
 
     @property
     def tables(self) -> type[Any] | None:
         """Section of a field that is a list of tables, None for another."""
-        return self._section if self.listed else None
+        return next(iter(self._sections), None) if self.listed else None
+
+    @property
+    def forms(self) -> tuple[type[Any], ...]:
+        """Sections of a field that is one of several, or beside a choice or a file; none for another."""
+        return self._sections if len(self._sections) > 1 or self.file or self.choices else ()
 
     @property
     def whole(self) -> bool:
@@ -261,8 +287,8 @@ class FieldType:
         return int in self.types
 
     @property
-    def _section(self) -> type[Any] | None:
-        return None if self.file else next((part for part in self.types if is_dataclass(part)), None)
+    def _sections(self) -> tuple[type[Any], ...]:
+        return tuple(part for part in self.types if is_dataclass(part))
 
     def _mark(self, kind: type[_Mark]) -> _Mark | None:
         return next((mark for mark in self.marks if isinstance(mark, kind)), None)
@@ -280,34 +306,25 @@ _KNOWN: dict[type[Any], Mapping[str, FieldType]] = {}
 
 def _fields_of(model: type[Any]) -> Mapping[str, FieldType]:
     hints, comments = get_type_hints(model, include_extras=True), _comments(model)
-    return {
-        own.name: FieldType(
-            types=tuple(_types(hints[own.name])),
-            marks=tuple(_marks(hints[own.name])),
-            listed=get_origin(hints[own.name]) is tuple,
-            required=own.default is MISSING and own.default_factory is MISSING,
-            meaning=comments.get(own.name, ""),
-        )
-        for own in fields(model)
-    }
+    required = {own.name: own.default is MISSING and own.default_factory is MISSING for own in fields(model)}
+    return {name: field_type(hints[name], needed, comments.get(name, "")) for name, needed in required.items()}
 
 
-def with_values(section: AnySection, **values: object) -> AnySection:
-    """Copy of a section with other values, also of one that lacks some of its keys."""
-    return partial_section(type(section), {**vars(section), **values})
-
-
-def partial_section(model: type[AnySection], values: Mapping[str, object]) -> AnySection:
-    """Section with these values and its defaults; a required key that is missing is an attribute that it lacks."""
-    section = object.__new__(model)
-    vars(section).update(values)
-    return section
+def field_type(annotation: Any, required: bool = True, meaning: str = "") -> FieldType:
+    """Return the field of an annotation."""
+    origin = get_origin(annotation)
+    named = field_type(get_args(annotation)[1]) if origin is Mapping else None
+    types, marks = tuple(_types(annotation)), tuple(_marks(annotation))
+    return FieldType(types, marks, origin is tuple, named, required, meaning)
 
 
 def _types(annotation: Any) -> list[type]:
-    """Return the plain types of an annotation, inside Annotated, unions and lists."""
+    """Return the plain types of an annotation, inside Annotated, unions and lists; none of what is read apart."""
     if get_origin(annotation) is Annotated:
-        return _types(get_args(annotation)[0])
+        apart = any(isinstance(mark, (FromFile, FormulaOf)) for mark in annotation.__metadata__)
+        return [] if apart else _types(get_args(annotation)[0])
+    if get_origin(annotation) is Literal:
+        return [type(one) for one in get_args(annotation)]
     if get_origin(annotation) in (Union, UnionType):
         return [one for part in get_args(annotation) if part is not NoneType for one in _types(part)]
     if get_origin(annotation) is tuple:
@@ -316,7 +333,9 @@ def _types(annotation: Any) -> list[type]:
 
 
 def _marks(annotation: Any) -> list[object]:
-    """Return the marks of an annotation, also of one that may be None."""
+    """Return the marks of an annotation, also of one that may be None; of a Literal the choices in it."""
+    if get_origin(annotation) is Literal:
+        return list(get_args(annotation))
     if get_origin(annotation) is Annotated:
         return list(annotation.__metadata__)
     if get_origin(annotation) in (Union, UnionType):

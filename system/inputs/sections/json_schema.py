@@ -66,8 +66,12 @@ def field_schema(own: FieldType, *, complete: bool = True) -> Schema:
         return {"type": "array", "items": section_schema(own.tables)}
     if own.table is not None:
         return section_schema(own.table, complete=complete, inner_complete=complete)
-    value = _value_schema(own)
-    if own.several:
+    if own.named is not None:
+        return {"type": "object", "additionalProperties": field_schema(own.named)}
+    value: Schema = _value_schema(own)
+    if own.several is not None and own.several.count:
+        value = {"type": "array", "items": value, "minItems": own.several.count, "maxItems": own.several.count}
+    elif own.several is not None:
         value = {"anyOf": [value, {"type": "array", "items": value, "minItems": 1}]}
     return value | ({"description": words} if (words := _words(own)) else {})
 
@@ -78,13 +82,19 @@ def quantity_schema(dimension: Dimension) -> Schema:
 
 
 def _value_schema(own: FieldType) -> Schema:
+    if own.forms:
+        alone: list[Schema] = [{"enum": [member.value for member in own.choices]}] if own.choices else []
+        alone += [{"type": "string", "minLength": 1}] if own.file else []
+        return {"anyOf": [*alone, *map(section_schema, own.forms)]}
+    if own.formula is not None:
+        return {"type": "string", "minLength": 1} if own.formula.dimension else {"type": ["number", "string"]}
     if own.dimension is not None:
         return quantity_schema(own.dimension)
     if own.layouts:
         rows = [_rows_schema(layout, own.limits.fewest) for layout in own.layouts]
         return {"anyOf": [{"type": "string"}, *rows]}
-    if own.choice is not None:
-        return {"enum": [member.value for member in own.choice]}
+    if own.choices:
+        return {"enum": [member.value for member in own.choices]}
     if own.unit is not None and own.unit.dimension is None:
         return {"enum": list(PURE_UNITS)}
     if own.format is not None:
@@ -118,5 +128,7 @@ def _rows_schema(layout: Points, fewest: int) -> Schema:
 
 def _words(own: FieldType) -> str:
     """Return what a key holds: the comment behind its field, and the noun of its quantity."""
-    noun = own.dimension.noun if own.dimension is not None else ""
-    return "; ".join(part for part in (noun, own.meaning) if part)
+    dimension = own.formula.dimension if own.formula else own.dimension
+    noun = dimension.noun if dimension is not None else ""
+    formula = f"or a formula in {dimension.si_unit}" if own.formula and dimension else ""
+    return "; ".join(part for part in (noun, formula, own.meaning) if part)

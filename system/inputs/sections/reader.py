@@ -7,9 +7,11 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-from system.inputs.faults import Fault, InputFaults, nearest_choice
-from system.inputs.sections.fields import AnySection, FieldType, fields_of, partial_section
-from system.inputs.sections.values import HERE, broken_limit, read_value, wanted
+from reynolds.errors import InputError
+from system.inputs.faults import Fault, InputFaults, nearest_choice, stated
+from system.inputs.sections.fields import AnySection, FieldType, FormulaOf, fields_of
+from system.inputs.sections.values import HERE, broken_limit, names_of, read_value, wanted
+from system.inputs.toml_table import Table
 from system.inputs.units import QuantityError, to_gauge
 
 ABSOLUTE = "_abs"  # a pressure key that ends so is absolute
@@ -21,6 +23,7 @@ class Reading:
 
     `folder`: from where the paths of files in it are counted. `special`: keys by path that are read otherwise,
     as (raw value, table, reading) -> SI values by key. `numbered`: paths of tables that hold single parts too.
+    `formula` returns what a formula holds; it raises QuantityError.
     """
 
     folder: Path = HERE
@@ -29,6 +32,7 @@ class Reading:
     faults: list[Fault] = field(default_factory=list)
     faulty: set[str] = field(default_factory=set)
     trusted: set[str] = field(default_factory=set)
+    formula: Callable[[FormulaOf, object], object] | None = None
 
     def fault(self, path: str, found: str, expected: str, nearest: str = "") -> None:
         """Note a fault of a path."""
@@ -74,9 +78,38 @@ def read_section(
         return partial_section(model, good)
     try:
         return model(**good)
+    except InputError as reason:
+        reading.fault(under(path, reason.where), reason.found, reason.expected)
     except ValueError as reason:
         reading.fault(path, ", ".join(stated) or "an empty table", str(reason))
-        return partial_section(model, good)
+    return partial_section(model, good)
+
+
+def table_section(
+    top: Table, name: str, model: type[AnySection], folder: Path = HERE, *, left_out: bool = False
+) -> AnySection | None:
+    """Return a table of a file as its section; None with its faults listed, and where there is none.
+
+    With `left_out` a table that is left out counts as an empty one.
+    """
+    table = top.table(name) or (Table(name, {}, top.faults) if left_out else None)
+    if table is None:
+        return None
+    reading = Reading(folder, faults=top.faults)
+    stated = read_section(name, model, table.values, reading)
+    return None if reading.faulty else stated
+
+
+def with_values(section: AnySection, **values: object) -> AnySection:
+    """Copy of a section with other values, also of one that lacks some of its keys."""
+    return partial_section(type(section), {**vars(section), **values})
+
+
+def partial_section(model: type[AnySection], values: Mapping[str, object]) -> AnySection:
+    """Section with these values and its defaults; a required key that is missing is an attribute that it lacks."""
+    section = object.__new__(model)
+    vars(section).update(values)
+    return section
 
 
 def _complete(model: type[Any], values: Mapping[str, object]) -> bool:
@@ -133,11 +166,6 @@ def _values(path: str, model: type[Any], table: Mapping[str, object], reading: R
             reading.unknown(under(path, ""), written, reading.keys(path, model))
         elif absolute and key in table:
             reading.fault(under(path, written), f"both {key} and {written}", "one of the two, gauge or absolute")
-        elif own.tables is not None:
-            values[key] = _inner_tables(under(path, key), own.tables, raw, reading)
-        elif own.table is not None:
-            values[key] = read_section(under(path, key), own.table, raw, reading)
-            _note_inner_faults(under(path, key), reading)
         elif (value := read_entry(under(path, written), own, raw, reading)) is None:
             reading.faulty.add(under(path, key))
         else:
@@ -146,10 +174,29 @@ def _values(path: str, model: type[Any], table: Mapping[str, object], reading: R
 
 
 def read_entry(path: str, own: FieldType, raw: object, reading: Reading) -> object:
-    """Return the value of an entry, or None with its faults noted."""
-    if own.several:
-        return _several(path, own, raw, reading)
+    """Return the value of an entry, or None with its faults noted; of a table also what of it is good."""
+    found: object
+    if own.tables is not None:
+        return _inner_tables(path, own.tables, raw, reading)
+    if own.several is not None:
+        return _several(path, own, own.several.count, raw, reading)
+    if own.table is not None:
+        found = read_section(path, own.table, raw, reading)
+    elif own.named is not None:
+        found = _named(path, own.named, raw, reading)
+    elif own.forms and isinstance(raw, dict):
+        found = read_form(path, own, raw, reading)
+    else:
+        return _value(path, own, raw, reading)
+    _note_inner_faults(path, reading)
+    return found
+
+
+def _value(path: str, own: FieldType, raw: object, reading: Reading) -> object:
+    """Return the value of an entry that is no table, or None with its faults noted."""
     try:
+        if own.formula is not None and reading.formula is not None:
+            return reading.formula(own.formula, raw)
         return read_value(own, raw, reading.folder)
     except QuantityError as reason:
         reading.fault(path, reason.found, reason.expected, reason.nearest)
@@ -159,23 +206,63 @@ def read_entry(path: str, own: FieldType, raw: object, reading: Reading) -> obje
     return None
 
 
-def _several(path: str, own: FieldType, raw: object, reading: Reading) -> tuple[object, ...] | None:
-    """Return one value or a list of them as a tuple; None with a fault for each that is no such value."""
-    found: list[object] = []
+def _several(path: str, own: FieldType, count: int, raw: object, reading: Reading) -> tuple[object, ...] | None:
+    """Return a list of `count` values (0: of any number, or one value) as a tuple; None with the faults noted."""
     entries = raw if isinstance(raw, list) else [raw]
-    for one in entries:
-        try:
-            value = read_value(own, one, reading.folder)
-        except QuantityError as reason:
-            reading.fault(path, reason.found, reason.expected, reason.nearest)
+    if not entries or (count and (not isinstance(raw, list) or len(raw) != count)):
+        reading.fault(path, repr(raw), wanted(own))
+        return None
+    found: list[object] = []
+    for n, one in enumerate(entries):
+        where = f"{path}[{n}]" if count else path
+        if (value := _value(where, own, one, reading)) is None:
             continue
         if limit := broken_limit(own, value):
-            reading.fault(path, repr(one), limit)
+            reading.fault(where, repr(one), limit)
         else:
             found.append(value)
-    if not entries:
-        reading.fault(path, "an empty list", wanted(own))
-    return tuple(found) if found and len(found) == len(entries) else None
+    return tuple(found) if len(found) == len(entries) else None
+
+
+def _named(path: str, own: FieldType, raw: object, reading: Reading) -> dict[str, object] | None:
+    """Return the entries of a table of any names; None with its fault noted."""
+    if not isinstance(raw, dict):
+        reading.fault(path, repr(raw), f"a table [{path}], each name in it with {wanted(own)}")
+        return None
+    return {name: read_entry(under(path, name), own, one, reading) for name, one in raw.items()}
+
+
+def read_form(path: str, own: FieldType, table: Mapping[str, object], reading: Reading) -> object:
+    """Return a table as that of a field's forms whose first key it has, of a choice with the form's own value.
+
+    None with the fault noted where there is no such form; a key of another form is a fault.
+    """
+    form = next((one for one in own.forms if _fits(one, table)), None)
+    if form is None:
+        _note_no_form(path, own, table, reading)
+        return None
+    head, *_ = fields_of(form)
+    others = {key for one in own.forms for key in fields_of(one)} - {*fields_of(form)}
+    for key in filter(others.__contains__, table):
+        reading.fault(under(path, key), f"{key} beside {head} = {table[head]!r}", wanted(own))
+    return read_section(path, form, {key: value for key, value in table.items() if key not in others}, reading)
+
+
+def _fits(form: type[Any], table: Mapping[str, object]) -> bool:
+    head, own = next(iter(fields_of(form).items()))
+    return head in table and (not own.choices or table[head] in [one.value for one in own.choices])
+
+
+def _note_no_form(path: str, own: FieldType, table: Mapping[str, object], reading: Reading) -> None:
+    """Note the choice by which forms differ where it is wrong, or missing in all of them; else the table."""
+    heads = [next(iter(fields_of(form).items())) for form in own.forms]
+    of_choice = [head for head, first in heads if first.choices]
+    if of_choice and (of_choice[0] in table or len(of_choice) == len(heads)):
+        key, choices = of_choice[0], [one for _, first in heads for one in first.choices]
+        near = nearest_choice(str(table.get(key)), [str(one.value) for one in choices])
+        reading.fault(under(path, key), stated(table.get(key)), f"one of {names_of(choices)}", near)
+    else:
+        reading.fault(path, ", ".join(table) or "an empty table", wanted(own))
 
 
 def _inner_tables(path: str, model: type[Any], raw: object, reading: Reading) -> tuple[Any, ...]:

@@ -4,14 +4,17 @@ from __future__ import annotations
 
 import json
 import math
-from collections.abc import Sequence
+import re
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import is_dataclass
 from enum import Enum
 from pathlib import Path
 from typing import Any
 
 from system.inputs.faults import nearest_choice, nearest_path
-from system.inputs.sections.fields import FieldType, Points, Section, Several, Text, fields_of
+from system.inputs.sections.fields import FieldType, Points, Section, Text, fields_of
 from system.inputs.sections.point_files import read_rows, wanted_file
+from system.inputs.toml_table import quoted
 from system.inputs.units import Dimension, QuantityError, format_quantity, parse_quantity, unit_scale, with_point
 
 PURE_UNITS = {"1": 1.0, "%": 0.01}
@@ -32,12 +35,12 @@ def read_value(field: FieldType, raw: object, folder: Path = HERE) -> object:
         return _unit(raw, field.unit.dimension)
     if field.layouts:
         return read_rows(folder / raw, field.layouts) if isinstance(raw, str) else listed_rows(raw, field.layouts)
-    if field.choice is not None:
-        return _choice(raw, field.choice)
+    if field.choices:
+        return _choice(raw, field)
     if field.text is not None:
         text = _text(raw, field.text, folder)
         return field.file.read(text) if field.file is not None and isinstance(text, Path) else text
-    if isinstance(raw, bool) or not isinstance(raw, (int, float)):
+    if field.forms or isinstance(raw, bool) or not isinstance(raw, (int, float)):
         raise QuantityError(repr(raw), wanted(field), with_point(raw) if isinstance(raw, str) else "")
     if not math.isfinite(raw) or (field.whole and raw != int(raw)):
         raise QuantityError(str(raw), wanted(field))
@@ -56,8 +59,15 @@ def written_value(field: FieldType, value: Any) -> str:
         return "[" + ", ".join(f"[{row}]" for row in rows) + "]"
     if field.tables is not None and isinstance(value, tuple):
         return "[" + ", ".join(map(_written_table, value)) + "]"
+    if isinstance(value, Mapping):
+        of_each = field.named or field
+        return _inline({name: written_value(of_each, one) for name, one in value.items()})
+    if type(value) in field.forms or (field.table is not None and is_dataclass(value)):
+        return _written_table(value)
     if isinstance(value, Enum):
         return json.dumps(value.value)
+    if field.formula is not None:
+        return quoted(str(value))
     if field.text is not None:
         shown = value if isinstance(value, tuple) else str(value.path if field.file is not None else value)
         return json.dumps(shown, ensure_ascii=False)
@@ -72,9 +82,12 @@ def written_value(field: FieldType, value: Any) -> str:
 
 def wanted(field: FieldType) -> str:
     """Return what a key holds, in words."""
-    if field.several:
-        return f"{_wanted_one(field)}, {Several.OF_THEM.value}"
-    return _wanted_one(field)
+    if field.several is None:
+        return _wanted_one(field)
+    if not field.several.count:
+        return f"{_wanted_one(field)}, or a list of them"
+    meaning = f" ({field.meaning})" if field.meaning else ""
+    return f"a list of {field.several.count}{meaning}, each {_wanted_one(field)}"
 
 
 def _wanted_one(field: FieldType) -> str:
@@ -82,10 +95,11 @@ def _wanted_one(field: FieldType) -> str:
         return f"{field.dimension.noun} with its unit, such as '{field.dimension.example}'"
     if field.layouts:
         return f"{_wanted_rows(field.layouts)}; or {wanted_file(field.layouts)}"
-    if field.choice is not None:
-        return f"one of {_names(field.choice)}"
-    if field.text is not None:
-        return field.text.value
+    if field.formula is not None:
+        return _wanted_formula(field.formula.dimension)
+    alone = f"one of {names_of(field.choices)}" if field.choices else field.text.value if field.text else ""
+    if alone or field.forms:
+        return "; or ".join([*([alone] if alone else []), *map(_wanted_form, field.forms)])
     if field.unit is not None:
         return _wanted_unit(field.unit.dimension)
     if field.format is not None:
@@ -98,7 +112,7 @@ def _wanted_one(field: FieldType) -> str:
 def broken_limit(field: FieldType, value: object) -> str:
     """Return the limit that a value breaks, in words and with its unit; empty where it breaks none."""
     limits = field.limits
-    if isinstance(value, tuple) and field.several:
+    if isinstance(value, tuple) and field.several is not None:
         return next((words for one in value if (words := broken_limit(field, one))), "")
     if isinstance(value, (tuple, str)):
         return f"at least {limits.fewest} rows, {wanted(field)}" if len(value) < limits.fewest else ""
@@ -125,9 +139,22 @@ def units_shown(field: FieldType) -> str:
 
 
 def _written_table(table: Section) -> str:
-    types = fields_of(type(table))
-    stated = {key: value for key in types if (value := getattr(table, key)) is not None}
-    return "{ " + ", ".join(f"{key} = {written_value(types[key], value)}" for key, value in stated.items()) + " }"
+    stated = {
+        key: (own, value) for key, own in fields_of(type(table)).items() if (value := getattr(table, key)) is not None
+    }
+    return _inline({key: written_value(*entry) for key, entry in stated.items()})
+
+
+def _inline(entries: Mapping[str, str]) -> str:
+    return "{ " + ", ".join(f"{written_key(key)} = {shown}" for key, shown in entries.items()) + " }"
+
+
+def written_key(name: str) -> str:
+    """Return the name of a key as TOML, quoted where it is not bare."""
+    return name if _BARE.fullmatch(name) else quoted(name)
+
+
+_BARE = re.compile(r"[A-Za-z0-9_-]+")
 
 
 def listed_rows(raw: object, layouts: tuple[Points, ...]) -> tuple[tuple[float, ...], ...]:
@@ -171,12 +198,12 @@ def _wanted_unit(dimension: Dimension | None) -> str:
     return f"a unit of {dimension.noun}, such as '{dimension.example.split(' ', 1)[1]}'"
 
 
-def _choice(raw: object, choices: type[Enum]) -> Enum:
-    for member in choices:
+def _choice(raw: object, field: FieldType) -> Enum:
+    for member in field.choices:
         if member.value == raw:
             return member
-    names = [str(member.value) for member in choices]
-    raise QuantityError(repr(raw), f"one of {_names(choices)}", nearest_choice(str(raw), names))
+    names = [str(member.value) for member in field.choices]
+    raise QuantityError(repr(raw), wanted(field), nearest_choice(str(raw), names))
 
 
 def _text(raw: object, text: Text, folder: Path) -> Path | str | tuple[str, ...]:
@@ -195,8 +222,24 @@ def _text(raw: object, text: Text, folder: Path) -> Path | str | tuple[str, ...]
     return path
 
 
-def _names(choices: type[Enum]) -> str:
+def names_of(choices: Iterable[Enum]) -> str:
+    """Return the values of choices in one line."""
     return ", ".join(f"'{member.value}'" for member in choices)
+
+
+def _wanted_form(form: type[Any]) -> str:
+    """Return the keys of a form, those first that it must have; a choice with its values."""
+    of_key = {
+        key: f"{key} = {names_of(own.choices)}" if len(own.choices) == 1 else key
+        for key, own in fields_of(form).items()
+    }
+    return f"a table with {', '.join(of_key.values())}"
+
+
+def _wanted_formula(dimension: Dimension | None) -> str:
+    if dimension is None:
+        return "a number, or a formula (text in quotes)"
+    return f"{dimension.noun} with its unit, such as '{dimension.example}', or a formula in {dimension.si_unit}"
 
 
 def _wanted_rows(layouts: tuple[Points, ...]) -> str:

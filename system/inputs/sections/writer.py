@@ -13,7 +13,7 @@ def section_rows(path: str, section: Section, base: Section | None = None) -> It
     stated = {
         key: (own, value)
         for key, own in fields_of(type(section)).items()
-        if (value := getattr(section, key)) not in (None, ()) and value != getattr(base, key, None)
+        if (value := getattr(section, key)) not in (None, (), {}) and value != getattr(base, key, None)
     }
     flat = {key: row for key, row in stated.items() if row[0].table is None}
     if flat:

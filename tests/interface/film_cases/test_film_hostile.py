@@ -102,11 +102,12 @@ def test_a_decimal_comma_is_told(told, old, new, hint):
         (FULL + OIL + WALLS, "film.order (line 7)", ["2 with a table [thermal]", "order = 1"]),
         (
             CASE + OIL + WALLS.replace("{ temp", '{ heat_transfer_coefficient = "5 W/(m2 K)", temp'),
-            "thermal.moving_wall.heat_transfer_coefficient (line 18)", ["beside a temperature", "one of the two"],
+            "thermal.moving_wall.heat_transfer_coefficient (line 18)",
+            ["beside temperature = '40 degC'", "a table with temperature; or"],
         ),
         (CASE + OIL.replace("0.03", "0") + WALLS, "oil.temperature_coefficient (line 15)", ["more than 0"]),
         (CASE + DISC + STEEL, "elastic.fixed (line 10)", ["have no face under them", "under the whole film"]),
-        (CASE + DISC + STEEL.replace("210", "0"), "elastic.fixed.youngs_modulus", ["a modulus of elasticity"]),
+        (CASE + DISC + STEEL.replace("210", "0"), "elastic.fixed.youngs_modulus", ["more than 0 GPa"]),
         (CASE + NOTHING_THERE, 'study."film.velocity[7]"', ["entry 7 of film.velocity", "from 0 to 1"]),
     ],
 )  # fmt: skip

@@ -413,7 +413,7 @@ def test_wide_lands_lift_the_block_off():
     assert "block lifts off" in told["valve_plate.land_radius_4"]
 
 
-KINDS = ("dimension", "layouts", "choice", "table", "tables", "text")
+KINDS = ("dimension", "layouts", "choices", "table", "tables", "text")
 
 
 def test_every_kind_of_field_is_one_kind():

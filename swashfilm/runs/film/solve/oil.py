@@ -91,7 +91,7 @@ def oil_solver(stated: FilmStatement, space: FilmSpace) -> OilSolver:
     if stated.thermal is not None:
         assert stated.oil is not None
         temperatures = {name: entry.temperature for name, entry in stated.boundary.items()}
-        heat = stated.thermal.heat(stated.oil, temperatures, stated.elastic, space)
+        heat = stated.thermal.heat(stated.oil, temperatures, stated.elastic.bodies if stated.elastic else {}, space)
     return OilSolver(stated, FilmSolver(space), heat)
 
 
