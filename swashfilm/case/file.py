@@ -8,12 +8,12 @@ from pathlib import Path
 from typing import Any
 
 from reynolds.errors import InputError
-from reynolds.fem.space import film_space
-from reynolds.problem import Cavitation, FilmProblem
+from reynolds.fem.space import FilmSpace, film_space
+from reynolds.problem import FilmProblem
 from reynolds.solve.boundary import check_pressures
-from swashfilm.case.fields.expressions import IN_TIME, PLACE
-from swashfilm.case.fields.field import Field, Uniform
-from swashfilm.case.fields.mesh import read_mesh
+from swashfilm.case.fields.expressions import parse_expression
+from swashfilm.case.fields.field import Field, Formula, Uniform
+from swashfilm.case.fields.mesh import CaseMesh
 from swashfilm.case.fields.reader import FieldReader
 from swashfilm.case.gap.instant import FORMAT, GapCase, read_gap_case
 from swashfilm.case.gap.revolution import RevolutionCase, read_revolution_case
@@ -23,12 +23,14 @@ from swashfilm.case.statement import FilmStatement
 from swashfilm.case.tables.boundary import check_boundaries, read_boundaries
 from swashfilm.case.tables.constants import read_constants
 from swashfilm.case.tables.elastic import read_elastic
-from swashfilm.case.tables.load import read_load
-from swashfilm.case.tables.oil import OilSection, oil_viscosity, read_oil
+from swashfilm.case.tables.film import FilmSection, check_film
+from swashfilm.case.tables.oil import OilSection, read_oil
 from swashfilm.case.tables.roughness import read_roughness
 from swashfilm.case.tables.thermal import read_thermal
-from swashfilm.case.tables.time_steps import initial_film_fraction, read_time
+from swashfilm.case.tables.time_steps import TimeSection, read_time
 from system.inputs.faults import InputFaults
+from system.inputs.sections.fields import fields_of
+from system.inputs.sections.reader import Reading, read_entry, read_section
 from system.inputs.toml_table import Table, fault_lines, read_toml
 from system.inputs.units import Dimension
 
@@ -90,11 +92,7 @@ def _check_format(top: Table) -> None:
 
 
 def _free_film(path: Path, text: str, top: Table, film: Table) -> FilmCase | None:
-    mesh, order = read_mesh(film, path.parent), _order(film)
-    space = film_space(mesh.film_mesh, degree=order) if mesh and order else None
-    variables = PLACE if top.get("time") is None else IN_TIME
-    reader = FieldReader(mesh, space, variables, read_constants(top))
-    stated = _stated(top, film, reader, order, path.parent)
+    stated, space = _stated(top, film, path.parent)
     if stated is None or top.faults:
         return None
     try:
@@ -106,90 +104,66 @@ def _free_film(path: Path, text: str, top: Table, film: Table) -> FilmCase | Non
     return FilmCase(path.stem, text, resolved_text(stated), stated, problem)
 
 
-def _stated(top: Table, film: Table, reader: FieldReader, order: int | None, folder: Path) -> FilmStatement | None:
-    """Return the statement of the case; None with its faults listed."""
-    faults = len(top.faults)
-    time, load = read_time(top), read_load(top, film)
-    is_shape = film.get("load") is not None
-    viscosity, oil = _viscosity(top, film, reader)
-    parts: dict[str, Any] = {
-        "mesh": reader.mesh,
-        "order": order,
-        "thickness": reader.field(film, "thickness", Dimension.LENGTH, positive=not is_shape),
-        "velocity": reader.vector(film, "velocity", Dimension.VELOCITY, "0 m/s"),
-        "velocity_fixed": reader.vector(film, "velocity_fixed", Dimension.VELOCITY, "0 m/s"),
-        "squeeze": reader.field(film, "squeeze", Dimension.VELOCITY, "0 m/s"),
-        "viscosity": viscosity,
-        "cavitation": film.choice("cavitation", Cavitation, Cavitation.JFO),
-        "cavitation_pressure": film.quantity("cavitation_pressure", Dimension.PRESSURE, 0.0),
-        "initial_film_fraction": initial_film_fraction(top, film, reader),
-    }
-    parts["boundary"] = read_boundaries(top, reader, parts["cavitation_pressure"])
-    elastic = read_elastic(top, reader.mesh.film_mesh if reader.mesh else None, folder)
+def _stated(top: Table, film: Table, folder: Path) -> tuple[FilmStatement | None, FilmSpace | None]:
+    """Return the statement of the case, None with its faults listed, and the space on its mesh."""
+    faults, constants = len(top.faults), read_constants(top)
+    reading = Reading(folder, faults=top.faults)
+    mesh = _mesh(film, reading)
+    reading.formula = FieldReader(mesh.data if mesh else None, top.get("time") is not None, constants)
+    reading.special = {"film.mesh": lambda *_: {"mesh": mesh}}
+    section = read_section("film", FilmSection, film.values, reading)
+    space = film_space(mesh.film_mesh, degree=section.order) if mesh else None
+    check_film(top, film, section, space, reading)
+    boundary = read_boundaries(top, reading, mesh, section.cavitation_pressure)
+    if mesh and not reading.faulty & {"film.cavitation", "film.cavitation_pressure"}:
+        check_boundaries(top, mesh, boundary, section.cavitation, section.cavitation_pressure)
+    time, oil, rough = read_time(top), _oil(top, film), read_roughness(top)
+    elastic = read_elastic(top, mesh.film_mesh if mesh else None, folder)
     is_sound = elastic is not None or top.get("elastic") is None
     thermal = read_thermal(top, (elastic.bodies if elastic else {}) if is_sound else None)
-    rough = read_roughness(top)
-    film.close()
-    _check_order(film, parts, with_heat=top.get("thermal") is not None)
-    check_boundaries(top, reader, parts["boundary"], parts["cavitation"], parts["cavitation_pressure"])
-    _check_tables(top, film, oil, viscosity)
-    if None in parts.values() or len(top.faults) > faults:
-        return None
-    return FilmStatement(
-        **parts, oil=oil, thermal=thermal, elastic=elastic, rough=rough, time=time, load=load,
-        constants=reader.constants,
-    )  # fmt: skip
+    if thermal is not None:
+        _check_heat(top, film, oil, getattr(section, "viscosity", None))
+    if len(top.faults) > faults:
+        return None, None
+    return FilmStatement(_filled(section, time), boundary, oil, thermal, elastic, rough, time, constants), space
 
 
-def _order(film: Table) -> int | None:
-    raw = film.get("order")
-    if raw is None:
-        return 1
-    if type(raw) is int and raw in (1, 2):
-        return raw
-    film.fault("order", repr(raw), "1 (linear pressure in a cell) or 2 (quadratic, full films only)")
-    return None
+def _mesh(film: Table, reading: Reading) -> CaseMesh | None:
+    """Return the mesh of a [film] table; None with its faults listed, and where it states none."""
+    raw = film.get("mesh")
+    found = None if raw is None else read_entry("film.mesh", fields_of(FilmSection)["mesh"], raw, reading)
+    return found if isinstance(found, CaseMesh) and "film.mesh" not in reading.faulty else None
 
 
-def _viscosity(top: Table, film: Table, reader: FieldReader) -> tuple[Field | None, OilSection | None]:
-    """Return viscosity at zero pressure and the oil's temperature, and the oil; None with the faults listed."""
-    table = top.table("oil")
-    given = film.get("viscosity") is not None
-    with_heat = top.get("thermal") is not None
-    oil = read_oil(table, with_viscosity=given, with_heat=with_heat) if table else None
-    if given:
-        return reader.field(film, "viscosity", Dimension.DYNAMIC_VISCOSITY, positive=True), oil
-    if table and oil:
-        viscosity = oil_viscosity(table, oil)
-        return None if viscosity is None else Uniform(viscosity, Dimension.DYNAMIC_VISCOSITY), oil
-    if top.get("oil") is None:
+def _filled(section: FilmSection, time: TimeSection | None) -> FilmSection:
+    """Return the table with what it leaves out: at rest and full of oil."""
+    if time is None:
+        return replace(section, squeeze=section.squeeze or Uniform(0.0, Dimension.VELOCITY))
+    return replace(section, initial_film_fraction=section.initial_film_fraction or Formula(parse_expression("1.0")))
+
+
+def _oil(top: Table, film: Table) -> OilSection | None:
+    """Return the [oil] table; None where there is none, or with its faults listed."""
+    table, given = top.table("oil"), "viscosity" in film.values
+    oil = read_oil(table, with_viscosity=given, with_heat=top.get("thermal") is not None) if table else None
+    if not given and table is None and top.get("oil") is None:
         film.fault("viscosity", "missing", "a viscosity, such as '30 mPa s', or a table [oil]")
-    return None, None
+    if not given and table and oil:
+        try:
+            oil.dynamic_viscosity  # noqa: B018
+        except InputError as reason:
+            table.fault("temperature", reason.found, f"{reason.expected} of {reason.where}")
+    return oil
 
 
-def _check_tables(top: Table, film: Table, oil: OilSection | None, viscosity: Field | None) -> None:
-    """List faults of tables that exclude or need each other."""
-    if top.get("thermal") is None:
-        return
+def _check_heat(top: Table, film: Table, oil: OilSection | None, viscosity: Field | None) -> None:
+    """List faults of what a solved temperature needs."""
     if top.get("oil") is None:
         top.fault("thermal", "no table [oil]", "its density, temperature, specific heat and thermal conductivity")
     if oil is None or oil.kinematic is not None:
         return
-    table = top.get("oil")
-    if "temperature_coefficient" not in table:
+    if oil.temperature_coefficient is None:
         expected = "the decrease of viscosity with temperature ('0.03 1/K'), or a grade in place of film.viscosity"
         top.fault("oil.temperature_coefficient", "missing", expected)
     if viscosity is not None and not isinstance(viscosity, Uniform):
         film.fault("viscosity", f"'{viscosity}' with a table [thermal]", "one viscosity, at the oil's temperature")
-
-
-def _check_order(film: Table, parts: Mapping[str, Any], *, with_heat: bool) -> None:
-    cavitation = parts["cavitation"]
-    if parts["order"] == 2 and cavitation not in (None, Cavitation.NONE):
-        film.fault(
-            "order",
-            f"2 with cavitation '{cavitation.value}'" + ("" if "cavitation" in film.values else " (the default)"),
-            "order = 1, or cavitation = 'none' (quadratic pressure is for full films only)",
-        )
-    elif parts["order"] == 2 and with_heat:
-        film.fault("order", "2 with a table [thermal]", "order = 1: heat is transported by linear pressure only")

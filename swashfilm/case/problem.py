@@ -10,6 +10,7 @@ from reynolds.problem import Film, FilmProblem, Held
 from swashfilm.case.fields.field import Field
 from swashfilm.case.fields.reader import field_fault
 from swashfilm.case.statement import FilmStatement
+from swashfilm.case.tables.film import AT_REST
 
 
 def film_problem(stated: FilmStatement, space: FilmSpace | None = None, t: float = 0.0) -> FilmProblem:
@@ -18,23 +19,24 @@ def film_problem(stated: FilmStatement, space: FilmSpace | None = None, t: float
     Raises InputError for a field without a value somewhere, for a thickness or viscosity not above zero, and
     for an elastic body that does not lie under the film.
     """
-    space = space or film_space(stated.mesh.film_mesh, degree=stated.order)
-    u, v = (_sampled("film.velocity", part, space, t) for part in stated.velocity)
-    u_fixed, v_fixed = (_sampled("film.velocity_fixed", part, space, t) for part in stated.velocity_fixed)
+    own = stated.film
+    space = space or film_space(own.mesh.film_mesh, degree=own.order)
+    u, v = (_sampled("film.velocity", part, space, t) for part in own.velocity)
+    u_fixed, v_fixed = (_sampled("film.velocity_fixed", part, space, t) for part in own.velocity_fixed)
     film = Film(
-        thickness=_sampled("film.thickness", stated.thickness, space, t, positive=stated.load is None),
+        thickness=_sampled("film.thickness", own.thickness, space, t, positive=own.load is None),
         viscosity=_sampled("film.viscosity", stated.viscosity, space, t, positive=True),
         velocity_moving=(u, v),
         velocity_fixed=(u_fixed, v_fixed),
-        squeeze=_sampled("film.squeeze", stated.squeeze, space, t),
-        thickness_at_vertices=stated.thickness.at_vertices(space, t),
+        squeeze=_sampled("film.squeeze", own.squeeze or AT_REST[0], space, t),
+        thickness_at_vertices=own.thickness.at_vertices(space, t),
     )
     return FilmProblem(
         space=space,
         film=film,
         boundary=held(stated, t),
-        cavitation=stated.cavitation,
-        cavitation_pressure=stated.cavitation_pressure,
+        cavitation=own.cavitation,
+        cavitation_pressure=own.cavitation_pressure,
         fluid=_fluid(stated),
         walls=stated.elastic.walls(space) if stated.elastic else None,
         surface=stated.rough.surface if stated.rough else None,
@@ -44,7 +46,11 @@ def film_problem(stated: FilmStatement, space: FilmSpace | None = None, t: float
 
 def held(stated: FilmStatement, t: float) -> dict[str, Held]:
     """Return the boundary values at a time (s)."""
-    return {name: Held(entry.pressure.at_time(t), entry.film_fraction) for name, entry in stated.boundary.items()}
+    return {
+        name: Held(entry.pressure.at_time(t), entry.film_fraction)
+        for name, entry in stated.boundary.items()
+        if entry.pressure is not None
+    }
 
 
 def _fluid(stated: FilmStatement) -> Fluid:

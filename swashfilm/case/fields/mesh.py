@@ -2,21 +2,22 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import Enum
+from functools import cached_property
 from pathlib import Path
+from typing import Annotated, Literal
 
 from reynolds.errors import InputError
 from reynolds.fem.mesh import Cell, FilmMesh, annulus, mesh_from_file, rectangle
 from reynolds.fem.refine import refine_mesh
 from swashfilm.case.fields.field import MeshData, mesh_data
-from system.inputs.toml_table import Table, quoted
-from system.inputs.units import Dimension, format_quantity
+from system.inputs.sections.fields import FromFile, Length, Limits, Positive, Several
+from system.inputs.units import Dimension, QuantityError, format_quantity
 
-MESH_FILE = "the path of a mesh file in a format that meshio reads"
 MOST_CELLS = 10_000_000  # about 10 GB of memory
-Cells = tuple[int, int]
+FEWEST_AROUND = 3
+Cells = Annotated[tuple[int, int], Several(2), Limits(least=1)]
 
 
 class BuiltInShape(Enum):
@@ -35,122 +36,101 @@ class PeriodicDirection(Enum):
 
 
 @dataclass(frozen=True)
-class CaseMesh:
-    """A mesh, its file's data, its entry in a case file, and a function that returns it twice finer."""
+class FileMesh:
+    """Mesh and data of a mesh file."""
 
+    path: Path
     film_mesh: FilmMesh
     data: MeshData
-    text: str
-    finer: Callable[[], CaseMesh]
+
+    def finer(self) -> FileMesh:
+        """Return the mesh twice finer, with its data."""
+        refined = refine_mesh(self.film_mesh)
+        return FileMesh(self.path, refined.film_mesh, self.data.refined(refined))
 
 
-def read_mesh(film: Table, folder: Path) -> CaseMesh | None:
-    """Return the mesh of a [film] table; None with its faults listed. Paths are relative to `folder`."""
-    raw = film.get("mesh")
-    if isinstance(raw, str):
-        return _from_file(film, folder)
-    if isinstance(raw, dict):
-        table = Table(film.name("mesh"), raw, film.faults)
-        shape = table.choice("kind", BuiltInShape)
-        built = {BuiltInShape.RECTANGLE: _rectangle, BuiltInShape.ANNULUS: _annulus}[shape](table) if shape else None
-        if shape:
-            table.close()
-        return built
-    found = "missing" if raw is None else repr(raw)
-    film.fault("mesh", found, 'the path of a mesh file, or a table such as { kind = "rectangle", ... }')
-    return None
+@dataclass(frozen=True, kw_only=True)
+class RectangleSection:
+    """A rectangle; its boundaries are left, right, bottom and top."""
+
+    kind: Literal[BuiltInShape.RECTANGLE]
+    size: Annotated[tuple[float, float], Several(2), Dimension.LENGTH, Positive]  # along x and y
+    origin: Annotated[tuple[float, float], Several(2), Dimension.LENGTH] = (0.0, 0.0)  # along x and y
+    cells: Cells  # along x and y
+    cell: Cell = Cell.TRIANGLE
+    periodic: PeriodicDirection = PeriodicDirection.NONE
+
+    def __post_init__(self) -> None:
+        _check_count(self.cells)
+
+    @cached_property
+    def film_mesh(self) -> FilmMesh:
+        """The mesh."""
+        seams = {f"periodic_{way.value}": self.periodic is way for way in (PeriodicDirection.X, PeriodicDirection.Y)}
+        return rectangle(self.size, self.cells, origin=self.origin, cell=self.cell, **seams)
+
+    @property
+    def data(self) -> MeshData:
+        """No data."""
+        return MeshData()
+
+    def finer(self) -> RectangleSection:
+        """Return the mesh twice finer."""
+        return replace(self, cells=_doubled(self.cells))
 
 
-def _from_file(film: Table, folder: Path) -> CaseMesh | None:
-    path = film.file("mesh", folder, MESH_FILE)
-    if path is None:
-        return None
+@dataclass(frozen=True, kw_only=True)
+class AnnulusSection:
+    """A ring about the origin; its boundaries are inner and outer."""
+
+    kind: Literal[BuiltInShape.ANNULUS]
+    inner_radius: Length
+    outer_radius: Length
+    cells: Cells  # across and around
+    cell: Cell = Cell.QUADRILATERAL
+
+    def __post_init__(self) -> None:
+        _check_count(self.cells)
+        if self.cells[1] < FEWEST_AROUND:
+            raise InputError("cells", f"{self.cells[1]} cells around", f"at least {FEWEST_AROUND}")
+        if self.inner_radius >= self.outer_radius:
+            outer, inner = (
+                format_quantity(radius, Dimension.LENGTH, digits=4) for radius in (self.outer_radius, self.inner_radius)
+            )
+            raise InputError("outer_radius", outer, f"more than inner_radius, {inner}")
+
+    @cached_property
+    def film_mesh(self) -> FilmMesh:
+        """The mesh."""
+        return annulus(self.inner_radius, self.outer_radius, self.cells, cell=self.cell)
+
+    @property
+    def data(self) -> MeshData:
+        """No data."""
+        return MeshData()
+
+    def finer(self) -> AnnulusSection:
+        """Return the mesh twice finer."""
+        return replace(self, cells=_doubled(self.cells))
+
+
+def read_film_mesh(path: Path) -> FileMesh:
+    """Return the mesh of a file; raise QuantityError where it holds none."""
     try:
         film_mesh = mesh_from_file(path)
-        data = mesh_data(path, film_mesh)
+        return FileMesh(path, film_mesh, mesh_data(path, film_mesh))
     except InputError as reason:
-        film.fault("mesh", reason.found, reason.expected)
-        return None
-    return _of_file(film_mesh, data, quoted(str(path.resolve())))
+        raise QuantityError(reason.found, reason.expected) from None
 
 
-def _of_file(film_mesh: FilmMesh, data: MeshData, text: str) -> CaseMesh:
-    def finer() -> CaseMesh:
-        refined = refine_mesh(film_mesh)
-        return _of_file(refined.film_mesh, data.refined(refined), text)
-
-    return CaseMesh(film_mesh, data, text, finer)
+CaseMesh = FileMesh | RectangleSection | AnnulusSection
+MeshForm = Annotated[FileMesh, FromFile(read_film_mesh)] | RectangleSection | AnnulusSection
 
 
-def _built_in(build: Callable[[Cells], FilmMesh], text: Callable[[Cells], str], cells: Cells) -> CaseMesh:
-    def finer() -> CaseMesh:
-        return _built_in(build, text, (2 * cells[0], 2 * cells[1]))
-
-    return CaseMesh(build(cells), MeshData(), text(cells), finer)
+def _doubled(cells: tuple[int, int]) -> tuple[int, int]:
+    return 2 * cells[0], 2 * cells[1]
 
 
-def _rectangle(table: Table) -> CaseMesh | None:
-    size = table.pair("size", Dimension.LENGTH)
-    origin = table.pair("origin", Dimension.LENGTH, (0.0, 0.0))
-    cells = _cells(table)
-    cell = table.choice("cell", Cell, Cell.TRIANGLE)
-    periodic = table.choice("periodic", PeriodicDirection, PeriodicDirection.NONE)
-    if size is not None and min(size) <= 0.0:
-        table.fault("size", str(table.values["size"]), "two lengths above zero")
-        return None
-    if size is None or origin is None or cells is None or cell is None or periodic is None:
-        return None
-    seams = {f"periodic_{way.value}": periodic is way for way in (PeriodicDirection.X, PeriodicDirection.Y)}
-    return _built_in(
-        lambda count: rectangle(size, count, origin=origin, cell=cell, **seams),
-        lambda count: (
-            f'{{ kind = "rectangle", size = [{_length(size[0])}, {_length(size[1])}], '
-            f"origin = [{_length(origin[0])}, {_length(origin[1])}], cells = {list(count)}, "
-            f'cell = "{cell.value}", periodic = "{periodic.value}" }}'
-        ),
-        cells,
-    )
-
-
-def _annulus(table: Table) -> CaseMesh | None:
-    inner = table.positive("inner_radius", Dimension.LENGTH)
-    outer = table.positive("outer_radius", Dimension.LENGTH)
-    cells = _cells(table, least_around=3)
-    cell = table.choice("cell", Cell, Cell.QUADRILATERAL)
-    if inner is None or outer is None or cells is None or cell is None:
-        return None
-    if inner >= outer:
-        table.fault(
-            "outer_radius",
-            str(table.values["outer_radius"]),
-            f"more than inner_radius, {format_quantity(inner, Dimension.LENGTH, digits=4)}",
-        )
-        return None
-    return _built_in(
-        lambda count: annulus(inner, outer, count, cell=cell),
-        lambda count: (
-            f'{{ kind = "annulus", inner_radius = {_length(inner)}, outer_radius = {_length(outer)}, '
-            f'cells = {list(count)}, cell = "{cell.value}" }}'
-        ),
-        cells,
-    )
-
-
-def _cells(table: Table, least_around: int = 1) -> Cells | None:
-    raw = table.get("cells")
-    wanted = f"two whole numbers from 1 on (the second from {least_around}), such as [24, 96]"
-    if not isinstance(raw, list) or len(raw) != 2 or any(type(count) is not int for count in raw):
-        table.fault("cells", "missing" if raw is None else repr(raw), wanted)
-        return None
-    first, second = raw
-    if first < 1 or second < least_around:
-        table.fault("cells", repr(raw), wanted)
-        return None
-    if first * second > MOST_CELLS:
-        table.fault("cells", f"{first} x {second} cells", f"at most {MOST_CELLS} cells in all")
-        return None
-    return first, second
-
-
-def _length(value: float) -> str:
-    return quoted(format_quantity(value, Dimension.LENGTH))
+def _check_count(cells: tuple[int, int]) -> None:
+    if cells[0] * cells[1] > MOST_CELLS:
+        raise InputError("cells", f"{cells[0]} x {cells[1]} cells", f"at most {MOST_CELLS} cells in all")

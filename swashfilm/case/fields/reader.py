@@ -1,70 +1,44 @@
-"""Reader of the fields in a case's tables; each field has a value everywhere on the mesh."""
+"""Reader of the fields in a case's tables, and their check on a mesh."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from collections.abc import Mapping
+from dataclasses import dataclass
 
 import numpy as np
 
 from reynolds.fem.space import FilmSpace
-from swashfilm.case.fields.expressions import PLACE
-from swashfilm.case.fields.field import Field, MeshData, may_be_data, read_field
-from swashfilm.case.fields.mesh import CaseMesh
-from system.inputs.toml_table import Table
-from system.inputs.units import Dimension, QuantityError
+from swashfilm.case.fields.expressions import PLACE, ExpressionError, parse_expression
+from swashfilm.case.fields.field import Field, Formula, MeshData, Uniform, may_be_data, read_field
+from system.inputs.sections.fields import FormulaOf
+from system.inputs.units import QuantityError, parse_quantity
 
 
 @dataclass(frozen=True)
 class FieldReader:
-    """Reader of fields on one mesh (None where the mesh has a fault itself).
+    """Reader of fields with the data of one mesh (None where the mesh has a fault itself).
 
-    Formulas may contain `variables` and `constants`.
+    Formulas may contain place, `constants` and, `in_time`, t.
     """
 
-    mesh: CaseMesh | None
-    space: FilmSpace | None
-    variables: Sequence[str] = PLACE
-    constants: Mapping[str, float] = field(default_factory=dict)
+    data: MeshData | None
+    in_time: bool
+    constants: Mapping[str, float]
 
-    def field(
-        self, table: Table, key: str, dimension: Dimension, default: str | None = None, *, positive: bool = False
-    ) -> Field | None:
-        """Return the field under a key, SI; None with its fault listed."""
-        raw = table.get(key)
-        return self.entry(table, key, default if raw is None else raw, dimension, positive=positive)
-
-    def vector(self, table: Table, key: str, dimension: Dimension, default: str) -> tuple[Field, Field] | None:
-        """Return two fields, along x and y, SI; None with the faults listed."""
-        raw = table.get(key)
-        parts = [default, default] if raw is None else raw
-        if not isinstance(parts, list) or len(parts) != 2:
-            noun = "velocities" if dimension is Dimension.VELOCITY else "values"
-            table.fault(key, repr(raw), f'two {noun}, in x and y, such as ["1 m/s", "0 m/s"]')
-            return None
-        x, y = (self.entry(table, f"{key}[{index}]", part, dimension) for index, part in enumerate(parts))
-        return None if x is None or y is None else (x, y)
-
-    def entry(
-        self, table: Table, key: str, raw: object, dimension: Dimension, *, positive: bool = False
-    ) -> Field | None:
-        """Return the field of an entry, SI; None with its fault listed."""
-        if raw is None:
-            formula = f"a formula of {', '.join(self.variables)}"
-            table.fault(key, "missing", f"{dimension.noun}, such as '{dimension.example}', or {formula}")
-            return None
-        if self.mesh is None and may_be_data(raw) and str(raw).strip() not in self.constants:
+    def __call__(self, of: FormulaOf, raw: object) -> Field | None:
+        """Return the field of an entry, SI; None where the mesh may have had its data. Raises QuantityError."""
+        names = (*(PLACE if of.place else ()), *(("t",) if of.time and self.in_time else ()))
+        if of.dimension is None:
+            try:
+                return Formula(parse_expression(str(raw), names, self.constants))
+            except ExpressionError as reason:
+                raise QuantityError(reason.found, reason.expected, reason.nearest) from None
+        if not names and not self.constants:
+            return Uniform(parse_quantity(raw, of.dimension), of.dimension)
+        if of.place and self.data is None and may_be_data(raw) and str(raw).strip() not in self.constants:
             return None  # the fault of the mesh is listed already
-        try:
-            data = self.mesh.data if self.mesh else MeshData()
-            found = read_field(raw, dimension, data, self.variables, self.constants)
-        except QuantityError as reason:
-            table.fault(key, reason.found, reason.expected, reason.nearest)
-            return None
-        if self.space and (fault := field_fault(found, self.space, positive=positive)):
-            table.fault(key, *fault)
-            return None
-        return found
+        data = self.data if of.place and self.data else MeshData()
+        return read_field(raw, of.dimension, data, names, self.constants)
 
 
 def field_fault(field: Field, space: FilmSpace, t: float = 0.0, *, positive: bool = False) -> tuple[str, str] | None:

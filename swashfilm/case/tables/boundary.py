@@ -3,89 +3,66 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import combinations
+from typing import Annotated, Any
 
 import numpy as np
 
 from reynolds.problem import Cavitation
-from swashfilm.case.fields.field import CellData, InTime, MeshData, PointData, Uniform, read_field
-from swashfilm.case.fields.reader import FieldReader
+from swashfilm.case.fields.field import InTime, Uniform
+from swashfilm.case.fields.mesh import CaseMesh
 from system.inputs.faults import nearest_choice
+from system.inputs.sections.fields import FormulaOf, Limits, Temperature, field_type, fields_of
+from system.inputs.sections.reader import Reading, read_entry
+from system.inputs.sections.values import wanted
 from system.inputs.toml_table import Table
-from system.inputs.units import Dimension, QuantityError, format_quantity
+from system.inputs.units import Dimension, format_quantity
 
 
-@dataclass(frozen=True)
-class BoundaryStatement:
-    """Conditions at one boundary: pressure (Pa), film fraction and temperature (K) of entering oil.
+@dataclass(frozen=True, kw_only=True)
+class BoundarySection:
+    """Conditions at one boundary, of entering oil."""
 
-    The temperature is None where the inlet temperature of [thermal] holds.
+    pressure: Annotated[InTime, FormulaOf(Dimension.PRESSURE, place=False)] | None = None
+    film_fraction: Annotated[float, Limits(above=0.0, most=1.0)] = 1.0
+    temperature: Temperature | None = None  # left out: the inlet temperature of [thermal]
+
+
+Boundaries = Mapping[str, BoundarySection]
+BoundaryTables = field_type(Mapping[str, BoundarySection])
+
+
+def read_boundaries(top: Table, reading: Reading, mesh: CaseMesh | None, level: float) -> Boundaries:
+    """Return the conditions at the boundaries, by name, without those at fault; faults are listed.
+
+    A starved boundary that states no pressure has the cavitation pressure, `level` (Pa).
     """
-
-    pressure: InTime
-    film_fraction: float = 1.0
-    temperature: float | None = None
-
-
-Boundaries = Mapping[str, BoundaryStatement]
-
-
-def read_boundaries(top: Table, reader: FieldReader, level: float | None) -> Boundaries:
-    """Return the conditions at the boundaries, by name; list their faults. `level`: cavitation pressure, Pa."""
-    mesh = reader.mesh
-    table = top.table("boundary")
-    names = mesh.film_mesh.boundary_names if mesh else ()
-    found = {}
-    for name in table.values if table else ():
-        assert table is not None
-        entry = table.table(name)
+    raw = top.get("boundary")
+    stated: Any = read_entry("boundary", BoundaryTables, {} if raw is None else raw, reading) or {}
+    names, found = mesh.film_mesh.boundary_names if mesh else (), {}
+    for name, entry in stated.items():
+        path = f"boundary.{name}"
         if mesh and name not in names:
             sewn = {side for pair in mesh.film_mesh.seams for side in pair}
             what = "a side of the periodic seam" if name in sewn else "not a boundary of this mesh"
-            table.fault(name, what, f"one of {', '.join(names)}", nearest_choice(name, names))
-        if entry and (stated := _entry(entry, reader, level)) is not None:
-            found[name] = stated
-    if mesh and not (table and table.values):
+            reading.fault(path, what, f"one of {', '.join(names)}", nearest_choice(name, names))
+        elif path in reading.faulty:
+            continue
+        elif entry.pressure is None and entry.film_fraction == 1.0:
+            reading.fault(f"{path}.pressure", "missing", wanted(fields_of(BoundarySection)["pressure"]))
+        else:
+            found[name] = replace(entry, pressure=entry.pressure or Uniform(level, Dimension.PRESSURE))
+    if mesh and not stated and "boundary" not in reading.faulty:
         top.fault("boundary", "no pressure at any boundary", f"a pressure at one of {', '.join(names)} at least")
     return found
 
 
-def _entry(entry: Table, reader: FieldReader, level: float | None) -> BoundaryStatement | None:
-    fraction = entry.number("film_fraction", 1.0)
-    if fraction is not None and not 0.0 < fraction <= 1.0:
-        entry.fault("film_fraction", repr(fraction), "above 0 (dry), at most 1 (flooded)")
-        fraction = None
-    starved = fraction is None or fraction < 1.0
-    pressure = _pressure(entry, reader, level if starved else None)
-    temperature = entry.positive("temperature", Dimension.TEMPERATURE) if entry.get("temperature") else None
-    entry.close()
-    return None if pressure is None or fraction is None else BoundaryStatement(pressure, fraction, temperature)
-
-
-def _pressure(entry: Table, reader: FieldReader, default: float | None) -> InTime | None:
-    """Return a pressure, or a formula of constants (in a transient of t too); None with its fault listed."""
-    in_time = tuple(name for name in reader.variables if name == "t")
-    if (in_time or reader.constants) and isinstance(entry.get("pressure"), str):
-        try:
-            field = read_field(entry.get("pressure"), Dimension.PRESSURE, MeshData(), in_time, reader.constants)
-        except QuantityError as reason:
-            entry.fault("pressure", reason.found, reason.expected, reason.nearest)
-            return None
-        assert not isinstance(field, (PointData, CellData))
-        return field
-    pressure = entry.quantity("pressure", Dimension.PRESSURE, default)
-    return None if pressure is None else Uniform(pressure, Dimension.PRESSURE)
-
-
-def check_boundaries(
-    top: Table, reader: FieldReader, boundary: Boundaries, cavitation: Cavitation | None, level: float | None
-) -> None:
+def check_boundaries(top: Table, mesh: CaseMesh, boundary: Boundaries, cavitation: Cavitation, level: float) -> None:
     """List faults of boundaries that contradict each other or the cavitation pressure (Pa)."""
-    _check_shared_edges(top, reader, boundary)
-    if cavitation is None or level is None:
-        return
+    _check_shared_edges(top, mesh, boundary)
     for name, stated in boundary.items():
+        assert stated.pressure is not None
         if stated.film_fraction < 1.0:
             _check_starved(top, name, stated, cavitation, level)
         elif cavitation is not Cavitation.NONE and stated.pressure.at_time(0.0) < level:
@@ -97,7 +74,8 @@ def check_boundaries(
             )
 
 
-def _check_starved(top: Table, name: str, stated: BoundaryStatement, cavitation: Cavitation, level: float) -> None:
+def _check_starved(top: Table, name: str, stated: BoundarySection, cavitation: Cavitation, level: float) -> None:
+    assert stated.pressure is not None
     fraction = f"{stated.film_fraction:g}"
     if cavitation is not Cavitation.JFO:
         found = f"{fraction} with cavitation = '{cavitation.value}'"
@@ -110,9 +88,9 @@ def _check_starved(top: Table, name: str, stated: BoundaryStatement, cavitation:
         )
 
 
-def _check_shared_edges(top: Table, reader: FieldReader, boundary: Boundaries) -> None:
+def _check_shared_edges(top: Table, mesh: CaseMesh, boundary: Boundaries) -> None:
     """List a fault for an edge with two pressures; a mesh file may name an edge twice (left and outer)."""
-    facets = reader.mesh.film_mesh.mesh.boundaries if reader.mesh else {}
+    facets = mesh.film_mesh.mesh.boundaries
     for (one, at), (other, at_other) in combinations(boundary.items(), 2):
         if at != at_other and one in facets and other in facets and np.intersect1d(facets[one], facets[other]).size:
             top.fault(f"boundary.{other}", f"shares edges with {one} at another pressure", "one pressure per edge")

@@ -9,7 +9,6 @@ from typing import Annotated
 
 import numpy as np
 
-from reynolds.errors import InputError
 from reynolds.laws.density import DOWSON_HIGGINSON, BulkModulus, RationalDensity, Tait, tait_modulus
 from reynolds.laws.fluid import DensityLaw, Fluid, ViscosityLaw, incompressible, isoviscous
 from reynolds.laws.oil import Oil, dynamic_viscosity, walther
@@ -118,6 +117,15 @@ class OilSection:
         return None if at_40 is None or at_100 is None else (at_40, at_100)
 
     @property
+    def dynamic_viscosity(self) -> float:
+        """Viscosity (Pa s) of a grade by Walther's law at its temperature; raises InputError beyond the law's range."""
+        assert self.kinematic is not None
+        assert self.density is not None
+        assert self.temperature is not None
+        # An isothermal film needs neither bulk modulus nor specific heat: both are set to 1.
+        return dynamic_viscosity(Oil(*self.kinematic, self.density, 1.0, 1.0), self.temperature)
+
+    @property
     def fluid(self) -> Fluid:
         """The oil's laws over pressure, at one temperature."""
         return Fluid(self.viscosity_over_pressure, self.density_over_pressure)
@@ -199,16 +207,3 @@ def _constants(oil: Table, stated: OilSection, reading: Reading) -> Iterator[str
         for key in sorted(others - {*_CONSTANTS.get(chosen, ())}):
             if key in oil.values and f"{oil.path}.{law}" not in reading.faulty:
                 oil.fault(key, f"a constant beside {law} = {chosen.value!r}", f"a {law} that has it")
-
-
-def oil_viscosity(oil: Table, stated: OilSection) -> float | None:
-    """Return the viscosity (Pa s) by Walther's law at the table's temperature; None with its fault listed."""
-    assert stated.kinematic is not None
-    assert stated.density is not None
-    assert stated.temperature is not None
-    try:
-        # An isothermal film needs neither bulk modulus nor specific heat: both are set to 1.
-        return dynamic_viscosity(Oil(*stated.kinematic, stated.density, 1.0, 1.0), stated.temperature)
-    except InputError as reason:
-        oil.fault("temperature", reason.found, f"{reason.expected} of {reason.where}")
-        return None

@@ -6,9 +6,6 @@ from dataclasses import dataclass, replace
 from typing import Annotated
 
 from reynolds.errors import InputError
-from swashfilm.case.fields.expressions import ExpressionError, parse_expression
-from swashfilm.case.fields.field import Field, Formula
-from swashfilm.case.fields.reader import FieldReader
 from system.inputs.sections.fields import Limits, Positive
 from system.inputs.sections.reader import table_section
 from system.inputs.toml_table import Table
@@ -55,24 +52,3 @@ def read_time(top: Table) -> TimeSection | None:
     """Return the [time] table; None where there is none, or with its faults listed."""
     stated = table_section(top, "time", TimeSection)
     return replace(stated, outputs=min(stated.outputs, stated.steps)) if stated else None
-
-
-def initial_film_fraction(top: Table, film: Table, reader: FieldReader) -> Field | None:
-    """Return the film fraction at the start, by default 1; None with its fault listed."""
-    if film.get("initial_film_fraction") is not None and top.get("time") is None:
-        film.fault("initial_film_fraction", "a start without a table [time]", "a steady film without this key")
-    if film.get("squeeze") is not None and top.get("time") is not None:
-        film.fault("squeeze", "dh/dt beside a table [time]", "a transient without this key: dh/dt follows from t")
-    raw = film.get("initial_film_fraction")
-    expected = "a number above 0 and at most 1, or a formula of x and y (text in quotes)"
-    try:
-        field = Formula(parse_expression("1.0" if raw is None else str(raw), constants=reader.constants))
-    except ExpressionError as reason:
-        film.fault("initial_film_fraction", reason.found, expected, reason.nearest)
-        return None
-    if reader.space is not None:
-        values = field.sample(reader.space)
-        if not (values.min() > 0.0 and values.max() <= 1.0):
-            film.fault("initial_film_fraction", f"{values.min():.4g} to {values.max():.4g}", expected)
-            return None
-    return field

@@ -86,13 +86,9 @@ class Several:
 
 @dataclass(frozen=True)
 class FormulaOf:
-    """Marks a field that is a quantity (None: a number) or a formula; `Reading.formula` reads it.
-
-    positive: above zero everywhere. place, time: whether it may depend on position, and on time.
-    """
+    """Marks a field that is a quantity (None: a number) or a formula of place and time; read by `Reading.formula`."""
 
     dimension: Dimension | None
-    positive: bool = False
     place: bool = True
     time: bool = True
 
@@ -100,7 +96,7 @@ class FormulaOf:
 class Text(Enum):
     """Marks a field that is text; its value says in words which: a file that is there, a name, .."""
 
-    FILE = "the path of a file beside the pump file, such as 'part.msh'"
+    FILE = "the path of a file beside this one, such as 'part.msh'"
     NAME = "a name, such as 'film'"
     NAMES = "a list of names, such as ['bottom', 'rim']"
     COLUMN = "the name of a column"

@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import math
 import re
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import is_dataclass
 from enum import Enum
 from pathlib import Path
@@ -29,6 +29,8 @@ def read_value(field: FieldType, raw: object, folder: Path = HERE) -> object:
     Rows may come from a CSV file, named like any file by its path from the folder. Raises QuantityError (found,
     expected, nearest) for an entry of another kind, InputFaults for a file that is not of its kind.
     """
+    if field.forms and not isinstance(raw, str):
+        raise QuantityError(repr(raw), wanted(field))
     if field.dimension is not None:
         return parse_quantity(raw, field.dimension, difference=field.difference)
     if field.unit is not None:
@@ -40,7 +42,7 @@ def read_value(field: FieldType, raw: object, folder: Path = HERE) -> object:
     if field.text is not None:
         text = _text(raw, field.text, folder)
         return field.file.read(text) if field.file is not None and isinstance(text, Path) else text
-    if field.forms or isinstance(raw, bool) or not isinstance(raw, (int, float)):
+    if isinstance(raw, bool) or not isinstance(raw, (int, float)):
         raise QuantityError(repr(raw), wanted(field), with_point(raw) if isinstance(raw, str) else "")
     if not math.isfinite(raw) or (field.whole and raw != int(raw)):
         raise QuantityError(str(raw), wanted(field))
@@ -60,8 +62,7 @@ def written_value(field: FieldType, value: Any) -> str:
     if field.tables is not None and isinstance(value, tuple):
         return "[" + ", ".join(map(_written_table, value)) + "]"
     if isinstance(value, Mapping):
-        of_each = field.named or field
-        return _inline({name: written_value(of_each, one) for name, one in value.items()})
+        return _inline(written_entries(field, value))
     if type(value) in field.forms or (field.table is not None and is_dataclass(value)):
         return _written_table(value)
     if isinstance(value, Enum):
@@ -138,19 +139,23 @@ def units_shown(field: FieldType) -> str:
     return ", ".join(example.split(" ", 1)[1] for example in examples) or "-"
 
 
+def written_entries(field: FieldType, values: Mapping[str, Any]) -> Iterator[str]:
+    """Yield the lines of a table of any names, the field's values by name."""
+    of_each = field.named or field
+    yield from (f"{_written_key(name)} = {written_value(of_each, one)}" for name, one in values.items())
+
+
 def _written_table(table: Section) -> str:
-    stated = {
-        key: (own, value) for key, own in fields_of(type(table)).items() if (value := getattr(table, key)) is not None
-    }
-    return _inline({key: written_value(*entry) for key, entry in stated.items()})
+    types = fields_of(type(table))
+    stated = {key: value for key in types if (value := getattr(table, key)) not in (None, ())}
+    return _inline(f"{key} = {written_value(types[key], value)}" for key, value in stated.items())
 
 
-def _inline(entries: Mapping[str, str]) -> str:
-    return "{ " + ", ".join(f"{written_key(key)} = {shown}" for key, shown in entries.items()) + " }"
+def _inline(entries: Iterable[str]) -> str:
+    return "{ " + ", ".join(entries) + " }"
 
 
-def written_key(name: str) -> str:
-    """Return the name of a key as TOML, quoted where it is not bare."""
+def _written_key(name: str) -> str:
     return name if _BARE.fullmatch(name) else quoted(name)
 
 

@@ -34,9 +34,10 @@ def solve_loaded(stated: FilmStatement, problem: FilmProblem) -> tuple[LoadedFil
 
     Raises FilmNotConverged, with the largest supported load, where there is no such position.
     """
-    assert stated.load is not None
+    load = stated.film.rigid_load
+    assert load is not None
     solve = _Warmed(oil_solver(stated, problem.space))
-    loaded = carry_load(problem, stated.load, solve)
+    loaded = carry_load(problem, load, solve)
     assert solve.last is not None
     return loaded, solve.last
 

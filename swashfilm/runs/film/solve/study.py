@@ -55,7 +55,7 @@ def solve_case(case: FilmCase | GapCase, report: Report = silent) -> FilmStudy:
         last = history[-1].solution
         assert last is not None
         solution, heat = last, history[-1].heat
-    elif case.stated.load:
+    elif case.stated.film.load:
         loaded, found = solve_loaded(case.stated, case.problem)
         solution, heat = film_of(found), heat_of(found)
     else:

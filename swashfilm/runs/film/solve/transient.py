@@ -40,6 +40,7 @@ def transient(stated: FilmStatement, report: Report) -> list[Moment]:
     has no valid value or a law does not hold.
     """
     assert stated.time is not None
+    assert stated.film.initial_film_fraction is not None
     first = film_problem(stated)
     space, rigid = first.space, replace(stated, elastic=None)
     now = 0.0
@@ -49,7 +50,7 @@ def transient(stated: FilmStatement, report: Report) -> list[Moment]:
         now = t
         return replace(film_problem(rigid, space, t), walls=first.walls)
 
-    filled = space.to_unknowns(np.broadcast_to(stated.initial_film_fraction.sample(space), space.area.shape))
+    filled = space.to_unknowns(np.broadcast_to(stated.film.initial_film_fraction.sample(space), space.area.shape))
     found: list[Moment] = []
     try:
         held = oil_held(first, np.minimum(filled, 1.0))  # the mean of ones may exceed one by round-off

@@ -1,0 +1,91 @@
+"""Film table of a free film: mesh, fields, cavitation and load."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Annotated
+
+from reynolds.fem.space import FilmSpace
+from reynolds.floating.load_search import RigidLoad
+from reynolds.problem import Cavitation
+from swashfilm.case.fields.field import Field, Uniform
+from swashfilm.case.fields.mesh import MeshForm
+from swashfilm.case.fields.reader import field_fault
+from system.inputs.sections.fields import FormulaOf, Limits, Positive, Pressure, Several, fields_of
+from system.inputs.sections.reader import Reading
+from system.inputs.toml_table import Table
+from system.inputs.units import Dimension
+
+Velocity = Annotated[tuple[Field, Field], Several(2), FormulaOf(Dimension.VELOCITY)]
+AT_REST = (Uniform(0.0, Dimension.VELOCITY), Uniform(0.0, Dimension.VELOCITY))
+Moment = Annotated[float, Dimension.TORQUE]
+
+
+@dataclass(frozen=True, kw_only=True)
+class FilmSection:
+    """[film]: a free film; viscosity is that without pressure at the oil's temperature."""
+
+    mesh: MeshForm
+    order: Annotated[int, Limits(least=1, most=2, why="linear or quadratic pressure")] = 1  # 2: full films only
+    thickness: Annotated[Field, FormulaOf(Dimension.LENGTH)]  # with a load the shape, to which a separation is added
+    velocity: Velocity = AT_REST  # of the moving wall along x and y
+    velocity_fixed: Velocity = AT_REST  # of the fixed wall along x and y
+    squeeze: Annotated[Field, FormulaOf(Dimension.VELOCITY)] | None = None  # dh/dt, not beside [time]
+    viscosity: Annotated[Field, FormulaOf(Dimension.DYNAMIC_VISCOSITY)] | None = None  # left out: by the oil's grade
+    cavitation: Cavitation = Cavitation.JFO
+    cavitation_pressure: Pressure = 0.0
+    initial_film_fraction: Annotated[Field, FormulaOf(None, time=False)] | None = None  # at the start of [time]
+    load: Annotated[float, Dimension.FORCE, Positive] | None = None  # that film and contact are to bear
+    moment_x: Moment | None = None  # integral of p y; frees the tilt along y
+    moment_y: Moment | None = None  # integral of -p x; frees the tilt along x
+
+    @property
+    def rigid_load(self) -> RigidLoad | None:
+        """The load, SI; None with a given thickness."""
+        return None if self.load is None else RigidLoad(self.load, self.moment_x, self.moment_y)
+
+    @property
+    def every_field(self) -> Iterator[tuple[str, Field]]:
+        """Each field under its key, a component of a vector under its own."""
+        for key, own in fields_of(FilmSection).items():
+            value = getattr(self, key, None) if own.formula else None
+            yield from ((f"{key}[{n}]", one) for n, one in enumerate(value)) if isinstance(value, tuple) else ()
+            if value is not None and not isinstance(value, tuple):
+                yield key, value
+
+
+def check_film(top: Table, film: Table, stated: FilmSection, space: FilmSpace | None, reading: Reading) -> None:
+    """List faults of keys that exclude or need each other, and of fields without a valid value on the space."""
+    in_time, has_load = top.get("time") is not None, "load" in film.values
+    if top.get("load") is not None:
+        top.fault("load", "a table [load] of a free film", "keys of [film]", 'load = "1 kN" in [film]')
+    if not has_load and (moments := [key for key in ("moment_x", "moment_y") if key in film.values]):
+        film.fault(moments[0], "a moment without a load", 'a load besides, such as load = "1 kN"')
+    if has_load and in_time:
+        film.fault("load", "a load beside a table [time]", "one of the two: a transient states its thickness")
+    if "initial_film_fraction" in film.values and not in_time:
+        film.fault("initial_film_fraction", "a start without a table [time]", "a steady film without this key")
+    if "squeeze" in film.values and in_time:
+        film.fault("squeeze", "dh/dt beside a table [time]", "a transient without this key: dh/dt follows from t")
+    for key, field in stated.every_field if space else ():
+        assert space is not None
+        positive = key in ("viscosity", "initial_film_fraction") or (key == "thickness" and not has_load)
+        if fault := field_fault(field, space, positive=positive):
+            film.fault(key, *fault)
+        elif key == "initial_film_fraction" and (most := field.sample(space).max()) > 1.0:
+            film.fault(key, f"{most:.4g}", "a number above 0 and at most 1, or a formula of x and y (text in quotes)")
+    if not reading.faulty & {"film.order", "film.cavitation"}:
+        _check_order(film, stated, with_heat=top.get("thermal") is not None)
+
+
+def _check_order(film: Table, stated: FilmSection, *, with_heat: bool) -> None:
+    if stated.order == 2 and stated.cavitation is not Cavitation.NONE:
+        film.fault(
+            "order",
+            f"2 with cavitation '{stated.cavitation.value}'"
+            + ("" if "cavitation" in film.values else " (the default)"),
+            "order = 1, or cavitation = 'none' (quadratic pressure is for full films only)",
+        )
+    elif stated.order == 2 and with_heat:
+        film.fault("order", "2 with a table [thermal]", "order = 1: heat is transported by linear pressure only")
