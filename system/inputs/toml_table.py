@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 import re
 import tomllib
 from collections.abc import Iterable, Mapping
@@ -114,43 +113,6 @@ class Table:
             self.fault(key, str(self.values[key]), f"{dimension.noun} above zero, such as '{dimension.example}'")
             return None
         return value
-
-    def pair(
-        self, key: str, dimension: Dimension, default: tuple[float, float] | None = None
-    ) -> tuple[float, float] | None:
-        """Two quantities, along x and y, in SI; None after a fault."""
-        raw = self.get(key)
-        if raw is None and default is not None:
-            return default
-        if not isinstance(raw, list) or len(raw) != 2:
-            example = f'["{dimension.example}", "{dimension.example}"]'
-            self.fault(key, stated(raw), f"{dimension.noun} along x and y, such as {example}")
-            return None
-        parts = Table(self.name(key), dict(zip("xy", raw, strict=True)), self.faults)
-        x, y = (parts.quantity(axis, dimension) for axis in "xy")
-        return None if x is None or y is None else (x, y)
-
-    def number(self, key: str, default: float | None = None) -> float | None:
-        """A bare number; None after a fault."""
-        raw = self.get(key)
-        if raw is None and default is not None:
-            return default
-        if isinstance(raw, bool) or not isinstance(raw, (int, float)) or not math.isfinite(raw):
-            self.fault(key, stated(raw), "a bare number (it has no unit)")
-            return None
-        return float(raw)
-
-    def file(self, key: str, folder: Path, expected: str) -> Path | None:
-        """The path of a file that is there, from a folder; None after a fault."""
-        raw = self.get(key)
-        if not isinstance(raw, str):
-            self.fault(key, stated(raw), expected)
-            return None
-        path = folder / raw
-        if not path.is_file():
-            self.fault(key, f"'{path}', which is no file", expected, nearest_path(path))
-            return None
-        return path
 
     def choice(self, key: str, kind: type[Choice], default: Choice | None = None) -> Choice | None:
         """One of an Enum's values; None after a fault."""

@@ -2,21 +2,24 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
+from typing import Annotated, Any
 
 import numpy as np
 
 from gaps.films.physics import Physics
 from reynolds.numerics.arrays import Array
 from swashfilm.case.gap.physics import PhysicsSection, choices
-from swashfilm.case.gap.position import Load, load_rows, position_rows, read_load, read_position, touching
+from swashfilm.case.gap.position import LOADS, POSITIONS, Load, Position, pose_of, stated_position, touching, with_arm
 from swashfilm.case.gap.pump import CasePump, own_rows, read_case_pump
 from system.description.gap import Gap
 from system.films.parts import FloatingParts, floating_parts
 from system.films.problems import RIGID
 from system.films.rotor import Rotor, rotor
-from system.inputs.sections.reader import Reading, read_section
+from system.inputs.sections.fields import Angle, FieldType, Several, Text, fields_of
+from system.inputs.sections.reader import Reading, read_entry, read_section, table_section
 from system.inputs.sections.writer import section_rows
 from system.inputs.toml_table import Table, quoted
 from system.inputs.units import Dimension, format_quantity
@@ -25,6 +28,17 @@ from system.pump.operating import operating_point
 from system.pump_file.file import load_pump
 
 FORMAT = 1
+Pressures = Annotated[tuple[float, ...], Several(), Dimension.PRESSURE]
+
+
+@dataclass(frozen=True, kw_only=True)
+class InstantSection:
+    """[film]: gap of a pump at one instant."""
+
+    gap: Gap
+    pump: Annotated[str, Text.NAME]  # a built-in pump, or a pump file beside the case
+    shaft_angle: Angle = 0.0  # of this chamber, of chamber 1 for the valve plate
+    chamber_pressure: Pressures | None = None  # for the valve plate one of each chamber; left out: that of the port
 
 
 @dataclass(frozen=True)
@@ -60,62 +74,66 @@ def read_gap_case(name: str, text: str, top: Table, film: Table, folder: Path) -
     Defaults come from the pump: operating point, chamber pressure of the port that the chamber faces, forces at
     that instant.
     """
-    gap = film.choice("gap", Gap)
-    film.get("revolution")
     if film is not top and top.get("revolution") is not None:
         top.fault("revolution", "a table beside a single instant", "revolution = true in [film]")
-    pump = read_case_pump(top, film, folder)
-    angle = film.quantity("shaft_angle", Dimension.ANGLE, 0.0) or 0.0
-    position, load = top.table("position"), top.table("load")
-    if position and load:
+    reading, faults = Reading(folder, faults=top.faults), len(top.faults)
+    pump, stated = read_case_pump(top, film, folder), _film(top, film, reading)
+    gap: Gap | None = getattr(stated, "gap", None)
+    raw_position, raw_load = top.get("position"), top.get("load")
+    if raw_position is not None and raw_load is not None:
         top.fault("load", "a load beside a position", "one of the two")
-        load = None
-    switches = top.table("physics") or Table("physics", {}, top.faults)
-    chosen = read_section("physics", PhysicsSection, switches.values, Reading(faults=top.faults))
-    physics = chosen.physics(RIGID)
-    if physics.heat:
-        switches.fault("heat", '"solved"', "none: the temperature of parts depends on the whole turn", '"none"')
-    if gap is None:
-        film.get("chamber_pressure")
-        film.close()
-        return None
+    position: Position | None = _of_gap("position", POSITIONS, gap, raw_position, reading)
+    load: Load | None = _of_gap("load", LOADS, gap, raw_load, reading)
+    physics = _physics(top)
     # After a fault the built-in pump replaces the stated one, so that all other faults are found too.
     known = pump.rotor if pump else rotor(load_pump("ref90"), operating_point(load_pump("ref90")))
-    pressures = _chamber_pressure(film, gap, known, angle, count_pistons=pump is not None)
-    case = GapCase(name, text, "", gap, known, floating_parts(known.pump), angle, pressures, physics, None, None)
-    faults = len(top.faults)
-    if position:
-        case = replace(case, position=read_position(position, case.gap, known, case.parts, angle, pressures))
-    if load:
-        case = replace(case, load=read_load(load, gap, known, angle))
-    for table in (film, position, load):
-        if table and table is not top:
-            table.close()
-    if pump is None or len(top.faults) > faults or not _is_possible(top, film, case):
+    pressures = _chamber_pressure(film, stated, known, count_pistons=pump is not None)
+    if gap is None or pump is None or len(top.faults) > faults:
         return None
-    return replace(case, resolved=_resolved(case, pump))
+    angle, parts = stated.shaft_angle, floating_parts(known.pump)
+    pose = None if position is None else pose_of(position, gap, known, parts, angle, pressures)
+    forces = None if load is None else with_arm(load, known, angle)
+    case = GapCase(name, text, "", gap, known, parts, angle, pressures, physics, pose, forces)
+    return replace(case, resolved=_resolved(case, pump)) if _is_possible(top, film, case) else None
 
 
-def _chamber_pressure(film: Table, gap: Gap, parts: Rotor, angle: float, *, count_pistons: bool) -> Array:
+def _of_gap(path: str, forms: Mapping[Gap, FieldType], gap: Gap | None, raw: object, reading: Reading) -> Any:
+    """Return a table in the form of the gap; None where there is none, and for an unknown gap."""
+    return None if gap is None or raw is None else read_entry(path, forms[gap], raw, reading)
+
+
+def _film(top: Table, film: Table, reading: Reading) -> InstantSection:
+    """Return the keys of the gap, in [film] or at the top of the file; with faults those that are good."""
+    own = {key: raw for key in (*fields_of(InstantSection), "revolution") if (raw := film.get(key)) is not None}
+    values = own if film is top else dict(film.values)
+    values.pop("revolution", None)
+    reading.special = {film.name("pump"): lambda raw, *_: {"pump": raw}}
+    reading.faulty.add(film.name("pump"))
+    return read_section(film.path, InstantSection, values, reading)
+
+
+def _physics(top: Table) -> Physics:
+    physics = (table_section(top, "physics", PhysicsSection, left_out=True) or PhysicsSection()).physics(RIGID)
+    if physics.heat:
+        expected = "none: the temperature of parts depends on the whole turn"
+        top.fault("physics.heat", '"solved"', expected, '"none"')
+    return physics
+
+
+def _chamber_pressure(film: Table, stated: InstantSection, parts: Rotor, *, count_pistons: bool) -> Array:
     """Return chamber pressures (Pa): one, or one per chamber for the valve plate; by default those of the ports.
 
     Faults are listed; the pressures are then those of the ports. `count_pistons`: the number of pistons is known.
     """
-    count = parts.pump.pump.pistons if gap is Gap.VALVE_PLATE else 1
-    angles = (angle + 2.0 * np.pi / parts.pump.pump.pistons * np.arange(count)) % (2.0 * np.pi)
-    of_ports = np.where(angles < np.pi, parts.point.inlet_pressure, parts.point.delivery_pressure)
-    raw = film.get("chamber_pressure")
-    if raw is None:
-        return of_ports
-    listed = raw if isinstance(raw, list) else [raw]
-    if len(listed) != count and count_pistons:
-        film.fault("chamber_pressure", f"{len(listed)} pressures", f"{count}, one of each chamber")
-        return of_ports
-    many = len(listed) > 1
-    names = [f"chamber_pressure[{k}]" if many else "chamber_pressure" for k in range(len(listed))]
-    reader = Table(film.path, dict(zip(names, listed, strict=True)), film.faults)
-    values = [reader.quantity(name, Dimension.PRESSURE) for name in names]
-    return of_ports if None in values or len(values) != count else np.array(values, dtype=float)
+    pistons = parts.pump.pump.pistons
+    count = pistons if getattr(stated, "gap", None) is Gap.VALVE_PLATE else 1
+    angles = (stated.shaft_angle + 2.0 * np.pi / pistons * np.arange(count)) % (2.0 * np.pi)
+    given = stated.chamber_pressure
+    if given is not None and len(given) == count:
+        return np.array(given)
+    if given is not None and count_pistons:
+        film.fault("chamber_pressure", f"{len(given)} pressures", f"{count}, one of each chamber")
+    return np.where(angles < np.pi, parts.point.inlet_pressure, parts.point.delivery_pressure)
 
 
 def _is_possible(top: Table, film: Table, case: GapCase) -> bool:
@@ -140,12 +158,12 @@ def _resolved(case: GapCase, pump: CasePump) -> str:
         f"format = {FORMAT}", "", "[film]", f'gap = "{case.gap.value}"', f"pump = {quoted(pump.source)}",
         f'shaft_angle = "{angle}"', f"chamber_pressure = {stated}", *own_rows(pump.stated),
         *section_rows("operating", pump.rotor.pump.operating),
-        *section_rows("physics", PhysicsSection(**choices(case.physics))), "", *_stated_rows(case),
+        *section_rows("physics", PhysicsSection(**choices(case.physics))),
     ]  # fmt: skip
-    return "\n".join(rows) + "\n"
-
-
-def _stated_rows(case: GapCase) -> list[str]:
     if case.position is not None:
-        return position_rows(case.gap, case.rotor, case.position)
-    return load_rows(case.load) if case.load else ["# at rest under the pump's own forces"]
+        rows += section_rows("position", stated_position(case.gap, case.rotor, case.position))
+    elif case.load is not None:
+        rows += section_rows("load", case.load)
+    else:
+        rows += ["", "# at rest under the pump's own forces"]
+    return "\n".join(rows) + "\n"

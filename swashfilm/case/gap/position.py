@@ -1,9 +1,9 @@
-"""Position and load of a gap case: tables [position] and [load], read and written."""
+"""Position and load of a gap case: tables [position] and [load]."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import assert_never
+from dataclasses import dataclass, replace
+from typing import Annotated, assert_never
 
 import numpy as np
 
@@ -13,65 +13,79 @@ from system.description.gap import Gap
 from system.films.parts import FloatingParts
 from system.films.positions import eccentric, instant_drives
 from system.films.rotor import Rotor, travel
-from system.inputs.toml_table import Table, quoted
-from system.inputs.units import Dimension, format_quantity
+from system.inputs.sections.fields import Angle, AnyLength, Length, Several, field_type
+from system.inputs.units import Dimension
+
+Lengths = Annotated[tuple[float, float], Several(2), Dimension.LENGTH]
+Moment = Annotated[float, Dimension.TORQUE]
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
+class RatioSection:
+    """[position]: piston in the direction of its load."""
+
+    eccentricity_ratio: float
+
+
+@dataclass(frozen=True, kw_only=True)
+class EndsSection:
+    """[position]: piston by both ends of its guide."""
+
+    eccentricity_inner: Lengths  # along x and y, at the guide's inner end
+    eccentricity_case: Lengths  # along x and y, at the bore's case edge
+
+
+@dataclass(frozen=True, kw_only=True)
+class TiltSection:
+    """[position]: slipper or cylinder block."""
+
+    film_thickness: Length  # at the origin
+    slope_x: Angle = 0.0
+    slope_y: Angle = 0.0
+
+
+@dataclass(frozen=True, kw_only=True)
 class PistonLoad:
-    """Side force (x, y) N on the piston at a distance `arm` (m) beyond the bore's case-side edge."""
+    """[load]: side force on the piston."""
 
-    force: tuple[float, float]
-    arm: float
+    force: Annotated[tuple[float, float], Several(2), Dimension.FORCE]  # along x and y of the pump
+    arm: AnyLength | None = None  # of the force beyond the bore's case edge; left out: the overhang there
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class FaceLoad:
-    """Load of a slipper's or the block's film, pocket and kidneys: N, and integrals of p y and -p x, N m."""
+    """[load]: load of a slipper's or the block's film, pocket and kidneys."""
 
-    force: float
-    moment_x: float
-    moment_y: float
+    force: Annotated[float, Dimension.FORCE]
+    moment_x: Moment = 0.0  # integral of p y
+    moment_y: Moment = 0.0  # integral of -p x
 
 
+Position = RatioSection | EndsSection | TiltSection
 Load = PistonLoad | FaceLoad
+POSITIONS = {gap: field_type(RatioSection | EndsSection if gap is Gap.PISTON else TiltSection) for gap in Gap}
+LOADS = {gap: field_type(PistonLoad if gap is Gap.PISTON else FaceLoad) for gap in Gap}
+"""Forms of the tables [position] and [load] by gap."""
 
 
-def read_position(
-    table: Table, gap: Gap, rotor: Rotor, parts: FloatingParts, angle: float, pressures: Array
-) -> Array | None:
-    """Return position (k,) m that a table [position] states; None with its faults listed."""
-    if gap is not Gap.PISTON:
-        return _tilted(table, rim(gap, rotor))
-    if "eccentricity_ratio" in table.values:
-        ratio = table.number("eccentricity_ratio")
-        outer = instant_drives(rotor, parts, angle, pressures).piston.outer(angle)
-        return None if ratio is None else eccentric(rotor.pump.piston.radial_clearance, ratio, outer)
-    ends = [table.pair(f"eccentricity_{end}", Dimension.LENGTH) for end in ("inner", "case")]
-    return None if None in ends else np.array(ends, dtype=float).ravel()
+def pose_of(stated: Position, gap: Gap, rotor: Rotor, parts: FloatingParts, angle: float, pressures: Array) -> Array:
+    """Return a position (k,) m: eccentricities, or film thickness and the rises over the rim by the slopes."""
+    match stated:
+        case RatioSection(eccentricity_ratio=ratio):
+            outer = instant_drives(rotor, parts, angle, pressures).piston.outer(angle)
+            return eccentric(rotor.pump.piston.radial_clearance, ratio, outer)
+        case EndsSection(eccentricity_inner=inner, eccentricity_case=case):
+            return np.array([*inner, *case])
+        case TiltSection(film_thickness=thickness, slope_x=slope_x, slope_y=slope_y):
+            return np.array([thickness, *(rim(gap, rotor) * np.tan(np.array([slope_x, slope_y])))])
+    assert_never(stated)
 
 
-def _tilted(table: Table, radius: float) -> Array | None:
-    """Return film thickness at the origin and the rises over `radius` by the slopes, (3,) m."""
-    thickness = table.positive("film_thickness", Dimension.LENGTH)
-    slopes = [table.quantity(f"slope_{axis}", Dimension.ANGLE, 0.0) for axis in ("x", "y")]
-    if thickness is None or None in slopes:
-        return None
-    return np.array([thickness, *(radius * np.tan(np.array(slopes, dtype=float)))])
-
-
-def read_load(table: Table, gap: Gap, rotor: Rotor, angle: float) -> Load | None:
-    """Return the load that a table [load] states; None with its faults listed."""
-    if gap is Gap.PISTON:
-        force = table.pair("force", Dimension.FORCE)
-        arm = table.quantity("arm", Dimension.LENGTH, rotor.pump.piston.overhang + travel(rotor, angle))
-        return None if force is None or arm is None else PistonLoad(force, arm)
-    lift = table.quantity("force", Dimension.FORCE)
-    moment_x = table.quantity("moment_x", Dimension.TORQUE, 0.0)
-    moment_y = table.quantity("moment_y", Dimension.TORQUE, 0.0)
-    if lift is None or moment_x is None or moment_y is None:
-        return None
-    return FaceLoad(lift, moment_x, moment_y)
+def with_arm(load: Load, rotor: Rotor, angle: float) -> Load:
+    """Return the load, of a piston with its arm."""
+    if not isinstance(load, PistonLoad) or load.arm is not None:
+        return load
+    return replace(load, arm=rotor.pump.piston.overhang + travel(rotor, angle))
 
 
 def rim(gap: Gap, rotor: Rotor) -> float:
@@ -101,37 +115,10 @@ def touching(gap: Gap, rotor: Rotor, parts: FloatingParts, angle: float, positio
     return None if least > THINNEST else float(least)
 
 
-def position_rows(gap: Gap, rotor: Rotor, position: Array) -> list[str]:
-    """Return the table from which `read_position` reads this position."""
+def stated_position(gap: Gap, rotor: Rotor, pose: Array) -> Position:
+    """Return the table that has this position."""
     if gap is Gap.PISTON:
-        ends = (("inner", position[:2]), ("case", position[2:]))
-        return ["[position]", *(f"eccentricity_{end} = {_both(x, y, Dimension.LENGTH)}" for end, (x, y) in ends)]
-    slopes = zip(("x", "y"), np.arctan(position[1:] / rim(gap, rotor)), strict=True)
-    return [
-        "[position]",
-        f"film_thickness = {_shown(position[0], Dimension.LENGTH)}",
-        *(f"slope_{axis} = {_shown(slope, Dimension.ANGLE)}" for axis, slope in slopes),
-    ]
-
-
-def load_rows(load: Load) -> list[str]:
-    """Return the table from which `read_load` reads this load."""
-    match load:
-        case PistonLoad(force, arm):
-            return ["[load]", f"force = {_both(*force, Dimension.FORCE)}", f"arm = {_shown(arm, Dimension.LENGTH)}"]
-        case FaceLoad(lift, moment_x, moment_y):
-            return [
-                "[load]",
-                f"force = {_shown(lift, Dimension.FORCE)}",
-                f"moment_x = {_shown(moment_x, Dimension.TORQUE)}",
-                f"moment_y = {_shown(moment_y, Dimension.TORQUE)}",
-            ]
-    assert_never(load)
-
-
-def _shown(value: float, dimension: Dimension) -> str:
-    return quoted(format_quantity(float(value), dimension))
-
-
-def _both(x: float, y: float, dimension: Dimension) -> str:
-    return f"[{_shown(x, dimension)}, {_shown(y, dimension)}]"
+        inner_x, inner_y, case_x, case_y = pose.tolist()
+        return EndsSection(eccentricity_inner=(inner_x, inner_y), eccentricity_case=(case_x, case_y))
+    slope_x, slope_y = np.arctan(pose[1:] / rim(gap, rotor)).tolist()
+    return TiltSection(film_thickness=float(pose[0]), slope_x=slope_x, slope_y=slope_y)

@@ -169,8 +169,12 @@ def _values(path: str, model: type[Any], table: Mapping[str, object], reading: R
         elif (value := read_entry(under(path, written), own, raw, reading)) is None:
             reading.faulty.add(under(path, key))
         else:
-            values[key] = to_gauge(value) if absolute and isinstance(value, float) else value
+            values[key] = _gauge(value) if absolute else value
     return values
+
+
+def _gauge(value: Any) -> float | tuple[float, ...]:
+    return tuple(map(to_gauge, value)) if isinstance(value, tuple) else to_gauge(value)
 
 
 def read_entry(path: str, own: FieldType, raw: object, reading: Reading) -> object:

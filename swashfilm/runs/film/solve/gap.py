@@ -81,6 +81,7 @@ def _loaded(case: GapCase, drives: Drives) -> Drives:
     """Return the drives, with the load of the case, if stated, in place of the pump's."""
     load = case.load
     if isinstance(load, PistonLoad):
+        assert load.arm is not None
         force = lateral_force(case.parts.piston.guide_length, -load.arm, np.array(load.force))
         return replace(drives, piston=replace(drives.piston, outer=constant(*force)))
     if not isinstance(load, FaceLoad):
