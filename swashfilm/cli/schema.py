@@ -8,6 +8,7 @@ from swashfilm.console.command import Command
 from swashfilm.console.terminal import show
 
 SCHEMAS = {
+    "case": "swashfilm.case.schema.case_schema",
     "pump": "system.pump_file.schema.pump_schema",
     "recording": "diagnosis.recording.form.recording_schema",
     "reference": "swashfilm.runs.reference.case.reference_schema",

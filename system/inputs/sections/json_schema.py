@@ -12,7 +12,7 @@ from system.inputs.sections.values import PURE_UNITS
 from system.inputs.units import Dimension
 
 DRAFT = "https://json-schema.org/draft/2020-12/schema"
-QUANTITY = r"^\s*[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d{1,3})?\s*[^\s\d.,].*$"
+QUANTITY = r"^\s*[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d{1,3})?\s*(1/|[^\s\d.,]).*$"
 """A number and a unit; which units measure a key is for the program."""
 Schema = dict[str, Any]
 

@@ -17,6 +17,7 @@ from system.inputs.sections.fields import fields_of
 
 ROOT = Path(__file__).parents[3]
 FILES = {
+    "case": [*ROOT.glob("examples/films/*.toml")],
     "pump": [*ROOT.glob("system/description/pumps/*.toml"), *ROOT.glob("examples/pumps/*.toml")],
     "recording": [*ROOT.glob("examples/recordings/*/recording.toml")],
     "reference": [*ROOT.glob("examples/references/*.toml")],
@@ -51,7 +52,7 @@ def test_a_wrong_key_does_not(kind):
     for name, table in tables.items():
         if isinstance(table, dict):
             wrong = copy.deepcopy(tables)
-            wrong[name]["no_such_key"] = 1
+            wrong[name]["no_such_key"] = True  # names of constants and boundaries are free, their values not
             assert faults(kind, wrong), name
     assert faults(kind, tables | {"no_such_table": {}})
 
@@ -73,6 +74,47 @@ def test_a_pump_file_is_held_to_quantities_choices_and_required_keys():
     assert not with_value("piston", "3", {"radial_clearance": "20 um"})
     del tables["piston"]["mass"]
     assert faults("pump", tables) == ["piston: 'mass' is a required property"]
+
+
+MESH = 'mesh = { kind = "rectangle", size = ["1 mm", "1 mm"], cells = [2, 2] }'
+FREE = f'format = 1\n[film]\n{MESH}\nthickness = "1 um"\n[boundary]\nleft = {{ pressure = "1 bar" }}\n'
+
+
+@pytest.mark.parametrize(
+    ("old", "new"),
+    [
+        ("thickness", "thikness"), ('"1 um"', "1e-6"), ("cells = [2, 2]", "cells = [2]"), ("cells = [2", "cells = [0"),
+        ("rectangle", "circle"), ("{ pressure", "{ presure"), ('"1 bar"', "1e5"), ("size", "radius"),
+        ("[boundary]", "[thermal]\nfixed_wall = 'cold'\nmoving_wall = 'adiabatic'\n[boundary]"),
+        ("[boundary]", "[thermal]\nfixed_wall = { temperature = 300 }\nmoving_wall = 'adiabatic'\n[boundary]"),
+        ("[boundary]", "[elastic.fixed]\nkind = 'half_space'\nyoungs_modulus = '1 GPa'\n[boundary]"),
+        ("[boundary]", "[study]\ncombine = 'one'\n[boundary]"),
+        ("[boundary]", "[study]\n'film.load' = { from = '1 N', to = '2 N' }\n[boundary]"),
+    ],
+)  # fmt: skip
+def test_a_film_case_is_held_to_the_forms_of_its_tables(old, new):
+    assert faults("case", tomllib.loads(FREE)) == []
+    assert old in FREE
+    assert faults("case", tomllib.loads(FREE.replace(old, new)))
+
+
+GAP = 'format = 1\n[film]\ngap = "slipper"\npump = "ref90"\n'
+
+
+@pytest.mark.parametrize(
+    ("text", "holds"),
+    [
+        (GAP, True), (GAP.replace("[film]\n", ""), True), (GAP + "revolution = true\n", True),
+        (GAP + 'chamber_pressure = ["1 bar", "2 bar"]\n', True), (GAP + "chamber_pressure = 1\n", False),
+        (GAP + 'revolution = true\nchamber_pressure = "cycle"\n', True), (GAP + "revolution = 1.5\n", False),
+        (GAP + 'revolution = true\nchamber_pressure = [["0 deg", "1 bar"]]\n', True), (GAP.replace("slip", "z"), False),
+        (GAP + 'revolution = true\nshaft_angle = "1 deg"\n', False), (GAP + 'shaft_angle = "1 deg"\n', True),
+        (GAP + '[position]\nfilm_thickness = "1 um"\n', True), (GAP + "[position]\neccentricity_ratio = 0.5\n", True),
+        (GAP + '[load]\nforce = ["1 N", "2 N"]\n', True), (GAP + '[load]\nforce = ["1 N"]\n', False),
+    ],
+)  # fmt: skip
+def test_a_gap_case_is_one_at_an_instant_or_over_the_revolution(text, holds):
+    assert (faults("case", tomllib.loads(text)) == []) is holds
 
 
 def test_a_recording_is_held_to_units_channels_and_one_table_of_points():
