@@ -5,13 +5,15 @@ from __future__ import annotations
 import math
 import tomllib
 from collections.abc import Mapping
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import Annotated, Any
 
 from system.description.assumptions import Assumption
-from system.description.pump import FORMAT, PumpDescription
+from system.description.pump import FORMAT, PumpDescription, PumpSection
 from system.inputs.faults import InputFaults, nearest_choice
+from system.inputs.sections.fields import AcuteAngle, Displacement, Length, Limits, fields_of
+from system.inputs.sections.reader import Reading, read_entry, read_section
 from system.inputs.toml_table import Table, fault_lines, read_toml
 from system.inputs.units import Dimension, QuantityError, format_quantity, parse_quantity
 from system.pump.laws.kinematics import SwashDrive, stroke
@@ -92,15 +94,15 @@ def load_known_pump(source: str | Path) -> KnownPump:
     return known_pump(load_pump(source))
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class _Facts:
-    """Size of a pump: displacement m3/rev, pistons, full swash angle, piston diameter, pitch radius."""
+    """[pump]: size of a pump."""
 
-    displacement: float
-    pistons: int
-    swash: float | None
-    diameter: float | None
-    radius: float | None
+    displacement: Displacement  # also as a volume, "60 cm3"
+    pistons: Annotated[int, Limits(least=FEWEST, most=MOST)]
+    swash_angle_max: AcuteAngle | None = None
+    piston_diameter: Length | None = None
+    pitch_radius: Length | None = None
 
 
 def _scaled(source: str, text: str, stated: Mapping[str, Any], folder: Path) -> KnownPump:
@@ -132,32 +134,21 @@ def _facts(top: Table) -> _Facts | None:
     table = top.table("pump", needed="with displacement and pistons")
     if table is None:
         return None
-    raw, pistons = table.get("displacement"), table.get("pistons")
-    displacement = _displacement(table, raw)
-    if isinstance(pistons, bool) or not isinstance(pistons, int) or not FEWEST <= pistons <= MOST:
-        found = "missing" if pistons is None else repr(pistons)
-        table.fault("pistons", found, f"a whole number from {FEWEST} to {MOST}")
-        return None
-    kinds = {
-        "swash_angle_max": Dimension.ANGLE, "piston_diameter": Dimension.LENGTH, "pitch_radius": Dimension.LENGTH,
-    }  # fmt: skip
-    sizes = {key: table.positive(key, kind) if key in table.values else None for key, kind in kinds.items()}
-    known = [own.name for own in fields(load_pump(MODEL).pump)]
+    own = {key: raw for key, raw in table.values.items() if key in fields_of(_Facts)}
+    facts = read_section("pump", _Facts, own, Reading(special={"pump.displacement": _displacement}, faults=top.faults))
+    known = [*fields_of(PumpSection)]
     for key in table.values:
         if key not in known:
             table.fault(key, "no key of this table", f"one of {', '.join(known)}", nearest_choice(key, known))
-    if displacement is None or top.faults:
-        return None
-    return _Facts(displacement, pistons, *sizes.values())
+    return None if top.faults else facts
 
 
-def _displacement(table: Table, raw: object) -> float | None:
-    """A displacement per revolution, also written "60 cm3"; None with its fault added."""
+def _displacement(raw: object, _: Mapping[str, object], reading: Reading) -> Mapping[str, object]:
+    """A displacement per revolution, also written "60 cm3"; none with its fault added."""
     try:
-        value = parse_quantity(raw, Dimension.VOLUME)
+        return {"displacement": parse_quantity(raw, Dimension.VOLUME)}
     except QuantityError:
-        return table.positive("displacement", Dimension.DISPLACEMENT)
-    return value if value > 0.0 else table.positive("displacement", Dimension.DISPLACEMENT)
+        return {"displacement": read_entry("pump.displacement", fields_of(_Facts)["displacement"], raw, reading)}
 
 
 def _tables(facts: _Facts) -> dict[str, dict[str, Any]]:
@@ -169,7 +160,7 @@ def _tables(facts: _Facts) -> dict[str, dict[str, Any]]:
     """
     model = load_pump(MODEL)
     tables = {k: dict(v) for k, v in tomllib.loads(resolved_toml(model)).items() if isinstance(v, dict)}
-    swash = model.pump.swash_angle_max if facts.swash is None else facts.swash
+    swash = model.pump.swash_angle_max if facts.swash_angle_max is None else facts.swash_angle_max
     drive = SwashDrive(model.pump.pitch_radius, model.pump.bore_cone_angle, swash)
     area = math.pi / 4.0 * model.pump.piston_diameter**2
     size = facts.displacement / (facts.pistons * area * stroke(drive))  # = s^2 r
@@ -204,8 +195,8 @@ def _tables(facts: _Facts) -> dict[str, dict[str, Any]]:
 
 def _scales(facts: _Facts, model: PumpDescription, size: float, share: float) -> tuple[float, float]:
     """Scales s of the pistons and r of the group with s^2 r = size; by stated values, else r = s z/9."""
-    piston = None if facts.diameter is None else facts.diameter / model.pump.piston_diameter
-    group = None if facts.radius is None else facts.radius / model.pump.pitch_radius
+    piston = None if facts.piston_diameter is None else facts.piston_diameter / model.pump.piston_diameter
+    group = None if facts.pitch_radius is None else facts.pitch_radius / model.pump.pitch_radius
     if piston is None and group is None:
         piston = (size / share) ** (1.0 / 3.0)
     if piston is None:

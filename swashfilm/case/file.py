@@ -121,7 +121,7 @@ def _stated(top: Table, film: Table, folder: Path) -> tuple[FilmStatement | None
     elastic = read_elastic(top, mesh.film_mesh if mesh else None, folder)
     is_sound = elastic is not None or top.get("elastic") is None
     thermal = read_thermal(top, (elastic.bodies if elastic else {}) if is_sound else None)
-    if thermal is not None:
+    if top.get("thermal") is not None:
         _check_heat(top, film, oil, getattr(section, "viscosity", None))
     if len(top.faults) > faults:
         return None, None
@@ -144,16 +144,11 @@ def _filled(section: FilmSection, time: TimeSection | None) -> FilmSection:
 
 def _oil(top: Table, film: Table) -> OilSection | None:
     """Return the [oil] table; None where there is none, or with its faults listed."""
-    table, given = top.table("oil"), "viscosity" in film.values
-    oil = read_oil(table, with_viscosity=given, with_heat=top.get("thermal") is not None) if table else None
-    if not given and table is None and top.get("oil") is None:
+    given = "viscosity" in film.values
+    if top.get("oil") is None and not given:
         film.fault("viscosity", "missing", "a viscosity, such as '30 mPa s', or a table [oil]")
-    if not given and table and oil:
-        try:
-            oil.dynamic_viscosity  # noqa: B018
-        except InputError as reason:
-            table.fault("temperature", reason.found, f"{reason.expected} of {reason.where}")
-    return oil
+    table = top.table("oil")
+    return read_oil(table, with_viscosity=given, with_heat=top.get("thermal") is not None) if table else None
 
 
 def _check_heat(top: Table, film: Table, oil: OilSection | None, viscosity: Field | None) -> None:

@@ -7,8 +7,15 @@ from typing import Annotated
 
 from system.description.parts import GrooveSection, GrooveShape
 from system.inputs.coefficients.flow_files import FlowCoefficients
-from system.inputs.sections.fields import Angle, Area, FlowFile, Limits, Positive, Webs, fields_of
+from system.inputs.sections.fields import Angle, Area, FlowFile, Limits, Points, Positive, fields_of
 from system.inputs.sections.reader import with_values
+from system.inputs.units import Dimension
+
+Webs = Annotated[
+    tuple[tuple[float, float], ...],
+    Points((Dimension.ANGLE,) * 2, ("middle", "width"), ("90 deg", "4 deg")),
+    Limits(fewest=1),
+]
 
 
 @dataclass(frozen=True, kw_only=True)

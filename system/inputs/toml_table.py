@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import Any, TypeVar
 
 from system.inputs.faults import Fault, InputFaults, key_lines, nearest_choice, nearest_path, stated
-from system.inputs.units import Dimension, QuantityError, parse_quantity, with_point
+from system.inputs.units import with_point
 
 Choice = TypeVar("Choice", bound=Enum)
 
@@ -92,27 +92,6 @@ class Table:
         if raw is not None or needed:
             self.fault(key, stated(raw), f"a table [{self.name(key)}] {needed}".rstrip())
         return None
-
-    def quantity(self, key: str, dimension: Dimension, default: float | None = None) -> float | None:
-        """A quantity with its unit in SI; None after a fault."""
-        raw = self.get(key)
-        if raw is None:
-            if default is None:
-                self.fault(key, "missing", f"{dimension.noun} with its unit, such as '{dimension.example}'")
-            return default
-        try:
-            return parse_quantity(raw, dimension)
-        except QuantityError as reason:
-            self.fault(key, reason.found, reason.expected, reason.nearest)
-            return None
-
-    def positive(self, key: str, dimension: Dimension, default: float | None = None) -> float | None:
-        """A quantity above zero in SI; None after a fault."""
-        value = self.quantity(key, dimension, default)
-        if value is not None and not value > 0.0:
-            self.fault(key, str(self.values[key]), f"{dimension.noun} above zero, such as '{dimension.example}'")
-            return None
-        return value
 
     def choice(self, key: str, kind: type[Choice], default: Choice | None = None) -> Choice | None:
         """One of an Enum's values; None after a fault."""

@@ -14,7 +14,7 @@ from swashfilm.case.gap.pump import CasePump, own_rows, read_case_pump
 from system.description.gap import Gap
 from system.films.rotor import Rotor
 from system.inputs.sections.fields import Limits
-from system.inputs.sections.reader import Reading, read_section
+from system.inputs.sections.reader import table_section
 from system.inputs.sections.writer import section_rows
 from system.inputs.toml_table import Table, quoted
 from system.points.floating_gaps import MARCHED, USUAL, FloatingOptions, usual_finer
@@ -88,8 +88,7 @@ def read_revolution_case(name: str, text: str, top: Table, film: Table, folder: 
     pump = read_case_pump(top, film, folder)
     pressure = read_chamber_pressure(film, folder)
     _refuse_instants(top, film)
-    table = top.table("revolution") or Table("revolution", {}, top.faults)
-    options = _options(table, gap, pump)
+    options = _options(top, gap, pump)
     film.close()
     if gap is None or pump is None or pressure is None or options is None:
         return None
@@ -107,17 +106,16 @@ def _refuse_instants(top: Table, film: Table) -> None:
                 )
 
 
-def _options(table: Table, gap: Gap | None, pump: CasePump | None) -> FloatingOptions | None:
-    reading = Reading(faults=table.faults)
-    stated = read_section("revolution", RevolutionSection, table.values, reading)
-    steps, ring = stated.steps, gap is Gap.VALVE_PLATE
-    physics = stated.physics(USUAL)
+def _options(top: Table, gap: Gap | None, pump: CasePump | None) -> FloatingOptions | None:
+    stated = table_section(top, "revolution", RevolutionSection, left_out=True)
+    if stated is None:
+        return None
+    steps, ring, physics = stated.steps, gap is Gap.VALVE_PLATE, stated.physics(USUAL)
     finer = usual_finer(physics) if stated.finer is None else stated.finer
     pistons = pump.rotor.pump.pump.pistons if pump else 1
     if ring and steps % pistons:
         nearest = max(1, round(steps / pistons)) * pistons
-        reading.fault("revolution.steps", str(steps), f"a multiple of the {pistons} pistons", str(nearest))
-    if reading.faulty:
+        top.fault("revolution.steps", str(steps), f"a multiple of the {pistons} pistons", str(nearest))
         return None
     distinct = steps // pistons if ring else steps
     keep = max(1, steps // (stated.films or (RING_FILMS if ring else FILMS)))

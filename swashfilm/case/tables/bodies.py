@@ -163,11 +163,7 @@ def body_under(stated: BuiltForm | FileBodySection, film: Array) -> Body:
         is_bush = isinstance(stated, BushSection)
         face, side = ("inner", Side.BORE) if is_bush else ("outer", Side.SHAFT)
         chart = Cylinder(stated.radius, side)
-    mesh = _meshed(stated, film)
-    try:
-        return Body(mesh, stated.elastic, Supports(clamped=_clamped(stated)), face, chart)
-    except InputError as reason:
-        raise InputError("cells", reason.found, reason.expected) from None
+    return Body(_meshed(stated, film), stated.elastic, Supports(clamped=_clamped(stated)), face, chart)
 
 
 def _meshed(stated: BuiltForm, film: Array) -> BodyMesh:
@@ -220,7 +216,4 @@ def _of_file(stated: FileBodySection) -> Body:
             raise InputError(key, repr(unknown[0]), f"one of {', '.join(mesh.face_names)}")
     side = Side.BORE if stated.side is Around.BORE else Side.SHAFT
     chart = UPWARDS if stated.radius is None else Cylinder(stated.radius, side)
-    try:
-        return Body(mesh, stated.elastic, Supports(clamped=stated.clamped), stated.face, chart)
-    except InputError as reason:
-        raise InputError("mesh", reason.found, reason.expected) from None
+    return Body(mesh, stated.elastic, Supports(clamped=stated.clamped), stated.face, chart)

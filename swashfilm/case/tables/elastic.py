@@ -64,12 +64,11 @@ def read_elastic(top: Table, film: FilmMesh | None, folder: Path) -> ElasticStat
     stated = table_section(top, "elastic", ElasticSection, folder)
     if stated is None or film is None:
         return None
-    bodies = {}
+    bodies, faults = {}, len(top.faults)
     for key, wall in stated.walls.items():
-        if isinstance(wall, HalfSpaceSection):
-            continue
         try:
-            bodies[key] = body_under(wall, film.mesh.p)
+            if not isinstance(wall, HalfSpaceSection):
+                bodies[key] = body_under(wall, film.mesh.p)
         except InputError as reason:
             top.fault(f"elastic.{key}.{reason.where}", reason.found, reason.expected)
-    return ElasticStatement(stated, bodies) if len(bodies) == len(stated.walls) else None
+    return ElasticStatement(stated, bodies) if len(top.faults) == faults else None

@@ -9,6 +9,7 @@ from typing import Annotated
 
 import numpy as np
 
+from reynolds.errors import InputError
 from reynolds.laws.density import DOWSON_HIGGINSON, BulkModulus, RationalDensity, Tait, tait_modulus
 from reynolds.laws.fluid import DensityLaw, Fluid, ViscosityLaw, incompressible, isoviscous
 from reynolds.laws.oil import Oil, dynamic_viscosity, walther
@@ -195,6 +196,11 @@ def read_oil(oil: Table, *, with_viscosity: bool, with_heat: bool) -> OilSection
     for key in (*needed, *_constants(oil, stated, reading)):
         if getattr(stated, key) is None and f"{oil.path}.{key}" not in reading.faulty:
             oil.fault(key, "no such key", wanted(fields_of(OilSection)[key]))
+    if not with_viscosity and len(oil.faults) == before:
+        try:
+            stated.dynamic_viscosity  # noqa: B018
+        except InputError as reason:
+            oil.fault("temperature", reason.found, f"{reason.expected} of {reason.where}")
     return stated if len(oil.faults) == before else None
 
 

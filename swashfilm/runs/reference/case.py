@@ -6,17 +6,17 @@ from dataclasses import dataclass
 from enum import Enum
 from itertools import product
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Literal, assert_never
 
+from reynolds.errors import InputError
 from swashfilm.runs.reference.passages import GroovePassage, OrificePassage, Passage, SlotPassage, StepPassage
-from system.inputs.faults import Fault, InputFaults
-from system.inputs.sections.fields import Length, Limits, Positive, Several
-from system.inputs.sections.json_schema import Schema, section_schema, tables_schema
+from system.inputs.faults import InputFaults
+from system.inputs.sections.fields import Format, Length, Limits, Positive, Several
+from system.inputs.sections.json_schema import Schema, file_schema, section_schema
 from system.inputs.sections.reader import Reading, read_section
-from system.inputs.toml_table import Table, fault_lines, read_toml
+from system.inputs.toml_table import fault_lines, read_toml
 from system.inputs.units import Dimension
 
-FORMAT = 1
 CELLS, FEWEST_CELLS, MOST_CELLS = 6, 2, 24
 MOST_REYNOLDS = 2000.0
 """Largest Reynolds number: flows are laminar and steady; most passages have a lower limit of convergence."""
@@ -49,13 +49,19 @@ class PassageSection:
 class StepSection(PassageSection):
     """[reference]: a step of a film."""
 
+    kind: Literal[ReferenceKind.STEP]
     film_ratio: Ratios  # film behind / film before
+
+    def __post_init__(self) -> None:
+        if 1.0 in self.film_ratio:
+            raise InputError("film_ratio", "1, which is not a step", "ratios other than one")
 
 
 @dataclass(frozen=True, kw_only=True)
 class FilmGrooveSection(PassageSection):
     """[reference]: a groove across a film."""
 
+    kind: Literal[ReferenceKind.GROOVE]
     film_ratio: Annotated[Numbers, Several(), Limits(above=1.0, most=WIDEST)]  # film in the groove / film
     width_ratio: Ratios  # width of the groove / film
 
@@ -72,6 +78,7 @@ class PipeSection(PassageSection):
 class OrificeSection(PipeSection):
     """[reference]: a bore."""
 
+    kind: Literal[ReferenceKind.ORIFICE]
     diameter: Sizes
 
 
@@ -79,16 +86,20 @@ class OrificeSection(PipeSection):
 class SlotSection(PipeSection):
     """[reference]: a slot, such as a port that begins to open."""
 
+    kind: Literal[ReferenceKind.SLOT]
     height: Sizes
     width: Length
 
 
-SECTIONS: dict[ReferenceKind, type[PassageSection]] = {
-    ReferenceKind.STEP: StepSection,
-    ReferenceKind.GROOVE: FilmGrooveSection,
-    ReferenceKind.ORIFICE: OrificeSection,
-    ReferenceKind.SLOT: SlotSection,
-}
+Section = StepSection | FilmGrooveSection | OrificeSection | SlotSection
+
+
+@dataclass(frozen=True, kw_only=True)
+class ReferenceFile:
+    """A reference case: a passage, one form of [reference] for each kind."""
+
+    format: Annotated[int, Format(1, "reference")]
+    reference: Section
 
 
 @dataclass(frozen=True)
@@ -109,34 +120,20 @@ class ReferenceCase:
 def load_reference(path: Path) -> ReferenceCase:
     """Return the case of a file; raise InputFaults with every fault."""
     text, tables = read_toml(path)
-    faults: list[Fault] = []
-    root = Table("", tables, faults)
-    if (stated := root.get("format")) != FORMAT:
-        root.fault("format", "missing" if stated is None else repr(stated), f"format = {FORMAT}")
-    table = root.table("reference", needed="with kind and its sizes") or Table("reference", {}, [])
-    root.close()
-    kind = table.choice("kind", ReferenceKind) if table.values else None
-    section = None if kind is None else read_section("reference", SECTIONS[kind], table.values, Reading(faults=faults))
-    if isinstance(section, StepSection) and 1.0 in getattr(section, "film_ratio", ()):
-        table.fault("film_ratio", "1, which is not a step", "ratios other than one")
-    if faults or section is None:
-        raise InputFaults(str(path), faults, fault_lines(text, faults))
+    reading = Reading()
+    section = getattr(read_section("", ReferenceFile, tables, reading), "reference", None)
+    if reading.faults or section is None:
+        raise InputFaults(str(path), reading.faults, fault_lines(text, reading.faults))
     reynolds = tuple(sorted(set(section.reynolds)))
     return ReferenceCase(path.stem, text, section.kind, _passages(section), reynolds, section.cells)
 
 
 def reference_schema() -> Schema:
-    """Return the JSON Schema of a reference case: one form of [reference] for each kind."""
-    forms = []
-    for kind, model in SECTIONS.items():
-        form = section_schema(model)
-        form["properties"]["kind"] = {"const": kind.value}
-        forms.append(form)
-    properties = {"format": {"const": FORMAT}, "reference": {"oneOf": forms}}
-    return tables_schema("Swashfilm reference", properties, properties)
+    """Return the JSON Schema of a reference case."""
+    return file_schema("Swashfilm reference", section_schema(ReferenceFile))
 
 
-def _passages(section: PassageSection) -> tuple[Passage, ...]:
+def _passages(section: Section) -> tuple[Passage, ...]:
     """Return every passage of the kind: each value of one key with each of the others."""
     match section:
         case StepSection(film_ratio=ratios):
@@ -147,5 +144,4 @@ def _passages(section: PassageSection) -> tuple[Passage, ...]:
             return tuple(OrificePassage(diameter, length, ratio) for diameter in diameters)
         case SlotSection(width=width, height=heights, length=length, pipe_ratio=ratio):
             return tuple(SlotPassage(width, height, length, ratio) for height in heights)
-        case _:
-            raise TypeError(f"{section.kind} is not a kind of passage")
+    assert_never(section)

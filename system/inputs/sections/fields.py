@@ -172,11 +172,6 @@ SlipperGrooves = Annotated[
     Points((Dimension.LENGTH,) * 2, ("inner radius", "outer radius"), ("10 mm", "11 mm")),
     Limits(fewest=1),
 ]
-Webs = Annotated[
-    tuple[tuple[float, float], ...],
-    Points((Dimension.ANGLE,) * 2, ("middle", "width"), ("90 deg", "4 deg")),
-    Limits(fewest=1),
-]
 MeshFile = Annotated[BodyFile, FromFile(read_body_file)]
 FlowFile = Annotated[FlowCoefficients, FromFile(read_flow_coefficients)]
 StepFile = Annotated[LossFactors, FromFile(read_step_losses)]

@@ -110,6 +110,9 @@ def test_a_resolved_case_of_every_switch_is_the_same_case(read, text):
     first = read(text)
     again = read(first.resolved)
     assert again.resolved == first.resolved
+    for table in ("[thermal]", "[elastic]", "[roughness]", "[contact]", "[time]"):
+        assert (table in first.resolved) is (table in text)
+    assert (first.problem.walls is None) is ("[elastic]" not in text)
     assert film_summary(solve_case(again))["load_N"] == film_summary(solve_case(first))["load_N"]
 
 
