@@ -117,7 +117,7 @@ def _stated(top: Table, film: Table, folder: Path) -> tuple[FilmStatement | None
     boundary = read_boundaries(top, reading, mesh, section.cavitation_pressure)
     if mesh and not reading.faulty & {"film.cavitation", "film.cavitation_pressure"}:
         check_boundaries(top, mesh, boundary, section.cavitation, section.cavitation_pressure)
-    time, oil, rough = read_time(top), _oil(top, film), read_roughness(top)
+    time, oil, (roughness, contact) = read_time(top), _oil(top, film), read_roughness(top)
     elastic = read_elastic(top, mesh.film_mesh if mesh else None, folder)
     is_sound = elastic is not None or top.get("elastic") is None
     thermal = read_thermal(top, (elastic.bodies if elastic else {}) if is_sound else None)
@@ -125,7 +125,8 @@ def _stated(top: Table, film: Table, folder: Path) -> tuple[FilmStatement | None
         _check_heat(top, film, oil, getattr(section, "viscosity", None))
     if len(top.faults) > faults:
         return None, None
-    return FilmStatement(_filled(section, time), boundary, oil, thermal, elastic, rough, time, constants), space
+    filled = _filled(section, time)
+    return FilmStatement(filled, boundary, oil, thermal, elastic, roughness, contact, time, constants), space
 
 
 def _mesh(film: Table, reading: Reading) -> CaseMesh | None:

@@ -19,7 +19,7 @@ def film_problem(stated: FilmStatement, space: FilmSpace | None = None, t: float
     Raises InputError for a field without a value somewhere, for a thickness or viscosity not above zero, and
     for an elastic body that does not lie under the film.
     """
-    own = stated.film
+    own, rough, contact = stated.film, stated.roughness, stated.contact
     space = space or film_space(own.mesh.film_mesh, degree=own.order)
     u, v = (_sampled("film.velocity", part, space, t) for part in own.velocity)
     u_fixed, v_fixed = (_sampled("film.velocity_fixed", part, space, t) for part in own.velocity_fixed)
@@ -39,8 +39,8 @@ def film_problem(stated: FilmStatement, space: FilmSpace | None = None, t: float
         cavitation_pressure=own.cavitation_pressure,
         fluid=_fluid(stated),
         walls=stated.elastic.walls(space) if stated.elastic else None,
-        surface=stated.rough.surface if stated.rough else None,
-        asperities=stated.rough.asperities if stated.rough else None,
+        surface=rough.surface if rough else None,
+        asperities=contact.asperities(rough.surface) if rough and contact else None,
     )
 
 

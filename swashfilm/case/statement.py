@@ -11,7 +11,7 @@ from swashfilm.case.tables.boundary import BoundarySection
 from swashfilm.case.tables.elastic import ElasticStatement
 from swashfilm.case.tables.film import FilmSection
 from swashfilm.case.tables.oil import OilSection
-from swashfilm.case.tables.roughness import RoughWalls
+from swashfilm.case.tables.roughness import ContactSection, RoughnessSection
 from swashfilm.case.tables.thermal import ThermalSection
 from swashfilm.case.tables.time_steps import TimeSection
 from system.inputs.sections.fields import fields_of
@@ -27,7 +27,8 @@ class FilmStatement:
     oil: OilSection | None
     thermal: ThermalSection | None
     elastic: ElasticStatement | None
-    rough: RoughWalls | None
+    roughness: RoughnessSection | None
+    contact: ContactSection | None
     time: TimeSection | None
     constants: Mapping[str, float]
 

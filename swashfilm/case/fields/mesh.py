@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 from enum import Enum
 from functools import cached_property
 from pathlib import Path
-from typing import Annotated, Literal
+from typing import Annotated, ClassVar, Literal
 
 from reynolds.errors import InputError
 from reynolds.fem.mesh import Cell, FilmMesh, annulus, mesh_from_file, rectangle
@@ -53,6 +53,8 @@ class FileMesh:
 class RectangleSection:
     """A rectangle; its boundaries are left, right, bottom and top."""
 
+    data: ClassVar[MeshData] = MeshData()
+
     kind: Literal[BuiltInShape.RECTANGLE]
     size: Annotated[tuple[float, float], Several(2), Dimension.LENGTH, Positive]  # along x and y
     origin: Annotated[tuple[float, float], Several(2), Dimension.LENGTH] = (0.0, 0.0)  # along x and y
@@ -69,19 +71,16 @@ class RectangleSection:
         seams = {f"periodic_{way.value}": self.periodic is way for way in (PeriodicDirection.X, PeriodicDirection.Y)}
         return rectangle(self.size, self.cells, origin=self.origin, cell=self.cell, **seams)
 
-    @property
-    def data(self) -> MeshData:
-        """No data."""
-        return MeshData()
-
     def finer(self) -> RectangleSection:
         """Return the mesh twice finer."""
-        return replace(self, cells=_doubled(self.cells))
+        return replace(self, cells=(2 * self.cells[0], 2 * self.cells[1]))
 
 
 @dataclass(frozen=True, kw_only=True)
 class AnnulusSection:
     """A ring about the origin; its boundaries are inner and outer."""
+
+    data: ClassVar[MeshData] = MeshData()
 
     kind: Literal[BuiltInShape.ANNULUS]
     inner_radius: Length
@@ -94,9 +93,8 @@ class AnnulusSection:
         if self.cells[1] < FEWEST_AROUND:
             raise InputError("cells", f"{self.cells[1]} cells around", f"at least {FEWEST_AROUND}")
         if self.inner_radius >= self.outer_radius:
-            outer, inner = (
-                format_quantity(radius, Dimension.LENGTH, digits=4) for radius in (self.outer_radius, self.inner_radius)
-            )
+            radii = self.inner_radius, self.outer_radius
+            inner, outer = (format_quantity(radius, Dimension.LENGTH, digits=4) for radius in radii)
             raise InputError("outer_radius", outer, f"more than inner_radius, {inner}")
 
     @cached_property
@@ -104,14 +102,9 @@ class AnnulusSection:
         """The mesh."""
         return annulus(self.inner_radius, self.outer_radius, self.cells, cell=self.cell)
 
-    @property
-    def data(self) -> MeshData:
-        """No data."""
-        return MeshData()
-
     def finer(self) -> AnnulusSection:
         """Return the mesh twice finer."""
-        return replace(self, cells=_doubled(self.cells))
+        return replace(self, cells=(2 * self.cells[0], 2 * self.cells[1]))
 
 
 def read_film_mesh(path: Path) -> FileMesh:
@@ -125,10 +118,6 @@ def read_film_mesh(path: Path) -> FileMesh:
 
 CaseMesh = FileMesh | RectangleSection | AnnulusSection
 MeshForm = Annotated[FileMesh, FromFile(read_film_mesh)] | RectangleSection | AnnulusSection
-
-
-def _doubled(cells: tuple[int, int]) -> tuple[int, int]:
-    return 2 * cells[0], 2 * cells[1]
 
 
 def _check_count(cells: tuple[int, int]) -> None:

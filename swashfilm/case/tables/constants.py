@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import keyword
 import math
-from collections.abc import Mapping
 
 from swashfilm.case.fields.expressions import CONSTANTS, FUNCTIONS, IN_TIME
 from system.inputs.toml_table import Table
@@ -39,8 +38,3 @@ def _value(table: Table, name: str) -> float | None:
             continue
     table.fault(name, repr(raw), _EXAMPLE)
     return None
-
-
-def constant_rows(constants: Mapping[str, float]) -> list[str]:
-    """Return the table as text of a case file, SI."""
-    return ["[constants]  # SI", *(f"{name} = {value!r}" for name, value in constants.items())]

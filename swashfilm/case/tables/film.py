@@ -47,12 +47,10 @@ class FilmSection:
 
     @property
     def every_field(self) -> Iterator[tuple[str, Field]]:
-        """Each field under its key, a component of a vector under its own."""
+        """Each field with its key."""
         for key, own in fields_of(FilmSection).items():
             value = getattr(self, key, None) if own.formula else None
-            yield from ((f"{key}[{n}]", one) for n, one in enumerate(value)) if isinstance(value, tuple) else ()
-            if value is not None and not isinstance(value, tuple):
-                yield key, value
+            yield from ((key, one) for one in (value if isinstance(value, tuple) else (value,)) if one is not None)
 
 
 def check_film(top: Table, film: Table, stated: FilmSection, space: FilmSpace | None, reading: Reading) -> None:

@@ -7,10 +7,12 @@ from typing import Annotated
 
 from reynolds.errors import InputError
 from reynolds.laws.contact import Asperities, composite_modulus
+from reynolds.laws.patir_cheng import HIGHEST_PEKLENIK, LOWEST_PEKLENIK
 from reynolds.laws.roughness import Surface
 from system.inputs.sections.fields import (
     AnyLength,
     ArealDensity,
+    Coefficient,
     Elasticity,
     Length,
     Limits,
@@ -18,12 +20,12 @@ from system.inputs.sections.fields import (
     Positive,
     Several,
 )
-from system.inputs.sections.reader import Reading, read_section, table_section
-from system.inputs.sections.writer import section_rows
+from system.inputs.sections.reader import table_section
 from system.inputs.toml_table import Table
 from system.inputs.units import Dimension
 
 Height = Annotated[float, Dimension.LENGTH, NotNegative]
+Peklenik = Annotated[float, Limits(least=LOWEST_PEKLENIK * (1.0 - 1e-9), most=HIGHEST_PEKLENIK * (1.0 + 1e-9))]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -31,12 +33,40 @@ class RoughnessSection:
     """[roughness]: standard deviation of heights, of both walls together or of each."""
 
     composite: Length | None = None  # in place of moving and fixed
-    moving: Height = 0.0
-    fixed: Height = 0.0
-    peklenik: float | None = None  # of both walls, left out: 1
-    peklenik_moving: float | None = None
-    peklenik_fixed: float | None = None
+    moving: Height | None = None  # left out: smooth
+    fixed: Height | None = None  # left out: smooth
+    peklenik: Peklenik | None = None  # of both walls, left out: 1
+    peklenik_moving: Peklenik | None = None
+    peklenik_fixed: Peklenik | None = None
     lay_angle: Annotated[float, Dimension.ANGLE] = 0.0
+
+    def __post_init__(self) -> None:
+        for key, height in (("moving", self.moving), ("fixed", self.fixed)):
+            if self.composite is not None and height is not None:
+                raise InputError(key, "a wall's height beside composite", "composite, or moving and fixed")
+        if not (self.composite or self.moving or self.fixed):
+            raise InputError("moving", "two smooth walls", "moving or fixed above 0, or no table [roughness]")
+
+    @property
+    def filled(self) -> RoughnessSection:
+        """The same roughness, stated for each wall."""
+        # Flow factors depend on which wall is rough: half of a composite variance is assigned to each wall.
+        half = None if self.composite is None else self.composite / 2.0**0.5
+        both = 1.0 if self.peklenik is None else self.peklenik
+        return RoughnessSection(
+            moving=half or self.moving or 0.0,
+            fixed=half or self.fixed or 0.0,
+            peklenik_moving=self.peklenik_moving or both,
+            peklenik_fixed=self.peklenik_fixed or both,
+            lay_angle=self.lay_angle,
+        )
+
+    @property
+    def surface(self) -> Surface:
+        """Both walls for the film."""
+        own = self.filled
+        heights = own.moving or 0.0, own.fixed or 0.0
+        return Surface(*heights, own.peklenik_moving or 1.0, own.peklenik_fixed or 1.0, own.lay_angle)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -50,7 +80,7 @@ class ContactSection:
     youngs_modulus: Annotated[tuple[float, float], Several(2), Dimension.ELASTICITY, Positive] | None = None  # by wall
     poissons_ratio: Annotated[tuple[float, float], Several(2), Limits(above=-1.0, below=0.5)] | None = None  # by wall
     summit_height: AnyLength = 0.0
-    friction_coefficient: float
+    friction_coefficient: Coefficient
 
     def __post_init__(self) -> None:
         of_walls = {"youngs_modulus": self.youngs_modulus, "poissons_ratio": self.poissons_ratio}
@@ -68,70 +98,23 @@ class ContactSection:
         (one, other), (ratio, other_ratio) = self.youngs_modulus, self.poissons_ratio
         return composite_modulus(one, ratio, other, other_ratio)
 
+    def filled(self, surface: Surface) -> ContactSection:
+        """Return the same asperities with the height that is the walls' where it is left out."""
+        return replace(self, asperity_height=self.asperity_height or surface.composite_roughness)
 
-@dataclass(frozen=True)
-class RoughWalls:
-    """Roughness of both walls, contact of asperities (None: no contact), and the tables as written in a case."""
-
-    surface: Surface
-    asperities: Asperities | None
-    rows: tuple[str, ...]
-
-
-def read_roughness(top: Table) -> RoughWalls | None:
-    """Return roughness and contact; None where there are no such tables, or with the faults listed."""
-    table, contact = top.table("roughness"), top.table("contact")
-    if table is None:
-        if contact is not None:
-            top.fault("contact", "no table [roughness]", "the roughness of the walls in contact")
-        return None
-    surface, rows = _surface(table)
-    if contact is None or surface is None:
-        return RoughWalls(surface, None, tuple(rows)) if surface else None
-    asperities, more = _asperities(top, surface)
-    return RoughWalls(surface, asperities, (*rows, *more)) if asperities else None
+    def asperities(self, surface: Surface) -> Asperities:
+        """Return the asperities of the walls."""
+        height = self.asperity_height or surface.composite_roughness
+        own = self.asperity_density, self.asperity_radius, height, self.modulus, self.friction_coefficient
+        return Asperities(*own, self.summit_height)
 
 
-def _surface(table: Table) -> tuple[Surface | None, list[str]]:
-    """Return the surface by its standard deviations: of both walls together, or of each wall."""
-    reading = Reading(faults=table.faults)
-    stated = read_section("roughness", RoughnessSection, table.values, reading)
-    moving, fixed = stated.moving, stated.fixed
-    if stated.composite is not None:
-        # Flow factors depend on which wall is rough: half of a composite variance is assigned to each wall.
-        moving = fixed = stated.composite / 2.0**0.5
-        for wall in ("moving", "fixed"):
-            if wall in table.values:
-                reading.fault(f"roughness.{wall}", "a wall's height beside composite", "composite, or moving and fixed")
-    elif moving == fixed == 0.0 and not reading.faulty:
-        reading.fault("roughness.moving", "two smooth walls", "moving or fixed above 0, or no table [roughness]")
-    if reading.faulty:
-        return None, []
-    both = 1.0 if stated.peklenik is None else stated.peklenik
-    gamma, gamma_fixed = (both if own is None else own for own in (stated.peklenik_moving, stated.peklenik_fixed))
-    try:
-        surface = Surface(moving, fixed, gamma, gamma_fixed, stated.lay_angle)
-    except InputError as reason:
-        key = "peklenik" if "eklenik" in reason.where else "moving"
-        table.fault(key, reason.found, reason.expected)
-        return None, []
-    found = RoughnessSection(
-        moving=moving, fixed=fixed, peklenik_moving=gamma, peklenik_fixed=gamma_fixed, lay_angle=stated.lay_angle
-    )
-    return surface, [*section_rows("roughness", found)]
-
-
-def _asperities(top: Table, surface: Surface) -> tuple[Asperities | None, list[str]]:
-    stated = table_section(top, "contact", ContactSection)
-    if stated is None:
-        return None, []
-    height = surface.composite_roughness if stated.asperity_height is None else stated.asperity_height
-    try:
-        asperities = Asperities(
-            stated.asperity_density, stated.asperity_radius, height, stated.modulus,
-            stated.friction_coefficient, stated.summit_height,
-        )  # fmt: skip
-    except InputError as reason:
-        top.fault("contact.friction_coefficient", reason.found, reason.expected)
-        return None, []
-    return asperities, [*section_rows("contact", replace(stated, asperity_height=height))]
+def read_roughness(top: Table) -> tuple[RoughnessSection | None, ContactSection | None]:
+    """Return roughness and contact, filled in; None where there is no such table, or with its faults listed."""
+    roughness = table_section(top, "roughness", RoughnessSection)
+    contact = table_section(top, "contact", ContactSection)
+    if top.get("contact") is not None and top.get("roughness") is None:
+        top.fault("contact", "no table [roughness]", "the roughness of the walls in contact")
+    if roughness is None:
+        return None, None
+    return roughness.filled, contact and contact.filled(roughness.surface)

@@ -365,7 +365,7 @@ def test_a_warm_body_takes_the_heat_and_grows_into_the_film(read):
         (GIVEN + '[roughness]\ncomposit = "1 um"\n', "roughness.composit", ["unknown key", "composite"]),
         (GIVEN + '[roughness]\ncomposite = "0 um"\n', "roughness.composite", ["more than 0"]),
         (GIVEN + ROUGH + CONTACT.replace("asperity_radius", "radius"), "contact.asperity_radius", ["a length"]),
-        (GIVEN + ROUGH + CONTACT.replace("0.1\n", "-0.1\n"), "contact.friction_coefficient", ["0 or more"]),
+        (GIVEN + ROUGH + CONTACT.replace("0.1\n", "-0.1\n"), "contact.friction_coefficient", ["at least 0"]),
         (GIVEN + ROUGH + CONTACT.replace(*MODULI), "contact.poissons_ratio", ["missing", "of the two walls"]),
     ],
 )  # fmt: skip
