@@ -8,7 +8,7 @@ from typing import Annotated
 
 from reynolds.numerics.arrays import Array
 from system.inputs.channels import ChannelName
-from system.inputs.sections.fields import Coefficient, Difference, Limits, NotNegative, Text, UnitOf
+from system.inputs.sections.fields import Coefficient, Limits, NotNegative, Span, Text, UnitOf
 from system.inputs.sections.values import PURE_UNITS
 from system.inputs.units import STANDARD_ATMOSPHERE, Dimension, unit_scale
 
@@ -58,7 +58,7 @@ def channel_section(name: ChannelName) -> type[ChannelSection]:
     dimension = name.dimension
     parts: list[tuple[str, object, object]] = [("unit", Annotated[str, UnitOf(dimension)], field(kw_only=True))]
     if dimension is not None:
-        zero = Annotated[float, dimension, Difference.OF_TWO, NotNegative]
+        zero = Annotated[float, dimension, Span.OF_TWO, NotNegative]
         own = ("zero", zero | None, None)
         calibration = make_dataclass("Calibration", [own], bases=(CalibrationSection,), frozen=True)
         parts.append(("calibration", calibration, field(default=calibration(), kw_only=True)))

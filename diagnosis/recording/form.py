@@ -30,7 +30,7 @@ Duration = Annotated[float, Dimension.TIME, Positive]
 
 
 @dataclass(frozen=True, kw_only=True)
-class TimeSection:
+class TimeColumnSection:
     """time: column of time."""
 
     column: Column
@@ -69,7 +69,7 @@ class SteadySection(PointsSection):
     """[steady]: one row is one steady point."""
 
     repeats: Column | None = None  # numbers, equal for points that repeat a set point
-    time: TimeSection | None = None
+    time: TimeColumnSection | None = None
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -84,7 +84,7 @@ class SteadinessSection:
 class SeriesSection(PointsSection):
     """[series]: a time series, of which the steady stretches are the points."""
 
-    time: TimeSection
+    time: TimeColumnSection
     steady: SteadinessSection = SteadinessSection()
     raster: Duration | None = None  # step on which the series is averaged first
 

@@ -80,7 +80,7 @@ def asperities_of(
 def composite_modulus(modulus_1: float, poisson_1: float, modulus_2: float, poisson_2: float) -> float:
     """E' (Pa) of two walls, 1/E' = (1 - nu1^2)/E1 + (1 - nu2^2)/E2, as Greenwood and Tripp define it.
 
-    The E' of elastohydrodynamic formulas is twice this one.
+    The E' of elastohydrodynamic formulas (`ehl`) is twice this one.
     """
     require_positive("composite modulus", modulus_1=modulus_1, modulus_2=modulus_2)
     return 1.0 / ((1.0 - poisson_1**2) / modulus_1 + (1.0 - poisson_2**2) / modulus_2)

@@ -16,6 +16,7 @@ from reynolds.numerics.arrays import Array
 
 ATMOSPHERE = 101325.0  # Pa absolute at zero gauge
 MINERAL_OIL_BUNSEN = 0.09  # volume of air (0 gauge) that a volume of mineral oil dissolves per atmosphere
+API_LUBRICANT = 0.6278  # kg/(m3 K): expansion times density of lubricating oils, ASTM D1250 table 54D
 
 
 @dataclass(frozen=True)
@@ -92,6 +93,19 @@ def thermal_expansion(temperature: ArrayLike, reference: float, coefficient: flo
     ratio = 1.0 - coefficient * (np.asarray(temperature, dtype=float) - reference)
     within("thermal expansion, density ratio", ratio, 0.5, 2.0, "1")
     return Tangent(ratio, np.full_like(ratio, -coefficient))
+
+
+def api_density(temperature: ArrayLike, density_15C: float) -> Tangent:
+    """Density (kg/m3) of a lubricating oil from that at 15 degC, and its slope; T in K.
+
+    rho = rho15 exp[-alpha d (1 + 0.8 alpha d)], d = T - 288.15 K, alpha = 0.6278/rho15. Source: ASTM D1250
+    (API MPMS 11.1) table 54D of 1980; 800 .. 1164 kg/m3, -20 .. 150 degC, else FilmInputError.
+    """
+    within("API, density at 15 degC", density_15C, 800.0, 1164.0, "kg/m3")
+    warmer = within("API, temperature", temperature, 253.15, 423.15, "K") - 288.15
+    alpha = API_LUBRICANT / density_15C
+    density = density_15C * np.exp(-alpha * warmer * (1.0 + 0.8 * alpha * warmer))
+    return Tangent(density, -alpha * (1.0 + 1.6 * alpha * warmer) * density)
 
 
 @dataclass(frozen=True)

@@ -87,6 +87,17 @@ class RoelandsIndex:
         return roelands(pressure, viscosity_at_reference, self.index)
 
 
+def wooster(viscosity: ArrayLike) -> np.ndarray:
+    """Estimate of the pressure-viscosity coefficient, 1/Pa, of a mineral oil of viscosity mu0 (Pa s).
+
+    alpha = (0.6 + 0.965 log10(mu0 in mPa s)) 1e-8. Source: Wooster, as given by Stachowiak and
+    Batchelor, Engineering Tribology. Paraffinic mineral oils within some 20 %; raises FilmInputError outside
+    1 mPa s .. 10 Pa s. A measured value is better.
+    """
+    mu0 = within("Wooster, viscosity at zero pressure", viscosity, 1e-3, 10.0, "Pa s")
+    return np.asarray((0.6 + 0.965 * np.log10(1e3 * mu0)) * 1e-8)
+
+
 @dataclass(frozen=True)
 class Walther:
     """Dynamic viscosity of an oil by ASTM D341 (`oil.walther`) at constant density: law(T) -> (mu, dmu/dT).

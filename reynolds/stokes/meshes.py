@@ -38,6 +38,12 @@ def joined(*parts: Array) -> Array:
     return np.concatenate([parts[0], *(part[1:] for part in parts[1:])])
 
 
+def channel_mesh(length: float, height: float, along: int, across: int, *, even: bool = False) -> skfem.MeshQuad:
+    """A straight channel, 0 to length along x, even cells; even: half of one, or a pipe of radius `height`."""
+    mesh = skfem.MeshQuad.init_tensor(np.linspace(0.0, length, along + 1), np.linspace(0.0, height, across + 1))
+    return _named(mesh, even)
+
+
 def step_mesh(heights: tuple[float, float], lengths: tuple[float, float], cells: int) -> skfem.MeshQuad:
     """Two films end to end on a plane wall y = 0, of other heights before and behind x = 0; (before, behind) in m.
 
@@ -99,10 +105,10 @@ def _cut(x: Array, y: Array, solid: Callable[[Array], Array], *, even: bool = Fa
     """The grid of x and y less the cells whose middle (2, ..) is solid, boundaries named."""
     mesh = skfem.MeshQuad.init_tensor(x, y)
     middles = mesh.p[:, mesh.t].mean(axis=1)
-    return named_ends(mesh.remove_elements(np.nonzero(solid(middles))[0]), even)
+    return _named(mesh.remove_elements(np.nonzero(solid(middles))[0]), even)
 
 
-def named_ends(mesh: skfem.MeshQuad, even: bool) -> skfem.MeshQuad:
+def _named(mesh: skfem.MeshQuad, even: bool) -> skfem.MeshQuad:
     """The mesh with its boundaries named; even: y = 0 is no wall but an axis."""
     start, end = mesh.p[0].min(), mesh.p[0].max()
     facets = mesh.boundary_facets()

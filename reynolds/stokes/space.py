@@ -5,6 +5,7 @@ Navier-Stokes equations using the finite element technique", Computers and Fluid
 the distance r from it; integrals are per radian, with r as their weight, in place of per metre of width.
 """
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from enum import Enum
 from typing import Any
@@ -108,6 +109,16 @@ def convection(space: StokesSpace, velocity: Array) -> tuple[Array, Sparse]:
         return dot(_along(w.carrier, u.grad) + _along(u, w.carrier.grad), v) * space.weight(w.x)
 
     return rate.assemble(space.velocity, carrier=at), slope.assemble(space.velocity, carrier=at)
+
+
+def body_force(space: StokesSpace, force: Callable[[Array], Array]) -> Array:
+    """The vector (N,) of a force per volume in N/m3, given as (2, ..) at places (2, ..) in m."""
+
+    @skfem.LinearForm
+    def form(v: Any, w: Any) -> Any:
+        return dot(force(w.x), v) * space.weight(w.x)
+
+    return np.asarray(form.assemble(space.velocity))
 
 
 def _along(carrier: Any, gradient: Any) -> Any:

@@ -24,10 +24,10 @@ from swashfilm.case.tables.boundary import check_boundaries, read_boundaries
 from swashfilm.case.tables.constants import read_constants
 from swashfilm.case.tables.elastic import read_elastic
 from swashfilm.case.tables.film import FilmSection, check_film
-from swashfilm.case.tables.oil import OilSection, read_oil
+from swashfilm.case.tables.oil import FilmOilSection, read_oil
 from swashfilm.case.tables.roughness import read_roughness
 from swashfilm.case.tables.thermal import read_thermal
-from swashfilm.case.tables.time_steps import TimeSection, read_time
+from swashfilm.case.tables.time_steps import TimeStepsSection, read_time
 from system.inputs.faults import InputFaults
 from system.inputs.sections.fields import fields_of
 from system.inputs.sections.reader import Reading, read_entry, read_section
@@ -136,14 +136,14 @@ def _mesh(film: Table, reading: Reading) -> CaseMesh | None:
     return found if isinstance(found, CaseMesh) and "film.mesh" not in reading.faulty else None
 
 
-def _filled(section: FilmSection, time: TimeSection | None) -> FilmSection:
+def _filled(section: FilmSection, time: TimeStepsSection | None) -> FilmSection:
     """Return the table with what it leaves out: at rest and full of oil."""
     if time is None:
         return replace(section, squeeze=section.squeeze or Uniform(0.0, Dimension.VELOCITY))
     return replace(section, initial_film_fraction=section.initial_film_fraction or Formula(parse_expression("1.0")))
 
 
-def _oil(top: Table, film: Table) -> OilSection | None:
+def _oil(top: Table, film: Table) -> FilmOilSection | None:
     """Return the [oil] table; None where there is none, or with its faults listed."""
     given = "viscosity" in film.values
     if top.get("oil") is None and not given:
@@ -152,7 +152,7 @@ def _oil(top: Table, film: Table) -> OilSection | None:
     return read_oil(table, with_viscosity=given, with_heat=top.get("thermal") is not None) if table else None
 
 
-def _check_heat(top: Table, film: Table, oil: OilSection | None, viscosity: Field | None) -> None:
+def _check_heat(top: Table, film: Table, oil: FilmOilSection | None, viscosity: Field | None) -> None:
     """List faults of what a solved temperature needs."""
     if top.get("oil") is None:
         top.fault("thermal", "no table [oil]", "its density, temperature, specific heat and thermal conductivity")

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from reynolds.laws.oil import ISO_GRADES
 from swashfilm.case.gap.instant import FORMAT, InstantSection
-from swashfilm.case.gap.physics import PhysicsSection
+from swashfilm.case.gap.physics import SwitchesSection
 from swashfilm.case.gap.position import LOADS, POSITIONS
 from swashfilm.case.gap.pump import pump_tables_schema
 from swashfilm.case.gap.revolution import RevolutionSection
@@ -12,20 +12,20 @@ from swashfilm.case.study import Combine, RangeSpacing
 from swashfilm.case.tables.boundary import BoundaryTables
 from swashfilm.case.tables.elastic import ElasticSection
 from swashfilm.case.tables.film import FilmSection
-from swashfilm.case.tables.oil import OilSection
+from swashfilm.case.tables.oil import FilmOilSection
 from swashfilm.case.tables.roughness import ContactSection, RoughnessSection
 from swashfilm.case.tables.thermal import ThermalSection
-from swashfilm.case.tables.time_steps import TimeSection
+from swashfilm.case.tables.time_steps import TimeStepsSection
 from system.inputs.sections.json_schema import Schema, field_schema, section_schema, tables_schema
 
 SECTIONS = {
-    "oil": OilSection,
+    "oil": FilmOilSection,
     "thermal": ThermalSection,
     "elastic": ElasticSection,
     "roughness": RoughnessSection,
     "contact": ContactSection,
-    "time": TimeSection,
-    "physics": PhysicsSection,
+    "time": TimeStepsSection,
+    "physics": SwitchesSection,
     "revolution": RevolutionSection,
 }
 FORMS = {"position": POSITIONS, "load": LOADS}

@@ -10,10 +10,10 @@ from swashfilm.case.fields.field import Field, MeshData, Uniform
 from swashfilm.case.tables.boundary import BoundarySection
 from swashfilm.case.tables.elastic import ElasticStatement
 from swashfilm.case.tables.film import FilmSection
-from swashfilm.case.tables.oil import OilSection
+from swashfilm.case.tables.oil import FilmOilSection
 from swashfilm.case.tables.roughness import ContactSection, RoughnessSection
 from swashfilm.case.tables.thermal import ThermalSection
-from swashfilm.case.tables.time_steps import TimeSection
+from swashfilm.case.tables.time_steps import TimeStepsSection
 from system.inputs.sections.fields import fields_of
 from system.inputs.units import Dimension
 
@@ -24,12 +24,12 @@ class FilmStatement:
 
     film: FilmSection
     boundary: Mapping[str, BoundarySection]
-    oil: OilSection | None
+    oil: FilmOilSection | None
     thermal: ThermalSection | None
     elastic: ElasticStatement | None
     roughness: RoughnessSection | None
     contact: ContactSection | None
-    time: TimeSection | None
+    time: TimeStepsSection | None
     constants: Mapping[str, float]
 
     @property

@@ -11,7 +11,7 @@ import numpy as np
 
 from gaps.films.physics import Physics
 from reynolds.numerics.arrays import Array
-from swashfilm.case.gap.physics import PhysicsSection, choices
+from swashfilm.case.gap.physics import SwitchesSection, choices
 from swashfilm.case.gap.position import LOADS, POSITIONS, Load, Position, pose_of, stated_position, touching, with_arm
 from swashfilm.case.gap.pump import CasePump, own_rows, read_case_pump
 from system.description.gap import Gap
@@ -113,7 +113,7 @@ def _film(top: Table, film: Table, reading: Reading) -> InstantSection:
 
 
 def _physics(top: Table) -> Physics:
-    physics = (table_section(top, "physics", PhysicsSection, left_out=True) or PhysicsSection()).physics(RIGID)
+    physics = (table_section(top, "physics", SwitchesSection, left_out=True) or SwitchesSection()).physics(RIGID)
     if physics.heat:
         expected = "none: the temperature of parts depends on the whole turn"
         top.fault("physics.heat", '"solved"', expected, '"none"')
@@ -158,7 +158,7 @@ def _resolved(case: GapCase, pump: CasePump) -> str:
         f"format = {FORMAT}", "", "[film]", f'gap = "{case.gap.value}"', f"pump = {quoted(pump.source)}",
         f'shaft_angle = "{angle}"', f"chamber_pressure = {stated}", *own_rows(pump.stated),
         *section_rows("operating", pump.rotor.pump.operating),
-        *section_rows("physics", PhysicsSection(**choices(case.physics))),
+        *section_rows("physics", SwitchesSection(**choices(case.physics))),
     ]  # fmt: skip
     if case.position is not None:
         rows += section_rows("position", stated_position(case.gap, case.rotor, case.position))

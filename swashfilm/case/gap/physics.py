@@ -67,7 +67,7 @@ _SUMMARY = {
 
 
 @dataclass(frozen=True, kw_only=True)
-class PhysicsSection:
+class SwitchesSection:
     """[physics]: physics of a gap; what is left out is as usual."""
 
     walls: WallChoice | None = None
@@ -86,7 +86,7 @@ class PhysicsSection:
 
 
 def choices(physics: Physics) -> dict[str, Any]:
-    """Return the choices by key from which a `PhysicsSection` has this physics."""
+    """Return the choices by key from which a `SwitchesSection` has this physics."""
     return {key: off if effect in physics.left_out else on for effect, (key, on, off) in _KEYS.items()}
 
 

@@ -9,7 +9,7 @@ from typing import Annotated, Protocol
 from gaps.revolution.schedule import Accuracy
 from swashfilm.case.gap.chamber_pressure import ChamberPressure, read_chamber_pressure
 from swashfilm.case.gap.instant import FORMAT
-from swashfilm.case.gap.physics import PhysicsSection, choices
+from swashfilm.case.gap.physics import SwitchesSection, choices
 from swashfilm.case.gap.pump import CasePump, own_rows, read_case_pump
 from system.description.gap import Gap
 from system.films.rotor import Rotor
@@ -25,7 +25,7 @@ FINER = (0.25, 8.0)
 
 
 @dataclass(frozen=True, kw_only=True)
-class RevolutionSection(PhysicsSection):
+class RevolutionSection(SwitchesSection):
     """[revolution]: steps, accuracy, mesh and physics of a gap over the turn."""
 
     steps: Annotated[int, Limits(least=24, most=MOST)] = 360  # of a turn

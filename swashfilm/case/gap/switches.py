@@ -21,7 +21,7 @@ def add_switches(command: argparse.ArgumentParser) -> None:
 
 
 def switched_keys(options: argparse.Namespace) -> dict[str, str]:
-    """Return the keys of `physics.PhysicsSection` that the command line sets, such as `walls` to "rigid"."""
+    """Return the keys of `physics.SwitchesSection` that the command line sets, such as `walls` to "rigid"."""
     on = {switch for switch in SWITCHES if getattr(options, switch[2:].replace("-", "_"))}
     return {key: value for switch, (key, value, _) in SWITCHES.items() if switch in on}
 

@@ -20,12 +20,12 @@ from reynolds.thermal.shear_thinning import ShearLaw
 from system.inputs.sections.fields import (
     Conductivity,
     Density,
-    Difference,
     Fraction,
     KinematicViscosity,
     Limits,
     Modulus,
     Positive,
+    Span,
     SpecificHeat,
     Temperature,
     fields_of,
@@ -37,7 +37,7 @@ from system.inputs.units import Dimension
 from system.pump_file.file import GRADE_KEYS, grade_viscosities
 
 PerKelvin = Annotated[float, Dimension.TEMPERATURE_COEFFICIENT, Positive]
-Stress = Annotated[float, Dimension.PRESSURE, Difference.OF_TWO, Positive]
+Stress = Annotated[float, Dimension.PRESSURE, Span.OF_TWO, Positive]
 _AT_TEMPERATURE, _OF_HEAT = ("density", "temperature"), ("specific_heat", "thermal_conductivity")
 TAIT_SLOPE = 11.0  # of mineral oils
 
@@ -83,7 +83,7 @@ _CONSTANTS: dict[Enum, tuple[str, ...]] = {
 
 
 @dataclass(frozen=True, kw_only=True)
-class OilSection:
+class FilmOilSection:
     """[oil]: oil of a case; None for values that are neither stated nor needed.
 
     Without the two viscosities the case states film.viscosity at `temperature`.
@@ -172,7 +172,7 @@ class OilSection:
         return walther(temperature, Oil(*self.kinematic, self.density, 1.0, 1.0)) * self.density
 
 
-def read_oil(oil: Table, *, with_viscosity: bool, with_heat: bool) -> OilSection | None:
+def read_oil(oil: Table, *, with_viscosity: bool, with_heat: bool) -> FilmOilSection | None:
     """Return the oil of a table; None with its faults listed.
 
     `with_viscosity`: the case states film.viscosity, the table need not; `with_heat`: the film temperature is
@@ -180,7 +180,7 @@ def read_oil(oil: Table, *, with_viscosity: bool, with_heat: bool) -> OilSection
     """
     before = len(oil.faults)
     reading = Reading(special={f"{oil.path}.grade": grade_viscosities}, faults=oil.faults)
-    stated = read_section(oil.path, OilSection, oil.values, reading)
+    stated = read_section(oil.path, FilmOilSection, oil.values, reading)
     if stated.density_law is DensityOverPressure.TAIT:
         usual = None if stated.temperature is None else float(tait_modulus(stated.temperature))
         modulus, slope = stated.tait_modulus or usual, stated.tait_slope or TAIT_SLOPE
@@ -189,13 +189,15 @@ def read_oil(oil: Table, *, with_viscosity: bool, with_heat: bool) -> OilSection
         key = "grade" if "grade" in oil.values else GRADE_KEYS[0]
         oil.fault(key, "a viscosity beside film.viscosity", "one of the two")
     elif stated.temperature_coefficient is not None and not with_viscosity:
-        expected = "no such key: the viscosities at 40 and 100 degC give the decrease; or film.viscosity in their place"
+        expected = (
+            "not beside a grade: the viscosities at 40 and 100 degC give the decrease; or film.viscosity in their place"
+        )
         oil.fault("temperature_coefficient", "a decrease with temperature without film.viscosity", expected)
     needed = [*(() if with_viscosity else GRADE_KEYS), *(_OF_HEAT if with_heat else ())]
     needed += _AT_TEMPERATURE if with_heat or not with_viscosity else ()
     for key in (*needed, *_constants(oil, stated, reading)):
         if getattr(stated, key) is None and f"{oil.path}.{key}" not in reading.faulty:
-            oil.fault(key, "no such key", wanted(fields_of(OilSection)[key]))
+            oil.fault(key, "missing", wanted(fields_of(FilmOilSection)[key]))
     if not with_viscosity and len(oil.faults) == before:
         try:
             stated.dynamic_viscosity  # noqa: B018
@@ -204,7 +206,7 @@ def read_oil(oil: Table, *, with_viscosity: bool, with_heat: bool) -> OilSection
     return stated if len(oil.faults) == before else None
 
 
-def _constants(oil: Table, stated: OilSection, reading: Reading) -> Iterator[str]:
+def _constants(oil: Table, stated: FilmOilSection, reading: Reading) -> Iterator[str]:
     """Yield the constants of the laws of a table; list a fault for each whose law the table does not select."""
     for law in ("pressure_law", "density_law", "shear_law"):
         chosen: Enum = getattr(stated, law)

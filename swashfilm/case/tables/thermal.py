@@ -14,7 +14,7 @@ from reynolds.fem.space import FilmSpace
 from reynolds.thermal.energy import Heat
 from reynolds.thermal.film_profile import DEFAULT_LEVELS
 from reynolds.thermal.walls import Adiabatic, ConductingBody, Convecting, GivenTemperature, Turning, Wall
-from swashfilm.case.tables.oil import OilSection
+from swashfilm.case.tables.oil import FilmOilSection
 from system.inputs.sections.fields import Conductivity, Limits, Positive, Temperature
 from system.inputs.sections.reader import table_section
 from system.inputs.toml_table import Table
@@ -88,14 +88,18 @@ class ThermalSection:
         """Both walls by their names in [elastic]."""
         return {"fixed": self.fixed_wall, "moving": self.moving_wall}
 
-    def inlet(self, oil: OilSection) -> float:
+    def inlet(self, oil: FilmOilSection) -> float:
         """Return the temperature of entering oil, K."""
         usual = oil.temperature if self.inlet_temperature is None else self.inlet_temperature
         assert usual is not None
         return usual
 
     def heat(
-        self, oil: OilSection, temperatures: Mapping[str, float | None], bodies: Mapping[str, Body], space: FilmSpace
+        self,
+        oil: FilmOilSection,
+        temperatures: Mapping[str, float | None],
+        bodies: Mapping[str, Body],
+        space: FilmSpace,
     ) -> Heat:
         """Return the heat problem; `temperatures` (K) by boundary, None where the inlet temperature holds.
 

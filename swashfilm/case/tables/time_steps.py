@@ -16,7 +16,7 @@ Duration = Annotated[float, Dimension.TIME, Positive]
 
 
 @dataclass(frozen=True, kw_only=True)
-class TimeSection:
+class TimeStepsSection:
     """[time]: end and step of a transient."""
 
     end: Duration
@@ -48,7 +48,7 @@ class TimeSection:
         return int(time / every + 1e-6) > int((time - step) / every + 1e-6)
 
 
-def read_time(top: Table) -> TimeSection | None:
+def read_time(top: Table) -> TimeStepsSection | None:
     """Return the [time] table; None where there is none, or with its faults listed."""
-    stated = table_section(top, "time", TimeSection)
+    stated = table_section(top, "time", TimeStepsSection)
     return replace(stated, outputs=min(stated.outputs, stated.steps)) if stated else None

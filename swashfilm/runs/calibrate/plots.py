@@ -64,7 +64,9 @@ def friction_curves(rows: Sequence[Row]) -> Figure:
         )
         axes.semilogx(number, friction, color=colour, label=gap.replace("_", " "))
         axes.fill_between(number, np.maximum(friction - sigma, 0.0), friction + sigma, color=colour, alpha=0.2)
-    axes.set(xlabel="Hersey number mu v w/N / 1", ylabel="friction coefficient / 1", ylim=(0.0, None))
+    axes.set_xlabel("Hersey number mu v w/N / 1")
+    axes.set_ylabel("friction coefficient / 1")
+    axes.set_ylim(bottom=0.0)
     axes.legend(fontsize=8)
     axes.grid(visible=True, alpha=0.3, which="both")
     return figure
@@ -88,7 +90,8 @@ def held_out_models(rows: Sequence[Row]) -> Figure:
             label = "fitted to all" if split == "none" else f"{split} levels held out"
             axes.barh(places, sizes, 0.18, color=shade, label=label)
         axes.axvline(1.0, color=NOISE, linestyle="--")
-        axes.set(xscale="log", xlim=(LEAST, None))
+        axes.set_xscale("log")
+        axes.set_xlim(left=LEAST)
         ends = axes.get_xlim()
         axes.set_xticks([tick for tick in TICKS if ends[0] <= tick <= ends[1]])
         axes.xaxis.set_major_formatter(FormatStrFormatter("%g"))

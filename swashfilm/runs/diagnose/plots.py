@@ -119,7 +119,8 @@ def effect_courses(rows: Sequence[Row], courses: Sequence[tuple[str, str]]) -> F
         axes.plot(place, added, "x", color=AFTER, markeredgewidth=1.8, label="contribution of the finding", zorder=3)
         axes.axhline(0.0, color="#1c2328", linewidth=0.8)
         name, _, unit = axis.partition(" [")
-        axes.set(xlabel=f"{name} / {unit.rstrip(']')}", ylabel=f"{channel} / {own[0]['unit'].replace('degC', 'K')}")
+        axes.set_xlabel(f"{name} / {unit.rstrip(']')}")
+        axes.set_ylabel(f"{channel} / {own[0]['unit'].replace('degC', 'K')}")
         axes.grid(visible=True, alpha=0.3)
     _legend_above(axes)
     return figure

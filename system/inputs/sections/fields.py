@@ -71,7 +71,7 @@ class UnitOf:
     dimension: Dimension | None
 
 
-class Difference(Enum):
+class Span(Enum):
     """Marks a quantity that is a difference of two: its unit's zero does not count ("0.3 degC" is 0.3 K)."""
 
     OF_TWO = "difference"
@@ -208,7 +208,7 @@ class FieldType:
 
     @property
     def several(self) -> Several | None:
-        """How many values a list of them has; None for a single value."""
+        """Number of values of a list of them; None for a single value."""
         return self._mark(Several)
 
     @property
@@ -229,7 +229,7 @@ class FieldType:
     @property
     def difference(self) -> bool:
         """True for a quantity that is a difference."""
-        return self._mark(Difference) is not None
+        return self._mark(Span) is not None
 
     @property
     def may_be_absolute(self) -> bool:

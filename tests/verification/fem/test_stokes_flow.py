@@ -5,13 +5,12 @@ from __future__ import annotations
 import numpy as np
 import pytest
 import skfem
-from skfem.helpers import dot
 
 from reynolds import FilmInputError, FilmNotConverged
 from reynolds.stokes.flow import FlowProblem, held, solve_navier_stokes, solve_stokes, straight, together
-from reynolds.stokes.meshes import graded, named_ends, step_mesh
+from reynolds.stokes.meshes import channel_mesh, graded, step_mesh
 from reynolds.stokes.results import flux, mean_pressure, turning_places, wall_shear
-from reynolds.stokes.space import Symmetry, taylor_hood
+from reynolds.stokes.space import Symmetry, body_force, taylor_hood
 
 
 def errors(flow, velocity, pressure):
@@ -24,22 +23,6 @@ def errors(flow, velocity, pressure):
     off = np.asarray(p) - pressure(x)
     off = off - (off * dx).sum() / dx.sum()
     return float(np.sqrt((((np.asarray(u) - velocity(x)) ** 2).sum(0) * dx).sum())), float(np.sqrt((off**2 * dx).sum()))
-
-
-def channel_mesh(length, height, along, across, *, even=False):
-    """A straight channel, 0 to length along x, even cells; even: half of one, or a pipe of radius `height`."""
-    mesh = skfem.MeshQuad.init_tensor(np.linspace(0.0, length, along + 1), np.linspace(0.0, height, across + 1))
-    return named_ends(mesh, even)
-
-
-def body_force(space, force):
-    """The vector (N,) of a force per volume in N/m3, given as (2, ..) at places (2, ..) in m."""
-
-    @skfem.LinearForm
-    def form(v, w):
-        return dot(force(w.x), v) * space.weight(w.x)
-
-    return np.asarray(form.assemble(space.velocity))
 
 
 def enclosed(mesh, viscosity, velocity, force=None):

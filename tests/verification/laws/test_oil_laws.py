@@ -15,10 +15,12 @@ from reynolds.laws.density import (
     MINERAL_OIL_BUNSEN,
     Aerated,
     Tait,
+    api_density,
     effective_bulk_modulus,
     tait_modulus,
     thermal_expansion,
 )
+from reynolds.laws.ehl import hamrock_dowson_central, hamrock_dowson_minimum, moes
 from reynolds.laws.oil import walther_coefficients
 from reynolds.laws.rheology import Cross, Eyring, carreau_yasuda
 from reynolds.laws.viscosity import (
@@ -30,6 +32,7 @@ from reynolds.laws.viscosity import (
     roelands_index,
     vogel_of,
     vogel_through,
+    wooster,
 )
 
 EXAMPLES = settings(max_examples=60, deadline=None, derandomize=True)
@@ -165,6 +168,30 @@ def test_density_rows(validation):
         )
 
 
+def test_point_contact_rows(validation):
+    group = {"speed": 1e-11, "material": 4500.0, "load": 1e-6}
+    least = hamrock_dowson_minimum(**group, ellipticity=1.0)
+    middle = hamrock_dowson_central(**group, ellipticity=1.0)
+    load_group, material_group = moes(**group)
+    rows = [
+        ("Hamrock-Dowson least film h/R", least, 1.00269e-5, 5e-11),
+        ("Hamrock-Dowson central film h/R", middle, 1.76515e-5, 5e-11),
+        ("Moes M", load_group, 105.74, 5e-3),
+        ("Moes L", material_group, 9.516, 5e-4),
+    ]
+    for quantity, found, expected, digit in rows:
+        validation(
+            case="Point contact, U = 1e-11, G = 4500, W = 1e-6, k = 1",
+            source="Hamrock and Dowson 1977; Moes 1992",
+            quantity=quantity,
+            unit="1",
+            expected=expected,
+            obtained=found,
+            tolerance=digit,
+            note="to the printed digits",
+        )
+
+
 def test_roelands_starts_as_barus():
     """At zero pressure all three laws have the slope alpha mu0."""
     for law in (Barus(ALPHA), Roelands(ALPHA), RoelandsIndex(float(roelands_index(ALPHA, MU0)))):
@@ -243,6 +270,11 @@ def test_laws_take_fields():
     assert Aerated(DOWSON_HIGGINSON, 0.01, 0.09, 1.2)(pressure).slope.shape == (4, 3)
 
 
+def test_wooster_estimates_a_mineral_oil():
+    """40 mPa s: some 2.1e-8 1/Pa, as EHL texts have for mineral oils of that viscosity."""
+    assert float(wooster(0.040)) == pytest.approx(2.15e-8, abs=0.01e-8)
+
+
 def test_bulk_moduli():
     """Each law's modulus at zero pressure: a/(b - 1), K, K0; Tait's rises with the slope K0'."""
     assert float(effective_bulk_modulus(DOWSON_HIGGINSON, 0.0)) == pytest.approx(0.59e9 / 0.34)
@@ -288,9 +320,17 @@ def test_air_dissolves_by_henry():
 
 
 def test_density_over_temperature():
-    value, slope = thermal_expansion(np.array([288.15, 298.15]), 288.15, 7e-4)
-    np.testing.assert_allclose(value, [1.0, 0.993], rtol=1e-12)
-    np.testing.assert_allclose(slope, -7e-4)
+    """API's expansion at 15 degC is alpha = 0.6278/rho; near 15 degC both laws agree."""
+    value, slope = api_density(288.15, 870.0)
+    assert float(value) == 870.0
+    assert float(slope) == pytest.approx(-0.6278)
+    linear = thermal_expansion(np.array([288.15, 298.15]), 288.15, 0.6278 / 870.0)
+    np.testing.assert_allclose(870.0 * linear.value, api_density([288.15, 298.15], 870.0).value, rtol=1e-4)
+    assert central(lambda t: api_density(t, 870.0), 360.0, 0.1) == pytest.approx(
+        float(api_density(360.0, 870.0).slope), rel=1e-6
+    )
+    with pytest.raises(FilmInputError, match="kg/m3"):
+        api_density(300.0, 0.87)
 
 
 SHEARED = {"Carreau": Carreau(0.3, 1e-6, 0.5), "Cross": Cross(0.3, 1e-6, 0.5), "Eyring": Eyring(5e6)}
@@ -328,3 +368,8 @@ def test_an_oil_that_thickens_is_refused(constants):
     for law in (Carreau, Cross):
         with pytest.raises(FilmInputError, match=law.__name__):
             law(*constants)
+
+
+def test_ellipticity_beyond_the_fit_is_refused():
+    with pytest.raises(FilmInputError, match="ellipticity"):
+        hamrock_dowson_minimum(1e-11, 4500.0, 1e-6, 0.5)
