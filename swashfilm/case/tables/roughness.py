@@ -54,12 +54,9 @@ class RoughnessSection:
         half = None if self.composite is None else self.composite / 2.0**0.5
         both = 1.0 if self.peklenik is None else self.peklenik
         return RoughnessSection(
-            moving=half or self.moving or 0.0,
-            fixed=half or self.fixed or 0.0,
-            peklenik_moving=self.peklenik_moving or both,
-            peklenik_fixed=self.peklenik_fixed or both,
-            lay_angle=self.lay_angle,
-        )
+            moving=half or self.moving or 0.0, fixed=half or self.fixed or 0.0, lay_angle=self.lay_angle,
+            peklenik_moving=self.peklenik_moving or both, peklenik_fixed=self.peklenik_fixed or both,
+        )  # fmt: skip
 
     @property
     def surface(self) -> Surface:
@@ -99,8 +96,9 @@ class ContactSection:
         return composite_modulus(one, ratio, other, other_ratio)
 
     def filled(self, surface: Surface) -> ContactSection:
-        """Return the same asperities with the height that is the walls' where it is left out."""
-        return replace(self, asperity_height=self.asperity_height or surface.composite_roughness)
+        """Return the same asperities with E' of both walls, and the walls' own height where it is left out."""
+        own, height = self.modulus, self.asperity_height or surface.composite_roughness
+        return replace(self, composite_modulus=own, youngs_modulus=None, poissons_ratio=None, asperity_height=height)
 
     def asperities(self, surface: Surface) -> Asperities:
         """Return the asperities of the walls."""

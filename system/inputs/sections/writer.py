@@ -19,7 +19,8 @@ def section_rows(path: str, section: Section, base: Section | None = None) -> It
     if flat:
         yield from ("", f"[{path}]")
     for key, (own, value) in flat.items():
-        yield f"{key} = {written_value(own, value)}"
+        dimension = own.formula.dimension if own.formula else None
+        yield f"{key} = {written_value(own, value)}" + (f"  # {dimension.si_unit}" if dimension else "")
     for key, (_, value) in stated.items():
         if key not in flat:
             yield from section_rows(f"{path}.{key}", value)
