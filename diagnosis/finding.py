@@ -11,6 +11,7 @@ from diagnosis.procedure.stages import diagnose_study
 from diagnosis.recording.model import Recording
 from diagnosis.study.acceptance import accepted_recording, refuse_too_few, refuse_too_smooth
 from diagnosis.study.inputs import bench_points
+from diagnosis.study.levels import levelled
 from diagnosis.study.model import Study
 from diagnosis.study.prepare import prepare
 from diagnosis.study.scaled_pump import KnownPump, known_pump
@@ -59,9 +60,11 @@ def diagnose(
     or too smooth readings; NotConverged where no fit converges.
     """
     known, thresholds = known_pump(pump), load_thresholds()
+    allowed, assumed = tolerances(known.pump)
+    accepted = accepted_recording(recording, known)
+    known = levelled(known, accepted, allowed)
     described = known.pump
-    allowed, assumed = tolerances(described)
-    study = prepare(described, accepted_recording(recording, known), allowed, thresholds, catalogue)
+    study = prepare(described, accepted, allowed, thresholds, catalogue, known.scant)
     refuse_too_few(study)
     refuse_too_smooth(study, thresholds.data.least_chi2)
     points, _ = bench_points(study.recording, described)

@@ -105,6 +105,7 @@ class FormLimits:
     material: float
     flat: float
     least_range: float
+    other_make: float
 
 
 @dataclass(frozen=True)

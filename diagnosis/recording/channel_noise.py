@@ -9,10 +9,11 @@ import numpy as np
 from diagnosis.recording.channel_form import AccuracyClass, ChannelForm
 from diagnosis.recording.model import RecordedChannel
 from reynolds.numerics.arrays import Array
-from system.inputs.channels import ChannelName
+from system.inputs.channels import INPUTS, ChannelName
 from system.inputs.units import Dimension
 
 LEAST_GAIN = 1e-3
+ZERO_SHARE = 0.5  # of the largest reading's limit: what a class leaves to the zero of an output
 SETTING_SHARE = 5e-4  # of full displacement: how well a swash angle is set where nothing is stated
 ENCODER = math.radians(0.3)
 FEWEST_READINGS = 20  # different ones from which a step is read off
@@ -104,7 +105,8 @@ def _calibration(form: ChannelForm, sigma: float, relative: float, readings: Arr
         if low:
             return 0.0, _LOW_PRESSURE[accuracy] / math.sqrt(3.0)
         wide = dimension in (Dimension.VOLUME_FLOW, Dimension.PRESSURE)
-        return (_FLOW_SHARES if wide else _SHARES)[accuracy] / math.sqrt(3.0), 0.0
+        gain = (_FLOW_SHARES if wide else _SHARES)[accuracy] / math.sqrt(3.0)
+        return gain, 0.0 if name in INPUTS else ZERO_SHARE * gain * float(np.nanmax(np.abs(readings)))
     if name is ChannelName.DISPLACEMENT_RATIO:
         return 0.0, max(sigma, SETTING_SHARE)
     gain = 0.0 if dimension is Dimension.TEMPERATURE else max(relative, LEAST_GAIN)

@@ -69,13 +69,14 @@ class SteadyTable:
 
     values: (N, len(ChannelName)) in SI, pressures gauge, columns in the order of ChannelName, nan = not measured;
     repeats: (N,), points of one number repeat one set point; hours: (N,), h from the first point, nan = not known;
-    effective: (N,), independent samples behind a mean.
+    errors: one sigma (N, len(ChannelName)) in SI of points that are means over a moving series; None: a point has
+    the repeatability of its channels.
     """
 
     values: Array
     repeats: NDArray[np.int64]
     hours: Array
-    effective: Array
+    errors: Array | None = None
 
     def column(self, name: ChannelName) -> Array:
         """Readings (N,) of one channel in SI."""
@@ -113,3 +114,11 @@ class Recording:
     def channel(self, name: ChannelName) -> RecordedChannel | None:
         """The channel of a name, None where it is not measured."""
         return next((channel for channel in self.channels if channel.name is name), None)
+
+
+def point_sigma(recording: Recording, channel: RecordedChannel) -> Array:
+    """One sigma (N,) of a channel's readings in SI: of the mean where points are means, else repeatability."""
+    steady = recording.steady
+    if steady.errors is None:
+        return reading_sigma(channel, steady.column(channel.name))
+    return np.asarray(steady.errors[:, list(ChannelName).index(channel.name)])

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
@@ -16,7 +16,7 @@ from diagnosis.recording.columns import ColumnReader
 from diagnosis.recording.form import RecordingForm, SeriesSection, SteadySection, read_form
 from diagnosis.recording.model import RecordedChannel, Recording, SteadyTable
 from diagnosis.recording.replicates import repeatability, set_points
-from diagnosis.recording.series_points import series_points
+from diagnosis.recording.series.points import series_points
 from diagnosis.recording.tables.table import TableColumns, TableFault
 from diagnosis.recording.traces import ReadTraces, read_traces
 from reynolds.numerics.arrays import Array
@@ -61,16 +61,22 @@ def _places(path: Path) -> tuple[Path, Path | None]:
 
 @dataclass(frozen=True)
 class _Points:
-    """Readings (N, C) by channel of the form; set points, hours, samples behind each, their standard errors (N, C)
-    where they are means, and the table's own columns where its rows are the points.
+    """Readings (N, C) by channel of the form; set points, hours, standard errors (N, C) of means, and the table's
+    own columns where its rows are the points. quasi: means of a series without rest, whose standard errors hold in
+    place of a stated repeatability.
     """
 
     readings: Array
     numbers: NDArray[np.int64]
     hours: Array
-    effective: Array
     errors: Array | None
     columns: Mapping[str, Array]
+    quasi: bool = False
+
+
+def columns_of(channels: Sequence[ChannelForm]) -> list[int]:
+    """Columns of some channels in a `SteadyTable`."""
+    return [list(ChannelName).index(channel.name) for channel in channels]
 
 
 def _recording(form: RecordingForm, reader: ColumnReader) -> Recording | None:
@@ -88,8 +94,12 @@ def _recording(form: RecordingForm, reader: ColumnReader) -> Recording | None:
         rows = points.columns.get(form.traces.stated.point)
         traces = read_traces(form.traces, reader, rows, len(points.readings))
     values = np.full((len(points.readings), len(ChannelName)), np.nan)
-    values[:, [list(ChannelName).index(channel.name) for channel in form.channels]] = points.readings
-    steady = SteadyTable(values, points.numbers, points.hours, points.effective)
+    values[:, columns_of(form.channels)] = points.readings
+    errors = None
+    if points.quasi and points.errors is not None:
+        errors = np.full_like(values, np.nan)
+        errors[:, columns_of(form.channels)] = points.errors
+    steady = SteadyTable(values, points.numbers, points.hours, errors)
     channels += traces.channels
     for channel in channels:
         if channel.assumed:
@@ -136,7 +146,7 @@ def _steady_points(
         return None
     numbers = np.arange(count, dtype=np.int64) if marks is None else set_points(marks)
     hours = np.full(count, np.nan) if seconds is None else (seconds - seconds[0]) / 3600.0
-    return _Points(readings, numbers, hours, np.ones(count), None, columns.values)
+    return _Points(readings, numbers, hours, None, columns.values)
 
 
 def _series_points(
@@ -148,9 +158,10 @@ def _series_points(
     except TableFault as reason:
         reader.fault("series", reason.found, reason.expected, reason.nearest)
         return None
-    reader.note(series.note)
+    for note in series.notes:
+        reader.note(note)
     numbers = np.arange(len(series.means), dtype=np.int64)
-    return _Points(series.means, numbers, series.hours, series.effective, series.errors, {})
+    return _Points(series.means, numbers, series.hours, series.errors, {}, series.quasi)
 
 
 def _channels(forms: Sequence[ChannelForm], points: _Points, reader: ColumnReader) -> tuple[RecordedChannel, ...]:
@@ -162,7 +173,8 @@ def _channels(forms: Sequence[ChannelForm], points: _Points, reader: ColumnReade
         found = repeatability(points.readings[:, k], followed, points.numbers)
         if found is None and points.errors is not None:
             found = float(np.sqrt(np.nanmean(points.errors[:, k] ** 2)))
-        channel = recorded_channel(form, points.readings[:, k], found)
+        held = replace(form, sigma=None, sigma_relative=None) if points.quasi else form
+        channel = recorded_channel(held, points.readings[:, k], found)
         if channel is None:
             reader.fault(
                 f"channel.{form.name.value}.sigma",

@@ -8,7 +8,7 @@ import numpy as np
 
 from diagnosis.recording.model import DataNote, NoteKind, Recording
 from diagnosis.study.inputs import assumed_parameters, bench_points, complete, measured
-from diagnosis.study.map_axes import scaled_axes
+from diagnosis.study.map_axes import scaled_axes, smooth_shapes
 from diagnosis.study.model import Study, study_of
 from diagnosis.study.noise_correlation import noise_correlation
 from diagnosis.study.readings import observations
@@ -16,6 +16,8 @@ from diagnosis.study.trace_misfits import port_events, trace_misfits, trace_para
 from diagnosis.study.traced_bench import traced_bench
 from diagnosis.thresholds import Thresholds
 from reynolds.errors import InputError
+from reynolds.numerics.arrays import Array
+from system.bench.departures import departures
 from system.bench.outputs import SIMULATED
 from system.bench.parameters import base_parameters
 from system.bench.sensors import drift_parameter, lag_parameter, sensor_parameters
@@ -25,6 +27,7 @@ from system.description.tolerances import Tolerances
 from system.effects.catalogue.entries import CATALOGUE
 from system.effects.extension import Entry
 from system.estimation.parameters import Parameter
+from system.estimation.posterior import values_at
 from system.inputs.channels import INPUTS, OUTPUTS, ChannelName
 
 LAG = 1.0  # s, one sigma of a flow meter's lag where none is stated
@@ -36,6 +39,7 @@ def prepare(
     tolerances: Tolerances,
     thresholds: Thresholds,
     catalogue: tuple[Entry, ...] = CATALOGUE,
+    scant: bool = False,
 ) -> Study:
     """The study of a recording of a pump, by the lumped fidelity, with the whole catalogue as candidates.
 
@@ -61,6 +65,8 @@ def prepare(
     )  # fmt: skip
     bench = LumpedBench(pump, points, channels, parameters, inputs=inputs)
     found, axes = observations(usable, channels, inputs), scaled_axes(usable)
+    if scant:
+        bench = _of_another_make(bench, axes, found.sigma, thresholds.form.other_make)
     traces = usable.channel(ChannelName.P_CHAMBER) if usable.traces else None
     study = study_of(usable, bench, found, axes, () if traces else catalogue, thresholds)
     memory = noise_correlation(study, thresholds.mismatch)
@@ -77,6 +83,13 @@ def prepare(
     return replace(study, events=port_events(pump))
 
 
+def _of_another_make(bench: LumpedBench, axes: Array, sigma: Array, width: float) -> LumpedBench:
+    """The bench with departures of its leakage and friction from the simulation's laws."""
+    centre = values_at(bench.parameters, np.zeros(len(bench.parameters)))
+    columns = departures(bench.components(centre), smooth_shapes(axes)[:, 1:], sigma, width)
+    return bench.with_departures(columns)
+
+
 def _sensors(recording: Recording, channels: tuple[ChannelName, ...]) -> tuple[Parameter, ...]:
     """Calibrations of outputs and inputs; the drain meter may drift by its zero's sigma, flow meters lag."""
     known = [channel for channel in recording.channels if channel.name in (*channels, *INPUTS)]
@@ -84,7 +97,8 @@ def _sensors(recording: Recording, channels: tuple[ChannelName, ...]) -> tuple[P
     drain = recording.channel(ChannelName.Q_CASE)
     if drain is not None and drain.name in channels and drain.zero_sigma > 0:
         found.append(drift_parameter(drain.name, drain.zero_sigma))
-    delivery = recording.channel(ChannelName.Q_OUT)
-    if delivery is not None and delivery.name in channels and np.all(np.isfinite(recording.steady.hours)):
+    delivery, steady = recording.channel(ChannelName.Q_OUT), recording.steady
+    in_time = np.all(np.isfinite(steady.hours)) and steady.errors is None  # lag is out of quasi-steady points
+    if delivery is not None and delivery.name in channels and in_time:
         found.append(lag_parameter(delivery.name, delivery.lag or LAG))
     return tuple(found)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from diagnosis.recording.model import RecordedChannel, Recording, reading_sigma
+from diagnosis.recording.model import RecordedChannel, Recording, point_sigma
 from diagnosis.study.map_axes import scaled_axes
 from reynolds.errors import InputError
 from reynolds.numerics.arrays import Array
@@ -26,11 +26,11 @@ def observations(
     steady = recording.steady
     stated = [_channel(recording, name) for name in channels]
     values = np.stack([steady.column(name) for name in channels], axis=1)
-    sigma = np.stack([reading_sigma(one, steady.column(one.name)) for one in stated], axis=1)
+    sigma = np.stack([point_sigma(recording, one) for one in stated], axis=1)
     input_sigma = np.zeros((len(values), len(inputs)))
     for at, name in enumerate(inputs):
         one = _channel(recording, name)
-        input_sigma[:, at] = np.hypot(reading_sigma(one, steady.column(name)), one.quantum / np.sqrt(12.0))
+        input_sigma[:, at] = np.hypot(point_sigma(recording, one), one.quantum / np.sqrt(12.0))
     return Observations(
         channels=tuple(Channel(name.value, name.dimension) for name in channels),
         values=values,

@@ -13,6 +13,7 @@ from reynolds.errors import InputError, NotConverged
 from reynolds.numerics.arrays import Array
 from system.bench.chamber_map import Courses, beside, other_gaps, solve_map
 from system.bench.components import WARMER, components
+from system.bench.departures import FORM, departure_parameters
 from system.bench.outputs import SIMULATED, Solved, truth
 from system.bench.parameters import BASE_NAMES
 from system.bench.points import BenchPoints
@@ -69,6 +70,7 @@ class LumpedBench:
         inputs: tuple[ChannelName, ...] = INPUTS,
         samples_per_pitch: int = SAMPLES_PER_PITCH,
         tolerance: float = TOLERANCE,
+        departures: Array | None = None,
     ) -> None:
         for channel in channels:
             if channel not in SIMULATED:
@@ -78,6 +80,7 @@ class LumpedBench:
             raise InputError("bench.pump", "single pistons or slippers", "chambers that are alike")
         self.pump, self.points, self.channels, self.inputs = pump, points, channels, inputs
         self.physics, self.samples_per_pitch, self.tolerance = physics, samples_per_pitch, tolerance
+        self.departures = departures
         own = {parameter.name for parameter in parameters}
         joining = [one for law in physics for one in law.free if one.name not in own]
         self._parameters = (*parameters, *joining)
@@ -119,7 +122,8 @@ class LumpedBench:
             step = self.step_of(name, values)
             moved = np.array(values, dtype=float)
             moved[index] += step
-            near = solved if name in READING_NAMES | TRACE_NAMES else self._near(solved, moved, self.points)
+            direct = name in READING_NAMES | TRACE_NAMES or name.startswith(FORM)
+            near = solved if direct else self._near(solved, moved, self.points)
             columns.append((self._read(near, moved, self.points) - before) / step)
         return np.stack(columns, axis=-1) if columns else np.zeros((*self._shape, 0))
 
@@ -143,9 +147,14 @@ class LumpedBench:
         joining = tuple(parameter for extension in extensions for parameter in extension.free)
         return self._with(joining, (*self.physics, *extensions))
 
+    def with_departures(self, columns: Array) -> LumpedBench:
+        """The same bench with departures (N, C, k) of its laws and their parameters."""
+        own = (*self.parameters, *departure_parameters(columns.shape[-1]))
+        return self._like(parameters=own, departures=columns)
+
     def elsewhere(self, points: BenchPoints) -> LumpedBench:
         """The same pump with the same parameters and laws at other points."""
-        return self._like(points=points)
+        return self._like(points=points, departures=None)
 
     def traces(self, values: Array, points: tuple[int, ...], angles: Array) -> Array:
         """Chamber pressure (len(points), K) in Pa gauge at shaft angles (K,) rad, as `turns` of a finer bench."""
@@ -155,7 +164,7 @@ class LumpedBench:
         """The same bench at some of its points, with as many shaft angles as a trace asks for."""
         chosen = list(points)
         some = replace(self.points, **{name: getattr(self.points, name)[chosen] for name in vars(self.points)})
-        return self._like(points=some, samples_per_pitch=TRACE_SAMPLES_PER_PITCH)
+        return self._like(points=some, samples_per_pitch=TRACE_SAMPLES_PER_PITCH, departures=None)
 
     def turns(self, values: Array, angles: Array) -> Array:
         """Chamber pressure (N, K) in Pa gauge at shaft angles (K,) rad, as encoder and transducer read it."""
@@ -226,8 +235,10 @@ class LumpedBench:
         return Solved(plain, courses, changed, solve(changed), found)
 
     def _read(self, solved: Solved, values: Array, points: BenchPoints) -> Array:
-        found = truth(solved)[:, self._columns]
-        return read(found, self.channels, points, self._named(values))
+        found, named = truth(solved)[:, self._columns], self._named(values)
+        if self.departures is not None:
+            found = found + self.departures @ [named[f"{FORM}{k + 1}"] for k in range(self.departures.shape[-1])]
+        return read(found, self.channels, points, named)
 
     def step_of(self, name: str, values: Array) -> float:
         """The step in SI by which a slope of the named parameter is taken, away from its nearer bound."""
@@ -240,7 +251,17 @@ class LumpedBench:
 
     def _like(self, **changed: Any) -> LumpedBench:
         """The same bench with some of its arguments changed."""
-        names = "pump", "points", "channels", "parameters", "physics", "inputs", "samples_per_pitch", "tolerance"
+        names = (
+            "pump",
+            "points",
+            "channels",
+            "parameters",
+            "physics",
+            "inputs",
+            "samples_per_pitch",
+            "tolerance",
+            "departures",
+        )
         return LumpedBench(**{name: getattr(self, name) for name in names} | changed)
 
     def _with(self, parameters: tuple[Parameter, ...], physics: tuple[Extension, ...]) -> LumpedBench:
@@ -255,7 +276,7 @@ def _hold_known(parameters: tuple[Parameter, ...], physics: tuple[Extension, ...
     """Raise InputError for a parameter that nothing listens to."""
     laws = {parameter.name for law in physics for parameter in law.free}
     for parameter in parameters:
-        if parameter.name not in BASE_NAMES | laws | SENSOR_NAMES:
+        if parameter.name not in BASE_NAMES | laws | SENSOR_NAMES and not parameter.name.startswith(FORM):
             raise InputError(
                 "bench.parameters", parameter.name, "a parameter of the pump, of its sensors or of a law switched on"
             )

@@ -25,6 +25,7 @@ LEAST_DAMPING, FIRST_DAMPING, MOST_DAMPING = 1e-6, 1e-2, 1e6
 LOCAL = 1e2  # damping from which a failed trial shows wrong slopes here, not the curve on the way
 SHORT = 1e-3  # in xi: over shorter steps the solvers' own error exceeds the change of the readings
 GOOD = 0.5  # share of the promised fall: below it the slopes are asked for anew
+STEP = 0.01  # in xi, of slopes by predictions
 NEAR = 0.02  # in xi: slopes taken no farther away are valid for a peak and its covariance
 PATIENCE = 4  # trials that a fit is given before it may be hopeless
 SAME_NOISE = 1e-2  # relative change of the whitening below which it is not renewed
@@ -84,6 +85,7 @@ class _Fit:
         self.bounds = Bounds.of(simulator.parameters)
         self.predictions = self.slope_maps = 0
         self.taken, self.raw = np.full(len(simulator.parameters), np.inf), np.zeros(0)  # the last slopes, where
+        self.exact = False  # slopes by predictions: those of the simulator may be approximate
 
     def place(self, xi: Array, whitening: Whitening) -> _Iterate:
         """Predict at xi. Raises NotConverged where the simulator does."""
@@ -122,7 +124,19 @@ class _Fit:
     def slopes(self, xi: Array) -> None:
         """Take d prediction / d xi at xi."""
         self.slope_maps += 1
-        self.taken, self.raw = xi, standard_slopes(self.simulator, xi)
+        self.taken, self.raw = xi, self._by_predictions(xi) if self.exact else standard_slopes(self.simulator, xi)
+
+    def _by_predictions(self, xi: Array) -> Array:
+        """d prediction / d xi (N, C, k) by one-sided differences of predictions, away from the nearer bound."""
+        here = self.simulator.predict(values_at(self.simulator.parameters, xi))
+        columns = []
+        for at in range(xi.size):
+            moved = xi.copy()
+            moved[at] += -STEP if xi[at] + STEP > self.bounds.highest[at] else STEP
+            there = self.simulator.predict(values_at(self.simulator.parameters, moved))
+            columns.append((there - here) / (moved[at] - xi[at]))
+        self.predictions += xi.size + 1
+        return np.stack(columns, axis=-1)
 
     def whitening(self, xi: Array) -> Whitening:
         """The whitening with the input slopes at xi."""
@@ -206,17 +220,16 @@ def best_posterior(
 
 
 def _descend(fit: _Fit, walk: _Walk, whitening: Whitening) -> tuple[_Iterate, Array]:
-    """Go down to a peak. Return it with slopes taken no farther than NEAR from it."""
-    for step in range(fit.limits.steps):
-        promised = fit.promised(walk)
-        if step >= PATIENCE and walk.place.objective - promised > fit.limits.hopeless:
-            return walk.place, walk.slopes
-        if promised < fit.limits.change * fit.excess(walk.place) or walk.damping > MOST_DAMPING:
-            if walk.moved <= NEAR:
-                break
-            walk = fit.walk(walk.place, whitening)
-        else:
-            walk = _tried(fit, walk, whitening)
+    """Go down to a peak. Return it with slopes taken no farther than NEAR from it.
+
+    Where the simulator's slopes, which may be approximate, end short of a peak, slopes by predictions lead on.
+    """
+    walk, hopeless = _steps(fit, walk, whitening)
+    if not hopeless and not fit.exact and fit.promised(walk) >= fit.stall(walk.place):
+        fit.exact = True
+        walk, hopeless = _steps(fit, replace(fit.renewed(walk, whitening), damping=FIRST_DAMPING), whitening)
+    if hopeless:
+        return walk.place, walk.slopes
     promised, limit = fit.promised(walk), fit.stall(walk.place)
     if promised >= limit:
         raise NotConverged(
@@ -226,6 +239,21 @@ def _descend(fit: _Fit, walk: _Walk, whitening: Whitening) -> tuple[_Iterate, Ar
         )
     walk = walk if walk.moved <= NEAR else fit.renewed(walk, whitening)
     return walk.place, walk.slopes
+
+
+def _steps(fit: _Fit, walk: _Walk, whitening: Whitening) -> tuple[_Walk, bool]:
+    """Trials until nothing more is promised or gained; true where the predicted peak is of no use."""
+    for step in range(fit.limits.steps):
+        promised = fit.promised(walk)
+        if step >= PATIENCE and walk.place.objective - promised > fit.limits.hopeless:
+            return walk, True
+        if promised < fit.limits.change * fit.excess(walk.place) or walk.damping > MOST_DAMPING:
+            if walk.moved <= NEAR:
+                break
+            walk = fit.walk(walk.place, whitening)
+        else:
+            walk = _tried(fit, walk, whitening)
+    return walk, False
 
 
 def _tried(fit: _Fit, walk: _Walk, whitening: Whitening) -> _Walk:

@@ -100,7 +100,7 @@ def _recording(points: BenchPoints, flow: Array) -> Recording:
     channels = tuple(
         RecordedChannel(name, name.value, "", sigma, 0.0, 0.0, 0.0, 0.0, 0.0, ()) for name, sigma in noise.items()
     )
-    steady = SteadyTable(values, np.arange(24), np.full(24, np.nan), np.ones(24))
+    steady = SteadyTable(values, np.arange(24), np.full(24, np.nan))
     return Recording("toy", "ref90", "", Circuit.CLOSED, channels, steady, (), ())
 
 

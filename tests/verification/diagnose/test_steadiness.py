@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from diagnosis.recording.replicates import repeatability, set_points
-from diagnosis.recording.series_points import on_raster
-from diagnosis.recording.steadiness import SteadyRule, effective_number, is_steady, steady_stretches
+from diagnosis.recording.series.points import on_raster
+from diagnosis.recording.series.steadiness import SteadyRule, effective_number, is_steady, steady_stretches
 from diagnosis.recording.tables.table import TableFault
 from diagnosis.recording.traces import synchronous_mean
 from system.inputs.units import TURN

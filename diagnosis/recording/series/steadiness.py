@@ -13,6 +13,7 @@ from reynolds.numerics.arrays import Array
 
 LONGEST_MEMORY = 0.99  # lag-one correlation beyond which a window counts as one sample
 PARTS = 10
+LEAST_PARTS = 4  # one more than the shapes that are fitted to their means
 ROUNDING = 1e-12
 MOST_MEMORY = 0.9  # that a tenth of a window can show
 
@@ -53,7 +54,7 @@ def is_steady(window: Array, sigma: Array, rule: SteadyRule) -> bool:
     """
     if not np.all(np.isfinite(window)):
         return False
-    borders = np.linspace(0, len(window), min(PARTS, len(window) // 4) + 1).astype(np.int64)
+    borders = np.linspace(0, len(window), min(PARTS, max(LEAST_PARTS, len(window) // 4)) + 1).astype(np.int64)
     middle = (borders[1:] + borders[:-1]) / len(window) - 1.0
     shapes = np.stack([np.ones_like(middle), middle, 1.5 * middle**2 - 0.5], axis=1)
     rounded = np.maximum(sigma, ROUNDING * np.max(np.abs(window), axis=0))  # a commanded value has no noise at all

@@ -1,0 +1,136 @@
+"""Points out of a time series: means over steady stretches, or quasi-steady means where there are too few."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from diagnosis.recording.channel_form import ChannelForm
+from diagnosis.recording.form import SeriesSection
+from diagnosis.recording.series.meter_response import MeterResponse
+from diagnosis.recording.series.quasi_steady import FEWEST, quasi_steady
+from diagnosis.recording.series.steadiness import SteadyRule, effective_number, steady_stretches
+from diagnosis.recording.tables.table import TableFault
+from reynolds.numerics.arrays import Array
+from system.inputs.channels import INPUTS
+
+LEAST_STEADY = 0.5  # of a series in steady stretches: below it, all of the series is read as quasi-steady
+MOST_POINTS = 160  # steady stretches: more are repeats of each other, and a fit takes minutes
+MISSTATED = 2.0  # times the scatter, or one over this: a repeatability that the data contradict
+SETTLING = 3.0  # lags of a channel left out at the beginning of a stretch
+
+
+@dataclass(frozen=True)
+class SeriesPoints:
+    """Means (N, C) of C channels at N points, standard error of each, and times.
+
+    hours: (N,), middle of the samples, h from the first; quasi: quasi-steady points, whose noise is `errors`;
+    notes: the procedure as text.
+    """
+
+    means: Array
+    errors: Array
+    hours: Array
+    quasi: bool
+    notes: tuple[str, ...]
+
+
+def series_points(form: SeriesSection, time: Array, readings: Array, channels: Sequence[ChannelForm]) -> SeriesPoints:
+    """Points of a series: time (T,) in s, readings (T, C) in SI, columns as `channels`.
+
+    `SteadyRule` of the measured inputs decides which stretches are steady. The first `SETTLING` times the largest
+    lag of a stretch are left out. Where these hold less than `LEAST_STEADY` of the series, or are more than
+    `MOST_POINTS`, points are quasi-steady means (`quasi_steady`). Raises TableFault for time that does not
+    rise, and for a series of fewer than `FEWEST` samples.
+    """
+    time, readings, raster = on_raster(time, readings, form.raster or 0.0)
+    steady = _steady_stretches(form, raster, readings, channels)
+    if len(steady) > MOST_POINTS or sum(s.stop - s.start for s in steady) < LEAST_STEADY * len(time):
+        return _quasi_steady_points(time, readings, channels)
+    means = np.array([np.nanmean(readings[s], axis=0) for s in steady])
+    worth = np.array([[_worth(column) for column in readings[s].T] for s in steady])
+    spread = np.array([np.nanstd(readings[s], axis=0, ddof=1) for s in steady])
+    middle = np.array([0.5 * (time[s.start] + time[s.stop - 1]) for s in steady])
+    share = sum(s.stop - s.start for s in steady) / len(time)
+    note = (
+        f"{len(steady)} steady points from {share:.0%} of the series: windows of {form.steady.window:g} s in "
+        f"which slope and bow of every input stay below {form.steady.slope:g} standard errors or its repeatability"
+    )
+    return SeriesPoints(means, spread / np.sqrt(worth), (middle - middle[0]) / 3600.0, False, (note,))
+
+
+def _steady_stretches(
+    form: SeriesSection, raster: float, readings: Array, channels: Sequence[ChannelForm]
+) -> list[slice]:
+    """Stretches in which all inputs rest, without their first part where outputs lag behind."""
+    rule = SteadyRule(round(form.steady.window / raster), form.steady.slope)
+    if rule.samples < FEWEST:
+        return []
+    inputs = [k for k, channel in enumerate(channels) if channel.name in INPUTS] or list(range(len(channels)))
+    sigma = np.array([channels[k].sigma or 0.0 for k in inputs])
+    settling = int(np.ceil(SETTLING * max(channel.lag or 0.0 for channel in channels) / raster))
+    steady = [slice(s.start + settling, s.stop) for s in steady_stretches(readings[:, inputs], sigma, rule)]
+    steady = [s for s in steady if s.stop - s.start >= rule.samples // 2]
+    return steady
+
+
+def _quasi_steady_points(time: Array, readings: Array, channels: Sequence[ChannelForm]) -> SeriesPoints:
+    """Quasi-steady means of a series without rest, and notes on storage, samples put aside, misstated noise."""
+    try:
+        found = quasi_steady(time, readings, [channel.name for channel in channels])
+    except ValueError as reason:
+        raise TableFault(str(reason), f"at least {FEWEST} samples of a series") from reason
+    notes = (
+        f"{len(found.means)} quasi-steady points from {1.0 - found.left:.0%} of the series: samples of like inputs and "
+        "time are one point; lag of the meters and storage of line and chambers are estimated and taken out",
+        *(f"T_case: lags the oil of the gaps by {lag:.0f} s, taken out" for lag in [found.thermometer_lag] if lag),
+        *(_meter_note(channels[k], meter) for k, meter in found.meters.items()),
+    )
+    return SeriesPoints(found.means, found.errors, (found.time - found.time[0]) / 3600.0, True, notes)
+
+
+def _meter_note(channel: ChannelForm, meter: MeterResponse) -> str:
+    """Scatter, lag and dead band of a meter; its stated repeatability where the readings contradict it."""
+    parts = [f"its samples scatter by {meter.noise / channel.factor:.3g} {channel.unit} (one sigma)"]
+    if meter.lag > 0.0:
+        parts.append(f"it lags by {meter.lag:.3g} s")
+    if np.isfinite(meter.band):
+        level = f"{(meter.band - channel.offset) / channel.factor:.3g} {channel.unit}"
+        parts.append(f"below its dead band, {level}, readings are put aside")
+    stated = channel.sigma
+    if stated and not meter.noise / MISSTATED < stated < meter.noise * MISSTATED:
+        parts.append(f"{stated / channel.factor:.3g} {channel.unit} is stated, which contradicts: the scatter is used")
+    return f"{channel.name.value}: {'; '.join(parts)}"
+
+
+def on_raster(time: Array, readings: Array, raster: float) -> tuple[Array, Array, float]:
+    """Return time, readings and step in s of a series on an even raster: means over each step.
+
+    raster 0: the median step of the series; steps without a sample are gaps (nan). Raises TableFault where time
+    does not rise or a raster is finer than the series.
+    """
+    steps = np.diff(time)
+    if len(time) < 2 or not np.all(np.isfinite(time)) or np.any(steps <= 0.0):
+        place = int(np.argmax(~(steps > 0.0))) + 2 if len(steps) else 1
+        raise TableFault(f"time that does not rise at row {place}", "times that rise from row to row")
+    own = float(np.median(steps))
+    if raster and raster < 0.999 * own:
+        raise TableFault(f"a raster of {raster:g} s", f"at least {own:g} s, the step of the series")
+    width = raster or own
+    place = np.floor((time - time[0]) / width + 1e-6).astype(np.int64)
+    count = int(place[-1]) + 1
+    known = np.isfinite(readings)
+    numbers = np.zeros((count, readings.shape[1]))
+    sums = np.zeros_like(numbers)
+    np.add.at(numbers, place, known)
+    np.add.at(sums, place, np.where(known, readings, 0.0))
+    means = np.divide(sums, numbers, out=np.full_like(sums, np.nan), where=numbers > 0)
+    return time[0] + width * np.arange(count), means, width
+
+
+def _worth(column: Array) -> float:
+    """Independent samples of a column that may have gaps."""
+    known = column[np.isfinite(column)]
+    return effective_number(known) if len(known) > 2 else 1.0

@@ -1,0 +1,163 @@
+"""Quasi-steady points of a series that never rests: ramps, stairs, sweeps, warm-up.
+
+Each meter's response is estimated and taken out (`meter_response`). Samples near each other in inputs and time are one
+point; its standard error follows from the noise of single samples and its correlation time.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.cluster.vq import kmeans2
+from scipy.signal import savgol_filter
+
+from diagnosis.recording.series.meter_response import (
+    NORMAL,
+    Mask,
+    MeterResponse,
+    meter_response,
+    past_share,
+    smooth_columns,
+)
+from diagnosis.recording.series.thermometer_lag import thermometer_lag
+from reynolds.numerics.arrays import Array
+from system.inputs.channels import INPUTS, ChannelName
+from system.inputs.units import Dimension
+
+POINTS = 120
+FEWEST = 8  # samples of a point
+RATE_SAMPLES = 9  # of the local line of which a rate is the slope
+STEEP = 0.03  # of the range a second: faster is a jump, not a ramp
+MOVES = 4.0  # an input moves whose range exceeds this multiple of its scatter
+HELD = 0.9  # of a point's samples: fewer readings of a channel make no mean
+SEED = 20
+
+
+@dataclass(frozen=True)
+class QuasiSteady:
+    """N points out of a series of C channels.
+
+    means, errors: (N, C), SI, of steady state, and their standard errors; nan where a channel does not follow; time:
+    (N,), s; meters: response of each output by its column; thermometer_lag: of the case, s, taken
+    out; left: share of samples put aside.
+    """
+
+    means: Array
+    errors: Array
+    time: Array
+    meters: dict[int, MeterResponse]
+    thermometer_lag: float
+    left: float
+
+
+def quasi_steady(time: Array, readings: Array, names: Sequence[ChannelName]) -> QuasiSteady:
+    """Points of readings (T, C) in SI of the channels `names` at even times (T,) in s.
+
+    Raises ValueError for fewer than `FEWEST` samples without gaps and jumps of the inputs.
+    """
+    readings, inputs = _filled(readings), [k for k, name in enumerate(names) if name in INPUTS]
+    outputs = [k for k in range(len(names)) if k not in inputs]
+    rate, usable = _calm(time, readings, names)
+    usable &= np.all(np.isfinite(readings[:, inputs]), axis=1)
+    if usable.sum() < FEWEST:
+        raise ValueError(f"{usable.sum()} samples without gaps and jumps")
+    lag = 0.0
+    if ChannelName.T_CASE in names and outputs:
+        case, cold = names.index(ChannelName.T_CASE), [k for k in inputs if not _is_warm(names[k])]
+        whole = usable & np.all(np.isfinite(readings), axis=1)
+        lag, readings[:, case] = thermometer_lag(
+            readings[:, case], _moving(readings[:, cold]), readings[:, outputs], time, whole
+        )
+    moving, past = _moving(readings[:, inputs]), past_share(time)
+    meters = {
+        k: meter_response(readings[:, k], time, moving, rate, usable & np.isfinite(readings[:, k]), _is_flow(names[k]))
+        for k in outputs
+    }
+    cell = _cells(np.column_stack([moving, 2.0 * past - 1.0])[usable])
+    centre = _means(np.column_stack([moving, past])[usable], cell)[0]
+    shapes = smooth_columns(moving, past)[usable]
+    of_centre = smooth_columns(centre[:, :-1], centre[:, -1])[cell]
+    noise, steady = np.zeros(len(names)), readings[usable]
+    for k, meter in meters.items():
+        steady[:, k] = meter.steady[usable] + (of_centre - shapes) @ meter.law  # a law that bends within a cell
+        noise[k] = meter.noise * np.sqrt(meter.memory)
+    means, numbers = _means(steady, cell)
+    kept = np.bincount(cell) >= FEWEST
+    order = np.flatnonzero(kept)[np.argsort(centre[kept, -1])]
+    means, numbers = means[order], numbers[order]
+    errors = np.where(np.isfinite(means), noise / np.sqrt(np.maximum(numbers, 1.0)), np.nan)
+    middle = time[0] + centre[order, -1] * float(time[-1] - time[0])
+    return QuasiSteady(means, errors, middle, meters, lag, 1.0 - float(usable.mean()))
+
+
+def _is_warm(name: ChannelName) -> bool:
+    return name.dimension is Dimension.TEMPERATURE
+
+
+def _is_flow(name: ChannelName) -> bool:
+    return name.dimension is Dimension.VOLUME_FLOW
+
+
+def _calm(time: Array, readings: Array, names: Sequence[ChannelName]) -> tuple[Array, Mask]:
+    """Rate (T,) of the delivery pressure in Pa/s, and the samples (T,) at which it does not jump."""
+    if ChannelName.P_OUT not in names:
+        return np.zeros(len(time)), np.ones(len(time), dtype=bool)
+    pressure = readings[:, names.index(ChannelName.P_OUT)]
+    if np.isfinite(pressure).sum() < FEWEST:
+        return np.zeros(len(time)), np.isfinite(pressure)
+    rate = _rate(pressure, float(np.median(np.diff(time))))
+    return rate, np.abs(rate) < STEEP * max(float(np.nanmax(np.abs(pressure))), 1.0)
+
+
+def _filled(readings: Array) -> Array:
+    """Readings with gaps of a sample or two filled by a straight line."""
+    filled = readings.copy()
+    place = np.arange(len(readings))
+    for column in filled.T:
+        known = np.isfinite(column)
+        near = np.convolve(known, np.ones(5), "same") > 0
+        if known.any():
+            column[near] = np.interp(place[near], place[known], column[known])
+    return filled
+
+
+def _rate(values: Array, raster: float) -> Array:
+    """Slope of a local line, per s."""
+    known = np.isfinite(values)
+    filled = np.interp(np.arange(len(values)), np.flatnonzero(known), values[known])
+    window = min(RATE_SAMPLES, (len(values) - 1) // 2 * 2 + 1)
+    return np.asarray(savgol_filter(filled, window, 1, deriv=1, delta=raster))
+
+
+def _moving(inputs: Array) -> Array:
+    """Inputs that move, scaled to [-1, 1], (T, m); gaps filled with the last reading's line."""
+    found = []
+    for column in inputs.T:
+        known = np.isfinite(column)
+        if known.sum() < FEWEST:
+            continue
+        scatter = NORMAL * float(np.median(np.abs(np.diff(column[known])))) / np.sqrt(2.0)
+        low, high = np.percentile(column[known], [0.5, 99.5])
+        if high - low > MOVES * max(scatter, 1e-9 * abs(high)):
+            filled = np.interp(np.arange(len(column)), np.flatnonzero(known), column[known])
+            found.append(2.0 * (filled - low) / (high - low) - 1.0)
+    return np.column_stack(found) if found else np.zeros((len(inputs), 0))
+
+
+def _cells(places: Array) -> NDArray[np.int64]:
+    """Number of the cell of each sample: nearest of about POINTS centres among the places (T, m)."""
+    count = max(1, min(POINTS, len(places) // (2 * FEWEST)))
+    _, cell = kmeans2(places, count, minit="++", seed=SEED)
+    return np.asarray(np.unique(cell, return_inverse=True)[1], dtype=np.int64)
+
+
+def _means(values: Array, cell: NDArray[np.int64]) -> tuple[Array, Array]:
+    """Means (N, C) over cells, nan where a channel has too few readings, and the numbers of readings behind them."""
+    samples, known = np.bincount(cell), np.isfinite(values)
+    numbers: Array = np.column_stack([np.bincount(cell, weights=column.astype(float)) for column in known.T])
+    sums = np.column_stack([np.bincount(cell, weights=column) for column in np.where(known, values, 0.0).T])
+    whole = numbers >= HELD * samples[:, None]
+    return np.divide(sums, numbers, out=np.full_like(sums, np.nan), where=whole), numbers

@@ -1,0 +1,128 @@
+"""Levels of a scaled pump from its recording: displacement, films and friction before any hypothesis is asked.
+
+A pump of which little is known is REF90 scaled: its leakage and friction may be off by several times, where slopes at
+the prior mean say nothing of the pump on the bench. A robust fit of a few common factors moves the mean:
+
+    min over x of sum rho((y - f(x))/s) + |x|^2,   x = ln of factors on displacement, films, friction in their spreads
+
+rho: soft l1 (scipy), s: share of a channel's median. It takes no part in a verdict: priors stay as wide as before.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Sequence
+from dataclasses import replace
+
+import numpy as np
+from scipy.optimize import least_squares
+
+from diagnosis.recording.model import Recording
+from diagnosis.study.inputs import bench_points, complete, measured
+from diagnosis.study.scaled_pump import KnownPump
+from reynolds.errors import NotConverged
+from reynolds.numerics.arrays import Array
+from system.bench.outputs import SIMULATED
+from system.bench.parameters import base_parameters, pump_with
+from system.bench.simulator import LumpedBench
+from system.description.assumptions import Assumption
+from system.description.gap import Gap
+from system.description.tolerances import Tolerances
+from system.inputs.channels import ChannelName
+from system.inputs.units import Dimension, format_quantity
+
+SHARES = {ChannelName.Q_OUT: 0.003, ChannelName.Q_IN: 0.003}
+"""Scale s of a channel's residuals, share of its median; the others SHARE."""
+SHARE = 0.05
+FARTHEST = np.log(8.0)
+"""Of the logarithm of a common factor."""
+SPREAD, DISPLACEMENT_SPREAD = 0.7, 0.01
+"""One sigma of the logarithm of a factor, and of that on displacement."""
+FAR = 1e3
+"""Residual where a pump cannot be simulated."""
+POINTS = 40
+"""Points of the recording that the fit uses, evenly in their order."""
+_FILMS = tuple(f"film_thickness.{gap.value}" for gap in Gap)
+_DISPLACEMENT, _FRICTION = "displacement", "friction."
+_FLOWS = {ChannelName.Q_OUT, ChannelName.Q_IN, ChannelName.Q_CASE}
+
+
+def levelled(known: KnownPump, recording: Recording, tolerances: Tolerances) -> KnownPump:
+    """A scant pump with displacement, films and friction at the level of its recording, and these as assumptions.
+
+    A pump that is stated in full is returned as it is.
+    """
+    usable = complete(recording)
+    channels = measured(usable, SIMULATED)
+    if not known.scant or not channels:
+        return known
+    chosen = _some(usable)
+    parameters = base_parameters(known.pump, tolerances)
+    bench = LumpedBench(known.pump, bench_points(chosen, known.pump)[0], channels, parameters, inputs=())
+    order = list(ChannelName)
+    readings = chosen.steady.values[:, [order.index(name) for name in channels]]
+    scale = np.array([SHARES.get(name, SHARE) for name in channels]) * np.nanmedian(np.abs(readings), axis=0)
+    names = [one.name for one in parameters]
+    groups = _groups(names, channels)
+    values = _fitted(bench, readings, scale, groups)
+    moved = {names[k]: float(values[k]) for _, members in groups for k in members}
+    return replace(known, pump=pump_with(known.pump, moved), assumptions=(*known.assumptions, *_assumed(moved)))
+
+
+Groups = Sequence[tuple[str, list[int]]]
+
+
+def _fitted(bench: LumpedBench, readings: Array, scale: Array, groups: Groups) -> Array:
+    """Values (k,) of the bench's parameters with each group at its factor."""
+    centre = np.array([one.centre for one in bench.parameters])
+    spread = np.array([DISPLACEMENT_SPREAD if name == _DISPLACEMENT else SPREAD for name, _ in groups])
+    known = np.isfinite(readings)
+
+    def values_of(x: Array) -> Array:
+        found = centre.copy()
+        for factor, (_, members) in zip(np.exp(spread * x), groups, strict=True):
+            found[members] *= factor
+        return found
+
+    def residuals(x: Array) -> Array:
+        try:
+            offset = (readings - bench.predict(values_of(x))) / scale
+        except NotConverged:
+            offset = np.full_like(readings, FAR)
+        return np.concatenate([offset[known], x])
+
+    farthest = FARTHEST / spread
+    fit = least_squares(
+        residuals, np.zeros(len(groups)), loss="soft_l1", diff_step=1e-2, max_nfev=25, bounds=(-farthest, farthest)
+    )
+    return values_of(fit.x)
+
+
+def _some(recording: Recording) -> Recording:
+    """At most `POINTS` points of a recording, evenly in their order."""
+    steady = recording.steady
+    rows = np.unique(np.linspace(0, len(steady.values) - 1, POINTS).round().astype(int))
+    errors = None if steady.errors is None else steady.errors[rows]
+    chosen = replace(
+        steady, values=steady.values[rows], repeats=steady.repeats[rows], hours=steady.hours[rows], errors=errors
+    )
+    return replace(recording, steady=chosen, traces=())
+
+
+def _groups(names: Sequence[str], channels: Collection[ChannelName]) -> Groups:
+    """Places of parameters that share a factor: displacement and films where flows are measured, friction by torque."""
+    flows, torque = _FLOWS & set(channels), ChannelName.TORQUE in channels
+    own = [(name, [k]) for k, name in enumerate(names) if flows and name in (_DISPLACEMENT, *_FILMS)]
+    friction = [k for k, name in enumerate(names) if torque and name.startswith(_FRICTION)]
+    return [*own, (_FRICTION, friction)] if friction else own
+
+
+def _assumed(moved: dict[str, float]) -> tuple[Assumption, ...]:
+    reason = "at the level of the recording"
+    return tuple(
+        Assumption(
+            name,
+            format_quantity(value, Dimension.LENGTH, digits=3) if name.startswith("film") else f"{value:.4g}",
+            reason,
+        )
+        for name, value in moved.items()
+    )

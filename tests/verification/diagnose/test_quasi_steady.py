@@ -1,0 +1,101 @@
+"""Quasi-steady points: lag, dead band, storage and noise of made ramps come back, and the steady readings with them."""
+
+import numpy as np
+import pytest
+
+from diagnosis.recording.series.meter_response import meter_response, robust
+from diagnosis.recording.series.quasi_steady import quasi_steady
+from diagnosis.recording.series.thermometer_lag import thermometer_lag
+from system import ChannelName
+
+STEP, SAMPLES, SIGMA = 1.0, 4000, 0.01
+P, T_CASE, FLOW = 0, 1, 2
+NAMES = (ChannelName.P_OUT, ChannelName.T_CASE, ChannelName.Q_CASE)
+
+
+def lagging(values, seconds):
+    """First-order lag by the exact step response of each sample."""
+    left = np.exp(-STEP / seconds)
+    found = values.copy()
+    for k in range(1, len(values)):
+        found[k] = left * found[k - 1] + (1.0 - left) * values[k]
+    return found
+
+
+def series(lag=5.0, thermal=40.0, band=0.0, storage=0.0, seed=3):
+    """Time, readings (T, 3) of pressure, case temperature and a leakage p exp((T - 40)/30), and the steady leakage."""
+    time = STEP * np.arange(SAMPLES)
+    pressure = 20e5 + 220e5 * 0.5 * (1.0 - np.cos(2.0 * np.pi * time / 240.0))
+    gap = 50.0 - 28.0 * np.exp(-time / 1500.0) + 4.0 * pressure / 240e5
+    steady = pressure / 240e5 * np.exp((gap - 40.0) / 30.0)
+    read = lagging(steady, lag) if lag else steady
+    read = np.maximum(read - storage * np.gradient(pressure, STEP), band)
+    noise = SIGMA * np.random.default_rng(seed).standard_normal(SAMPLES)
+    return time, np.column_stack([pressure, lagging(gap, thermal) if thermal else gap, read + noise]), steady
+
+
+def response(**made):
+    time, readings, steady = series(thermal=0.0, **made)
+    scaled = 2.0 * (readings[:, :2] - readings[:, :2].min(axis=0)) / np.ptp(readings[:, :2], axis=0) - 1.0
+    rate = np.gradient(readings[:, P], STEP)
+    return meter_response(readings[:, FLOW], time, scaled, rate, np.ones(SAMPLES, bool), True), steady
+
+
+@pytest.mark.parametrize("lag", [0.0, 4.0, 8.0])
+def test_lag_comes_back_and_the_reading_is_that_of_steady_state(lag):
+    found, steady = response(lag=lag)
+    assert found.noise == pytest.approx(SIGMA, rel=0.05)
+    assert found.memory < 1.6
+    assert np.isnan(found.band)
+    assert np.std(found.steady - steady) < 1.1 * SIGMA
+
+
+def test_dead_band_is_found_and_its_readings_are_put_aside():
+    found, steady = response(lag=0.0, band=0.12)
+    assert found.band == pytest.approx(0.12, abs=3.0 * SIGMA)
+    assert np.isnan(found.steady[steady < 0.1]).mean() > 0.95
+    assert np.isfinite(found.steady[steady > 0.18]).all()
+    assert np.isnan(response(lag=0.0, band=0.0)[0].band)
+
+
+def test_storage_is_taken_out():
+    found, steady = response(lag=0.0, storage=2e-8)
+    assert found.storage == pytest.approx(2e-8, rel=0.1)
+    assert np.std(found.steady - steady) < 1.1 * SIGMA
+
+
+@pytest.mark.parametrize("thermal", [20.0, 40.0, 80.0])
+def test_lag_of_the_thermometer_comes_back(thermal):
+    time, readings, _ = series(lag=0.0, thermal=thermal)
+    pressure = 2.0 * (readings[:, :1] - readings[:, :1].min()) / np.ptp(readings[:, P]) - 1.0
+    found, led = thermometer_lag(readings[:, T_CASE], pressure, readings[:, FLOW:], time, np.ones(SAMPLES, dtype=bool))
+    assert found == pytest.approx(thermal, rel=0.15)
+    gap = 50.0 - 28.0 * np.exp(-time / 1500.0) + 4.0 * readings[:, P] / 240e5
+    assert np.std((led - gap)[200:]) < 0.2
+
+
+def test_points_are_means_of_steady_state_with_their_standard_errors():
+    time, readings, _ = series()
+    found = quasi_steady(time, readings, NAMES)
+    pressure, temperature, leakage = found.means.T
+    misfit = leakage - pressure / 240e5 * np.exp((temperature - 40.0) / 30.0)
+    assert len(found.means) > 80
+    assert 0.5 < np.nanstd(misfit / found.errors[:, FLOW]) < 2.5
+    assert np.all(np.diff(found.time) > 0.0)
+
+
+def test_gaps_and_jumps_are_put_aside_and_few_samples_refused():
+    time, readings, _ = series()
+    readings[1000:1100] = np.nan
+    found = quasi_steady(time, readings, NAMES)
+    assert found.left == pytest.approx(100.0 / SAMPLES, abs=0.005)
+    with pytest.raises(ValueError, match="samples without gaps"):
+        quasi_steady(time[:5], readings[:5], NAMES)
+
+
+def test_a_robust_fit_keeps_off_outliers():
+    x = np.linspace(-1.0, 1.0, 200)
+    values = 2.0 + 3.0 * x
+    values[::20] += 50.0
+    size, _ = robust(np.column_stack([np.ones(200), x]), values)
+    assert size == pytest.approx([2.0, 3.0], abs=0.05)
