@@ -69,14 +69,14 @@ class SteadyTable:
 
     values: (N, len(ChannelName)) in SI, pressures gauge, columns in the order of ChannelName, nan = not measured;
     repeats: (N,), points of one number repeat one set point; hours: (N,), h from the first point, nan = not known;
-    errors: one sigma (N, len(ChannelName)) in SI of points that are means over a moving series; None: a point has
-    the repeatability of its channels.
+    errors: (N, len(ChannelName)), one sigma in SI of points that are means over a moving series; nan where a point has
+    the repeatability of its channel.
     """
 
     values: Array
     repeats: NDArray[np.int64]
     hours: Array
-    errors: Array | None = None
+    errors: Array
 
     def column(self, name: ChannelName) -> Array:
         """Readings (N,) of one channel in SI."""
@@ -118,7 +118,6 @@ class Recording:
 
 def point_sigma(recording: Recording, channel: RecordedChannel) -> Array:
     """One sigma (N,) of a channel's readings in SI: of the mean where points are means, else repeatability."""
-    steady = recording.steady
-    if steady.errors is None:
-        return reading_sigma(channel, steady.column(channel.name))
-    return np.asarray(steady.errors[:, list(ChannelName).index(channel.name)])
+    errors = recording.steady.errors[:, list(ChannelName).index(channel.name)]
+    repeatability = reading_sigma(channel, recording.steady.column(channel.name))
+    return np.where(np.isfinite(errors), errors, repeatability)

@@ -95,9 +95,8 @@ def _recording(form: RecordingForm, reader: ColumnReader) -> Recording | None:
         traces = read_traces(form.traces, reader, rows, len(points.readings))
     values = np.full((len(points.readings), len(ChannelName)), np.nan)
     values[:, columns_of(form.channels)] = points.readings
-    errors = None
+    errors = np.full_like(values, np.nan)
     if points.quasi and points.errors is not None:
-        errors = np.full_like(values, np.nan)
         errors[:, columns_of(form.channels)] = points.errors
     steady = SteadyTable(values, points.numbers, points.hours, errors)
     channels += traces.channels

@@ -101,10 +101,7 @@ def _some(recording: Recording) -> Recording:
     """At most `POINTS` points of a recording, evenly in their order."""
     steady = recording.steady
     rows = np.unique(np.linspace(0, len(steady.values) - 1, POINTS).round().astype(int))
-    errors = None if steady.errors is None else steady.errors[rows]
-    chosen = replace(
-        steady, values=steady.values[rows], repeats=steady.repeats[rows], hours=steady.hours[rows], errors=errors
-    )
+    chosen = replace(steady, **{name: values[rows] for name, values in vars(steady).items()})
     return replace(recording, steady=chosen, traces=())
 
 

@@ -98,7 +98,7 @@ def _sensors(recording: Recording, channels: tuple[ChannelName, ...]) -> tuple[P
     if drain is not None and drain.name in channels and drain.zero_sigma > 0:
         found.append(drift_parameter(drain.name, drain.zero_sigma))
     delivery, steady = recording.channel(ChannelName.Q_OUT), recording.steady
-    in_time = np.all(np.isfinite(steady.hours)) and steady.errors is None  # lag is out of quasi-steady points
+    in_time = np.all(np.isfinite(steady.hours)) and np.isnan(steady.errors).all()  # lag is out of quasi-steady points
     if delivery is not None and delivery.name in channels and in_time:
         found.append(lag_parameter(delivery.name, delivery.lag or LAG))
     return tuple(found)

@@ -178,7 +178,7 @@ def its_study(named: Diagnosis) -> Study:
         RecordedChannel(T, "M", "N m", 0.8, 0.0, 0.0, 0.0, 0.0, 0.0, ()),
     )
     notes = (DataNote(NoteKind.REMOVED, Q, (2,), "far from its neighbours"),)
-    steady = SteadyTable(values, np.arange(PRESSURE.size), np.full(PRESSURE.size, np.nan))
+    steady = SteadyTable(values, np.arange(PRESSURE.size), np.full(PRESSURE.size, np.nan), np.full_like(values, np.nan))
     recording = Recording("Bench <4>", "ref90", "ISO VG 46", Circuit.CLOSED, channels, steady, (), notes)
     lines: Any = Lines(named.before.parameters)
     return Study(recording, lines, readings(), named.before, (), {}, np.zeros((PRESSURE.size, 4)))

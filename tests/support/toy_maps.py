@@ -25,7 +25,7 @@ def toy_recording(points: int, grid: Sequence[tuple[float, float, float]], seed:
     order = list(ChannelName)
     for axis, column in zip(AXES, (*picked.T, rng.choice(WARMTHS, points)), strict=True):
         values[:, order.index(axis)] = column
-    table = SteadyTable(values, np.arange(points), np.full(points, np.nan))
+    table = SteadyTable(values, np.arange(points), np.full(points, np.nan), np.full_like(values, np.nan))
     return Recording("toy", "toy", "", Circuit.CLOSED, (), table, (), ())
 
 

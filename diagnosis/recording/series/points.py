@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from diagnosis.recording.channel_form import ChannelForm
-from diagnosis.recording.form import SeriesSection
+from diagnosis.recording.form import SeriesSection, SteadinessSection
 from diagnosis.recording.series.meter_response import MeterResponse
 from diagnosis.recording.series.quasi_steady import FEWEST, quasi_steady
 from diagnosis.recording.series.steadiness import SteadyRule, effective_number, steady_stretches
@@ -66,6 +66,9 @@ def _steady_stretches(
 ) -> list[slice]:
     """Stretches in which all inputs rest, without their first part where outputs lag behind."""
     rule = SteadyRule(round(form.steady.window / raster), form.steady.slope)
+    if rule.samples < FEWEST and form.steady.window != SteadinessSection().window:
+        found = f"a window of {rule.samples} samples of {raster:g} s"
+        raise TableFault(found, f"at least {FEWEST} samples a window", f'"{FEWEST * raster:g} s"')
     if rule.samples < FEWEST:
         return []
     inputs = [k for k, channel in enumerate(channels) if channel.name in INPUTS] or list(range(len(channels)))

@@ -30,14 +30,12 @@ def thermometer_lag(
     step = float(np.median(np.diff(time)))
     window = min(WINDOW, (len(time) - 1) // 2 * 2 + 1)
     known = np.isfinite(temperature)
-    slope = savgol_filter(
-        np.interp(time, time[known], temperature[known]), window, min(2, window - 1), deriv=1, delta=step
-    )
-
+    whole = np.interp(time, time[known], temperature[known])
+    slope = savgol_filter(whole, window, min(2, window - 1), deriv=1, delta=step)
     past, used = past_share(time), usable & (np.arange(len(time)) % THINNED == 0)
 
     def score(lag: float) -> float:
-        led = temperature + lag * slope
+        led = whole + lag * slope
         low, high = np.percentile(led[usable], [0.5, 99.5])
         scaled = 2.0 * (led - low) / max(high - low, 1e-9) - 1.0
         inputs = np.column_stack([others, scaled])

@@ -31,7 +31,7 @@ def _recording(circuit: Circuit = Circuit.CLOSED) -> Recording:
     values[:, order.index(C.Q_CASE)] = np.linspace(1e-5, 4e-5, 6)
     angle = np.linspace(0.0, 6.0, 40)
     traces = tuple(TraceBlock(point, angle, angle, None, 1) for point in (2, 4))
-    table = SteadyTable(values, np.arange(6), np.full(6, np.nan))
+    table = SteadyTable(values, np.arange(6), np.full(6, np.nan), np.full_like(values, np.nan))
     return Recording("six", "", "", circuit, tuple(map(_channel, SIGMAS)), table, traces, ())
 
 

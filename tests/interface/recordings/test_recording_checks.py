@@ -49,7 +49,7 @@ def _sound(seed: int = 1) -> Recording:
         values[:, COLUMNS[ChannelName.named(name)]] = clean[name] + sigma * rng.standard_normal(len(speed))
         channels.append(RecordedChannel(ChannelName.named(name), name, unit, sigma, 0.0, 0.01 * sigma, 0, 0, 0, ()))
     count = len(speed)
-    steady = SteadyTable(values, np.arange(count), np.full(count, np.nan))
+    steady = SteadyTable(values, np.arange(count), np.full(count, np.nan), np.full_like(values, np.nan))
     return Recording("map", "", "", Circuit.CLOSED, tuple(channels), steady, (), ())
 
 
@@ -272,7 +272,9 @@ def test_speeds_that_are_not_recorded_are_a_fault_where_the_flow_shows_them():
 def test_one_speed_need_not_be_recorded():
     sound = _sound()
     rows = sound.steady.column(ChannelName.SPEED) < 110.0
-    kept = SteadyTable(sound.steady.values[rows], np.arange(rows.sum()), np.full(rows.sum(), np.nan))
+    kept = SteadyTable(
+        sound.steady.values[rows], np.arange(rows.sum()), np.full(rows.sum(), np.nan), sound.steady.errors[rows]
+    )
     told = _told(_without_speed(replace(sound, steady=kept)))
     assert not [text for kind, _, text in told if kind is NoteKind.FAULT]
 

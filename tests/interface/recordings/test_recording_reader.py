@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given, settings, strategies as st
 
 from diagnosis import Circuit, NoteKind, read_recording
-from diagnosis.recording.model import reading_sigma
+from diagnosis.recording.model import point_sigma, reading_sigma
 from system import ChannelName, InputFaults
 
 ATMOSPHERE = 101325.0
@@ -131,6 +131,22 @@ def test_round_levels_of_a_setting_are_no_steps_of_a_reading(tmp_path):
     assert recording.channel(ChannelName.DISPLACEMENT_RATIO).quantum == 0.0
 
 
+def test_a_series_without_rest_gives_quasi_steady_points(tmp_path):
+    time = np.arange(4000.0)
+    pressure = 20.0 + 200.0 * np.abs((time / 100.0) % 2.0 - 1.0)
+    flow = 60.0 - 0.01 * pressure + 0.05 * np.random.default_rng(4).standard_normal(time.size)
+    rows = [f"{t:.0f},1500,{p:.2f},50,{q:.4f}" for t, p, q in zip(time, pressure, flow, strict=True)]
+    form = HEAD.replace("absolute", "gauge") + '[series]\nfile = "steady.csv"\ntime = { column = "t", unit = "s" }\n'
+    recording = read_recording(_written(tmp_path, form + CHANNELS, "t,n,p,T,Q\n" + "\n".join(rows)))
+    found, stated = recording.steady.column(ChannelName.Q_OUT), recording.steady.column(ChannelName.P_OUT)
+    error = point_sigma(recording, recording.channel(ChannelName.Q_OUT))
+    assert len(found) > 80
+    assert np.std((found * 60e3 - 60.0 + 0.01 * stated / 1e5) / (60e3 * error)) == pytest.approx(1.0, abs=0.4)
+    texts = " ".join(note.text for note in recording.notes)
+    assert "quasi-steady points" in texts
+    assert "Q_out: its samples scatter by 0.05" in texts
+
+
 def test_series_gives_its_plateaus(tmp_path):
     rng = np.random.default_rng(3)
     levels = np.repeat([1000.0, 1500.0, 1200.0], 600)
@@ -143,7 +159,7 @@ def test_series_gives_its_plateaus(tmp_path):
     assert len(recording.steady.values) == 3
     flow = recording.steady.column(ChannelName.Q_OUT) * 60e3
     assert set(np.round(flow)) == {60.0, 90.0, 72.0}
-    assert np.all(recording.steady.effective > 50)
+    assert np.isnan(recording.steady.errors).all()
     assert np.all(np.diff(recording.steady.hours) > 0.0)
     assert recording.channel(ChannelName.Q_OUT).sigma * 60e3 == pytest.approx(0.1 / math.sqrt(600), rel=0.5)
 

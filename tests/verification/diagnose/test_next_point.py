@@ -100,7 +100,7 @@ def _recording(points: BenchPoints, flow: Array) -> Recording:
     channels = tuple(
         RecordedChannel(name, name.value, "", sigma, 0.0, 0.0, 0.0, 0.0, 0.0, ()) for name, sigma in noise.items()
     )
-    steady = SteadyTable(values, np.arange(24), np.full(24, np.nan))
+    steady = SteadyTable(values, np.arange(24), np.full(24, np.nan), np.full_like(values, np.nan))
     return Recording("toy", "ref90", "", Circuit.CLOSED, channels, steady, (), ())
 
 

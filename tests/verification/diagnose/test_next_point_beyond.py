@@ -93,7 +93,7 @@ def _recording(ratio: Array) -> Recording:
     for name, column in columns.items():
         values[:, list(ChannelName).index(name)] = column
     channels = tuple(RecordedChannel(name, "", "", 1e-3, 0.0, 0.0, 0.0, 0.0, 0.0, ()) for name in columns)
-    steady = SteadyTable(values, np.arange(8), np.full(8, np.nan))
+    steady = SteadyTable(values, np.arange(8), np.full(8, np.nan), np.full_like(values, np.nan))
     return Recording("toy", "ref90", "", Circuit.CLOSED, channels, steady, (), ())
 
 
