@@ -225,7 +225,7 @@ def _descend(fit: _Fit, walk: _Walk, whitening: Whitening) -> tuple[_Iterate, Ar
     Where the simulator's slopes, which may be approximate, end short of a peak, slopes by predictions lead on.
     """
     walk, hopeless = _steps(fit, walk, whitening)
-    if not hopeless and not fit.exact and fit.promised(walk) >= fit.stall(walk.place):
+    if walk.damping > MOST_DAMPING and not fit.exact and fit.promised(walk) >= fit.stall(walk.place):
         fit.exact = True
         walk, hopeless = _steps(fit, replace(fit.renewed(walk, whitening), damping=FIRST_DAMPING), whitening)
     if hopeless:

@@ -206,7 +206,7 @@ def test_walls_as_the_film_solver_has_them_are_found_by_two_processes(tmp_path: 
     assert main(["run", str(out / "pump_extended.toml"), "--fidelity", "lumped", "-o", str(tmp_path / "run")]) == 0
 
 
-@pytest.mark.slow
+@pytest.mark.long
 def test_the_front_door_diagnoses_and_opens_the_same(tmp_path):
     import swashfilm as sf
 
