@@ -71,6 +71,7 @@ class RefitLimits:
     reach: float
     farther: float
     hopeless: float
+    felt: float
     held_out: int
 
 

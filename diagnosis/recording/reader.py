@@ -62,7 +62,8 @@ def _places(path: Path) -> tuple[Path, Path | None]:
 @dataclass(frozen=True)
 class _Points:
     """Readings (N, C) by channel of the form; set points, hours, standard errors (N, C) of means, and the table's
-    own columns where its rows are the points. quasi: means of a series without rest, whose standard errors hold in
+    own columns where its rows are the points. zeros: (C,), one sigma of a zero that the readings show at least, SI.
+    quasi: means of a series without rest, whose standard errors hold in
     place of a stated repeatability.
     """
 
@@ -71,6 +72,7 @@ class _Points:
     hours: Array
     errors: Array | None
     columns: Mapping[str, Array]
+    zeros: Array | None = None
     quasi: bool = False
 
 
@@ -160,7 +162,7 @@ def _series_points(
     for note in series.notes:
         reader.note(note)
     numbers = np.arange(len(series.means), dtype=np.int64)
-    return _Points(series.means, numbers, series.hours, series.errors, {}, series.quasi)
+    return _Points(series.means, numbers, series.hours, series.errors, {}, series.zeros, series.quasi)
 
 
 def _channels(forms: Sequence[ChannelForm], points: _Points, reader: ColumnReader) -> tuple[RecordedChannel, ...]:
@@ -181,8 +183,14 @@ def _channels(forms: Sequence[ChannelForm], points: _Points, reader: ColumnReade
                 "sigma or sigma_relative (one sigma of repeatability), or a repeats column with 5 or more repeats",
             )
         else:
-            channels.append(channel)
+            channels.append(_with_zero(channel, 0.0 if points.zeros is None else float(points.zeros[k])))
     return tuple(channels)
+
+
+def _with_zero(channel: RecordedChannel, least: float) -> RecordedChannel:
+    """The channel with a zero no better than its readings show, where none is stated."""
+    unknown = "zero" in channel.assumed
+    return replace(channel, zero_sigma=max(channel.zero_sigma, least)) if unknown else channel
 
 
 def _assumed(channel: RecordedChannel) -> str:

@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator, Mapping
 from dataclasses import replace
 
 import numpy as np
 
 from diagnosis.recording.model import DataNote, NoteKind, Recording
+from diagnosis.study.drift_course import drift_courses, drift_parameters
+from diagnosis.study.felt import felt
 from diagnosis.study.inputs import assumed_parameters, bench_points, complete, measured
 from diagnosis.study.map_axes import scaled_axes, smooth_shapes
 from diagnosis.study.model import Study, study_of
@@ -68,8 +71,8 @@ def prepare(
     if scant:
         bench = _of_another_make(bench, axes, found.sigma, thresholds.form.other_make)
     traces = usable.channel(ChannelName.P_CHAMBER) if usable.traces else None
-    study = study_of(usable, bench, found, axes, () if traces else catalogue, thresholds)
-    memory = noise_correlation(study, thresholds.mismatch)
+    bare = study_of(usable, bench, found, axes, (), thresholds)
+    memory = noise_correlation(bare, thresholds.mismatch)
     if memory:
         text = f"residuals persist from point to point: noise is assumed correlated by {memory[0]:.2f} in the order"
         usable = replace(usable, notes=(*usable.notes, DataNote(NoteKind.NOTED, None, (), text)))
@@ -78,9 +81,20 @@ def prepare(
         traced = traced_bench(bench, usable.traces, traces)
         study = study_of(usable, traced, traced.observations(found), axes, catalogue, thresholds)
         study = replace(study, traces=trace_misfits(traced, traces, thresholds.mismatch.pull))
-    elif memory:
+    else:
+        courses = drift_courses(bare, thresholds)
+        bench = bench.only(felt(bare, thresholds.fit.felt)).with_drifts(courses, drift_parameters(bare, courses))
+        usable = replace(usable, notes=(*usable.notes, *_drift_notes(courses, usable)))
         study = study_of(usable, bench, found, axes, catalogue, thresholds)
     return replace(study, events=port_events(pump))
+
+
+def _drift_notes(courses: Mapping[ChannelName, Array], recording: Recording) -> Iterator[DataNote]:
+    """A note on each meter whose drift has a course of its own."""
+    for channel, course in courses.items():
+        hours = recording.steady.hours[int(np.argmax(np.abs(course)))]
+        text = f"{channel.value} departs smoothly in time, most at {60.0 * hours:.0f} min; no law of the inputs does so"
+        yield DataNote(NoteKind.NOTED, channel, (), text)
 
 
 def _of_another_make(bench: LumpedBench, axes: Array, sigma: Array, width: float) -> LumpedBench:

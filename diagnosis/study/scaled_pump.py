@@ -59,6 +59,7 @@ _WIDE = {
     "displacement": 0.005,
     "dead_volume": 0.3,
     "flow_coefficient": 0.1,
+    "inlet_share": 0.5,
 }
 """[tolerance] of what is scaled, which a recording decides: the films of HST 196 are 1.5 to 1.9 times REF90's."""
 

@@ -17,6 +17,11 @@ from system.pump.lumped import full_drive
 
 SLOPE_ABOUT = 323.15
 """Temperature (K) about which viscosity_slope turns the oil's law: 50 degC."""
+FILM_WARMTH = (INLET_SHARE, THROTTLE_SHARE) = ("inlet_share", "throttle_share")
+HALF_WAY = 0.5
+"""Centre of inlet_share where it is uncertain."""
+THROTTLED = (0.75, 0.4)
+"""Centre and one sigma of throttle_share: oil throttled to the case warms by 1 - beta T = .8 of dp/(rho c)."""
 GUIDE, BEARINGS = "ball_guide_retainer", ("front_bearing", "rear_bearing")
 _THICKNESS = {
     Gap.PISTON: ("piston", "radial_clearance"),
@@ -34,7 +39,7 @@ BASE_NAMES = frozenset(
         *(f"film_thickness.{gap.value}" for gap in Gap),
         *(f"friction.{pair}" for pair in FRICTION_PAIRS),
         "eccentricity_ratio", "bulk_modulus", "viscosity", "viscosity_slope", "displacement", "dead_volume",
-        "flow_coefficient", "stand_out_share", *GROOVE_NAMES,
+        "flow_coefficient", "stand_out_share", *FILM_WARMTH, *GROOVE_NAMES,
     }
 )  # fmt: skip
 """Names of all parameters of `base_parameters` and `groove_parameters`."""
@@ -45,7 +50,8 @@ def base_parameters(pump: PumpDescription, tolerances: Tolerances) -> tuple[Para
 
     film_thickness.GAP in m, eccentricity_ratio, friction.PAIR, dead_volume in m3, flow_coefficient, bulk_modulus
     in Pa; factors on viscosity and displacement; viscosity_slope in 1/K; stand_out_share about 0.5 where not
-    stated. A friction coefficient of 0 stays 0.
+    stated. A friction coefficient of 0 stays 0. Where the films may differ from the case in
+    temperature, inlet_share s and throttle_share x: T_film = T_case + s (T_in + x dp/(rho c) - T_case).
     """
     return (
         *(_thickness(pump, gap, tolerances) for gap in Gap),
@@ -56,6 +62,7 @@ def base_parameters(pump: PumpDescription, tolerances: Tolerances) -> tuple[Para
         _relative("dead_volume", pump.pump.dead_volume, tolerances.dead_volume, Dimension.VOLUME),
         _relative("flow_coefficient", pump.ports.flow_coefficient, tolerances.flow_coefficient, None, upper=1.0),
         _absolute("stand_out_share", _share(pump), tolerances.stand_out_share, 0.0, 1.2),
+        *_warmth(tolerances),
     )
 
 
@@ -118,6 +125,14 @@ def _thickness(pump: PumpDescription, gap: Gap, tolerances: Tolerances) -> Param
     section, key = _THICKNESS[gap]
     centre = getattr(getattr(pump, section), key)
     return _relative(f"film_thickness.{gap.value}", centre, tolerances.film_thickness, Dimension.LENGTH)
+
+
+def _warmth(tolerances: Tolerances) -> tuple[Parameter, ...]:
+    """Share of the inlet's oil, warmed by throttling, in the temperature of the films; none where it is certain."""
+    spread = tolerances.inlet_share
+    if spread == 0.0:
+        return ()
+    return _absolute(INLET_SHARE, HALF_WAY, spread, 0.0, 1.0), _absolute(THROTTLE_SHARE, *THROTTLED, 0.0, 1.5)
 
 
 def _fluid(pump: PumpDescription, tolerances: Tolerances) -> tuple[Parameter, ...]:

@@ -58,7 +58,8 @@ def taken_parameter(channel: ChannelName, sigma: float) -> Parameter:
 
 
 def drift_parameter(channel: ChannelName, sigma: float) -> Parameter:
-    """CHANNEL.drift: what an output reads too much at the last point, growing evenly from the first (SI)."""
+    """CHANNEL.drift: what an output reads too much at the last point, growing evenly from the first, or where a course
+    of its drift is known at its height (SI)."""
     return _bias(channel, "drift", sigma, channel.dimension, inf)
 
 
@@ -113,13 +114,22 @@ def actual(points: BenchPoints, values: Mapping[str, float]) -> BenchPoints:
     return replace(points, **changed)
 
 
-def read(truth: Array, channels: Sequence[ChannelName], points: BenchPoints, values: Mapping[str, float]) -> Array:
-    """Readings (N, C) of the truth (N, C), both in SI, with the sensors' values by name."""
+def read(
+    truth: Array,
+    channels: Sequence[ChannelName],
+    points: BenchPoints,
+    values: Mapping[str, float],
+    drifts: Mapping[ChannelName, Array],
+) -> Array:
+    """Readings (N, C) of the truth (N, C), both in SI, with the sensors' values by name.
+
+    drifts: course (N,) of a meter's drift over its value; even in time for a meter without one.
+    """
     found = truth.copy()
     progress = _progress(points)
     for column, channel in enumerate(channels):
         gain, zero, drift = (values.get(f"{channel.value}.{what}", 0.0) for what in ("gain", "zero", "drift"))
-        found[:, column] = found[:, column] * (1.0 + gain) + zero + drift * progress
+        found[:, column] = found[:, column] * (1.0 + gain) + zero + drift * drifts.get(channel, progress)
         lag = values.get(f"{channel.value}.lag", 0.0)
         if lag > 0.0:
             found[:, column] = _lagging(found[:, column], points, lag)

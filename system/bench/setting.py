@@ -9,7 +9,7 @@ import numpy as np
 from reynolds.laws.oil import walther
 from reynolds.numerics.arrays import Array
 from system.bench.chamber_map import MapProblem
-from system.bench.parameters import GROOVE_ADVANCE, GROOVE_AREA, pump_with
+from system.bench.parameters import GROOVE_ADVANCE, GROOVE_AREA, INLET_SHARE, THROTTLE_SHARE, pump_with
 from system.bench.points import BenchPoints
 from system.bench.sensors import actual
 from system.description.pump import PumpDescription
@@ -42,7 +42,7 @@ def setting(pump: PumpDescription, points: BenchPoints, values: Mapping[str, flo
     """The pump with values of `base_parameters` at the points less the zeros of their sensors."""
     own = pump_with(pump, values)
     at = actual(points, values)
-    temperature = _column(at.T_case)
+    temperature = _column(_film_temperature(own, at, values))
     point = OperatingPoint(
         shaft_speed=_column(at.speed),
         delivery_pressure=_column(at.p_out),
@@ -66,6 +66,13 @@ def affected(given: Setting, effects: Effects) -> Setting:
         motion = piston_motion(pump, point, motion.shaft_angle.size // pump.pump.pistons)
     leaks = affected_leaks(lumped_leaks(pump, point, motion), effects)
     return Setting(pump, point, motion, leaks, affected_wear(given.wear, effects))
+
+
+def _film_temperature(pump: PumpDescription, at: BenchPoints, values: Mapping[str, float]) -> Array:
+    """Temperature (N,) of the films in K: the case's, in part that of the inlet's oil warmed by throttling."""
+    heat = pump.oil.density * pump.oil.specific_heat
+    warmed = at.T_in + values.get(THROTTLE_SHARE, 0.0) * (at.p_out - at.p_case) / heat
+    return at.T_case + values.get(INLET_SHARE, 0.0) * (warmed - at.T_case)
 
 
 def _column(values: Array) -> Array:

@@ -57,7 +57,8 @@ class LumpedBench:
     observations. Parameters: of `base_parameters`, `sensor_parameters` and those of the extensions in `physics`,
     which join where they are not among them. All else is as the pump states it, its own [physics] too. Ports are
     held at their mean pressures: lines behind them and their ripple are left out. Raises InputError for a channel
-    it does not know, another parameter, chambers that differ, and points at which the oil's law is void.
+    it does not know, another parameter, chambers that differ, and points at which the oil's law is void. departures:
+    (N, C, k) of its laws; drifts: course (N,) of a meter's drift, even in time for meters without one.
     """
 
     def __init__(
@@ -71,6 +72,7 @@ class LumpedBench:
         samples_per_pitch: int = SAMPLES_PER_PITCH,
         tolerance: float = TOLERANCE,
         departures: Array | None = None,
+        drifts: Mapping[ChannelName, Array] | None = None,
     ) -> None:
         for channel in channels:
             if channel not in SIMULATED:
@@ -80,7 +82,7 @@ class LumpedBench:
             raise InputError("bench.pump", "single pistons or slippers", "chambers that are alike")
         self.pump, self.points, self.channels, self.inputs = pump, points, channels, inputs
         self.physics, self.samples_per_pitch, self.tolerance = physics, samples_per_pitch, tolerance
-        self.departures = departures
+        self.departures, self.drifts = departures, drifts or {}
         own = {parameter.name for parameter in parameters}
         joining = [one for law in physics for one in law.free if one.name not in own]
         self._parameters = (*parameters, *joining)
@@ -152,9 +154,19 @@ class LumpedBench:
         own = (*self.parameters, *departure_parameters(columns.shape[-1]))
         return self._like(parameters=own, departures=columns)
 
+    def with_drifts(self, courses: Mapping[ChannelName, Array], parameters: tuple[Parameter, ...]) -> LumpedBench:
+        """The same bench with courses (N,) of the drifts of some meters and with their parameters."""
+        own = {parameter.name for parameter in self.parameters}
+        joining = tuple(parameter for parameter in parameters if parameter.name not in own)
+        return self._like(parameters=(*self.parameters, *joining), drifts={**self.drifts, **courses})
+
+    def only(self, parameters: tuple[Parameter, ...]) -> LumpedBench:
+        """The same bench with these parameters alone; the pump states the others."""
+        return self._like(parameters=parameters)
+
     def elsewhere(self, points: BenchPoints) -> LumpedBench:
         """The same pump with the same parameters and laws at other points."""
-        return self._like(points=points, departures=None)
+        return self._like(points=points, departures=None, drifts=None)
 
     def traces(self, values: Array, points: tuple[int, ...], angles: Array) -> Array:
         """Chamber pressure (len(points), K) in Pa gauge at shaft angles (K,) rad, as `turns` of a finer bench."""
@@ -164,7 +176,7 @@ class LumpedBench:
         """The same bench at some of its points, with as many shaft angles as a trace asks for."""
         chosen = list(points)
         some = replace(self.points, **{name: getattr(self.points, name)[chosen] for name in vars(self.points)})
-        return self._like(points=some, samples_per_pitch=TRACE_SAMPLES_PER_PITCH, departures=None)
+        return self._like(points=some, samples_per_pitch=TRACE_SAMPLES_PER_PITCH, departures=None, drifts=None)
 
     def turns(self, values: Array, angles: Array) -> Array:
         """Chamber pressure (N, K) in Pa gauge at shaft angles (K,) rad, as encoder and transducer read it."""
@@ -238,7 +250,7 @@ class LumpedBench:
         found, named = truth(solved)[:, self._columns], self._named(values)
         if self.departures is not None:
             found = found + self.departures @ [named[f"{FORM}{k + 1}"] for k in range(self.departures.shape[-1])]
-        return read(found, self.channels, points, named)
+        return read(found, self.channels, points, named, self.drifts)
 
     def step_of(self, name: str, values: Array) -> float:
         """The step in SI by which a slope of the named parameter is taken, away from its nearer bound."""
@@ -261,6 +273,7 @@ class LumpedBench:
             "samples_per_pitch",
             "tolerance",
             "departures",
+            "drifts",
         )
         return LumpedBench(**{name: getattr(self, name) for name in names} | changed)
 

@@ -25,3 +25,4 @@ class ToleranceSection:
     dead_volume: Spread | None = None
     flow_coefficient: Spread | None = None
     stand_out_share: Spread | None = None  # absolute
+    inlet_share: Spread | None = None  # absolute; of the inlet's temperature in that of the films

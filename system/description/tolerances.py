@@ -12,7 +12,8 @@ class Tolerances:
 
     film_thickness: each gap's; eccentricity_ratio: absolute; viscosity_slope in 1/K: of the logarithm of viscosity
     over temperature, about 50 degC; friction, guide_friction, bearing_friction: coefficients of the pairs, of ball
-    guide and retainer, of the shaft bearings; flow_coefficient: of the ports; stand_out_share: absolute.
+    guide and retainer, of the shaft bearings; flow_coefficient: of the ports; stand_out_share: absolute; inlet_share:
+    of the inlet's oil in the temperature of the films, absolute.
     """
 
     film_thickness: float
@@ -27,6 +28,7 @@ class Tolerances:
     dead_volume: float
     flow_coefficient: float
     stand_out_share: float
+    inlet_share: float
 
 
 _USUAL = {
@@ -42,6 +44,7 @@ _USUAL = {
     "dead_volume": (0.02, "castings"),
     "flow_coefficient": (0.05, "sharp-edged ports"),
     "stand_out_share": (0.5, "no drawing shows where the plate pivots"),
+    "inlet_share": (0.0, "films as warm as the case"),
 }
 """Assumed value and its reason for each key that [tolerance] leaves out."""
 

@@ -19,6 +19,7 @@ from system.inputs.channels import INPUTS
 LEAST_STEADY = 0.5  # of a series in steady stretches: below it, all of the series is read as quasi-steady
 MOST_POINTS = 160  # steady stretches: more are repeats of each other, and a fit takes minutes
 MISSTATED = 2.0  # times the scatter, or one over this: a repeatability that the data contradict
+ZERO_OF_BAND = 1.0 / 3.0  # of a dead band: one sigma of the zero of a meter that has one
 SETTLING = 3.0  # lags of a channel left out at the beginning of a stretch
 
 
@@ -26,13 +27,15 @@ SETTLING = 3.0  # lags of a channel left out at the beginning of a stretch
 class SeriesPoints:
     """Means (N, C) of C channels at N points, standard error of each, and times.
 
-    hours: (N,), middle of the samples, h from the first; quasi: quasi-steady points, whose noise is `errors`;
+    hours: (N,), middle of the samples, h from the first; zeros: (C,), one sigma of a zero that the series shows at
+    least, SI; quasi: quasi-steady points, whose noise is `errors`;
     notes: the procedure as text.
     """
 
     means: Array
     errors: Array
     hours: Array
+    zeros: Array
     quasi: bool
     notes: tuple[str, ...]
 
@@ -58,7 +61,8 @@ def series_points(form: SeriesSection, time: Array, readings: Array, channels: S
         f"{len(steady)} steady points from {share:.0%} of the series: windows of {form.steady.window:g} s in "
         f"which slope and bow of every input stay below {form.steady.slope:g} standard errors or its repeatability"
     )
-    return SeriesPoints(means, spread / np.sqrt(worth), (middle - middle[0]) / 3600.0, False, (note,))
+    hours = (middle - middle[0]) / 3600.0
+    return SeriesPoints(means, spread / np.sqrt(worth), hours, np.zeros(len(channels)), False, (note,))
 
 
 def _steady_stretches(
@@ -91,7 +95,10 @@ def _quasi_steady_points(time: Array, readings: Array, channels: Sequence[Channe
         *(f"T_case: lags the oil of the gaps by {lag:.0f} s, taken out" for lag in [found.thermometer_lag] if lag),
         *(_meter_note(channels[k], meter) for k, meter in found.meters.items()),
     )
-    return SeriesPoints(found.means, found.errors, (found.time - found.time[0]) / 3600.0, True, notes)
+    zeros = np.zeros(len(channels))
+    for k, meter in found.meters.items():
+        zeros[k] = ZERO_OF_BAND * np.nan_to_num(meter.band)
+    return SeriesPoints(found.means, found.errors, (found.time - found.time[0]) / 3600.0, zeros, True, notes)
 
 
 def _meter_note(channel: ChannelForm, meter: MeterResponse) -> str:

@@ -1,0 +1,68 @@
+"""Course of a meter's drift: a smooth function of time that no law of the pump's inputs replaces.
+
+    y = f(inputs) + sum over k of a_k (cos(k pi t) - 1),   t: share of the recording that is past, a_k ~ N(0, w^2)
+
+A meter drifts where these columns in its channel alone are likelier than a free smooth multiplier over the map on any
+part of the pump: a pressure that is swept many times tells the two apart, a warm-up that is recorded once does not.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import numpy as np
+
+from diagnosis.detect.component_evidence import component_evidences
+from diagnosis.study.model import Study
+from diagnosis.thresholds import Thresholds
+from reynolds.numerics.arrays import Array
+from system.bench.sensors import drift_parameter
+from system.estimation.evidence import multiplier_evidence, project
+from system.estimation.parameters import Parameter
+from system.inputs.channels import ChannelName
+
+ORDERS = 6
+"""Cosines of a course."""
+FEWEST = 30
+"""Points of a recording in which a course is sought."""
+
+
+def drift_courses(study: Study, thresholds: Thresholds) -> Mapping[ChannelName, Array]:
+    """Course (N,) of the drift of each meter that has one, 0 at the first point, 1 at its height."""
+    hours = study.recording.steady.hours
+    if len(hours) < FEWEST or not np.all(np.isfinite(hours)) or np.ptp(hours) == 0.0:
+        return {}
+    past = (hours - hours.min()) / np.ptp(hours)
+    shapes = np.stack([np.cos(order * np.pi * past) - 1.0 for order in range(1, ORDERS + 1)], axis=1)
+    laws = max((evidence for _, evidence in component_evidences(study, thresholds)), default=0.0)
+    found = {}
+    for at, channel in enumerate(study.channels):
+        columns, evidence = _columns(study, at, shapes), 0.0
+        evidence = multiplier_evidence(study.base, columns, thresholds.locate.multiplier_widths)
+        if evidence > max(laws, 0.0) + thresholds.name.odds:
+            course = shapes @ _likeliest(study, columns, thresholds)
+            found[channel] = course / np.abs(course).max()
+    return found
+
+
+def drift_parameters(study: Study, courses: Mapping[ChannelName, Array]) -> tuple[Parameter, ...]:
+    """CHANNEL.drift of each meter with a course; its prior is that of the meter's zero."""
+    channels = [channel for channel in study.recording.channels if channel.name in courses]
+    return tuple(drift_parameter(one.name, one.zero_sigma) for one in channels if one.zero_sigma > 0.0)
+
+
+def _columns(study: Study, at: int, shapes: Array) -> Array:
+    """Whitened columns (n, m) of the shapes (N, m) in one channel, in units of its median reading."""
+    readings = study.observations.values[:, at]
+    level = float(np.nanmedian(np.abs(readings)))
+    columns = np.zeros((*study.observations.values.shape, shapes.shape[1]))
+    columns[:, at] = level * shapes
+    return study.base.whitening.whiten(columns)
+
+
+def _likeliest(study: Study, columns: Array, thresholds: Thresholds) -> Array:
+    """Mean (m,) of the coefficients given the readings, at the width of greatest evidence."""
+    base, widths = study.base, thresholds.locate.multiplier_widths
+    width = max(widths, key=lambda width: multiplier_evidence(base, columns, [width]))
+    precision = columns.T @ project(base, columns) + np.eye(columns.shape[1]) / width**2
+    return np.asarray(np.linalg.solve(precision, columns.T @ base.residual), dtype=float)
