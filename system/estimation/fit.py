@@ -28,6 +28,7 @@ GOOD = 0.5  # share of the promised fall: below it the slopes are asked for anew
 STEP = 0.01  # in xi, of slopes by predictions
 NEAR = 0.02  # in xi: slopes taken no farther away are valid for a peak and its covariance
 PATIENCE = 4  # trials that a fit is given before it may be hopeless
+GROSS, COARSE = 3.0, 1e-2  # objective per reading of a model that is wrong, share of it that decides nothing then
 SAME_NOISE = 1e-2  # relative change of the whitening below which it is not renewed
 
 
@@ -145,7 +146,12 @@ class _Fit:
 
     def stall(self, place: _Iterate) -> float:
         """The fall promised with which a place that no step betters is a peak."""
-        return self.limits.stall * self.excess(place)
+        return max(self.limits.stall * self.excess(place), self.coarse(place))
+
+    def coarse(self, place: _Iterate) -> float:
+        """The fall that is not worth a step: of a model that is grossly wrong a share of its objective."""
+        gross = place.objective > GROSS * place.residual.size
+        return max(self.limits.change * self.excess(place), COARSE * place.objective if gross else 0.0)
 
     def excess(self, place: _Iterate) -> float:
         """The objective per reading where that is above one: what fits badly is not worth a fine fit."""
@@ -247,7 +253,7 @@ def _steps(fit: _Fit, walk: _Walk, whitening: Whitening) -> tuple[_Walk, bool]:
         promised = fit.promised(walk)
         if step >= PATIENCE and walk.place.objective - promised > fit.limits.hopeless:
             return walk, True
-        if promised < fit.limits.change * fit.excess(walk.place) or walk.damping > MOST_DAMPING:
+        if promised < fit.coarse(walk.place) or walk.damping > MOST_DAMPING:
             if walk.moved <= NEAR:
                 break
             walk = fit.walk(walk.place, whitening)
