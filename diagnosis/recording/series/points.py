@@ -3,18 +3,21 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from diagnosis.recording.channel_form import ChannelForm
 from diagnosis.recording.form import SeriesSection, SteadinessSection
+from diagnosis.recording.series.clock import clocked
+from diagnosis.recording.series.holds import without_holds
 from diagnosis.recording.series.meter_response import MeterResponse
 from diagnosis.recording.series.quasi_steady import FEWEST, quasi_steady
+from diagnosis.recording.series.standstill import without_standstill
 from diagnosis.recording.series.steadiness import SteadyRule, effective_number, steady_stretches
 from diagnosis.recording.tables.table import TableFault
 from reynolds.numerics.arrays import Array
-from system.inputs.channels import INPUTS
+from system.inputs.channels import INPUTS, ChannelName
 
 LEAST_STEADY = 0.5  # of a series in steady stretches: below it, all of the series is read as quasi-steady
 MOST_POINTS = 160  # steady stretches: more are repeats of each other, and a fit takes minutes
@@ -45,24 +48,36 @@ def series_points(form: SeriesSection, time: Array, readings: Array, channels: S
 
     `SteadyRule` of the measured inputs decides which stretches are steady. The first `SETTLING` times the largest
     lag of a stretch are left out. Where these hold less than `LEAST_STEADY` of the series, or are more than
-    `MOST_POINTS`, points are quasi-steady means (`quasi_steady`). Raises TableFault for time that does not
-    rise, and for a series of fewer than `FEWEST` samples.
+    `MOST_POINTS`, points are quasi-steady means (`quasi_steady`). Raises TableFault for times in no
+    order, a pump that never turns, and for a series of fewer than `FEWEST` samples.
     """
-    time, readings, raster = on_raster(time, readings, form.raster or 0.0)
+    clock = clocked(time, readings)
+    time, readings, raster = on_raster(clock.time, clock.readings, form.raster or 0.0)
+    readings, put_aside = without_what_is_no_reading(time, readings, [channel.name for channel in channels])
+    notes = (*clock.notes, *put_aside)
     steady = _steady_stretches(form, raster, readings, channels)
-    if len(steady) > MOST_POINTS or sum(s.stop - s.start for s in steady) < LEAST_STEADY * len(time):
-        return _quasi_steady_points(time, readings, channels)
-    means = np.array([np.nanmean(readings[s], axis=0) for s in steady])
-    worth = np.array([[_worth(column) for column in readings[s].T] for s in steady])
-    spread = np.array([np.nanstd(readings[s], axis=0, ddof=1) for s in steady])
+    at_work = int(np.any(np.isfinite(readings), axis=1).sum())
+    if not steady or len(steady) > MOST_POINTS or sum(s.stop - s.start for s in steady) < LEAST_STEADY * at_work:
+        found = _quasi_steady_points(time, readings, channels)
+        return replace(found, notes=(*notes, *found.notes))
+    means, errors = (np.array(each) for each in zip(*(_mean(readings[s]) for s in steady), strict=True))
     middle = np.array([0.5 * (time[s.start] + time[s.stop - 1]) for s in steady])
     share = sum(s.stop - s.start for s in steady) / len(time)
-    note = (
+    rule = (
         f"{len(steady)} steady points from {share:.0%} of the series: windows of {form.steady.window:g} s in "
         f"which slope and bow of every input stay below {form.steady.slope:g} standard errors or its repeatability"
     )
     hours = (middle - middle[0]) / 3600.0
-    return SeriesPoints(means, spread / np.sqrt(worth), hours, np.zeros(len(channels)), False, (note,))
+    return SeriesPoints(means, errors, hours, np.zeros(len(channels)), False, (*notes, rule))
+
+
+def without_what_is_no_reading(
+    time: Array, readings: Array, names: Sequence[ChannelName]
+) -> tuple[Array, tuple[str, ...]]:
+    """Readings (T, C) without those of a pump at rest and of meters that hold, and notes; even times (T,) in s."""
+    readings, of_rest = without_standstill(time, readings, names)
+    readings, of_holds = without_holds(time, readings, names)
+    return readings, (*of_rest, *of_holds)
 
 
 def _steady_stretches(
@@ -140,7 +155,12 @@ def on_raster(time: Array, readings: Array, raster: float) -> tuple[Array, Array
     return time[0] + width * np.arange(count), means, width
 
 
-def _worth(column: Array) -> float:
-    """Independent samples of a column that may have gaps."""
-    known = column[np.isfinite(column)]
-    return effective_number(known) if len(known) > 2 else 1.0
+def _mean(stretch: Array) -> tuple[Array, Array]:
+    """Means (C,) of a stretch (T, C) over the readings that are there, and their standard errors; nan without two."""
+    means, errors = np.full((2, stretch.shape[1]), np.nan)
+    for k, column in enumerate(stretch.T):
+        known = column[np.isfinite(column)]
+        if len(known) > 1:
+            worth = effective_number(known) if len(known) > 2 else 1.0
+            means[k], errors[k] = np.mean(known), np.std(known, ddof=1) / np.sqrt(worth)
+    return means, errors

@@ -1,0 +1,89 @@
+"""Clock of a series: a time that rises, out of stamps that are missing, repeat, fall or leap."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from diagnosis.recording.tables.table import TableFault
+from reynolds.numerics.arrays import Array
+
+PAUSE = 5.0  # usual steps without a row from which a pause is reported, and that are left where the clock jumps
+LEAP = 3.0  # times what is recorded: a longer pause is a clock that was set forward
+FALLS, FALL_SHARE = 3, 0.01  # of a clock that was set back; rows in no order fall more often
+NAMED = 3  # places of one kind that a note names
+
+
+@dataclass(frozen=True)
+class ClockedSeries:
+    """Time (T,) in s that rises from row to row, readings (T, C) at it, and notes on the clock as text."""
+
+    time: Array
+    readings: Array
+    notes: tuple[str, ...]
+
+
+def clocked(time: Array, readings: Array) -> ClockedSeries:
+    """The rows of a series in a time that rises: stamps (R,) in s, readings (R, C).
+
+    Rows without a stamp are left out, rows of one stamp are averaged. Where the clock is set back, or forward by more
+    than `LEAP` times what is recorded, the rows behind follow after `PAUSE` usual steps. Raises TableFault for a column
+    without times, and for times in no order.
+    """
+    expected = "times that rise from row to row"
+    known = np.flatnonzero(np.isfinite(time))
+    steps = np.diff(time[known])
+    if not np.any(steps > 0.0):
+        found = "no time that rises" if len(known) else "no number in the column of time"
+        raise TableFault(found, expected)
+    usual = float(np.median(steps[steps > 0.0]))
+    falls, pauses = steps < 0.0, steps > PAUSE * usual
+    if falls.sum() > max(FALLS, FALL_SHARE * len(steps)):
+        row = int(known[np.argmax(falls) + 1]) + 1
+        raise TableFault(f"time that does not rise at row {row} and at {int(falls.sum()) - 1} more", expected)
+    recorded = float(steps[~falls & ~pauses].sum())
+    leaps = pauses & (steps > LEAP * recorded)
+    mended = np.where(falls | leaps, PAUSE * usual, steps)
+    risen = time[known[0]] + np.concatenate([[0.0], np.cumsum(mended)])
+    notes = tuple(_notes(time[known], known, falls, leaps, pauses & ~leaps, len(time)))
+    return ClockedSeries(*_averaged(risen, readings[known]), notes)
+
+
+def _averaged(time: Array, readings: Array) -> tuple[Array, Array]:
+    """Distinct times, and the means of the readings at each; a single reading to the last bit."""
+    first = np.concatenate([[True], np.diff(time) > 0.0])
+    if first.all():
+        return time, readings
+    place = np.cumsum(first) - 1
+    known = np.isfinite(readings)
+    numbers, sums = (np.zeros((int(place[-1]) + 1, readings.shape[1])) for _ in range(2))
+    np.add.at(numbers, place, known)
+    np.add.at(sums, place, np.where(known, readings, 0.0))
+    return time[first], np.divide(sums, numbers, out=np.full_like(sums, np.nan), where=numbers > 0)
+
+
+def _notes(
+    time: Array, rows: NDArray[np.int64], falls: Array, leaps: Array, pauses: Array, count: int
+) -> Iterator[str]:
+    if len(rows) < count:
+        yield f"{count - len(rows)} rows without a time are left out"
+    repeated = int(np.sum(np.diff(time) == 0.0))
+    if repeated:
+        yield f"{repeated} rows repeat the time of the row before: averaged with it"
+    follows = f"what follows is taken as {PAUSE:g} steps later"
+    for marks, words, more in ((falls, "the clock falls", follows), (leaps, "the clock leaps", follows)):
+        places = [f"from {time[k]:g} s to {time[k + 1]:g} s at row {rows[k + 1] + 1}" for k in np.flatnonzero(marks)]
+        if places:
+            yield f"{words} {_listed(places)}: {more}"
+    places = [f"from {time[k]:g} s to {time[k + 1]:g} s" for k in np.flatnonzero(pauses)]
+    if places:
+        yield f"nothing is recorded {_listed(places)}"
+
+
+def _listed(places: Sequence[str]) -> str:
+    """The first places, and the number of the others."""
+    rest = f" and {len(places) - NAMED} times more" if len(places) > NAMED else ""
+    return ", ".join(places[:NAMED]) + rest
