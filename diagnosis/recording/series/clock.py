@@ -46,8 +46,8 @@ def clocked(time: Array, readings: Array) -> ClockedSeries:
         raise TableFault(f"time that does not rise at row {row} and at {int(falls.sum()) - 1} more", expected)
     recorded = float(steps[~falls & ~pauses].sum())
     leaps = pauses & (steps > LEAP * recorded)
-    mended = np.where(falls | leaps, PAUSE * usual, steps)
-    risen = time[known[0]] + np.concatenate([[0.0], np.cumsum(mended)])
+    shift = np.cumsum(np.where(falls | leaps, PAUSE * usual - steps, 0.0))
+    risen = time[known] + np.concatenate([[0.0], shift])
     notes = tuple(_notes(time[known], known, falls, leaps, pauses & ~leaps, len(time)))
     return ClockedSeries(*_averaged(risen, readings[known]), notes)
 
@@ -69,10 +69,10 @@ def _notes(
     time: Array, rows: NDArray[np.int64], falls: Array, leaps: Array, pauses: Array, count: int
 ) -> Iterator[str]:
     if len(rows) < count:
-        yield f"{count - len(rows)} rows without a time are left out"
+        yield f"rows without a time: {count - len(rows)}, left out"
     repeated = int(np.sum(np.diff(time) == 0.0))
     if repeated:
-        yield f"{repeated} rows repeat the time of the row before: averaged with it"
+        yield f"rows that repeat the time of the row before: {repeated}, averaged with it"
     follows = f"what follows is taken as {PAUSE:g} steps later"
     for marks, words, more in ((falls, "the clock falls", follows), (leaps, "the clock leaps", follows)):
         places = [f"from {time[k]:g} s to {time[k + 1]:g} s at row {rows[k + 1] + 1}" for k in np.flatnonzero(marks)]

@@ -10,11 +10,10 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from itertools import combinations
 
 import numpy as np
 
-from diagnosis.recording.series.meter_response import NORMAL, past_share, robust
+from diagnosis.recording.series.meter_response import NORMAL, past_share, robust, smooth_columns
 from diagnosis.recording.series.stretches import Mask, equal_runs, stretches, times
 from diagnosis.recording.units import channel_unit, difference, difference_unit, reading
 from reynolds.numerics.arrays import Array
@@ -125,17 +124,14 @@ def _departs(departures: Array, limit: float) -> bool:
 
 
 def _law_columns(k: int, time: Array, readings: Array) -> Array:
-    """Terms (T, m) of first and second degree of the other channels, scaled, and of time; nan in their gaps."""
-    past = 2.0 * past_share(time) - 1.0
+    """Terms (T, m) of the other channels, scaled, and of time (`smooth_columns`); nan in their gaps."""
     others = [
         column
         for j, column in enumerate(readings.T)
         if j != k and np.isfinite(column).mean() > HELD and np.nanmax(column) > np.nanmin(column)
     ]
     scaled = [2.0 * (column - np.nanmin(column)) / np.ptp(column[np.isfinite(column)]) - 1.0 for column in others]
-    scaled.append(past)
-    products = [one * other for one, other in combinations(scaled, 2)]
-    return np.column_stack([np.ones(len(time)), *scaled, *[one**2 for one in scaled], *products])
+    return smooth_columns(np.column_stack(scaled) if scaled else np.empty((len(time), 0)), past_share(time))
 
 
 def _note(one: HeldReadings, time: Array, readings: Array, names: Sequence[ChannelName]) -> str:

@@ -34,8 +34,9 @@ def equal_runs(values: Array) -> tuple[slice, ...]:
 
 
 def times(time: Array, found: Sequence[slice]) -> str:
-    """Stretches as text: the first by their times in s, the number and length of all where there are more."""
-    listed = ", ".join(f"from {time[s.start]:g} s to {time[s.stop - 1]:g} s" for s in found[:NAMED])
+    """Stretches by their times in s as text: of many the longest, with the number and length of all."""
+    longest = sorted(sorted(found, key=lambda s: s.start - s.stop)[:NAMED], key=lambda s: s.start)
+    listed = ", ".join(f"from {time[s.start]:g} s to {time[s.stop - 1]:g} s" for s in longest)
     if len(found) <= NAMED:
         return listed
     step = float(np.median(np.diff(time)))
