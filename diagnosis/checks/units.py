@@ -10,6 +10,7 @@ from types import MappingProxyType
 import numpy as np
 
 from diagnosis.recording.model import Circuit, DataNote, NoteKind, RecordedChannel, Recording
+from diagnosis.recording.units import OTHER_UNITS
 from reynolds.numerics.arrays import Array
 from system.inputs.channels import ChannelName
 from system.inputs.units import STANDARD_ATMOSPHERE, Dimension, unit_scale
@@ -34,13 +35,6 @@ HOTTEST = 383.15  # K: beyond, oil ages within hours
 DRAIN_WARMER = (-1.0, 80.0)  # K, T_case less T_in: what leaks has been throttled
 BULK_MODULUS = 1.6e9  # Pa, good to a fifth for any mineral oil in use
 FLOW_SHARE = 0.005  # of a flow to which meters agree
-OTHER_UNITS: Mapping[Dimension, tuple[str, ...]] = {
-    Dimension.PRESSURE: ("bar", "MPa", "kPa", "psi", "Pa"),
-    Dimension.ANGULAR_SPEED: ("rpm", "rad/s"),
-    Dimension.VOLUME_FLOW: ("L/min", "m3/h", "mL/min", "gallon/min", "L/s", "m3/s"),
-    Dimension.TORQUE: ("N m", "kN m", "lbf ft", "lbf inch"),
-    Dimension.TEMPERATURE: ("degC", "degF", "K"),
-}
 Ratio = Callable[[Recording], float | None]
 _RATIO = ChannelName.DISPLACEMENT_RATIO
 _TENFOLD = (("large", 0.1), ("small", 10.0))

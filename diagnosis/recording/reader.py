@@ -10,6 +10,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
+from diagnosis.recording.breaks.refused import refuse_breaks
 from diagnosis.recording.channel_form import ChannelForm
 from diagnosis.recording.channel_noise import recorded_channel
 from diagnosis.recording.columns import ColumnReader
@@ -120,6 +121,7 @@ def _points(section: str, form: RecordingForm, columns: TableColumns, reader: Co
         return None
     readings = np.stack([c.si(column) for c, column in zip(form.channels, known, strict=True)], axis=1)
     seconds = None if timed is None or time is None else timed.factor * time
+    refuse_breaks(section, form.channels, readings, columns, reader)
     if isinstance(form.points, SteadySection):
         return _steady_points(form.points, readings, seconds, columns, reader)
     return None if seconds is None else _series_points(form.points, readings, seconds, form.channels, reader)

@@ -2,11 +2,21 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+
 from system.inputs.channels import ChannelName
 from system.inputs.units import Dimension, in_unit
 
 BENCH_UNITS = {Dimension.PRESSURE: "bar", Dimension.TEMPERATURE: "degC", Dimension.VOLUME_FLOW: "L/min"}
 """Reading units of a bench where they are not the usual ones."""
+OTHER_UNITS: Mapping[Dimension, tuple[str, ...]] = {
+    Dimension.PRESSURE: ("bar", "MPa", "kPa", "psi", "Pa"),
+    Dimension.ANGULAR_SPEED: ("rpm", "rad/s"),
+    Dimension.VOLUME_FLOW: ("L/min", "m3/h", "mL/min", "gallon/min", "L/s", "m3/s"),
+    Dimension.TORQUE: ("N m", "kN m", "lbf ft", "lbf inch"),
+    Dimension.TEMPERATURE: ("degC", "degF", "K"),
+}
+"""Units in which a bench may have written a channel."""
 
 
 def channel_unit(channel: ChannelName) -> str:

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from diagnosis.recording.series.stretches import stretches, times
+from diagnosis.recording.series.stretches import Mask, stretches, times
 from diagnosis.recording.tables.table import TableFault
 from diagnosis.recording.units import channel_unit, reading
 from reynolds.numerics.arrays import Array
@@ -22,27 +22,43 @@ _OF_REST = (ChannelName.SPEED, ChannelName.Q_OUT, ChannelName.Q_IN)
 def without_standstill(time: Array, readings: Array, names: Sequence[ChannelName]) -> tuple[Array, tuple[str, ...]]:
     """Readings (T, C) without those of a pump at rest, and notes; columns as `names`, time (T,) in s.
 
-    By speed, or by flow where speed is not measured and the swash plate is not known to be at zero. Raises TableFault
-    for a series at rest throughout.
+    Raises TableFault for a series at rest throughout.
     """
-    name = next((one for one in _OF_REST if one in names), None)
-    if name is None:
-        return readings, ()
-    size = np.abs(readings[:, list(names).index(name)])
-    known = size[np.isfinite(size)]
-    if not len(known):
-        return readings, ()
-    if not np.any(known > 0.0):
-        raise TableFault(f"{name.value} at 0 throughout", "a pump that turns")
-    with np.errstate(invalid="ignore"):
-        rests = size < REST * np.quantile(known[known > 0.0], WORKING)
-    if name is not ChannelName.SPEED and ChannelName.DISPLACEMENT_RATIO in names:
-        ratio = np.abs(readings[:, list(names).index(ChannelName.DISPLACEMENT_RATIO)])
-        with np.errstate(invalid="ignore"):
-            rests &= ~(ratio < REST)
+    rests = at_rest(readings, names)
     if not rests.any():
         return readings, ()
+    name = _of_rest(names)
+    assert name is not None
+    column = readings[:, list(names).index(name)]
+    if not np.any(np.abs(column) > 0.0):
+        raise TableFault(f"{name.value} at 0 throughout", "a pump that turns")
     aside = np.convolve(rests, np.ones(2 * MARGIN + 1), "same") > 0.5
-    limit = f"{reading(name, REST * float(np.quantile(known[known > 0.0], WORKING))):.3g} {channel_unit(name)}"
+    limit = f"{reading(name, _limit(column)):.3g} {channel_unit(name)}"
     note = f"{name.value} is below {limit}, the pump at rest, {times(time, stretches(rests))}: put aside"
     return np.where(aside[:, None], np.nan, readings), (note,)
+
+
+def at_rest(readings: Array, names: Sequence[ChannelName]) -> Mask:
+    """Samples (T,) at which the pump rests: by speed, or by flow where speed is not measured and the swash plate is
+    not known to be at zero; readings (T, C) in SI.
+    """
+    name = _of_rest(names)
+    if name is None:
+        return np.zeros(len(readings), dtype=bool)
+    column = readings[:, list(names).index(name)]
+    with np.errstate(invalid="ignore"):
+        rests = np.abs(column) <= _limit(column)
+        if name is not ChannelName.SPEED and ChannelName.DISPLACEMENT_RATIO in names:
+            rests &= ~(np.abs(readings[:, list(names).index(ChannelName.DISPLACEMENT_RATIO)]) < REST)
+    return np.asarray(rests)
+
+
+def _of_rest(names: Sequence[ChannelName]) -> ChannelName | None:
+    return next((one for one in _OF_REST if one in names), None)
+
+
+def _limit(column: Array) -> float:
+    """Magnitude up to which the pump rests: a share of the usual reading at work; 0 where nothing but 0 is read."""
+    size = np.abs(column[np.isfinite(column)])
+    working = size[size > 0.0]
+    return REST * float(np.quantile(working, WORKING)) if len(working) else 0.0

@@ -59,12 +59,15 @@ def columns_of(rows: Iterable[Sequence[object]], decimal: str) -> TableColumns:
         body = body[:-below]
     if ragged := [k for k, row in enumerate(body, start=1) if len(row) != width]:
         raise TableFault(f"row {ragged[0]} below the head with {len(body[ragged[0] - 1])} cells", f"{width} cells")
-    values = {}
+    values, words = {}, {}
     for place, name in enumerate(head):
         if name:
-            values[name], words = _column([row[place] for row in body], decimal)
-            notes += [f"column {name!r}: {words}"] if words else []
-    return TableColumns(values, tuple(notes), units)
+            cells = [row[place] for row in body]
+            values[name], note = _column(cells, decimal)
+            notes += [f"column {name!r}: {note}"] if note else []
+            if np.isnan(values[name]).all():
+                words[name] = tuple(map(str, cells))
+    return TableColumns(values, tuple(notes), units, words)
 
 
 def _summaries(body: Sequence[Sequence[object]]) -> int:

@@ -36,12 +36,14 @@ class TableSource:
 class TableColumns:
     """Columns by name, all of one length, nan where a cell holds no number; notes: on the form found, as text.
 
-    units: by name of a column, from the row below the head, or in brackets in the head.
+    units: by name of a column, from the row below the head, or in brackets in the head; words: the cells of columns
+    that hold no number.
     """
 
     values: Mapping[str, Array]
     notes: tuple[str, ...] = field(default=())
     units: Mapping[str, str] = field(default_factory=dict)
+    words: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
 
     @property
     def rows(self) -> int:

@@ -52,7 +52,7 @@ def read_parquet(source: TableSource) -> TableColumns:
         table = parquet.read_table(source.path)
     except pyarrow.ArrowException as reason:
         raise TableFault(f"'{source.path.name}', unreadable: {reason}", "a Parquet file") from reason
-    values, notes = {}, []
+    values, words, notes = {}, {}, []
     for name, column in zip(table.column_names, table.columns, strict=True):
         kind = column.type
         if pyarrow.types.is_timestamp(kind):
@@ -62,8 +62,9 @@ def read_parquet(source: TableSource) -> TableColumns:
         elif pyarrow.types.is_integer(kind) or pyarrow.types.is_floating(kind) or pyarrow.types.is_decimal(kind):
             values[name] = column.cast(pyarrow.float64()).to_numpy().astype(float)
         else:
+            words[name] = tuple("" if cell is None else str(cell) for cell in column.to_pylist())
             notes.append(f"column {name!r} holds no numbers ({kind}) and is left out")
-    return TableColumns(values, tuple(notes))
+    return TableColumns(values, tuple(notes), words=words)
 
 
 def missing(library: str, what: str) -> TableFault:

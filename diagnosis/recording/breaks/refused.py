@@ -1,0 +1,37 @@
+"""Recordings that are several in one file: faults of units and pumps that change from one row on."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from diagnosis.recording.breaks.two_pumps import pump_changes, pumps_named
+from diagnosis.recording.breaks.unit_changes import unit_changes
+from diagnosis.recording.channel_form import ChannelForm
+from diagnosis.recording.columns import ColumnReader
+from diagnosis.recording.series.standstill import at_rest
+from diagnosis.recording.tables.table import TableColumns
+from reynolds.numerics.arrays import Array
+
+SPLIT = "a recording for each pump: split the table there"
+
+
+def refuse_breaks(
+    section: str, channels: Sequence[ChannelForm], readings: Array, columns: TableColumns, reader: ColumnReader
+) -> None:
+    """Add the faults of a table, [`section`], of readings (N, C) in SI as `channels`: a unit that changes, two pumps.
+
+    A flow that jumps by a change of its unit, or since the pump rests, is no other pump.
+    """
+    for column, rows in pumps_named(columns, {channel.column for channel in channels}):
+        reader.fault(f"{section}.file", f"several pumps in the column {column!r}: {rows}", SPLIT)
+    names = [channel.name for channel in channels]
+    changes = list(unit_changes(readings, channels))
+    for change in changes:
+        path = f"channel.{change.channel.name.value}.unit"
+        reader.fault(path, change.text, "one unit in all rows", f"convert the rows in '{change.unit}'")
+    if not changes:
+        at_work = np.where(at_rest(readings, names)[:, None], np.nan, readings)
+        for jump in pump_changes(at_work, names):
+            reader.fault(f"{section}.file", f"a jump of {jump}: two pumps or two settings?", SPLIT)
