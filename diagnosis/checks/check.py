@@ -7,6 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from diagnosis.checks.coverage import coverage
 from diagnosis.checks.outliers import outliers
 from diagnosis.checks.readings import impossible
 from diagnosis.checks.sensors import copies, low_resolution, noiseless, repeated_rows, stuck, stuck_inputs
@@ -31,7 +32,7 @@ def check_recording(recording: Recording, displacement: float | None, limits: Da
     with np.errstate(divide="ignore", invalid="ignore"):
         recording = _noted(recording, [*implausible(recording, displacement), *trace_sizes(recording)])
     recording = _noted(recording, _speed(recording))
-    for find in (low_resolution, stuck, stuck_inputs, repeated_rows, copies, noiseless):
+    for find in (coverage, low_resolution, stuck, stuck_inputs, repeated_rows, copies, noiseless):
         recording = _noted(recording, find(recording))
     return _noted(recording, outliers(recording, limits))
 

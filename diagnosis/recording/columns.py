@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
+import numpy as np
+
 from diagnosis.recording.model import DataNote, NoteKind
 from diagnosis.recording.tables.read import read_columns
 from diagnosis.recording.tables.table import TableColumns, TableFault, TableSource
@@ -37,10 +39,18 @@ class ColumnReader:
             self.note(f"{source.path.name}: {text}")
         return columns
 
-    def column(self, path: str, name: str, columns: TableColumns) -> Array | None:
-        """A column by name, for the key at `path`; None with the fault added."""
+    def column(self, path: str, name: str, columns: TableColumns, likely: str = "") -> Array | None:
+        """A column by name, for the key at `path`; None with the fault added. likely: one that may be meant where no
+        name is near.
+        """
         if name in columns.values:
             return columns.values[name]
         expected = f"one of the columns {', '.join(columns.values)}"
-        self.fault(path, repr(name), expected, nearest_choice(name, columns.values))
+        self.fault(path, repr(name), expected, nearest_choice(name, columns.values) or likely)
         return None
+
+
+def rising(columns: TableColumns) -> str:
+    """Name of the first column that rises from row to row, as a time does; empty without one."""
+    rises = (name for name, column in columns.values.items() if len(column) > 1 and np.all(np.diff(column) > 0.0))
+    return next(rises, "")

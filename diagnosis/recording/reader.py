@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from diagnosis.recording.breaks.refused import refuse_breaks
 from diagnosis.recording.channel_form import ChannelForm
 from diagnosis.recording.channel_noise import recorded_channel
-from diagnosis.recording.columns import ColumnReader
+from diagnosis.recording.columns import ColumnReader, rising
 from diagnosis.recording.form import RecordingForm, SeriesSection, SteadySection, read_form
 from diagnosis.recording.model import RecordedChannel, Recording, SteadyTable
 from diagnosis.recording.replicates import repeatability, set_points
@@ -114,7 +114,7 @@ def _points(section: str, form: RecordingForm, columns: TableColumns, reader: Co
     """The steady points; None with the faults added."""
     found = [reader.column(f"channel.{c.name.value}.column", c.column, columns) for c in form.channels]
     timed = form.points.time
-    time = None if timed is None else reader.column(f"{section}.time.column", timed.column, columns)
+    time = None if timed is None else reader.column(f"{section}.time.column", timed.column, columns, rising(columns))
     _hold_units(form.channels, columns, reader)
     known = [column for column in found if column is not None]
     if len(known) < len(found) or (timed is not None and time is None):

@@ -353,3 +353,35 @@ def test_traces_are_held_against_delivery_pressure(factor, faults):
     )
     found = [text for _, channel, text in _told(traced) if channel is ChannelName.P_CHAMBER]
     assert len(found) == faults
+
+
+def _of_channels(*names: str, held: tuple[str, ...] = ()) -> Recording:
+    """The sound recording with some channels alone, those `held` at one level with noise."""
+    sound = _sound()
+    values = np.full_like(sound.steady.values, np.nan)
+    for name in names:
+        place = COLUMNS[ChannelName.named(name)]
+        column = sound.steady.values[:, place]
+        noise = UNITS[name][1] * np.random.default_rng(2).standard_normal(len(column))
+        values[:, place] = np.median(column) + noise if name in held else column
+    kept = tuple(one for one in sound.channels if one.name.value in names)
+    return replace(sound, channels=kept, steady=replace(sound.steady, values=values))
+
+
+def test_points_that_are_all_alike_and_a_single_output_are_noted():
+    recording = _of_channels("speed", "p_out", "Q_case", held=("speed", "p_out", "Q_case"))
+    whole = " ".join(note.text for note in check_recording(recording, None, LIMITS).notes)
+    assert "all points are one, speed" in whole
+    assert "Q_case is the only output" in whole
+
+
+def test_an_input_that_stays_is_noted():
+    recording = _of_channels("speed", "p_out", "T_case", "Q_case", "Q_out", held=("p_out",))
+    (note,) = (n for n in check_recording(recording, None, LIMITS).notes if n.channel is ChannelName.P_OUT)
+    assert note.kind is NoteKind.NOTED
+    assert "how they grow with it are alike" in note.text
+
+
+def test_an_output_without_any_input_is_a_fault():
+    faults = [n for n in check_recording(_of_channels("Q_case"), None, LIMITS).notes if n.kind is NoteKind.FAULT]
+    assert "no input is recorded" in faults[0].text

@@ -118,3 +118,16 @@ def test_a_series_of_a_few_samples_is_told(tmp_path: Path) -> None:
     table = "k,t,n,Q\n" + "".join(f"{k},{0.1 * k:.1f},{1000 + 50 * k},{60 + 3 * k}\n" for k in range(5))
     faults = _faults(tmp_path, HEAD + SERIES + CHANNELS, table)
     assert _told(faults, "series", "5 samples", "at least 8 samples")
+
+
+def test_a_time_of_another_name_is_proposed(tmp_path: Path) -> None:
+    (fault,) = _faults(tmp_path, HEAD + SERIES.replace('"t"', '"Zeitstempel"') + CHANNELS)
+    assert fault.path == "series.time.column"
+    assert fault.nearest == "k"
+
+
+def test_two_pumps_in_one_table_are_told(tmp_path: Path) -> None:
+    rows = TABLE.splitlines()
+    named = [f"{row},{'pump' if k == 0 else 'A1' if k < 31 else 'B2'}" for k, row in enumerate(rows)]
+    faults = _faults(tmp_path, WHOLE, "\n".join(named))
+    assert _told(faults, "steady.file", "A1 (rows 1 to 30), B2 (rows 31 to 60)", "split the table")

@@ -36,7 +36,10 @@ def table(seed=1, displacement=90e-6, in_order=False, count=120):
     return sound * (1.0 + 3e-3 * rng.standard_normal(sound.shape) * (np.arange(6) != 2))
 
 
-def faults(readings, columns=TableColumns({})):
+BARE = TableColumns({})
+
+
+def faults(readings, columns=BARE):
     reader = ColumnReader([])
     refuse_breaks("steady", FORMS, readings, columns, reader)
     return reader.faults
