@@ -47,7 +47,7 @@ _SI = {
     **dict.fromkeys(("speed", "speeds"), "rad/s"), **dict.fromkeys(("temperature", "temperatures"), "K"),
     **dict.fromkeys(("pressure", "pressures", "inlet_pressure", "inlet_pressures", "case_pressure"), "Pa"),
 }  # fmt: skip
-_OF_COMMAND_LINE = ("-o", "--output", "--help", "--csv", "--animate", "--apply", "--page")
+_OF_COMMAND_LINE = ("-o", "--output", "--help", "--csv", "--animate", "--apply", "--page", "--watch")
 _RESULTS = (
     "pump", "film", "film.revolution", "film.series", "map", "table", "transient", "reference", "reproduce", "diagnose",
     "calibrate",

@@ -19,6 +19,12 @@ def show(text: str) -> None:
     sys.stdout.write(text + "\n")
 
 
+def show_at_once(text: str) -> None:
+    """Print one line to the standard output, which a program that reads it gets at once."""
+    show(text)
+    sys.stdout.flush()
+
+
 def show_table(title: str, rows: Iterable[Sequence[str]]) -> None:
     """Print rows of (name, value with its unit): a rich table on a terminal, aligned plain lines elsewhere."""
     listed = [tuple(row) for row in rows]

@@ -53,7 +53,7 @@ def _changes(k: int, readings: Array, channels: Sequence[ChannelForm]) -> Iterat
     """(share of squares that is left, change) of the units that mend a channel."""
     form = channels[k]
     dimension = form.name.dimension
-    if dimension not in OTHER_UNITS:
+    if dimension is None or dimension not in OTHER_UNITS:
         return
     law = law_of(readings, np.flatnonzero(np.arange(len(channels)) != k))
     numbers = (readings[:, k] - form.offset) / form.factor

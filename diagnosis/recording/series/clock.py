@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from diagnosis.recording.series.stretches import Mask
 from diagnosis.recording.tables.table import TableFault
 from reynolds.numerics.arrays import Array
 
@@ -65,9 +66,7 @@ def _averaged(time: Array, readings: Array) -> tuple[Array, Array]:
     return time[first], np.divide(sums, numbers, out=np.full_like(sums, np.nan), where=numbers > 0)
 
 
-def _notes(
-    time: Array, rows: NDArray[np.int64], falls: Array, leaps: Array, pauses: Array, count: int
-) -> Iterator[str]:
+def _notes(time: Array, rows: NDArray[np.int64], falls: Mask, leaps: Mask, pauses: Mask, count: int) -> Iterator[str]:
     if len(rows) < count:
         yield f"rows without a time: {count - len(rows)}, left out"
     repeated = int(np.sum(np.diff(time) == 0.0))

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import argparse
 import shutil
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from swashfilm.console.command import Command
 from swashfilm.console.inputs import COMMAND_LINE, RECORDING, whole
-from swashfilm.console.terminal import show, show_table
+from swashfilm.console.terminal import show, show_at_once, show_table
 from system.inputs.faults import Fault, InputFaults
 
 if TYPE_CHECKING:
@@ -30,11 +30,15 @@ def add_diagnose_options(command: argparse.ArgumentParser) -> None:
     command.add_argument("--workers", metavar="N", help=what)
     what = "elastic walls by solved films, which take about a minute, once for each pump"
     command.add_argument("--film-tables", action="store_true", help=what)
+    what = "diagnose again whenever a file of the folder RECORDING arrives or changes, until Ctrl-C; a line each time"
+    command.add_argument("--watch", action="store_true", help=what)
 
 
 def run_diagnose_command(options: argparse.Namespace) -> int:
-    """Run `swashfilm diagnose` and return its exit code, 0 whatever the verdict."""
+    """Run `swashfilm diagnose` and return its exit code, 0 whatever the verdict; a watch ends by Ctrl-C."""
     workers, apply = workers_and_file(options)
+    if options.watch:
+        _watch(options, workers)
     from diagnosis.finding import diagnose
     from diagnosis.recording.model import NoteKind
     from diagnosis.study.acceptance import checked_recording, other_pump
@@ -71,6 +75,31 @@ def run_diagnose_command(options: argparse.Namespace) -> int:
     return 0
 
 
+def _watch(options: argparse.Namespace, workers: int) -> None:
+    """Diagnose a folder again and again, each time into a run folder of its own; ends by KeyboardInterrupt."""
+    from diagnosis.finding import diagnose
+    from diagnosis.study.acceptance import checked_recording
+    from diagnosis.study.scaled_pump import load_known_pump
+    from swashfilm.output.run_folder import run_folder
+    from swashfilm.runs.diagnose.run import write_finding
+    from swashfilm.runs.diagnose.watch import Answer, answer_of, watch
+    from system.effects.catalogue.entries import CATALOGUE, with_films_solved
+    from system.work.progress import silent
+
+    known = load_known_pump(options.pump)
+    catalogue = with_films_solved(known.pump, silent) if options.film_tables else CATALOGUE
+
+    def diagnosed() -> Answer:
+        recording = checked_recording(options.recording, known)
+        with run_folder(f"diagnose-{recording.title or options.recording.stem}") as folder:
+            finding = diagnose(known, recording, silent, workers, catalogue)
+            write_finding(folder, finding)
+        return answer_of(finding.diagnosis, len(finding.study.recording.steady.values))
+
+    show(f"watching {options.recording}: Ctrl-C ends")
+    watch(options.recording, diagnosed, show_at_once)
+
+
 def workers_and_file(options: argparse.Namespace) -> tuple[int, Path | None]:
     """Number of processes and file of the fitted pump; raises InputFaults with the faults of both."""
     from system.work.processes import cores
@@ -79,6 +108,8 @@ def workers_and_file(options: argparse.Namespace) -> tuple[int, Path | None]:
     usual = min(cores(), USUAL_WORKERS)
     workers = whole(faults, "--workers", options.workers, usual, (1, MOST_WORKERS), "a number of processes")
     apply = _apply(options, faults)
+    if options.watch:
+        faults += _of_watch(options)
     if faults:
         raise InputFaults(COMMAND_LINE, faults)
     return workers, apply
@@ -129,6 +160,16 @@ def _apply(options: argparse.Namespace, faults: list[Fault]) -> Path | None:
     elif path is not None and not path.resolve().parent.is_dir():
         faults.append(Fault("--apply", f"{path}, in no folder", "a file in a folder that is there"))
     return path
+
+
+def _of_watch(options: argparse.Namespace) -> Iterator[Fault]:
+    """Faults of a watch: it needs a folder, and writes neither one file nor one run folder."""
+    if not options.recording.is_dir():
+        yield Fault("--watch", f"{options.recording}, which is no folder", "the folder of a recording")
+    for name, given in (("--apply", options.apply), ("-o", options.output)):
+        if given is not None:
+            expected = "a run folder of its own for every diagnosis of a watch, in runs"
+            yield Fault(name, f"{given} beside --watch", expected, "the same command without --watch")
 
 
 COMMAND = Command(
