@@ -15,7 +15,12 @@ from .estimation.fit import (
     best_posterior as best_posterior,
     maximum_posterior as maximum_posterior,
 )
-from .estimation.observations import Channel as Channel, Observations as Observations
+from .estimation.function_simulator import FunctionSimulator as FunctionSimulator
+from .estimation.observations import (
+    Channel as Channel,
+    Observations as Observations,
+    independent_observations as independent_observations,
+)
 from .estimation.parameters import Parameter as Parameter, Role as Role, Scale as Scale
 from .estimation.posterior import Posterior as Posterior, linear_posterior as linear_posterior
 from .estimation.simulator import Simulator as Simulator

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -10,6 +11,8 @@ from numpy.typing import NDArray
 from reynolds.errors import InputError
 from reynolds.numerics.arrays import Array
 from system.inputs.units import Dimension
+
+BLOCKS = 10  # of readings without regions of their own
 
 
 @dataclass(frozen=True)
@@ -64,3 +67,20 @@ class Observations:
     def without(self, rows: NDArray[np.bool_]) -> Observations:
         """The same, as if the points where `rows` (N,) is true had not been measured; N stays."""
         return replace(self, values=np.where(rows[:, None], np.nan, self.values))
+
+
+def independent_observations(names: Sequence[str], values: Array, sigma: Array) -> Observations:
+    """Readings (N, C) of channels by name, with independent noise of one sigma (C,), inputs being known exactly.
+
+    A tenth of the rows, in their order, is one block.
+    """
+    points = len(values)
+    return Observations(
+        channels=tuple(Channel(name, None) for name in names),
+        values=values,
+        sigma=np.broadcast_to(sigma, values.shape).copy(),
+        inputs=(),
+        input_sigma=np.zeros((points, 0)),
+        quantum=np.zeros(len(names)),
+        blocks=np.arange(points) * BLOCKS // max(points, 1),
+    )
