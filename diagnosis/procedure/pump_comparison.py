@@ -14,7 +14,7 @@ from diagnosis.study.model import Study
 from diagnosis.verdict.diagnosis import Diagnosis
 from diagnosis.verdict.row_numbers import table_rows
 from reynolds.errors import InputError, NotConverged
-from system.bench.calibration.extended_pump import extended_pump, values_by_name
+from system.bench.calibration.extended_pump import calibrated_pump, extended_pump, values_by_name
 from system.bench.points import operating_at
 from system.description.gap import Gap
 from system.description.pump import PumpDescription
@@ -90,10 +90,8 @@ NO_COMPARISON = PumpComparison()
 
 
 def claimed_pump(pump: PumpDescription, found: Diagnosis) -> PumpDescription:
-    """The pump with the parameters of the claimed explanation's fit and its effects switched on."""
-    return extended_pump(
-        pump, values_by_name(found.after.parameters, found.after.values), found.hypotheses[0].hypothesis.laws
-    )
+    """The pump with the parameters of the claimed explanation's fit, their sigmas as tolerances, its effects on."""
+    return calibrated_pump(pump, found.after, found.hypotheses[0].hypothesis.laws)
 
 
 def compare_pumps(pump: PumpDescription, study: Study, found: Diagnosis, report: Report) -> PumpComparison:

@@ -38,7 +38,8 @@ def hold_plain(pump: PumpDescription) -> None:
     """Raise InputError where a pump has effects switched on that a fidelity does not read."""
     if pump.physics.on:
         found = ", ".join(dict.fromkeys(extension.id.value for extension, _ in switched_on(pump)))
-        raise InputError("physics", found, "no effects, or the lumped or the films fidelity, which read them")
+        expected = "no effects, or the lumped or the films fidelity, which read them"
+        raise InputError("physics", found, f"{expected}; try --fidelity films, or the file without [physics]")
 
 
 def stated_effects(laws: Sequence[tuple[Law, Values]], courses: Mapping[Gap, GapCourse], state: BenchState) -> Effects:

@@ -24,7 +24,7 @@ def add_diagnose_options(command: argparse.ArgumentParser) -> None:
     """Add the arguments of `swashfilm diagnose`."""
     command.add_argument("pump", metavar="PUMP", help="built-in name (ref90) or pump file (a few sizes suffice)")
     command.add_argument("recording", type=Path, metavar="RECORDING", help=RECORDING)
-    what = "write the fitted pump with the effects found, for `swashfilm run FILE.toml --fidelity lumped`"
+    what = "write the fitted pump with the effects found, its origin and tolerances, for `swashfilm run FILE.toml`"
     command.add_argument("--apply", type=Path, metavar="FILE.toml", help=what)
     what = f"processes that fit hypotheses side by side (as many as cores, {USUAL_WORKERS} at most)"
     command.add_argument("--workers", metavar="N", help=what)
@@ -69,6 +69,7 @@ def run_diagnose_command(options: argparse.Namespace) -> int:
         shutil.copyfile(final_folder(folder) / EXTENDED, apply)
         what = "without the sensor's fault" if finding.diagnosis.kind is Kind.SENSOR_FAULT else "with it"
         show(f"the pump as fitted, {what}, is {apply}: swashfilm run {apply} --fidelity lumped")
+        show("its head has its origin, and the other fidelities that run it")
     elif apply is not None:
         show(f"nothing is claimed: {apply} is not written")
     show(f"results in {final_folder(folder)}")

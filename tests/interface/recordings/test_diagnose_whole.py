@@ -113,6 +113,12 @@ def test_an_effect_left_out_is_named_and_applied(tmp_path: Path) -> None:
     (size,) = claim["parameters"]
     assert abs(size["value"] - 1.0) < 4.0 * size["sigma"]
     _reads_as_recorded(pump)
+    head, described = pump.read_text("utf-8"), load_pump(pump)
+    assert head.startswith("# ref90 as fitted to the recording 'made', 24 points, on 20")
+    assert f"churning, probability {claim['probability']:.2f}: " in head
+    assert "--fidelity films has churning as closed laws" in head
+    assert described.name == "ref90, fitted to made"
+    assert 0.0 < described.tolerance.film_thickness < 0.5
     tables = ("changes.csv", "next_points.csv", "residuals.csv", "hypotheses.csv", "parameters.csv", "report.html")
     assert all((out / name).is_file() for name in tables)
     rows = {row["quantity"]: row for row in read_rows(out / "changes.csv")}

@@ -1,0 +1,54 @@
+"""The pump file of a finding: its name, origin, tolerances, and what each fidelity does with its effects."""
+
+from dataclasses import replace
+from datetime import date
+
+import pytest
+from made_diagnosis import its_study, named_diagnosis
+
+from diagnosis import DiagnosisResult
+from diagnosis.procedure.pump_comparison import NO_COMPARISON
+from reynolds import InputError
+from swashfilm.runs.diagnose.applied import applied_toml
+from system import entry_of, extended_pump, load_pump
+from system.effects.effect import EffectId
+from system.effects.switched import hold_plain
+
+PUMP = load_pump("ref90")
+NAMED = named_diagnosis()
+DAY = date(2026, 11, 23)
+VALUES = {"churning.factor": 0.8, "viscosity_pressure.coefficient": 1.5e-8}
+
+
+def _with(*effects: EffectId):
+    return extended_pump(PUMP, VALUES, [entry_of(effect).extensions[0] for effect in effects])
+
+
+def _applied(pump, title="bench 7\nmap"):
+    study = its_study(NAMED)
+    study = replace(study, recording=replace(study.recording, title=title))
+    found = DiagnosisResult(PUMP, study, NAMED, (), pump, NO_COMPARISON)
+    return applied_toml(found, pump, DAY)
+
+
+def test_the_file_has_its_origin_and_loads_to_the_pump_under_a_name_of_its_own(tmp_path):
+    path, pump = tmp_path / "found.toml", _with(EffectId.CHURNING)
+    path.write_text(_applied(pump), "utf-8")
+    head = path.read_text("utf-8").splitlines()
+    assert head[0] == "# ref90 as fitted to the recording 'bench 7 map', 28 points, on 2026-11-23."
+    claim = NAMED.effects[0]
+    assert any(f"{claim.effect.value} of the" in line and "+-" in line for line in head[1:5])
+    assert load_pump(path) == replace(pump, name="ref90, fitted to bench 7 map")
+
+
+def test_each_fidelity_is_named_with_what_it_does_of_the_effects():
+    whole = _applied(_with(EffectId.CHURNING, EffectId.VISCOSITY_PRESSURE))
+    assert "films solves viscosity_pressure in the films" in whole
+    assert "films has churning as closed laws" in whole
+    assert "--fidelity floating and table do not read [physics]: for these delete" in whole
+    assert "It runs in every fidelity" in _applied(PUMP)
+
+
+def test_a_fidelity_that_refuses_effects_names_the_remedy():
+    with pytest.raises(InputError, match=r"churning.*--fidelity films, or the file without \[physics\]"):
+        hold_plain(_with(EffectId.CHURNING))
