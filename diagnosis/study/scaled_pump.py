@@ -49,7 +49,7 @@ _POWERS = {
 }
 """Powers of the scales of the pistons (diameter) and of the group (pitch radius) with which a value goes."""
 
-_WIDE = {
+_WIDE: dict[str, float | str] = {
     "film_thickness": 0.5,
     "eccentricity_ratio": 0.2,
     "bulk_modulus": 0.1,
@@ -59,7 +59,8 @@ _WIDE = {
     "displacement": 0.005,
     "dead_volume": 0.3,
     "flow_coefficient": 0.1,
-    "inlet_share": 0.5,
+    "viscosity_slope": "0.0015 1/K",  # a grade leaves the viscosity index open: 95 to 150 is .007 1/K
+    "inlet_share": 0.25,
 }
 """[tolerance] of what is scaled, which a recording decides: the films of HST 196 are 1.5 to 1.9 times REF90's."""
 

@@ -17,11 +17,7 @@ from system.pump.lumped import full_drive
 
 SLOPE_ABOUT = 323.15
 """Temperature (K) about which viscosity_slope turns the oil's law: 50 degC."""
-FILM_WARMTH = (INLET_SHARE, THROTTLE_SHARE) = ("inlet_share", "throttle_share")
-HALF_WAY = 0.5
-"""Centre of inlet_share where it is uncertain."""
-THROTTLED = (0.75, 0.4)
-"""Centre and one sigma of throttle_share: oil throttled to the case warms by 1 - beta T = .8 of dp/(rho c)."""
+INLET_SHARE = "inlet_share"
 GUIDE, BEARINGS = "ball_guide_retainer", ("front_bearing", "rear_bearing")
 _THICKNESS = {
     Gap.PISTON: ("piston", "radial_clearance"),
@@ -39,7 +35,7 @@ BASE_NAMES = frozenset(
         *(f"film_thickness.{gap.value}" for gap in Gap),
         *(f"friction.{pair}" for pair in FRICTION_PAIRS),
         "eccentricity_ratio", "bulk_modulus", "viscosity", "viscosity_slope", "displacement", "dead_volume",
-        "flow_coefficient", "stand_out_share", *FILM_WARMTH, *GROOVE_NAMES,
+        "flow_coefficient", "stand_out_share", INLET_SHARE, *GROOVE_NAMES,
     }
 )  # fmt: skip
 """Names of all parameters of `base_parameters` and `groove_parameters`."""
@@ -50,8 +46,8 @@ def base_parameters(pump: PumpDescription, tolerances: Tolerances) -> tuple[Para
 
     film_thickness.GAP in m, eccentricity_ratio, friction.PAIR, dead_volume in m3, flow_coefficient, bulk_modulus
     in Pa; factors on viscosity and displacement; viscosity_slope in 1/K; stand_out_share about 0.5 where not
-    stated. A friction coefficient of 0 stays 0. Where the films may differ from the case in
-    temperature, inlet_share s and throttle_share x: T_film = T_case + s (T_in + x dp/(rho c) - T_case).
+    stated. A friction coefficient of 0 stays 0. inlet_share: of the inlet's oil in the
+    temperature of the films, where that may differ from the case's.
     """
     return (
         *(_thickness(pump, gap, tolerances) for gap in Gap),
@@ -128,11 +124,9 @@ def _thickness(pump: PumpDescription, gap: Gap, tolerances: Tolerances) -> Param
 
 
 def _warmth(tolerances: Tolerances) -> tuple[Parameter, ...]:
-    """Share of the inlet's oil, warmed by throttling, in the temperature of the films; none where it is certain."""
+    """Share of the inlet's oil in the temperature of the films; none where the films are as warm as the case."""
     spread = tolerances.inlet_share
-    if spread == 0.0:
-        return ()
-    return _absolute(INLET_SHARE, HALF_WAY, spread, 0.0, 1.0), _absolute(THROTTLE_SHARE, *THROTTLED, 0.0, 1.5)
+    return (_absolute(INLET_SHARE, 0.0, spread, 0.0, 1.0),) if spread > 0.0 else ()
 
 
 def _fluid(pump: PumpDescription, tolerances: Tolerances) -> tuple[Parameter, ...]:

@@ -22,7 +22,6 @@ from diagnosis.recording.series.meter_response import (
     past_share,
     smooth_columns,
 )
-from diagnosis.recording.series.thermometer_lag import thermometer_lag
 from reynolds.numerics.arrays import Array
 from system.inputs.channels import INPUTS, ChannelName
 from system.inputs.units import Dimension
@@ -65,12 +64,12 @@ def quasi_steady(time: Array, readings: Array, names: Sequence[ChannelName]) -> 
     if usable.sum() < FEWEST:
         raise ValueError(f"{usable.sum()} samples without gaps and jumps")
     lag = 0.0
-    if ChannelName.T_CASE in names and outputs:
-        case, cold = names.index(ChannelName.T_CASE), [k for k in inputs if not _is_warm(names[k])]
-        whole = usable & np.all(np.isfinite(readings), axis=1)
-        lag, readings[:, case] = thermometer_lag(
-            readings[:, case], _moving(readings[:, cold]), readings[:, outputs], time, whole
+    if ChannelName.T_CASE in names:
+        case, others = names.index(ChannelName.T_CASE), [k for k in inputs if names[k] is not ChannelName.T_CASE]
+        warmth = meter_response(
+            readings[:, case], time, _moving(readings[:, others]), np.zeros(len(time)), usable, may_be_dead=False
         )
+        lag, readings[usable, case] = warmth.lag, warmth.steady[usable]
     moving, past = _moving(readings[:, inputs]), past_share(time)
     meters = {
         k: meter_response(readings[:, k], time, moving, rate, usable & np.isfinite(readings[:, k]), _is_flow(names[k]))
@@ -91,10 +90,6 @@ def quasi_steady(time: Array, readings: Array, names: Sequence[ChannelName]) -> 
     errors = np.where(np.isfinite(means), noise / np.sqrt(np.maximum(numbers, 1.0)), np.nan)
     middle = time[0] + centre[order, -1] * float(time[-1] - time[0])
     return QuasiSteady(means, errors, middle, meters, lag, 1.0 - float(usable.mean()))
-
-
-def _is_warm(name: ChannelName) -> bool:
-    return name.dimension is Dimension.TEMPERATURE
 
 
 def _is_flow(name: ChannelName) -> bool:
