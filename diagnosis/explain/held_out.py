@@ -23,17 +23,25 @@ THIRD = 1.0 / 3.0  # of a scaled axis -1 .. 1: what lies beyond it is an outer t
 PARTS = 5
 
 
-def held_out(study: Study, null: Posterior, own: Posterior, thresholds: Thresholds) -> HeldOut:
+def held_out(
+    study: Study, null: Posterior, own: Posterior, thresholds: Thresholds, rival: Posterior | None = None
+) -> HeldOut:
     """Gains of an explanation over the null in regions left out, and residuals of random fifths left out.
+
+    rival: for an explanation by a wrong value, the null within its tolerances (`refit.within_tolerance`). The gains are
+    over this fit, and only `beyond_chance` vetoes: both are of one form, and several small losses are what the wider
+    prior costs.
 
     The gain of a fold is the ln ratio of the two joint predictive densities of its readings, each fit repeated
     without them by one linear step. For the veto (`has_veto`) gains are divided by the error of form (`by_form`).
     RMS in SI; `noise`: of repeatability and inputs alone.
     """
-    folds = regions(study, (null, own), thresholds.heldout)
-    gains = {name: _density(own, points) - _density(null, points) for name, points in folds.items()}
+    less = rival or null
+    folds = regions(study, (less, own), thresholds.heldout)
+    gains = {name: _density(own, points) - _density(less, points) for name, points in folds.items()}
     form_factor = by_form(own.log_evidence - null.log_evidence, thresholds)
-    vetoed = has_veto(np.array(list(gains.values())) / form_factor, thresholds.heldout)
+    veto = has_veto if rival is None else beyond_chance
+    vetoed = veto(np.array(list(gains.values())) / form_factor, thresholds.heldout)
     fifths = _fifths(len(study.axes), thresholds.seeds.locate)
     measured = study.observations.measured
 
@@ -72,16 +80,19 @@ def regions(study: Study, fits: tuple[Posterior, ...], limits: HeldOutLimits) ->
 
 
 def has_veto(gains: Array, limits: HeldOutLimits) -> bool:
-    """True if regions veto: more than chance allows for so many, or several that the others do not outweigh.
+    """True if regions veto: more than chance allows for so many, or several that the others do not outweigh."""
+    negative = np.count_nonzero(gains < limits.negative_gain)
+    outweighed = negative >= limits.veto_regions and gains.sum() < 0.0
+    return bool(outweighed or beyond_chance(gains, limits))
+
+
+def beyond_chance(gains: Array, limits: HeldOutLimits) -> bool:
+    """True if the regions lose more than chance allows for so many.
 
     Under a true explanation exp(-gain) has a mean of at most 1 in each region, and so has its mean over all
     regions: it exceeds K with a chance of 1/K at most (Markov), however many regions there are.
     """
-    if not gains.size:
-        return False
-    negative = np.count_nonzero(gains < limits.negative_gain)
-    outweighed = negative >= limits.veto_regions and gains.sum() < 0.0
-    return bool(outweighed or logsumexp(-gains) - np.log(gains.size) > -limits.veto_gain)
+    return bool(gains.size and logsumexp(-gains) - np.log(gains.size) > -limits.veto_gain)
 
 
 def _rows(posterior: Posterior, points: Marks) -> Marks:

@@ -8,6 +8,7 @@ from functools import partial
 from math import inf, log
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy.linalg import cho_factor, cho_solve
 from scipy.special import logsumexp
 
@@ -29,6 +30,7 @@ from system.work.progress import Report
 SIZES = (0.1, 0.3, 1.0, 2.0)  # trial sizes of a start, in spreads
 BESIDE = (0.75, 0.9)  # factors on the best size, and their inverses
 ROUGHLY = (0.3, 1.0)  # trial sizes of a first look
+AT_BOUND = 0.999  # of a bound: a fit ends so near to it
 LIMITS = FitLimits(change=0.1)  # of the objective: a twentieth of a nat decides nothing, and costs sixfold less
 
 
@@ -49,6 +51,39 @@ def refit(study: Study, hypothesis: Hypothesis, thresholds: Thresholds, hopeless
         return near
     shares = near.log_evidence + log(1.0 - 1.0 / limits.farther), far.log_evidence - log(limits.farther)
     return replace(max((near, far), key=lambda each: each.log_evidence), log_evidence=float(np.logaddexp(*shares)))
+
+
+def within_tolerance(study: Study, null: Explanation, thresholds: Thresholds) -> Posterior:
+    """The null's fit with every parameter within `pull` of its stated tolerance, those at this bound fixed there.
+
+    Its own fit where all are, and where the other does not converge. A null that needs a value beyond `pull` is the
+    explanation that this value is wrong. Raises ValueError for a null without a fit.
+    """
+    fit, pull = null.posterior, thresholds.mismatch.pull
+    if fit is None:
+        raise ValueError("the null has no fit")
+    if np.abs(fit.xi).max(initial=0.0) <= pull:
+        return fit
+    simulator = simulator_of(study, null.hypothesis, thresholds)
+    simulator = simulator.with_parameters(tuple(each.held(pull) for each in simulator.parameters))
+    start = Bounds.of(simulator.parameters).within(fit.xi)
+    try:
+        held = maximum_posterior(simulator, study.observations, start, LIMITS)
+    except NotConverged:
+        return fit
+    return _of_free(held, np.abs(held.xi) < AT_BOUND * pull)
+
+
+def _of_free(fit: Posterior, free: NDArray[np.bool_]) -> Posterior:
+    """A fit with some of its parameters alone, the others known exactly."""
+    return replace(
+        fit,
+        parameters=tuple(one for one, own in zip(fit.parameters, free, strict=True) if own),
+        xi=fit.xi[free],
+        values=fit.values[free],
+        slopes=fit.slopes[:, free],
+        precision=fit.precision[np.ix_(free, free)],
+    )
 
 
 def _strained(explanation: Explanation, reach: float) -> bool:

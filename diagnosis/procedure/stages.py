@@ -15,7 +15,7 @@ from diagnosis.explain.explained import explained_mismatch
 from diagnosis.explain.held_out import held_out
 from diagnosis.explain.hypotheses import hypotheses
 from diagnosis.explain.ranked import Explanation, with_probabilities
-from diagnosis.explain.refit import refit_all, try_refit
+from diagnosis.explain.refit import refit_all, try_refit, within_tolerance
 from diagnosis.explain.scaling import Scaling, scaling
 from diagnosis.explain.screen import screen, unknown_gain
 from diagnosis.explain.shortlist import is_settled, shortlist, wrong_parameters
@@ -167,16 +167,23 @@ def _unknown_anew(
 def _with_held_out(
     study: Study, null: Explanation, ranked: Sequence[Explanation], thresholds: Thresholds
 ) -> tuple[Explanation, ...]:
-    """The same with held-out points of the likeliest refits."""
+    """The same with held-out points of the likeliest refits.
+
+    The gains of an explanation by a wrong value are over the null within its tolerances: a null that is pulled farther
+    makes the same predictions by the same value.
+    """
     before = null.posterior
     if before is None:
         return tuple(ranked)
     known = [each for each in ranked if each.posterior is not None][: thresholds.fit.held_out]
+    of_values = [each for each in known if each.hypothesis.widened and not each.hypothesis.laws]
+    tolerated = within_tolerance(study, null, thresholds) if of_values else None
 
     def with_held_out(each: Explanation) -> Explanation:
         if each not in known or each.posterior is None:
             return each
-        return replace(each, heldout=held_out(study, before, each.posterior, thresholds))
+        rival = tolerated if each in of_values else None
+        return replace(each, heldout=held_out(study, before, each.posterior, thresholds, rival))
 
     return tuple(with_held_out(each) for each in ranked)
 

@@ -12,10 +12,10 @@ from toy_maps import LIMITS, SIGMA, ToySimulator, toy_observations, toy_recordin
 
 from diagnosis import Diagnosis, Explanation, Recording, Study, diagnose_study
 from diagnosis.detect.mismatch import confirmed, detect
-from diagnosis.explain.held_out import has_veto, held_out, regions
+from diagnosis.explain.held_out import beyond_chance, has_veto, held_out, regions
 from diagnosis.explain.hypotheses import hypotheses, simulator_of
 from diagnosis.explain.ranked import with_probabilities
-from diagnosis.explain.refit import refit
+from diagnosis.explain.refit import refit, within_tolerance
 from diagnosis.explain.scaling import scaling
 from diagnosis.explain.screen import joint_evidence, screen
 from diagnosis.study.map_axes import AXES, scaled_axes
@@ -564,6 +564,29 @@ def test_regions_held_out_veto_what_foretells_worse() -> None:
     assert not held_out(_study(1, laws=((CHURNING, 0.2),)), found.after, gross, LIMITS).vetoed
     for name, gain in swapped.gains.items():
         assert gain == pytest.approx(-found.fit.gains[name])
+
+
+def test_a_null_that_is_pulled_is_no_rival_of_a_wrong_value() -> None:
+    """A film twice as thick, which the null meets by the same film: regions speak for it, not for nothing."""
+    study = _study(1, film_thickness__slipper=2.0)
+    own = next(each for each in hypotheses(study, LIMITS) if each.widened == ("film_thickness.slipper",))
+    null, found = (refit(study, each, LIMITS) for each in (hypotheses(study, LIMITS)[0], own))
+    assert null.posterior is not None
+    assert found.posterior is not None
+    held = within_tolerance(study, null, LIMITS)
+    assert np.abs(null.posterior.xi).max() > LIMITS.mismatch.pull >= np.abs(held.xi).max()
+    against = held_out(study, null.posterior, found.posterior, LIMITS, held)
+    assert not against.vetoed
+    plain = held_out(study, null.posterior, found.posterior, LIMITS)
+    assert all(against.gains[name] > gain for name, gain in plain.gains.items())
+    assert against.before == plain.before
+    sound = refit(_study(1), hypotheses(_study(1), LIMITS)[0], LIMITS)
+    assert within_tolerance(_study(1), sound, LIMITS) is sound.posterior
+
+
+@pytest.mark.parametrize(("gains", "vetoed"), [([-0.6, -0.7, 0.5, 0.4], False), ([-2.1], True), ([], False)])
+def test_small_losses_in_several_regions_are_within_chance(gains: list[float], vetoed: bool) -> None:
+    assert beyond_chance(np.array(gains), LIMITS.heldout) is vetoed
 
 
 @pytest.mark.parametrize(
