@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from time import process_time
 
+from diagnosis.checks.check import with_notes
 from diagnosis.checks.notes import note_text
 from diagnosis.explain.hypotheses import hypotheses
 from diagnosis.explain.ranked import Explanation
@@ -18,6 +19,7 @@ from diagnosis.study.model import Study, study_of
 from diagnosis.study.prepare import prepare
 from diagnosis.study.scaled_pump import KnownPump, known_pump
 from diagnosis.thresholds import Thresholds, load_thresholds
+from diagnosis.verdict.suspects import unexplained
 from reynolds.errors import InputError, NotConverged
 from system.bench.calibration.equation_21 import EqFit, eq_fits, eq_twenty_one, measured_losses, paper_priors
 from system.bench.calibration.extended_pump import calibrated_pump
@@ -106,9 +108,14 @@ def calibrate(
     begun, thresholds, steps = process_time(), load_thresholds(), 4 + len(models)
     known = known_pump(pump)
     report(0, steps, "simulating the recording")
-    study, bench, notes = _prepared(known.pump, accepted_recording(recording, known), with_hersey, thresholds)
+    accepted = accepted_recording(recording, known)
+    study, bench, notes = _prepared(known.pump, accepted, with_hersey, thresholds)
     report(1, steps, "fitting the pump")
     null = refit(study, hypotheses(study, thresholds)[0], thresholds)
+    aside = unexplained(study, (null,), thresholds)
+    if aside:
+        study, bench, notes = _prepared(known.pump, with_notes(accepted, aside), with_hersey, thresholds)
+        null = refit(study, hypotheses(study, thresholds)[0], thresholds)
     fit = _fit_of(null)
     report(2, steps, "friction over the Hersey number")
     hersey = _hersey(study, null, thresholds, notes) if with_hersey else None

@@ -7,10 +7,9 @@ from pathlib import Path
 
 from diagnosis.procedure.next_test import with_next_point
 from diagnosis.procedure.pump_comparison import PumpComparison, claimed_pump, compare_pumps
-from diagnosis.procedure.stages import diagnose_study
+from diagnosis.procedure.recorded import diagnose_recording
 from diagnosis.recording.model import Recording
 from diagnosis.study.acceptance import accepted_recording, refuse_too_few, refuse_too_smooth
-from diagnosis.study.inputs import bench_points
 from diagnosis.study.levels import levelled
 from diagnosis.study.model import Study
 from diagnosis.study.prepare import prepare
@@ -19,7 +18,6 @@ from diagnosis.thresholds import Thresholds, load_thresholds
 from diagnosis.verdict.diagnosis import Diagnosis, VerdictStatus
 from diagnosis.verdict.row_numbers import by_table_rows
 from reynolds.errors import InputError, NotConverged
-from reynolds.laws.oil import walther
 from system.description.pump import PumpDescription
 from system.description.tolerances import tolerances
 from system.effects.catalogue.entries import CATALOGUE
@@ -64,12 +62,14 @@ def diagnose(
     accepted = accepted_recording(recording, known)
     known = levelled(known, accepted, allowed)
     described = known.pump
-    study = prepare(described, accepted, allowed, thresholds, catalogue, known.scant)
-    refuse_too_few(study)
-    refuse_too_smooth(study, thresholds.data.least_chi2)
-    points, _ = bench_points(study.recording, described)
-    viscosity = walther(points.T_case, described.oil.fluid) * described.oil.density
-    found = diagnose_study(study, viscosity, thresholds, report, workers)
+
+    def prepared(usable: Recording) -> Study:
+        study = prepare(described, usable, allowed, thresholds, catalogue, known.scant)
+        refuse_too_few(study)
+        refuse_too_smooth(study, thresholds.data.least_chi2)
+        return study
+
+    study, found = diagnose_recording(described, accepted, prepared, thresholds, report, workers)
     found = by_table_rows(_with_next_point(study, described, found, thresholds), study.recording)
     return DiagnosisResult(
         pump=described,

@@ -144,9 +144,20 @@ class DataLimits:
     """Single readings that are put aside, and readings too smooth for their noise."""
 
     outlier: float
+    together: float
+    rim: float
+    explained: float
     leverage: float
     outlier_share: float
     least_chi2: float
+
+
+@dataclass(frozen=True)
+class RecordShares:
+    """Findings of a status whose likeliest explanation was the truth, as shares of all such findings of the proof."""
+
+    incomplete: float
+    suspicion: float
 
 
 @dataclass(frozen=True)
@@ -183,6 +194,7 @@ class Thresholds:
     heldout: HeldOutLimits
     next_point: NextPointLimits
     data: DataLimits
+    record: RecordShares
     prior: PriorMasses
     seeds: Seeds
     digest: str
@@ -206,6 +218,7 @@ def load_thresholds(path: Path = FILE) -> Thresholds:
         read(HeldOutLimits, "heldout"),
         read(NextPointLimits, "next_point"),
         read(DataLimits, "data"),
+        read(RecordShares, "record"),
         read(PriorMasses, "prior"),
         read(Seeds, "seeds"),
         sha256(content).hexdigest(),

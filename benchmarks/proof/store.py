@@ -16,7 +16,7 @@ HERE = Path(__file__).resolve().parent
 PACKAGES = ("diagnosis", "system", "gaps", "reynolds")
 ASKED = (
     "diagnosis.checks.check",
-    "diagnosis.procedure.stages",
+    "diagnosis.procedure.recorded",
     "diagnosis.procedure.next_test",
     "diagnosis.recording.reader",
     "diagnosis.study.acceptance",

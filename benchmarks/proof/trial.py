@@ -12,9 +12,9 @@ import numpy as np
 
 from diagnosis.explain.ranked import Explanation
 from diagnosis.procedure.next_test import with_next_point
-from diagnosis.procedure.stages import diagnose_study
+from diagnosis.procedure.recorded import diagnose_recording
+from diagnosis.recording.model import Recording
 from diagnosis.study.acceptance import checked_recording
-from diagnosis.study.inputs import bench_points
 from diagnosis.study.map_axes import axis_values, inside
 from diagnosis.study.model import Study
 from diagnosis.study.prepare import prepare
@@ -23,7 +23,6 @@ from diagnosis.thresholds import load_thresholds
 from diagnosis.verdict.diagnosis import ClaimedEffect, Diagnosis
 from diagnosis.verdict.locate import Location
 from reynolds.errors import InputError, NotConverged
-from reynolds.laws.oil import walther
 from system.description.pump import PumpDescription
 from system.description.tolerances import tolerances
 from system.effects.effect import EffectId, Kind
@@ -107,10 +106,11 @@ def diagnose_folder(folder: Path) -> Diagnosed:
     """What `swashfilm diagnose ref90 FOLDER` finds, and what others make of the same study."""
     known, thresholds = load_known_pump("ref90"), load_thresholds()
     pump, recording = known.pump, checked_recording(folder, known)
-    study = prepare(pump, recording, tolerances(pump)[0], thresholds)
-    points, _ = bench_points(study.recording, pump)
-    viscosity = walther(points.T_case, pump.oil.fluid) * pump.oil.density
-    found = diagnose_study(study, viscosity, thresholds)
+
+    def prepared(usable: Recording) -> Study:
+        return prepare(pump, usable, tolerances(pump)[0], thresholds)
+
+    study, found = diagnose_recording(pump, recording, prepared, thresholds)
     asked = with_next_point(study, pump, found, thresholds)
     return Diagnosed(asked, rivals(study, thresholds), study, pump)
 

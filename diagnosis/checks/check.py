@@ -26,15 +26,16 @@ def check_recording(recording: Recording, displacement: float | None, limits: Da
 
     displacement: of the pump in m3/rev, a reference of flow and torque; None if unknown. FAULT: the recording
     cannot be used before it is corrected (units, a channel that copies another, no noise at all). REMOVED: these
-    readings are not used (outliers, a stuck sensor). NOTED: information.
+    readings are not used (slips, a stuck sensor). SUSPECT: kept until explanations have been fitted. NOTED:
+    information.
     """
-    recording = _noted(recording, [*_gaps(recording), *impossible(recording)])
+    recording = with_notes(recording, [*_gaps(recording), *impossible(recording)])
     with np.errstate(divide="ignore", invalid="ignore"):
-        recording = _noted(recording, [*implausible(recording, displacement), *trace_sizes(recording)])
-    recording = _noted(recording, _speed(recording))
+        recording = with_notes(recording, [*implausible(recording, displacement), *trace_sizes(recording)])
+    recording = with_notes(recording, _speed(recording))
     for find in (coverage, low_resolution, stuck, stuck_inputs, repeated_rows, copies, noiseless):
-        recording = _noted(recording, find(recording))
-    return _noted(recording, outliers(recording, limits))
+        recording = with_notes(recording, find(recording))
+    return with_notes(recording, outliers(recording, limits))
 
 
 def too_few(recording: Recording, parameters: int) -> DataNote | None:
@@ -63,7 +64,7 @@ def too_smooth(chi2: float, readings: int, least: float) -> DataNote | None:
     )
 
 
-def _noted(recording: Recording, notes: Iterable[DataNote]) -> Recording:
+def with_notes(recording: Recording, notes: Iterable[DataNote]) -> Recording:
     """The recording with notes added and, of those that remove, the readings of their channel made nan."""
     found = tuple(notes)
     values = recording.steady.values.copy()

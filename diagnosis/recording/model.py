@@ -24,6 +24,7 @@ class NoteKind(Enum):
 
     FAULT = "fault"
     REMOVED = "removed"
+    SUSPECT = "suspect"
     NOTED = "noted"
 
 

@@ -17,12 +17,14 @@ from diagnosis.explain.ranked import Explanation
 from diagnosis.study.map_axes import axis_values
 from diagnosis.study.model import Study
 from diagnosis.thresholds import Thresholds
+from diagnosis.verdict.suspects import remaining
 from diagnosis.verdict.trend import power_errors
 from reynolds.errors import NotConverged
 from reynolds.numerics.arrays import Array
 from system.estimation.evidence import multiplier_evidence
 from system.estimation.parameters import Role
 from system.estimation.posterior import Posterior, settled
+from system.inputs.channels import ChannelName
 
 BROADER = 5.44  # n times the variance of a squared scale from the median (Rousseeuw and Croux 1993)
 MEDIAN = float(norm.isf(0.25))  # of |r| in sigma
@@ -41,11 +43,12 @@ def residue_notes(
     if after is None or before is None:
         return ()
     found = list(_form_note(best.hypothesis))
-    found += _scatter(after.residual, thresholds)
+    found += _scatter(study, after, thresholds)
     gained = max(before.objective - after.objective, 0.0)
     least = np.sqrt(thresholds.form.material * gained * _shares(study, best, thresholds))
     found += _regions(study, after, least, thresholds)
     found += _striking(study, after, best.hypothesis, least, thresholds)
+    found += remaining(study, best, thresholds)
     found += [growth.text for growth in power_errors(study, best, along, thresholds)[:1]]
     if _pulls(after, best.hypothesis) - _pulls(before, best.hypothesis) > 2.0 * thresholds.name.odds:
         found.append("parameters move farther from their stated values than without it")
@@ -66,11 +69,19 @@ def _form_note(hypothesis: Hypothesis) -> Iterator[str]:
     yield f"its law explains more if it varies freely over the map{second}"
 
 
-def _scatter(residual: Array, thresholds: Thresholds) -> Iterator[str]:
-    """A note if the median residual exceeds the noise: tails and steps of the noise are no mismatch."""
-    broad = float(np.median(np.abs(residual)) / MEDIAN) ** 2
-    if norm.sf((broad - 1.0) / np.sqrt(BROADER / residual.size)) < thresholds.mismatch.chance:
-        yield f"the residual scatters {np.sqrt(broad):.2f} times as wide as the noise"
+def _scatter(study: Study, after: Posterior, thresholds: Thresholds) -> Iterator[str]:
+    """A note for each channel whose median residual exceeds the noise: tails and steps of the noise are no mismatch.
+
+    The numbers of all traces are one channel. Chance of a false note in any channel: Holm (1979), first step.
+    """
+    names, column = study.shown_channels, after.whitening.rows[:, 1]
+    for at, name in enumerate(names):
+        own = after.residual[column >= at if name is ChannelName.P_CHAMBER else column == at]
+        if not own.size:
+            continue
+        broad = float(np.median(np.abs(own)) / MEDIAN) ** 2
+        if norm.sf((broad - 1.0) / np.sqrt(BROADER / own.size)) < thresholds.mismatch.chance / len(names):
+            yield f"the residual of {name.value} scatters {np.sqrt(broad):.2f} times as wide as the noise"
 
 
 def _shares(study: Study, best: Explanation, thresholds: Thresholds) -> Array:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cache
 
@@ -10,7 +10,8 @@ import numpy as np
 import pytest
 from toy_maps import LIMITS, SIGMA, ToySimulator, toy_observations, toy_recording
 
-from diagnosis import Diagnosis, Explanation, Recording, Study, diagnose_study
+from diagnosis import Diagnosis, Explanation, NoteKind, Recording, Study, diagnose_study
+from diagnosis.checks.outliers import scaled_places
 from diagnosis.detect.mismatch import confirmed, detect
 from diagnosis.explain.held_out import beyond_chance, has_veto, held_out, regions
 from diagnosis.explain.hypotheses import hypotheses, simulator_of
@@ -18,14 +19,17 @@ from diagnosis.explain.ranked import with_probabilities
 from diagnosis.explain.refit import refit, within_tolerance
 from diagnosis.explain.scaling import scaling
 from diagnosis.explain.screen import joint_evidence, screen
+from diagnosis.procedure.recorded import diagnose_recording
+from diagnosis.recording.model import DataNote
 from diagnosis.study.map_axes import AXES, scaled_axes
 from diagnosis.study.model import Candidate, study_of
 from diagnosis.verdict.diagnosis import VerdictStatus
 from diagnosis.verdict.judge import judge
 from diagnosis.verdict.residue import residue_notes
+from diagnosis.verdict.suspects import unexplained
 from diagnosis.verdict.trend import power_errors
 from reynolds import Array, NotConverged
-from system import ChannelName, Component, EffectId, Extension, Gap, Kind, Parameter, Role, Scale
+from system import ChannelName, Component, EffectId, Extension, Gap, Kind, Parameter, Role, Scale, load_pump
 from system.effects.extension import Entry
 from system.estimation.evidence import mixture_evidence, score
 
@@ -358,6 +362,66 @@ def test_what_takes_up_a_tenth_and_more_is_claimed_though_a_law_bent_does_as_wel
     found = _diagnosis(_study(1, laws=laws, added=np.stack([-leak, leak, np.zeros(POINTS)], axis=1)))
     assert {claim.effect for claim in found.effects} == {EffectId.ELASTIC_OPENING, EffectId.CONTROL_FLOW}
     assert found.status is VerdictStatus.INCOMPLETE
+
+
+def _suspected(study: Study, points: Sequence[int]) -> Study:
+    """The study with torque at some points as suspects."""
+    notes = (DataNote(NoteKind.SUSPECT, ChannelName.TORQUE, tuple(points), "off its neighbours: kept"),)
+    return replace(study, recording=replace(study.recording, notes=notes))
+
+
+def test_a_suspect_that_nothing_explains_is_put_aside() -> None:
+    """A reading of 60 sigma, beside churning: put aside; churning, and a sound reading, are not."""
+    at = int(np.argmax(_axes()[0] * _axes()[1]))
+    lone = np.zeros((POINTS, 3))
+    lone[at, 2] = 60.0 * SIGMA[2]
+    study = _suspected(_study(1, lone, laws=((CHURNING, 0.2),)), (at, 5))
+    own = next(each for each in hypotheses(study, LIMITS) if each.effects == (EffectId.CHURNING,))
+    fits = [replace(refit(study, each, LIMITS), probability=0.5) for each in (hypotheses(study, LIMITS)[0], own)]
+    (note,) = unexplained(study, fits, LIMITS)
+    assert (note.kind, note.channel, note.points) == (NoteKind.REMOVED, ChannelName.TORQUE, (at,))
+    assert any(f"at point {at + 1}" in text for text in residue_notes(study, *fits, _coordinates(), LIMITS))
+    sound = _suspected(_study(1, laws=((CHURNING, 0.2),)), (at,))
+    fits = [replace(refit(sound, each, LIMITS), probability=0.5) for each in (hypotheses(sound, LIMITS)[0], own)]
+    assert unexplained(sound, fits, LIMITS) == ()
+
+
+def test_a_recording_is_diagnosed_again_without_what_nothing_explains() -> None:
+    """Churning and a slip of 60 sigma at the rim: two studies, the second without the reading; churning is named."""
+    at = int(np.argmax(_axes()[0] * _axes()[1]))
+    lone = np.zeros((POINTS, 3))
+    lone[at, 2] = 60.0 * SIGMA[2]
+    prepared: list[Recording] = []
+
+    def study_without(recording: Recording) -> Study:
+        prepared.append(recording)
+        gone = [note.points for note in recording.notes if note.kind is NoteKind.REMOVED]
+        slip = np.where(np.isin(np.arange(POINTS), gone)[:, None] & (np.arange(3) == 2), np.nan, lone)
+        return replace(_study(1, slip, laws=((CHURNING, 0.2),)), recording=recording)
+
+    recording = _suspected(_study(1), (at,)).recording
+    study, found = diagnose_recording(load_pump("ref90"), recording, study_without, LIMITS)
+    assert [note.kind for note in prepared[-1].notes] == [NoteKind.SUSPECT, NoteKind.REMOVED]
+    assert len(prepared) == 2
+    assert study.observations.measured.sum() == 3 * POINTS - 1
+    assert {claim.effect for claim in found.effects} == {EffectId.CHURNING}
+    assert any(note.startswith(f"removed: torque point {at + 1}: off by") for note in found.notes)
+
+
+def test_suspects_that_depart_together_or_are_explained_stay() -> None:
+    """Four neighbours 60 sigma off are no slips; nor is a reading of which a likely explanation takes up half."""
+    places = scaled_places(_recording())
+    near = np.argsort(np.sum((places - places[0]) ** 2, axis=1))[:4]
+    step = np.zeros((POINTS, 3))
+    step[near, 2] = 60.0 * SIGMA[2]
+    study = _suspected(_study(1, step), [int(point) for point in near])
+    null = replace(refit(study, hypotheses(study, LIMITS)[0], LIMITS), probability=0.5)
+    assert unexplained(study, [null], LIMITS) == ()
+    alone = _suspected(_study(1, np.where(np.arange(POINTS)[:, None] == near[0], step, 0.0)), [int(near[0])])
+    null = replace(refit(alone, hypotheses(alone, LIMITS)[0], LIMITS), probability=0.5)
+    assert len(unexplained(alone, [null], LIMITS)) == 1
+    half = replace(null, posterior=replace(null.posterior, residual=0.6 * null.posterior.residual))
+    assert unexplained(alone, [null, half], LIMITS) == ()
 
 
 def test_a_law_of_a_wrong_power_tells_which() -> None:
