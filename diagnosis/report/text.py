@@ -204,7 +204,7 @@ def _incomplete(diagnosis: Diagnosis) -> str:
     if _class(diagnosis):
         return "A part of the mismatch remains besides that none of them explains."
     names, they = ("The names are", "they do") if len(diagnosis.effects) > 1 else ("The name is", "it does")
-    return f"{names} sure, but a part of the mismatch remains that {they} not explain."
+    return f"A part of the mismatch remains that {they} not explain: {names[0].lower()}{names[1:]} likely, not sure."
 
 
 def _suspicion(diagnosis: Diagnosis) -> str:

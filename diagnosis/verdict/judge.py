@@ -16,6 +16,7 @@ from diagnosis.explain.ranked import Explanation
 from diagnosis.study.model import Study
 from diagnosis.thresholds import Thresholds
 from diagnosis.verdict.diagnosis import ClaimedEffect, Estimate, VerdictStatus
+from diagnosis.verdict.doubt import doubted
 from diagnosis.verdict.equivalence import agrees, equivalents
 from diagnosis.verdict.multiplier_chance import MultiplierChance, multiplier_chance
 from diagnosis.verdict.residue import residue_notes
@@ -62,10 +63,10 @@ def judge(
     if null.probability >= limits.null_probability:
         if detection.chance >= limits.suspicion:
             return Judgement(Kind.NO_MISMATCH, VerdictStatus.NAMED, (), (), (), tuple(explanations))
-        return _suspicion(explanations, (_one_of_two(detection, null),))
+        return _suspicion(explanations, (_one_of_two(detection, null),), thresholds)
     free = _free_multiplier(study, null, explanations, thresholds)
     if min(detection.chance, free.chance) >= limits.chance:
-        return _suspicion(explanations, (_one_of_two(detection, null),))
+        return _suspicion(explanations, (_one_of_two(detection, null),), thresholds)
     best = _simplest(max((each for each in explanations if each is not null), key=_weight), explanations, thresholds)
     if best.hypothesis.kind is Kind.UNKNOWN_PHYSICS:
         return _unknown(study, free, explanations, thresholds)
@@ -74,8 +75,10 @@ def judge(
     best = members[0]
     against = _objections(best, members, explanations, thresholds)
     if against:
-        return _suspicion(explanations, against)
+        return _suspicion(explanations, against, thresholds)
     left = residue_notes(study, null, best, along, thresholds)
+    if left:
+        explanations, members = _less_sure(explanations, members, thresholds)
     claims = _claims(members, explanations, thresholds)
     alike = any(claim.equivalent or claim.elsewhere for claim in claims)
     status = VerdictStatus.INCOMPLETE if left else VerdictStatus.CLASS if alike else VerdictStatus.NAMED
@@ -114,11 +117,21 @@ def _one_of_two(detection: Detection, null: Explanation) -> str:
     )
 
 
-def _suspicion(explanations: Sequence[Explanation], reasons: tuple[str, ...]) -> Judgement:
-    """A suspicion of the likeliest kind of mismatch."""
+def _suspicion(explanations: Sequence[Explanation], reasons: tuple[str, ...], thresholds: Thresholds) -> Judgement:
+    """A suspicion of the likeliest kind of mismatch, its probabilities by the record of suspicions."""
     kinds = {each.hypothesis.kind for each in explanations} - {Kind.NO_MISMATCH}
     likeliest = max(kinds, key=lambda kind: _probability(explanations, kind))
-    return Judgement(likeliest, VerdictStatus.SUSPICION, (), (), reasons, tuple(explanations))
+    ranked = sorted(doubted(explanations, thresholds.record.suspicion, Kind), key=lambda each: -each.probability)
+    return Judgement(likeliest, VerdictStatus.SUSPICION, (), (), reasons, tuple(ranked))
+
+
+def _less_sure(
+    explanations: Sequence[Explanation], members: Sequence[Explanation], thresholds: Thresholds
+) -> tuple[tuple[Explanation, ...], tuple[Explanation, ...]]:
+    """The explanations and the members of the claimed class where a part remains: that part is unknown physics."""
+    ranked = doubted(explanations, thresholds.record.incomplete, (Kind.UNKNOWN_PHYSICS,))
+    fresh = {id(old): new for old, new in zip(explanations, ranked, strict=True)}
+    return ranked, tuple(fresh[id(each)] for each in members)
 
 
 def _probability(explanations: Sequence[Explanation], kind: Kind) -> float:
@@ -140,7 +153,7 @@ def _unknown(
             f"of {free.chance:.2g} where nothing is there: read that point again"
         )
     if against:
-        return _suspicion(explanations, tuple(against))
+        return _suspicion(explanations, tuple(against), thresholds)
     return Judgement(Kind.UNKNOWN_PHYSICS, VerdictStatus.NAMED, (), (), (), tuple(explanations))
 
 

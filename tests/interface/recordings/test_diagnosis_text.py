@@ -82,14 +82,14 @@ def test_every_kind_and_status_has_a_sentence(named: Diagnosis, kind: Kind, stat
     elif claims and status in (VerdictStatus.CLASS, VerdictStatus.INCOMPLETE):
         assert "cannot separate elastic_opening from film_heating" in text
         assert ("A part of the mismatch remains besides" in text) == (status is VerdictStatus.INCOMPLETE)
-        assert "is sure" not in text
+        assert "is likely, not sure" not in text
 
 
-def test_an_incomplete_name_is_told_as_sure_where_it_is(named: Diagnosis) -> None:
+def test_an_incomplete_name_is_likely_and_not_sure(named: Diagnosis) -> None:
     one = replace(named, status=VerdictStatus.INCOMPLETE)
-    assert "The name is sure, but a part of the mismatch remains that it does not explain." in statement(one)
+    assert "A part of the mismatch remains that it does not explain: the name is likely, not sure." in statement(one)
     two = replace(one, effects=(*one.effects, ClaimedEffect(E.CHURNING, None, 0.99, (), ())))
-    assert "The names are sure, but a part of the mismatch remains that they do not explain." in statement(two)
+    assert "A part of the mismatch remains that they do not explain: the names are likely, not sure." in statement(two)
 
 
 def test_of_which_pair_a_coefficient_is_is_told(named: Diagnosis) -> None:
