@@ -2,6 +2,7 @@
 
     python benchmarks/proof.py                            runs what is not there yet, then writes docs/proof.md
     python benchmarks/proof.py --part null --cases 40     only the first 40 cases of a part
+    python benchmarks/proof.py --part rough-null          a part of the plant of rough campaigns, other-... of other laws
     python benchmarks/proof.py --part rig                 a section of the page: rig, tanks, films; bench: ten maps
     python benchmarks/proof.py --workers 2                side by side
     python benchmarks/proof.py --cases 0                  runs nothing, writes the page from what is there
@@ -10,7 +11,7 @@
 
 Each case's result is a file of its own in --results: Ctrl-C loses only the case in hand, the next call goes on.
 Those behind docs/proof.md are kept in benchmarks/proof/outcomes.tar.xz: tar -xf it into --results.
-A null takes some 8 s of process time, a case with something concealed up to 70 s.
+A null takes some 8 s of process time, a case with something concealed up to 70 s, a rough recording some minutes.
 """
 
 from __future__ import annotations
@@ -21,6 +22,8 @@ from collections.abc import Iterator
 from concurrent.futures import ProcessPoolExecutor, as_completed
 from pathlib import Path
 
+from proof.parts import Part
+
 ROOT = Path(__file__).resolve().parents[1]
 
 
@@ -28,7 +31,7 @@ def main() -> int:
     """Run the missing cases and write the page."""
     options = _options()
     sys.path.insert(0, str(ROOT))
-    from proof.cases import Part, cases
+    from proof.cases import cases
     from proof.expected import GIVEN, given
 
     from diagnosis.thresholds import load_thresholds
@@ -52,7 +55,7 @@ def main() -> int:
 
 def _options() -> argparse.Namespace:
     reader = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parts = ("null", "graded", "pair", "parameter", "sensor", "unknown", "trace", "bench", "rig", "tanks", "films")
+    parts = (*(part.value for part in Part), "bench", "rig", "tanks", "films")
     reader.add_argument("--part", choices=parts, help="only one part")
     reader.add_argument("--cases", type=int, metavar="N", help="only the first N cases of each part")
     reader.add_argument("--results", type=Path, default=ROOT / "build" / "proof", metavar="DIR")
@@ -67,8 +70,10 @@ def _run(listed: list, folders: list[Path], results: Path, workers: int) -> None
     """Diagnose the cases and the given recordings that have no outcome yet, a line each."""
     from proof.store import keep, load, name_of, name_of_folder
     from proof.trial import try_case, try_folder
+    from proof.wide.case import WideCase
+    from proof.wide.trial import try_wide
 
-    wanted = {name_of(case): (try_case, case) for case in listed}
+    wanted = {name_of(case): (try_wide if isinstance(case, WideCase) else try_case, case) for case in listed}
     wanted |= {name_of_folder(folder): (try_folder, folder) for folder in folders}
     missing = {name: task for name, task in wanted.items() if load(results, name) is None}
     for number, (name, outcome) in enumerate(_outcomes(missing, workers), start=1):
@@ -109,9 +114,16 @@ def _write(case, folder: Path) -> int:
     """The recording of one case as a folder that any diagnosis can read."""
     from proof.campaigns import campaigns
     from proof.recordings import make
+    from proof.wide.case import WideCase
+    from proof.wide.trial import made as made_wide
     from proof.writing import write_recording
 
     folder.mkdir(parents=True, exist_ok=True)
+    if isinstance(case, WideCase):
+        wide = made_wide(case)
+        wide.write(folder)
+        print(f"{case.name}: score {wide.expected.score:.1f}, sizes {wide.expected.sizes}, in {folder}")
+        return 0
     made = make(case)
     write_recording(folder, case.name, made.readings, campaigns()[case.campaign].circuit)
     print(f"{case.name}: score {made.score:.1f}, sizes {made.sizes}, in {folder}")

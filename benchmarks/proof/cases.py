@@ -4,29 +4,20 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
-from enum import Enum
 from itertools import product
 
 import numpy as np
 
+from .other.cases import MAKERS as OTHER_MAKERS
+from .parts import Part
 from .plant.hidden import NOTHING, Hidden
+from .rough.cases import MAKERS as ROUGH_MAKERS
 from .sensors import Fault
+from .wide.case import WideCase
 
 GRADES = (8.0, 5.0, 15.0, 3.0, 30.0)
 PAIR_SCORE = 10.0
 NULLS = 240
-
-
-class Part(Enum):
-    """What a case is there to show."""
-
-    NULL = "null"
-    GRADED = "graded"
-    PAIR = "pair"
-    PARAMETER = "parameter"
-    SENSOR = "sensor"
-    UNKNOWN = "unknown"
-    TRACE = "trace"
 
 
 VERDICTS = {
@@ -142,7 +133,7 @@ GROSS = {"suction": (5e4, 4e4, 6e4, 2.5e4, 8e4)}
 USUAL = ("map", "ovens", "scattered")
 
 
-def cases(part: Part, seed: int) -> tuple[Case, ...]:
+def cases(part: Part, seed: int) -> tuple[Case | WideCase, ...]:
     """All cases of a part, in such an order that the first few are a fair sample; `seed` begins their seeds."""
     return tuple(_MAKERS[part](seed))
 
@@ -203,5 +194,5 @@ def _case(part: Part, one: Concealed, score: float, at: int, seed: int) -> Case:
 
 _MAKERS = {
     Part.NULL: _nulls, Part.GRADED: _graded, Part.PAIR: _pairs, Part.PARAMETER: _parameters,
-    Part.SENSOR: _sensors, Part.UNKNOWN: _unknowns, Part.TRACE: _traces,
+    Part.SENSOR: _sensors, Part.UNKNOWN: _unknowns, Part.TRACE: _traces, **OTHER_MAKERS, **ROUGH_MAKERS,
 }  # fmt: skip

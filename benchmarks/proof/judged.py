@@ -6,6 +6,7 @@ from .outcome import Claimed, Outcome, Ranked
 
 FLAGGED = ("suspicion", "incomplete", "failed")
 SET = 0.95
+SURE = 0.9
 Place = tuple[tuple[str, str], ...]
 
 
@@ -14,13 +15,21 @@ def truth_of(outcome: Outcome) -> frozenset[str]:
     return frozenset(outcome.effects) if outcome.truth != "unknown_physics" else frozenset({"unknown_physics"})
 
 
+def _is_whole_truth(ids: frozenset[str], outcome: Outcome) -> bool:
+    """Whether an explanation's ids are those of the truth, with faults beside it or without."""
+    return ids - frozenset(outcome.beside) == truth_of(outcome)
+
+
 def is_right(outcome: Outcome) -> bool:
-    """Whether the verdict is the truth, by its effects or the classes they are in; no gap told is not wrong."""
+    """Whether the verdict is the truth, by its effects or the classes they are in; no gap told is not wrong.
+
+    A fault beside the truth may be named too.
+    """
     if not outcome.effects:
         return outcome.verdict == outcome.truth and outcome.status != "suspicion"
-    if outcome.status == "suspicion" or len(outcome.claims) != len(outcome.effects):
+    left = [one for one in outcome.claims if one.effect not in outcome.beside]
+    if outcome.status == "suspicion" or len(left) != len(outcome.effects):
         return False
-    left = list(outcome.claims)
     for effect, pair in zip(outcome.effects, outcome.pairs, strict=True):
         fits = [
             one
@@ -48,7 +57,7 @@ def is_wrong_name(outcome: Outcome) -> bool:
     """Whether something is claimed that is not the truth; part of the truth alone is not wrong."""
     if not outcome.claims:
         return is_named(outcome) and outcome.truth != "unknown_physics"
-    known = set(outcome.effects)
+    known = {*outcome.effects, *outcome.beside}
     wrong_gap = [
         one
         for one in outcome.claims
@@ -66,6 +75,12 @@ def is_grave(outcome: Outcome) -> bool:
     return is_wrong_name(outcome) and outcome.status not in FLAGGED
 
 
+def is_sure_and_wrong(outcome: Outcome) -> bool:
+    """Wrong at a probability of .9 at least, flagged or not: a name that is sure by its status, or by its number."""
+    sure = outcome.status not in FLAGGED or any(one.probability >= SURE for one in outcome.claims)
+    return is_wrong_name(outcome) and sure
+
+
 def groups(outcome: Outcome) -> list[tuple[frozenset[str], float]]:
     """Explanations by their ids, the places of one id together, the likeliest first."""
     found: dict[frozenset[str], float] = {}
@@ -81,8 +96,8 @@ def rank(outcome: Outcome) -> int | None:
     """
     if is_right(outcome):
         return 1
-    listed = [ids for ids, _ in groups(outcome)]
-    place = listed.index(truth_of(outcome)) + 1 if truth_of(outcome) in listed else None
+    listed = enumerate((ids for ids, _ in groups(outcome)), start=1)
+    place = next((at for at, ids in listed if _is_whole_truth(ids, outcome)), None)
     return max(place, 2) if place is not None and is_wrong_name(outcome) else place
 
 
@@ -107,7 +122,7 @@ def _place(one: Ranked) -> Place:
 
 def _is_truth(place: Place, outcome: Outcome) -> bool:
     """Whether effects are the true ones, each at its gap where both have one."""
-    if {effect for effect, _ in place} != truth_of(outcome):
+    if not _is_whole_truth(frozenset(effect for effect, _ in place), outcome):
         return False
     true = dict(zip(outcome.effects, outcome.pairs, strict=True))
     return all(not gap or true.get(effect) in (None, gap) for effect, gap in place)
@@ -116,4 +131,4 @@ def _is_truth(place: Place, outcome: Outcome) -> bool:
 def confidence(outcome: Outcome) -> tuple[float, bool]:
     """Probability of the likeliest explanation, and whether it is the truth."""
     listed = groups(outcome)
-    return (listed[0][1], listed[0][0] == truth_of(outcome)) if listed else (1.0, False)
+    return (listed[0][1], _is_whole_truth(listed[0][0], outcome)) if listed else (1.0, False)

@@ -55,8 +55,8 @@ class Worth:
 class Outcome:
     """The truth and what was told of it.
 
-    score: reached; effects, pairs: of the truth; shares: of the channels in the square of the truth's shift, which
-    is in sigma of a reading. true_turn, turn: shaft angles in rad between which pressure differs, in truth and as
+    score: reached; effects, pairs: of the truth; beside: ids of faults beside it, which may be named too; shares: of the
+    channels in the square of the truth's shift, which is in sigma of a reading. true_turn, turn: shaft angles in rad between which pressure differs, in truth and as
     told; region: points told, all of them where it is everywhere, None where no channel is; oracle: channel -> rms
     held out by the fit of the truth's own law.
     heldout: channel -> (before, after, noise), SI; covered: parameter -> whether its 90 % interval holds the
@@ -74,6 +74,7 @@ class Outcome:
     effects: tuple[str, ...]
     pairs: tuple[str | None, ...]
     shares: dict[str, float]
+    beside: tuple[str, ...] = ()
     shift: dict[str, tuple[float, ...]] = field(default_factory=dict)
     true_turn: tuple[float, float] | None = None
     verdict: str = "none"
@@ -115,6 +116,7 @@ def from_plain(data: dict[str, Any]) -> Outcome:
     kept["heldout"] = {name: tuple(one) for name, one in data["heldout"].items()}
     kept["shift"] = {name: tuple(one) for name, one in data["shift"].items()}
     kept["worth"] = Worth(**data["worth"]) if data["worth"] else None
-    for name in ("effects", "pairs", "channels", "chi2", "reasons", "true_turn", "region", "turn"):
-        kept[name] = None if data[name] is None else tuple(data[name])
+    kept.setdefault("beside", ())
+    for name in ("effects", "pairs", "beside", "channels", "chi2", "reasons", "true_turn", "region", "turn"):
+        kept[name] = None if kept[name] is None else tuple(kept[name])
     return Outcome(**kept)

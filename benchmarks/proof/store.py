@@ -10,7 +10,11 @@ from pathlib import Path
 import grimp
 
 from .cases import Case
+from .other import VERSION as OTHER_VERSION
 from .outcome import Outcome, as_plain, from_plain
+from .parts import Plant
+from .rough import VERSION as ROUGH_VERSION
+from .wide.case import WideCase
 
 HERE = Path(__file__).resolve().parent
 PACKAGES = ("diagnosis", "system", "gaps", "reynolds")
@@ -21,18 +25,28 @@ ASKED = (
     "diagnosis.recording.reader",
     "diagnosis.study.acceptance",
     "diagnosis.study.inputs",
+    "diagnosis.study.levels",
     "diagnosis.study.prepare",
     "diagnosis.study.scaled_pump",
     "system.description.tolerances",
 )
 """Modules that a diagnosis is made of; all that they import counts, too."""
-TRIERS = ("trial.py", "expected.py", "oracle.py", "worth.py", "rivals.py", "baselines.py", "film_trial.py", "real.py")
+TRIERS = (
+    "trial.py", "wide/trial.py", "expected.py", "oracle.py", "worth.py", "rivals.py", "baselines.py", "film_trial.py",
+    "real.py",
+)  # fmt: skip
 """What puts a case to it and keeps what came of it."""
+VERSIONS = {Plant.OTHER: OTHER_VERSION, Plant.ROUGH: ROUGH_VERSION}
 MAKERS = ("plant", "campaigns.py", "sensors.py", "sizing.py", "recordings.py", "writing.py")
 
 
-def name_of(case: Case) -> str:
-    """The file of a case, by all that it is and the plant that makes it: another sensor or law is another file."""
+def name_of(case: Case | WideCase) -> str:
+    """The file of a case, by all that it is and the plant that makes it: another sensor or law is another file.
+
+    The second and third plant are known by their version, the first by its sources.
+    """
+    if isinstance(case, WideCase):
+        return f"{case.part.value}-{case.seed}-{case.digest(VERSIONS[case.part.plant])}.json"
     made = sha256(f"{case!r} {_plant()}".encode()).hexdigest()[:16]
     return f"{case.part.value}-{case.seed}-{made}.json"
 

@@ -15,6 +15,7 @@ from diagnosis.procedure.next_test import with_next_point
 from diagnosis.procedure.recorded import diagnose_recording
 from diagnosis.recording.model import Recording
 from diagnosis.study.acceptance import checked_recording
+from diagnosis.study.levels import levelled
 from diagnosis.study.map_axes import axis_values, inside
 from diagnosis.study.model import Study
 from diagnosis.study.prepare import prepare
@@ -33,8 +34,11 @@ from .cases import Case, Part
 from .expected import of_case, of_folder
 from .oracle import oracle
 from .outcome import Claimed, Outcome, Ranked, Rival
+from .plant.bench import Truth, run
 from .plant.machine import Machine, ref90
-from .recordings import make
+from .plant.settings import Settings
+from .recordings import STEPS, Made, make
+from .rig import Rig
 from .rivals import rivals
 from .store import program
 from .worth import worth
@@ -69,50 +73,59 @@ def try_case(case: Case) -> Outcome:
     expected = of_case(case, made)
     with tempfile.TemporaryDirectory() as folder:
         write_recording(Path(folder), case.name, made.readings, campaigns()[case.campaign].circuit)
-        told, diagnosed = _tried(Path(folder), expected)
+        told, diagnosed = tried(Path(folder), expected)
     if diagnosed is None:
         return told
     found, study = diagnosed.found, diagnosed.study
-    truth = (case, made, expected)
     return replace(
         told,
         covered=_covered(case, found, made.machine),
         oracle=oracle(study, found, expected, thresholds),
-        worth=worth(study, diagnosed.pump, found, truth, thresholds),
+        worth=worth(study, diagnosed.pump, found, _rig(case, made), expected, thresholds),
     )
 
 
 def try_folder(folder: Path) -> Outcome:
     """The same of a recording that is given with its answer."""
     expected = of_folder(folder)
-    told, diagnosed = _tried(folder, expected)
+    told, diagnosed = tried(folder, expected)
     if diagnosed is None:
         return told
     return replace(told, oracle=oracle(diagnosed.study, diagnosed.found, expected, load_thresholds()))
 
 
-def _tried(folder: Path, expected: Outcome) -> tuple[Outcome, Diagnosed | None]:
+def _rig(case: Case, made: Made) -> Rig:
+    def run_at(at: Settings) -> Truth:
+        return run(made.machine, at, made.hidden, STEPS)
+
+    return Rig(case.campaign, case.seed, run_at, made.setting, made.faults, made.readings.calibrations)
+
+
+def tried(
+    folder: Path, expected: Outcome, pump: str | Path = "ref90", with_rivals: bool = True
+) -> tuple[Outcome, Diagnosed | None]:
     """What is told beside what is expected; a recording of which no diagnosis comes about tells why."""
     begun = process_time()
     try:
-        diagnosed = diagnose_folder(folder)
+        diagnosed = diagnose_folder(folder, pump, with_rivals)
     except (InputFaults, NotConverged, InputError) as reason:
         spent = process_time() - begun
         return replace(expected, failed=str(reason), status="failed", seconds=spent, program=program()), None
     return _outcome(expected, diagnosed, process_time() - begun), diagnosed
 
 
-def diagnose_folder(folder: Path) -> Diagnosed:
-    """What `swashfilm diagnose ref90 FOLDER` finds, and what others make of the same study."""
-    known, thresholds = load_known_pump("ref90"), load_thresholds()
-    pump, recording = known.pump, checked_recording(folder, known)
+def diagnose_folder(folder: Path, pump: str | Path = "ref90", with_rivals: bool = True) -> Diagnosed:
+    """What `swashfilm diagnose PUMP FOLDER` finds, and what others make of the same study."""
+    known, thresholds = load_known_pump(pump), load_thresholds()
+    recording, allowed = checked_recording(folder, known), tolerances(known.pump)[0]
+    known = levelled(known, recording, allowed)
 
     def prepared(usable: Recording) -> Study:
-        return prepare(pump, usable, tolerances(pump)[0], thresholds)
+        return prepare(known.pump, usable, allowed, thresholds, scant=known.scant)
 
-    study, found = diagnose_recording(pump, recording, prepared, thresholds)
-    asked = with_next_point(study, pump, found, thresholds)
-    return Diagnosed(asked, rivals(study, thresholds), study, pump)
+    study, found = diagnose_recording(known.pump, recording, prepared, thresholds)
+    asked = with_next_point(study, known.pump, found, thresholds)
+    return Diagnosed(asked, rivals(study, thresholds) if with_rivals else {}, study, known.pump)
 
 
 def _outcome(expected: Outcome, diagnosed: Diagnosed, seconds: float) -> Outcome:

@@ -19,13 +19,11 @@ from system.description.pump import PumpDescription
 from system.inputs.units import STANDARD_ATMOSPHERE
 
 from .campaigns import Campaign, campaigns, held
-from .cases import Case
 from .oracle import is_of_truth
 from .outcome import Outcome, Worth
-from .plant.bench import run
 from .plant.machine import Array
 from .plant.settings import Settings
-from .recordings import STEPS, Made
+from .rig import Rig
 from .sensors import METERS, read_after
 
 SEEDS = 900_000  # added to a case's: draws of its own
@@ -34,22 +32,21 @@ NAMES = {"ratio": "displacement_ratio"}  # of the plant's settings, where the si
 
 
 def worth(
-    study: Study, pump: PumpDescription, found: Diagnosis, truth: tuple[Case, Made, Outcome], thresholds: Thresholds
+    study: Study, pump: PumpDescription, found: Diagnosis, rig: Rig, expected: Outcome, thresholds: Thresholds
 ) -> Worth | None:
     """Nats for the truth by the recording, by the point asked for, by a random one; None where nothing is asked.
 
     None too where neither of the two explanations is the truth.
     """
-    case, made, expected = truth
     asked, two = found.next_point, rivals(found, thresholds)
     if asked is None or two is None or not any(is_of_truth(each, expected) for each in two):
         return None
     true, false = two if is_of_truth(two[0], expected) else two[::-1]
-    box, rng = asked.box, np.random.default_rng(SEEDS + case.seed)
+    box, rng = asked.box, np.random.default_rng(SEEDS + rig.seed)
     explained = [contender(study, each, thresholds) for each in (true, false)]
 
     def told(place: tuple[float, ...]) -> float:
-        points, values = _recorded(study, box, place, case, made, asked.limits.readings, rng)
+        points, values = _recorded(study, box, place, rig, asked.limits.readings, rng)
         one, other = (log_density(study, each, points, values) for each in explained)
         return one - other
 
@@ -63,15 +60,15 @@ def worth(
 
 
 def _recorded(
-    study: Study, box: BenchBox, place: tuple[float, ...], case: Case, made: Made, count: int, rng: np.random.Generator
+    study: Study, box: BenchBox, place: tuple[float, ...], rig: Rig, count: int, rng: np.random.Generator
 ) -> tuple[BenchPoints, Array]:
     """`count` readings at a place of the box as the bench takes them: inputs as read, outputs (n, C) in SI."""
     wanted = box.points(tuple(np.array([value]) for value in place))
     wanted = replace(wanted, **{name: np.repeat(value, count) for name, value in vars(wanted).items()})
-    campaign = replace(campaigns()[case.campaign], points=_settings(wanted), traces=())
+    campaign = replace(campaigns()[rig.campaign], points=_settings(wanted), traces=())
     at = held(campaign, rng)
-    truth = run(made.machine, at.moved("ratio", made.setting), made.hidden, STEPS)
-    columns = read_after(campaign, at, truth, made.faults, made.readings.calibrations, rng)
+    truth = rig.run(at.moved("ratio", rig.setting))
+    columns = read_after(campaign, at, truth, rig.faults, rig.calibrations, rng)
     values = [_si(name.value, columns[name.value]) for name in study.channels]
     return _as_read(wanted, campaign, columns), np.stack(values, axis=1)
 

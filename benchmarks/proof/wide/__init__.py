@@ -1,0 +1,1 @@
+"""What the proof's second and third plant share: form of a case, score, trial, gates."""
