@@ -2,7 +2,7 @@
 
     python benchmarks/proof.py                            runs what is not there yet, then writes docs/proof.md
     python benchmarks/proof.py --part null --cases 40     only the first 40 cases of a part
-    python benchmarks/proof.py --part rough-null          a part of the plant of rough campaigns, other-... of other laws
+    python benchmarks/proof.py --part rough-null          a part of the third plant; other-...: of the second
     python benchmarks/proof.py --part rig                 a section of the page: rig, tanks, films; bench: ten maps
     python benchmarks/proof.py --workers 2                side by side
     python benchmarks/proof.py --cases 0                  runs nothing, writes the page from what is there
@@ -47,6 +47,7 @@ def main() -> int:
     try:
         _run(listed, folders, options.results, options.workers)
         _tell(options)
+        _summary(listed, options.results)
     except KeyboardInterrupt:
         print("interrupted; what was finished is kept")
     _page(options.results, options.page, seed)
@@ -82,6 +83,18 @@ def _run(listed: list, folders: list[Path], results: Path, workers: int) -> None
         told = f"{outcome.verdict}, {outcome.status}{', ' if told else ''}{told}{outcome.failed}"
         spent = f"{outcome.seconds:.0f} s process time"
         print(f"{number}/{len(missing)} {outcome.name} (z {outcome.score:.1f}): {told}; {spent}", flush=True)
+
+
+def _summary(listed: list, results: Path) -> None:
+    """A line each of the cases of one part, right or not."""
+    from proof.judged import is_right, is_wrong_name
+    from proof.store import load, name_of
+
+    for case in listed if len({case.part for case in listed}) == 1 else ():
+        outcome = load(results, name_of(case))
+        if outcome is not None:
+            mark = "right" if is_right(outcome) else "wrong" if is_wrong_name(outcome) else "not named"
+            print(f"{mark:9s}  z {outcome.score:5.1f}  {outcome.verdict}, {outcome.status}  {case.name}")
 
 
 def _tell(options: argparse.Namespace) -> None:

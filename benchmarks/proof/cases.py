@@ -43,6 +43,13 @@ class Concealed:
     wrong: tuple[str, float] | None = None
     most: float = np.inf
 
+    @property
+    def definition(self) -> tuple[object, ...]:
+        """All that defines it, as plain values."""
+        sizes = [(name, size) for name, size in vars(self.hidden).items() if size != 0.0]
+        fault = None if self.fault is None else tuple(vars(self.fault).items())
+        return self.label, self.id, self.pair, sizes, fault, self.wrong, self.most
+
 
 @dataclass(frozen=True)
 class Case:
@@ -60,6 +67,11 @@ class Case:
         told = " + ".join(one.label for one in self.concealed) or "nothing"
         grade = f", z {self.score:g}" if self.score else ""
         return f"{told}{grade}, {self.campaign}, seed {self.seed}"
+
+    @property
+    def definition(self) -> tuple[object, ...]:
+        """All that defines the case, as plain values."""
+        return self.part.value, self.campaign, self.seed, self.score, [one.definition for one in self.concealed]
 
 
 def _physics(label: str, id: str, size: float, pair: str | None = None, most: float = np.inf) -> Concealed:

@@ -55,10 +55,10 @@ class Worth:
 class Outcome:
     """The truth and what was told of it.
 
-    score: reached; effects, pairs: of the truth; beside: ids of faults beside it, which may be named too; shares: of the
-    channels in the square of the truth's shift, which is in sigma of a reading. true_turn, turn: shaft angles in rad between which pressure differs, in truth and as
-    told; region: points told, all of them where it is everywhere, None where no channel is; oracle: channel -> rms
-    held out by the fit of the truth's own law.
+    score: reached; effects, pairs: of the truth; beside: ids of faults beside it, which may be named too; shares: of
+    the channels in the square of the truth's shift, which is in sigma of a reading. true_turn, turn: shaft angles in
+    rad between which pressure differs, in truth and as told; region: points told, all of them where it is everywhere,
+    None where no channel is; oracle: channel -> rms held out by the fit of the truth's own law.
     heldout: channel -> (before, after, noise), SI; covered: parameter -> whether its 90 % interval holds the
     truth; program: digest of what diagnosed; failed: why there is no verdict.
     """

@@ -14,10 +14,13 @@ from .cases import Part, cases
 from .expected import GIVEN, given
 from .gates import CLEAR, gates
 from .judged import is_grave, is_named, is_right, is_wrong_name
+from .markdown import table
 from .outcome import Outcome
+from .parts import Plant, plant_of
 from .real import TITLES
 from .store import load, name_of, name_of_folder, program
 from .told import Told, load_told
+from .wide.page import section as on_three_plants
 
 PICTURE = "proof_calibration.png"
 HEAD = """# Proof of the diagnosis
@@ -36,6 +39,7 @@ of sigma.
     python benchmarks/proof.py                 runs the missing cases, then writes this page
     python benchmarks/proof.py --cases 0       writes this page from the outcomes
     python benchmarks/proof.py --write graded 3 FOLDER    one recording, for `swashfilm diagnose ref90 FOLDER`
+    python benchmarks/proof.py --part rough-null          the missing cases of one part
 
 Campaigns:
 
@@ -84,10 +88,17 @@ def write_page(results: Path, page: Path, seed: int) -> None:
     names = [*(name_of(case) for case in planned), *(name_of_folder(folder) for folder in given())]
     kept = [one for one in (load(results, name) for name in names) if one is not None]
     outcomes = [one for one in kept if one.part != GIVEN]
+    first = [one for one in outcomes if plant_of(one.part) is Plant.FIRST]
     pieces = [HEAD, _made_of(planned, outcomes, seed)]
+    if first:
+        draw(first, page.with_name(PICTURE))
+        pieces += [_gates(first), GATES, _calibration()]
+    if len(first) < len(outcomes):
+        pieces.append(on_three_plants(outcomes))
     if outcomes:
-        draw(outcomes, page.with_name(PICTURE))
-        pieces += [_gates(outcomes), GATES, _calibration(), _grades(outcomes), _rivals(outcomes)]
+        pieces.append(_grades(outcomes))
+    if first:
+        pieces.append(_rivals(first))
     bench = [one for one in kept if one.part == GIVEN]
     if bench:
         pieces.append("\n## Recordings with known answers\n\n" + _given(bench))
@@ -105,7 +116,7 @@ def _made_of(planned: Sequence[object], outcomes: Sequence[Outcome], seed: int) 
     return (
         f"{len(outcomes)} of {len(planned)} cases have been run; {stale} of them by another state of the program "
         f"than this page's ({program()}).\nThresholds: `diagnosis/thresholds.toml`, sha256 `{limits.digest}`. "
-        f"Seed of the proof {seed}.\n{HASH_OF_RUN}\n\n" + _table(("part", "planned", "run", "seeds"), rows)
+        f"Seed of the proof {seed}.\n{HASH_OF_RUN}\n\n" + table(("part", "planned", "run", "seeds"), rows)
     )
 
 
@@ -117,7 +128,7 @@ def _seeds(part: Part, seed: int) -> str:
 def _gates(outcomes: Sequence[Outcome]) -> str:
     words = {True: "held", False: "**missed**", None: "no case yet"}
     rows = [(one.name, one.asked, one.found, words[one.passed]) for one in gates(outcomes)]
-    return "\n## Gates\n\n" + _table(("gate", "required", "found", ""), rows)
+    return "\n## Gates\n\n" + table(("gate", "required", "found", ""), rows)
 
 
 def _calibration() -> str:
@@ -129,7 +140,7 @@ def _grades(outcomes: Sequence[Outcome]) -> str:
     rows = []
     for part in Part:
         own = [one for one in outcomes if one.part == part.value]
-        own_size = "-" if part is Part.NULL else "own size"
+        own_size = "-" if part.value.endswith("null") else "own size"
         for asked in sorted({one.asked for one in own}):
             at = [one for one in own if one.asked == asked]
             seen = sum(map(_sees, at))
@@ -139,7 +150,7 @@ def _grades(outcomes: Sequence[Outcome]) -> str:
                 str(sum(map(is_right, at))), str(sum(map(is_wrong_name, at))), str(sum(map(is_grave, at))),
             ))  # fmt: skip
     head = ("part", "z", "cases", "mismatch found", "of it suspicion", "right", "wrong name", "wrong and sure")
-    return "\n## By size\n\n" + _table(head, rows)
+    return "\n## By size\n\n" + table(head, rows)
 
 
 def _rivals(outcomes: Sequence[Outcome]) -> str:
@@ -172,7 +183,7 @@ def _rivals(outcomes: Sequence[Outcome]) -> str:
         "the right id at z >= 8",
         "name for an effect outside the catalogue",
     )
-    return "\n## Comparison with other methods, and ablations\n\n" + _table(head, rows)
+    return "\n## Comparison with other methods, and ablations\n\n" + table(head, rows)
 
 
 WAYS = {
@@ -200,7 +211,7 @@ def _of(hits: int, among: Sequence[object]) -> str:
 def _section(each: Told) -> str:
     """A table of other recordings; one that another state of the program made is told as such."""
     stale = "" if each.program == program() else f"\n\nMade by another state of the program ({each.program})."
-    return f"\n## {each.title}\n\n{each.text}{stale}\n\n" + _table(each.head, each.rows)
+    return f"\n## {each.title}\n\n{each.text}{stale}\n\n" + table(each.head, each.rows)
 
 
 def _given(bench: Sequence[Outcome]) -> str:
@@ -213,7 +224,7 @@ def _given(bench: Sequence[Outcome]) -> str:
         )
         for one in sorted(bench, key=_gravity)
     ]  # fmt: skip
-    return _table(("recording", "answer", "", "verdict", "held out, of the noise", "s"), rows)
+    return table(("recording", "answer", "", "verdict", "held out, of the noise", "s"), rows)
 
 
 def _answer(one: Outcome) -> str:
@@ -228,7 +239,7 @@ def _cases(outcomes: Sequence[Outcome]) -> str:
         for one in sorted(outcomes, key=_gravity)
     ]
     head = ("case", "z reached", "", "verdict", "P(nothing)", "s")
-    return "\n## Every case\n\n" + _table(head, rows)
+    return "\n## Every case\n\n" + table(head, rows)
 
 
 def _gravity(one: Outcome) -> tuple[object, ...]:
@@ -249,8 +260,3 @@ def _told(one: Outcome) -> str:
     )
     text = f"{one.verdict}, {one.status}"
     return f"{text}: {claims or one.failed}" if claims or one.failed else text
-
-
-def _table(head: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
-    lines = [head, ["---"] * len(head), *rows]
-    return "".join("| " + " | ".join(cell.replace("|", "/") for cell in line) + " |\n" for line in lines)

@@ -13,6 +13,7 @@ from .cases import Case
 from .other import VERSION as OTHER_VERSION
 from .outcome import Outcome, as_plain, from_plain
 from .parts import Plant
+from .plant import VERSION as FIRST_VERSION
 from .rough import VERSION as ROUGH_VERSION
 from .wide.case import WideCase
 
@@ -36,24 +37,13 @@ TRIERS = (
     "real.py",
 )  # fmt: skip
 """What puts a case to it and keeps what came of it."""
-VERSIONS = {Plant.OTHER: OTHER_VERSION, Plant.ROUGH: ROUGH_VERSION}
-MAKERS = ("plant", "campaigns.py", "sensors.py", "sizing.py", "recordings.py", "writing.py")
+VERSIONS = {Plant.FIRST: FIRST_VERSION, Plant.OTHER: OTHER_VERSION, Plant.ROUGH: ROUGH_VERSION}
 
 
 def name_of(case: Case | WideCase) -> str:
-    """The file of a case, by all that it is and the plant that makes it: another sensor or law is another file.
-
-    The second and third plant are known by their version, the first by its sources.
-    """
-    if isinstance(case, WideCase):
-        return f"{case.part.value}-{case.seed}-{case.digest(VERSIONS[case.part.plant])}.json"
-    made = sha256(f"{case!r} {_plant()}".encode()).hexdigest()[:16]
+    """The file of a case, by all that defines it and the version of its plant: no place or form of a source counts."""
+    made = sha256(repr((case.definition, VERSIONS[case.part.plant])).encode()).hexdigest()[:16]
     return f"{case.part.value}-{case.seed}-{made}.json"
-
-
-@cache
-def _plant() -> str:
-    return _digest([HERE / name for name in MAKERS])
 
 
 def name_of_folder(folder: Path) -> str:

@@ -11,7 +11,7 @@ from itertools import product
 import numpy as np
 
 from ..parts import Part
-from ..wide.case import Secret, WideCase, What
+from ..wide.case import Secret, What, WideCase
 
 GRADES = (8.0, 5.0, 15.0, 3.0, 30.0)
 SEVERAL = 10.0

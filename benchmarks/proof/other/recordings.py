@@ -13,7 +13,7 @@ from ..plant.settings import Settings
 from ..recordings import moved_turn
 from ..rig import Rig
 from ..sensors import Readings, read, set_in_truth
-from ..wide.case import WideCase, What
+from ..wide.case import What, WideCase
 from ..wide.made import WideMade, expected
 from ..writing import write_recording
 from .plant.hidden import NOTHING, Hidden

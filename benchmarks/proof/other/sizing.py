@@ -11,7 +11,7 @@ import numpy as np
 from ..campaigns import campaigns
 from ..sensors import METERS, Fault, stated_sigma
 from ..sizing import size_for
-from ..wide.case import Secret, WideCase, What
+from ..wide.case import Secret, What, WideCase
 from ..wide.scoring import Whitening, whitening
 from .plant.hidden import NOTHING, Hidden
 from .plant.points import Array, Points

@@ -12,13 +12,13 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from ..sizing import size_for
-from ..wide.case import Secret, WideCase, What
+from ..wide.case import Secret, What, WideCase
 from ..wide.scoring import Whitening, whitening
 from .plant.course import Course
 from .plant.hidden import NOTHING, Hidden
 from .plant.meters import WANDER, Meters
 from .plant.model import State, flows
-from .plant.pump import SLOPE, UNCERTAIN, Array, Pump
+from .plant.pump import MAKE, UNCERTAIN, Array, Pump
 
 PARTS = 10  # of the pressure's range, and of the time
 GAIN, ZERO = 0.003, 0.002  # one sigma of a meter: relative, and over its median
@@ -44,9 +44,7 @@ class Bench:
         """Quasi-steady means (N, C), SI, of a pump at samples of the bench's course."""
         found = flows(pump, state, hidden)
         place, count = self.places
-        return np.stack(
-            [np.bincount(place, getattr(found, name)) / count for name in self.outputs], axis=1
-        )
+        return np.stack([np.bincount(place, getattr(found, name)) / count for name in self.outputs], axis=1)
 
     @property
     def places(self) -> tuple[Array, Array]:
@@ -129,7 +127,8 @@ def _whitening(bench: Bench, sigma: Array) -> Whitening:
     base = bench.means(pump, state)
     near = [replace(pump, **{name: getattr(pump, name) * (1.0 + 0.01 * s)}) for name, s in UNCERTAIN.items()]
     shared = [100.0 * (bench.means(one, state) - base) for one in near]
-    shared.append(bench.means(replace(pump, slope=pump.slope + SLOPE), state) - base)
+    makes = [replace(pump, **{name: getattr(pump, name) + sigma}) for name, sigma in MAKE.items()]
+    shared += [bench.means(one, state) - base for one in makes]
     shared.append(bench.means(pump, replace(state, pressure=state.pressure + P_OUT)) - base)
     shared.append(bench.means(pump, replace(state, case=state.case + T_CASE)) - base)
     place, count = bench.places

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from enum import Enum
-from hashlib import sha256
 
 from ..parts import Part
 
@@ -74,8 +73,8 @@ class WideCase:
         faults = tuple(one.id for one in self.secrets if one.what is What.FAULT)
         return () if self.truth == What.FAULT.value else faults
 
-    def digest(self, version: int) -> str:
-        """Of what defines the case, and of the version of the plant that makes it: of no file."""
+    @property
+    def definition(self) -> tuple[object, ...]:
+        """All that defines the case, as plain values."""
         secrets = [(one.label, one.id, one.pair, one.size, one.most) for one in self.secrets]
-        content = (self.part.value, self.campaign, self.seed, self.score, secrets, version)
-        return sha256(repr(content).encode()).hexdigest()[:16]
+        return self.part.value, self.campaign, self.seed, self.score, secrets

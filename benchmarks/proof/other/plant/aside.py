@@ -70,7 +70,8 @@ def _drag(pump: Pump, hidden: Hidden, at: Points, move: Motion, state: tuple[Arr
     viscosity, flow = state
     turned = at.speed / RATED_SPEED
     lip = 0.5 + 0.5 * np.cbrt(viscosity * turned / MEDIUM)  # half dry, half after Hirano (1961)
-    charge = hidden.charge_pump / (2.0 * np.pi) * (1.1 * (at.p_in - at.p_case) + 1e5 * viscosity * at.speed)  # Wilson 1950
+    pressed = 1.1 * (at.p_in - at.p_case) + 1e5 * viscosity * at.speed  # Wilson (1950)
+    charge = hidden.charge_pump / (2.0 * np.pi) * pressed
     share = np.maximum(flow, 0.0) / RATED_FLOW
     passage = hidden.throttling * (0.8 * share**2 + 0.2 * share * viscosity / MEDIUM) * np.maximum(flow, 0.0) / at.speed
     inner = pump.dead_volume + pump.area * move.retracted[:, 0]

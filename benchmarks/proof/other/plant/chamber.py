@@ -90,9 +90,7 @@ def march(pump: Pump, hidden: Hidden, at: Points, move: Motion, gaps: Gaps) -> T
     return Turn(move.angle[1:], np.diff(move.angle), pressures, -sums[0], sums[1], sums[2], sums[3])
 
 
-def _settled(
-    pump: Pump, oil: Oil, mass: Array, step: tuple[Array, Array, Array, float]
-) -> tuple[Array, Array]:
+def _settled(pump: Pump, oil: Oil, mass: Array, step: tuple[Array, Array, Array, float]) -> tuple[Array, Array]:
     """Pressure and mass at the end of a step that begins with a mass (kg) less leakage."""
     volume, time, port, area = step
     at_port = oil.dense(port)

@@ -10,8 +10,8 @@ class Hidden:
     """Sizes, SI; laws in gaps.py, rubbing.py, chamber.py and aside.py.
 
     viscosity_pressure: 1/Pa at small pressure; opening_*: 1/Pa of a gap's film; film_heating: factor on the Nahme
-    number; shear_thinning: 1/Pa, one over Eyring's stress; mixed_friction: coefficient at rest; thermal_*: 1/K; lift: m;
-    squeeze: m of stroke; churning: factor; seal: N m at rated speed; charge_pump: m3 a turn; short_circuit: m2;
+    number; shear_thinning: 1/Pa, one over Eyring's stress; mixed_friction: coefficient at rest; thermal_*: 1/K; lift:
+    m; squeeze: m of stroke; churning: factor; seal: N m at rated speed; charge_pump: m3 a turn; short_circuit: m2;
     cross_leak: m3; control_flow: m3/s at 20 MPa; droop: share of the full stroke at 35 MPa; throttling: Pa at rated
     flow; suction: Pa at rated flow; erosion: rad; air: share at atmosphere; resonance: share of the delivery;
     compression: share. In no catalogue: weeping: m3/s at 35 MPa into the case above 25 MPa; belt: N m at rated

@@ -12,8 +12,9 @@ class Hidden:
     opening, thickening: share of the leakage's pressure factor at 30 MPa; clearance: 1/K; heating: K of the films at 20
     MPa; control, short_circuit, cross_leak, squeeze: flow over that of the plate at 20 MPa and 40 degC; droop: share
     of the stroke at 30 MPa; mixed: coefficient at rest; compression: share of the stored energy; churning: torque over
-    V 1 MPa/(2 pi) at 1480 r/min. In no catalogue: weeping: flow over the plate's at 30 MPa, above 18 MPa; softening: 1/K of the
-    modulus; swelling: flow over the plate's about 12 MPa; creeping: torque over V 1 MPa/(2 pi) with pressure in cold oil.
+    V 1 MPa/(2 pi) at 1480 r/min. In no catalogue: weeping: flow over the plate's at 30 MPa, above 18 MPa; softening:
+    1/K of the modulus; swelling: flow over the plate's about 12 MPa; creeping: torque over V 1 MPa/(2 pi) with pressure
+    in cold oil.
     """
 
     opening: float = 0.0

@@ -13,15 +13,19 @@ from .pump import RPM, Array, Pump
 
 LITRES = 1e-3 / 60.0
 WANDER = 0.4  # of a flow or torque meter's noise, that which wanders slowly
+MEMORIES = (0.5, 3.0, 10.0)  # samples
+SLOW = 60.0, 200.0
 MISSTATED = (0.3, 0.5, 2.0, 3.0)
 TAIL, FREEDOM = 0.01, 3  # share of samples from Student's t
 
 
 @dataclass(frozen=True)
 class Meter:
-    """One channel: column and unit, SI of one unit; noise (one sigma of a sample), its memory in samples, and the memory
-    of WANDER of it that is slow, 0 for none; gain, zero, drift over the course, dead band, lag (s), storage (m3/Pa, of the line it stands behind); digits written;
-    stated: what recording.toml says of its noise, "" for nothing. SI but for the digits.
+    """One channel, SI but for the digits.
+
+    column, unit: of the file, scale: SI of one unit; noise: one sigma of a sample, memory: its own in samples, slow:
+    that of WANDER of it, 0 for none; digits written; lag in s; gain, zero, drift over the course; band: least reading;
+    storage: m3/Pa of the line before it; stated: what recording.toml says of its noise, "" for nothing.
     """
 
     column: str
@@ -45,29 +49,44 @@ Meters = dict[str, Meter]
 
 def drawn_meters(pump: Pump, course: Course, truth: Flows, with_torque: bool, rng: np.random.Generator) -> Meters:
     """The meters of one bench, in the order of its columns."""
-    flow, drain = float(np.median(truth.Q_out)), float(np.median(truth.Q_case))
-    torque = float(np.median(truth.torque))
     own = {
         "p_out": Meter("p_out_bar", "bar", 1e5, 1.5e4, 1.0, 2, zero=5e3 * rng.normal()),
         "p_case": Meter("p_case_bar", "bar", 1e5, 500.0, 1.0, 3),
         "T_in": Meter("T_in_C", "degC", 1.0, 0.06, 1.0, 2, lag=rng.uniform(5.0, 20.0), zero=0.15 * rng.normal()),
         "T_case": Meter("T_case_C", "degC", 1.0, 0.08, 1.0, 2, lag=rng.uniform(10.0, 50.0), zero=0.25 * rng.normal()),
-        "Q_out": Meter(
-            "Q_out_lpm", "L/min", LITRES, rng.uniform(4e-4, 1.2e-3) * flow, rng.choice((0.5, 3.0, 10.0)),
-            _digits(flow), slow=rng.uniform(60.0, 200.0), lag=rng.uniform(0.3, 3.0), gain=0.002 * rng.normal(), storage=rng.uniform(2e-13, 2e-12),
-        ),
-        "Q_case": Meter(
-            "Q_case_lpm", "L/min", LITRES, rng.uniform(0.006, 0.02) * drain, rng.choice((0.5, 3.0, 10.0)),
-            _digits(drain), slow=rng.uniform(60.0, 200.0), lag=rng.uniform(1.0, 8.0), gain=0.005 * rng.normal(), zero=0.005 * drain * rng.normal(),
-            band=float(np.quantile(truth.Q_case, rng.uniform(0.0, 0.12))),
-        ),
-    }  # fmt: skip
+        "Q_out": _delivery(float(np.median(truth.Q_out)), rng),
+        "Q_case": _drain(truth.Q_case, rng),
+    }
     if with_torque:
-        own["torque"] = Meter("torque_Nm", "N m", 1.0, rng.uniform(0.003, 0.008) * torque, 1.0, _digits(torque / LITRES),
-                              slow=rng.uniform(60.0, 200.0), gain=0.002 * rng.normal(), zero=0.002 * torque * rng.normal())  # fmt: skip
+        own["torque"] = _torque(float(np.median(truth.torque)), rng)
     if np.ptp(course.state.speed) > 0.1 * pump.speed:
         own["speed"] = Meter("speed_rpm", "rpm", RPM, 0.5 * RPM, 1.0, 1)
     return {name: replace(meter, stated=_statement(name, meter, rng)) for name, meter in own.items()}
+
+
+def _delivery(flow: float, rng: np.random.Generator) -> Meter:
+    noise, memory = rng.uniform(4e-4, 1.2e-3) * flow, rng.choice(MEMORIES)
+    return Meter(
+        "Q_out_lpm", "L/min", LITRES, noise, memory, _digits(flow / LITRES), slow=rng.uniform(*SLOW),
+        lag=rng.uniform(0.3, 3.0), gain=0.002 * rng.normal(), storage=rng.uniform(2e-13, 2e-12),
+    )  # fmt: skip
+
+
+def _drain(flows: Array, rng: np.random.Generator) -> Meter:
+    flow = float(np.median(flows))
+    noise, memory = rng.uniform(0.006, 0.02) * flow, rng.choice(MEMORIES)
+    return Meter(
+        "Q_case_lpm", "L/min", LITRES, noise, memory, _digits(flow / LITRES), slow=rng.uniform(*SLOW),
+        lag=rng.uniform(1.0, 8.0), gain=0.005 * rng.normal(), zero=0.005 * flow * rng.normal(),
+        band=float(np.quantile(flows, rng.uniform(0.0, 0.12))),
+    )  # fmt: skip
+
+
+def _torque(torque: float, rng: np.random.Generator) -> Meter:
+    return Meter(
+        "torque_Nm", "N m", 1.0, rng.uniform(0.003, 0.008) * torque, 1.0, _digits(torque), slow=rng.uniform(*SLOW),
+        gain=0.002 * rng.normal(), zero=0.002 * torque * rng.normal(),
+    )  # fmt: skip
 
 
 def read(meters: Meters, course: Course, truth: Flows, rng: np.random.Generator) -> dict[str, Array]:
@@ -109,8 +128,8 @@ def _first_order(count: int, memory: float, rng: np.random.Generator) -> Array:
 
 
 def _digits(median: float) -> int:
-    """Decimals by which a meter of three to four figures is written, by the median of its channel (m3/s)."""
-    return int(np.clip(3 - np.ceil(np.log10(max(median / LITRES, 1e-3))), 1, 3))
+    """Decimals by which a meter of three to four figures is written, by its median in the unit of the file."""
+    return int(np.clip(3 - np.ceil(np.log10(max(median, 1e-3))), 1, 3))
 
 
 def _statement(name: str, meter: Meter, rng: np.random.Generator) -> str:

@@ -1,8 +1,9 @@
 """Flows and torque of a pump in closed forms without scale, after Wilson (1950), with laws of their own.
 
-Leakage V p/(2 pi mu); delivery w V/(2 pi) less what compression and leakage take; torque V p/(2 pi) with a Coulomb, a
-viscous and a fixed share. Opened gaps: (1 + c p)^3 of the whole film; oil that thickens: its viscosity at half of the
-pressure; an edge: Blasius' 1.75th power; a bleed: p^.6; contact: 1/(1 + H/H0).
+Leakage V p/(2 pi mu), in powers of pressure and viscosity that differ a little from make to make; delivery w V/(2 pi)
+less what compression and leakage take; torque V p/(2 pi) with a Coulomb, a viscous and a fixed share. Opened gaps: (1 +
+c p)^3 of the whole film; oil that thickens: its viscosity at half of the pressure; an edge: Blasius' 1.75th power; a
+bleed: p^.6; contact: 1/(1 + H/H0).
 """
 
 from __future__ import annotations
@@ -16,6 +17,7 @@ from .pump import FULL, MIDDLE, TURN, Array, Pump
 
 WARM = 0.04  # 1/K, of viscosity in a film that heats up
 HERSEY = 6e-7  # mu w/p at which contact bears half
+LEAST, THICK = 1.0e5, 0.04  # Pa, Pa s
 UNIT = 1.0e6  # Pa, of torques over V p/(2 pi)
 USUAL_SPEED = 154.98523757709612  # rad/s, 1480 r/min
 
@@ -61,8 +63,9 @@ def _leaks(pump: Pump, at: State, hidden: Hidden, mu: Array) -> Array:
     p = at.pressure
     opened = (1.0 + hidden.opening * p / FULL) ** 3 * np.exp(-0.5 * hidden.thickening * p / FULL)
     expanded = np.maximum(1.0 + hidden.clearance * (at.body - 40.0), 0.1) ** 3
-    warmed = np.exp(WARM * hidden.heating * (0.6 * p / MIDDLE + 0.4 * mu * at.speed / (0.04 * USUAL_SPEED)))
-    return np.asarray(pump.leak * pump.displacement * p / (TURN * mu) * opened * expanded * warmed)
+    warmed = np.exp(WARM * hidden.heating * (0.6 * p / MIDDLE + 0.4 * mu * at.speed / (THICK * USUAL_SPEED)))
+    form = (np.maximum(p, LEAST) / MIDDLE) ** pump.bend * (mu / THICK) ** pump.slack
+    return np.asarray(pump.leak * pump.displacement * p / (TURN * mu) * form * opened * expanded * warmed)
 
 
 def _to_case(pump: Pump, at: State, hidden: Hidden) -> Array:
@@ -90,8 +93,9 @@ def _torque(pump: Pump, at: State, hidden: Hidden, mu: Array) -> Array:
     stroke = 1.0 - hidden.droop * (p / FULL) ** 1.2
     stored = (1.0 + 2.0 * pump.dead) * p / (2.0 * pump.modulus)
     ideal = arm * p * (stroke - pump.recovered * stored + hidden.compression * stored * (p / FULL) ** -0.2)
-    contact = pump.coulomb + hidden.mixed / (1.0 + mu * at.speed / np.maximum(p, 1e5) / HERSEY)
+    loaded = np.maximum(p, LEAST)
+    contact = pump.coulomb * (loaded / MIDDLE) ** pump.rub + hidden.mixed / (1.0 + mu * at.speed / loaded / HERSEY)
     viscous = pump.viscous * mu * at.speed * arm
-    churning = hidden.churning * (at.speed / USUAL_SPEED) ** 1.85 * (mu / 0.04) ** 0.15
+    churning = hidden.churning * (at.speed / USUAL_SPEED) ** 1.85 * (mu / THICK) ** 0.15
     creeping = hidden.creeping * np.sqrt(np.maximum(p, 0.0) / MIDDLE) * np.exp(-(at.case - 40.0) / 8.0)
     return np.asarray(ideal + arm * p * contact + viscous + pump.fixed + arm * UNIT * (churning + creeping))

@@ -21,7 +21,8 @@ class Pump:
 
     leak: flow into the case over V p/(2 pi mu); coulomb: torque over V p/(2 pi); viscous: torque over mu w V; fixed:
     N m; unrecovered: share of the compression work that the ports give back; grade: ISO VG; viscosity: factor on it,
-    slope: 1/K on that about 40 degC.
+    slope: 1/K on that about 40 degC. Of one make and another: leakage grows with the power 1 + bend of pressure and
+    -1 + slack of viscosity, Coulomb torque with 1 + rub of pressure.
     """
 
     pistons: int
@@ -38,6 +39,9 @@ class Pump:
     grade: int
     viscosity: float
     slope: float
+    bend: float
+    slack: float
+    rub: float
     density: float = 865.0
 
     def thick(self, celsius: Array) -> Array:
@@ -47,6 +51,10 @@ class Pump:
         nu = cold * np.exp(fall * (1.0 / (celsius + VOGEL) - 1.0 / (40.0 + VOGEL)))
         own = self.viscosity * np.exp(self.slope * (celsius - 40.0))
         return np.asarray(1e-6 * self.density * own * nu)
+
+
+MAKE = {"slope": 0.0007, "bend": 0.03, "slack": 0.03, "rub": 0.05}
+"""One sigma of what differs, by an amount, from make to make."""
 
 
 def drawn(rng: np.random.Generator) -> Pump:
@@ -65,6 +73,7 @@ def drawn(rng: np.random.Generator) -> Pump:
         fixed=float(rng.uniform(0.5, 1.5)) * (plate / 9e-5), recovered=float(rng.uniform(0.05, 0.2)),
         modulus=1.6e9 * float(np.exp(0.05 * rng.normal())), grade=grade,
         viscosity=float(np.exp(0.03 * rng.normal())), slope=float(0.0005 * rng.normal()),
+        **{name: float(sigma * rng.normal()) for name, sigma in MAKE.items() if name != "slope"},
     )  # fmt: skip
 
 
@@ -73,5 +82,3 @@ UNCERTAIN = {
     "modulus": 0.1, "viscosity": 0.05,
 }  # fmt: skip
 """One sigma, of the logarithm, of what is not known of such a pump."""
-SLOPE = 0.0007
-"""The same of its oil's slope, 1/K."""
