@@ -21,7 +21,7 @@ from .plant.model import State, flows
 from .plant.pump import MAKE, UNCERTAIN, Array, Pump
 
 PARTS = 10  # of the pressure's range, and of the time
-GAIN, ZERO = 0.003, 0.002  # one sigma of a meter: relative, and over its median
+GAIN, ZERO = 0.003, 0.003  # one sigma of a meter: relative, and over its median
 P_OUT, T_CASE = 1e4, 0.5  # Pa, K: the same of the zeros of inputs
 UNREAD = 1e3  # times its noise: sigma of a mean that a dead band swallows
 NAMES = ("Q_out", "Q_case", "torque")

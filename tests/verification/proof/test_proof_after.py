@@ -88,14 +88,15 @@ def test_a_point_is_recorded_where_it_was_asked(proof: SimpleNamespace, made: Si
     study = SimpleNamespace(channels=(ChannelName.Q_OUT, ChannelName.Q_CASE))
     place = (150.0, 20e6, 0.8, 326.0)
     rng = np.random.default_rng(4)
-    points, values = proof.worth._recorded(study, box, place, made.case, made.made, 3, rng)
+    rig = proof.trial._rig(made.case, made.made)
+    points, values = proof.worth._recorded(study, box, place, rig, 3, rng)
     assert values.shape == (3, 2)
     assert points.speed == pytest.approx(150.0, abs=0.6)
     assert points.p_out == pytest.approx(20e6, abs=4e5)
     assert points.p_in == pytest.approx(2.4e6, abs=6e4)
     assert np.all(points.displacement_ratio == 0.8)
-    sound = replace(made.made, faults=())
-    _, without = proof.worth._recorded(study, box, place, made.case, sound, 3, np.random.default_rng(4))
+    sound = replace(rig, faults=())
+    _, without = proof.worth._recorded(study, box, place, sound, 3, np.random.default_rng(4))
     step = 10.0 ** -proof.sensors.METERS["Q_case"].digits * proof.sensors.METERS["Q_case"].scale
     fault = made.made.faults[0].zero
     assert values[:, 1] - without[:, 1] == pytest.approx(fault, rel=0.05, abs=2.0 * step)

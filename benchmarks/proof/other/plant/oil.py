@@ -12,7 +12,7 @@ ATMOSPHERE = 101325.0
 VAPOUR = 3.0e3  # Pa absolute at which a cavity opens
 POLYTROPE = 1.4  # of bubbles, adiabatic
 CENTRE = 50.0  # degC about which the slope of one oil may differ
-COLD, HOT = (40.0, 39.56), (100.0, 5.848)  # degC, mPa s of the data sheet
+COLD, HOT = (40.0, 39.56), (70.0, 12.78)  # degC, mPa s of the data sheet, at the ends of the usual range
 ZERO, POLE = 1.2, 135.0  # Roelands' constants
 
 

@@ -77,7 +77,7 @@ def _drain(flows: Array, rng: np.random.Generator) -> Meter:
     noise, memory = rng.uniform(0.006, 0.02) * flow, rng.choice(MEMORIES)
     return Meter(
         "Q_case_lpm", "L/min", LITRES, noise, memory, _digits(flow / LITRES), slow=rng.uniform(*SLOW),
-        lag=rng.uniform(1.0, 8.0), gain=0.005 * rng.normal(), zero=0.005 * flow * rng.normal(),
+        lag=rng.uniform(1.0, 8.0), gain=0.005 * rng.normal(), zero=0.003 * flow * rng.normal(),
         band=float(np.quantile(flows, rng.uniform(0.0, 0.12))),
     )  # fmt: skip
 
