@@ -71,8 +71,9 @@ def test_the_drawing_is_that_of_the_pump(plant: SimpleNamespace) -> None:
     assert np.abs(move.slope).max() * 2100.0 * RPM == pytest.approx(2.890, abs=5e-4)
     for rises, rate in ((move.travel[0], move.slope[0]), (move.slope[0], move.bend[0])):
         assert np.diff(rises) == pytest.approx(np.diff(move.angle) * 0.5 * (rate[1:] + rate[:-1]), abs=1e-10)
-    celsius = np.array([40.0, 50.0, 60.0, 70.0])
-    assert pump.oil(0.0).thick(celsius + 273.15) * 1e3 == pytest.approx([39.56, 25.8, 17.6, 12.78], rel=0.01)
+    kelvin = np.array([308.15, 323.15, 333.15, 348.15])
+    walther = 860.0 * 1e-6 * (10.0**10.0 ** (9.4180 - 3.6844 * np.log10(kelvin)) - 0.7)
+    assert pump.oil(0.0).thick(kelvin) == pytest.approx(walther, rel=0.01)
     films = plant.gaps.gaps(pump, plant.hidden.Hidden(), _points(plant))
     slipper = films.leak[1] / (1.0 + films.leak[1] * films.choked)
     leaks = 4.5 * 35.0e6 * 60e3 * np.array([slipper[2], films.leak[2][2]])

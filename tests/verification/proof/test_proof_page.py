@@ -96,8 +96,8 @@ def test_gates_hold_and_fail(proof: SimpleNamespace, right: object) -> None:
 
 def test_wilson_interval(proof: SimpleNamespace) -> None:
     """Wilson (1927), 3 of 100: 1.0 % to 8.5 %; none of 200: 0 to 1.9 %."""
-    assert proof.gates.wilson(3, 100) == pytest.approx((0.0103, 0.0845), abs=1e-4)
-    assert proof.gates.wilson(0, 200) == pytest.approx((0.0, 0.0188), abs=1e-4)
+    assert proof.calibration.wilson(3, 100) == pytest.approx((0.0103, 0.0845), abs=1e-4)
+    assert proof.calibration.wilson(0, 200) == pytest.approx((0.0, 0.0188), abs=1e-4)
 
 
 def test_calibration_of_one_case(proof: SimpleNamespace, right: object) -> None:
