@@ -67,7 +67,7 @@ def drawn_meters(pump: Pump, course: Course, truth: Flows, with_torque: bool, rn
 def _delivery(flow: float, rng: np.random.Generator) -> Meter:
     noise, memory = rng.uniform(4e-4, 1.2e-3) * flow, rng.choice(MEMORIES)
     return Meter(
-        "Q_out_lpm", "L/min", LITRES, noise, memory, _digits(flow / LITRES), slow=rng.uniform(*SLOW),
+        "Q_out_lpm", "L/min", LITRES, noise, memory, _digits(noise / LITRES), slow=rng.uniform(*SLOW),
         lag=rng.uniform(0.3, 3.0), gain=0.002 * rng.normal(), storage=rng.uniform(2e-13, 2e-12),
     )  # fmt: skip
 
@@ -76,15 +76,16 @@ def _drain(flows: Array, rng: np.random.Generator) -> Meter:
     flow = float(np.median(flows))
     noise, memory = rng.uniform(0.006, 0.02) * flow, rng.choice(MEMORIES)
     return Meter(
-        "Q_case_lpm", "L/min", LITRES, noise, memory, _digits(flow / LITRES), slow=rng.uniform(*SLOW),
+        "Q_case_lpm", "L/min", LITRES, noise, memory, _digits(noise / LITRES), slow=rng.uniform(*SLOW),
         lag=rng.uniform(1.0, 8.0), gain=0.005 * rng.normal(), zero=0.003 * flow * rng.normal(),
         band=float(np.quantile(flows, rng.uniform(0.0, 0.12))),
     )  # fmt: skip
 
 
 def _torque(torque: float, rng: np.random.Generator) -> Meter:
+    noise = rng.uniform(0.003, 0.008) * torque
     return Meter(
-        "torque_Nm", "N m", 1.0, rng.uniform(0.003, 0.008) * torque, 1.0, _digits(torque), slow=rng.uniform(*SLOW),
+        "torque_Nm", "N m", 1.0, noise, 1.0, _digits(noise), slow=rng.uniform(*SLOW),
         gain=0.002 * rng.normal(), zero=0.002 * torque * rng.normal(),
     )  # fmt: skip
 
@@ -127,9 +128,9 @@ def _first_order(count: int, memory: float, rng: np.random.Generator) -> Array:
     return np.asarray(lfilter([np.sqrt(1.0 - left**2)], [1.0, -left], rng.normal(size=count), zi=[left * start])[0])
 
 
-def _digits(median: float) -> int:
-    """Decimals by which a meter of three to four figures is written, by its median in the unit of the file."""
-    return int(np.clip(3 - np.ceil(np.log10(max(median, 1e-3))), 1, 3))
+def _digits(noise: float) -> int:
+    """Decimals of which the last is finer than the noise, in the unit of the file."""
+    return int(np.clip(np.ceil(-np.log10(noise)), 1, 4))
 
 
 def _statement(name: str, meter: Meter, rng: np.random.Generator) -> str:
