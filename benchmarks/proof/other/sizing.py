@@ -10,9 +10,8 @@ import numpy as np
 
 from ..campaigns import campaigns
 from ..sensors import METERS, Fault, stated_sigma
-from ..sizing import size_for
 from ..wide.case import Secret, What, WideCase
-from ..wide.scoring import Whitening, whitening
+from ..wide.scoring import Whitening, sizes, whitening
 from .plant.hidden import NOTHING, Hidden
 from .plant.points import Array, Points
 from .plant.pump import UNCERTAIN, Pump, varied
@@ -39,18 +38,12 @@ def concealed(secrets: Sequence[Secret], factors: Sequence[float]) -> tuple[Hidd
 
 
 def sized(case: WideCase) -> tuple[list[float], list[float]]:
-    """Factors by which each secret has the score asked for (0: its own size), and scores reached."""
+    """Factors by which each secret, beside the others, has the score asked for (0: its own size); scores reached."""
 
-    def score(one: Secret, factor: float) -> float:
-        return _whitening(case.campaign).z(shift(case.campaign, (one,), (factor,)))
+    def white(k: int, factor: float) -> Array:
+        return _whitening(case.campaign).white(shift(case.campaign, (case.secrets[k],), (factor,)))
 
-    if case.score == 0.0:
-        return [1.0 for _ in case.secrets], [score(one, 1.0) for one in case.secrets]
-    found = [
-        size_for(case.score, lambda factor, one=one: score(one, factor), 1.0, min(one.most, MOST_FAULT))
-        for one in case.secrets
-    ]
-    return [factor for factor, _ in found], [reached for _, reached in found]
+    return sizes(case.score, white, [min(one.most, MOST_FAULT) for one in case.secrets])
 
 
 def shift(name: str, secrets: Sequence[Secret], factors: Sequence[float]) -> Array:

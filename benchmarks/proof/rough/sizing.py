@@ -11,9 +11,8 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ..sizing import size_for
 from ..wide.case import Secret, What, WideCase
-from ..wide.scoring import Whitening, whitening
+from ..wide.scoring import Whitening, sizes, whitening
 from .plant.course import Course
 from .plant.hidden import NOTHING, Hidden
 from .plant.meters import WANDER, Meters
@@ -76,18 +75,17 @@ def concealed(bench: Bench, secrets: Sequence[Secret], factors: Sequence[float])
 
 
 def sized(case: WideCase, bench: Bench) -> tuple[list[float], list[float], dict[str, float]]:
-    """Factors of the score asked for, scores reached, and each channel's square of the shift in sigma."""
+    """Factors of the score asked for beside the others, scores reached, each channel's square of the shift in sigma."""
     sigma = _sigma(bench)
     white = _whitening(bench, sigma)
 
-    def score(one: Secret, factor: float) -> float:
-        return white.z(_shift(bench, (one,), (factor,)))
+    def shifted(k: int, factor: float) -> Array:
+        return white.white(_shift(bench, (case.secrets[k],), (factor,)))
 
-    found = [size_for(case.score, lambda f, one=one: score(one, f), 1.0, one.most) for one in case.secrets]
-    factors = [factor for factor, _ in found]
+    factors, scores = sizes(case.score, shifted, [one.most for one in case.secrets])
     moved = _shift(bench, case.secrets, factors) / sigma
     strength = dict(zip(bench.outputs, (moved**2).sum(axis=0), strict=True))
-    return factors, [reached for _, reached in found], {name: float(one) for name, one in strength.items()}
+    return factors, scores, {name: float(one) for name, one in strength.items()}
 
 
 def _shift(bench: Bench, secrets: Sequence[Secret], factors: Sequence[float]) -> Array:

@@ -26,7 +26,8 @@ No two plants share anything, nor does one share anything with the program.
 
 The score z of a rough recording is that of the plant's own model, fitted to its own quasi-steady means. Everything
 that a type plate leaves open is uncertain there. An effect that would need an impossible size keeps the score that it
-has. Of two or three effects each alone has the score. A sensor's fault beside physics may be named too; it need not be.
+has. Of two or three effects each has the score beside the others. A sensor's fault beside physics may be named too; it
+need not be.
 
 """
 WORDS = {True: "", False: " **missed**", None: ""}

@@ -104,6 +104,22 @@ def test_a_score_is_what_nuisances_leave(wide: SimpleNamespace) -> None:
     assert alone == pytest.approx(float(np.linalg.norm(moved / sigma)))
 
 
+def test_sizes_count_what_others_cannot_make(wide: SimpleNamespace) -> None:
+    """Two columns at 30 deg: each needs twice the size that it needs alone; one bounded stays below what is asked."""
+    columns = np.array([[1.0, 0.0, 0.0], [np.cos(np.pi / 6.0), np.sin(np.pi / 6.0), 0.0]])
+
+    def white(k: int, factor: float) -> np.ndarray:
+        return factor * columns[k]
+
+    assert wide.scoring.apart(list(columns)) == pytest.approx([0.5, 0.5])
+    factors, scores = wide.scoring.sizes(8.0, white, [np.inf, np.inf])
+    assert factors == pytest.approx([16.0, 16.0], rel=0.04)
+    assert scores == pytest.approx([8.0, 8.0], rel=0.04)
+    factors, scores = wide.scoring.sizes(8.0, white, [10.0, np.inf])
+    assert (factors[0], scores[0]) == pytest.approx((10.0, 5.0))
+    assert wide.scoring.sizes(0.0, white, [1.0]) == ([1.0], [1.0])
+
+
 def test_a_fault_beside_physics_may_be_named(proof: SimpleNamespace, right: object) -> None:
     """With it or without it the verdict is right, and the truth the first; the fault alone is not right."""
     judged = proof.judged
