@@ -14,7 +14,7 @@ class Plant(Enum):
 
 
 class Part(Enum):
-    """What a case is there to show."""
+    """Kinds of cases, by the plant and by the truth."""
 
     NULL = "null"
     GRADED = "graded"

@@ -23,7 +23,7 @@ MOST_FAULT = 1e4  # times the size at factor 1
 
 
 def concealed(secrets: Sequence[Secret], factors: Sequence[float]) -> tuple[Hidden, tuple[Fault, ...], Pump]:
-    """What is hidden in the plant, faults of its sensors, and the drawing with its wrong parts."""
+    """Effects hidden in the plant, faults of its sensors, and the drawing with its wrong parts."""
     hidden, faults, pump = NOTHING, [], Pump()
     for one, factor in zip(secrets, factors, strict=True):
         size = factor * one.size

@@ -58,7 +58,7 @@ class Bench:
 
 
 def concealed(bench: Bench, secrets: Sequence[Secret], factors: Sequence[float]) -> tuple[Hidden, Meters]:
-    """What is hidden in the pump, and meters with their faults."""
+    """Effects hidden in the pump, and meters with their faults."""
     hidden, meters = NOTHING, dict(bench.meters)
     nominal = flows(bench.pump, bench.course.state)
     for one, factor in zip(secrets, factors, strict=True):

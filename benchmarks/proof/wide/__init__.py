@@ -1,1 +1,1 @@
-"""What the proof's second and third plant share: form of a case, score, trial, gates."""
+"""Common to the proof's second and third plant: form of a case, score, trial, gates."""

@@ -47,7 +47,7 @@ class WideCase:
 
     @property
     def name(self) -> str:
-        """What is concealed, how large, where: one line."""
+        """Secrets, their score, plant and campaign: one line."""
         concealed = " + ".join(one.label for one in self.secrets) or "nothing"
         grade = f", z {self.score:g}" if self.score else ""
         return f"{concealed}{grade}, {self.part.plant.value}: {self.campaign}, seed {self.seed}"

@@ -26,7 +26,7 @@ class WideMade:
 def expected(
     case: WideCase, factors: Sequence[float], scores: Sequence[float], strength: Mapping[str, float]
 ) -> Outcome:
-    """What is true of a case; the score is the least of what a right verdict names.
+    """The truth of a case; the score is the least of what a right verdict names.
 
     strength: channel -> square of its shift in sigma.
     """

@@ -81,7 +81,7 @@ def test_the_drawing_is_that_of_the_pump(plant: SimpleNamespace) -> None:
 
 
 def test_a_chamber_balances_and_converges(plant: SimpleNamespace, monkeypatch: pytest.MonkeyPatch) -> None:
-    """What is drawn is delivered or leaks; flow and work of half the steps differ by less than half of a sigma."""
+    """Oil that is drawn is delivered or leaks; flow and work of half the steps differ by less than half of a sigma."""
     pump, at, nothing = plant.pump.Pump(), _points(plant), plant.hidden.Hidden()
 
     def turn() -> SimpleNamespace:

@@ -47,7 +47,7 @@ def test_pumps_are_of_any_size(rough: SimpleNamespace) -> None:
 
 
 def test_flow_and_torque_balance(rough: SimpleNamespace) -> None:
-    """What compression and leakage leave is delivered; torque is that of the pressure and a friction of its class."""
+    """Compression and leakage take the share that is not delivered; torque is the ideal one and a usual friction."""
     bench = _bench(rough, "triangles")
     pump, state = bench.pump, bench.course.state
     found = rough.model.flows(pump, state)

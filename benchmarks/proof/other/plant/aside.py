@@ -1,4 +1,4 @@
-"""What runs past the chambers, drags on the shaft or bends a reading, by laws of the second plant."""
+"""Flows past the chambers, drag on the shaft and a meter's bias, by laws of the second plant."""
 
 from __future__ import annotations
 

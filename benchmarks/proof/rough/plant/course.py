@@ -1,4 +1,4 @@
-"""What is run: stairs, ramps, triangles and sweeps of pressure at one speed or some, while the oil warms."""
+"""Courses: stairs, ramps, triangles and sweeps of pressure at one speed or some, while the oil warms."""
 
 from __future__ import annotations
 

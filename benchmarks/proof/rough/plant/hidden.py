@@ -1,4 +1,4 @@
-"""What may be concealed in a pump of the third plant, 0 where it is absent."""
+"""Sizes of all that may be concealed in a pump of the third plant, 0 where it is absent."""
 
 from __future__ import annotations
 
