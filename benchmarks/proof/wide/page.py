@@ -13,12 +13,12 @@ from .gates import by_plant
 TEXT = """
 ## Gates on three plants
 
-No two plants share anything, nor does one share anything with the program.
+No plant shares code with another one or with the program; campaigns and sensors of the second are those of the first.
 
 - First plant: that of the gates above.
 - Other laws (`benchmarks/proof/other`): a lumped pump of the same drawing. Its viscosity follows Roelands, its density
   a secant modulus. Leakage has closed forms, a chamber one implicit step of closed form at each angle. Every effect has
-  another law than in the program and in the first plant. Campaigns and sensors are those above.
+  another law than in the program and in the first plant.
 - Rough (`benchmarks/proof/rough`): pumps of 5 to 11 pistons and 10 to 250 cm3, known by their type plate. Pressure runs
   through stairs, ramps, triangles or sweeps at 1 Hz for 4,000 to 8,000 s while the oil warms, at one speed or at three.
   Meters lag, have a zero, a dead band, noise that wanders and a last digit; their repeatability is unstated, stated, or
