@@ -36,7 +36,7 @@ def combine(
         tried = _additions(study, best, known, thresholds)
         if len(best.hypothesis.effects) == 1:
             tried += [each for each in _pairs(study, known, thresholds) if not _holds(tried, each)]
-        done, reasons = refit_all(study, tried, thresholds, executor, report)
+        done, reasons = refit_all(study, tried, thresholds, executor, report, part=best)
         failed += reasons
         refitted = [each for each in done if each.posterior is not None]
         found += refitted

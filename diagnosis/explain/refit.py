@@ -9,44 +9,42 @@ from math import inf, log
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.linalg import cho_factor, cho_solve
 from scipy.special import logsumexp
 
 from diagnosis.explain.hypotheses import Hypothesis, candidates_of, simulator_of
 from diagnosis.explain.ranked import Explanation
 from diagnosis.explain.screen import joint_evidence
+from diagnosis.explain.starts import Expansion, lent_slopes, start
 from diagnosis.study.model import Study
 from diagnosis.thresholds import Thresholds
 from reynolds.errors import NotConverged
-from reynolds.numerics.arrays import Array
-from system.estimation.bounded_step import Bounds
 from system.estimation.fit import FitLimits, maximum_posterior
-from system.estimation.parameters import Parameter
 from system.estimation.posterior import Posterior, values_at
-from system.estimation.simulator import Simulator
 from system.work.processes import ProcessPool
 from system.work.progress import Report
 
 SIZES = (0.1, 0.3, 1.0, 2.0)  # trial sizes of a start, in spreads
-BESIDE = (0.75, 0.9)  # factors on the best size, and their inverses
 ROUGHLY = (0.3, 1.0)  # trial sizes of a first look
 AT_BOUND = 0.999  # of a bound: a fit ends so near to it
 LIMITS = FitLimits(change=0.1)  # of the objective: a twentieth of a nat decides nothing, and costs sixfold less
 
 
-def refit(study: Study, hypothesis: Hypothesis, thresholds: Thresholds, hopeless: float = inf) -> Explanation:
+def refit(
+    study: Study, hypothesis: Hypothesis, thresholds: Thresholds, hopeless: float = inf, part: Explanation | None = None
+) -> Explanation:
     """The hypothesis at the peak of its posterior; of a grid the best member, its evidence averaged over all.
 
     A fault has no typical multiple of the tolerance: if a widened parameter goes farther than `reach`, its prior
     is a mixture, with a tenth of its mass ten times as wide (a size as likely in each decade). hopeless: an
-    objective above which a fit stops early. Raises NotConverged if no member converges.
+    objective above which a fit stops early. part: a refitted explanation by some of the effects, from whose peak
+    the fit starts. Raises NotConverged if no member converges.
     """
-    near = _refitted(study, replace(hypothesis, reach=1.0), thresholds, hopeless)
+    near = _refitted(study, replace(hypothesis, reach=1.0), thresholds, hopeless, part)
     limits = thresholds.fit
     if not _strained(near, limits.reach):
         return near
     try:
-        far = _refitted(study, replace(hypothesis, reach=limits.farther), thresholds, hopeless)
+        far = _refitted(study, replace(hypothesis, reach=limits.farther), thresholds, hopeless, part)
     except NotConverged:
         return near
     shares = near.log_evidence + log(1.0 - 1.0 / limits.farther), far.log_evidence - log(limits.farther)
@@ -94,21 +92,24 @@ def _strained(explanation: Explanation, reach: float) -> bool:
     )
 
 
-def _refitted(study: Study, hypothesis: Hypothesis, thresholds: Thresholds, hopeless: float) -> Explanation:
+def _refitted(
+    study: Study, hypothesis: Hypothesis, thresholds: Thresholds, hopeless: float, part: Explanation | None
+) -> Explanation:
     """The same with one width of prior.
 
     Members of a grid that are not refitted count as 0, so that their average is never too high.
     """
     limits = replace(LIMITS, hopeless=inf if _gross(study, thresholds) else hopeless)
-    members = _likeliest(study, hypothesis, thresholds)
+    about, fresh = _about(study, hypothesis, part)
+    members = _likeliest(study, hypothesis, thresholds, about, fresh)
     found: list[tuple[Hypothesis, Posterior]] = []
     failed: list[NotConverged] = []
     for member in members:
         simulator = simulator_of(study, member, thresholds)
         try:
-            start = _start(study, simulator, member.open_names, SIZES, thresholds.fit.reach)[1]
-            lent = _lent_slopes(study, simulator, member.open_names, start)
-            found.append((member, maximum_posterior(simulator, study.observations, start, limits, lent)))
+            begin = start(study, simulator, about, fresh, SIZES, thresholds.fit.reach)[1]
+            lent = lent_slopes(simulator, about, fresh, begin)
+            found.append((member, maximum_posterior(simulator, study.observations, begin, limits, lent)))
         except NotConverged as reason:
             failed.append(reason)
     if not found:
@@ -118,16 +119,29 @@ def _refitted(study: Study, hypothesis: Hypothesis, thresholds: Thresholds, hope
     return Explanation(best, evidence, False, posterior, _size_over_sigma(posterior, best), 0.0, None)
 
 
+def _about(study: Study, hypothesis: Hypothesis, part: Explanation | None) -> tuple[Expansion, tuple[str, ...]]:
+    """Linear model about which a fit starts, at the peak of a part or at the prior mean, and the names new to it."""
+    if part is None or part.posterior is None or not set(part.hypothesis.open_names) < set(hypothesis.open_names):
+        return _prior_mean(study), hypothesis.open_names
+    known = part.hypothesis.open_names
+    own = Expansion(part.posterior, part.posterior.xi)
+    return own, tuple(name for name in hypothesis.open_names if name not in known)
+
+
+def _prior_mean(study: Study) -> Expansion:
+    return Expansion(study.base, np.zeros_like(study.base.xi))
+
+
 def _gross(study: Study, thresholds: Thresholds) -> bool:
     return study.base.objective > thresholds.fit.gross * study.base.residual.size
 
 
 def try_refit(
-    study: Study, linear: Explanation, thresholds: Thresholds, hopeless: float = inf
+    study: Study, linear: Explanation, thresholds: Thresholds, hopeless: float = inf, part: Explanation | None = None
 ) -> tuple[Explanation, str | None]:
     """The refitted hypothesis; if that fails, its linear form and the reason as text."""
     try:
-        return replace(refit(study, linear.hypothesis, thresholds, hopeless), heldout=linear.heldout), None
+        return replace(refit(study, linear.hypothesis, thresholds, hopeless, part), heldout=linear.heldout), None
     except NotConverged as reason:
         return linear, f"{linear.hypothesis.text} could not be refitted: {reason}"
 
@@ -139,11 +153,15 @@ def refit_all(
     executor: ProcessPool,
     report: Report,
     hopeless: float = inf,
+    part: Explanation | None = None,
 ) -> tuple[tuple[Explanation, ...], tuple[str, ...]]:
-    """The refits of some hypotheses in their order, by a crew, and the failures as text."""
+    """The refits of some hypotheses in their order, by a crew, and the failures as text.
+
+    part: a refitted explanation; hypotheses that it is a part of start from its peak.
+    """
     if not listed:
         return (), ()
-    task = partial(_numbered, study, thresholds, hopeless)
+    task = partial(_numbered, study, thresholds, hopeless, part)
     found: dict[int, tuple[Explanation, str | None]] = {}
     report(0, len(listed), f"fitting {', '.join(each.hypothesis.text for each in listed[: executor.workers])}")
     for number, done in executor.do(task, list(enumerate(listed))):
@@ -154,14 +172,16 @@ def refit_all(
 
 
 def _numbered(
-    study: Study, thresholds: Thresholds, hopeless: float, part: tuple[int, Explanation]
+    study: Study, thresholds: Thresholds, hopeless: float, part: Explanation | None, task: tuple[int, Explanation]
 ) -> tuple[int, tuple[Explanation, str | None]]:
     """One refit with its place in the list."""
-    number, linear = part
-    return number, try_refit(study, linear, thresholds, hopeless)
+    number, linear = task
+    return number, try_refit(study, linear, thresholds, hopeless, part)
 
 
-def _likeliest(study: Study, hypothesis: Hypothesis, thresholds: Thresholds) -> list[Hypothesis]:
+def _likeliest(
+    study: Study, hypothesis: Hypothesis, thresholds: Thresholds, about: Expansion, fresh: tuple[str, ...]
+) -> list[Hypothesis]:
     """The members of a grid to refit, by the linear model; for a gross mismatch, by trial sizes in full."""
     members = hypothesis.members
     if len(members) <= 1:
@@ -169,7 +189,7 @@ def _likeliest(study: Study, hypothesis: Hypothesis, thresholds: Thresholds) -> 
 
     def promised(member: Hypothesis) -> float:
         simulator = simulator_of(study, member, thresholds)
-        return _start(study, simulator, member.open_names, SIZES, thresholds.fit.reach)[0]
+        return start(study, simulator, about, fresh, SIZES, thresholds.fit.reach)[0]
 
     if _gross(study, thresholds):
         return sorted(members, key=promised)[: thresholds.fit.grid_members]
@@ -195,96 +215,10 @@ def first_look(study: Study, hypothesis: Hypothesis, thresholds: Thresholds) -> 
     For parameters whose slope is no measure of a large change.
     """
     simulator = simulator_of(study, hypothesis, thresholds)
-    promised, xi = _start(study, simulator, hypothesis.open_names, ROUGHLY, thresholds.fit.reach)
+    promised, xi = start(study, simulator, _prior_mean(study), hypothesis.open_names, ROUGHLY, thresholds.fit.reach)
     predicted = simulator.predict(values_at(simulator.parameters, xi))
     left = study.base.whitening.whiten(study.observations.values - predicted)
     return FirstLook(promised, float(left @ left + xi @ xi))
-
-
-def _lent_slopes(study: Study, simulator: Simulator, names: tuple[str, ...], start: Array) -> Array:
-    """Initial slopes (N, C, k): of nuisances at the prior mean, of free parameters at the start."""
-    base = study.base
-    at_base = base.whitening.unwhiten(base.slopes)
-    known = {parameter.name for parameter in base.parameters} - set(names)
-    values = values_at(simulator.parameters, start)
-    fresh = [parameter for parameter in simulator.parameters if parameter.name not in known]
-    columns = {one.name: simulator.slopes(values, (one.name,))[..., 0] for one in fresh}
-    return np.stack(
-        [
-            at_base[..., base.index(parameter.name)]
-            if parameter.name in known
-            else columns[parameter.name] * parameter.stretch(float(xi))
-            for parameter, xi in zip(simulator.parameters, start, strict=True)
-        ],
-        axis=-1,
-    )
-
-
-def _start(
-    study: Study, simulator: Simulator, names: tuple[str, ...], sizes: tuple[float, ...], reach: float
-) -> tuple[float, Array]:
-    """The objective and xi where a fit starts: the best of the trial sizes, with linear nuisances.
-
-    The free parameters are tried one after the other with full predictions; a slope at 0 may be no measure of them
-    (a threshold, a film twice as thick). The best size is tried again a little smaller and larger.
-    """
-    nuisances = _Nuisances(study, simulator, names, reach)
-    least, start = nuisances.settled(np.zeros(len(simulator.parameters)))
-    for name in names:
-        at = [parameter.name for parameter in simulator.parameters].index(name)
-        rest = np.where(nuisances.free, 0.0, start)
-        for size in _signed(sizes, simulator.parameters[at]):
-            least, start = _better(nuisances, _with(rest, at, size), least, start)
-        for beside in BESIDE if start[at] != rest[at] else ():
-            for size in (beside * start[at], start[at] / beside):
-                least, start = _better(nuisances, _with(rest, at, size), least, start)
-    return least, start
-
-
-def _with(xi: Array, at: int, size: float) -> Array:
-    changed = xi.copy()
-    changed[at] = size
-    return changed
-
-
-def _better(nuisances: _Nuisances, trial: Array, least: float, start: Array) -> tuple[float, Array]:
-    """The trial's objective and xi with settled nuisances if it is less than the least so far, else these."""
-    try:
-        objective, settled = nuisances.settled(nuisances.bounds.within(trial))
-    except NotConverged:
-        return least, start
-    return (objective, settled) if objective < least else (least, start)
-
-
-def _signed(sizes: tuple[float, ...], parameter: Parameter) -> list[float]:
-    tried = [size for one in sizes for size in (one, -one)]
-    return [size for size in tried if parameter.lowest <= size <= parameter.highest]
-
-
-class _Nuisances:
-    """Parameters of the null that a hypothesis does not set free, with their slopes at the prior mean."""
-
-    def __init__(self, study: Study, simulator: Simulator, names: tuple[str, ...], reach: float) -> None:
-        self.study, self.simulator, self.reach = study, simulator, reach
-        known = {parameter.name for parameter in study.base.parameters} - set(names)
-        self.free = np.array([parameter.name in known for parameter in simulator.parameters])
-        kept = [parameter.name for parameter in simulator.parameters if parameter.name in known]
-        self.slopes = study.base.slopes[:, [study.base.index(name) for name in kept]]
-        self.factor = cho_factor(self.slopes.T @ self.slopes + np.eye(len(kept)))
-        self.bounds = Bounds.of(simulator.parameters)
-
-    def settled(self, xi: Array) -> tuple[float, Array]:
-        """The objective and xi with the nuisances, 0 in `xi`, at their optimum in the linear model.
-
-        Raises NotConverged where the simulator does.
-        """
-        predicted = self.simulator.predict(values_at(self.simulator.parameters, xi))
-        offset = self.study.base.whitening.whiten(self.study.observations.values - predicted)
-        taken = cho_solve(self.factor, self.slopes.T @ offset)
-        left = offset - self.slopes @ taken
-        settled = xi.copy()
-        settled[self.free] = np.clip(taken, -self.reach, self.reach)
-        return float(left @ left + taken @ taken + xi @ xi), self.bounds.within(settled)
 
 
 def _size_over_sigma(posterior: Posterior, hypothesis: Hypothesis) -> float:

@@ -1,5 +1,6 @@
 """Flows and torque of a pump at the points of a bench map, before sensors read them."""
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -23,10 +24,13 @@ SIMULATED = (ChannelName.Q_OUT, ChannelName.Q_IN, ChannelName.Q_CASE, ChannelNam
 
 @dataclass(frozen=True)
 class Solved:
-    """A map at given values: as it is without laws of what physics left out (`plain`), and with them."""
+    """A map at given values: as it is without laws of what physics left out (`plain`), and with them.
+
+    `plain_courses()` solves the map without them at its first call.
+    """
 
     plain: Setting
-    plain_courses: Courses
+    plain_courses: Callable[[], Courses]
     setting: Setting
     courses: Courses
     affected: Affected | None

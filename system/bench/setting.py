@@ -13,7 +13,7 @@ from system.bench.parameters import GROOVE_ADVANCE, GROOVE_AREA, INLET_SHARE, pu
 from system.bench.points import BenchPoints
 from system.bench.sensors import actual
 from system.description.pump import PumpDescription
-from system.effects.applied import affected_leaks, affected_wear, displaced
+from system.effects.applied import affected_leaks, affected_wear, left_over
 from system.effects.effect import Effects
 from system.pump.chamber.problem import LeakTable
 from system.pump.lumped import PistonMotion, chamber, lumped_leaks, piston_motion
@@ -62,10 +62,10 @@ def setting(pump: PumpDescription, points: BenchPoints, values: Mapping[str, flo
 
 
 def affected(given: Setting, effects: Effects) -> Setting:
-    """The same with what effects change of displacement, gaps and ports, at their points and angles."""
+    """The same with what effects change of displacement, inlet, gaps and ports, at their points and angles."""
     pump, point, motion = given.pump, given.point, given.motion
+    point = left_over(point, _column(effects.ideal), _column(effects.suction_loss))
     if np.any(effects.ideal != 1.0):
-        point = displaced(point, _column(effects.ideal))
         motion = piston_motion(pump, point, motion.shaft_angle.size // pump.pump.pistons)
     leaks = affected_leaks(lumped_leaks(pump, point, motion), effects)
     return Setting(pump, point, motion, leaks, affected_wear(given.wear, effects))

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import replace
+from functools import cache
 from hashlib import blake2b
 from typing import Any
 
@@ -190,7 +191,7 @@ class LumpedBench:
     def solved(self, values: Array) -> Solved:
         """The map at the values (k,): what readings, components and traces come from."""
         plain = self._setting(values, self.points)
-        return self._complete(plain, self._solve(plain), values, self._solve)
+        return self._complete(plain, cache(lambda: self._solve(plain)), values, self._solve)
 
     def components(self, values: Array) -> Mapping[Component, Array]:
         """Contribution of each component of the pump's balance to the readings (N, C), SI (`components`)."""
@@ -224,7 +225,7 @@ class LumpedBench:
     def _near(self, solved: Solved, values: Array, points: BenchPoints) -> Solved:
         """A map beside a solved one: its chambers along the steps of that, or at its pressures."""
         plain = self._setting(values, points)
-        courses = self._moved(solved.plain, solved.plain_courses, plain)
+        courses = cache(lambda: self._moved(solved.plain, solved.plain_courses(), plain))
         return self._complete(
             plain, courses, values, lambda changed: self._moved(solved.setting, solved.courses, changed)
         )
@@ -236,10 +237,12 @@ class LumpedBench:
             return beside(self.pump, courses, after.problem, self.tolerance)
         return self._solve(after)
 
-    def _complete(self, plain: Setting, courses: Courses, values: Array, solve: Callable[[Setting], Courses]) -> Solved:
+    def _complete(
+        self, plain: Setting, courses: Callable[[], Courses], values: Array, solve: Callable[[Setting], Courses]
+    ) -> Solved:
         """Laws at the pressures of chambers without them, then chambers with them: leakage moves these little."""
         if not (self.physics or plain.pump.physics.on):
-            return Solved(plain, courses, plain, courses, None)
+            return Solved(plain, courses, plain, courses(), None)
         named = self._named(values)
         laws = *self._stated, *((one.law, one.stated(named)) for one in self.physics)
         found = effects_at(plain.pump, plain.point, plain.motion, courses, laws, self.points.hours)

@@ -42,9 +42,19 @@ class EntrainedAirSection:
 
 @dataclass(frozen=True, kw_only=True)
 class IncompleteFillingSection:
-    """[physics.incomplete_filling]: an inlet line by which chambers no longer fill above a speed."""
+    """[physics.incomplete_filling]: an inlet by which chambers no longer fill above a speed.
+
+    The loss is of each piston's own flow; of the line's, with `laminar`; begins at a speed, with `growth`.
+    """
 
     inlet_loss: Annotated[float, Limits(least=0.0, most=10.0)]  # 1: as much again as the kidneys
+    laminar: Fraction | None = None
+    growth: Annotated[float, Limits(least=0.1, most=30.0)] | None = None
+
+    def __post_init__(self) -> None:
+        """Raise ValueError for keys of two forms."""
+        if self.laminar is not None and self.growth is not None:
+            raise ValueError("one of the two, laminar or growth")
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -117,10 +127,20 @@ class SqueezePumpingSection:
 
 @dataclass(frozen=True, kw_only=True)
 class SlipperLiftSection:
-    """[physics.slipper_lift]: slippers that tip off the swash plate."""
+    """[physics.slipper_lift]: slippers that tip off the swash plate; by degrees, with `sharpness`.
+
+    With `wedge_exponent` they ride on a hydrodynamic wedge instead.
+    """
 
     ride_height: Annotated[float, Dimension.LENGTH, Limits(least=0.0, most=100e-6)]
     retainer_force: Annotated[float, Dimension.FORCE, NotNegative]  # on each
+    sharpness: Annotated[float, Limits(least=2.0, most=30.0)] | None = None
+    wedge_exponent: Annotated[float, Limits(least=0.3, most=1.2)] | None = None
+
+    def __post_init__(self) -> None:
+        """Raise ValueError for keys of two forms."""
+        if self.sharpness is not None and self.wedge_exponent is not None:
+            raise ValueError("one of the two, sharpness or wedge_exponent")
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -1,16 +1,18 @@
 """Effects applied to a pump, at N points of a bench map or at one: its stroke, its leakage, its ports."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
 from scipy.interpolate import CubicSpline
 
 from reynolds.numerics.arrays import Array
+from system.description.gap import Gap
 from system.description.pump import PumpDescription
-from system.effects.effect import BenchState, Effects, Value
+from system.effects.effect import BenchState, Effects, GapCourse, Value
 from system.effects.extension import Law, Values
 from system.effects.gap_states import bench_state, gap_courses
+from system.effects.state import AwaitedCourses
 from system.effects.switched import stated_effects
 from system.pump.chamber.problem import LeakTable
 from system.pump.laws.kinematics import Number
@@ -31,19 +33,29 @@ def effects_at(
     pump: PumpDescription,
     point: OperatingPoint[Array],
     motion: PistonMotion[Array],
-    cycle: Pressed,
+    cycle: Callable[[], Pressed],
     laws: Sequence[tuple[Law, Values]],
     hours: Array,
 ) -> Affected:
-    """Changes by laws with their values at N points, columns (N, 1), at chamber pressures without any effect."""
-    courses = gap_courses(pump, point, motion, cycle, lumped_pairs(pump, point, motion, cycle))
+    """Changes by laws with their values at N points, columns (N, 1), at chamber pressures without any effect.
+
+    `cycle()` gives these pressures. It is called only if a law asks for the course of a gap.
+    """
+
+    def found() -> dict[Gap, GapCourse]:
+        plain = cycle()
+        return gap_courses(pump, point, motion, plain, lumped_pairs(pump, point, motion, plain))
+
+    courses = AwaitedCourses((point.shaft_speed.size, motion.shaft_angle.size), found)
     state = bench_state(pump, point, hours)
     return Affected(stated_effects(laws, courses, state), state)
 
 
-def displaced(point: OperatingPoint[Number], ideal: Number) -> OperatingPoint[Number]:
-    """The point with the stroke that effects leave, `ideal` of the displacement."""
-    return replace(point, displacement_ratio=point.displacement_ratio * ideal)
+def left_over(point: OperatingPoint[Number], ideal: Number, suction_loss: Number) -> OperatingPoint[Number]:
+    """The point with what effects leave: `ideal` of the stroke, the inlet's pressure less `suction_loss` Pa."""
+    return replace(
+        point, displacement_ratio=point.displacement_ratio * ideal, inlet_pressure=point.inlet_pressure - suction_loss
+    )
 
 
 def affected_leaks(leaks: LeakTable, effects: Effects[Value]) -> LeakTable:

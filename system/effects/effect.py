@@ -120,8 +120,9 @@ class Effects(Generic[Value]):
     case), drain_from_inlet; torque in N m on the shaft; ideal: factor on the displacement; intake: share of the
     displaced volume that is filled with oil; delivery_reading: factor on the reading of the delivery's meter;
     groove_advance in rad and groove_area, factor: earlier and wider opening of the relief grooves ahead of both
-    kidneys; suction_area: factor on the kidney of the suction side; carried_off: W, power of the flows and the torque,
-    a sink of the power balance. Effects[float]: one point, its arrays (3, M) and (5, M).
+    kidneys; suction_area: factor on the kidney of the suction side; suction_loss: Pa that the inlet loses ahead of the
+    suction port; carried_off: W, power of the flows and the torque, a sink of the power balance. Effects[float]: one
+    point, its arrays (3, M) and (5, M).
     """
 
     conductance: Array
@@ -138,6 +139,7 @@ class Effects(Generic[Value]):
     groove_advance: Value
     groove_area: Value
     suction_area: Value
+    suction_loss: Value
     carried_off: Value
 
     def at(self, point: int) -> Effects[float]:

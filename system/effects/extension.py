@@ -23,6 +23,9 @@ class Extension:
     lists the values of parameters that set a scale rather than a size and are tried one after the other: one
     empty mapping where there is none. `scales` are the continuous ones of them: a fit of a member frees them
     about the member's values. Values are those of the grid's first member and the parameters'.
+
+    `forms` are other published laws of the same effect. Each has the sizes of this one, and a key of its own in its
+    grid, by which a pump file states it.
     """
 
     id: EffectId
@@ -31,11 +34,18 @@ class Extension:
     parameters: tuple[Parameter, ...]
     grid: tuple[Values, ...] = ({},)
     scales: tuple[Parameter, ...] = ()
+    forms: tuple[Extension, ...] = ()
 
     @property
     def members(self) -> tuple[Extension, ...]:
-        """One extension for each member of the grid."""
-        return tuple(replace(self, grid=(member,), scales=self._scales_about(member)) for member in self.grid)
+        """One extension for each member of the grid, its own and those of the other forms."""
+        own = (replace(self, grid=(one,), scales=self._scales_about(one), forms=()) for one in self.grid)
+        return (*own, *(member for form in self.forms for member in form.members))
+
+    def form_of(self, values: Values) -> Extension:
+        """The form of which a pump file's table states all keys of the grid; this one where it states no other's."""
+        found = (form for form in self.forms if form.grid[0].keys() <= values.keys())
+        return max(found, key=lambda form: len(form.grid[0]), default=self)
 
     @property
     def free(self) -> tuple[Parameter, ...]:

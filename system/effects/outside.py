@@ -28,4 +28,5 @@ def outside(effects: Effects[Value], state: BenchState[Value]) -> Outside[Value]
         torque=effects.torque - not_done / state.speed,
         carried_off=effects.carried_off,
         delivery_reading=effects.delivery_reading,
+        suction_loss=effects.suction_loss,
     )

@@ -1,5 +1,6 @@
 """Entries of the catalogue by their laws, and priors of these laws: ranges of parameters before any recording."""
 
+from dataclasses import dataclass
 from math import log
 
 from system.description.gap import Gap
@@ -45,11 +46,31 @@ def size_of(
     return half(path_of(effect, key), spread, upper, dimension, source)
 
 
+@dataclass(frozen=True)
+class Form:
+    """Another published law of an effect, of the same sizes: its grid, which has a key of its own, and its scales."""
+
+    law: Law
+    grid: tuple[Values, ...]
+    scales: tuple[Parameter, ...] = ()
+
+
 def whole(
-    effect: EffectId, law: Law, *sizes: Parameter, grid: tuple[Values, ...] = ({},), scales: tuple[Parameter, ...] = ()
+    effect: EffectId,
+    law: Law,
+    *sizes: Parameter,
+    grid: tuple[Values, ...] = ({},),
+    scales: tuple[Parameter, ...] = (),
+    forms: tuple[Form, ...] = (),
 ) -> tuple[Extension, ...]:
-    """The one extension of an effect by a law of the whole pump."""
-    return (Extension(effect, None, law, sizes, grid, scales),)
+    """The one extension of an effect by a law of the whole pump, with its other forms."""
+    others = tuple(Extension(effect, None, one.law, sizes, one.grid, one.scales) for one in forms)
+    return (Extension(effect, None, law, sizes, grid, scales, others),)
+
+
+def share_of(effect: EffectId, key: str, centre: float, source: str) -> Parameter:
+    """A share between two forms of a law, 0 to 1, of which nothing but the range is known."""
+    return Parameter(path_of(effect, key), Role.EXTENSION, Scale.NORMAL, centre, 0.5, 0.0, 1.0, None, source)
 
 
 def missing_physics(

@@ -1,6 +1,7 @@
 """Common inputs of several laws at a bench point: displaced and dead volume, orifices, warmer oil."""
 
-from collections.abc import Mapping
+from collections.abc import Callable, Iterator, Mapping
+from functools import cache
 
 import numpy as np
 
@@ -15,9 +16,29 @@ GAPS = tuple(Gap)
 """The gaps in the order of the first axis of `Effects.conductance`."""
 
 
+class AwaitedCourses(Mapping[Gap, GapCourse]):
+    """The courses of the gaps at N points and M angles, worked out when a law first asks for one."""
+
+    def __init__(self, shape: tuple[int, int], found: Callable[[], Mapping[Gap, GapCourse]]) -> None:
+        self.shape, self._found = shape, cache(found)
+
+    def __getitem__(self, gap: Gap) -> GapCourse:
+        """The course of one gap."""
+        return self._found()[gap]
+
+    def __iter__(self) -> Iterator[Gap]:
+        """The gaps in their order."""
+        return iter(Gap)
+
+    def __len__(self) -> int:
+        """The number of gaps."""
+        return len(Gap)
+
+
 def unchanged(courses: Mapping[Gap, GapCourse]) -> Effects:
     """`neutral` in the shape of the courses."""
-    return neutral(*courses[Gap.PISTON].pressure.shape)
+    shape = courses.shape if isinstance(courses, AwaitedCourses) else courses[Gap.PISTON].pressure.shape
+    return neutral(*shape)
 
 
 def piston_area(state: BenchState[Value]) -> float:

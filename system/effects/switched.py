@@ -14,13 +14,14 @@ from system.effects.state import unchanged
 
 
 def switched_on(pump: PumpDescription) -> Iterator[tuple[Extension, Values]]:
-    """Every extension of which the pump has a table below [physics], with its law's values."""
+    """Every extension of which the pump has a table below [physics], in the form that states it, and its values."""
     for extension in EXTENSIONS:
         section = getattr(pump.physics, extension.id.value)
         if section is not None and extension.pair is not None:
             section = getattr(section, extension.pair.value)
         if section is not None:
-            yield extension, {key: float(value) for key, value in vars(section).items() if value is not None}
+            values = {key: float(value) for key, value in vars(section).items() if value is not None}
+            yield extension.form_of(values), values
 
 
 def stated_laws(pump: PumpDescription) -> tuple[tuple[Law, Values], ...]:

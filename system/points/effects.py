@@ -5,7 +5,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from system.description.pump import PumpDescription
-from system.effects.applied import affected_leaks, affected_wear, displaced, effects_at
+from system.effects.applied import affected_leaks, affected_wear, effects_at, left_over
 from system.effects.effect import Effects
 from system.effects.gap_states import bench_state
 from system.effects.outside import outside
@@ -22,7 +22,7 @@ from system.work.means import mean_of
 def point_effects(pump: PumpDescription, point: OperatingPoint, cycle: ChamberCycle) -> Effects[float]:
     """Changes by [physics] at one point, over the angles of a cycle without any effect."""
     at, pressures = columns(point), Pressures(cycle.pressure[None])
-    found = effects_at(pump, at, piston_motion(pump, at), pressures, stated_laws(pump), np.zeros(1))
+    found = effects_at(pump, at, piston_motion(pump, at), lambda: pressures, stated_laws(pump), np.zeros(1))
     return found.effects.at(0)
 
 
@@ -40,9 +40,12 @@ def affected_problem(
     return chamber_problem(pump, point, motion, leaks, wear)
 
 
-def with_stroke(point: OperatingPoint, effects: Sequence[Effects[float]]) -> OperatingPoint:
-    """The point with the stroke that effects leave, mean of the chambers' effects; as it is without any."""
-    return displaced(point, float(np.mean([one.ideal for one in effects]))) if effects else point
+def at_the_ports(point: OperatingPoint, effects: Sequence[Effects[float]]) -> OperatingPoint:
+    """The point with the stroke and the inlet pressure that effects leave, mean of the chambers' effects."""
+    if not effects:
+        return point
+    ideal, loss = (float(np.mean([getattr(one, name) for one in effects])) for name in ("ideal", "suction_loss"))
+    return left_over(point, ideal, loss)
 
 
 def mean_outside(pump: PumpDescription, point: OperatingPoint, effects: Sequence[Effects[float]]) -> Outside[float]:

@@ -21,7 +21,7 @@ from system.films.cycle import PLAIN, GapCycle, GapPhysics, gap_cycle
 from system.films.parts import FloatingParts, floating_parts
 from system.films.rotor import Rotor, rotor
 from system.inputs.units import TURN
-from system.points.effects import affected_problem, mean_outside, point_effects, with_stroke
+from system.points.effects import affected_problem, at_the_ports, mean_outside, point_effects
 from system.points.film_effects import FilmEffects, closed_laws, film_effects
 from system.points.lumped import lumped_point
 from system.pump.assembly import PumpPoint, assemble, met_point
@@ -174,7 +174,7 @@ def _work(pump: PumpDescription, point: OperatingPoint, physics: GapPhysics) -> 
     own, described = closed_laws(warm), unpressed(warm, point.case_pressure)
     plain = lumped_point(replace(own, physics=PhysicsSection()), point)
     effects = (point_effects(own, plain.point, plain.cycle),) if own.physics.on else ()
-    asked, at = with_stroke(point, effects), rotor(described, with_stroke(plain.point, effects))
+    asked, at = at_the_ports(point, effects), rotor(described, at_the_ports(plain.point, effects))
     films = film_effects(at, floating_parts(described), warm, physics)
     return _Coupling(own, asked, piston_motion(own, asked), effects, films, at, plain.cycle)
 

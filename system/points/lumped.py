@@ -9,7 +9,7 @@ from system.description.pump import PumpDescription
 from system.effects.effect import Effects
 from system.effects.friction import rubbed
 from system.inputs.units import TURN
-from system.points.effects import affected_problem, mean_outside, point_effects, with_stroke
+from system.points.effects import affected_problem, at_the_ports, mean_outside, point_effects
 from system.pump.assembly import PumpPoint, assemble, met_point
 from system.pump.chamber.cycle import TOLERANCE, ChamberCycle
 from system.pump.chamber.port_coupling import PortedCycle, ported_cycle
@@ -56,7 +56,7 @@ def _solved(
     found: Kinds, pump: PumpDescription, asked: OperatingPoint, effects: Sequence[Effects[float]], tolerance: float
 ) -> PumpPoint:
     """The point with what effects change, kind by kind, or with none."""
-    point = with_stroke(asked, effects)
+    point = at_the_ports(asked, effects)
     motions = [piston_motion(own, point) for own in found.pumps]
     ported = _ported(found, pump, point, motions, effects, tolerance)
     pistons = pump.pump.pistons

@@ -167,7 +167,9 @@ def put_together(
     point = met_point(point, ported)
     rate = pistons * point.shaft_speed / TURN
     reading = bench_reading(problem, cycle, pistons, pairs.power, exchange, outside)
-    power = power_balance(ported, reading, rate, pairs.power, leakage, outside.carried_off)
+    point = replace(point, inlet_pressure=reading.inlet_pressure)
+    past = outside.carried_off + outside.suction_loss * reading.inlet_flow
+    power = power_balance(ported, reading, rate, pairs.power, leakage, past)
     torque = torque + outside.torque
     energy = abs(point.shaft_speed * float(np.mean(torque)) - power.accounted) / abs(power.shaft)
     quadrature = sum(pairs.loss(pair).quadrature_error for pair in Pair)

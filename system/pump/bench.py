@@ -47,7 +47,8 @@ class Outside(Generic[Number]):
     """Flows, torque and power past a pump's chambers; Outside[Array]: at N points, arrays (N,).
 
     Added to delivery, inlet and drain flow in m3/s and to the shaft's torque in N m; carried_off in W: where the
-    power of flows and torque goes; delivery_reading: factor on the flow that the delivery's meter reads.
+    power of flows and torque goes; delivery_reading: factor on the flow that the delivery's meter reads;
+    suction_loss: Pa that the inlet loses between its gauge and the suction port.
     """
 
     delivery: Number
@@ -56,9 +57,10 @@ class Outside(Generic[Number]):
     torque: Number
     carried_off: Number
     delivery_reading: Number
+    suction_loss: Number
 
 
-NOTHING_OUTSIDE: Outside[float] = Outside(0.0, 0.0, 0.0, 0.0, 0.0, 1.0)
+NOTHING_OUTSIDE: Outside[float] = Outside(0.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0)
 
 
 @dataclass(frozen=True)

@@ -98,14 +98,15 @@ def bench_reading(
     """
     rate, modulus, out = pistons * chamber.shaft_speed / TURN, chamber.bulk_modulus, totals.outflow
     delivered = rate * out.delivery * specific_volume(chamber.delivery_pressure, modulus)
-    drawn_in = -rate * out.suction * specific_volume(chamber.inlet_pressure, modulus)
+    inlet = chamber.inlet_pressure + outside.suction_loss
+    drawn_in = -rate * out.suction * specific_volume(inlet, modulus)
     drained = gap_leakage(chamber, totals, rate, exchange).total
     work = shaft_work(totals, rate, friction, exchange)
     return BenchReading(
         shaft_speed=chamber.shaft_speed,
         shaft_torque=work / chamber.shaft_speed + outside.torque,
         delivery_pressure=chamber.delivery_pressure,
-        inlet_pressure=chamber.inlet_pressure,
+        inlet_pressure=inlet,
         drain_pressure=chamber.case_pressure,
         delivery_flow=delivered - exchange.delivery_draw + outside.delivery,
         inlet_flow=drawn_in + exchange.suction_draw + outside.inlet,

@@ -3,12 +3,12 @@
 from system.description.gap import Gap
 from system.effects.components import Component
 from system.effects.effect import EffectId
-from system.effects.extension import THEORY, Extension
+from system.effects.extension import THEORY, Extension, Law
 from system.effects.laws.contact import mixed_friction
 from system.effects.laws.film import ElasticOpening, ThermalClearance, film_heating, shear_thinning, viscosity_pressure
 from system.effects.laws.flow import squeeze_pumping
-from system.effects.laws.tipping import block_tipping, slipper_lift
-from system.effects.priors import half, missing_physics, path_of, scale_of, signed, size_of, whole
+from system.effects.laws.tipping import block_tipping, slipper_lift, slippers_ride_on_a_wedge, slippers_tilt_by_degrees
+from system.effects.priors import Form, half, missing_physics, path_of, scale_of, signed, size_of, whole
 from system.estimation.parameters import Parameter, Role, Scale
 from system.inputs.channels import ChannelName
 from system.inputs.units import Dimension
@@ -19,6 +19,7 @@ FILM_CHANNELS = (ChannelName.Q_OUT, ChannelName.Q_CASE, ChannelName.TORQUE)
 HERSEY_SCALES = (3e-8, 1e-7, 3e-7, 1e-6, 3e-6, 1e-5)
 SHEAR_RATES = (1e5, 3e5, 1e6, 3e6)
 RETAINER_FORCES = (30.0, 100.0, 300.0, 1000.0)
+HOLDING_FORCES = (50.0, 400.0)
 
 
 def _opening(gap: Gap) -> Extension:
@@ -49,6 +50,16 @@ def _share(key: str, upper: float, source: str) -> Parameter:
 def _falling_off() -> Parameter:
     name, source = path_of(EffectId.MIXED_FRICTION, "exponent"), ".5 to 1.4 of rough pads; Greenwood, Tripp 1970"
     return Parameter(name, Role.EXTENSION, Scale.LOG, 1.0, 0.3, 0.3, 2.5, None, source)
+
+
+def _lifted(law: Law, key: str, centre: float, lower: float, upper: float, source: str) -> Form:
+    """A form of slipper_lift with an exponent of its own, at two forces of the retainer."""
+    name = path_of(EffectId.SLIPPER_LIFT, key)
+    exponent = Parameter(name, Role.EXTENSION, Scale.LOG, centre, 0.5, lower, upper, None, source)
+    grid = tuple({"retainer_force": force, key: centre} for force in HOLDING_FORCES)
+    return Form(
+        law, grid, (scale_of(EffectId.SLIPPER_LIFT, "retainer_force", HOLDING_FORCES, Dimension.FORCE), exponent)
+    )
 
 
 E = EffectId
@@ -126,10 +137,14 @@ FILM_ENTRIES = (
                     "20 to 100 um, up to the retainer's clearance"),
             grid=tuple({"retainer_force": force} for force in RETAINER_FORCES),
             scales=(scale_of(E.SLIPPER_LIFT, "retainer_force", RETAINER_FORCES, Dimension.FORCE),),
+            forms=(
+                _lifted(slippers_tilt_by_degrees, "sharpness", 6.0, 2.0, 30.0, "of the onset; Harris et al. 1996"),
+                _lifted(slippers_ride_on_a_wedge, "wedge_exponent", 0.5, 0.3, 1.2, "1/2 to 1; Hooke, Li 1988"),
+            ),
         ),
         (Component.SLIPPER_LEAKAGE,), (ChannelName.Q_CASE, ChannelName.Q_IN),
         (E.INCOMPLETE_FILLING, E.BLOCK_TIPPING),
-        "high speed and low inlet pressure", "slippers tip off the swash plate on the suction side", THEORY,
+        "high speed and low inlet pressure", "slippers ride higher or tip off the swash plate", THEORY,
     ),
     missing_physics(
         whole(

@@ -3,8 +3,8 @@
 from system.effects.components import Component
 from system.effects.effect import EffectId
 from system.effects.extension import THEORY
-from system.effects.laws import drag as drag_laws, flow as flow_laws, port as port_laws
-from system.effects.priors import missing_physics, path_of, signed, size_of, whole
+from system.effects.laws import drag as drag_laws, filling as filling_laws, flow as flow_laws, port as port_laws
+from system.effects.priors import Form, missing_physics, path_of, share_of, signed, size_of, whole
 from system.estimation.parameters import Parameter, Role, Scale
 from system.inputs.channels import ChannelName
 from system.inputs.units import RPM, Dimension
@@ -14,9 +14,9 @@ CASE_SEALS = (0.0, 1.5e-6)
 RESONANCES = tuple(RPM * speed for speed in (600.0, 900.0, 1200.0, 1500.0, 1800.0, 2100.0, 2400.0, 2700.0, 3000.0))
 
 
-def _share_of_clearance() -> Parameter:
-    name, source = path_of(EffectId.CONTROL_FLOW, "laminar"), "between an orifice and a clearance alone"
-    return Parameter(name, Role.EXTENSION, Scale.NORMAL, 0.0, 0.5, 0.0, 1.0, None, source)
+def _growth() -> Parameter:
+    name, source = path_of(EffectId.INCOMPLETE_FILLING, "growth"), "cavities by the square of the excess of speed"
+    return Parameter(name, Role.EXTENSION, Scale.LOG, 2.0, 1.0, 0.1, 30.0, None, source)
 
 
 E = EffectId
@@ -32,8 +32,15 @@ FILLING_ENTRIES = (
     ),
     missing_physics(
         whole(
-            E.INCOMPLETE_FILLING, flow_laws.incomplete_filling,
+            E.INCOMPLETE_FILLING, filling_laws.starved_kidneys,
             size_of(E.INCOMPLETE_FILLING, "inlet_loss", 1.0, 10.0, None, "1: as much again as the kidneys"),
+            forms=(
+                Form(
+                    filling_laws.starved_line, ({"laminar": 0.0},),
+                    (share_of(E.INCOMPLETE_FILLING, "laminar", 0.0, "1: a line of laminar flow alone"),),
+                ),
+                Form(filling_laws.starved_beyond_onset, ({"growth": 2.0},), (_growth(),)),
+            ),
         ),
         (Component.DISPLACEMENT,), (*FLOWS, ChannelName.TORQUE),
         (E.SLIPPER_LIFT, E.BLOCK_TIPPING, E.ENTRAINED_AIR),
@@ -111,7 +118,8 @@ FLOW_ENTRIES = (
         whole(
             E.CONTROL_FLOW, flow_laws.control_flow,
             size_of(E.CONTROL_FLOW, "area", 2e-7, 2e-6, Dimension.AREA, "bleeds of .6 to 1 mm at reduced pressure"),
-            grid=({"laminar": 0.0}, {"laminar": 1.0}), scales=(_share_of_clearance(),),
+            grid=({"laminar": 0.0}, {"laminar": 1.0}),
+            scales=(share_of(E.CONTROL_FLOW, "laminar", 0.0, "between an orifice and a clearance alone"),),
         ),
         (Component.DRAIN_FLOW,), (ChannelName.Q_CASE, ChannelName.Q_OUT), (E.Q_CASE_OFFSET, E.SQUEEZE_PUMPING),
         "every speed and displacement", "the control draws oil from delivery into the case", THEORY,

@@ -35,18 +35,6 @@ def entrained_air(values: Values, courses: Courses, state: BenchState) -> Effect
     return replace(unchanged(courses), intake=1.0 - lost * (1.0 + dead_volume(state) / displaced(state)))
 
 
-def incomplete_filling(values: Values, courses: Courses, state: BenchState) -> Effects:
-    """An inlet line that loses `inlet_loss` times the pressure loss of the kidney at suction.
-
-    Line and kidney act as a kidney (1 + inlet_loss)^(-1/2) as wide, dp = rho/2 (Q/(Cd A))^2. Where that loss
-    equals the inlet's pressure a cavity opens. Above a speed n_c, which is proportional to the root of that
-    pressure, chambers no longer fill: the share n_c/n. The line's loss uses each piston's own flow, not their
-    sum. Both are equal where chambers starve; the loss begins a little early where they just fill.
-    """
-    narrowed = (1.0 + values["inlet_loss"]) ** -0.5
-    return replace(unchanged(courses), suction_area=np.full_like(state.speed, narrowed))
-
-
 def squeeze_pumping(values: Values, courses: Courses, state: BenchState) -> Effects:
     """Slippers that rise and fall by `stroke` m each turn pump oil from the inlet's side into the case."""
     area = np.pi * state.geometry.slipper.land_outer_radius**2

@@ -10,6 +10,7 @@ from system.description.gap import Gap
 from system.effects.effect import BenchState, Effects, GapCourse
 from system.effects.extension import Values
 from system.effects.laws.film import through_orifice
+from system.effects.laws.flow import REFERENCE_VISCOSITY
 from system.effects.state import GAPS, piston_area, pressure_difference, swash_tangent, unchanged
 
 ONSET = 0.2
@@ -37,9 +38,41 @@ def slipper_ratio(state: BenchState, pressure: Array, retainer_force: float) -> 
 
 def slipper_lift(values: Values, courses: Courses, state: BenchState) -> Effects:
     """Slippers that tip off by `ride_height` m where chamber and `retainer_force` (N each) hold too little."""
-    course, effects = courses[Gap.SLIPPER], unchanged(courses)
-    away = unseated_share(slipper_ratio(state, course.pressure, values["retainer_force"]))
-    film = 1.0 + values["ride_height"] * away / course.film
+    ratio = slipper_ratio(state, courses[Gap.SLIPPER].pressure, values["retainer_force"])
+    return _ridden(values["ride_height"] * unseated_share(ratio), courses, state)
+
+
+def slippers_tilt_by_degrees(values: Values, courses: Courses, state: BenchState) -> Effects:
+    """The same with slippers that tilt by degrees, r^m/(1 + r^m) of `ride_height` at the ratio r of the moments.
+
+    m: `sharpness`. The film's own moment, and parts that are not alike, spread the onset (tilts of Harris,
+    Edge and Tilley 1996).
+    """
+    ratio = slipper_ratio(state, courses[Gap.SLIPPER].pressure, values["retainer_force"])
+    tilted = ratio ** values["sharpness"]
+    return _ridden(values["ride_height"] * tilted / (1.0 + tilted), courses, state)
+
+
+def slippers_ride_on_a_wedge(values: Values, courses: Courses, state: BenchState) -> Effects:
+    """Slippers that ride higher by a hydrodynamic wedge: film + s x/(1 + x), x = (H/H0)^e, s `ride_height`.
+
+    H: viscosity times sliding speed over what holds the slipper, chamber pressure and `retainer_force`; H0: at 25 mPa s
+    and rated speed under the retainer's force alone. e: `wedge_exponent`, 1/2 of pads that find their tilt, 1 of a
+    fixed wedge (Hooke and Li 1988). On both halves of the turn, largest at suction.
+    """
+    course, part = courses[Gap.SLIPPER], state.geometry.pump
+    force = values["retainer_force"]
+    holds = piston_area(state) * np.maximum(course.pressure, 0.0) + force
+    sliding = (
+        state.viscosity[:, None] * course.sliding_speed / (REFERENCE_VISCOSITY * part.rated_speed * part.pitch_radius)
+    )
+    number = (sliding * force / np.maximum(holds, 1e-3)) ** values["wedge_exponent"]
+    return _ridden(values["ride_height"] * number / (1.0 + number), courses, state)
+
+
+def _ridden(higher: Array, courses: Courses, state: BenchState) -> Effects:
+    """Effects of slippers that ride higher by (N, M) m."""
+    effects, film = unchanged(courses), 1.0 + higher / courses[Gap.SLIPPER].film
     row = GAPS.index(Gap.SLIPPER)
     conductance, viscous = effects.conductance.copy(), effects.viscous.copy()
     conductance[row], viscous[row] = through_orifice(film**3, state), 1.0 / film

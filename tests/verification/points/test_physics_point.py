@@ -30,7 +30,8 @@ from system.inputs.sections.reader import section_of
 from system.pump.lumped import SAMPLES_PER_PITCH
 
 REF90 = load_pump("ref90")
-BY_NAME = [pytest.param(one, id=one.parameters[0].name) for one in EXTENSIONS]
+FORMS = [form for one in EXTENSIONS for form in (replace(one, forms=()), *one.forms)]
+BY_NAME = [pytest.param(one, id=f"{one.parameters[0].name} {' '.join(one.grid[0])}") for one in FORMS]
 POINTS = BenchPoints(
     speed=np.array([2100 * np.pi / 30, 300.0]),
     displacement_ratio=np.array([1.0, 0.6]),
@@ -120,13 +121,13 @@ def test_effects_move_delivery_drain_and_torque_as_the_catalogue_says(name, sign
 
 def test_effects_are_read_from_a_file_and_written_back(tmp_path):
     text = resolved_toml(REF90)
-    for extension in EXTENSIONS:
+    for extension in FORMS:
         one = with_effect(extension)
         file = tmp_path / "pump.toml"
         file.write_text(resolved_toml(one), "utf-8")
         assert load_pump(file) == one
         ((found, values),) = switched_on(load_pump(file))
-        assert (found.id, found.pair) == (extension.id, extension.pair)
+        assert (found.id, found.pair, found.law) == (extension.id, extension.pair, extension.law)
         assert values.keys() == set(extension.grid[0]) | {own.name.rpartition(".")[2] for own in extension.parameters}
     assert "physics" not in text
 
