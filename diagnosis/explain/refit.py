@@ -14,7 +14,7 @@ from scipy.special import logsumexp
 from diagnosis.explain.hypotheses import Hypothesis, candidates_of, simulator_of
 from diagnosis.explain.ranked import Explanation
 from diagnosis.explain.screen import joint_evidence
-from diagnosis.explain.starts import Expansion, lent_slopes, start
+from diagnosis.explain.starts import Expansion, from_peak, lent_slopes, start
 from diagnosis.study.model import Study
 from diagnosis.thresholds import Thresholds
 from reynolds.errors import NotConverged
@@ -108,6 +108,8 @@ def _refitted(
         simulator = simulator_of(study, member, thresholds)
         try:
             begin = start(study, simulator, about, fresh, SIZES, thresholds.fit.reach)[1]
+            if fresh != member.open_names:
+                begin = from_peak(study, simulator, about, begin)
             lent = lent_slopes(simulator, about, fresh, begin)
             found.append((member, maximum_posterior(simulator, study.observations, begin, limits, lent)))
         except NotConverged as reason:

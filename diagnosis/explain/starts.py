@@ -49,6 +49,29 @@ def start(
     return least, found
 
 
+def from_peak(study: Study, simulator: Simulator, about: Expansion, begin: Array) -> Array:
+    """A start (k,) beside a peak, or the peak itself where the start's own prediction is worse than that.
+
+    A linear model about a peak promises more than it keeps where readings have kinks. Raises NotConverged where the
+    peak cannot be simulated.
+    """
+    own = about.posterior
+    peak = np.zeros(len(simulator.parameters))
+    for at, parameter in enumerate(simulator.parameters):
+        if any(parameter.name == one.name for one in own.parameters):
+            peak[at] = about.xi[own.index(parameter.name)]
+
+    def objective(xi: Array) -> float:
+        predicted = simulator.predict(values_at(simulator.parameters, xi))
+        left = own.whitening.whiten(study.observations.values - predicted)
+        return float(left @ left + xi @ xi)
+
+    try:
+        return begin if objective(begin) <= objective(peak) else peak
+    except NotConverged:
+        return peak
+
+
 def lent_slopes(simulator: Simulator, about: Expansion, names: tuple[str, ...], begin: Array) -> Array:
     """Initial slopes (N, C, k): of nuisances those of `about`, of the named parameters those at `begin`."""
     own = about.posterior

@@ -1,7 +1,7 @@
 """A pump at the points of a bench map with given values of its parameters: what all readings come from."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -26,19 +26,25 @@ THROTTLED = 0.8
 
 @dataclass(frozen=True)
 class Setting:
-    """A pump at N points, columns (N, 1): its motion over M shaft angles, what its gaps leak, its ports' wear."""
+    """A pump at N points, columns (N, 1): its motion over M shaft angles, what its gaps leak, its ports' wear.
+
+    free_air, air_exponent: of the bubbles in its chambers, (N,) or none.
+    """
 
     pump: PumpDescription
     point: OperatingPoint[Array]
     motion: PistonMotion[Array]
     leaks: LeakTable
     wear: PortWear[Array]
+    free_air: Array | float = 0.0
+    air_exponent: Array | float = 1.0
 
     @cached_property
     def problem(self) -> MapProblem:
         """The chambers."""
         one = chamber(self.pump, flat(self.point), flat(self.motion.drive))
-        return MapProblem(one, self.leaks, self.wear)
+        bubbly = replace(one, free_air=self.free_air, air_exponent=self.air_exponent)
+        return MapProblem(bubbly, self.leaks, self.wear)
 
 
 def setting(pump: PumpDescription, points: BenchPoints, values: Mapping[str, float], samples_per_pitch: int) -> Setting:
@@ -68,7 +74,8 @@ def affected(given: Setting, effects: Effects) -> Setting:
     if np.any(effects.ideal != 1.0):
         motion = piston_motion(pump, point, motion.shaft_angle.size // pump.pump.pistons)
     leaks = affected_leaks(lumped_leaks(pump, point, motion), effects)
-    return Setting(pump, point, motion, leaks, affected_wear(given.wear, effects))
+    wear = affected_wear(given.wear, effects)
+    return Setting(pump, point, motion, leaks, wear, effects.free_air, effects.air_exponent)
 
 
 def _film_temperature(pump: PumpDescription, at: BenchPoints, values: Mapping[str, float]) -> Array:

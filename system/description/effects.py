@@ -35,9 +35,10 @@ class ViscosityPressureSection:
 
 @dataclass(frozen=True, kw_only=True)
 class EntrainedAirSection:
-    """[physics.entrained_air]: bubbles in the oil that is drawn in."""
+    """[physics.entrained_air]: bubbles in the oil that is drawn in; compressed in the chambers, with `polytropic`."""
 
     void: Annotated[float, Limits(least=0.0, most=0.05)]  # share of the volume at one atmosphere
+    polytropic: Annotated[float, Limits(least=1.0, most=1.4)] | None = None
 
 
 @dataclass(frozen=True, kw_only=True)

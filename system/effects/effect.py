@@ -121,8 +121,9 @@ class Effects(Generic[Value]):
     displaced volume that is filled with oil; delivery_reading: factor on the reading of the delivery's meter;
     groove_advance in rad and groove_area, factor: earlier and wider opening of the relief grooves ahead of both
     kidneys; suction_area: factor on the kidney of the suction side; suction_loss: Pa that the inlet loses ahead of the
-    suction port; carried_off: W, power of the flows and the torque, a sink of the power balance. Effects[float]: one
-    point, its arrays (3, M) and (5, M).
+    suction port; free_air, of the oil's volume at one atmosphere: bubbles in the chambers, whose volume goes with the
+    absolute pressure to the power -air_exponent; carried_off: W, power of the flows and the torque, a sink of the power
+    balance. Effects[float]: one point, its arrays (3, M) and (5, M).
     """
 
     conductance: Array
@@ -140,6 +141,8 @@ class Effects(Generic[Value]):
     groove_area: Value
     suction_area: Value
     suction_loss: Value
+    free_air: Value
+    air_exponent: Value
     carried_off: Value
 
     def at(self, point: int) -> Effects[float]:

@@ -1,6 +1,7 @@
 """Effects of [physics] at one operating point, chambers and losses of which are those of any fidelity."""
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
 
@@ -33,11 +34,14 @@ def affected_problem(
     leaks: LeakTable,
     effects: Sequence[Effects[float]],
 ) -> ChamberProblem:
-    """One chamber of the pump at the point, with the changes of its leaks and ports by effects."""
+    """One chamber of the pump at the point, with the changes of its leaks, its ports and its oil by effects."""
     wear = AS_DRAWN
     for one in effects:
         leaks, wear = affected_leaks(leaks, one), affected_wear(wear, one)
-    return chamber_problem(pump, point, motion, leaks, wear)
+    problem = chamber_problem(pump, point, motion, leaks, wear)
+    for one in effects:
+        problem = replace(problem, free_air=one.free_air, air_exponent=one.air_exponent)
+    return problem
 
 
 def at_the_ports(point: OperatingPoint, effects: Sequence[Effects[float]]) -> OperatingPoint:

@@ -5,9 +5,11 @@ from typing import Generic
 
 from system.inputs.units import TURN
 from system.pump.bench import BenchReading, Outside, elastic_energy
-from system.pump.chamber.cycle import flow_energy, specific_volume
+from system.pump.chamber.cycle import bubbly_volume, flow_energy, specific_volume
 from system.pump.chamber.port_coupling import PortedCycle
-from system.pump.chamber.problem import Chamber
+from system.pump.chamber.problem import Chamber, ChamberProblem
+from system.pump.chamber.setup import chamber_records
+from system.pump.chamber.state_kernels import energy_at, oil_of
 from system.pump.chamber.turn import Gaps, TurnTotals
 from system.pump.laws.kinematics import Number
 
@@ -93,13 +95,14 @@ def bench_reading(
 ) -> BenchReading[Number]:
     """Flows and torque of a pump by its chambers' totals, the friction (W) of its pairs and the flows past them.
 
-    The torque is that of `shaft_work`, good to the chambers' integration. The delivery's flow is the pump's own,
-    before the factor of its meter (`metered`).
+    Bubbles in the oil count in the flows of delivery and inlet, not in the drain's, where they leave the oil. The
+    torque is that of `shaft_work`, good to the chambers' integration. The delivery's flow is the pump's own, before the
+    factor of its meter (`metered`).
     """
-    rate, modulus, out = pistons * chamber.shaft_speed / TURN, chamber.bulk_modulus, totals.outflow
-    delivered = rate * out.delivery * specific_volume(chamber.delivery_pressure, modulus)
+    rate, out = pistons * chamber.shaft_speed / TURN, totals.outflow
+    delivered = rate * out.delivery * bubbly_volume(chamber.delivery_pressure, chamber)
     inlet = chamber.inlet_pressure + outside.suction_loss
-    drawn_in = -rate * out.suction * specific_volume(inlet, modulus)
+    drawn_in = -rate * out.suction * bubbly_volume(inlet, chamber)
     drained = gap_leakage(chamber, totals, rate, exchange).total
     work = shaft_work(totals, rate, friction, exchange)
     return BenchReading(
@@ -152,11 +155,11 @@ def power_balance(
     rate: chambers times turns per second; friction: W of all pairs; leakage: W of each gap; extended: W that goes
     past chambers and pairs.
     """
-    energy, modulus, ports = ported.cycle.path_energy, ported.problem.bulk_modulus, reading.ports
+    energy, ports = ported.cycle.path_energy, reading.ports
     return PowerBalance(
         shaft=reading.shaft_power,
         hydraulic=sum(flow * pressure for flow, pressure in ports),
-        elastic=sum(flow * elastic_energy(pressure, modulus) for flow, pressure in ports),
+        elastic=sum(flow * _held_energy(pressure, ported.problem) for flow, pressure in ports),
         ripple=ported.delivery.ripple_power + ported.suction.ripple_power,
         leakage=leakage,
         throttling_delivery=rate * float(energy.delivery),
@@ -164,3 +167,10 @@ def power_balance(
         friction=friction,
         extended=extended,
     )
+
+
+def _held_energy(pressure: float, chamber: ChamberProblem) -> float:
+    """Energy in J per m3 that oil and its bubbles hold at a gauge pressure; of oil alone `elastic_energy`."""
+    if not chamber.free_air:
+        return elastic_energy(pressure, chamber.bulk_modulus)
+    return energy_at(pressure, oil_of(chamber_records(chamber))) / bubbly_volume(pressure, chamber) - pressure

@@ -3,7 +3,13 @@
 from system.effects.components import Component
 from system.effects.effect import EffectId
 from system.effects.extension import THEORY
-from system.effects.laws import drag as drag_laws, filling as filling_laws, flow as flow_laws, port as port_laws
+from system.effects.laws import (
+    air as air_laws,
+    drag as drag_laws,
+    filling as filling_laws,
+    flow as flow_laws,
+    port as port_laws,
+)
 from system.effects.priors import Form, missing_physics, path_of, share_of, signed, size_of, whole
 from system.estimation.parameters import Parameter, Role, Scale
 from system.inputs.channels import ChannelName
@@ -12,6 +18,11 @@ from system.inputs.units import RPM, Dimension
 FLOWS = (ChannelName.Q_OUT, ChannelName.Q_IN)
 CASE_SEALS = (0.0, 1.5e-6)
 RESONANCES = tuple(RPM * speed for speed in (600.0, 900.0, 1200.0, 1500.0, 1800.0, 2100.0, 2400.0, 2700.0, 3000.0))
+
+
+def _polytropic() -> Parameter:
+    name, source = path_of(EffectId.ENTRAINED_AIR, "polytropic"), "slow (1) to fast (1.4) compression"
+    return Parameter(name, Role.EXTENSION, Scale.NORMAL, 1.2, 0.15, 1.0, 1.4, None, source)
 
 
 def _growth() -> Parameter:
@@ -23,10 +34,11 @@ E = EffectId
 FILLING_ENTRIES = (
     missing_physics(
         whole(
-            E.ENTRAINED_AIR, flow_laws.entrained_air,
+            E.ENTRAINED_AIR, air_laws.entrained_air,
             size_of(E.ENTRAINED_AIR, "void", 0.01, 0.05, None, "up to 5 % behind a poor tank"),
+            forms=(Form(air_laws.air_in_chambers, ({"polytropic": 1.2},), (_polytropic(),)),),
         ),
-        (Component.DISPLACEMENT,), FLOWS, (E.DISPLACEMENT, E.Q_OUT_GAIN, E.Q_IN_GAIN),
+        (Component.DISPLACEMENT,), (*FLOWS, ChannelName.P_CHAMBER), (E.DISPLACEMENT, E.Q_OUT_GAIN, E.Q_IN_GAIN),
         "low inlet pressure, every speed", "bubbles of air take the place of oil in the chambers",
         "Nykaenen et al. 2000",
     ),

@@ -9,30 +9,13 @@ from reynolds.numerics.arrays import Array
 from system.description.gap import Gap
 from system.effects.effect import BenchState, Effects, GapCourse
 from system.effects.extension import Values
-from system.effects.state import absolute, dead_volume, displaced, orifice_flow, pressure_difference, unchanged
-from system.inputs.units import STANDARD_ATMOSPHERE, TURN
+from system.effects.state import orifice_flow, pressure_difference, unchanged
+from system.inputs.units import TURN
 
-POLYTROPIC = 1.2
-"""Exponent of air bubbles in oil, between slow (1) and fast (1.4) changes."""
 REFERENCE_VISCOSITY = 0.025
 """Pa s at which a laminar control flow has the size that its area states."""
 
 Courses = Mapping[Gap, GapCourse]
-
-
-def free_air(share: float, pressure: Array) -> Array:
-    """Volume share (N,) of bubbles at an absolute pressure (Pa) with `share` at one atmosphere."""
-    return np.asarray(share * (STANDARD_ATMOSPHERE / pressure) ** (1.0 / POLYTROPIC))
-
-
-def entrained_air(values: Values, courses: Courses, state: BenchState) -> Effects:
-    """Bubbles fill part of the displacement and of the dead volume as they grow again; they are gone at delivery.
-
-    `void`: volume share at one atmosphere. The missing oil is x(p_in) - x(p_out) of displaced and dead volume.
-    """
-    lost = free_air(values["void"], absolute(state.inlet_pressure))
-    lost = lost - free_air(values["void"], absolute(state.delivery_pressure))
-    return replace(unchanged(courses), intake=1.0 - lost * (1.0 + dead_volume(state) / displaced(state)))
 
 
 def squeeze_pumping(values: Values, courses: Courses, state: BenchState) -> Effects:

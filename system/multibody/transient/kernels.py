@@ -20,7 +20,7 @@ from system.multibody.plate_kernels import axial
 from system.pump.chamber import layout as col
 from system.pump.chamber.kernels import GAMMA, LEFT, NODES, STAGES, TABLEAU, WEIGHTS, fill_stage, stage_pressure
 from system.pump.chamber.layout import INTEGRALS, PATHS, WAYS
-from system.pump.chamber.state_kernels import oil_energy, oil_volume, outflows, port_ways
+from system.pump.chamber.state_kernels import oil_energy, oil_of, oil_volume, outflows, port_ways
 from system.pump.ports.areas import orifice_coefficients, section_area
 
 PLATE = np.dtype(
@@ -147,12 +147,12 @@ def advance(chamber, plate, which, shaft_angle, tilt, control, state, stages, to
     control: pressure before the actuator's orifice at begin and end of the step (Pa), and the step (s). stages as
     `step` of the chamber has them; totals (INTEGRALS,) gains what `integral_rates` counts.
     """
-    bulk, length = chamber[0].bulk_modulus, control[2] * chamber[0].shaft_speed
+    length = control[2] * chamber[0].shaft_speed
     ways, flows = np.empty(WAYS), np.empty(PATHS)
     _, swell = content_at(chamber, plate, which, shaft_angle, tilt, 0.0, control, ways)
     pressure = state[1]
     outflows(chamber, pressure, ways, flows)
-    fill_stage(chamber, pressure, oil_volume(pressure, bulk)[0], swell, ways, flows, stages[0])
+    fill_stage(chamber, pressure, oil_volume(pressure, oil_of(chamber))[0], swell, ways, flows, stages[0])
     for stage in range(1, STAGES):
         time = NODES[stage] * control[2]
         content, swell = content_at(chamber, plate, which, shaft_angle, tilt, time, control, ways)
@@ -243,10 +243,10 @@ def contents(chamber, states):
     """Oil in compartments, m3 at zero gauge pressure, and its elastic energy, J: M (h - p s)."""
     found = np.zeros(2)
     for k in range(states.shape[0]):
-        pressure, bulk = states[k, 1], chamber[0].bulk_modulus
-        specific, liquid, _ = oil_volume(pressure, bulk)
+        pressure, oil = states[k, 1], oil_of(chamber)
+        specific, liquid, _ = oil_volume(pressure, oil)
         found[0] += states[k, 0]
-        found[1] += states[k, 0] * (oil_energy(pressure, specific, liquid, bulk) - pressure * specific)
+        found[1] += states[k, 0] * (oil_energy(pressure, specific, liquid, oil) - pressure * specific)
     return found
 
 

@@ -122,8 +122,8 @@ def start_states(
     content = pump.pump.dead_volume + piston_area(pump) * place
     reach, _ = actuator_at(record, plate, angle, 0.0, control, np.zeros(WAYS))
     contents, pressures = np.append(content, reach), np.append(found, control)
-    bulk = pump.oil.bulk_modulus
-    specific = np.array([oil_volume(float(one), bulk)[0] for one in pressures])
+    oil = pump.oil.bulk_modulus, 0.0, 1.0
+    specific = np.array([oil_volume(float(one), oil)[0] for one in pressures])
     return np.ascontiguousarray(np.stack([contents / specific, pressures], axis=1))
 
 

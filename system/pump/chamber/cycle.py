@@ -15,12 +15,13 @@ import numpy as np
 
 from reynolds.errors import NotConverged
 from reynolds.numerics.arrays import Array
-from system.inputs.units import TURN
+from system.inputs.units import STANDARD_ATMOSPHERE, TURN
 from system.pump.chamber import kernels as kernel
 from system.pump.chamber.layout import CAVITY_PRESSURE, INTEGRALS, PORTS, WORK
 from system.pump.chamber.map_kernels import periodic
-from system.pump.chamber.problem import ChamberProblem
-from system.pump.chamber.setup import Course, constants, periodic_values, turn_nodes
+from system.pump.chamber.problem import Chamber, ChamberProblem
+from system.pump.chamber.setup import Course, chamber_records, constants, periodic_values, turn_nodes
+from system.pump.chamber.state_kernels import energy_at, oil_of
 from system.pump.chamber.trail_kernels import NOT_PERIODIC
 from system.pump.chamber.turn import Paths, TurnTotals, turn_totals
 from system.pump.laws.kinematics import Number, piston_displacement, stroke
@@ -118,7 +119,7 @@ def unsolved(what: str, delivery_pressure: float, shaft_speed: float) -> NotConv
 
 def _checks(problem: ChamberProblem, integrals: Array, drift: float, change: float) -> ChamberChecks:
     totals = turn_totals(integrals)
-    to_case = totals.outflow.gaps * flow_energy(problem.case_pressure, problem.bulk_modulus)
+    to_case = totals.outflow.gaps * energy_at(problem.case_pressure, oil_of(chamber_records(problem)))
     taken = totals.port_energy.sum() + to_case
     swept = problem.piston_area * stroke(problem.drive)
     ideal_work = swept * problem.pressure_span
@@ -144,17 +145,24 @@ def specific_volume(pressure: Number, bulk_modulus: float) -> Number:
     return float(found) if isinstance(pressure, float) else found
 
 
+def bubbly_volume(pressure: Number, chamber: Chamber[Any]) -> Number:
+    """Volume of a chamber's oil with its bubbles at a pressure in Pa, over that of liquid at zero gauge pressure."""
+    absolute: Any = pressure + STANDARD_ATMOSPHERE
+    bubbles = chamber.free_air * (STANDARD_ATMOSPHERE / absolute) ** chamber.air_exponent
+    return specific_volume(pressure, chamber.bulk_modulus) + bubbles
+
+
 def _cycle(problem: ChamberProblem, effort: Effort, course: Course, checks: ChamberChecks) -> ChamberCycle:
     samples = course.pressures.size
     angle = TURN * np.arange(samples) / samples
     growth = 0.0 if problem.growth is None else periodic_values(problem.growth[None], samples)[0]
-    liquid = np.exp(-np.maximum(course.pressures, CAVITY_PRESSURE) / problem.bulk_modulus)
+    flowing = bubbly_volume(np.maximum(course.pressures, CAVITY_PRESSURE), problem)
     return ChamberCycle(
         **vars(turn_totals(course.totals)),
         shaft_angle=angle,
         pressure=course.pressures,
         volume=problem.dead_volume + problem.piston_area * piston_displacement(problem.drive, angle) + growth,
-        flow=Paths(*(course.rates * problem.shaft_speed * liquid[:, None]).T),
+        flow=Paths(*(course.rates * problem.shaft_speed * flowing[:, None]).T),
         growth_work=_growth_work(problem, course.pressures),
         surge=course.passed[:, :PORTS].T,
         checks=checks,

@@ -18,6 +18,7 @@ from system.pump.chamber.state_kernels import (
     cubics,
     f8,
     integral_rates,
+    oil_of,
     oil_volume,
     openings,
     outflows,
@@ -100,12 +101,12 @@ def stage_pressure(chamber, guess, content, mass, weight, close, ways, flows):
     The equation rises strictly with p wherever anything depends on p at all, so Newton inside a shrinking bracket
     finds its one root; a change of at most `close` (Pa) is the last, and s and flows follow it by their slopes.
     """
-    bulk = chamber[0].bulk_modulus
+    bulk, oil = chamber[0].bulk_modulus, oil_of(chamber)
     low, high, pressure, sharp = -np.inf, np.inf, guess, NEWTON_TOLERANCE * bulk
     for _ in range(NEWTON_LIMIT):
         delivery, suction, slope = outflows(chamber, pressure, ways, flows)
         total = total_of(flows)
-        specific, liquid, compressibility = oil_volume(pressure, bulk)
+        specific, liquid, compressibility = oil_volume(pressure, oil)
         mixed = specific / liquid if pressure < CAVITY_PRESSURE else 1.0
         rest = content - mass * specific + weight * total * mixed
         if rest > 0.0:
@@ -201,7 +202,7 @@ def to_cavity(chamber, table, shaft_angle, length, mass, new_mass, left):
     The void, V less the liquid at CAVITY_PRESSURE, as a parabola: its value at both ends of the step, its slope at
     the start where oil leaves at the rate `left`.
     """
-    liquid = oil_volume(CAVITY_PRESSURE, chamber[0].bulk_modulus)[0]
+    liquid = oil_volume(CAVITY_PRESSURE, oil_of(chamber))[0]
     content, swell = volume(chamber, table, shaft_angle)
     void, rate = content - liquid * mass, swell + liquid * left
     last = volume(chamber, table, shaft_angle + length)[0] - liquid * new_mass
@@ -255,7 +256,7 @@ def revolution(chamber, table, ports, nodes, pressure, tolerance, pressures, pat
     work_scale = scale * c.piston_area * 2.0 * c.stroke_scale
     stages, ways, flows = np.empty((STAGES, COLUMNS)), np.empty(WAYS), np.empty(PATHS)
     content, swell = volume(chamber, table, nodes[0])
-    specific = oil_volume(pressure, c.bulk_modulus)[0]
+    specific = oil_volume(pressure, oil_of(chamber))[0]
     openings(chamber, table, ports, nodes[0], ways)
     outflows(chamber, pressure, ways, flows)
     fill_stage(chamber, pressure, specific, swell, ways, flows, stages[0])

@@ -7,7 +7,7 @@ import numpy as np
 
 from system.pump.chamber.kernels import OK, TRAIL, revolution, slaved_pressure
 from system.pump.chamber.layout import INTEGRALS, PATHS
-from system.pump.chamber.state_kernels import oil_change
+from system.pump.chamber.state_kernels import oil_change, oil_of
 from system.pump.chamber.trail_kernels import NOT_PERIODIC, RUN_IN, follow_turn, sample
 
 ROOM = 256
@@ -94,7 +94,7 @@ def periodic(given, nodes, control, filled):
         if status != OK:
             return turn, steps, refused, drift, change, status
         end = filled[0][nodes.size - 2]
-        change, start = oil_change(start, end, given[0][0].bulk_modulus), end
+        change, start = oil_change(start, end, oil_of(given[0])), end
         if abs(change) <= limit:
             return turn, steps, refused, drift, change, OK
     return turns, steps, refused, drift, change, NOT_PERIODIC

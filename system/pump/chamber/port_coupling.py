@@ -16,7 +16,7 @@ from reynolds.errors import NotConverged
 from reynolds.numerics.anderson import History
 from reynolds.numerics.arrays import Array
 from system.inputs.units import TURN
-from system.pump.chamber.cycle import TOLERANCE, ChamberCycle, flow_energy, solve_cycle
+from system.pump.chamber.cycle import TOLERANCE, ChamberCycle, bubbly_volume, flow_energy, solve_cycle
 from system.pump.chamber.layout import CAVITY_PRESSURE
 from system.pump.chamber.port_volume import Supply, line_power, port_balance
 from system.pump.chamber.problem import ChamberProblem, PortPressure
@@ -222,14 +222,14 @@ class _Side:
 
     def _through(self, pressure: float, solved: _Solved) -> Array:
         """Flow of all chambers through the port, m3/s at its pressure, less the draw of the films."""
-        modulus = solved.oil.bulk_modulus
         mass_flow = [
             (cycle.flow.delivery, cycle.flow.suction)[self.index]
-            * np.exp(np.maximum(cycle.pressure, CAVITY_PRESSURE) / modulus)
+            / bubbly_volume(np.maximum(cycle.pressure, CAVITY_PRESSURE), solved.oil)
             for cycle in solved.cycles
         ]
         taken = np.tile(self.draw, self.repeats)
-        return np.asarray((over_chambers(mass_flow, self.pistons) - taken) * np.exp(-pressure / modulus))
+        through = over_chambers(mass_flow, self.pistons) - taken
+        return np.asarray(through * bubbly_volume(pressure, solved.oil))
 
 
 def _with_ports(problem: ChamberProblem, pressure: Array) -> ChamberProblem:

@@ -1,6 +1,6 @@
 """One displacement chamber at an operating point: geometry, oil, ports, leaking gaps."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Generic
 
 import numpy as np
@@ -57,8 +57,9 @@ class PortPressure:
 class Chamber(Generic[Number]):
     """One chamber at one operating point without ports and gaps: SI units, pressures gauge, oil constant.
 
-    delivery_pressure and inlet_pressure are the ports' means over the turn. Chamber[Array]: at N operating points,
-    arrays (N,).
+    delivery_pressure and inlet_pressure are the ports' means over the turn. Bubbles in the oil: their volume at one
+    atmosphere over the oil's, free_air, goes with the absolute pressure to the power -air_exponent. Chamber[Array]: at
+    N operating points, arrays (N,).
     """
 
     drive: SwashDrive[Number]
@@ -73,6 +74,8 @@ class Chamber(Generic[Number]):
     kinematic_viscosity: Number
     flow_coefficient: float
     critical_reynolds: float
+    free_air: Number | float = field(default=0.0, kw_only=True)
+    air_exponent: Number | float = field(default=1.0, kw_only=True)
 
     @property
     def pressure_span(self) -> Number:

@@ -1,9 +1,9 @@
 """Compiled state of one chamber at a shaft angle: oil, volume, what lets oil out, flows and their energy.
 
 State: mass over reference density M = V/s(p) in m3, with s(p) the specific volume of the oil relative to zero
-gauge pressure, s = exp(-p/K) while it is liquid. Then dM/dphi = -sum(q)/(s w) is conservation of mass and,
-divided by M, the corrected Eq. (14). Every q > 0 leaves the chamber and is a volume of liquid at chamber pressure:
-beside a cavity too it is liquid that passes ports and gaps, so its mass is q over the s of the liquid.
+gauge pressure, s = exp(-p/K) while it is liquid without air. Then dM/dphi = -sum(q)/(s w) is conservation of mass and,
+divided by M, the corrected Eq. (14). Every q > 0 leaves the chamber and is a volume of oil at chamber pressure, with
+its bubbles: beside a cavity too it is oil that passes ports and gaps, so its mass is q over the s of that.
 
 What varies over the turn comes as periodic cubics on equal intervals of shaft angle, in unit cells: `table` (N,
 TABLE, 4) has the gaps' conductances and drag flows and the growth of the volume by the parts' own motion in m3;
@@ -15,6 +15,7 @@ TABLE, 4) has the gaps' conductances and drag flows and the growth of the volume
 import numba
 import numpy as np
 
+from system.inputs.units import STANDARD_ATMOSPHERE
 from system.pump.chamber import layout as col
 from system.pump.chamber.layout import CAVITY_PRESSURE, CAVITY_SOFTNESS, PATHS
 from system.pump.ports.areas import FLOW_FROM, PORT_SIZE, orifice, orifice_coefficients, section_area
@@ -28,6 +29,8 @@ CHAMBER = np.dtype(
         ("cone_swash_product", "f8"),
         ("dead_volume", "f8"),
         ("bulk_modulus", "f8"),
+        ("free_air", "f8"),
+        ("air_exponent", "f8"),
         ("density", "f8"),
         ("kinematic_viscosity", "f8"),
         ("flow_coefficient", "f8"),
@@ -44,47 +47,67 @@ CHAMBER = np.dtype(
 
 records = numba.from_dtype(CHAMBER)[::1]
 f8, vector, cubics = numba.f8, numba.f8[::1], numba.f8[:, :, ::1]
+oils = numba.types.UniTuple(f8, 3)
 
 
-@numba.njit(numba.types.UniTuple(f8, 3)(f8, f8), cache=True, error_model="numpy")
-def oil_volume(pressure, bulk_modulus):
-    """Specific volumes (relative) of the oil with its cavity and of its liquid, and -ds/dp of the former in 1/Pa.
+@numba.njit(oils(records), cache=True, error_model="numpy")
+def oil_of(chamber):
+    """A chamber's oil as the functions of its volume and energy take it: modulus, free air, exponent of the air."""
+    c = chamber[0]
+    return c.bulk_modulus, c.free_air, c.air_exponent
 
-    Liquid of constant bulk modulus; below CAVITY_PRESSURE oil and cavity together, nearly at that pressure. What
-    passes ports and gaps is liquid.
+
+@numba.njit(numba.types.UniTuple(f8, 3)(f8, oils), cache=True, error_model="numpy")
+def oil_volume(pressure, oil):
+    """Specific volumes (relative) of the oil with its cavity and of what flows, and -ds/dp of the former in 1/Pa.
+
+    Liquid of constant bulk modulus with bubbles, s = exp(-p/K) + x (p0/(p + p0))^m; below CAVITY_PRESSURE oil and
+    cavity together, nearly at that pressure. What passes ports and gaps has no cavity, but the bubbles.
     """
+    modulus, air, exponent = oil
+    above = max(pressure, CAVITY_PRESSURE)
+    flowing = np.exp(-above / modulus)
+    compressibility = flowing / modulus
+    if air > 0.0:
+        absolute = above + STANDARD_ATMOSPHERE
+        bubbles = air * (STANDARD_ATMOSPHERE / absolute) ** exponent
+        flowing += bubbles
+        compressibility += exponent * bubbles / absolute
     if pressure >= CAVITY_PRESSURE:
-        specific = np.exp(-pressure / bulk_modulus)
-        return specific, specific, specific / bulk_modulus
-    liquid = np.exp(-CAVITY_PRESSURE / bulk_modulus)
-    compressibility = liquid / CAVITY_SOFTNESS
-    return liquid + compressibility * (CAVITY_PRESSURE - pressure), liquid, compressibility
+        return flowing, flowing, compressibility
+    compressibility = flowing / CAVITY_SOFTNESS
+    return flowing + compressibility * (CAVITY_PRESSURE - pressure), flowing, compressibility
 
 
-@numba.njit(f8(f8, f8, f8), cache=True, error_model="numpy")
-def oil_change(start, end, bulk_modulus):
+@numba.njit(f8(f8, f8, oils), cache=True, error_model="numpy")
+def oil_change(start, end, oil):
     """Change of a chamber's oil over a turn that leads from one pressure to another, in Pa.
 
     Of liquid that of its pressure. Beside a cavity the pressure hardly knows how much oil there is, so that it
     counts as the change of pressure by which liquid would hold as much more: K dM/M.
     """
-    return bulk_modulus * (oil_volume(start, bulk_modulus)[0] / oil_volume(end, bulk_modulus)[0] - 1.0)
+    return oil[0] * (oil_volume(start, oil)[0] / oil_volume(end, oil)[0] - 1.0)
 
 
-@numba.njit(f8(f8, f8, f8, f8), cache=True, error_model="numpy")
-def oil_energy(pressure, specific, liquid, bulk_modulus):
+@numba.njit(f8(f8, f8, f8, oils), cache=True, error_model="numpy")
+def oil_energy(pressure, specific, flowing, oil):
     """Flow energy h = integral of s dp in Pa from zero gauge pressure, of oil of these specific volumes."""
-    energy = bulk_modulus * (1.0 - liquid)
+    modulus, air, exponent = oil
+    above = max(pressure, CAVITY_PRESSURE)
+    energy = modulus * (1.0 - np.exp(-above / modulus))
+    if air > 0.0:
+        grown, left = np.log(1.0 + above / STANDARD_ATMOSPHERE), 1.0 - exponent
+        energy += air * STANDARD_ATMOSPHERE * (np.expm1(left * grown) / left if left > 1e-9 else grown)
     if pressure >= CAVITY_PRESSURE:
         return energy
-    return energy - 0.5 * (CAVITY_PRESSURE - pressure) * (liquid + specific)
+    return energy - 0.5 * (CAVITY_PRESSURE - pressure) * (flowing + specific)
 
 
-@numba.njit(f8(f8, f8), cache=True, error_model="numpy")
-def energy_at(pressure, bulk_modulus):
+@numba.njit(f8(f8, oils), cache=True, error_model="numpy")
+def energy_at(pressure, oil):
     """`oil_energy` at a pressure."""
-    specific, liquid, _ = oil_volume(pressure, bulk_modulus)
-    return oil_energy(pressure, specific, liquid, bulk_modulus)
+    specific, flowing, _ = oil_volume(pressure, oil)
+    return oil_energy(pressure, specific, flowing, oil)
 
 
 @numba.njit(numba.types.Tuple((numba.i8, f8))(numba.i8, f8), cache=True, error_model="numpy")
@@ -178,16 +201,16 @@ def integral_rates(chamber, pressure, specific, swell, ways, flows, out):
     heat. The walls do the same work on the oil that they drag, kept apart because it is not a loss.
     """
     c = chamber[0]
-    bulk = c.bulk_modulus
-    liquid = specific if pressure >= CAVITY_PRESSURE else np.exp(-CAVITY_PRESSURE / bulk)
-    energy = oil_energy(pressure, specific, liquid, bulk)
-    case = energy - energy_at(c.case_pressure, bulk)
-    per_radian = 1.0 / (liquid * c.shaft_speed)
+    oil = oil_of(chamber)
+    flowing = specific if pressure >= CAVITY_PRESSURE else oil_volume(CAVITY_PRESSURE, oil)[1]
+    energy = oil_energy(pressure, specific, flowing, oil)
+    case = energy - energy_at(c.case_pressure, oil)
+    per_radian = 1.0 / (flowing * c.shaft_speed)
     for path in range(PATHS):
         out[col.OUTFLOW + path] = flows[path] * per_radian
         out[col.PATH_ENERGY + path] = out[col.OUTFLOW + path] * case
     for port in range(col.PORTS):
-        behind = energy_at(ways[col.BEHIND + port], bulk)
+        behind = energy_at(ways[col.BEHIND + port], oil)
         out[col.PATH_ENERGY + port] = out[col.OUTFLOW + port] * (energy - behind)
         out[col.PORT_ENERGY + port] = out[col.OUTFLOW + port] * behind
     for gap in range(col.GAPS):

@@ -33,7 +33,7 @@ from system.pump.chamber.kernels import (
     step_size,
 )
 from system.pump.chamber.layout import INTEGRALS, PATHS, WAYS
-from system.pump.chamber.state_kernels import oil_change, oil_volume, outflows, volume, ways_out
+from system.pump.chamber.state_kernels import oil_change, oil_of, oil_volume, outflows, volume, ways_out
 
 NOT_PERIODIC, TOO_ROUGH = 3, 4
 """Statuses beside those of `kernels`."""
@@ -85,7 +85,7 @@ def follow(chamber, table, ports, trail, pressure, tolerance, along, totals):
     stages, ways, flows = np.empty((STAGES, COLUMNS)), np.empty(WAYS), np.empty(PATHS)
     begin, first = trail[0, BEGIN], trail[0, STAGE + 1 : STAGE + KEPT]
     content, swell = volume(chamber, table, begin)
-    specific = oil_volume(pressure, c.bulk_modulus)[0]
+    specific = oil_volume(pressure, oil_of(chamber))[0]
     ways_out(chamber, table, ports, begin, first[col.DELIVERY], first[col.SUCTION], ways)
     outflows(chamber, pressure, ways, flows)
     fill_stage(chamber, pressure, specific, swell, ways, flows, stages[0])
@@ -124,7 +124,7 @@ def follow_turn(given, trail, tolerance, limit, turns, along, totals):
         if status != OK:
             return status
         end, status = follow(*given, trail, start, tolerance, along, totals)
-        change, start = oil_change(start, end, given[0][0].bulk_modulus), end
+        change, start = oil_change(start, end, oil_of(given[0])), end
         if abs(change) <= limit:
             return status
     return NOT_PERIODIC

@@ -11,6 +11,7 @@ from reynolds.laws.contact import gaussian_moment
 from system import CATALOGUE, BenchState, Gap, GapCourse, PortOpening, ReliefGroove, load_pump
 from system.effects.effect import neutral
 from system.effects.laws import (
+    air as air_laws,
     contact as contact_laws,
     drag as drag_laws,
     film as film_laws,
@@ -257,7 +258,7 @@ def test_control_flow_by_both_takes_up_the_pressure(pressure):
 
 def test_air_of_sheet_a5():
     for pressure, share in ((1e5, 0.01), (3e5, 0.0044), (25e5, 0.0009)):
-        assert flow_laws.free_air(0.01, np.array([pressure]))[0] == pytest.approx(share, rel=0.25)
+        assert air_laws.free_air(0.01, np.array([pressure]))[0] == pytest.approx(share, rel=0.25)
 
 
 def test_outside_keeps_mass_and_work():
@@ -270,7 +271,7 @@ def test_outside_keeps_mass_and_work():
     assert mass[0] == pytest.approx(mass[1], rel=1e-12)
     for name, value in vars(NOTHING_OUTSIDE).items():
         assert getattr(outside(none, at), name) == value, name
-    starved = outside(flow_laws.entrained_air({"void": 0.05}, courses(), at), at)
+    starved = outside(air_laws.entrained_air({"void": 0.05}, courses(), at), at)
     power = -starved.delivery * at.delivery_pressure + starved.inlet * at.inlet_pressure
     assert -starved.torque * at.speed == pytest.approx(power, rel=0.02)
 
