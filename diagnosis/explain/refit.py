@@ -18,6 +18,7 @@ from diagnosis.explain.starts import Expansion, from_peak, lent_slopes, start
 from diagnosis.study.model import Study
 from diagnosis.thresholds import Thresholds
 from reynolds.errors import NotConverged
+from reynolds.numerics.arrays import Array
 from system.estimation.fit import FitLimits, maximum_posterior
 from system.estimation.posterior import Posterior, values_at
 from system.work.processes import ProcessPool
@@ -101,13 +102,11 @@ def _refitted(
     """
     limits = replace(LIMITS, hopeless=inf if _gross(study, thresholds) else hopeless)
     about, fresh = _about(study, hypothesis, part)
-    members = _likeliest(study, hypothesis, thresholds, about, fresh)
+    begun, failed = _begun(study, hypothesis, thresholds, about, fresh)
     found: list[tuple[Hypothesis, Posterior]] = []
-    failed: list[NotConverged] = []
-    for member in members:
+    for member, begin in begun[: thresholds.fit.grid_members]:
         simulator = simulator_of(study, member, thresholds)
         try:
-            begin = start(study, simulator, about, fresh, SIZES, thresholds.fit.reach)[1]
             if fresh != member.open_names:
                 begin = from_peak(study, simulator, about, begin)
             lent = lent_slopes(simulator, about, fresh, begin)
@@ -181,21 +180,32 @@ def _numbered(
     return number, try_refit(study, linear, thresholds, hopeless, part)
 
 
-def _likeliest(
+def _begun(
     study: Study, hypothesis: Hypothesis, thresholds: Thresholds, about: Expansion, fresh: tuple[str, ...]
-) -> list[Hypothesis]:
-    """The members of a grid to refit, by the linear model; for a gross mismatch, by trial sizes in full."""
-    members = hypothesis.members
-    if len(members) <= 1:
-        return list(members)
+) -> tuple[list[tuple[Hypothesis, Array]], list[NotConverged]]:
+    """Members of a grid with the xi where their fits start, the most promising first, and those without a start.
 
-    def promised(member: Hypothesis) -> float:
+    Only the likeliest in the linear model are tried; of a gross mismatch, where slopes say little, all.
+    """
+    members = hypothesis.members if _gross(study, thresholds) else _likeliest(study, hypothesis, thresholds)
+    begun: list[tuple[float, Hypothesis, Array]] = []
+    failed: list[NotConverged] = []
+    for member in members:
         simulator = simulator_of(study, member, thresholds)
-        return start(study, simulator, about, fresh, SIZES, thresholds.fit.reach)[0]
+        try:
+            promised, begin = start(study, simulator, about, fresh, SIZES, thresholds.fit.reach)
+            begun.append((promised, member, begin))
+        except NotConverged as reason:
+            failed.append(reason)
+    begun.sort(key=lambda each: each[0])
+    return [(member, begin) for _, member, begin in begun], failed
 
-    if _gross(study, thresholds):
-        return sorted(members, key=promised)[: thresholds.fit.grid_members]
-    widths = thresholds.name.mixture_widths
+
+def _likeliest(study: Study, hypothesis: Hypothesis, thresholds: Thresholds) -> Sequence[Hypothesis]:
+    """The members of a grid to refit, by the linear model."""
+    members, widths = hypothesis.members, thresholds.name.mixture_widths
+    if len(members) <= thresholds.fit.grid_members:
+        return members
 
     def evidence(member: Hypothesis) -> float:
         return joint_evidence(study.base, candidates_of(study, member), widths).evidence

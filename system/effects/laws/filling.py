@@ -14,6 +14,10 @@ from system.effects.state import full_stroke, ideal_flow, piston_area, unchanged
 from system.pump.chamber.layout import CAVITY_PRESSURE
 
 Courses = Mapping[Gap, GapCourse]
+LEAST_LOSS = 1e-3
+"""Pa that a kidney is taken to lose at least: none of a plate that stands upright."""
+HALVINGS = 50
+"""Of the bracket of what the line leaves: to round-off."""
 
 
 def kidney_loss(state: BenchState, speed: Array, displacement_ratio: Array) -> Array:
@@ -24,15 +28,21 @@ def kidney_loss(state: BenchState, speed: Array, displacement_ratio: Array) -> A
     return np.asarray(drop)
 
 
-def open_share(state: BenchState) -> float:
-    """Flow that all suction kidneys let through at the loss of a piston's largest flow, over the displaced flow.
-
-    Half the arc over which one kidney is open, slopes counted by half.
-    """
+def open_arc(state: BenchState) -> float:
+    """Angle in rad over which a suction kidney is open, its slopes counted by half."""
     suction, _ = state.geometry.ports.sides
-    whole = suction.kidney_full_end - suction.kidney_full_start
     slopes = suction.kidney_full_start - suction.groove_end + suction.kidney_end - suction.kidney_full_end
-    return 0.5 * (whole + 0.5 * slopes)
+    return suction.kidney_full_end - suction.kidney_full_start + 0.5 * slopes
+
+
+def filled_share(root: Array, arc: float) -> Array:
+    """Share of a chamber that fills behind a kidney at u = root^2, the port's pressure over the kidney's loss at most.
+
+    A piston's speed goes with the sine of the angle. Where that exceeds the root of u, a cavity opens and the kidney
+    passes that root until the cavity is full or the port shuts: (1 - cos f + (arc - f) u^(1/2))/2, sin f = u^(1/2).
+    """
+    begins = np.arcsin(np.minimum(root, 1.0))
+    return np.asarray(np.minimum(0.5 * (1.0 - np.cos(begins) + (arc - begins) * root), 1.0))
 
 
 def starved_kidneys(values: Values, courses: Courses, state: BenchState) -> Effects:
@@ -49,23 +59,28 @@ def starved_kidneys(values: Values, courses: Courses, state: BenchState) -> Effe
 def starved_line(values: Values, courses: Courses, state: BenchState) -> Effects:
     """An inlet line that loses pressure by the sum of all pistons' flow that comes, dp = x L ((1 - l) q^2 + l m q).
 
-    q: flow over the displaced flow at rated speed and full stroke; L: the kidney's loss there; x: `inlet_loss`; l:
-    `laminar` share at 25 mPa s, m: viscosity over that. Chambers fill while the kidneys let q through at what the
-    line leaves, q <= a (p/L)^(1/2), a by `open_share`; beyond, both are equal. After Ivantysyn and Ivantysynova 2001;
-    Hagen and Poiseuille for a line of cold oil.
+    q: flow over the displaced flow at rated speed and full stroke, by `filled_share` where chambers starve; L: the
+    kidney's loss there; x: `inlet_loss`; l: `laminar` share at 25 mPa s, m: viscosity over that. After Ivantysyn and
+    Ivantysynova 2001; Hagen and Poiseuille for a line of cold oil.
     """
     part, ones = state.geometry.pump, np.ones_like(state.speed)
     rated = replace(state, speed=part.rated_speed * ones, displacement_ratio=ones)
-    loss = kidney_loss(state, rated.speed, ones)
-    thick = values["laminar"] * state.viscosity / REFERENCE_VISCOSITY
-    square, open_to = 1.0 - values["laminar"], open_share(state) ** -2
-    above = np.maximum(state.inlet_pressure - CAVITY_PRESSURE, 0.0) / loss
-    size = values["inlet_loss"]
-    bend, slope = open_to + size * square, size * thick
-    starved = 2.0 * above / (slope + np.sqrt(slope**2 + 4.0 * bend * above) + 1e-12)
-    flow = np.minimum(ideal_flow(state) / ideal_flow(rated), starved)
-    lost = np.asarray(size * loss * (square * flow**2 + thick * flow))
-    return replace(unchanged(courses), suction_loss=lost)
+    size, thick = values["inlet_loss"], values["laminar"] * state.viscosity / REFERENCE_VISCOSITY
+    full, whole = ideal_flow(state) / ideal_flow(rated), kidney_loss(state, rated.speed, ones)
+    own = kidney_loss(state, state.speed, state.displacement_ratio)
+    above = np.maximum(state.inlet_pressure - CAVITY_PRESSURE, 0.0)
+    arc = open_arc(state)
+
+    def lost(root: Array) -> Array:
+        flow = full * filled_share(root, arc)
+        return np.asarray(size * whole * ((1.0 - values["laminar"]) * flow**2 + thick * flow))
+
+    low, high = np.zeros_like(own), np.sqrt(above / np.maximum(own, LEAST_LOSS))
+    for _ in range(HALVINGS):
+        middle = 0.5 * (low + high)
+        beyond = own * middle**2 + lost(middle) > above
+        low, high = np.where(beyond, low, middle), np.where(beyond, middle, high)
+    return replace(unchanged(courses), suction_loss=lost(high))
 
 
 def starved_beyond_onset(values: Values, courses: Courses, state: BenchState) -> Effects:
