@@ -4,6 +4,7 @@ from collections.abc import Mapping
 from dataclasses import replace
 
 import numpy as np
+from scipy.integrate import cumulative_trapezoid
 
 from reynolds.numerics.arrays import Array
 from system.description.gap import Gap
@@ -12,12 +13,17 @@ from system.effects.extension import Values
 from system.effects.laws.flow import REFERENCE_VISCOSITY
 from system.effects.state import full_stroke, ideal_flow, piston_area, unchanged
 from system.pump.chamber.layout import CAVITY_PRESSURE
+from system.pump.lumped import port_openings
+from system.pump.ports.areas import opening_area
 
 Courses = Mapping[Gap, GapCourse]
 LEAST_LOSS = 1e-3
 """Pa that a kidney is taken to lose at least: none of a plate that stands upright."""
 HALVINGS = 50
 """Of the bracket of what the line leaves: to round-off."""
+STROKE_ANGLES = 361
+ROOTS = np.linspace(0.0, 4.0, 401)
+"""At which the share that fills is worked out; at more every chamber fills."""
 
 
 def kidney_loss(state: BenchState, speed: Array, displacement_ratio: Array) -> Array:
@@ -28,21 +34,24 @@ def kidney_loss(state: BenchState, speed: Array, displacement_ratio: Array) -> A
     return np.asarray(drop)
 
 
-def open_arc(state: BenchState) -> float:
-    """Angle in rad over which a suction kidney is open, its slopes counted by half."""
-    suction, _ = state.geometry.ports.sides
-    slopes = suction.kidney_full_start - suction.groove_end + suction.kidney_end - suction.kidney_full_end
-    return suction.kidney_full_end - suction.kidney_full_start + 0.5 * slopes
+def suction_opening(state: BenchState) -> tuple[Array, Array]:
+    """Angles (M,) rad of a suction stroke and the area of its port there over that of the kidney."""
+    suction, _ = port_openings(state.geometry)
+    angle = np.linspace(0.0, np.pi, STROKE_ANGLES)
+    return angle, opening_area(suction, angle) / suction.kidney_area
 
 
-def filled_share(root: Array, arc: float) -> Array:
-    """Share of a chamber that fills behind a kidney at u = root^2, the port's pressure over the kidney's loss at most.
+def filled_share(root: Array, angle: Array, opened: Array) -> Array:
+    """Share of a chamber that fills at a root of the port's pressure over the kidney's largest loss.
 
-    A piston's speed goes with the sine of the angle. Where that exceeds the root of u, a cavity opens and the kidney
-    passes that root until the cavity is full or the port shuts: (1 - cos f + (arc - f) u^(1/2))/2, sin f = u^(1/2).
+    A piston's speed goes with the sine of the angle; the port passes `root` times its opened area where a cavity is.
+    So the cavity is what the volume swept since any earlier angle exceeds the oil passed, at most (a reflected walk).
+    root (N,); angle, opened (M,): of the suction stroke.
     """
-    begins = np.arcsin(np.minimum(root, 1.0))
-    return np.asarray(np.minimum(0.5 * (1.0 - np.cos(begins) + (arc - begins) * root), 1.0))
+    swept = 0.5 * (1.0 - np.cos(angle))
+    passed = 0.5 * cumulative_trapezoid(opened, angle, initial=0.0)
+    lack = swept - root[:, None] * passed
+    return np.asarray(1.0 - (lack[:, -1] - lack.min(axis=1)))
 
 
 def starved_kidneys(values: Values, courses: Courses, state: BenchState) -> Effects:
@@ -69,10 +78,10 @@ def starved_line(values: Values, courses: Courses, state: BenchState) -> Effects
     full, whole = ideal_flow(state) / ideal_flow(rated), kidney_loss(state, rated.speed, ones)
     own = kidney_loss(state, state.speed, state.displacement_ratio)
     above = np.maximum(state.inlet_pressure - CAVITY_PRESSURE, 0.0)
-    arc = open_arc(state)
+    shares = filled_share(ROOTS, *suction_opening(state))
 
     def lost(root: Array) -> Array:
-        flow = full * filled_share(root, arc)
+        flow = full * np.interp(root, ROOTS, shares)
         return np.asarray(size * whole * ((1.0 - values["laminar"]) * flow**2 + thick * flow))
 
     low, high = np.zeros_like(own), np.sqrt(above / np.maximum(own, LEAST_LOSS))

@@ -1,6 +1,7 @@
 """Laws of [physics] against published numbers and limits."""
 
 import pickle
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -287,6 +288,30 @@ def test_slipper_lift_of_sheet_b6():
     assert found == pytest.approx(27.0, rel=0.02)
     held = tipping_laws.slipper_lift(values, courses(pressure=2.5e6), state(3000)).conductance
     np.testing.assert_array_equal(held, 1.0)
+
+
+def test_slippers_tilt_by_degrees_about_the_same_moment():
+    values = {"ride_height": 20e-6, "retainer_force": 77.0}
+    ratio = float(tipping_laws.slipper_ratio(state(2100), np.zeros((1, 1)), 77.0)[0, 0])
+    at_once = state(2100 * (1.0 / ratio) ** 0.5)
+    found = tipping_laws.slippers_tilt_by_degrees(values | {"sharpness": 8.0}, courses(pressure=0.0), at_once)
+    half = float(tipping_laws.through_orifice(np.array(2.0**3), at_once))
+    np.testing.assert_allclose(found.conductance[1], half, rtol=1e-9)
+
+
+def test_a_wedge_lifts_slippers_by_speed_and_viscosity_over_load():
+    """Half of the ride height at rated speed, 25 mPa s and no pressure; a root of the number far below."""
+    values = {"ride_height": 20e-6, "retainer_force": 100.0, "wedge_exponent": 0.5}
+    at = replace(state(2100), viscosity=np.array([0.025]), speed=np.array([REF90.pump.rated_speed]))
+    rated = REF90.pump.rated_speed * REF90.pump.pitch_radius
+
+    def higher(pressure, speed):
+        found = tipping_laws.slippers_ride_on_a_wedge(values, courses(pressure=pressure, speed=speed), at)
+        return (1.0 / found.viscous[1, 0, 0] - 1.0) * 10e-6
+
+    assert higher(0.0, rated) == pytest.approx(10e-6, rel=1e-9)
+    assert higher(35e6, rated) == pytest.approx(2 * higher(35e6, rated / 4), rel=0.1)
+    assert higher(35e6, rated) < 0.2 * higher(0.0, rated)
 
 
 def test_block_tips_fast_and_without_pressure():

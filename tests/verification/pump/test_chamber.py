@@ -5,7 +5,7 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
-from scipy.integrate import solve_ivp
+from scipy.integrate import quad, solve_ivp
 
 from reynolds import NotConverged
 from system import (
@@ -19,10 +19,11 @@ from system import (
     piston_velocity,
 )
 from system.pump.chamber import kernels as kernel
-from system.pump.chamber.cycle import solve_cycle
+from system.pump.chamber.cycle import bubbly_volume, solve_cycle
 from system.pump.chamber.layout import CAVITY_PRESSURE
 from system.pump.chamber.problem import ChamberProblem, LeakTable, PortPressure
 from system.pump.chamber.setup import periodic_cubics
+from system.pump.chamber.state_kernels import energy_at, oil_volume
 from system.pump.laws.kinematics import drive_at_ratio, stand_out
 from system.pump.laws.leakage import piston_drag_flow
 
@@ -316,3 +317,33 @@ def test_leak_spline_is_periodic_and_fourth_order():
 def test_a_void_leak_table_is_refused(conductance, carried, what):
     with pytest.raises(ValueError, match=what):
         LeakTable(conductance, carried)
+
+
+def test_a_closed_chamber_with_bubbles_follows_their_polytrope():
+    """V = s(p) M with s = exp(-p/K) + x (p0/p)^m: as the piston moves in, from the pressure that it had."""
+    problem = replace(sealed(0.0), dead_volume=1e-4, drive=FULL, free_air=0.02, air_exponent=1 / 1.2)
+    cycle = solve_cycle(problem, samples=60)
+    oil = cycle.volume / bubbly_volume(cycle.pressure, problem)
+    np.testing.assert_allclose(oil, oil[0], rtol=1e-6)
+    assert cycle.checks.energy_balance_error < 1e-5  # twice what the method itself estimates
+
+
+@pytest.mark.parametrize("exponent", [1.0, 1 / 1.2, 1 / 1.4])
+def test_energy_of_bubbly_oil_is_the_integral_of_its_volume(exponent):
+    oil = (1.6e9, 0.03, exponent)
+    for pressure in (-0.9e5, 3e5, 35e6):
+        told, _ = quad(lambda p: oil_volume(p, oil)[0], 0.0, pressure, epsrel=1e-10, limit=200)
+        assert energy_at(pressure, oil) == pytest.approx(told, rel=1e-6)
+        step = 1e-5 * (pressure + 1.1e5)
+        slope = (oil_volume(pressure + step, oil)[0] - oil_volume(pressure - step, oil)[0]) / (2 * step)
+        assert oil_volume(pressure, oil)[2] == pytest.approx(-slope, rel=1e-6)
+
+
+def test_bubbles_delay_the_rise_of_pressure_and_take_the_place_of_oil():
+    plain, bubbly = (replace(pump(20e6, 1.0), inlet_pressure=1e5, free_air=air) for air in (0.0, 0.03))
+    cycles = [solve_cycle(problem, samples=360) for problem in (plain, bubbly)]
+    rises = [cycle.shaft_angle[180:][np.argmax(cycle.pressure[180:] > 10e6)] for cycle in cycles]
+    delivered = [cycle.outflow.delivery for cycle in cycles]
+    share = 0.03 * (101325.0 / 201325.0)  # of the displaced volume, more by the dead volume and the port's loss
+    assert rises[1] > rises[0] + 1.0 * DEGREES
+    assert 1.0 - 3.0 * share < delivered[1] / delivered[0] < 1.0 - share
