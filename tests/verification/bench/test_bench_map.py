@@ -22,6 +22,8 @@ from system import (
     stroke,
     tolerances,
 )
+from system.bench import simulator
+from system.bench.chamber_map import solve_map
 from system.bench.parameters import pump_with
 from system.bench.sensors import encoder_parameter
 from system.bench.simulator import INPUT_STEPS
@@ -254,3 +256,19 @@ def test_a_starved_cycle_keeps_its_oil():
         )
         out = lumped_point(starved, point).cycle.outflow
         assert abs(out.total) < 1e-7 * out.delivery
+
+
+@pytest.mark.parametrize(("table", "maps"), [("notch_erosion.advance", 1), ("elastic_opening.slipper.opening", 2)])
+def test_a_map_without_effects_is_solved_where_a_law_asks_for_it(table, maps, monkeypatch):
+    """Ports that wear ask for no gap; a film that opens asks for the pressure in it."""
+    solved = []
+
+    def counted(*given):
+        solved.append(given)
+        return solve_map(*given)
+
+    monkeypatch.setattr(simulator, "solve_map", counted)
+    size = {"notch_erosion.advance": "2 deg", "elastic_opening.slipper.opening": "10 1/GPa"}[table]
+    bench = _bench(load_pump("ref90", {f"physics.{table}": size}), _points([1500.0], 1.0, 20e6))
+    bench.predict(_means(bench))
+    assert len(solved) == maps

@@ -14,7 +14,7 @@ from diagnosis import Diagnosis, Explanation, NoteKind, Recording, Study, diagno
 from diagnosis.checks.outliers import scaled_places
 from diagnosis.detect.mismatch import confirmed, detect
 from diagnosis.explain.held_out import beyond_chance, has_veto, held_out, regions
-from diagnosis.explain.hypotheses import hypotheses, simulator_of
+from diagnosis.explain.hypotheses import hypotheses, simulator_of, together
 from diagnosis.explain.ranked import with_probabilities
 from diagnosis.explain.refit import refit, within_tolerance
 from diagnosis.explain.scaling import scaling
@@ -315,6 +315,19 @@ def test_several_effects_are_found_together(count: int) -> None:
     sizes = {claim.effect: claim.parameters[0] for claim in found.effects}
     for law, size in laws:
         assert abs(sizes[law.id].value - size) < 4.0 * sizes[law.id].sigma
+
+
+def test_a_combination_begins_at_the_peak_of_its_part() -> None:
+    """The same peak as from the prior mean, with no more predictions."""
+    study = _study(1, laws=((CHURNING, 0.2), (SHORT, 0.3)))
+    singles = {each.effects[0]: each for each in hypotheses(study, LIMITS) if len(each.effects) == 1}
+    one, other = singles[EffectId.CHURNING], singles[EffectId.PORT_SHORT_CIRCUIT]
+    both = together(one, other, LIMITS.prior.pair_penalty)
+    far, near = refit(study, both, LIMITS), refit(study, both, LIMITS, part=refit(study, one, LIMITS))
+    assert near.posterior is not None
+    assert far.posterior is not None
+    assert near.log_evidence == pytest.approx(far.log_evidence, abs=0.1)
+    assert near.posterior.effort.predictions <= far.posterior.effort.predictions
 
 
 def test_what_the_likeliest_pair_is_made_of_is_refitted_alone() -> None:

@@ -26,6 +26,7 @@ from system import (
 )
 from system.description.effects import PhysicsSection
 from system.effects.switched import switched_on
+from system.inputs.faults import InputFaults
 from system.inputs.sections.reader import section_of
 from system.pump.lumped import SAMPLES_PER_PITCH
 
@@ -169,6 +170,22 @@ def test_a_fit_makes_a_pump_file_that_runs_to_its_readings(tmp_path):
     bench = lumped_point(pump, operating_point(pump)).bench
     one = [bench.delivery_flow, bench.inlet_flow, bench.drain_flow, bench.shaft_torque]
     np.testing.assert_allclose(read[0], one, rtol=3e-5)
+
+
+@pytest.mark.parametrize(
+    ("table", "keys"),
+    [
+        ({"incomplete_filling": {"inlet_loss": 1.0, "laminar": 0.0, "growth": 2.0}}, "laminar or growth"),
+        (
+            {"slipper_lift": {"ride_height": "20 um", "retainer_force": "77 N", "sharpness": 4, "wedge_exponent": 0.5}},
+            "sharpness or wedge_exponent",
+        ),
+    ],
+)
+def test_a_table_states_one_form_of_a_law(table, keys):
+    stated = {f"physics.{name}.{key}": value for name, own in table.items() for key, value in own.items()}
+    with pytest.raises(InputFaults, match=f"one of the two, {keys}"):
+        load_pump("ref90", stated)
 
 
 def test_floating_gaps_refuse_a_pump_with_effects():
