@@ -98,7 +98,8 @@ def _refitted(
 ) -> Explanation:
     """The same with one width of prior.
 
-    Members of a grid that are not refitted count as 0, so that their average is never too high.
+    Members of a grid that are not refitted count as 0, so that their average is never too high. A member that stays
+    hopelessly behind one that is fitted already stops early.
     """
     limits = replace(LIMITS, hopeless=inf if _gross(study, thresholds) else hopeless)
     about, fresh = _about(study, hypothesis, part)
@@ -111,6 +112,8 @@ def _refitted(
                 begin = from_peak(study, simulator, about, begin)
             lent = lent_slopes(simulator, about, fresh, begin)
             found.append((member, maximum_posterior(simulator, study.observations, begin, limits, lent)))
+            behind = found[-1][1].objective + 2.0 * thresholds.fit.hopeless
+            limits = replace(limits, hopeless=min(limits.hopeless, behind))
         except NotConverged as reason:
             failed.append(reason)
     if not found:

@@ -25,7 +25,7 @@ from system.effects.applied import effects_at
 from system.effects.components import Component
 from system.effects.extension import Extension
 from system.effects.switched import stated_laws
-from system.estimation.parameters import Parameter, Scale
+from system.estimation.parameters import Parameter, Role, Scale
 from system.inputs.channels import INPUTS, ChannelName
 from system.pump.chamber_kinds import kinds
 
@@ -35,6 +35,8 @@ TOLERANCE = 1e-5
 TRACE_SAMPLES_PER_PITCH = 80
 STEP = 0.03
 """Of slopes by difference, in spreads of the parameter."""
+LAW_STEP = 0.005
+"""The same of laws, whose sizes are known far better by readings than by priors: a knee seldom lies within the step."""
 LOG_STEP = 0.01
 """The largest, of the value, on a logarithmic scale: leakage goes with the cube of a film."""
 KEPT = 8
@@ -117,7 +119,7 @@ class LumpedBench:
         return self._read(near, other, self.points) - self._read(solved, values, self.points)
 
     def slopes(self, values: Array, names: tuple[str, ...]) -> Array:
-        """d readings / d value of the named parameters, (N, C, len(names)), by `difference` over STEP spreads."""
+        """d readings / d value of the named parameters, (N, C, len(names)), by `difference` over `step_of`."""
         solved, columns = self.solved(values), []
         before = self._read(solved, values, self.points)
         for name in names:
@@ -259,7 +261,8 @@ class LumpedBench:
         """The step in SI by which a slope of the named parameter is taken, away from its nearer bound."""
         index = [parameter.name for parameter in self.parameters].index(name)
         parameter, value = self.parameters[index], float(values[index])
-        step = STEP * parameter.stretch(parameter.standard(value))
+        share = LAW_STEP if parameter.role is Role.EXTENSION else STEP
+        step = share * parameter.stretch(parameter.standard(value))
         if parameter.scale is Scale.LOG:
             step = min(step, LOG_STEP * value)
         return -step if value + step > parameter.upper else step
