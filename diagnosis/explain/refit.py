@@ -19,6 +19,7 @@ from diagnosis.study.model import Study
 from diagnosis.thresholds import Thresholds
 from reynolds.errors import NotConverged
 from reynolds.numerics.arrays import Array
+from system.estimation.bounded_step import Bounds
 from system.estimation.fit import FitLimits, maximum_posterior
 from system.estimation.posterior import Posterior, values_at
 from system.work.processes import ProcessPool
