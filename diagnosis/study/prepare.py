@@ -15,8 +15,8 @@ from diagnosis.study.map_axes import scaled_axes, smooth_shapes
 from diagnosis.study.model import Study, study_of
 from diagnosis.study.noise_correlation import noise_correlation
 from diagnosis.study.readings import observations
-from diagnosis.study.trace_misfits import port_events, trace_misfits, trace_parameters
-from diagnosis.study.traced_bench import traced_bench
+from diagnosis.study.traces.bench import traced_bench
+from diagnosis.study.traces.misfits import port_events, trace_misfits, trace_parameters
 from diagnosis.thresholds import Thresholds
 from reynolds.errors import InputError
 from reynolds.numerics.arrays import Array

@@ -10,7 +10,7 @@ import pytest
 
 from diagnosis import Recording, Study, load_thresholds, prepare, read_recording
 from diagnosis.detect.mismatch import detect
-from diagnosis.study.trace_misfits import port_events
+from diagnosis.study.traces.misfits import port_events
 from diagnosis.verdict.locate import locate
 from reynolds import InputError
 from system import ChannelName, load_pump, tolerances

@@ -9,10 +9,10 @@ import pytest
 
 from diagnosis import RecordedChannel, TraceBlock, load_thresholds
 from diagnosis.detect.angle_scan import scan_angles
-from diagnosis.study.trace_fit import settled_traces
-from diagnosis.study.trace_misfits import trace_misfits
-from diagnosis.study.trace_rows import WINDOWS, shrunk_covariance, trace_rows, windows
-from diagnosis.study.traced_bench import TracedBench, traced_bench
+from diagnosis.study.traces.bench import TracedBench, traced_bench
+from diagnosis.study.traces.fit import settled_traces
+from diagnosis.study.traces.misfits import trace_misfits
+from diagnosis.study.traces.rows import WINDOWS, shrunk_covariance, trace_rows, windows
 from system import (
     BenchPoints,
     Channel,

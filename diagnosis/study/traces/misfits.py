@@ -8,8 +8,8 @@ import numpy as np
 
 from diagnosis.recording.model import RecordedChannel, Recording, TraceBlock, reading_sigma
 from diagnosis.study.model import PortEvent, TraceMisfit
-from diagnosis.study.trace_fit import MOVING, settled_traces
-from diagnosis.study.traced_bench import TracedBench
+from diagnosis.study.traces.bench import TracedBench
+from diagnosis.study.traces.fit import MOVING, settled_traces
 from reynolds.numerics.arrays import Array
 from system.bench.parameters import groove_parameters
 from system.bench.sensors import encoder_parameter, transducer_parameters

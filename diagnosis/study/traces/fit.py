@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from diagnosis.study.traced_bench import TracedBench
+from diagnosis.study.traces.bench import TracedBench
 from reynolds.errors import NotConverged
 from reynolds.numerics.arrays import Array
 from system.bench.parameters import GROOVE_NAMES

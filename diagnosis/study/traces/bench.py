@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from diagnosis.recording.model import RecordedChannel, TraceBlock
-from diagnosis.study.trace_rows import TraceRows, trace_rows
+from diagnosis.study.traces.rows import TraceRows, trace_rows
 from reynolds.numerics.arrays import Array
 from system.bench.points import BenchPoints
 from system.bench.simulator import INPUT_STEPS, LumpedBench

@@ -1,0 +1,1 @@
+"""Chamber traces as readings: rows, misfits, the bench that gives both."""
