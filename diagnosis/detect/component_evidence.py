@@ -13,13 +13,12 @@ from math import log
 import numpy as np
 from scipy.special import logsumexp
 
-from diagnosis.study.map_axes import smooth_shapes
 from diagnosis.study.model import Study
+from diagnosis.study.multipliers import multiplier_columns
 from diagnosis.thresholds import Thresholds
 from reynolds.numerics.arrays import Array
 from system.effects.components import Component
 from system.estimation.evidence import multiplier_evidence, project
-from system.estimation.posterior import Posterior
 
 Ranking = tuple[tuple[Component, float], ...]
 
@@ -76,12 +75,6 @@ def component_evidences(study: Study, thresholds: Thresholds) -> Ranking:
         for component in study.components
     ]
     return tuple(sorted(found, key=lambda each: -each[1]))
-
-
-def multiplier_columns(study: Study, posterior: Posterior, component: Component) -> Array:
-    """Whitened columns (n, 15) of one component's law times each smooth shape of the map."""
-    shapes = smooth_shapes(study.axes)
-    return posterior.whitening.whiten(study.components[component][:, :, None] * shapes[:, None, :])
 
 
 def likeliest_multiplier(study: Study, component: Component, thresholds: Thresholds) -> Array:

@@ -6,12 +6,13 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from diagnosis.detect.component_evidence import likeliest_multiplier, multiplier_columns
+from diagnosis.detect.component_evidence import likeliest_multiplier
 from diagnosis.explain.hypotheses import Hypothesis, simulator_of
 from diagnosis.explain.ranked import Explanation
 from diagnosis.recording.model import TraceBlock
 from diagnosis.study.map_axes import smooth_shapes
 from diagnosis.study.model import Study, TraceMisfit
+from diagnosis.study.multipliers import multiplier_columns
 from diagnosis.thresholds import Thresholds
 from reynolds.numerics.arrays import Array
 from system.effects.components import Component

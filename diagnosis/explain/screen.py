@@ -9,10 +9,10 @@ from math import log
 import numpy as np
 from scipy.special import log_ndtr, logsumexp
 
-from diagnosis.detect.component_evidence import multiplier_columns
 from diagnosis.explain.hypotheses import Hypothesis, candidates_of
 from diagnosis.explain.ranked import Explanation
 from diagnosis.study.model import Candidate, Study
+from diagnosis.study.multipliers import multiplier_columns
 from diagnosis.thresholds import Thresholds
 from reynolds.numerics.arrays import Array
 from system.effects.components import Component

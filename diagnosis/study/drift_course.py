@@ -12,8 +12,8 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from diagnosis.detect.component_evidence import component_evidences
 from diagnosis.study.model import Study
+from diagnosis.study.multipliers import multiplier_columns
 from diagnosis.thresholds import Thresholds
 from reynolds.numerics.arrays import Array
 from system.bench.sensors import drift_parameter
@@ -34,12 +34,12 @@ def drift_courses(study: Study, thresholds: Thresholds) -> Mapping[ChannelName, 
         return {}
     past = (hours - hours.min()) / np.ptp(hours)
     shapes = np.stack([np.cos(order * np.pi * past) - 1.0 for order in range(1, ORDERS + 1)], axis=1)
-    laws = max((evidence for _, evidence in component_evidences(study, thresholds)), default=0.0)
+    widths, base = thresholds.locate.multiplier_widths, study.base
+    laws = [multiplier_evidence(base, multiplier_columns(study, base, each), widths) for each in study.components]
     found = {}
     for at, channel in enumerate(study.channels):
-        columns, evidence = _columns(study, at, shapes), 0.0
-        evidence = multiplier_evidence(study.base, columns, thresholds.locate.multiplier_widths)
-        if evidence > max(laws, 0.0) + thresholds.name.odds:
+        columns = _columns(study, at, shapes)
+        if multiplier_evidence(base, columns, widths) > max(0.0, *laws) + thresholds.name.odds:
             course = shapes @ _likeliest(study, columns, thresholds)
             found[channel] = course / np.abs(course).max()
     return found

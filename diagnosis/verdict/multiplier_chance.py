@@ -8,10 +8,10 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.special import logsumexp
 
-from diagnosis.detect.component_evidence import multiplier_columns
 from diagnosis.detect.mismatch import holds
 from diagnosis.explain.hypotheses import Hypothesis
 from diagnosis.study.model import Study
+from diagnosis.study.multipliers import multiplier_columns
 from diagnosis.thresholds import Thresholds
 from reynolds.numerics.arrays import Array
 from system.estimation.evidence import multiplier_evidences_without

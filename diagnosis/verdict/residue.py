@@ -7,7 +7,7 @@ from collections.abc import Iterator, Mapping
 import numpy as np
 from scipy.stats import norm
 
-from diagnosis.detect.component_evidence import MEMBERS, ComponentGroup, multiplier_columns
+from diagnosis.detect.component_evidence import MEMBERS, ComponentGroup
 from diagnosis.detect.contrasts import contrasts
 from diagnosis.detect.mismatch import most_striking
 from diagnosis.detect.regions import flagged
@@ -16,6 +16,7 @@ from diagnosis.explain.hypotheses import Hypothesis
 from diagnosis.explain.ranked import Explanation
 from diagnosis.study.map_axes import axis_values
 from diagnosis.study.model import Study
+from diagnosis.study.multipliers import multiplier_columns
 from diagnosis.thresholds import Thresholds
 from diagnosis.verdict.suspects import remaining
 from diagnosis.verdict.trend import power_errors
