@@ -48,7 +48,7 @@ def departure_parameters(count: int) -> tuple[Parameter, ...]:
     """form.1 .. form.count: size of each principal departure in units of its prior."""
     return tuple(
         Parameter(
-            f"{FORM}{k + 1}", Role.BASE, Scale.NORMAL, 0.0, 1.0, -FARTHEST, FARTHEST, None, "laws of another make"
+            f"{FORM}{k + 1}", Role.BASE, Scale.NORMAL, 0.0, 1.0, -FARTHEST, FARTHEST, None, "laws of another make", True
         )
         for k in range(count)
     )

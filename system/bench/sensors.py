@@ -137,8 +137,8 @@ def read(
 
 
 def _bias(channel: ChannelName, what: str, sigma: float, dimension: Dimension | None, bound: float) -> Parameter:
-    name = f"{channel.value}.{what}"
-    return Parameter(name, Role.SENSOR, Scale.NORMAL, 0.0, sigma, -bound, bound, dimension, CALIBRATION)
+    name, linear = f"{channel.value}.{what}", channel in OUTPUTS
+    return Parameter(name, Role.SENSOR, Scale.NORMAL, 0.0, sigma, -bound, bound, dimension, CALIBRATION, linear)
 
 
 def _progress(points: BenchPoints) -> Array:

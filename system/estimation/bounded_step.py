@@ -15,16 +15,18 @@ from system.estimation.parameters import Parameter
 
 @dataclass(frozen=True)
 class Bounds:
-    """Least and largest xi, (k,) each."""
+    """Least and largest xi, (k,) each; curved: (k,), true where a long step leaves the slopes' validity."""
 
     lowest: Array
     highest: Array
+    curved: NDArray[np.bool_]
 
     @classmethod
     def of(cls, parameters: tuple[Parameter, ...]) -> Bounds:
         """Those of some parameters."""
         lowest = np.array([parameter.lowest for parameter in parameters])
-        return cls(lowest, np.array([parameter.highest for parameter in parameters]))
+        highest = np.array([parameter.highest for parameter in parameters])
+        return cls(lowest, highest, np.array([not parameter.linear for parameter in parameters], dtype=bool))
 
     def within(self, xi: Array) -> Array:
         """The nearest xi between the bounds."""
@@ -50,7 +52,7 @@ class Quadratic:
 
 
 def bounded_step(model: Quadratic, bounds: Bounds, damping: float, largest: float) -> Array:
-    """The damped Newton step of the model: its minimum between bounds, with no component longer than `largest`.
+    """The damped Newton step of the model: its minimum between bounds, with no curved component longer than `largest`.
 
     (precision + damping diag(precision)) d = gradient within the bounds; a component on a bound whose gradient
     points outwards is zero. A step that is too long is shortened as a whole.
@@ -61,7 +63,7 @@ def bounded_step(model: Quadratic, bounds: Bounds, damping: float, largest: floa
     left = np.where(held, model.gradient - damped @ step, 0.0)
     if np.any(np.where(step < above, left, 0.0) > 0.0) or np.any(np.where(step > below, left, 0.0) < 0.0):
         step = _least_between(model.gradient, damped, below, above)
-    length = float(np.abs(step).max(initial=0.0))
+    length = float(np.abs(step[bounds.curved]).max(initial=0.0))
     return step if length <= largest else step * (largest / length)
 
 

@@ -32,7 +32,7 @@ class Parameter:
     """One parameter and its prior: xi ~ N(0, 1), cut to [lower, upper] in value; HALF: also xi >= 0.
 
     centre, lower and upper are SI values; spread is in SI too, but for LOG relative. `dimension` is None for a
-    pure number. `source` is the origin of the prior.
+    pure number. `source` is the origin of the prior. linear: readings are linear in it, so that steps may be long.
     """
 
     name: str
@@ -44,6 +44,7 @@ class Parameter:
     upper: float
     dimension: Dimension | None
     source: str
+    linear: bool = False
 
     def __post_init__(self) -> None:
         """Raise InputError for a void prior."""
