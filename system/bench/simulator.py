@@ -37,7 +37,7 @@ STEP = 0.03
 """Of slopes by difference, in spreads of the parameter."""
 LAW_STEP = 0.005
 """The same of laws, whose sizes are known far better by readings than by priors: a knee seldom lies within the step."""
-LOG_STEP = 0.01
+LOG_STEP = 1e-3
 """The largest, of the value, on a logarithmic scale: leakage goes with the cube of a film."""
 KEPT = 8
 """Courses of a map that are remembered, the last ones."""

@@ -128,15 +128,15 @@ class _Fit:
         self.taken, self.raw = xi, self._by_predictions(xi) if self.exact else standard_slopes(self.simulator, xi)
 
     def _by_predictions(self, xi: Array) -> Array:
-        """d prediction / d xi (N, C, k) by one-sided differences of predictions, away from the nearer bound."""
-        here = self.simulator.predict(values_at(self.simulator.parameters, xi))
+        """d prediction / d xi (N, C, k) by central differences of predictions, one-sided beside a bound."""
         columns = []
         for at in range(xi.size):
-            moved = xi.copy()
-            moved[at] += -STEP if xi[at] + STEP > self.bounds.highest[at] else STEP
-            there = self.simulator.predict(values_at(self.simulator.parameters, moved))
-            columns.append((there - here) / (moved[at] - xi[at]))
-        self.predictions += xi.size + 1
+            below, above = xi.copy(), xi.copy()
+            below[at] = max(xi[at] - STEP, self.bounds.lowest[at])
+            above[at] = min(xi[at] + STEP, self.bounds.highest[at])
+            ends = [self.simulator.predict(values_at(self.simulator.parameters, each)) for each in (below, above)]
+            columns.append((ends[1] - ends[0]) / (above[at] - below[at]))
+        self.predictions += 2 * xi.size
         return np.stack(columns, axis=-1)
 
     def whitening(self, xi: Array) -> Whitening:
