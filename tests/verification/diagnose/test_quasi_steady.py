@@ -5,7 +5,6 @@ import pytest
 
 from diagnosis.recording.series.meter_response import meter_response, robust
 from diagnosis.recording.series.quasi_steady import quasi_steady
-from diagnosis.recording.series.thermometer_lag import thermometer_lag
 from system import ChannelName
 
 STEP, SAMPLES, SIGMA = 1.0, 4000, 0.01
@@ -68,15 +67,19 @@ def test_storage_is_taken_out():
 @pytest.mark.parametrize("thermal", [20.0, 40.0, 80.0])
 def test_lag_of_the_thermometer_comes_back(thermal):
     time, readings, _ = series(lag=0.0, thermal=thermal)
-    pressure = 2.0 * (readings[:, :1] - readings[:, :1].min()) / np.ptp(readings[:, P]) - 1.0
-    found, led = thermometer_lag(readings[:, T_CASE], pressure, readings[:, FLOW:], time, np.ones(SAMPLES, dtype=bool))
-    assert found == pytest.approx(thermal, rel=0.15)
-    gap = 50.0 - 28.0 * np.exp(-time / 1500.0) + 4.0 * readings[:, P] / 240e5
-    assert np.std((led - gap)[200:]) < 0.2
+    assert quasi_steady(time, readings, NAMES).thermometer_lag == pytest.approx(thermal, rel=0.15)
+
+
+@pytest.mark.parametrize("thermal", [20.0, 40.0])
+def test_the_temperature_of_a_point_is_without_the_lag(thermal):
+    found = quasi_steady(*series(lag=0.0, thermal=thermal)[:2], NAMES)
+    pressure, temperature, _ = found.means.T
+    gap = 50.0 - 28.0 * np.exp(-found.time / 1500.0) + 4.0 * pressure / 240e5
+    assert np.std((temperature - gap)[found.time > 200.0]) < 0.2
 
 
 def test_points_are_means_of_steady_state_with_their_standard_errors():
-    time, readings, _ = series()
+    time, readings, _ = series(thermal=20.0)
     found = quasi_steady(time, readings, NAMES)
     pressure, temperature, leakage = found.means.T
     misfit = leakage - pressure / 240e5 * np.exp((temperature - 40.0) / 30.0)
