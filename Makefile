@@ -26,7 +26,7 @@ run: install
 	$(VENV)/swashfilm run ref90 --speed 2100rpm --pressure 35MPa --displacement 1.0
 
 test: install
-	$(VENV)/python -m pytest -n 2
+	$(VENV)/python -m pytest -n 2 --dist worksteal
 
 test-long: install
 	$(VENV)/python -m pytest -m long

@@ -1,11 +1,48 @@
-"""A diagnosis that was made up and its recording, for all tests of how one is told."""
+"""A diagnosis that was made up and its recording, for all tests of how one is told; pictures without rendering."""
 
 from __future__ import annotations
 
+import functools
+import io
+from collections.abc import Iterator
+
+import numpy as np
 import pytest
 from made_diagnosis import its_study, named_diagnosis
+from matplotlib.figure import Figure
+from matplotlib.image import imsave
 
 from diagnosis import Diagnosis, Study
+
+
+@pytest.fixture(scope="session", autouse=True)
+def blank_pictures(pytestconfig: pytest.Config) -> Iterator[None]:
+    """A PNG of a figure has one pixel: matplotlib's layout and rendering take most of the time of a short run.
+
+    Tests that ask for `rendered`, and all tests where the long ones are among them, have the true pictures.
+    """
+    if pytestconfig.option.markexpr != "not long":
+        yield
+        return
+    save, pixel = Figure.savefig, io.BytesIO()
+    imsave(pixel, np.ones((1, 1, 3)), format="png")
+
+    @functools.wraps(save)
+    def blank(figure: Figure, target: object, **how: object) -> None:
+        if how.get("format") == "png" and isinstance(target, io.BytesIO):
+            target.write(pixel.getvalue())
+        else:
+            save(figure, target, **how)
+
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(Figure, "savefig", blank)
+        yield
+
+
+@pytest.fixture
+def rendered(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Figures are rendered in full."""
+    monkeypatch.setattr(Figure, "savefig", getattr(Figure.savefig, "__wrapped__", Figure.savefig))
 
 
 @pytest.fixture(scope="module")

@@ -33,23 +33,30 @@ class Calibrated:
 
 
 def test_reading_is_truth_by_gain_and_zero():
-    found = read(TRUTH, CHANNELS, POINTS, {"torque.gain": 0.01, "torque.zero": -0.5, "Q_case.zero": 1e-7})
+    found = read(TRUTH, CHANNELS, POINTS, {"torque.gain": 0.01, "torque.zero": -0.5, "Q_case.zero": 1e-7}, {})
     assert found[:, 1] == pytest.approx(1.01 * TRUTH[:, 1] - 0.5, rel=1e-14)
     assert found[:, 0] == pytest.approx(TRUTH[:, 0] + 1e-7, rel=1e-14)
-    assert np.all(read(TRUTH, CHANNELS, POINTS, {"film_thickness.piston": 1e-5}) == TRUTH)
+    assert np.all(read(TRUTH, CHANNELS, POINTS, {"film_thickness.piston": 1e-5}, {}) == TRUTH)
 
 
 def test_drift_grows_with_hours_else_with_order():
     drift = {"Q_case.drift": 3e-6}
-    assert (read(TRUTH, CHANNELS, POINTS, drift) - TRUTH)[:, 0] == pytest.approx([0.0, 0.75e-6, 3e-6])
+    assert (read(TRUTH, CHANNELS, POINTS, drift, {}) - TRUTH)[:, 0] == pytest.approx([0.0, 0.75e-6, 3e-6])
     unknown = replace(POINTS, hours=np.full(3, np.nan), order=np.array([2.0, 0.0, 1.0]))
-    assert (read(TRUTH, CHANNELS, unknown, drift) - TRUTH)[:, 0] == pytest.approx([3e-6, 0.0, 1.5e-6])
+    assert (read(TRUTH, CHANNELS, unknown, drift, {}) - TRUTH)[:, 0] == pytest.approx([3e-6, 0.0, 1.5e-6])
+
+
+def test_a_drift_of_known_course_follows_it():
+    course = {ChannelName.Q_CASE: np.array([0.0, 1.0, 0.25])}
+    found = read(TRUTH, CHANNELS, POINTS, {"Q_case.drift": 3e-6, "torque.drift": 2.0}, course) - TRUTH
+    assert found[:, 0] == pytest.approx([0.0, 3e-6, 0.75e-6])
+    assert found[:, 1] == pytest.approx([0.0, 0.5, 2.0])
 
 
 def test_lag_keeps_a_part_of_the_point_before():
     """In the order in which points were taken, exp(-t/tau) of the last step is left."""
     shuffled = replace(POINTS, order=np.array([1.0, 0.0, 2.0]), hours=np.array([0.5, 0.0, 2.0]))
-    found = read(TRUTH, CHANNELS, shuffled, {"torque.lag": 1800.0})[:, 1]
+    found = read(TRUTH, CHANNELS, shuffled, {"torque.lag": 1800.0}, {})[:, 1]
     left = np.exp([-1.0, -3.0])
     assert found == pytest.approx([100.0 + 200.0 * left[0], 300.0, 200.0 - 100.0 * left[1]])
 
@@ -82,12 +89,12 @@ def test_priors_stand_about_what_the_pump_states():
     pump = load_pump("ref90")
     stated, told = tolerances(pump)
     assert (stated.film_thickness, stated.viscosity, stated.guide_friction) == (0.08, 0.02, 0.06)
-    assert {one.path for one in told} == {
-        f"tolerance.{name}"
-        for name in ("viscosity_slope", "displacement", "dead_volume", "flow_coefficient", "stand_out_share")
-    }
+    not_stated = ("viscosity_slope", "displacement", "dead_volume", "flow_coefficient", "stand_out_share")
+    assert {one.path for one in told} == {f"tolerance.{name}" for name in (*not_stated, "inlet_share")}
     found = {one.name: one for one in base_parameters(pump, stated)}
-    assert {*found, *(one.name for one in groove_parameters())} == BASE_NAMES
+    uncertain = {one.name for one in base_parameters(pump, replace(stated, inlet_share=0.25))}
+    assert {*uncertain, *(one.name for one in groove_parameters())} == BASE_NAMES
+    assert uncertain - set(found) == {"inlet_share"}  # films as warm as the case, for certain
     assert found["film_thickness.slipper"].centre == pump.slipper.film_thickness
     assert found["film_thickness.slipper"].value(1.0) == pytest.approx(pump.slipper.film_thickness * np.exp(0.08))
     assert found["friction.front_bearing"].spread == 0.1
