@@ -120,6 +120,7 @@ def test_bad_input_ends_with_2_and_says_what_to_do(words, told, capsys, here):
     assert sorted(path.name for path in here.iterdir()) == ["pad.toml"]
 
 
+@pytest.mark.usefixtures("rendered")
 def test_a_film_leaves_a_run_folder_with_everything_in_it(capsys):
     assert main(["film", "pad.toml"]) == 0
     folder = Path("runs/pad-1")
@@ -273,6 +274,7 @@ def test_doctor_tells_packages_caches_and_graphics(capsys):
         assert word in out
 
 
+@pytest.mark.usefixtures("rendered")
 def test_run_writes_a_lumped_point(capsys):
     assert main(["run", "ref90", "--fidelity", "lumped", "--pressure", "20MPa", "-o", "point"]) == 0
     assert 'pressure = "20 MPa"' in Path("point/resolved.toml").read_text("utf-8")

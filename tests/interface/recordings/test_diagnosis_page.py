@@ -51,6 +51,7 @@ def test_the_page_tells_gaps_that_cannot_be_told_apart() -> None:
     assert row[3] == "thermal_clearance, at the valve plate (0.35)"
 
 
+@pytest.mark.usefixtures("rendered")
 def test_the_folder_holds_tables_and_a_page(study: Study, named: Diagnosis, tmp_path: Path) -> None:
     """Pulls in residuals.csv are of the fit they name; the page is made anew from the folder alone."""
     write_diagnosis_files(tmp_path, study, named)
