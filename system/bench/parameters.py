@@ -17,7 +17,9 @@ from system.pump.lumped import full_drive
 
 SLOPE_ABOUT = 323.15
 """Temperature (K) about which viscosity_slope turns the oil's law: 50 degC."""
-INLET_SHARE = "inlet_share"
+FILM_WARMTH = (INLET_SHARE, THROTTLE_SHARE) = ("inlet_share", "throttle_share")
+THROTTLED = (0.8, 0.3)
+"""Centre and one sigma of throttle_share: oil throttled to the case warms by 1 - beta T = .8 of dp/(rho c)."""
 MOSTLY = 0.75
 """Centre of inlet_share where it is uncertain: oil of the gaps comes by way of inlet and delivery."""
 GUIDE, BEARINGS = "ball_guide_retainer", ("front_bearing", "rear_bearing")
@@ -37,7 +39,7 @@ BASE_NAMES = frozenset(
         *(f"film_thickness.{gap.value}" for gap in Gap),
         *(f"friction.{pair}" for pair in FRICTION_PAIRS),
         "eccentricity_ratio", "bulk_modulus", "viscosity", "viscosity_slope", "displacement", "dead_volume",
-        "flow_coefficient", "stand_out_share", INLET_SHARE, *GROOVE_NAMES,
+        "flow_coefficient", "stand_out_share", *FILM_WARMTH, *GROOVE_NAMES,
     }
 )  # fmt: skip
 """Names of all parameters of `base_parameters` and `groove_parameters`."""
@@ -128,7 +130,9 @@ def _thickness(pump: PumpDescription, gap: Gap, tolerances: Tolerances) -> Param
 def _warmth(tolerances: Tolerances) -> tuple[Parameter, ...]:
     """Share of the inlet's oil in the temperature of the films; none where the films are as warm as the case."""
     spread = tolerances.inlet_share
-    return (_absolute(INLET_SHARE, MOSTLY, spread, 0.0, 1.25),) if spread > 0.0 else ()
+    if spread == 0.0:
+        return ()
+    return _absolute(INLET_SHARE, MOSTLY, spread, 0.0, 1.25), _absolute(THROTTLE_SHARE, *THROTTLED, 0.0, 2.0)
 
 
 def _fluid(pump: PumpDescription, tolerances: Tolerances) -> tuple[Parameter, ...]:

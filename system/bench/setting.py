@@ -9,7 +9,7 @@ import numpy as np
 from reynolds.laws.oil import walther
 from reynolds.numerics.arrays import Array
 from system.bench.chamber_map import MapProblem
-from system.bench.parameters import GROOVE_ADVANCE, GROOVE_AREA, INLET_SHARE, pump_with
+from system.bench.parameters import GROOVE_ADVANCE, GROOVE_AREA, INLET_SHARE, THROTTLE_SHARE, pump_with
 from system.bench.points import BenchPoints
 from system.bench.sensors import actual
 from system.description.pump import PumpDescription
@@ -19,9 +19,6 @@ from system.pump.chamber.problem import LeakTable
 from system.pump.lumped import PistonMotion, chamber, lumped_leaks, piston_motion
 from system.pump.operating import OperatingPoint, flat
 from system.pump.ports.wear import PortWear
-
-THROTTLED = 0.8
-"""x = 1 - beta T of a mineral oil: rise of temperature by throttling over dp/(rho c)."""
 
 
 @dataclass(frozen=True)
@@ -80,7 +77,9 @@ def affected(given: Setting, effects: Effects) -> Setting:
 
 def _film_temperature(pump: PumpDescription, at: BenchPoints, values: Mapping[str, float]) -> Array:
     """Temperature (N,) of the films in K: T_case + s (T_in + x dp/(rho c) - T_case), s: share of the inlet's oil."""
-    warmed = at.T_in + THROTTLED * (at.p_out - at.p_case) / (pump.oil.density * pump.oil.specific_heat)
+    warmed = at.T_in + values.get(THROTTLE_SHARE, 0.0) * (at.p_out - at.p_case) / (
+        pump.oil.density * pump.oil.specific_heat
+    )
     return at.T_case + values.get(INLET_SHARE, 0.0) * (warmed - at.T_case)
 
 
