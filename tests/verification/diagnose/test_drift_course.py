@@ -1,0 +1,67 @@
+"""Course of a meter's drift against laws of the inputs; parameters that no reading feels."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from diagnosis import Recording, Study, load_thresholds, prepare, read_recording
+from diagnosis.study.drift_course import drift_courses
+from diagnosis.study.felt import felt
+from system import ChannelName, load_pump, tolerances
+
+LIMITS = load_thresholds()
+PUMP = load_pump("ref90")
+
+
+@pytest.fixture(scope="module")
+def recording(request: pytest.FixtureRequest) -> Recording:
+    """Every third point of a bench map, half an hour apart."""
+    read = read_recording(request.config.rootpath / "examples" / "recordings" / "open-01")
+    steady = replace(read.steady, **{name: one[::3] for name, one in vars(read.steady).items()})
+    return replace(read, steady=replace(steady, hours=0.5 * np.arange(len(steady.hours))), traces=())
+
+
+def _study(recording: Recording) -> Study:
+    return prepare(PUMP, recording, tolerances(PUMP)[0], LIMITS, ())
+
+
+def _with(recording: Recording, added: np.ndarray) -> Recording:
+    """The same with more in the case drain (SI)."""
+    values = recording.steady.values.copy()
+    values[:, list(ChannelName).index(ChannelName.Q_CASE)] += added
+    return replace(recording, steady=replace(recording.steady, values=values))
+
+
+def test_a_meter_without_drift_has_no_course(recording: Recording) -> None:
+    assert drift_courses(_study(recording), LIMITS) == {}
+
+
+def test_a_bump_in_time_is_the_course_of_a_drift(recording: Recording) -> None:
+    """The course follows the bump that was added, and no law of speed, pressure or stroke is taken for one."""
+    hours = recording.steady.hours
+    past = hours / hours.max()
+    bump = np.exp(-(((past - 0.5) / 0.15) ** 2))
+    level = np.nanmedian(recording.steady.column(ChannelName.Q_CASE))
+    course = drift_courses(_study(_with(recording, 0.3 * level * bump)), LIMITS)[ChannelName.Q_CASE]
+    assert course[0] == 0.0
+    assert np.abs(course).max() == 1.0
+    assert np.corrcoef(course, bump)[0, 1] > 0.97
+    pressure = recording.steady.column(ChannelName.P_OUT)
+    law = 0.3 * level * (pressure / pressure.max()) ** 2
+    assert drift_courses(_study(_with(recording, law)), LIMITS) == {}
+
+
+def test_what_no_reading_feels_is_left_out(recording: Recording) -> None:
+    """Without a torque meter no friction is a parameter; films and displacement are."""
+    order = list(ChannelName)
+    values = recording.steady.values.copy()
+    values[:, order.index(ChannelName.TORQUE)] = np.nan
+    channels = tuple(one for one in recording.channels if one.name is not ChannelName.TORQUE)
+    study = _study(replace(recording, channels=channels, steady=replace(recording.steady, values=values)))
+    names = {one.name for one in study.base.parameters}
+    assert not {name for name in names if name.startswith("friction.")}
+    assert {"film_thickness.piston", "film_thickness.slipper", "displacement"} <= names
+    assert len(felt(study, LIMITS.fit.felt)) == len(study.base.parameters)
