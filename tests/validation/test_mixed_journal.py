@@ -167,7 +167,7 @@ BODIES = (
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("load", [8e3, 4e3])
+@pytest.mark.parametrize("load", [pytest.param(8e3, marks=pytest.mark.long), 4e3])
 def test_sander_rig(load, tmp_path, validation):
     """Torque of the shaft over speed, downward.
 
@@ -224,7 +224,7 @@ def test_elastic_walls_part_the_surfaces(tmp_path):
     assert 2.0 < borne[500, False] / borne[500, True] < 8.0
 
 
-@pytest.mark.slow
+@pytest.mark.long
 def test_mesh_of_the_rig(tmp_path):
     """A mesh half as fine again changes the torque by less than a tenth of the tolerance."""
     torques = []

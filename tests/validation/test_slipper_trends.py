@@ -173,7 +173,7 @@ def test_warmth_raises_mixed_friction_and_lowers_viscous(validation):
         )
 
 
-@pytest.mark.slow
+@pytest.mark.long
 def test_friction_goes_with_viscosity_times_speed(validation):
     """B1: the reduced Stribeck plot collapses: hot oil at 400 r/min is cold oil at a lower speed."""
     hot = At(speed=400.0, temperature=80.0)
@@ -191,7 +191,7 @@ def test_friction_goes_with_viscosity_times_speed(validation):
     )
 
 
-@pytest.mark.slow
+@pytest.mark.long
 def test_micro_motion_pumps_oil(validation):
     """B5: what the faces push to and fro over the turn, .03 .. .25 L/min for strokes of 3 .. 20 um."""
     for pressure in (5.0, 35.0):
@@ -207,7 +207,7 @@ def test_micro_motion_pumps_oil(validation):
         )
 
 
-@pytest.mark.slow
+@pytest.mark.long
 def test_drain_without_load(validation):
     """B5: at charge pressure on both ports the drain is estimated to grow with speed."""
     slow, fast = (drain(At(pressure=2.6, speed=speed)) for speed in (500.0, 1000.0))

@@ -162,7 +162,7 @@ def settled(case: Bearing, carried_over: float, place: np.ndarray) -> tuple[Film
     raise AssertionError(f"temperatures still change by {change:.2g} K")
 
 
-@pytest.mark.slow
+@pytest.mark.long
 @pytest.mark.parametrize(
     ("rpm", "measured", "authors"), [(1000, 49.5, 43.7), (2000, 59.5, 53.4), (3000, 67.5, 63.2), (4000, 76.5, 72.9)]
 )
@@ -186,5 +186,6 @@ def test_largest_pad_temperature(rpm, measured, authors, validation):
 def test_carry_over_matters_little():
     """The one number that no law gives: 0.6 to 1 of the hot oil moves the largest temperature by less than 4 K."""
     case = bearing(16, 4, 3000)
-    low, high = (settled(case, share, first_place(0.35))[0].fixed_wall.max() for share in (0.6, 1.0))
-    assert 0.0 < high - low < 4.0
+    low, high = (settled(case, share, first_place(0.35))[0] for share in (0.6, 1.0))
+    assert max(low.energy_balance_error, high.energy_balance_error) < 1e-9
+    assert 0.0 < high.fixed_wall.max() - low.fixed_wall.max() < 4.0

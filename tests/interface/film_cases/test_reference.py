@@ -40,6 +40,7 @@ def test_the_examples_show_every_kind():
     assert {load_reference(path).kind for path in EXAMPLES} == set(ReferenceKind)
 
 
+@pytest.mark.usefixtures("rendered")
 def test_a_step_leaves_loss_factors_and_a_page(tmp_path, capsys):
     folder = tmp_path / "out"
     assert run_command(["reference", str(written(tmp_path, STEP)), "-o", str(folder)]) == 0

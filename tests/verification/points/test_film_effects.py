@@ -33,6 +33,7 @@ from system.pump.film_thickness import at_temperature, moved_to, unpressed
 
 REF90 = load_pump("ref90")
 COARSE = {"positions_per_pitch": 2, "finer": 0.5}
+FEW = {"finer": 0.25, "tolerance": 1.0}
 OPENING, COEFFICIENT = 2e-8, 2e-8
 ROUNDED = 1e-9
 CLOSED = 2e-3
@@ -138,10 +139,9 @@ def test_a_slipper_that_lies_flat_carries_no_oil_however_its_oil_stiffens(valida
 
 @pytest.mark.parametrize("gap", list(Gap))
 def test_compliance_one_is_the_pumps_own_bodies_and_none_is_rigid(gap, plain):
-    few = {"finer": 0.25, "tolerance": 1.0}
     soft = {gap.value: SMOOTH.including(Effect.ELASTIC_WALLS)}
-    own = coarse(REF90, physics=GapPhysics(**soft), **few)
-    stated = coarse(extended({"elastic_opening": {gap.value: {"compliance": 1.0}}}), **few)
+    own = coarse(REF90, physics=GapPhysics(**soft), **FEW)
+    stated = coarse(extended({"elastic_opening": {gap.value: {"compliance": 1.0}}}), **FEW)
     np.testing.assert_allclose(leaks(stated), leaks(own), rtol=ROUNDED)
     rigid = coarse(extended({"elastic_opening": {gap.value: {"compliance": 0.0}}}))
     np.testing.assert_allclose(leaks(rigid), leaks(plain), rtol=ROUNDED)
@@ -150,8 +150,8 @@ def test_compliance_one_is_the_pumps_own_bodies_and_none_is_rigid(gap, plain):
 def test_compliance_is_a_softer_material():
     softer = {f"materials.{name}.youngs_modulus": f"{value / 1.5} GPa" for name, value in SLIDES.items()}
     pump = load_pump("ref90", softer | {f"materials.{name}.poissons_ratio": r for name, r in RATIOS.items()})
-    own = coarse(pump, physics=GapPhysics(slipper=SMOOTH.including(Effect.ELASTIC_WALLS)))
-    stated = coarse(extended({"elastic_opening": {"slipper": {"compliance": 1.5}}}))
+    own = coarse(pump, physics=GapPhysics(slipper=SMOOTH.including(Effect.ELASTIC_WALLS)), **FEW)
+    stated = coarse(extended({"elastic_opening": {"slipper": {"compliance": 1.5}}}), **FEW)
     np.testing.assert_allclose(leaks(stated), leaks(own), rtol=1e-6)
 
 
@@ -184,9 +184,8 @@ def test_heat_between_the_pumps_own_walls_is_heat():
     assert [one.path for one in told] == [f"walls of the {name} film" for name in NAMES]
     stated = {gap.value: in_unit_of(one.reason) for gap, one in zip(Gap, told, strict=True)}
     heated = extended({"film_heating": stated})
-    few = {"positions_per_pitch": 2, "finer": 0.25, "tolerance": 1.0}
-    hot = films_point(REF90, point, physics=GapPhysics.alike(SMOOTH.including(Effect.HEAT)), **few)
-    same, cooled = (films_point(pump, point, **few) for pump in (heated, extended({"film_heating": {}})))
+    hot = coarse(REF90, physics=GapPhysics.alike(SMOOTH.including(Effect.HEAT)), **FEW)
+    same, cooled = (coarse(pump, **FEW) for pump in (heated, extended({"film_heating": {}})))
     np.testing.assert_allclose(leaks(same), leaks(hot), rtol=1e-4)  # the stated ones are of five digits
     assert np.all(leaks(cooled) < leaks(hot))
     assert [one.value for one in same.parts.taken if one.path == told[0].path] == ["1 times as resistant to heat"]

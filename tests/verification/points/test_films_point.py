@@ -286,7 +286,7 @@ def test_twice_the_film_angles(rated, validation):
         )
 
 
-@pytest.mark.slow
+@pytest.mark.long
 def test_meshes_doubled(rated, validation):
     """The same positions and pressures on meshes of twice the lines: mean leakage and wall power of each gap."""
     for (quantity, unit), (obtained, expected) in _on_both_meshes(rated).items():

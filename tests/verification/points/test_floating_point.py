@@ -23,6 +23,7 @@ def found() -> FloatingPoint:
     return floating_point(pump(), operating_point(pump()), FloatingOptions(RIGID, steps=STEPS, finer=0.35))
 
 
+@pytest.mark.long
 def test_gaps_and_chambers_agree(found):
     last = found.rounds[-1]
     assert last.pressure_change <= PRESSURE_TOLERANCE
@@ -35,6 +36,7 @@ def test_gaps_and_chambers_agree(found):
     assert found.pump_point.leaks.drag_flow == pytest.approx(table.drag_flow, rel=1e-12)
 
 
+@pytest.mark.long
 def test_power_is_accounted_for(found, energy_balances):
     """Torque from forces, heat from the films' fields: neither knows of the other.
 
@@ -43,6 +45,7 @@ def test_power_is_accounted_for(found, energy_balances):
     energy_balances(case="REF90 floating, coarse films, 10 MPa, 2100 r/min: balances", checks=found.pump_point.checks)
 
 
+@pytest.mark.long
 def test_oil_is_kept_by_each_gap(found):
     """What comes in goes out over the march, as nearly as turns close and films follow their slopes."""
     missing = found.mass_balance_error
@@ -51,6 +54,7 @@ def test_oil_is_kept_by_each_gap(found):
     assert missing.valve_plate < 0.01
 
 
+@pytest.mark.long
 def test_friction_is_that_of_the_films(found):
     """No coefficient of [friction] stands beside the films of the three gaps."""
     point, pistons = found.pump_point, found.rotor.pump.pump.pistons
@@ -65,4 +69,4 @@ def test_friction_is_that_of_the_films(found):
 def test_rounds_that_do_not_settle_say_so(monkeypatch):
     monkeypatch.setattr("system.points.floating.ROUND_LIMIT", 1)
     with pytest.raises(NotConverged, match="after 1 rounds"):
-        floating_point(pump(), operating_point(pump()), FloatingOptions(RIGID, steps=STEPS, finer=0.35))
+        floating_point(pump(), operating_point(pump()), FloatingOptions(RIGID, steps=36, finer=0.25))
