@@ -15,10 +15,7 @@ POINTS = BenchPoints(
 )
 
 
-@pytest.mark.parametrize(
-    ("share", "throttle", "warmth"),
-    [(0.0, 0.8, 330.0), (1.0, 0.0, 320.0), (0.5, 0.0, 325.0)],
-)
+@pytest.mark.parametrize(("share", "throttle", "warmth"), [(0.0, 0.8, 330.0), (1.0, 0.0, 320.0), (0.5, 0.0, 325.0)])
 def test_films_lie_between_case_and_inlet(share: float, throttle: float, warmth: float) -> None:
     found = setting(PUMP, POINTS, {"inlet_share": share, "throttle_share": throttle}, 10)
     assert found.point.temperature.item() == pytest.approx(warmth)
