@@ -71,6 +71,7 @@ EVERY = {
     "tolerance.dead_volume": 0.02,
     "tolerance.flow_coefficient": 0.05,
     "tolerance.stand_out_share": 0.5,
+    "tolerance.inlet_share": 0.25,
     "bore.profile": [["0 mm", "0.1 um"], ["41 mm", "0 um"]],
     "bore.edge_relief": {"width": "2 mm", "depth": "1 um"},
     "retainer.kind": "clearance",
