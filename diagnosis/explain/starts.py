@@ -141,6 +141,7 @@ class _Nuisances:
         centre, tried = self.centre[self.free], xi[~self.free]
         taken = cho_solve(self.factor, self.slopes.T @ offset - centre)
         left, moved = offset - self.slopes @ taken, centre + taken
-        settled = xi.copy()
-        settled[self.free] = centre + np.clip(taken, -self.reach, self.reach)
+        own = np.zeros_like(xi)
+        own[self.free] = np.clip(taken, -self.reach, self.reach)
+        settled = self.bounds.reached(np.where(self.free, self.centre, xi), own)
         return float(left @ left + moved @ moved + tried @ tried), self.bounds.within(settled)

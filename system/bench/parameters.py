@@ -59,7 +59,7 @@ def base_parameters(pump: PumpDescription, tolerances: Tolerances) -> tuple[Para
         *_fluid(pump, tolerances),
         *_frictions(pump, tolerances),
         _absolute("displacement", 1.0, tolerances.displacement, 0.5, 1.5),
-        _relative("dead_volume", pump.pump.dead_volume, tolerances.dead_volume, Dimension.VOLUME),
+        replace(_relative("dead_volume", pump.pump.dead_volume, tolerances.dead_volume, Dimension.VOLUME), power=1.0),
         _relative("flow_coefficient", pump.ports.flow_coefficient, tolerances.flow_coefficient, None, upper=1.0),
         _absolute("stand_out_share", _share(pump), tolerances.stand_out_share, 0.0, 1.2),
         *_warmth(tolerances),
@@ -124,7 +124,8 @@ def _share(pump: PumpDescription) -> float:
 def _thickness(pump: PumpDescription, gap: Gap, tolerances: Tolerances) -> Parameter:
     section, key = _THICKNESS[gap]
     centre = getattr(getattr(pump, section), key)
-    return _relative(f"film_thickness.{gap.value}", centre, tolerances.film_thickness, Dimension.LENGTH)
+    film = _relative(f"film_thickness.{gap.value}", centre, tolerances.film_thickness, Dimension.LENGTH)
+    return replace(film, power=3.0)  # leakage
 
 
 def _warmth(tolerances: Tolerances) -> tuple[Parameter, ...]:
@@ -138,9 +139,10 @@ def _warmth(tolerances: Tolerances) -> tuple[Parameter, ...]:
 def _fluid(pump: PumpDescription, tolerances: Tolerances) -> tuple[Parameter, ...]:
     oil: OilSection = pump.oil
     slope = tolerances.viscosity_slope
+    stiffness = _relative("bulk_modulus", oil.bulk_modulus, tolerances.bulk_modulus, Dimension.MODULUS, Role.FLUID)
     return (
-        _relative("bulk_modulus", oil.bulk_modulus, tolerances.bulk_modulus, Dimension.MODULUS, Role.FLUID),
-        _relative("viscosity", 1.0, tolerances.viscosity, None, Role.FLUID),
+        replace(stiffness, power=-1.0),  # compression
+        replace(_relative("viscosity", 1.0, tolerances.viscosity, None, Role.FLUID), power=-1.0),  # leakage
         Parameter(
             "viscosity_slope", Role.FLUID, Scale.NORMAL, 0.0, slope, -0.02, 0.015,
             Dimension.TEMPERATURE_COEFFICIENT, "[tolerance]",
@@ -154,7 +156,7 @@ def _frictions(pump: PumpDescription, tolerances: Tolerances) -> tuple[Parameter
         spread = tolerances.bearing_friction if pair in BEARINGS else tolerances.friction
         spread = tolerances.guide_friction if pair == GUIDE else spread
         if (centre := getattr(pump.friction, pair)) > 0.0:
-            found.append(_relative(f"friction.{pair}", centre, spread, None))
+            found.append(replace(_relative(f"friction.{pair}", centre, spread, None), power=1.0))
     return tuple(found)
 
 

@@ -1,4 +1,8 @@
-"""One step towards the peak of a quadratic model between bounds."""
+"""One step towards the peak of a quadratic model between bounds, along curves on which readings are linear.
+
+Leakage grows with the cube of a film: along xi = ln(1 + b d)/b, b = 3 spreads, it is linear in d. Two films whose
+leakages replace each other lie in a valley that is straight in d and curved in xi.
+"""
 
 from __future__ import annotations
 
@@ -13,24 +17,53 @@ from reynolds.numerics.arrays import Array
 from system.estimation.parameters import Parameter
 
 
+LEAST_LEFT = 0.1
+"""Least share of value^power that one step leaves."""
+
+
 @dataclass(frozen=True)
 class Bounds:
-    """Least and largest xi, (k,) each; curved: (k,), true where a long step leaves the slopes' validity."""
+    """Least and largest xi, (k,) each; curved: (k,), true where a long step leaves the slopes' validity.
+
+    bend: (k,), power times spread on log scales, else 0: readings are linear in (exp(bend xi) - 1)/bend.
+    """
 
     lowest: Array
     highest: Array
     curved: NDArray[np.bool_]
+    bend: Array
 
     @classmethod
     def of(cls, parameters: tuple[Parameter, ...]) -> Bounds:
         """Those of some parameters."""
         lowest = np.array([parameter.lowest for parameter in parameters])
         highest = np.array([parameter.highest for parameter in parameters])
-        return cls(lowest, highest, np.array([not parameter.linear for parameter in parameters], dtype=bool))
+        curved = np.array([not parameter.linear for parameter in parameters], dtype=bool)
+        return cls(lowest, highest, curved, np.array([parameter.bend for parameter in parameters]))
 
     def within(self, xi: Array) -> Array:
         """The nearest xi between the bounds."""
         return np.clip(xi, self.lowest, self.highest)
+
+    def reached(self, xi: Array, step: Array) -> Array:
+        """The xi at the end of a step d (k,) along the curves: xi + ln(1 + b d)/b, and xi + d where b = 0."""
+        other = xi + step
+        bent = self.bend != 0.0
+        grown = np.maximum(1.0 + self.bend[bent] * step[bent], LEAST_LEFT)
+        other[bent] = xi[bent] + np.log(grown) / self.bend[bent]
+        return other
+
+    def step_to(self, xi: Array, other: Array) -> Array:
+        """The step d (k,) along the curves from xi to another: the inverse of `reached`."""
+        step = other - xi
+        bent = self.bend != 0.0
+        step[bent] = np.expm1(self.bend[bent] * step[bent]) / self.bend[bent]
+        return step
+
+    def about(self, xi: Array) -> Bounds:
+        """The bounds of xi + d for steps d along the curves from xi."""
+        lowest, highest = xi + self.step_to(xi, self.lowest), xi + self.step_to(xi, self.highest)
+        return Bounds(lowest, highest, self.curved, self.bend)
 
 
 @dataclass(frozen=True)

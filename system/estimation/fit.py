@@ -122,6 +122,10 @@ class _Fit:
         self.slopes(walk.place.xi)
         return replace(walk, slopes=whitening.whiten(self.raw), taken=self.taken)
 
+    def moved_slopes(self, slopes: Array, xi: Array, other: Array) -> Array:
+        """Slopes (n, k) at xi as those at another xi, for readings linear along the curves of the bounds."""
+        return slopes * np.exp(self.bounds.bend * (other - xi))
+
     def slopes(self, xi: Array) -> None:
         """Take d prediction / d xi at xi."""
         self.slope_maps += 1
@@ -156,7 +160,7 @@ class _Fit:
     def promised(self, walk: _Walk) -> float:
         """By how much the objective would fall to the peak that the slopes promise."""
         model = Quadratic.of(walk.place.xi, walk.place.residual, walk.slopes)
-        return model.fall(bounded_step(model, self.bounds, 0.0, np.inf))
+        return model.fall(bounded_step(model, self.bounds.about(model.xi), 0.0, np.inf))
 
 
 def maximum_posterior(
@@ -262,35 +266,38 @@ def _tried(fit: _Fit, walk: _Walk, whitening: Whitening) -> _Walk:
     """One trial: the new point where the objective falls, with damping and slopes updated from the result."""
     place = walk.place
     model = Quadratic.of(place.xi, place.residual, walk.slopes)
-    step = bounded_step(model, fit.bounds, walk.damping, fit.limits.largest_step)
+    step = bounded_step(model, fit.bounds.about(place.xi), walk.damping, fit.limits.largest_step)
     promised = model.fall(step)
-    trial = fit.trial(place.xi + step, whitening) if promised > 0 else None
+    trial = fit.trial(fit.bounds.reached(place.xi, step), whitening) if promised > 0 else None
     if trial is None:
         return replace(walk, damping=_damping(walk.damping, 0.0))
     straight = kept = (place.objective - trial.objective) / promised
     if straight < GOOD:
-        corrected = fit.trial(trial.xi + _correction(fit, walk, model, trial), whitening)
+        corrected = fit.trial(_corrected(fit, walk, trial), whitening)
         if corrected is not None and corrected.objective < trial.objective:
             trial, kept = corrected, (place.objective - corrected.objective) / promised
     slopes = walk.slopes
-    went = trial.xi - place.xi
+    went = fit.bounds.step_to(place.xi, trial.xi)
     if (kept > 0 or walk.damping > LOCAL) and np.abs(went).max() > SHORT:
         missed = place.residual - trial.residual - slopes @ went
         slopes = slopes + np.outer(missed, went) / (went @ went)
+    slopes = fit.moved_slopes(slopes, place.xi, trial.xi) if kept > 0 else slopes
     here = _Walk(trial if kept > 0 else place, slopes, walk.taken, _damping(walk.damping, kept))
-    return fit.renewed(here, whitening) if straight < GOOD and here.moved > 0 else here
+    return fit.renewed(here, whitening) if straight < GOOD and here.moved > SHORT else here
 
 
-def _correction(fit: _Fit, walk: _Walk, model: Quadratic, trial: _Iterate) -> Array:
-    """The correction of a trial along a curved valley, from the slopes' prediction down to its floor.
+def _corrected(fit: _Fit, walk: _Walk, trial: _Iterate) -> Array:
+    """The xi of a trial corrected along a curved valley, from the slopes' prediction down to its floor.
 
     Half the second derivative of the readings along the step, solved with the slopes (geodesic acceleration;
     Transtrum and Sethna 2012), with no component longer than the step.
     """
-    step = trial.xi - walk.place.xi
+    step = fit.bounds.step_to(walk.place.xi, trial.xi)
     missed = walk.place.residual - trial.residual - walk.slopes @ step
-    curved = Quadratic(trial.xi, -walk.slopes.T @ missed, model.precision)
-    return bounded_step(curved, fit.bounds, walk.damping, float(np.abs(step).max()))
+    slopes = fit.moved_slopes(walk.slopes, walk.place.xi, trial.xi)
+    curved = Quadratic(trial.xi, -slopes.T @ missed, slopes.T @ slopes + np.eye(step.size))
+    longest = float(np.abs(step).max())
+    return fit.bounds.reached(trial.xi, bounded_step(curved, fit.bounds.about(trial.xi), walk.damping, longest))
 
 
 def _apart(one: Array, other: Array) -> float:

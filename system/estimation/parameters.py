@@ -33,6 +33,7 @@ class Parameter:
 
     centre, lower and upper are SI values; spread is in SI too, but for LOG relative. `dimension` is None for a
     pure number. `source` is the origin of the prior. linear: readings are linear in it, so that steps may be long.
+    power: of a LOG value in which readings are nearly linear (3 for a film that leaks), 0 where none is.
     """
 
     name: str
@@ -45,6 +46,7 @@ class Parameter:
     dimension: Dimension | None
     source: str
     linear: bool = False
+    power: float = 0.0
 
     def __post_init__(self) -> None:
         """Raise InputError for a void prior."""
@@ -83,6 +85,11 @@ class Parameter:
     def stretch(self, xi: float) -> float:
         """d value / d xi, in SI: what a slope by value is multiplied with to be one by xi."""
         return self.spread * (self.value(xi) if self.scale is Scale.LOG else 1.0)
+
+    @property
+    def bend(self) -> float:
+        """power times spread on a LOG scale, else 0: readings are nearly linear in exp(bend xi)."""
+        return self.power * self.spread if self.scale is Scale.LOG else 0.0
 
     def widened(self, factor: float) -> Parameter:
         """The same parameter with a prior `factor` times as wide, between the same bounds."""

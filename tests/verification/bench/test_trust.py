@@ -19,7 +19,7 @@ def _models(count: int):
         lowest = np.where(rng.random(size) < 0.5, np.minimum(xi, 0.0) - room, -np.inf)
         highest = np.where(rng.random(size) < 0.3, np.maximum(xi, 0.5), np.inf)
         model = Quadratic(xi, 5.0 * rng.normal(size=size), slopes.T @ slopes + np.eye(size))
-        yield model, Bounds(lowest, highest, np.ones(size, dtype=bool))
+        yield model, Bounds(lowest, highest, np.ones(size, dtype=bool), np.zeros(size))
 
 
 def test_a_step_is_the_least_between_the_bounds():
@@ -47,7 +47,7 @@ def test_a_step_never_promises_a_rise(damping):
 def test_a_bound_that_is_passed_first_may_be_free_after():
     """Two tied parameters: alone the second would pass its bound, with the first on its own it does not."""
     model = Quadratic(np.zeros(2), np.array([3.0, -0.5]), np.array([[2.0, 1.5], [1.5, 2.0]]))
-    bounds = Bounds(np.array([-1.0, -0.5]), np.array([0.2, 1.0]), np.ones(2, dtype=bool))
+    bounds = Bounds(np.array([-1.0, -0.5]), np.array([0.2, 1.0]), np.ones(2, dtype=bool), np.zeros(2))
     step = bounded_step(model, bounds, 0.0, np.inf)
     assert step == pytest.approx([0.2, -0.4])
 
@@ -56,5 +56,9 @@ def test_only_curved_components_shorten_a_step():
     """Of two uncoupled parameters the straight one takes its whole step where it is alone in being long."""
     model = Quadratic(np.zeros(2), np.array([5.0, 0.2]), np.eye(2))
     free = np.full(2, np.inf)
-    assert bounded_step(model, Bounds(-free, free, np.array([False, True])), 0.0, 1.0) == pytest.approx([5.0, 0.2])
-    assert bounded_step(model, Bounds(-free, free, np.array([True, True])), 0.0, 1.0) == pytest.approx([1.0, 0.04])
+    assert bounded_step(model, Bounds(-free, free, np.array([False, True]), np.zeros(2)), 0.0, 1.0) == pytest.approx(
+        [5.0, 0.2]
+    )
+    assert bounded_step(model, Bounds(-free, free, np.array([True, True]), np.zeros(2)), 0.0, 1.0) == pytest.approx(
+        [1.0, 0.04]
+    )
