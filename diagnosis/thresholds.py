@@ -72,6 +72,7 @@ class RefitLimits:
     farther: float
     hopeless: float
     felt: float
+    redundant: float
     held_out: int
 
 

@@ -1,17 +1,40 @@
-"""Parameters that the readings feel: the others keep their stated values and cost no slopes."""
+"""Parameters that a fit needs: the others keep their stated values and cost no slopes.
+
+A parameter that no reading feels decides nothing. One that others replace decides nothing either: where these are
+free within their tolerances, the readings leave its prior variance as it is,
+
+    var(xi_k | y) = (A^T A + 1)^-1_kk > redundant,   A: slopes of the readings by xi, in sigma
+
+Eccentricity and clearance of the pistons are such a pair. Parameters that a hypothesis may find wrong stay.
+"""
 
 from __future__ import annotations
 
 import numpy as np
+from numpy.typing import NDArray
 
-from diagnosis.study.model import Study
+from diagnosis.study.model import SUBJECTS, Study, concerned
+from diagnosis.thresholds import Thresholds
+from reynolds.numerics.arrays import Array
 from system.estimation.parameters import Parameter
 
 
-def felt(study: Study, least: float) -> tuple[Parameter, ...]:
-    """Parameters of which one sigma moves all readings together by at least `least` sigma, in their order.
+def felt(study: Study, thresholds: Thresholds) -> tuple[Parameter, ...]:
+    """Parameters of a study that its readings feel and that no others replace, in their order."""
+    parameters, slopes = study.base.parameters, study.base.slopes
+    questioned = {name for effect in SUBJECTS for name in concerned(effect, parameters)}
+    kept = np.linalg.norm(slopes, axis=0) >= thresholds.fit.felt
+    removable = np.array([one.name not in questioned for one in parameters])
+    while (least := _most_open(slopes, kept, removable, thresholds.fit.redundant)) is not None:
+        kept[least] = False
+    return tuple(one for one, own in zip(parameters, kept, strict=True) if own)
 
-    No fit depends on the others: a friction where no torque is measured, the stand-out share at full displacement.
-    """
-    size = np.linalg.norm(study.base.slopes, axis=0)
-    return tuple(one for one, moved in zip(study.base.parameters, size, strict=True) if moved >= least)
+
+def _most_open(slopes: Array, kept: NDArray[np.bool_], removable: NDArray[np.bool_], redundant: float) -> int | None:
+    """The removable parameter that the readings leave most open, None where they narrow all of them."""
+    own = slopes[:, kept]
+    variance = np.zeros(kept.size)
+    variance[kept] = np.diag(np.linalg.inv(own.T @ own + np.eye(own.shape[1])))
+    variance[~removable] = 0.0
+    found = int(np.argmax(variance))
+    return found if variance[found] > redundant else None

@@ -83,7 +83,7 @@ def prepare(
         study = replace(study, traces=trace_misfits(traced, traces, thresholds.mismatch.pull))
     else:
         courses = drift_courses(bare, thresholds)
-        bench = bench.only(felt(bare, thresholds.fit.felt)).with_drifts(courses, drift_parameters(bare, courses))
+        bench = bench.only(felt(bare, thresholds)).with_drifts(courses, drift_parameters(bare, courses))
         usable = replace(usable, notes=(*usable.notes, *_drift_notes(courses, usable)))
         study = study_of(usable, bench, found, axes, catalogue, thresholds)
     return replace(study, events=port_events(pump))

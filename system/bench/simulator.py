@@ -254,7 +254,9 @@ class LumpedBench:
     def _read(self, solved: Solved, values: Array, points: BenchPoints) -> Array:
         found, named = truth(solved)[:, self._columns], self._named(values)
         if self.departures is not None:
-            found = found + self.departures @ [named[f"{FORM}{k + 1}"] for k in range(self.departures.shape[-1])]
+            found = found + self.departures @ [
+                named.get(f"{FORM}{k + 1}", 0.0) for k in range(self.departures.shape[-1])
+            ]
         return read(found, self.channels, points, named, self.drifts)
 
     def step_of(self, name: str, values: Array) -> float:

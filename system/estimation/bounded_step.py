@@ -16,7 +16,6 @@ from reynolds.errors import NotConverged
 from reynolds.numerics.arrays import Array
 from system.estimation.parameters import Parameter
 
-
 LEAST_LEFT = 0.1
 """Least share of value^power that one step leaves."""
 

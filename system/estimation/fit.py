@@ -42,7 +42,7 @@ class FitLimits:
     PATIENCE trials a fit whose predicted objective is not lower ends, with the evidence of the predicted peak.
     """
 
-    steps: int = 50
+    steps: int = 100
     change: float = 1e-2
     largest_step: float = 2.0
     whitening_rounds: int = 2

@@ -64,4 +64,4 @@ def test_what_no_reading_feels_is_left_out(recording: Recording) -> None:
     names = {one.name for one in study.base.parameters}
     assert not {name for name in names if name.startswith("friction.")}
     assert {"film_thickness.piston", "film_thickness.slipper", "displacement"} <= names
-    assert len(felt(study, LIMITS.fit.felt)) == len(study.base.parameters)
+    assert len(felt(study, LIMITS)) == len(study.base.parameters)
