@@ -47,16 +47,16 @@ class Bounds:
     def reached(self, xi: Array, step: Array) -> Array:
         """The xi at the end of a step d (k,) along the curves: xi + ln(1 + b d)/b, and xi + d where b = 0."""
         other = xi + step
-        bent = self.bend != 0.0
-        grown = np.maximum(1.0 + self.bend[bent] * step[bent], LEAST_LEFT)
-        other[bent] = xi[bent] + np.log(grown) / self.bend[bent]
+        curved = self.bend != 0.0
+        grown = np.maximum(1.0 + self.bend[curved] * step[bent], LEAST_LEFT)
+        other[curved] = xi[bent] + np.log(grown) / self.bend[bent]
         return other
 
     def step_to(self, xi: Array, other: Array) -> Array:
         """The step d (k,) along the curves from xi to another: the inverse of `reached`."""
         step = other - xi
-        bent = self.bend != 0.0
-        step[bent] = np.expm1(self.bend[bent] * step[bent]) / self.bend[bent]
+        curved = self.bend != 0.0
+        step[curved] = np.expm1(self.bend[bent] * step[bent]) / self.bend[bent]
         return step
 
     def about(self, xi: Array) -> Bounds:

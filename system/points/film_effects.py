@@ -5,7 +5,7 @@
     elastic_opening     by compliance: the parts' own bodies, so many times as compliant; by opening: springs
     thermal_clearance   films of the thickness at the point's temperature (`film_thickness`)
 
-All other effects remain the closed laws of the lumped fidelity.
+All other effects remain the closed-form laws of the lumped fidelity.
 """
 
 import math
@@ -39,9 +39,9 @@ from system.inputs.units import Dimension, format_quantity
 from system.pump.film_thickness import given_film, opening_share
 
 SOLVED = (EffectId.FILM_HEATING, EffectId.VISCOSITY_PRESSURE, EffectId.ELASTIC_OPENING, EffectId.THERMAL_CLEARANCE)
-"""Effects that films solve; any other effect acts by its closed law."""
+"""Effects that films solve; any other effect acts by its closed-form law."""
 _SOLVED_SHARES = (0.0, 1.0, 0.0)
-"""carried_share, throttled_share and carry_over by which the closed law comes nearest to films that solve them."""
+"""carried_share, throttled_share and carry_over by which the closed-form law comes nearest to films that solve them."""
 _PART = {Gap.PISTON: "piston", Gap.SLIPPER: "slipper", Gap.VALVE_PLATE: "block"}
 _FACES = {
     Gap.PISTON: ("bushing", "piston"),
@@ -77,7 +77,7 @@ class BarusAboveCase:
 
 
 def effects_in_films(pump: PumpDescription) -> tuple[tuple[EffectId, ...], tuple[EffectId, ...]]:
-    """Effects of [physics] that films solve, and those that remain closed laws."""
+    """Effects of [physics] that films solve, and those that remain closed-form laws."""
     on = dict.fromkeys(extension.id for extension, _ in switched_on(pump))
     return tuple(one for one in on if one in SOLVED), tuple(one for one in on if one not in SOLVED)
 
@@ -91,7 +91,7 @@ def closed_laws(pump: PumpDescription) -> PumpDescription:
 def film_effects(rotor: Rotor, parts: FloatingParts, pump: PumpDescription, physics: GapPhysics) -> FilmEffects:
     """Parts and physics of the films with the pump's [physics], in addition to `physics`.
 
-    rotor, parts: of the pump with its film thicknesses. Differences between films and closed laws are listed
+    rotor, parts: of the pump with its film thicknesses. Differences between films and closed-form laws are listed
     among the parts' assumptions.
     """
     stated, taken = pump.physics, list(parts.taken)
@@ -173,7 +173,7 @@ def _between_walls(
     shares = stated.carried_share, stated.throttled_share, stated.carry_over
     if shares != _SOLVED_SHARES:
         stated_shares = "carried_share {:.3g}, throttled_share {:.3g} and carry_over {:.3g}".format(*shares)
-        taken.note("heat of the oil", "as the films carry it", f"{stated_shares} are of the closed law alone")
+        taken.note("heat of the oil", "as the films carry it", f"{stated_shares} are of the closed-form law alone")
     return replace(parts, materials=materials), tuple(taken.assumptions)
 
 

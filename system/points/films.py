@@ -180,7 +180,7 @@ def _work(pump: PumpDescription, point: OperatingPoint, physics: GapPhysics) -> 
 
 
 def _ported(work: _Coupling, gaps: GapCycle, met: OperatingPoint) -> tuple[PortedCycle, LeakTable]:
-    """Chambers and ports with the films' leaks, ports as `met` before; and these leaks without closed laws."""
+    """Chambers and ports with the films' leaks, ports as `met` before; and these leaks without closed-form laws."""
     leaks = edged_leaks(work.pump, work.point, gaps)
     problem = affected_problem(work.pump, work.point, work.motion, leaks, work.effects)
     lines, draws = port_lines(work.pump, work.point), port_draws(gaps, met, work.pump.oil.bulk_modulus)

@@ -46,11 +46,11 @@ def _fidelities(pump: PumpDescription) -> Iterator[str]:
         if kinds(pump).alike:
             yield "It runs in every fidelity."
         return
-    yield "--fidelity lumped has all effects of [physics] as closed laws."
+    yield "--fidelity lumped has all effects of [physics] as closed-form laws."
     if solved:
         yield f"--fidelity films solves {', '.join(one.value for one in solved)} in the films."
     if closed:
-        yield f"--fidelity films has {', '.join(one.value for one in closed)} as closed laws."
+        yield f"--fidelity films has {', '.join(one.value for one in closed)} as closed-form laws."
     yield "--fidelity floating and table do not read [physics]: for these delete its tables, and the finding with them."
 
 

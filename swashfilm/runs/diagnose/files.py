@@ -65,7 +65,7 @@ def change_rows(comparison: PumpComparison) -> Iterator[Mapping[str, str]]:
 
 
 def film_rows(comparison: FilmComparison) -> Iterator[Mapping[str, str]]:
-    """Rows of quantity, unit, lumped_NAME and films_NAME: by closed laws, and by films."""
+    """Rows of quantity, unit, lumped_NAME and films_NAME: by closed-form laws, and by films."""
     for one in comparison.changes:
         lumped = {f"lumped_{name}": f"{value:.6g}" for name, value in one.lumped.items()}
         films = {f"films_{name}": f"{value:.6g}" for name, value in one.films.items()}

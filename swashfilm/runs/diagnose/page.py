@@ -137,7 +137,7 @@ def change_rows(rows: Sequence[Mapping[str, str]]) -> Iterator[tuple[str, ...]]:
 
 
 def film_rows(rows: Sequence[Mapping[str, str]]) -> Iterator[tuple[str, ...]]:
-    """(quantity, by closed laws, by films): without -> with the finding, and the factor."""
+    """(quantity, by closed-form laws, by films): without -> with the finding, and the factor."""
     for row in rows:
         films = []
         for kind in ("lumped", "films"):

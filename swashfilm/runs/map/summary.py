@@ -136,7 +136,7 @@ def _assumptions(work: MapWork) -> list[str]:
     solved, laws = (", ".join(one.value for one in ids) or "none" for ids in effects_in_films(pump))
     films = film_effects(rotor(pump, operating_point(pump)), parts, pump, PLAIN)
     return [
-        f"[physics]: solved in the films: {solved}; by closed laws: {laws}",
+        f"[physics]: solved in the films: {solved}; by closed-form laws: {laws}",
         *(str(one) for one in films.parts.taken),
     ]
 

@@ -80,7 +80,7 @@ def pump_summary(
 
 
 def _physics(pump: PumpDescription, films: FilmsPoint | None) -> dict[str, list[str]]:
-    """Return the effects of [physics], those solved by the films and those of closed laws."""
+    """Return the effects of [physics], those solved by the films and those of closed-form laws."""
     solved, laws = effects_in_films(pump)
     if films is None:
         solved, laws = (), (*solved, *laws)

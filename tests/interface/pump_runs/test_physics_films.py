@@ -54,7 +54,7 @@ def test_the_summary_tells_what_the_films_solve(run):
     summary = json.loads((run / "summary.json").read_text("utf-8"))
     assert summary["physics"] == {"films_solve": ["viscosity_pressure"], "closed_laws": ["churning"]}
     page = (run / "report.html").read_text("utf-8")
-    assert "the films solve viscosity pressure; by closed laws: churning." in page
+    assert "the films solve viscosity pressure; by closed-form laws: churning." in page
 
 
 def test_results_and_fields_for_paraview_hold_the_oils_state(run):
@@ -126,7 +126,7 @@ def both(tmp_path_factory):
 
 
 def test_a_finding_is_followed_into_the_films(both):
-    """Fields of both pumps for ParaView; leakage by closed law and by films, by nearly the same factor."""
+    """Fields of both pumps for ParaView; leakage by closed-form law and by films, by nearly the same factor."""
     folder, told = both
     for name in NAMES:
         assert (folder / name / "pump.pvd").is_file()
@@ -212,7 +212,7 @@ def test_a_map_of_films_solved_point_by_point_reads_them(pump_file, tmp_path):
     words = ["map", str(pump_file), "--plan", "point", "--direct", "--check", "0", "-o", str(tmp_path / "map")]
     assert main(words) == 0
     told = json.loads((tmp_path / "map" / "summary.json").read_text("utf-8"))["assumptions"]
-    assert told[0] == "[physics]: solved in the films: viscosity_pressure; by closed laws: churning"
+    assert told[0] == "[physics]: solved in the films: viscosity_pressure; by closed-form laws: churning"
     assert not any("oil.pressure_viscosity" in one for one in told)
     with xarray.open_dataset(tmp_path / "map" / "map.nc", engine="h5netcdf") as data:
         drain = float(data["drain_flow"].values.ravel()[0])

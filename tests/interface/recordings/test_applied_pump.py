@@ -44,7 +44,7 @@ def test_the_file_has_its_origin_and_loads_to_the_pump_under_a_name_of_its_own(t
 def test_each_fidelity_is_named_with_what_it_does_of_the_effects():
     whole = _applied(_with(EffectId.CHURNING, EffectId.VISCOSITY_PRESSURE))
     assert "films solves viscosity_pressure in the films" in whole
-    assert "films has churning as closed laws" in whole
+    assert "films has churning as closed-form laws" in whole
     assert "--fidelity floating and table do not read [physics]: for these delete" in whole
     assert "It runs in every fidelity" in _applied(PUMP)
 

@@ -263,11 +263,11 @@ def test_barus_coefficient_takes_the_place_of_the_usual_one():
 WARMER = 20.0
 RATES = {"thermal_clearance": {"piston": {"rate": 8e-3}, "slipper": {"rate": -4e-3}, "valve_plate": {"rate": 5e-3}}}
 DRAGGED = 3e-3
-"""Of a leakage: drag flow of the piston, in proportion to its film, which the closed law leaves as it is."""
+"""Of a leakage: drag flow of the piston, in proportion to its film, which the closed-form law leaves as it is."""
 
 
 def test_a_clearance_that_warmth_changes_is_a_film_thickness():
-    """By the closed law, as the pump there, and in films: the same pump."""
+    """By the closed-form law, as the pump there, and in films: the same pump."""
     pump = extended(RATES)
     warm = replace(operating_point(REF90), temperature=REF90.operating.temperature + WARMER)
     there = at_temperature(pump, warm.temperature)
