@@ -195,7 +195,7 @@ def learnt_points(axes: Sequence[Axis], count: int) -> Array:
 
     The corners keep the interpolant from guessing beyond the outermost of the others: with 120 points of four
     inputs a smooth function is learnt 1.1 to 9 times better than from Sobol points alone
-    (tests/verification/gap/test_response.py). Raises FilmInputError for fewer than twice the corners.
+    (tests/verification/gaps/gap/test_response.py). Raises FilmInputError for fewer than twice the corners.
     """
     corners = np.stack(np.meshgrid(*[(0.0, 1.0)] * len(axes), indexing="ij"), axis=-1).reshape(-1, len(axes))
     if count < 2 * len(corners):

@@ -48,15 +48,15 @@ class Bounds:
         """The xi at the end of a step d (k,) along the curves: xi + ln(1 + b d)/b, and xi + d where b = 0."""
         other = xi + step
         curved = self.bend != 0.0
-        grown = np.maximum(1.0 + self.bend[curved] * step[bent], LEAST_LEFT)
-        other[curved] = xi[bent] + np.log(grown) / self.bend[bent]
+        grown = np.maximum(1.0 + self.bend[curved] * step[curved], LEAST_LEFT)
+        other[curved] = xi[curved] + np.log(grown) / self.bend[curved]
         return other
 
     def step_to(self, xi: Array, other: Array) -> Array:
         """The step d (k,) along the curves from xi to another: the inverse of `reached`."""
         step = other - xi
         curved = self.bend != 0.0
-        step[curved] = np.expm1(self.bend[bent] * step[bent]) / self.bend[bent]
+        step[curved] = np.expm1(self.bend[curved] * step[curved]) / self.bend[curved]
         return step
 
     def about(self, xi: Array) -> Bounds:

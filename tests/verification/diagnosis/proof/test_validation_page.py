@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-ROOT = Path(__file__).resolve().parents[3]
+ROOT = Path(__file__).resolve().parents[4]
 PAGE = ROOT / "docs" / "validation.md"
 RECORDERS = ("validation", "energy_balances")
 """Fixtures of tests/conftest.py that record rows."""

@@ -38,7 +38,7 @@ CYLINDER = SwashDrive(45e-3, 0.0, 16.2 * DEGREES)
 CONE = SwashDrive(45e-3, 5 * DEGREES, 16.2 * DEGREES)
 MASSES = GroupMasses(0.16, 0.05, 30e-3)
 NONE = ChamberForces(np.zeros(720), np.zeros((2, 720)), np.zeros(720))
-EXAMPLES = Path(__file__).resolve().parents[3] / "examples" / "pumps"
+EXAMPLES = Path(__file__).resolve().parents[4] / "examples" / "pumps"
 
 
 def some_forces() -> ChamberForces:

@@ -16,7 +16,7 @@ from system.multibody.transient import kernels as kernel
 from system.multibody.transient.solver import ControlPressure, Transient, TransientCase, Transition, run_transient
 
 DEGREES = np.pi / 180.0
-PUMPS = Path(__file__).parents[3] / "examples" / "pumps"
+PUMPS = Path(__file__).parents[4] / "examples" / "pumps"
 FIRM = {"actuator.area": "40 cm2", "actuator.arm": "60 mm"}
 """At 10 MPa an actuator that no moment moves off its stop."""
 

@@ -33,7 +33,7 @@ from system.films.positions import given_slipper
 from system.points.films import TOLERANCE, film_shear, leak_table
 
 RPM = np.pi / 30.0
-EXAMPLES = Path(__file__).resolve().parents[3] / "examples" / "pumps"
+EXAMPLES = Path(__file__).resolve().parents[4] / "examples" / "pumps"
 LITRES_A_MINUTE = 6e4
 FORCES = 1e-3  # trapezoidal rule over 360 angles of a pressure that bends by 35 MPa within 2 deg at the ports
 

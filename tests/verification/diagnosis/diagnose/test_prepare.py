@@ -16,7 +16,7 @@ from reynolds import InputError
 from system import ChannelName, load_pump, tolerances
 
 LIMITS = load_thresholds()
-RECORDINGS = Path(__file__).parents[3] / "examples" / "recordings"
+RECORDINGS = Path(__file__).parents[4] / "examples" / "recordings"
 PUMP = load_pump("ref90")
 
 

@@ -11,7 +11,7 @@ import pytest
 
 from diagnosis import load_thresholds
 
-ROOT = Path(__file__).resolve().parents[3]
+ROOT = Path(__file__).resolve().parents[4]
 
 
 @pytest.fixture

@@ -10,7 +10,7 @@ import pytest
 from system import load_pump, operating_point, slipper_conductance, transmission, valve_plate_conductance
 from system.points.transmission import Transmission
 
-PUMP = Path(__file__).resolve().parents[3] / "examples" / "pumps" / "hst196.toml"
+PUMP = Path(__file__).resolve().parents[4] / "examples" / "pumps" / "hst196.toml"
 TIGHT = {
     "piston.radial_clearance": "0.01 um",
     "slipper.film_thickness": "0.01 um",

@@ -28,7 +28,7 @@ from system.films.problems import piston_film
 from system.films.rotor import travel
 
 ANGLES = np.radians([0.0, 35.0, 90.0, 180.0, 250.0, 345.0])
-PUMPS = ["ref90", str(Path(__file__).resolve().parents[3] / "examples/pumps/cylindrical_block.toml")]
+PUMPS = ["ref90", str(Path(__file__).resolve().parents[4] / "examples/pumps/cylindrical_block.toml")]
 
 
 def group(pump: str, ratio: float) -> Rotor:

@@ -18,7 +18,7 @@ def test_null_recording_is_noise(validation):
     The tolerance is three sigma of that. Where the piston can stand out in no way but as a pivot on the shaft axis
     would have it, it is missed: leakage falls by 12 % from full to 28 % displacement.
     """
-    recording = read_recording(Path(__file__).parents[2] / "examples" / "recordings" / "open-01")
+    recording = read_recording(Path(__file__).parents[3] / "examples" / "recordings" / "open-01")
     pump = load_pump(recording.pump)
     points, _ = bench_points(recording, pump)
     parameters = (*base_parameters(pump, tolerances(pump)[0]), *sensor_parameters(recording.channels))

@@ -28,7 +28,7 @@ from reynolds import (
 )
 from reynolds.fem.mesh import rename
 
-MESHES = Path(__file__).resolve().parents[3] / "meshes"
+MESHES = Path(__file__).resolve().parents[4] / "meshes"
 
 
 @pytest.mark.parametrize("cell", list(Cell))

@@ -23,7 +23,7 @@ from system.pump.bench import LossSplit
 from system.work.kept_results import KeptPoints
 from system.work.processes import HERE
 
-PUMPS = Path(__file__).parents[3] / "examples" / "pumps"
+PUMPS = Path(__file__).parents[4] / "examples" / "pumps"
 REF90 = load_pump("ref90")
 CLAIM = PaperClaim("a", Figure.FIG2, "words", "quantity", Unit.SHARE, Range(0.2, 0.4))
 NEEDED = Impossibility("needed", Unit.NUMBER, 5.0, Range(high=3.0))
