@@ -4,6 +4,9 @@
 
 A meter drifts where these columns in its channel alone are likelier than a free smooth multiplier over the map on any
 part of the pump: a pressure that is swept many times tells the two apart, a warm-up that is recorded once does not.
+
+The course is found about the prior mean, where the pump's other errors bend it. In a fit each of its cosines may
+depart from the course found by a share of its height.
 """
 
 from __future__ import annotations
@@ -23,26 +26,48 @@ from system.inputs.channels import ChannelName
 
 ORDERS = 6
 """Cosines of a course."""
+UNCERTAIN = 0.1
+"""One sigma of each cosine's departure from the course found, share of its height."""
 FEWEST = 30
 """Points of a recording in which a course is sought."""
 
 
 def drift_courses(study: Study, thresholds: Thresholds) -> Mapping[ChannelName, Array]:
-    """Course (N,) of the drift of each meter that has one, 0 at the first point, 1 at its height."""
+    """Course (N,) in SI of the drift of each meter that has one, 0 at the first point."""
     hours = study.recording.steady.hours
     if len(hours) < FEWEST or not np.all(np.isfinite(hours)) or np.ptp(hours) == 0.0:
         return {}
-    past = (hours - hours.min()) / np.ptp(hours)
-    shapes = np.stack([np.cos(order * np.pi * past) - 1.0 for order in range(1, ORDERS + 1)], axis=1)
+    shapes = _shapes(hours)
     widths, base = thresholds.locate.multiplier_widths, study.base
     laws = [multiplier_evidence(base, multiplier_columns(study, base, each), widths) for each in study.components]
     found = {}
     for at, channel in enumerate(study.channels):
         columns = _columns(study, at, shapes)
         if multiplier_evidence(base, columns, widths) > max(0.0, *laws) + thresholds.name.odds:
-            course = shapes @ _likeliest(study, columns, thresholds)
-            found[channel] = course / np.abs(course).max()
+            found[channel] = shapes @ _likeliest(study, columns, thresholds) * _level(study, at)
     return found
+
+
+def course_departures(study: Study, courses: Mapping[ChannelName, Array]) -> Array:
+    """Departures (N, C, k) from the courses (N,) of some drifts, SI per sigma: each of their cosines."""
+    blocks = [np.zeros((*study.observations.values.shape, 0))]
+    for channel, course in courses.items():
+        block = np.zeros((*study.observations.values.shape, ORDERS))
+        block[:, study.channels.index(channel)] = (
+            UNCERTAIN * np.abs(course).max() * _shapes(study.recording.steady.hours)
+        )
+        blocks.append(block)
+    return np.concatenate(blocks, axis=2)
+
+
+def _shapes(hours: Array) -> Array:
+    """Cosines (N, ORDERS) of the share of the recording that is past, 0 at its first point."""
+    past = (hours - hours.min()) / np.ptp(hours)
+    return np.stack([np.cos(order * np.pi * past) - 1.0 for order in range(1, ORDERS + 1)], axis=1)
+
+
+def _level(study: Study, at: int) -> float:
+    return float(np.nanmedian(np.abs(study.observations.values[:, at])))
 
 
 def drift_parameters(study: Study, courses: Mapping[ChannelName, Array]) -> tuple[Parameter, ...]:
@@ -53,10 +78,8 @@ def drift_parameters(study: Study, courses: Mapping[ChannelName, Array]) -> tupl
 
 def _columns(study: Study, at: int, shapes: Array) -> Array:
     """Whitened columns (n, m) of the shapes (N, m) in one channel, in units of its median reading."""
-    readings = study.observations.values[:, at]
-    level = float(np.nanmedian(np.abs(readings)))
     columns = np.zeros((*study.observations.values.shape, shapes.shape[1]))
-    columns[:, at] = level * shapes
+    columns[:, at] = _level(study, at) * shapes
     return study.base.whitening.whiten(columns)
 
 

@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 
 from diagnosis.recording.model import DataNote, NoteKind, Recording
-from diagnosis.study.drift_course import drift_courses, drift_parameters
+from diagnosis.study.drift_course import course_departures, drift_courses, drift_parameters
 from diagnosis.study.felt import felt
 from diagnosis.study.inputs import assumed_parameters, bench_points, complete, measured
 from diagnosis.study.map_axes import scaled_axes, smooth_shapes
@@ -83,7 +83,9 @@ def prepare(
         study = replace(study, traces=trace_misfits(traced, traces, thresholds.mismatch.pull))
     else:
         courses = drift_courses(bare, thresholds)
-        bench = bench.only(felt(bare, thresholds)).with_drifts(courses, drift_parameters(bare, courses))
+        shapes = {channel: course / np.abs(course).max() for channel, course in courses.items()}
+        bench = bench.only(felt(bare, thresholds)).with_drifts(shapes, drift_parameters(bare, courses))
+        bench = bench.with_departures(course_departures(bare, courses)) if courses else bench
         usable = replace(usable, notes=(*usable.notes, *_drift_notes(courses, usable)))
         study = study_of(usable, bench, found, axes, catalogue, thresholds)
     return replace(study, events=port_events(pump))

@@ -44,11 +44,20 @@ def departures(contributions: Mapping[Component, Array], shapes: Array, sigma: A
     return np.asarray(principal * np.where(known, sigma, 0.0)[:, :, None])
 
 
-def departure_parameters(count: int) -> tuple[Parameter, ...]:
-    """form.1 .. form.count: size of each principal departure in units of its prior."""
+def departure_parameters(count: int, first: int = 1) -> tuple[Parameter, ...]:
+    """form.first and so on: size of each of `count` departures in units of its prior."""
     return tuple(
         Parameter(
-            f"{FORM}{k + 1}", Role.BASE, Scale.NORMAL, 0.0, 1.0, -FARTHEST, FARTHEST, None, "laws of another make", True
+            f"{FORM}{first + k}",
+            Role.BASE,
+            Scale.NORMAL,
+            0.0,
+            1.0,
+            -FARTHEST,
+            FARTHEST,
+            None,
+            "laws of another make",
+            True,
         )
         for k in range(count)
     )

@@ -61,7 +61,7 @@ class LumpedBench:
     which join where they are not among them. All else is as the pump states it, its own [physics] too. Ports are
     held at their mean pressures: lines behind them and their ripple are left out. Raises InputError for a channel
     it does not know, another parameter, chambers that differ, and points at which the oil's law is void. departures:
-    (N, C, k) of its laws; drifts: course (N,) of a meter's drift, even in time for meters without one.
+    (N, C, k) of its laws and meters; drifts: course (N,) of a meter's drift, even in time for meters without one.
     """
 
     def __init__(
@@ -153,9 +153,10 @@ class LumpedBench:
         return self._with(joining, (*self.physics, *extensions))
 
     def with_departures(self, columns: Array) -> LumpedBench:
-        """The same bench with departures (N, C, k) of its laws and their parameters."""
-        own = (*self.parameters, *departure_parameters(columns.shape[-1]))
-        return self._like(parameters=own, departures=columns)
+        """The same bench with further departures (N, C, k) of its laws or meters, and their parameters."""
+        known = np.zeros((*self._shape, 0)) if self.departures is None else self.departures
+        own = (*self.parameters, *departure_parameters(columns.shape[-1], known.shape[-1] + 1))
+        return self._like(parameters=own, departures=np.concatenate((known, columns), axis=2))
 
     def with_drifts(self, courses: Mapping[ChannelName, Array], parameters: tuple[Parameter, ...]) -> LumpedBench:
         """The same bench with courses (N,) of the drifts of some meters and with their parameters."""
