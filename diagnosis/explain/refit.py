@@ -14,7 +14,7 @@ from scipy.special import logsumexp
 from diagnosis.explain.hypotheses import Hypothesis, candidates_of, simulator_of
 from diagnosis.explain.ranked import Explanation
 from diagnosis.explain.screen import joint_evidence
-from diagnosis.explain.starts import Expansion, from_peak, lent_slopes, start
+from diagnosis.explain.starts import Expansion, lent_slopes, nearest_start, start
 from diagnosis.study.model import Study
 from diagnosis.thresholds import Thresholds
 from reynolds.errors import NotConverged
@@ -109,8 +109,7 @@ def _refitted(
     for member, begin in begun[: thresholds.fit.grid_members]:
         simulator = simulator_of(study, member, thresholds)
         try:
-            if fresh != member.open_names:
-                begin = from_peak(study, simulator, about, begin)
+            begin = nearest_start(study, simulator, about, begin)
             lent = lent_slopes(simulator, about, fresh, begin)
             found.append((member, maximum_posterior(simulator, study.observations, begin, limits, lent)))
             behind = found[-1][1].objective + 2.0 * thresholds.fit.hopeless

@@ -15,6 +15,7 @@ from system.estimation.parameters import Parameter
 from system.estimation.posterior import Posterior, values_at
 from system.estimation.simulator import Simulator
 
+WAY = (1.0, 0.3, 0.0)  # shares of the way of known parameters at which a start is tried
 BESIDE = (0.75, 0.9)  # factors on the best size, and their inverses
 
 
@@ -49,27 +50,35 @@ def start(
     return least, found
 
 
-def from_peak(study: Study, simulator: Simulator, about: Expansion, begin: Array) -> Array:
-    """A start (k,) beside a peak, or the peak itself where the start's own prediction is worse than that.
+def nearest_start(study: Study, simulator: Simulator, about: Expansion, begin: Array) -> Array:
+    """Of the way (k,) from the linear model's own place to a start the point of least objective, by predictions.
 
-    A linear model about a peak promises more than it keeps where readings have kinks. Raises NotConverged where the
-    peak cannot be simulated.
+    A linear model promises more than it keeps far from its place, or where readings have kinks. Where its own place
+    is the best, the parameters that are new to it are off. Raises NotConverged where nothing can be simulated.
     """
     own = about.posterior
-    peak = np.zeros(len(simulator.parameters))
-    for at, parameter in enumerate(simulator.parameters):
-        if any(parameter.name == one.name for one in own.parameters):
-            peak[at] = about.xi[own.index(parameter.name)]
+    known = np.array([any(one.name == other.name for other in own.parameters) for one in simulator.parameters])
+    place = np.zeros(known.size)
+    place[known] = [
+        about.xi[own.index(one.name)] for one, own_too in zip(simulator.parameters, known, strict=True) if own_too
+    ]
 
     def objective(xi: Array) -> float:
         predicted = simulator.predict(values_at(simulator.parameters, xi))
         left = own.whitening.whiten(study.observations.values - predicted)
         return float(left @ left + xi @ xi)
 
-    try:
-        return begin if objective(begin) <= objective(peak) else peak
-    except NotConverged:
-        return peak
+    tried = [np.where(known, place + share * (begin - place), begin) for share in WAY]
+    found: list[tuple[float, Array]] = []
+    failed: list[NotConverged] = []
+    for xi in (*tried, place):
+        try:
+            found.append((objective(xi), xi))
+        except NotConverged as reason:
+            failed.append(reason)
+    if not found:
+        raise failed[0]
+    return min(found, key=lambda each: each[0])[1]
 
 
 def lent_slopes(simulator: Simulator, about: Expansion, names: tuple[str, ...], begin: Array) -> Array:

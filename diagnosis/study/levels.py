@@ -3,9 +3,12 @@
 A pump of which little is known is REF90 scaled: its leakage and friction may be off by several times, where slopes at
 the prior mean say nothing of the pump on the bench. A robust fit of a few common factors moves the mean:
 
-    min over x of sum rho((y - f(x))/s) + |x|^2,   x = ln of factors on displacement, films, friction in their spreads
+    min over x, b of sum rho((y - f(x) - B b)/s) + |x|^2 + |b|^2,
+    x = ln of factors on displacement, films, friction in their spreads
 
-rho: soft l1 (scipy), s: share of a channel's median. It takes no part in a verdict: priors stay as wide as before.
+rho: soft l1 (scipy), s: share of a channel's median. B b: what a drain flow may have beside the leakage of films, so
+that these are not at a level which is not theirs: a zero of its meter and an orifice, which grows with the root of
+the pressure. It takes no part in a verdict: priors stay as wide as before.
 """
 
 from __future__ import annotations
@@ -37,6 +40,8 @@ FARTHEST = np.log(8.0)
 """Of the logarithm of a common factor."""
 SPREAD, DISPLACEMENT_SPREAD = 0.7, 0.01
 """One sigma of the logarithm of a factor, and of that on displacement."""
+BESIDE = 0.3
+"""One sigma of zero and orifice in the drain flow, shares of its median."""
 FAR = 1e3
 """Residual where a pump cannot be simulated."""
 POINTS = 40
@@ -63,7 +68,8 @@ def levelled(known: KnownPump, recording: Recording, tolerances: Tolerances) -> 
     scale = np.array([SHARES.get(name, SHARE) for name in channels]) * np.nanmedian(np.abs(readings), axis=0)
     names = [one.name for one in parameters]
     groups = _groups(names, channels)
-    values = _fitted(bench, readings, scale, groups)
+    beside = _beside_leakage(chosen, channels, scale)
+    values = _fitted(bench, readings, scale, groups, beside)
     moved = {names[k]: float(values[k]) for _, members in groups for k in members}
     return replace(known, pump=pump_with(known.pump, moved), assumptions=(*known.assumptions, *_assumed(moved)))
 
@@ -71,11 +77,24 @@ def levelled(known: KnownPump, recording: Recording, tolerances: Tolerances) -> 
 Groups = Sequence[tuple[str, list[int]]]
 
 
-def _fitted(bench: LumpedBench, readings: Array, scale: Array, groups: Groups) -> Array:
+def _beside_leakage(recording: Recording, channels: Sequence[ChannelName], scale: Array) -> Array:
+    """One sigma (N, C, 2) of zero and orifice in the drain flow, in units of the residuals."""
+    found = np.zeros((len(recording.steady.values), len(channels), 2))
+    if ChannelName.Q_CASE in channels:
+        at = channels.index(ChannelName.Q_CASE)
+        root = np.sqrt(np.maximum(recording.steady.column(ChannelName.P_OUT), 0.0))
+        median = np.nanmedian(np.abs(recording.steady.column(ChannelName.Q_CASE)))
+        found[:, at] = BESIDE * median / scale[at] * np.stack((np.ones_like(root), root / root.max()), axis=1)
+    return found
+
+
+def _fitted(bench: LumpedBench, readings: Array, scale: Array, groups: Groups, beside: Array) -> Array:
     """Values (k,) of the bench's parameters with each group at its factor."""
     centre = np.array([one.centre for one in bench.parameters])
     spread = np.array([DISPLACEMENT_SPREAD if name == _DISPLACEMENT else SPREAD for name, _ in groups])
     known = np.isfinite(readings)
+    columns = beside[known]
+    solved = np.linalg.solve(columns.T @ columns + np.eye(columns.shape[1]), columns.T)
 
     def values_of(x: Array) -> Array:
         found = centre.copy()
@@ -88,7 +107,8 @@ def _fitted(bench: LumpedBench, readings: Array, scale: Array, groups: Groups) -
             offset = (readings - bench.predict(values_of(x))) / scale
         except NotConverged:
             offset = np.full_like(readings, FAR)
-        return np.concatenate([offset[known], x])
+        b = solved @ offset[known]
+        return np.concatenate([offset[known] - columns @ b, x, b])
 
     farthest = FARTHEST / spread
     fit = least_squares(
