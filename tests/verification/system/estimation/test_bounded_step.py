@@ -62,3 +62,22 @@ def test_only_curved_components_shorten_a_step():
     assert bounded_step(model, Bounds(-free, free, np.array([True, True]), np.zeros(2)), 0.0, 1.0) == pytest.approx(
         [1.0, 0.04]
     )
+
+
+def test_a_valley_between_two_films_is_straight_along_the_curves():
+    """Leakages that replace each other, 3 spreads of 0.5: one step reaches the peak however far it is."""
+    bend = np.full(2, 1.5)
+    bounds = Bounds(np.full(2, -4.0), np.full(2, 4.0), np.ones(2, dtype=bool), bend)
+    start, peak = np.array([-1.0, 0.8]), np.array([0.7, 0.3])
+    step = bounds.step_to(start, peak)
+    assert bounds.reached(start, step) == pytest.approx(peak)
+    leak = np.exp(bend * start)
+    assert leak + leak * bend * step == pytest.approx(np.exp(bend * peak))
+
+
+def test_bounds_about_a_place_are_those_of_the_curves():
+    bounds = Bounds(np.array([-2.0, -np.inf]), np.array([1.0, np.inf]), np.ones(2, dtype=bool), np.array([1.5, 0.0]))
+    place = np.array([0.2, 0.1])
+    about = bounds.about(place)
+    assert bounds.reached(place, about.highest - place)[0] == pytest.approx(1.0)
+    assert (about.lowest[1], about.highest[1]) == (-np.inf, np.inf)
