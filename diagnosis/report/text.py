@@ -294,7 +294,11 @@ def _explained(diagnosis: Diagnosis, *, other_form: bool = True) -> list[Explana
 
 
 def explanation_words(own: Hypothesis) -> str:
-    """An explanation in words, each effect with its own place: "churning and film thickness at the slippers"."""
+    """An explanation in words, each effect with its own place: "churning and film thickness at the slippers"; of the
+    null "no mismatch".
+    """
+    if not own.effects:
+        return "no mismatch"
     if len(own.effects) == 1:
         return effect_words(own.effects, own.pair) + _which(own, 0)
     each = enumerate(zip(own.effects, own.places, strict=True))
