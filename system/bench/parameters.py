@@ -19,7 +19,7 @@ SLOPE_ABOUT = 323.15
 """Temperature (K) about which viscosity_slope turns the oil's law: 50 degC."""
 FILM_WARMTH = (INLET_SHARE, THROTTLE_SHARE) = ("inlet_share", "throttle_share")
 THROTTLED = (0.4, 0.2)
-"""Centre and one sigma of throttle_share: throttled oil warms by 1 - beta T = .8 of dp/(rho c), a film by half of it."""
+"""Centre and one sigma of throttle_share: throttled oil warms by 1 - beta T = .8 of dp/(rho c), a film by half."""
 MOSTLY = 0.75
 """Centre of inlet_share where it is uncertain: oil of the gaps comes by way of inlet and delivery."""
 GUIDE, BEARINGS = "ball_guide_retainer", ("front_bearing", "rear_bearing")
