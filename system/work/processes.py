@@ -80,6 +80,17 @@ class ProcessPool:
             self._pool.shutdown(cancel_futures=True)
             self._pool = None
 
+    def _leave_broken(self) -> None:
+        """Stop the others at once after a process died.
+
+        A process that starts while its pool breaks is missed by the pool's own clean-up (CPython 3.11), which would
+        then wait for it for ever.
+        """
+        if self._pool is not None:
+            for process in list((self._pool._processes or {}).values()):
+                process.kill()
+        self.leave()
+
     def _until_a_death(
         self, task: Callable[[Part], Result], parts: deque[Part], most: int, lost: list[Part]
     ) -> Iterator[Attempt[Part, Result]]:
@@ -95,14 +106,14 @@ class ProcessPool:
                     parts.popleft()
             except BrokenProcessPool:  # found at the next submit: what flies is lost, if anything flies
                 if not flying:
-                    self.leave()
+                    self._leave_broken()
                     continue
             landed = {future: flying.pop(future) for future in wait(flying, return_when=FIRST_COMPLETED).done}
             broken = {f: part for f, part in landed.items() if isinstance(f.exception(), BrokenProcessPool)}
             yield from (_landed(f, part) for f, part in landed.items() if f not in broken)
             if broken:
                 lost.extend([*broken.values(), *flying.values()])
-                self.leave()
+                self._leave_broken()
                 return
 
     def _hands(self) -> ProcessPoolExecutor:
