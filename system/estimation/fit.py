@@ -150,15 +150,8 @@ class _Fit:
 
     def stall(self, place: _Iterate) -> float:
         """The fall promised with which a place that no step betters is a peak."""
-        return max(self.limits.stall * self.excess(place), self.coarse(place))
-
-    def least(self, place: _Iterate) -> float:
-        """The fall promised below which a fit ends, and takes no further step."""
-        return max(self.limits.change * self.excess(place), self.coarse(place))
-
-    def coarse(self, place: _Iterate) -> float:
-        """The fall that decides nothing where the model is grossly wrong, else 0."""
-        return COARSE * place.objective if place.objective > GROSS * place.residual.size else 0.0
+        gross = place.objective > GROSS * place.residual.size
+        return max(self.limits.stall * self.excess(place), COARSE * place.objective if gross else 0.0)
 
     def excess(self, place: _Iterate) -> float:
         """The objective per reading where that is above one: what fits badly is not worth a fine fit."""
@@ -260,7 +253,7 @@ def _steps(fit: _Fit, walk: _Walk, whitening: Whitening) -> tuple[_Walk, bool]:
         promised = fit.promised(walk)
         if step >= PATIENCE and walk.place.objective - promised > fit.limits.hopeless:
             return walk, True
-        if promised < fit.least(walk.place) or walk.damping > MOST_DAMPING:
+        if promised < fit.limits.change * fit.excess(walk.place) or walk.damping > MOST_DAMPING:
             if walk.moved <= NEAR:
                 break
             walk = fit.walk(walk.place, whitening)
