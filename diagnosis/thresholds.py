@@ -108,6 +108,7 @@ class FormLimits:
     flat: float
     least_range: float
     other_make: float
+    drift: float
 
 
 @dataclass(frozen=True)

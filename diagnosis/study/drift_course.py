@@ -5,8 +5,8 @@
 A meter drifts where these columns in its channel alone are likelier than a free smooth multiplier over the map on any
 part of the pump: a pressure that is swept many times tells the two apart, a warm-up that is recorded once does not.
 
-The course is found about the prior mean, where the pump's other errors bend it. In a fit each of its cosines may
-depart from the course found by a share of its height.
+The course is found about the prior mean, where the pump's other errors distort it. In a fit each of its cosines
+departs from the course by a share of its height.
 """
 
 from __future__ import annotations
@@ -26,8 +26,6 @@ from system.inputs.channels import ChannelName
 
 ORDERS = 6
 """Cosines of a course."""
-UNCERTAIN = 0.1
-"""One sigma of each cosine's departure from the course found, share of its height."""
 FEWEST = 30
 """Points of a recording in which a course is sought."""
 
@@ -48,14 +46,12 @@ def drift_courses(study: Study, thresholds: Thresholds) -> Mapping[ChannelName, 
     return found
 
 
-def course_departures(study: Study, courses: Mapping[ChannelName, Array]) -> Array:
-    """Departures (N, C, k) from the courses (N,) of some drifts, SI per sigma: each of their cosines."""
+def course_departures(study: Study, courses: Mapping[ChannelName, Array], share: float) -> Array:
+    """Departures (N, C, k) from the courses (N,) of some drifts, SI per sigma: each cosine by a share of the height."""
     blocks = [np.zeros((*study.observations.values.shape, 0))]
     for channel, course in courses.items():
         block = np.zeros((*study.observations.values.shape, ORDERS))
-        block[:, study.channels.index(channel)] = (
-            UNCERTAIN * np.abs(course).max() * _shapes(study.recording.steady.hours)
-        )
+        block[:, study.channels.index(channel)] = share * np.abs(course).max() * _shapes(study.recording.steady.hours)
         blocks.append(block)
     return np.concatenate(blocks, axis=2)
 

@@ -85,7 +85,7 @@ def prepare(
         courses = drift_courses(bare, thresholds)
         shapes = {channel: course / np.abs(course).max() for channel, course in courses.items()}
         bench = bench.only(felt(bare, thresholds)).with_drifts(shapes, drift_parameters(bare, courses))
-        bench = bench.with_departures(course_departures(bare, courses)) if courses else bench
+        bench = bench.with_departures(course_departures(bare, courses, thresholds.form.drift)) if courses else bench
         usable = replace(usable, notes=(*usable.notes, *_drift_notes(courses, usable)))
         study = study_of(usable, bench, found, axes, catalogue, thresholds)
     return replace(study, events=port_events(pump))

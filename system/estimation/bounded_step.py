@@ -47,16 +47,16 @@ class Bounds:
     def reached(self, xi: Array, step: Array) -> Array:
         """The xi at the end of a step d (k,) along the curves: xi + ln(1 + b d)/b, and xi + d where b = 0."""
         other = xi + step
-        curved = self.bend != 0.0
-        grown = np.maximum(1.0 + self.bend[curved] * step[curved], LEAST_LEFT)
-        other[curved] = xi[curved] + np.log(grown) / self.bend[curved]
+        has_bend = self.bend != 0.0
+        grown = np.maximum(1.0 + self.bend[has_bend] * step[has_bend], LEAST_LEFT)
+        other[has_bend] = xi[has_bend] + np.log(grown) / self.bend[has_bend]
         return other
 
     def step_to(self, xi: Array, other: Array) -> Array:
         """The step d (k,) along the curves from xi to another: the inverse of `reached`."""
         step = other - xi
-        curved = self.bend != 0.0
-        step[curved] = np.expm1(self.bend[curved] * step[curved]) / self.bend[curved]
+        has_bend = self.bend != 0.0
+        step[has_bend] = np.expm1(self.bend[has_bend] * step[has_bend]) / self.bend[has_bend]
         return step
 
     def about(self, xi: Array) -> Bounds:
