@@ -21,6 +21,7 @@ from reynolds.errors import NotConverged
 from reynolds.numerics.arrays import Array
 from system.estimation.bounded_step import Bounds
 from system.estimation.fit import FitLimits, maximum_posterior
+from system.estimation.parameters import Parameter
 from system.estimation.posterior import Posterior, values_at
 from system.work.processes import ProcessPool
 from system.work.progress import Report
@@ -28,6 +29,7 @@ from system.work.progress import Report
 SIZES = (0.1, 0.3, 1.0, 2.0)  # trial sizes of a start, in spreads
 ROUGHLY = (0.3, 1.0)  # trial sizes of a first look
 AT_BOUND = 0.999  # of a bound: a fit ends so near to it
+GROSS_PATIENCE = 12  # trials before a fit of a gross mismatch may be hopeless: its first slopes say little
 LIMITS = FitLimits(change=0.1)  # of the objective: a twentieth of a nat decides nothing, and costs sixfold less
 
 
@@ -37,20 +39,26 @@ def refit(
     """The hypothesis at the peak of its posterior; of a grid the best member, its evidence averaged over all.
 
     A fault has no typical multiple of the tolerance: if a widened parameter goes farther than `reach`, its prior
-    is a mixture, with a tenth of its mass ten times as wide (a size as likely in each decade). hopeless: an
+    is a mixture, with a tenth of its mass ten times as wide (a size as likely in each decade). Where the fit starts
+    at the largest trial size and its peak lies beyond `reach`, that tenth is all that counts. hopeless: an
     objective above which a fit stops early. part: a refitted explanation by some of the effects, from whose peak
     the fit starts. Raises NotConverged if no member converges.
     """
-    near = _refitted(study, replace(hypothesis, reach=1.0), thresholds, hopeless, part)
     limits = thresholds.fit
-    if not _strained(near, limits.reach):
-        return near
-    try:
-        far = _refitted(study, replace(hypothesis, reach=limits.farther), thresholds, hopeless, part)
-    except NotConverged:
-        return near
-    shares = near.log_evidence + log(1.0 - 1.0 / limits.farther), far.log_evidence - log(limits.farther)
-    return replace(max((near, far), key=lambda each: each.log_evidence), log_evidence=float(np.logaddexp(*shares)))
+    near = _begun(study, replace(hypothesis, reach=1.0), thresholds, part)
+    far: Explanation | None = None
+    if near.strain(study, thresholds) >= SIZES[-1] or _is_far(part):
+        far = _far(study, hypothesis, thresholds, hopeless, part)
+        if far is not None and limits.farther * _strain(far) > limits.reach:
+            return replace(far, log_evidence=far.log_evidence - log(limits.farther))
+    found = _refitted(study, near, thresholds, hopeless)
+    if _strain(found) <= limits.reach:
+        return found
+    far = far or _far(study, hypothesis, thresholds, hopeless, part)
+    if far is None:
+        return found
+    shares = found.log_evidence + log(1.0 - 1.0 / limits.farther), far.log_evidence - log(limits.farther)
+    return replace(max((found, far), key=lambda each: each.log_evidence), log_evidence=float(np.logaddexp(*shares)))
 
 
 def within_tolerance(study: Study, null: Explanation, thresholds: Thresholds) -> Posterior:
@@ -86,31 +94,46 @@ def _of_free(fit: Posterior, free: NDArray[np.bool_]) -> Posterior:
     )
 
 
-def _strained(explanation: Explanation, reach: float) -> bool:
-    """True if a widened parameter lies beyond `reach` of its wide prior."""
-    posterior = explanation.posterior
-    return posterior is not None and any(
-        abs(posterior.xi[posterior.index(name)]) > reach for name in explanation.hypothesis.widened
-    )
-
-
-def _refitted(
+def _far(
     study: Study, hypothesis: Hypothesis, thresholds: Thresholds, hopeless: float, part: Explanation | None
-) -> Explanation:
-    """The same with one width of prior.
+) -> Explanation | None:
+    """The refit by the wider part of the prior, None where it does not converge."""
+    far = replace(hypothesis, reach=thresholds.fit.farther)
+    try:
+        return _refitted(study, _begun(study, far, thresholds, part), thresholds, hopeless)
+    except NotConverged:
+        return None
+
+
+def _is_far(part: Explanation | None) -> bool:
+    return part is not None and part.hypothesis.reach > 1.0
+
+
+def _strain(explanation: Explanation) -> float:
+    """The largest |xi| of the widened parameters of a refit."""
+    posterior = explanation.posterior
+    return 0.0 if posterior is None else _largest(posterior.parameters, posterior.xi, explanation.hypothesis.widened)
+
+
+def _largest(parameters: Sequence[Parameter], xi: Array, names: Sequence[str]) -> float:
+    return max((abs(float(own)) for one, own in zip(parameters, xi, strict=True) if one.name in names), default=0.0)
+
+
+def _refitted(study: Study, begun: _Begun, thresholds: Thresholds, hopeless: float) -> Explanation:
+    """The hypothesis with one width of prior.
 
     Members of a grid that are not refitted count as 0, so that their average is never too high. A member that stays
     hopelessly behind one that is fitted already stops early.
     """
-    limits = replace(LIMITS, hopeless=inf if _gross(study, thresholds) else hopeless)
-    about, fresh = _about(study, hypothesis, part)
-    begun, failed = _begun(study, hypothesis, thresholds, about, fresh)
+    patience = GROSS_PATIENCE if _gross(study, thresholds) else LIMITS.patience
+    limits = replace(LIMITS, hopeless=hopeless, patience=patience)
+    failed = list(begun.failed)
     found: list[tuple[Hypothesis, Posterior]] = []
-    for member, begin in begun[: thresholds.fit.grid_members]:
+    for member, begin in begun.members[: thresholds.fit.grid_members]:
         simulator = simulator_of(study, member, thresholds)
         try:
-            begin = nearest_start(study, simulator, about, begin)
-            lent = lent_slopes(simulator, about, fresh, begin)
+            begin = nearest_start(study, simulator, begun.about, begin)
+            lent = lent_slopes(simulator, begun.about, begun.fresh, begin)
             found.append((member, maximum_posterior(simulator, study.observations, begin, limits, lent)))
             behind = found[-1][1].objective + 2.0 * thresholds.fit.hopeless
             limits = replace(limits, hopeless=min(limits.hopeless, behind))
@@ -119,7 +142,7 @@ def _refitted(
     if not found:
         raise failed[0]
     best, posterior = max(found, key=lambda each: each[1].log_evidence)
-    evidence = float(logsumexp([each.log_evidence for _, each in found])) - log(len(hypothesis.members))
+    evidence = float(logsumexp([each.log_evidence for _, each in found])) - log(len(begun.hypothesis.members))
     return Explanation(best, evidence, False, posterior, _size_over_sigma(posterior, best), 0.0, None)
 
 
@@ -183,13 +206,33 @@ def _numbered(
     return number, try_refit(study, linear, thresholds, hopeless, part)
 
 
-def _begun(
-    study: Study, hypothesis: Hypothesis, thresholds: Thresholds, about: Expansion, fresh: tuple[str, ...]
-) -> tuple[list[tuple[Hypothesis, Array]], list[NotConverged]]:
-    """Members of a grid with the xi where their fits start, the most promising first, and those without a start.
+@dataclass(frozen=True)
+class _Begun:
+    """A hypothesis before its fits: the linear model that they start from and the names new to it.
 
-    Only the likeliest in the linear model are tried; of a gross mismatch, where slopes say little, all.
+    members: of its grid, each with the xi where its fit starts, the most promising first; failed: those without.
     """
+
+    hypothesis: Hypothesis
+    about: Expansion
+    fresh: tuple[str, ...]
+    members: tuple[tuple[Hypothesis, Array], ...]
+    failed: tuple[NotConverged, ...]
+
+    def strain(self, study: Study, thresholds: Thresholds) -> float:
+        """The largest |xi| of the widened parameters at the first start, 0 where there is none."""
+        if not self.members or not self.hypothesis.widened:
+            return 0.0
+        member, begin = self.members[0]
+        return _largest(simulator_of(study, member, thresholds).parameters, begin, self.hypothesis.widened)
+
+
+def _begun(study: Study, hypothesis: Hypothesis, thresholds: Thresholds, part: Explanation | None) -> _Begun:
+    """Starts of the fits of a hypothesis.
+
+    Only the likeliest members in the linear model are tried; of a gross mismatch, where slopes say little, all.
+    """
+    about, fresh = _about(study, hypothesis, part)
     members = hypothesis.members if _gross(study, thresholds) else _likeliest(study, hypothesis, thresholds)
     begun: list[tuple[float, Hypothesis, Array]] = []
     failed: list[NotConverged] = []
@@ -201,7 +244,8 @@ def _begun(
         except NotConverged as reason:
             failed.append(reason)
     begun.sort(key=lambda each: each[0])
-    return [(member, begin) for _, member, begin in begun], failed
+    starts = tuple((member, begin) for _, member, begin in begun)
+    return _Begun(hypothesis, about, fresh, starts, tuple(failed))
 
 
 def _likeliest(study: Study, hypothesis: Hypothesis, thresholds: Thresholds) -> Sequence[Hypothesis]:

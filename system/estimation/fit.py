@@ -16,7 +16,7 @@ from reynolds.errors import NotConverged
 from reynolds.numerics.arrays import Array
 from system.estimation.bounded_step import Bounds, Quadratic, bounded_step
 from system.estimation.observations import Observations
-from system.estimation.posterior import FitEffort, Posterior, laplace, log_mass, standard_slopes, values_at
+from system.estimation.posterior import FitEffort, Posterior, bounded_laplace, log_mass, standard_slopes, values_at
 from system.estimation.simulator import Simulator
 from system.estimation.whitening import Whitening, whitener
 
@@ -25,10 +25,10 @@ LEAST_DAMPING, FIRST_DAMPING, MOST_DAMPING = 1e-6, 1e-2, 1e6
 LOCAL = 1e2  # damping from which a failed trial shows wrong slopes here, not the curve on the way
 SHORT = 1e-3  # in xi: over shorter steps the solvers' own error exceeds the change of the readings
 GOOD = 0.5  # share of the promised fall: below it the slopes are asked for anew
-STEP = 0.01  # in xi, of slopes by predictions
+STEP = 0.05  # in xi, of slopes by predictions: over shorter ones steps that the solver takes otherwise would count
 NEAR = 0.02  # in xi: slopes taken no farther away are valid for a peak and its covariance
-PATIENCE = 4  # trials that a fit is given before it may be hopeless
 GROSS, COARSE = 3.0, 1e-2  # objective per reading of a model that is wrong, share of it that decides nothing then
+LEVEL = 8  # trials in which a wrong model has to gain that share
 SAME_NOISE = 1e-2  # relative change of the whitening below which it is not renewed
 
 
@@ -39,7 +39,7 @@ class FitLimits:
     stall: predicted fall of the objective below which a point that no step improves counts as a peak; like the
     change it is in units of the objective per reading where that is above one. Half a nat suits smooth models;
     models with kinks predict more than they achieve. hopeless: an objective above which a fit is of no use. After
-    PATIENCE trials a fit whose predicted objective is not lower ends, with the evidence of the predicted peak.
+    `patience` trials a fit whose predicted objective is not lower ends, with the evidence of the predicted peak.
     """
 
     steps: int = 100
@@ -48,6 +48,7 @@ class FitLimits:
     whitening_rounds: int = 2
     stall: float = 1.0
     hopeless: float = inf
+    patience: int = 4
 
 
 LIMITS = FitLimits()
@@ -157,6 +158,11 @@ class _Fit:
         """The objective per reading where that is above one: what fits badly is not worth a fine fit."""
         return max(1.0, place.objective / place.residual.size)
 
+    def is_level(self, objectives: Sequence[float]) -> bool:
+        """True for a model that is wrong and gains no more: LEVEL trials together brought a share COARSE at most."""
+        gross = objectives[-1] > GROSS * self.observations.measured.sum()
+        return bool(gross and len(objectives) > LEVEL and objectives[-1 - LEVEL] < (1.0 + COARSE) * objectives[-1])
+
     def promised(self, walk: _Walk) -> float:
         """By how much the objective would fall to the peak that the slopes promise."""
         model = Quadratic.of(walk.place.xi, walk.place.residual, walk.slopes)
@@ -230,11 +236,11 @@ def _descend(fit: _Fit, walk: _Walk, whitening: Whitening) -> tuple[_Iterate, Ar
 
     Where the simulator's slopes, which may be approximate, end short of a peak, slopes by predictions lead on.
     """
-    walk, hopeless = _steps(fit, walk, whitening)
+    walk, given_up = _steps(fit, walk, whitening)
     if walk.damping > MOST_DAMPING and not fit.exact and fit.promised(walk) >= fit.stall(walk.place):
         fit.exact = True
-        walk, hopeless = _steps(fit, replace(fit.renewed(walk, whitening), damping=FIRST_DAMPING), whitening)
-    if hopeless:
+        walk, given_up = _steps(fit, replace(fit.renewed(walk, whitening), damping=FIRST_DAMPING), whitening)
+    if given_up:
         return walk.place, walk.slopes
     promised, limit = fit.promised(walk), fit.stall(walk.place)
     if promised >= limit:
@@ -248,10 +254,14 @@ def _descend(fit: _Fit, walk: _Walk, whitening: Whitening) -> tuple[_Iterate, Ar
 
 
 def _steps(fit: _Fit, walk: _Walk, whitening: Whitening) -> tuple[_Walk, bool]:
-    """Trials until nothing more is promised or gained; true where the predicted peak is of no use."""
+    """Trials until nothing more is promised or gained; true where the predicted peak is of no use, or the model."""
+    objectives: list[float] = []
     for step in range(fit.limits.steps):
         promised = fit.promised(walk)
-        if step >= PATIENCE and walk.place.objective - promised > fit.limits.hopeless:
+        objectives.append(walk.place.objective)
+        if step >= fit.limits.patience and walk.place.objective - promised > fit.limits.hopeless:
+            return walk, True
+        if fit.is_level(objectives):
             return walk, True
         if promised < fit.limits.change * fit.excess(walk.place) or walk.damping > MOST_DAMPING:
             if walk.moved <= NEAR:
@@ -313,16 +323,22 @@ def _damping(damping: float, kept: float) -> float:
 
 
 def _posterior(fit: _Fit, place: _Iterate, slopes: Array, whitening: Whitening, effort: FitEffort) -> Posterior:
-    """The posterior at a peak, with the evidence of the part of its bell that lies within the bounds."""
+    """The posterior at a peak, with the evidence of the part of its bell that lies within the bounds.
+
+    A fit that was given up is no peak: where even the promised peak is hopeless it has the evidence of that, else that
+    of a bell about its place.
+    """
     model = Quadratic.of(place.xi, place.residual, slopes)
-    covariance = np.linalg.inv(model.precision)
-    beyond = covariance @ model.gradient  # from the peak within bounds to that of the bell
-    objective = place.objective - float(model.gradient @ beyond)
-    zero, one = np.zeros_like(place.xi), np.ones_like(place.xi)
-    sigma = np.sqrt(np.diag(covariance))
-    inside = log_mass(place.xi + beyond, sigma, fit.bounds.lowest, fit.bounds.highest)
-    before = log_mass(zero, one, fit.bounds.lowest, fit.bounds.highest)
-    evidence = laplace(objective, model.precision) + float((inside - before).sum()) + whitening.log_determinant
+    zero, one, bounds = np.zeros_like(place.xi), np.ones_like(place.xi), fit.bounds
+    promised = model.fall(bounded_step(model, bounds.about(place.xi), 0.0, np.inf))
+    is_peak, is_hopeless = promised < fit.stall(place), place.objective - promised > fit.limits.hopeless
+    objective, gradient = (
+        place.objective - (promised if is_hopeless else 0.0),
+        model.gradient if is_peak and not is_hopeless else zero,
+    )
+    below, above = bounds.lowest - place.xi, bounds.highest - place.xi
+    evidence = bounded_laplace(objective, gradient, model.precision, below, above) + whitening.log_determinant
+    evidence -= float(log_mass(zero, one, bounds.lowest, bounds.highest).sum())
     parameters = fit.simulator.parameters
     return Posterior(
         parameters=parameters,
