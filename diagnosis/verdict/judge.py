@@ -24,6 +24,7 @@ from diagnosis.verdict.row_numbers import table_rows
 from reynolds.numerics.arrays import Array
 from system.description.gap import Gap
 from system.effects.effect import Kind
+from system.estimation.fit import is_peak
 from system.estimation.posterior import Posterior
 
 
@@ -173,6 +174,8 @@ def _objections(
         found.append(f"{rival.hypothesis.text} is only {ahead:.1f} nats behind")
     if best.posterior is None:
         found.append("it could not be refitted")
+    elif not is_peak(best.posterior):
+        found.append("its fit has not reached a peak")
     elif not _sure(best.posterior, best.hypothesis, thresholds):
         found.append("its size is not sure")
     if best.heldout is not None and best.heldout.vetoed:

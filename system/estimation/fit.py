@@ -159,9 +159,13 @@ class _Fit:
         return max(1.0, place.objective / place.residual.size)
 
     def is_level(self, objectives: Sequence[float]) -> bool:
-        """True for a model that is wrong and gains no more: LEVEL trials together brought a share COARSE at most."""
-        gross = objectives[-1] > GROSS * self.observations.measured.sum()
-        return bool(gross and len(objectives) > LEVEL and objectives[-1 - LEVEL] < (1.0 + COARSE) * objectives[-1])
+        """True for a model that is wrong and gains little: LEVEL trials together brought a share COARSE at most.
+
+        Trials that bring nothing at all are none: there the simulator or its slopes fail.
+        """
+        if len(objectives) <= LEVEL or objectives[-1] <= GROSS * self.observations.measured.sum():
+            return False
+        return objectives[-1] < objectives[-1 - LEVEL] < (1.0 + COARSE) * objectives[-1]
 
     def promised(self, walk: _Walk) -> float:
         """By how much the objective would fall to the peak that the slopes promise."""
@@ -201,6 +205,15 @@ def maximum_posterior(
         )
     effort = FitEffort(fit.predictions, fit.slope_maps, process_time() - begun)
     return _posterior(fit, place, slopes, whitening, effort)
+
+
+def is_peak(posterior: Posterior, limits: FitLimits = LIMITS) -> bool:
+    """True unless the slopes of a fit promise a fall with which it would not count as a peak: it was given up."""
+    model = Quadratic.of(posterior.xi, posterior.residual, posterior.slopes)
+    step = bounded_step(model, Bounds.of(posterior.parameters).about(posterior.xi), 0.0, np.inf)
+    per_reading = posterior.objective / posterior.residual.size
+    coarse = COARSE * posterior.objective if per_reading > GROSS else 0.0
+    return model.fall(step) < max(limits.stall * max(1.0, per_reading), coarse)
 
 
 def best_posterior(
