@@ -86,6 +86,7 @@ class _Fit:
         self.simulator, self.observations, self.limits = simulator, observations, limits
         self.bounds = Bounds.of(simulator.parameters)
         self.predictions = self.slope_maps = 0
+        self.failed_at = -LEVEL  # predictions when the simulator failed last
         self.taken, self.raw = np.full(len(simulator.parameters), np.inf), np.zeros(0)  # the last slopes, where
         self.exact = False  # slopes by predictions: those of the simulator may be approximate
 
@@ -99,6 +100,7 @@ class _Fit:
         try:
             return self.place(self.bounds.within(xi), whitening)
         except NotConverged:
+            self.failed_at = self.predictions
             return None
 
     def iterate(self, xi: Array, predictions: Array, whitening: Whitening) -> _Iterate:
@@ -161,11 +163,13 @@ class _Fit:
     def is_level(self, objectives: Sequence[float]) -> bool:
         """True for a model that is wrong and gains little: LEVEL trials together brought a share COARSE at most.
 
-        Trials that bring nothing at all are none: there the simulator or its slopes fail.
+        Not where the simulator failed in these trials.
         """
         if len(objectives) <= LEVEL or objectives[-1] <= GROSS * self.observations.measured.sum():
             return False
-        return objectives[-1] < objectives[-1 - LEVEL] < (1.0 + COARSE) * objectives[-1]
+        if self.predictions - self.failed_at <= 2 * LEVEL:
+            return False
+        return objectives[-1 - LEVEL] < (1.0 + COARSE) * objectives[-1]
 
     def promised(self, walk: _Walk) -> float:
         """By how much the objective would fall to the peak that the slopes promise."""
