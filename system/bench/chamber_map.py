@@ -192,7 +192,7 @@ def other_gaps(courses: Courses, solved: MapProblem, other: MapProblem, missed: 
 
 
 def missed_by_leakage(pump: PumpDescription, courses: Courses, problem: MapProblem, tolerance: float) -> Array:
-    """What `other_gaps` misses of each integral per m3 that the delivery half loses, (N, INTEGRALS).
+    """Error of `other_gaps` in each integral per m3 that the delivery half loses, (N, INTEGRALS).
 
     The pressure follows leakage where a chamber is shut, so that the next port makes up for it and the work changes:
     by a solution `beside` with MORE_LEAKAGE times the leakage, whose errors are small beside its change.

@@ -348,11 +348,9 @@ def _posterior(fit: _Fit, place: _Iterate, slopes: Array, whitening: Whitening, 
     model = Quadratic.of(place.xi, place.residual, slopes)
     zero, one, bounds = np.zeros_like(place.xi), np.ones_like(place.xi), fit.bounds
     promised = model.fall(bounded_step(model, bounds.about(place.xi), 0.0, np.inf))
-    is_peak, is_hopeless = promised < fit.stall(place), place.objective - promised > fit.limits.hopeless
-    objective, gradient = (
-        place.objective - (promised if is_hopeless else 0.0),
-        model.gradient if is_peak and not is_hopeless else zero,
-    )
+    is_hopeless = place.objective - promised > fit.limits.hopeless
+    ended = promised < fit.stall(place) and not is_hopeless
+    objective, gradient = place.objective - (promised if is_hopeless else 0.0), model.gradient if ended else zero
     below, above = bounds.lowest - place.xi, bounds.highest - place.xi
     evidence = bounded_laplace(objective, gradient, model.precision, below, above) + whitening.log_determinant
     evidence -= float(log_mass(zero, one, bounds.lowest, bounds.highest).sum())
