@@ -10,10 +10,10 @@ from numpy.typing import NDArray
 
 from reynolds.numerics.arrays import Array
 from system.description.pump import PumpDescription
-from system.inputs.units import TURN
-from system.pump.chamber import kernels as kernel, layout as col
+from system.pump.chamber import kernels as kernel
 from system.pump.chamber.cycle import PERIODICITY, REVOLUTION_LIMIT, unsolved
-from system.pump.chamber.layout import CAVITY_PRESSURE, INTEGRALS
+from system.pump.chamber.gap_kernels import gaps_map
+from system.pump.chamber.layout import INTEGRALS
 from system.pump.chamber.map_kernels import beside_map, chamber_map
 from system.pump.chamber.problem import Chamber, LeakTable
 from system.pump.chamber.setup import PORT_NAMES, chamber_records, gap_cubics, turn_nodes
@@ -59,27 +59,34 @@ def _kind(pump: PumpDescription, shift: float, *wear: float, samples: int) -> tu
     return as_array(suction), as_array(delivery), turn_nodes(suction, delivery, ends)[0]
 
 
-MORE_LEAKAGE = 1.1
-"""Of the solution by which `missed_by_leakage` is found."""
-DELIVERY, SUCTION = col.OUTFLOW + col.DELIVERY, col.OUTFLOW + col.SUCTION
-_OUT_OF_GAPS = slice(col.OUTFLOW + col.FIRST_GAP, col.OUTFLOW + col.FIRST_GAP + col.GAPS)
-_DRAG = slice(col.DRAG_ENERGY, col.DRAG_ENERGY + col.GAPS)
 OF_GAPS = ("case_pressure", "kinematic_viscosity")
 """Constants of a chamber that act by its gaps alone; ports turn from laminar to turbulent at a few kPa."""
+
+
+@dataclass(frozen=True)
+class Steps:
+    """Steps by which courses at N points were solved: trail, all end to end, those of point i from begins[i] on.
+
+    records (N,) of CHAMBER, gaps (N, M, 7, 4), held (N, 1, 2, 4): chambers, tables and ports as compiled code took them.
+    """
+
+    records: np.ndarray
+    gaps: Array
+    held: Array
+    trail: Array
+    begins: NDArray[np.int64]
 
 
 @dataclass(frozen=True)
 class Courses:
     """Periodic revolutions at N points: pressure (N, M) Pa gauge at M equidistant shaft angles from 0; integrals.
 
-    integrals: (N, INTEGRALS), of one chamber over the turn. Where they were solved by themselves, trail: the steps of
-    all points end to end, those of point i from begins[i] to begins[i + 1].
+    integrals: (N, INTEGRALS), of one chamber over the turn; steps: those of courses that were solved by themselves.
     """
 
     pressure: Array
     integrals: Array
-    trail: Array | None = None
-    begins: Array | None = None
+    steps: Steps | None = None
 
     @property
     def totals(self) -> TurnTotals[Array]:
@@ -135,17 +142,19 @@ def solve_map(pump: PumpDescription, problem: MapProblem, tolerance: float) -> C
     """
     given, filled = _run(pump, problem, tolerance)
     trail, begins = chamber_map(*given, *filled)
-    return replace(_courses(problem, filled), trail=trail, begins=begins)
+    return replace(_courses(problem, filled), steps=Steps(*given[:3], trail, begins))
 
 
 def beside(pump: PumpDescription, courses: Courses, problem: MapProblem, tolerance: float) -> Courses:
     """`solve_map` of chambers that differ a little, in all but their ports' areas, from those of solved courses.
 
     They take the same steps, so that differences are smoother than those of two maps solved apart, at six tenths
-    of the cost. Points that do not converge on these steps are solved by themselves.
+    of the cost. Points that do not converge on these steps are solved by themselves. Raises ValueError for courses
+    that were not solved by themselves.
     """
+    steps = _steps(courses)
     given, filled = _run(pump, problem, tolerance)
-    beside_map(*given, courses.trail, courses.begins, *filled)
+    beside_map(*given, steps.trail, steps.begins, *filled)
     return _courses(problem, filled)
 
 
@@ -173,54 +182,23 @@ def _courses(problem: MapProblem, filled: tuple[Array, ...]) -> Courses:
     return Courses(pressure, totals[:, :INTEGRALS])
 
 
-def other_gaps(courses: Courses, solved: MapProblem, other: MapProblem, missed: Array | None = None) -> Courses:
-    """The courses of chambers that differ in their gaps alone, the pressure taken as it is.
+def other_gaps(courses: Courses, other: MapProblem) -> Courses:
+    """The courses of chambers that differ from those of solved courses in their gaps alone, to first order.
 
-    What a gap lets out more, at that pressure, on the delivery half of the turn is missing at the delivery port,
-    on the suction half at the suction port. Changes of leakage are good to 0.5 %, what the ports miss by it to
-    some 8 %, both to some .5 % with what this misses (`missed_by_leakage`). For the slopes of a fit.
+    Linear in the change of pressure, along the solved steps (`gap_kernels`), for slopes of a fit: changes of the
+    ports' oil, leakage and work by films and viscosity are within 1 % of those of fine steps. The pressure is that
+    of the solved courses. Raises ValueError for courses that were not solved by themselves.
     """
-    integrals = courses.integrals.copy()
-    lost, suction, out, pulled = _lost(courses, solved, other)
-    integrals[:, DELIVERY] -= lost
-    integrals[:, SUCTION] -= suction
-    integrals[:, _OUT_OF_GAPS] += out
-    integrals[:, _DRAG] += pulled
-    if missed is not None:
-        integrals += lost[:, None] * missed
-    return Courses(courses.pressure, integrals)
+    steps = _steps(courses)
+    records, changes = other.records, np.empty_like(courses.integrals)
+    for name in PORT_NAMES:
+        records[name] = steps.records[name]
+    given = steps.records, steps.gaps, steps.held, records, gap_cubics(other.leaks)
+    gaps_map(*given, steps.trail, steps.begins, changes)
+    return Courses(courses.pressure, courses.integrals + changes)
 
 
-def missed_by_leakage(pump: PumpDescription, courses: Courses, problem: MapProblem, tolerance: float) -> Array:
-    """Error of `other_gaps` in each integral per m3 that the delivery half loses, (N, INTEGRALS).
-
-    The pressure follows leakage where a chamber is shut, so that the next port makes up for it and the work changes:
-    by a solution `beside` with MORE_LEAKAGE times the leakage, whose errors are small beside its change.
-    """
-    conductance = MORE_LEAKAGE * problem.leaks.conductance
-    more = replace(problem, leaks=LeakTable(conductance, problem.leaks.drag_flow))
-    lost = _lost(courses, problem, more)[0]
-    apart = beside(pump, courses, more, tolerance).integrals - other_gaps(courses, problem, more).integrals
-    return np.divide(apart, lost[:, None], out=np.zeros_like(apart), where=lost[:, None] > 0.0)
-
-
-def _lost(courses: Courses, solved: MapProblem, other: MapProblem) -> tuple[Array, Array, Array, Array]:
-    """More oil out in m3 a turn: of all gaps in the delivery half and in the suction half (N,), of each gap in the
-    whole turn (N, 3), and more work of dragged oil in J (N, 3).
-    """
-    before, after = (_gap_rates(courses.pressure, problem) for problem in (solved, other))
-    samples = courses.pressure.shape[1]
-    delivering = np.sin(TURN * np.arange(samples) / samples - solved.shift[:, None]) < 0.0
-    mass, work = after[0] - before[0], after[1] - before[1]
-    lost = mass.sum(axis=1)
-    return (lost * delivering).mean(axis=1), (lost * ~delivering).mean(axis=1), mass.mean(axis=2), work.mean(axis=2)
-
-
-def _gap_rates(pressure: Array, problem: MapProblem) -> tuple[Array, Array]:
-    """Of each gap (N, 3, M): oil out in m3 at zero gauge pressure, and work of dragged oil in J, a turn."""
-    case, modulus = problem.chamber.case_pressure[:, None, None], problem.chamber.bulk_modulus
-    inside = np.maximum(pressure, CAVITY_PRESSURE)[:, None, :]
-    dense = np.exp(inside / modulus) * TURN / problem.chamber.shaft_speed[:, None, None]
-    flow = problem.leaks.conductance * (pressure[:, None, :] - case) + problem.leaks.drag_flow
-    fall = modulus * (np.exp(-case / modulus) - np.exp(-inside / modulus))
-    return flow * dense, problem.leaks.drag_flow * dense * fall
+def _steps(courses: Courses) -> Steps:
+    if courses.steps is None:
+        raise ValueError("courses along another's steps: found none, expected courses of solve_map")
+    return courses.steps

@@ -66,7 +66,7 @@ def _leakage(solved: Solved, whole: Array) -> dict[Component, Array]:
     for row, component in enumerate(LEAKAGE):
         left = np.arange(len(LEAKAGE))[:, None] != row
         tight = LeakTable(problem.leaks.conductance * left, problem.leaks.drag_flow * left)
-        courses = other_gaps(solved.courses, problem, replace(problem, leaks=tight))
+        courses = other_gaps(solved.courses, replace(problem, leaks=tight))
         found[component] = whole - truth(replace(solved, courses=courses))
     return found
 

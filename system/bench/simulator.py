@@ -12,7 +12,7 @@ import numpy as np
 
 from reynolds.errors import InputError, NotConverged
 from reynolds.numerics.arrays import Array
-from system.bench.chamber_map import Courses, beside, missed_by_leakage, other_gaps, solve_map
+from system.bench.chamber_map import Courses, beside, other_gaps, solve_map
 from system.bench.components import WARMER, components
 from system.bench.departures import FORM, departure_parameters
 from system.bench.outputs import SIMULATED, Solved, truth
@@ -93,12 +93,11 @@ class LumpedBench:
         self._columns = [SIMULATED.index(channel) for channel in channels]
         setting(pump, points, {}, samples_per_pitch)
         self._kept: dict[bytes, Courses] = {}
-        self._kept_missed: dict[bytes, Array] = {}
         self._stated = stated_laws(pump)
 
     def __getstate__(self) -> dict[str, object]:
         """State for another process: all but the courses that are remembered."""
-        return {**vars(self), "_kept": {}, "_kept_missed": {}}
+        return {**vars(self), "_kept": {}}
 
     @property
     def parameters(self) -> tuple[Parameter, ...]:
@@ -112,8 +111,8 @@ class LumpedBench:
     def difference(self, values: Array, other: Array) -> Array:
         """Readings (N, C) at `other` values less those at `values`, by `other_gaps` where gaps alone differ.
 
-        Friction and sensors are exact; leakage and what it takes from the ports are good to some 0.5 % of their
-        change. Chambers that differ in anything else are solved `beside` those at `values`.
+        Friction and sensors are exact; leakage and what it takes from the ports are good to 1 % of their change.
+        Chambers that differ in anything else are solved `beside` those at `values`.
         """
         solved = self.solved(values)
         near = self._near(solved, other, self.points)
@@ -222,7 +221,8 @@ class LumpedBench:
         key = blake2b(at.problem.key).digest()
         if key not in self._kept:
             self._kept[key] = solve_map(self.pump, at.problem, self.tolerance)
-            _forget_oldest(self._kept)
+            for oldest in list(self._kept)[:-KEPT]:
+                del self._kept[oldest]
         return self._kept[key]
 
     def _near(self, solved: Solved, values: Array, points: BenchPoints) -> Solved:
@@ -235,20 +235,10 @@ class LumpedBench:
 
     def _moved(self, before: Setting, courses: Courses, after: Setting) -> Courses:
         if before.problem.differs_in_gaps_alone(after.problem):
-            return other_gaps(courses, before.problem, after.problem, self._missed(courses, before))
+            return other_gaps(courses, after.problem)
         if before.problem.has_ports_of(after.problem):
             return beside(self.pump, courses, after.problem, self.tolerance)
         return self._solve(after)
-
-    def _missed(self, courses: Courses, at: Setting) -> Array | None:
-        """`missed_by_leakage` of solved courses, remembered like them; None of courses that are near a solution."""
-        if courses.trail is None:
-            return None
-        key = blake2b(at.problem.key).digest()
-        if key not in self._kept_missed:
-            self._kept_missed[key] = missed_by_leakage(self.pump, courses, at.problem, self.tolerance)
-            _forget_oldest(self._kept_missed)
-        return self._kept_missed[key]
 
     def _complete(
         self, plain: Setting, courses: Callable[[], Courses], values: Array, solve: Callable[[Setting], Courses]
@@ -300,13 +290,8 @@ class LumpedBench:
         new = {parameter.name: parameter for parameter in parameters}
         own = tuple(new.pop(parameter.name, parameter) for parameter in self.parameters)
         bench = self._like(parameters=(*own, *new.values()), physics=physics)
-        bench._kept, bench._kept_missed = self._kept, self._kept_missed
+        bench._kept = self._kept
         return bench
-
-
-def _forget_oldest(kept: dict[bytes, Any]) -> None:
-    for oldest in list(kept)[:-KEPT]:
-        del kept[oldest]
 
 
 def _hold_known(parameters: tuple[Parameter, ...], physics: tuple[Extension, ...]) -> None:

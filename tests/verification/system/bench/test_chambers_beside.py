@@ -6,8 +6,10 @@ import numpy as np
 import pytest
 
 from system import BenchPoints, load_pump
-from system.bench.chamber_map import Courses, MapProblem, beside, solve_map
+from system.bench.chamber_map import Courses, MapProblem, beside, other_gaps, solve_map
 from system.bench.setting import setting
+from system.pump.chamber import layout as col
+from system.pump.chamber.layout import PATHS
 
 PUMP = load_pump("ref90")
 TOLERANCE = 1e-5
@@ -82,3 +84,42 @@ def test_worn_ports_are_not_gone_along():
     problem = _problem()
     worn = replace(problem, wear=replace(problem.wear, groove_advance=problem.wear.groove_advance + 0.05))
     assert not problem.has_ports_of(worn)
+
+
+@pytest.mark.parametrize(
+    "changed",
+    [
+        {"film_thickness.piston": 1.001 * PUMP.piston.radial_clearance},
+        {"film_thickness.slipper": 1.001 * PUMP.slipper.film_thickness},
+        {"film_thickness.valve_plate": 0.999 * PUMP.valve_plate.film_thickness},
+        {"viscosity": 1.001},
+        {"eccentricity_ratio": PUMP.piston.eccentricity_ratio + 1e-3},
+    ],
+    ids=lambda one: next(iter(one)),
+)
+def test_first_order_changes_of_gaps_are_those_of_fine_steps(changed):
+    """Oil of the ports and leakage to 1 %; the work to a hundredth of its tolerance."""
+    before, after = _problem(), _problem(**changed)
+    fine = [solve_map(PUMP, problem, 1e-10).integrals for problem in (before, after)]
+    courses = solve_map(PUMP, before, TOLERANCE)
+    first_order = other_gaps(courses, after).integrals - courses.integrals
+    expected = fine[1] - fine[0]
+    off = np.abs(first_order - expected)
+    assert np.all(off[:, :PATHS].sum(axis=0) < 0.01 * np.abs(expected[:, [col.DELIVERY]]).sum())
+    assert np.all(off[:, col.WORK] < 1e-2 * TOLERANCE * np.abs(fine[0][:, col.WORK]))
+
+
+def test_first_order_changes_conserve_oil():
+    """What gaps let out more is missing at the ports."""
+    courses = solve_map(PUMP, _problem(), TOLERANCE)
+    thicker = _problem(**{"film_thickness.slipper": 1.05 * PUMP.slipper.film_thickness})
+    out = (other_gaps(courses, thicker).integrals - courses.integrals)[:, :PATHS]
+    assert np.all(np.abs(out.sum(axis=1)) < 2e-3 * out[:, col.SLIPPER])
+
+
+def test_courses_beside_others_are_not_gone_along():
+    problem = _problem()
+    near = beside(PUMP, solve_map(PUMP, problem, TOLERANCE), problem, TOLERANCE)
+    for follow in (lambda: other_gaps(near, problem), lambda: beside(PUMP, near, problem, TOLERANCE)):
+        with pytest.raises(ValueError, match="expected courses of solve_map"):
+            follow()
