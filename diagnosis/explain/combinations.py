@@ -7,7 +7,7 @@ from itertools import combinations
 
 from diagnosis.explain.hypotheses import Hypothesis, candidates_of, together
 from diagnosis.explain.ranked import Explanation
-from diagnosis.explain.refit import refit_all
+from diagnosis.explain.refit import hopeless_beside, refit_all
 from diagnosis.explain.screen import joint_evidence, linear_gain
 from diagnosis.study.model import Study
 from diagnosis.thresholds import Thresholds
@@ -36,7 +36,7 @@ def combine(
         tried = _additions(study, best, known, thresholds)
         if len(best.hypothesis.effects) == 1:
             tried += [each for each in _pairs(study, known, thresholds) if not _holds(tried, each)]
-        done, reasons = refit_all(study, tried, thresholds, executor, report, part=best)
+        done, reasons = refit_all(study, tried, thresholds, executor, report, hopeless_beside(best, thresholds), best)
         failed += reasons
         refitted = [each for each in done if each.posterior is not None]
         found += refitted

@@ -22,7 +22,7 @@ from reynolds.numerics.arrays import Array
 from system.estimation.bounded_step import Bounds
 from system.estimation.fit import FitLimits, maximum_posterior
 from system.estimation.parameters import Parameter
-from system.estimation.posterior import Posterior, values_at
+from system.estimation.posterior import Posterior, settled, values_at
 from system.work.processes import ProcessPool
 from system.work.progress import Report
 
@@ -125,7 +125,7 @@ def _refitted(study: Study, begun: _Begun, thresholds: Thresholds, hopeless: flo
     Members of a grid that are not refitted count as 0, so that their average is never too high. A member that stays
     hopelessly behind one that is fitted already stops early.
     """
-    patience = GROSS_PATIENCE if _gross(study, thresholds) else LIMITS.patience
+    patience = GROSS_PATIENCE if _gross(begun.about, thresholds) else LIMITS.patience
     limits = replace(LIMITS, hopeless=hopeless, patience=patience)
     failed = list(begun.failed)
     found: list[tuple[Hypothesis, Posterior]] = []
@@ -159,8 +159,8 @@ def _prior_mean(study: Study) -> Expansion:
     return Expansion(study.base, np.zeros_like(study.base.xi))
 
 
-def _gross(study: Study, thresholds: Thresholds) -> bool:
-    return study.base.objective > thresholds.fit.gross * study.base.residual.size
+def _gross(about: Expansion, thresholds: Thresholds) -> bool:
+    return about.posterior.objective > thresholds.fit.gross * about.posterior.residual.size
 
 
 def try_refit(
@@ -198,6 +198,11 @@ def refit_all(
     return tuple(each for each, _ in ordered), tuple(reason for _, reason in ordered if reason is not None)
 
 
+def hopeless_beside(best: Explanation, thresholds: Thresholds) -> float:
+    """Objective of a fit that is hopelessly behind a refitted explanation."""
+    return inf if best.posterior is None else best.posterior.objective + 2.0 * thresholds.fit.hopeless
+
+
 def _numbered(
     study: Study, thresholds: Thresholds, hopeless: float, part: Explanation | None, task: tuple[int, Explanation]
 ) -> tuple[int, tuple[Explanation, str | None]]:
@@ -233,7 +238,7 @@ def _begun(study: Study, hypothesis: Hypothesis, thresholds: Thresholds, part: E
     Only the likeliest members in the linear model are tried; of a gross mismatch, where slopes say little, all.
     """
     about, fresh = _about(study, hypothesis, part)
-    members = hypothesis.members if _gross(study, thresholds) else _likeliest(study, hypothesis, thresholds)
+    members = hypothesis.members if _gross(about, thresholds) else _likeliest(study, hypothesis, about, thresholds)
     begun: list[tuple[float, Hypothesis, Array]] = []
     failed: list[NotConverged] = []
     for member in members:
@@ -248,14 +253,19 @@ def _begun(study: Study, hypothesis: Hypothesis, thresholds: Thresholds, part: E
     return _Begun(hypothesis, about, fresh, starts, tuple(failed))
 
 
-def _likeliest(study: Study, hypothesis: Hypothesis, thresholds: Thresholds) -> Sequence[Hypothesis]:
-    """The members of a grid to refit, by the linear model."""
+def _likeliest(
+    study: Study, hypothesis: Hypothesis, about: Expansion, thresholds: Thresholds
+) -> Sequence[Hypothesis]:
+    """The members of a grid to refit, by the linear model that the fits start from."""
     members, widths = hypothesis.members, thresholds.name.mixture_widths
     if len(members) <= thresholds.fit.grid_members:
         return members
+    known = set(hypothesis.open_names) & {each.name for each in about.posterior.parameters}
+    posterior = settled(about.posterior)
 
     def evidence(member: Hypothesis) -> float:
-        return joint_evidence(study.base, candidates_of(study, member), widths).evidence
+        fresh = [each for each in candidates_of(study, member) if each.parameter not in known]
+        return joint_evidence(posterior, fresh, widths).evidence
 
     return sorted(members, key=evidence, reverse=True)[: thresholds.fit.grid_members]
 

@@ -15,7 +15,7 @@ from diagnosis.explain.explained import explained_mismatch
 from diagnosis.explain.held_out import held_out
 from diagnosis.explain.hypotheses import hypotheses
 from diagnosis.explain.ranked import Explanation, with_probabilities
-from diagnosis.explain.refit import refit_all, try_refit, within_tolerance
+from diagnosis.explain.refit import hopeless_beside, refit_all, try_refit, within_tolerance
 from diagnosis.explain.scaling import Scaling, scaling
 from diagnosis.explain.screen import screen, unknown_gain
 from diagnosis.explain.shortlist import is_settled, shortlist, wrong_parameters
@@ -87,22 +87,22 @@ def _fits(
         refitted, failed = refit_all(study, (*listed, *more), thresholds, executor, report, hopeless)
         placed = _placed(study, screened, null, refitted)
         combined, not_combined = combine(study, placed, thresholds, executor, report)
-        parts, not_parted = refit_all(study, _parts(placed, combined), thresholds, executor, report)
+        best = max((*placed, *combined), key=lambda each: each.log_weight)
+        given_up = hopeless_beside(best, thresholds)
+        parts, not_parted = refit_all(study, _parts(placed, best), thresholds, executor, report, given_up)
         refitted, failed = (*refitted, *parts), (*failed, *not_combined, *not_parted)
     single = _unknown_anew(study, _placed(study, screened, null, refitted), null, thresholds)
     return _Fits(without_stand_ins(study, (*single, *combined), thresholds), failed)
 
 
-def _parts(placed: Sequence[Explanation], combined: Sequence[Explanation]) -> tuple[Explanation, ...]:
-    """Single effects of the likeliest explanation of several effects that have no refit of their own."""
-    best = max((*placed, *combined), key=lambda each: each.log_weight)
+def _parts(placed: Sequence[Explanation], best: Explanation) -> tuple[Explanation, ...]:
+    """Single effects of an explanation of several effects that have no refit of their own."""
     names = set(best.hypothesis.open_names)
     return tuple(
         each
         for each in placed
-        if best in combined and each.posterior is None and each.hypothesis.open_names
-        and set(each.hypothesis.open_names) < names
-    )  # fmt: skip
+        if each.posterior is None and each.hypothesis.open_names and set(each.hypothesis.open_names) < names
+    )
 
 
 def _null(study: Study, linear: Explanation, thresholds: Thresholds) -> tuple[Explanation, tuple[str, ...]]:
