@@ -151,15 +151,6 @@ class _Fit:
         values = values_at(self.simulator.parameters, xi)
         return whitener(self.observations, self.simulator.input_slopes(values))
 
-    def stall(self, place: _Iterate) -> float:
-        """The fall promised with which a place that no step betters is a peak."""
-        gross = place.objective > GROSS * place.residual.size
-        return max(self.limits.stall * self.excess(place), COARSE * place.objective if gross else 0.0)
-
-    def excess(self, place: _Iterate) -> float:
-        """The objective per reading where that is above one: what fits badly is not worth a fine fit."""
-        return max(1.0, place.objective / place.residual.size)
-
     def is_level(self, objectives: Sequence[float]) -> bool:
         """True for a model that is wrong and gains little: LEVEL trials together brought a share COARSE at most.
 
@@ -215,9 +206,18 @@ def is_peak(posterior: Posterior, limits: FitLimits = LIMITS) -> bool:
     """True unless the slopes of a fit promise a fall with which it would not count as a peak: it was given up."""
     model = Quadratic.of(posterior.xi, posterior.residual, posterior.slopes)
     step = bounded_step(model, Bounds.of(posterior.parameters).about(posterior.xi), 0.0, np.inf)
-    per_reading = posterior.objective / posterior.residual.size
-    coarse = COARSE * posterior.objective if per_reading > GROSS else 0.0
-    return model.fall(step) < max(limits.stall * max(1.0, per_reading), coarse)
+    return model.fall(step) < _stall(posterior, limits)
+
+
+def _stall(place: _Iterate | Posterior, limits: FitLimits) -> float:
+    """The fall promised with which a place that no step betters is a peak."""
+    gross = place.objective > GROSS * place.residual.size
+    return max(limits.stall * _excess(place), COARSE * place.objective if gross else 0.0)
+
+
+def _excess(place: _Iterate | Posterior) -> float:
+    """The objective per reading where that is above one: what fits badly is not worth a fine fit."""
+    return max(1.0, place.objective / place.residual.size)
 
 
 def best_posterior(
@@ -254,12 +254,12 @@ def _descend(fit: _Fit, walk: _Walk, whitening: Whitening) -> tuple[_Iterate, Ar
     Where the simulator's slopes, which may be approximate, end short of a peak, slopes by predictions lead on.
     """
     walk, given_up = _steps(fit, walk, whitening)
-    if walk.damping > MOST_DAMPING and not fit.exact and fit.promised(walk) >= fit.stall(walk.place):
+    if walk.damping > MOST_DAMPING and not fit.exact and fit.promised(walk) >= _stall(walk.place, fit.limits):
         fit.exact = True
         walk, given_up = _steps(fit, replace(fit.renewed(walk, whitening), damping=FIRST_DAMPING), whitening)
     if given_up:
         return walk.place, walk.slopes
-    promised, limit = fit.promised(walk), fit.stall(walk.place)
+    promised, limit = fit.promised(walk), _stall(walk.place, fit.limits)
     if promised >= limit:
         raise NotConverged(
             f"the fit of {walk.place.xi.size} parameters stopped at an objective of {walk.place.objective:.1f}, "
@@ -280,7 +280,7 @@ def _steps(fit: _Fit, walk: _Walk, whitening: Whitening) -> tuple[_Walk, bool]:
             return walk, True
         if fit.is_level(objectives):
             return walk, True
-        if promised < fit.limits.change * fit.excess(walk.place) or walk.damping > MOST_DAMPING:
+        if promised < fit.limits.change * _excess(walk.place) or walk.damping > MOST_DAMPING:
             if walk.moved <= NEAR:
                 break
             walk = fit.walk(walk.place, whitening)
@@ -349,7 +349,7 @@ def _posterior(fit: _Fit, place: _Iterate, slopes: Array, whitening: Whitening, 
     zero, one, bounds = np.zeros_like(place.xi), np.ones_like(place.xi), fit.bounds
     promised = model.fall(bounded_step(model, bounds.about(place.xi), 0.0, np.inf))
     is_hopeless = place.objective - promised > fit.limits.hopeless
-    ended = promised < fit.stall(place) and not is_hopeless
+    ended = promised < _stall(place, fit.limits) and not is_hopeless
     objective, gradient = place.objective - (promised if is_hopeless else 0.0), model.gradient if ended else zero
     below, above = bounds.lowest - place.xi, bounds.highest - place.xi
     evidence = bounded_laplace(objective, gradient, model.precision, below, above) + whitening.log_determinant

@@ -19,6 +19,7 @@ from numpy.typing import NDArray
 from scipy.optimize import minimize_scalar
 from scipy.signal import lfilter
 
+from diagnosis.recording.series.sample_noise import SampleNoise, sample_noise
 from reynolds.numerics.arrays import Array
 
 Mask = NDArray[np.bool_]
@@ -36,16 +37,15 @@ CLEAR = 2.0  # sigma above the dead band from which a reading counts
 @dataclass(frozen=True)
 class MeterResponse:
     """Response of a channel. steady: (T,), readings of steady state, SI, nan within the dead band; band: SI, nan where
-    there is none; lag: s; storage: s of the equation, SI; noise: one sigma of a sample, SI; memory: its correlation
-    time in samples; law: coefficients of `smooth_columns`, SI.
+    there is none; lag: s; storage: s of the equation, SI; noise: of single samples; law: coefficients of
+    `smooth_columns`, SI.
     """
 
     steady: Array
     band: float
     lag: float
     storage: float
-    noise: float
-    memory: float
+    noise: SampleNoise
     law: Array
 
 
@@ -71,9 +71,9 @@ def meter_response(
     at_rest = (at_once - followed)[:, :smooth] @ size[:smooth] - rates @ size[smooth:]
     steady = np.full(len(values), np.nan)
     steady[usable] = np.where(follows, known + at_rest, np.nan)
-    noise, memory = _noise(residual)
+    noise = sample_noise(residual, np.flatnonzero(usable)[follows], len(values))
     storage = -float(size[-1]) if rates.size else 0.0
-    return MeterResponse(steady, band, lag * float(np.median(np.diff(time))), storage, noise, memory, size[:smooth])
+    return MeterResponse(steady, band, lag * float(np.median(np.diff(time))), storage, noise, size[:smooth])
 
 
 def best_lag(score: Callable[[float], float], tried: Sequence[float] = LAGS) -> float:
@@ -161,16 +161,3 @@ def _follows(values: Array, columns: Array, band: float) -> Mask:
 def misfit(columns: Array, values: Array) -> float:
     """Mean magnitude of the residuals of a robust fit of columns (T, m) to values (T,)."""
     return float(np.abs(robust(columns, values)[1]).mean())
-
-
-def _noise(residual: Array) -> tuple[float, float]:
-    """One sigma of a sample, and its correlation time in samples: 1 + 2 sum of the first positive correlations."""
-    sigma = float(np.std(residual))
-    if sigma == 0.0:
-        return 0.0, 1.0
-    power = np.abs(np.fft.rfft(residual - residual.mean(), 2 * len(residual))) ** 2
-    correlation = np.fft.irfft(power)[: len(residual) // 2]
-    correlation = correlation / correlation[0]
-    ends = np.flatnonzero(correlation <= 0.0)
-    last = int(ends[0]) if ends.size else len(correlation)
-    return sigma, 1.0 + 2.0 * float(correlation[1:last].sum())

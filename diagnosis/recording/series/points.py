@@ -118,14 +118,14 @@ def _quasi_steady_points(time: Array, readings: Array, channels: Sequence[Channe
 
 def _meter_note(channel: ChannelForm, meter: MeterResponse) -> str:
     """Scatter, lag and dead band of a meter; its stated repeatability where the readings contradict it."""
-    parts = [f"its samples scatter by {meter.noise / channel.factor:.3g} {channel.unit} (one sigma)"]
+    parts = [f"its samples scatter by {meter.noise.sigma / channel.factor:.3g} {channel.unit} (one sigma)"]
     if meter.lag > 0.0:
         parts.append(f"it lags by {meter.lag:.3g} s")
     if np.isfinite(meter.band):
         level = f"{(meter.band - channel.offset) / channel.factor:.3g} {channel.unit}"
         parts.append(f"below its dead band, {level}, readings are put aside")
     stated = channel.sigma
-    if stated and not meter.noise / MISSTATED < stated < meter.noise * MISSTATED:
+    if stated and not meter.noise.sigma / MISSTATED < stated < meter.noise.sigma * MISSTATED:
         parts.append(f"{stated / channel.factor:.3g} {channel.unit} is stated, which contradicts: the scatter is used")
     return f"{channel.name.value}: {'; '.join(parts)}"
 

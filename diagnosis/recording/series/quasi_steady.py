@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,7 +19,10 @@ from diagnosis.recording.series.meter_response import (
     NORMAL,
     Mask,
     MeterResponse,
+    best_lag,
+    lagged,
     meter_response,
+    misfit,
     past_share,
     smooth_columns,
 )
@@ -31,6 +35,8 @@ FEWEST = 8  # samples of a point
 RATE_SAMPLES = 9  # of the local line of which a rate is the slope
 STEEP = 0.03  # of the range a second: faster is a jump, not a ramp
 MOVES = 4.0  # an input moves whose range exceeds this multiple of its scatter
+METERS = (1.0, 2.0, 4.0, 8.0, 16.0)  # samples, lags of outputs beside which a thermometer's is sought
+THERMOMETERS = (5.0, 10.0, 20.0, 40.0, 80.0, 160.0)  # samples
 HELD = 0.9  # of a point's samples: fewer readings of a channel make no mean
 SEED = 20
 
@@ -65,11 +71,10 @@ def quasi_steady(time: Array, readings: Array, names: Sequence[ChannelName]) -> 
         raise ValueError(f"{usable.sum()} samples without gaps and jumps")
     lag = 0.0
     if ChannelName.T_CASE in names:
-        case, others = names.index(ChannelName.T_CASE), [k for k in inputs if names[k] is not ChannelName.T_CASE]
-        warmth = meter_response(
-            readings[:, case], time, _moving(readings[:, others]), np.zeros(len(time)), usable, may_be_dead=False
-        )
-        lag, readings[usable, case] = warmth.lag, warmth.steady[usable]
+        case = names.index(ChannelName.T_CASE)
+        lag = thermometer_lag(time, readings, case, inputs, usable)
+        readings[:, case] = ahead_of(readings[:, case], lag)
+        lag *= float(np.median(np.diff(time)))
     moving, past = _moving(readings[:, inputs]), past_share(time)
     meters = {
         k: meter_response(readings[:, k], time, moving, rate, usable & np.isfinite(readings[:, k]), _is_flow(names[k]))
@@ -79,17 +84,56 @@ def quasi_steady(time: Array, readings: Array, names: Sequence[ChannelName]) -> 
     centre = _means(np.column_stack([moving, past])[usable], cell)[0]
     shapes = smooth_columns(moving, past)[usable]
     of_centre = smooth_columns(centre[:, :-1], centre[:, -1])[cell]
-    noise, steady = np.zeros(len(names)), readings[usable]
+    steady = readings[usable]
     for k, meter in meters.items():
         steady[:, k] = meter.steady[usable] + (of_centre - shapes) @ meter.law  # a law that bends within a cell
-        noise[k] = meter.noise * np.sqrt(meter.memory)
-    means, numbers = _means(steady, cell)
     kept = np.bincount(cell) >= FEWEST
     order = np.flatnonzero(kept)[np.argsort(centre[kept, -1])]
-    means, numbers = means[order], numbers[order]
-    errors = np.where(np.isfinite(means), noise / np.sqrt(np.maximum(numbers, 1.0)), np.nan)
+    means = _means(steady, cell)[0][order]
+    errors = np.where(np.isfinite(means), 0.0, np.nan)
+    place = np.flatnonzero(usable)
+    for k, meter in meters.items():
+        known = np.isfinite(steady[:, k])
+        for row in np.flatnonzero(np.isfinite(means[:, k])):
+            errors[row, k] = meter.noise.of_mean(place[known & (cell == order[row])])
     middle = time[0] + centre[order, -1] * float(time[-1] - time[0])
     return QuasiSteady(means, errors, middle, meters, lag, 1.0 - float(usable.mean()))
+
+
+def thermometer_lag(time: Array, readings: Array, case: int, inputs: Sequence[int], usable: Mask) -> float:
+    """Lag in samples of the thermometer in column `case` behind the oil of the gaps, 0 where none shows.
+
+    The one with which smooth laws of the inputs (columns of readings (T, C)) follow the outputs best: flows and torque
+    follow the oil itself. Each output has the lag that it has beside the temperature as read.
+    """
+    outputs = [k for k in range(readings.shape[1]) if k not in inputs]
+    past, known = past_share(time), np.isfinite(readings) & usable[:, None]
+    others = _moving(readings[:, [k for k in inputs if k != case]])
+
+    def left(output: int, lag: float, behind: float) -> float:
+        own = known[:, output]
+        moving = np.column_stack([others, _moving(ahead_of(readings[:, case], lag)[:, None])])
+        return misfit(smooth_columns(lagged(moving, behind), past)[own], readings[own, output])
+
+    behind = {k: best_lag(partial(left, k, 0.0), METERS) for k in outputs if known[:, k].sum() >= FEWEST}
+    least = {k: max(left(k, 0.0, own), 1e-300) for k, own in behind.items()}
+
+    def score(lag: float) -> float:
+        return float(np.exp(np.mean([np.log(max(left(k, lag, own), 1e-300) / least[k]) for k, own in behind.items()])))
+
+    return best_lag(score, THERMOMETERS) if behind else 0.0
+
+
+def ahead_of(values: Array, lag: float) -> Array:
+    """Values (T,) before a first-order lag of some samples, x = y + lag dy/dt, y smoothed so that its noise stays."""
+    if lag == 0.0:
+        return values
+    known = np.isfinite(values)
+    filled = np.interp(np.arange(len(values)), np.flatnonzero(known), values[known])
+    wanted = 2 * int(np.ceil(0.5 * (12.0 * lag**2) ** (1.0 / 3.0))) + 1
+    window = min(max(wanted, RATE_SAMPLES), (len(values) - 1) // 2 * 2 + 1)
+    smooth, slope = (savgol_filter(filled, window, 2, deriv=order) for order in (0, 1))
+    return np.where(known, smooth + lag * slope, np.nan)
 
 
 def _is_flow(name: ChannelName) -> bool:
