@@ -253,9 +253,7 @@ def _begun(study: Study, hypothesis: Hypothesis, thresholds: Thresholds, part: E
     return _Begun(hypothesis, about, fresh, starts, tuple(failed))
 
 
-def _likeliest(
-    study: Study, hypothesis: Hypothesis, about: Expansion, thresholds: Thresholds
-) -> Sequence[Hypothesis]:
+def _likeliest(study: Study, hypothesis: Hypothesis, about: Expansion, thresholds: Thresholds) -> Sequence[Hypothesis]:
     """The members of a grid to refit, by the linear model that the fits start from."""
     members, widths = hypothesis.members, thresholds.name.mixture_widths
     if len(members) <= thresholds.fit.grid_members:

@@ -71,13 +71,28 @@ class SteadyTable:
     values: (N, len(ChannelName)) in SI, pressures gauge, columns in the order of ChannelName, nan = not measured;
     repeats: (N,), points of one number repeat one set point; hours: (N,), h from the first point, nan = not known;
     errors: (N, len(ChannelName)), one sigma in SI of points that are means over a moving series; nan where a point has
-    the repeatability of its channel.
+    the repeatability of its channel. directions: (N, len(ChannelName), K), the errors of two such points correlate by
+    the product of theirs; None where all points are independent.
     """
 
     values: Array
     repeats: NDArray[np.int64]
     hours: Array
     errors: Array
+    directions: Array | None = None
+
+    def at(self, rows: NDArray[np.int64] | NDArray[np.bool_] | slice) -> SteadyTable:
+        """The table of some of its points."""
+        return SteadyTable(**{name: own if own is None else own[rows] for name, own in vars(self).items()})
+
+    def correlation(self, name: ChannelName) -> Array | None:
+        """Correlation (N, N) of the errors of a channel's points; None where they are independent."""
+        if self.directions is None:
+            return None
+        own = self.directions[:, list(ChannelName).index(name)]
+        found = own @ own.T
+        np.fill_diagonal(found, 1.0)
+        return np.asarray(found)
 
     def column(self, name: ChannelName) -> Array:
         """Readings (N,) of one channel in SI."""

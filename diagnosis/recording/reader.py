@@ -75,6 +75,7 @@ class _Points:
     columns: Mapping[str, Array]
     zeros: Array | None = None
     quasi: bool = False
+    directions: Array | None = None
 
 
 def columns_of(channels: Sequence[ChannelForm]) -> list[int]:
@@ -101,7 +102,11 @@ def _recording(form: RecordingForm, reader: ColumnReader) -> Recording | None:
     errors = np.full_like(values, np.nan)
     if points.quasi and points.errors is not None:
         errors[:, columns_of(form.channels)] = points.errors
-    steady = SteadyTable(values, points.numbers, points.hours, errors)
+    directions = None
+    if points.directions is not None:
+        directions = np.zeros((*values.shape, points.directions.shape[2]))
+        directions[:, columns_of(form.channels)] = points.directions
+    steady = SteadyTable(values, points.numbers, points.hours, errors, directions)
     channels += traces.channels
     for channel in channels:
         if channel.assumed:
@@ -164,7 +169,9 @@ def _series_points(
     for note in series.notes:
         reader.note(note)
     numbers = np.arange(len(series.means), dtype=np.int64)
-    return _Points(series.means, numbers, series.hours, series.errors, {}, series.zeros, series.quasi)
+    return _Points(
+        series.means, numbers, series.hours, series.errors, {}, series.zeros, series.quasi, series.directions
+    )
 
 
 def _channels(forms: Sequence[ChannelForm], points: _Points, reader: ColumnReader) -> tuple[RecordedChannel, ...]:

@@ -63,7 +63,7 @@ def complete(recording: Recording) -> Recording:
     lost = " (with a trace)" if any(missing[trace.point] for trace in recording.traces) else ""
     note = DataNote(NoteKind.REMOVED, None, gone, f"an input of these points is missing{lost}")
     place = np.cumsum(~missing) - 1
-    steady = replace(recording.steady, **{name: values[~missing] for name, values in vars(recording.steady).items()})
+    steady = recording.steady.at(~missing)
     traces = tuple(
         replace(trace, point=int(place[trace.point])) for trace in recording.traces if not missing[trace.point]
     )

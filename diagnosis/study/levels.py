@@ -121,8 +121,7 @@ def _some(recording: Recording) -> Recording:
     """At most `POINTS` points of a recording, evenly in their order."""
     steady = recording.steady
     rows = np.unique(np.linspace(0, len(steady.values) - 1, POINTS).round().astype(int))
-    chosen = replace(steady, **{name: values[rows] for name, values in vars(steady).items()})
-    return replace(recording, steady=chosen, traces=())
+    return replace(recording, steady=steady.at(rows), traces=())
 
 
 def _groups(names: Sequence[str], channels: Collection[ChannelName]) -> Groups:

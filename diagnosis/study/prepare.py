@@ -72,7 +72,7 @@ def prepare(
         bench = _of_another_make(bench, axes, found.sigma, thresholds.form.other_make)
     traces = usable.channel(ChannelName.P_CHAMBER) if usable.traces else None
     bare = study_of(usable, bench, found, axes, (), thresholds)
-    memory = noise_correlation(bare, thresholds.mismatch)
+    memory = () if found.correlation else noise_correlation(bare, thresholds.mismatch)
     if memory:
         text = f"residuals persist from point to point: noise is assumed correlated by {memory[0]:.2f} in the order"
         usable = replace(usable, notes=(*usable.notes, DataNote(NoteKind.NOTED, None, (), text)))

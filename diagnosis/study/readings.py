@@ -39,6 +39,7 @@ def observations(
         input_sigma=input_sigma,
         quantum=np.array([one.quantum for one in stated]),
         blocks=_cells(scaled_axes(recording)),
+        correlation=tuple(found for found in map(steady.correlation, channels) if found is not None),
     )
 
 

@@ -67,7 +67,7 @@ OF_GAPS = ("case_pressure", "kinematic_viscosity")
 class Steps:
     """Steps by which courses at N points were solved: trail, all end to end, those of point i from begins[i] on.
 
-    records (N,) of CHAMBER, gaps (N, M, 7, 4), held (N, 1, 2, 4): chambers, tables and ports as compiled code took them.
+    records (N,) of CHAMBER, gaps (N, M, 7, 4), held (N, 1, 2, 4): chambers, tables, ports as compiled code took them.
     """
 
     records: np.ndarray
@@ -142,7 +142,7 @@ def solve_map(pump: PumpDescription, problem: MapProblem, tolerance: float) -> C
     """
     given, filled = _run(pump, problem, tolerance)
     trail, begins = chamber_map(*given, *filled)
-    return replace(_courses(problem, filled), steps=Steps(*given[:3], trail, begins))
+    return replace(_courses(problem, filled), steps=Steps(given[0], given[1], given[2], trail, begins))
 
 
 def beside(pump: PumpDescription, courses: Courses, problem: MapProblem, tolerance: float) -> Courses:

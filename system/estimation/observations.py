@@ -31,7 +31,8 @@ class Observations:
     names of the M inputs that were measured too, and one sigma of each, (N, M). quantum: (C,), the step of a
     digital reading, 0 for none. blocks: (N,) integers, points of one block are close to each other (region of the
     map, stretch of time). memory: coefficients of an autoregressive noise along the rows (of consecutive points
-    of a time series), the nearest first; empty: the noise of each point is independent.
+    of a time series), the nearest first; empty: the noise of each point is independent. correlation: of each channel
+    (N, N), known correlation of the readings' own noise between points, in place of `memory`; or none at all.
     """
 
     channels: tuple[Channel, ...]
@@ -42,6 +43,7 @@ class Observations:
     quantum: Array
     blocks: NDArray[np.int64]
     memory: tuple[float, ...] = ()
+    correlation: tuple[Array, ...] = ()
 
     def __post_init__(self) -> None:
         """Raise InputError for arrays that do not fit each other and for a reading without a noise."""
@@ -52,6 +54,8 @@ class Observations:
             ("input_sigma", self.input_sigma.shape, (points, len(self.inputs))),
             ("quantum", self.quantum.shape, (channels,)),
             ("blocks", self.blocks.shape, (points,)),
+            *((f"correlation[{at}]", own.shape, (points, points)) for at, own in enumerate(self.correlation)),
+            ("correlation", (len(self.correlation),), (channels if self.correlation else 0,)),
         )
         for name, found, expected in shapes:
             if found != expected:

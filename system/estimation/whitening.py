@@ -78,7 +78,7 @@ def whitener(observations: Observations, input_slopes: Array) -> Whitening:
     covariance += diagonal[:, :, None] * np.eye(measured.shape[1])
     factors = np.linalg.inv(np.linalg.cholesky(covariance))
     log_determinant = np.log(own * np.einsum("nii->ni", factors)).sum()
-    serial = _serial_factors(observations)
+    serial = _serial_factors(observations, own / np.sqrt(np.einsum("nii->ni", covariance)))
     log_determinant -= sum(np.log(np.diag(factor)).sum() for factor in serial)
     return Whitening(factors, measured, serial, float(log_determinant))
 
@@ -98,9 +98,21 @@ def autocorrelation(memory: tuple[float, ...], lags: int) -> Array:
     return correlation[:lags]
 
 
-def _serial_factors(observations: Observations) -> tuple[Array, ...]:
-    """Cholesky factors of each channel's correlation between its readings, at their distance in rows."""
-    if not observations.memory:
+def _serial_factors(observations: Observations, share: Array) -> tuple[Array, ...]:
+    """Cholesky factors of each channel's correlation between its readings: as known, or at their distance in rows.
+
+    share: (N, C), of a reading's sigma that is its own: what its inputs bring is independent of known correlation.
+    """
+    if observations.correlation:
+        known = [
+            own * np.outer(part, part) + np.diag(1.0 - part**2)
+            for own, part in zip(observations.correlation, share.T, strict=True)
+        ]
+    elif observations.memory:
+        known = [toeplitz(autocorrelation(observations.memory, len(share)))] * len(observations.channels)
+    else:
         return ()
-    correlation = toeplitz(autocorrelation(observations.memory, len(observations.values)))
-    return tuple(np.linalg.cholesky(correlation[np.ix_(channel, channel)]) for channel in observations.measured.T)
+    return tuple(
+        np.linalg.cholesky(correlation[np.ix_(there, there)])
+        for correlation, there in zip(known, observations.measured.T, strict=True)
+    )

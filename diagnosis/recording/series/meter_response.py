@@ -62,10 +62,11 @@ def meter_response(
         return np.column_stack([smooth_columns(lagged(moving, lag), past)[usable], rates])
 
     at_once = columns(0.0)
-    lag = best_lag(lambda samples: misfit(columns(samples), known))
+    follows = follows_down(known, at_once, dead_band(known, at_once)) if may_be_dead else np.ones(len(known), bool)
+    lag = best_lag(lambda samples: misfit(columns(samples)[follows], known[follows]))
     followed = columns(lag)
     band = dead_band(known, followed) if may_be_dead else np.nan
-    follows = _follows(known, followed, band)
+    follows = follows_down(known, followed, band)
     size, residual = robust(followed[follows], known[follows])
     smooth = at_once.shape[1] - rates.shape[1]
     at_rest = (at_once - followed)[:, :smooth] @ size[:smooth] - rates @ size[smooth:]
@@ -151,7 +152,8 @@ def lagged(moving: Array, samples: float) -> Array:
     return np.asarray(lfilter([1.0 - left], [1.0, -left], moving, axis=0, zi=left * moving[:1])[0])
 
 
-def _follows(values: Array, columns: Array, band: float) -> Mask:
+def follows_down(values: Array, columns: Array, band: float) -> Mask:
+    """True for values (n,) clear of a dead band, all where it is nan; columns (n, m): of a smooth law of them."""
     if not np.isfinite(band):
         return np.ones(len(values), dtype=bool)
     spread = NORMAL * float(np.median(np.abs(robust(columns, values)[1])))

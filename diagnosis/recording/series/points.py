@@ -30,13 +30,14 @@ SETTLING = 3.0  # lags of a channel left out at the beginning of a stretch
 class SeriesPoints:
     """Means (N, C) of C channels at N points, standard error of each, and times.
 
-    hours: (N,), middle of the samples, h from the first; zeros: (C,), one sigma of a zero that the series shows at
-    least, SI; quasi: quasi-steady points, whose noise is `errors`;
-    notes: the procedure as text.
+    directions: (N, C, K), of quasi-steady points, whose errors correlate by the products of theirs; hours: (N,), middle
+    of the samples, h from the first; zeros: (C,), one sigma of a zero that the series shows at least, SI; quasi:
+    quasi-steady points, whose noise is `errors`; notes: the procedure as text.
     """
 
     means: Array
     errors: Array
+    directions: Array | None
     hours: Array
     zeros: Array
     quasi: bool
@@ -68,7 +69,7 @@ def series_points(form: SeriesSection, time: Array, readings: Array, channels: S
         f"which slope and bow of every input stay below {form.steady.slope:g} standard errors or its repeatability"
     )
     hours = (middle - middle[0]) / 3600.0
-    return SeriesPoints(means, errors, hours, np.zeros(len(channels)), False, (*notes, rule))
+    return SeriesPoints(means, errors, None, hours, np.zeros(len(channels)), False, (*notes, rule))
 
 
 def without_what_is_no_reading(
@@ -113,7 +114,8 @@ def _quasi_steady_points(time: Array, readings: Array, channels: Sequence[Channe
     zeros = np.zeros(len(channels))
     for k, meter in found.meters.items():
         zeros[k] = ZERO_OF_BAND * np.nan_to_num(meter.band)
-    return SeriesPoints(found.means, found.errors, (found.time - found.time[0]) / 3600.0, zeros, True, notes)
+    hours = (found.time - found.time[0]) / 3600.0
+    return SeriesPoints(found.means, found.errors, found.directions, hours, zeros, True, notes)
 
 
 def _meter_note(channel: ChannelForm, meter: MeterResponse) -> str:

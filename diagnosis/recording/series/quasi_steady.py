@@ -1,7 +1,7 @@
 """Quasi-steady points of a series that never rests: ramps, stairs, sweeps, warm-up.
 
 Each meter's response is estimated and taken out (`meter_response`). Samples near each other in inputs and time are one
-point; its standard error follows from the noise of single samples and its correlation time.
+point; its standard error follows from the noise of single samples and its correlation (`sample_noise`).
 """
 
 from __future__ import annotations
@@ -20,6 +20,8 @@ from diagnosis.recording.series.meter_response import (
     Mask,
     MeterResponse,
     best_lag,
+    dead_band,
+    follows_down,
     lagged,
     meter_response,
     misfit,
@@ -34,10 +36,11 @@ POINTS = 120
 FEWEST = 8  # samples of a point
 RATE_SAMPLES = 9  # of the local line of which a rate is the slope
 STEEP = 0.03  # of the range a second: faster is a jump, not a ramp
-MOVES = 4.0  # an input moves whose range exceeds this multiple of its scatter
+MOVES = 12.0  # an input moves whose range exceeds this multiple of its scatter; that of noise alone exceeds five
 METERS = (1.0, 2.0, 4.0, 8.0, 16.0)  # samples, lags of outputs beside which a thermometer's is sought
 THERMOMETERS = (5.0, 10.0, 20.0, 40.0, 80.0, 160.0)  # samples
 HELD = 0.9  # of a point's samples: fewer readings of a channel make no mean
+ROUNDING = 1e-9
 SEED = 20
 
 
@@ -45,13 +48,14 @@ SEED = 20
 class QuasiSteady:
     """N points out of a series of C channels.
 
-    means, errors: (N, C), SI, of steady state, and their standard errors; nan where a channel does not follow; time:
-    (N,), s; meters: response of each output by its column; thermometer_lag: of the case, s, taken
-    out; left: share of samples put aside.
+    means, errors: (N, C), SI, of steady state, and their standard errors; nan where a channel does not follow;
+    directions: (N, C, N), errors of two points correlate by the product of theirs; time: (N,), s; meters: response of
+    each output by its column; thermometer_lag: of the case, s, taken out; left: share of samples put aside.
     """
 
     means: Array
     errors: Array
+    directions: Array
     time: Array
     meters: dict[int, MeterResponse]
     thermometer_lag: float
@@ -72,7 +76,7 @@ def quasi_steady(time: Array, readings: Array, names: Sequence[ChannelName]) -> 
     lag = 0.0
     if ChannelName.T_CASE in names:
         case = names.index(ChannelName.T_CASE)
-        lag = thermometer_lag(time, readings, case, inputs, usable)
+        lag = thermometer_lag(time, readings, case, inputs, outputs, usable)
         readings[:, case] = ahead_of(readings[:, case], lag)
         lag *= float(np.median(np.diff(time)))
     moving, past = _moving(readings[:, inputs]), past_share(time)
@@ -90,24 +94,41 @@ def quasi_steady(time: Array, readings: Array, names: Sequence[ChannelName]) -> 
     kept = np.bincount(cell) >= FEWEST
     order = np.flatnonzero(kept)[np.argsort(centre[kept, -1])]
     means = _means(steady, cell)[0][order]
-    errors = np.where(np.isfinite(means), 0.0, np.nan)
-    place = np.flatnonzero(usable)
+    errors, directions = np.full_like(means, np.nan), np.zeros((*means.shape, len(order)))
+    errors[np.isfinite(means)] = 0.0
     for k, meter in meters.items():
-        known = np.isfinite(steady[:, k])
-        for row in np.flatnonzero(np.isfinite(means[:, k])):
-            errors[row, k] = meter.noise.of_mean(place[known & (cell == order[row])])
+        there = np.zeros((len(order), len(time)))
+        there[:, usable] = (order[:, None] == cell) & np.isfinite(steady[:, k])
+        rows = np.flatnonzero(np.isfinite(means[:, k]))
+        errors[rows, k], directions[rows, k, : len(rows)] = _shared(meter, there[rows])
     middle = time[0] + centre[order, -1] * float(time[-1] - time[0])
-    return QuasiSteady(means, errors, middle, meters, lag, 1.0 - float(usable.mean()))
+    return QuasiSteady(means, errors, directions, middle, meters, lag, 1.0 - float(usable.mean()))
 
 
-def thermometer_lag(time: Array, readings: Array, case: int, inputs: Sequence[int], usable: Mask) -> float:
+def _shared(meter: MeterResponse, there: Array) -> tuple[Array, Array]:
+    """Standard errors (n,) of means over samples (n, T), and directions (n, n) whose products are correlations."""
+    covariance = meter.noise.of_means(there / there.sum(axis=1, keepdims=True))
+    errors = np.sqrt(np.diag(covariance))
+    scale = np.where(errors > 0.0, errors, 1.0)
+    correlation = covariance / np.outer(scale, scale)
+    np.fill_diagonal(correlation, 1.0 + ROUNDING)
+    return errors, np.linalg.cholesky(correlation)
+
+
+def thermometer_lag(
+    time: Array, readings: Array, case: int, inputs: Sequence[int], outputs: Sequence[int], usable: Mask
+) -> float:
     """Lag in samples of the thermometer in column `case` behind the oil of the gaps, 0 where none shows.
 
     The one with which smooth laws of the inputs (columns of readings (T, C)) follow the outputs best: flows and torque
     follow the oil itself. Each output has the lag that it has beside the temperature as read.
     """
-    outputs = [k for k in range(readings.shape[1]) if k not in inputs]
     past, known = past_share(time), np.isfinite(readings) & usable[:, None]
+    at_once = smooth_columns(_moving(readings[:, list(inputs)]), past)
+    for k in outputs:
+        there, values = known[:, k], readings[known[:, k], k]
+        if there.any():
+            known[there, k] = follows_down(values, at_once[there], dead_band(values, at_once[there]))
     others = _moving(readings[:, [k for k in inputs if k != case]])
 
     def left(output: int, lag: float, behind: float) -> float:

@@ -13,6 +13,7 @@ from operator import itemgetter
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.linalg import matmul_toeplitz
 from scipy.optimize import minimize
 
 from reynolds.numerics.arrays import Array
@@ -30,12 +31,12 @@ class SampleNoise:
     sigma: float
     correlation: Array
 
-    def of_mean(self, places: NDArray[np.int64]) -> float:
-        """Standard error of the mean of samples at these places of a raster."""
-        apart = np.abs(places[:, None] - places)
-        near = np.minimum(apart, self.correlation.size - 1)
-        shared = np.where(apart < self.correlation.size, self.correlation[near], 0.0)
-        return self.sigma * float(np.sqrt(shared.mean()))
+    def of_means(self, shares: Array) -> Array:
+        """Covariance (N, N) of means with shares (N, T) of the samples of a raster."""
+        column = np.zeros(shares.shape[1])
+        known = min(column.size, self.correlation.size)
+        column[:known] = self.correlation[:known]
+        return np.asarray(self.sigma**2 * (shares @ matmul_toeplitz(column, shares.T)))
 
 
 def sample_noise(residual: Array, place: NDArray[np.int64], count: int) -> SampleNoise:

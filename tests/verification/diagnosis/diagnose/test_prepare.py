@@ -22,7 +22,7 @@ PUMP = load_pump("ref90")
 
 def _every(recording: Recording, step: int) -> Recording:
     """Every step-th point, without traces."""
-    steady = replace(recording.steady, **{name: one[::step] for name, one in vars(recording.steady).items()})
+    steady = recording.steady.at(slice(None, None, step))
     return replace(recording, steady=steady, traces=())
 
 
