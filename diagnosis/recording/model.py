@@ -83,7 +83,8 @@ class SteadyTable:
 
     def at(self, rows: NDArray[np.int64] | NDArray[np.bool_] | slice) -> SteadyTable:
         """The table of some of its points."""
-        return SteadyTable(**{name: own if own is None else own[rows] for name, own in vars(self).items()})
+        directions = None if self.directions is None else self.directions[rows]
+        return SteadyTable(self.values[rows], self.repeats[rows], self.hours[rows], self.errors[rows], directions)
 
     def correlation(self, name: ChannelName) -> Array | None:
         """Correlation (N, N) of the errors of a channel's points; None where they are independent."""

@@ -33,6 +33,8 @@ from system.estimation.parameters import Parameter
 from system.estimation.posterior import values_at
 from system.inputs.channels import INPUTS, OUTPUTS, ChannelName
 
+COMMUTATION = 3e5  # Pa, one sigma of the mean chamber pressure above that of the ports, whose timing no plate states
+LEAST_ACROSS = 1e6  # Pa
 LAG = 1.0  # s, one sigma of a flow meter's lag where none is stated
 
 
@@ -102,8 +104,9 @@ def _drift_notes(courses: Mapping[ChannelName, Array], recording: Recording) -> 
 def _of_another_make(bench: LumpedBench, axes: Array, sigma: Array, width: float) -> LumpedBench:
     """The bench with departures of its leakage and friction from the simulation's laws."""
     centre = values_at(bench.parameters, np.zeros(len(bench.parameters)))
-    columns = departures(bench.components(centre), smooth_shapes(axes)[:, 1:], sigma, width)
-    return bench.with_departures(columns)
+    across = np.maximum(bench.points.p_out - bench.points.p_case, LEAST_ACROSS)
+    shapes = np.column_stack([smooth_shapes(axes)[:, 1:], COMMUTATION / width / across])
+    return bench.with_departures(departures(bench.components(centre), shapes, sigma, width))
 
 
 def _sensors(recording: Recording, channels: tuple[ChannelName, ...]) -> tuple[Parameter, ...]:

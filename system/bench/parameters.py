@@ -20,8 +20,8 @@ SLOPE_ABOUT = 323.15
 FILM_WARMTH = (INLET_SHARE, THROTTLE_SHARE) = ("inlet_share", "throttle_share")
 THROTTLED = (0.4, 0.2)
 """Centre and one sigma of throttle_share: throttled oil warms by 1 - beta T = .8 of dp/(rho c), a film by half."""
-MOSTLY = 0.75
-"""Centre of inlet_share where it is uncertain: oil of the gaps comes by way of inlet and delivery."""
+HALF_WAY = 0.5
+"""Centre of inlet_share where it is uncertain: between films as warm as the case and films of the inlet's oil."""
 GUIDE, BEARINGS = "ball_guide_retainer", ("front_bearing", "rear_bearing")
 _THICKNESS = {
     Gap.PISTON: ("piston", "radial_clearance"),
@@ -133,7 +133,7 @@ def _warmth(tolerances: Tolerances) -> tuple[Parameter, ...]:
     spread = tolerances.inlet_share
     if spread == 0.0:
         return ()
-    return _absolute(INLET_SHARE, MOSTLY, spread, 0.0, 1.25), _absolute(THROTTLE_SHARE, *THROTTLED, 0.0, 2.0)
+    return _absolute(INLET_SHARE, HALF_WAY, spread, 0.0, 1.25), _absolute(THROTTLE_SHARE, *THROTTLED, 0.0, 2.0)
 
 
 def _fluid(pump: PumpDescription, tolerances: Tolerances) -> tuple[Parameter, ...]:

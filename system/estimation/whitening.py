@@ -104,15 +104,13 @@ def _serial_factors(observations: Observations, share: Array) -> tuple[Array, ..
     share: (N, C), of a reading's sigma that is its own: what its inputs bring is independent of known correlation.
     """
     if observations.correlation:
-        known = [
-            own * np.outer(part, part) + np.diag(1.0 - part**2)
-            for own, part in zip(observations.correlation, share.T, strict=True)
-        ]
+        pairs = zip(observations.correlation, share.T, strict=True)
+        known = [np.asarray(own * np.outer(part, part) + np.diag(1.0 - part**2)) for own, part in pairs]
     elif observations.memory:
         known = [toeplitz(autocorrelation(observations.memory, len(share)))] * len(observations.channels)
     else:
         return ()
     return tuple(
-        np.linalg.cholesky(correlation[np.ix_(there, there)])
+        np.asarray(np.linalg.cholesky(correlation[np.ix_(there, there)]))
         for correlation, there in zip(known, observations.measured.T, strict=True)
     )

@@ -18,10 +18,9 @@ SPEEDS = (1.0, 0.75, 0.5)  # of the plate's, block by block
 
 @dataclass(frozen=True)
 class Course:
-    """State at samples of one second, case pressure (Pa gauge) and the rate of the delivery pressure (Pa/s), (T,)."""
+    """State at samples of one second and the rate of the delivery pressure (Pa/s), (T,)."""
 
     state: State
-    p_case: Array
     rate: Array
 
 
@@ -40,7 +39,7 @@ def course(pump: Pump, kind: str, rng: np.random.Generator) -> Course:
     case = _follow(inlet + losses, HOUSING)
     body = _follow(0.5 * (inlet + case), BODY)
     p_case = rng.uniform(0.1e5, 0.5e5) + _slow(count, 300.0, 60.0, rng)
-    return Course(State(speed, pressure, inlet, case, body), p_case, np.gradient(pressure))
+    return Course(State(speed, pressure, p_case, inlet, case, body), np.gradient(pressure))
 
 
 def _stairs(time: Array, rng: np.random.Generator) -> Array:

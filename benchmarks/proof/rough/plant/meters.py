@@ -94,7 +94,7 @@ def read(meters: Meters, course: Course, truth: Flows, rng: np.random.Generator)
     """Columns of the file, in its units."""
     state = course.state
     true = {
-        "p_out": state.pressure, "p_case": course.p_case, "T_in": state.inlet, "T_case": state.case,
+        "p_out": state.pressure, "p_case": state.around, "T_in": state.inlet, "T_case": state.case,
         "Q_out": truth.Q_out, "Q_case": truth.Q_case, "torque": truth.torque, "speed": state.speed,
     }  # fmt: skip
     return {name: _reading(meter, true[name], course.rate, rng) for name, meter in meters.items()}

@@ -1,9 +1,9 @@
 """Flows and torque of a pump in closed forms without scale, after Wilson (1950), with laws of their own.
 
-Leakage V p/(2 pi mu), in powers of pressure and viscosity that differ a little from make to make; delivery w V/(2 pi)
-less what compression and leakage take; torque V p/(2 pi) with a Coulomb, a viscous and a fixed share. Opened gaps: (1 +
-c p)^3 of the whole film; oil that thickens: its viscosity at half of the pressure; an edge: Blasius' 1.75th power; a
-bleed: p^.6; contact: 1/(1 + H/H0).
+Leakage V dp/(2 pi mu) into the case, in powers of pressure and viscosity that differ a little from make to make;
+chambers that fill draw from the case; delivery w V/(2 pi) less what compression and leakage take; torque V p/(2 pi)
+with a Coulomb, a viscous and a fixed share. Opened gaps: (1 + c p)^3 of the whole film; oil that thickens: its
+viscosity at half of the pressure; an edge: Blasius' 1.75th power; a bleed: p^.6; contact: 1/(1 + H/H0).
 """
 
 from __future__ import annotations
@@ -24,10 +24,11 @@ USUAL_SPEED = 154.98523757709612  # rad/s, 1480 r/min
 
 @dataclass(frozen=True)
 class State:
-    """Samples (T,): rad/s; Pa above the inlet; degC of inlet, of the case and of the pump's body."""
+    """Samples (T,): rad/s; Pa above the inlet, of delivery and case; degC of inlet, of case and of the pump's body."""
 
     speed: Array
     pressure: Array
+    around: Array
     inlet: Array
     case: Array
     body: Array
@@ -46,13 +47,13 @@ def flows(pump: Pump, at: State, hidden: Hidden = NOTHING) -> Flows:
     """Of a pump in the steady state at every sample."""
     mu, p = pump.thick(at.case), at.pressure
     swept = pump.displacement * at.speed / TURN * (1.0 - hidden.droop * (p / FULL) ** 1.2)
-    drain = _leaks(pump, at, hidden, mu) + _to_case(pump, at, hidden)
+    leaks = _leaks(pump, at, hidden, mu) + _to_case(pump, at, hidden)
+    drawn = pump.leak * pump.displacement * at.around / (TURN * mu)  # by the chambers that fill, from the case
     modulus = pump.modulus * (1.0 - hidden.softening * (at.case - 40.0))
     squeezed = (1.0 + pump.dead) * p / modulus
-    return Flows(
-        Q_out=swept * (1.0 - squeezed) - drain + _from_inlet(pump, at, hidden) - _across(pump, at, hidden, mu),
-        Q_case=drain, torque=_torque(pump, at, hidden, mu),
-    )  # fmt: skip
+    lost = leaks - _from_inlet(pump, at, hidden) + _across(pump, at, hidden, mu)
+    delivered = swept * (1.0 - squeezed) - lost * (1.0 - p / modulus)  # what is lost was squeezed before
+    return Flows(Q_out=delivered, Q_case=leaks - drawn, torque=_torque(pump, at, hidden, mu))
 
 
 def _plate_flow(pump: Pump) -> float:
@@ -60,7 +61,7 @@ def _plate_flow(pump: Pump) -> float:
 
 
 def _leaks(pump: Pump, at: State, hidden: Hidden, mu: Array) -> Array:
-    p = at.pressure
+    p = at.pressure - at.around
     opened = (1.0 + hidden.opening * p / FULL) ** 3 * np.exp(-0.5 * hidden.thickening * p / FULL)
     expanded = np.maximum(1.0 + hidden.clearance * (at.body - 40.0), 0.1) ** 3
     warmed = np.exp(WARM * hidden.heating * (0.6 * p / MIDDLE + 0.4 * mu * at.speed / (THICK * USUAL_SPEED)))
