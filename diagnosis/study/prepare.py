@@ -20,6 +20,7 @@ from diagnosis.study.traces.misfits import port_events, trace_misfits, trace_par
 from diagnosis.thresholds import Thresholds
 from reynolds.errors import InputError
 from reynolds.numerics.arrays import Array
+from system.bench.components import LEAKAGE
 from system.bench.departures import departures
 from system.bench.outputs import SIMULATED
 from system.bench.parameters import base_parameters
@@ -33,7 +34,8 @@ from system.estimation.parameters import Parameter
 from system.estimation.posterior import values_at
 from system.inputs.channels import INPUTS, OUTPUTS, ChannelName
 
-COMMUTATION = 3e5  # Pa, one sigma of the mean chamber pressure above that of the ports, whose timing no plate states
+OF_PORTS = 0.05  # of the drain, one sigma of what leaks while ports change: no plate states their timing
+PEAKS = 3e5  # Pa, one sigma of what peaks while ports change add to the mean chamber pressure
 LEAST_ACROSS = 1e6  # Pa
 LAG = 1.0  # s, one sigma of a flow meter's lag where none is stated
 
@@ -102,11 +104,20 @@ def _drift_notes(courses: Mapping[ChannelName, Array], recording: Recording) -> 
 
 
 def _of_another_make(bench: LumpedBench, axes: Array, sigma: Array, width: float) -> LumpedBench:
-    """The bench with departures of its leakage and friction from the simulation's laws."""
+    """The bench with departures of its leakage and friction from the simulation's laws.
+
+    Leakage departs by smooth factors and a power of the pressure. While ports change, chambers leak into the case what
+    delivery does not lack: a share of the drain by itself, and one that the chamber's peaks add.
+    """
     centre = values_at(bench.parameters, np.zeros(len(bench.parameters)))
     across = np.maximum(bench.points.p_out - bench.points.p_case, LEAST_ACROSS)
-    shapes = np.column_stack([smooth_shapes(axes)[:, 1:], COMMUTATION / width / across])
-    return bench.with_departures(departures(bench.components(centre), shapes, sigma, width))
+    shapes = np.column_stack([smooth_shapes(axes)[:, 1:], np.log(across / np.median(across))])
+    of_ports = np.column_stack([np.full_like(across, OF_PORTS), PEAKS / across])
+    parts = bench.components(centre)
+    is_drain = np.array([name is ChannelName.Q_CASE for name in bench.channels])
+    drained = np.sum([parts[part] for part in LEAKAGE], axis=0) * is_drain
+    apart = drained[:, :, None] * of_ports[:, None, :]
+    return bench.with_departures(departures(parts, shapes, sigma, width, apart))
 
 
 def _sensors(recording: Recording, channels: tuple[ChannelName, ...]) -> tuple[Parameter, ...]:

@@ -28,13 +28,16 @@ MOST = 12
 FARTHEST = 5.0
 
 
-def departures(contributions: Mapping[Component, Array], shapes: Array, sigma: Array, width: float) -> Array:
+def departures(
+    contributions: Mapping[Component, Array], shapes: Array, sigma: Array, width: float, apart: Array
+) -> Array:
     """Principal columns (N, C, k) of the departures, SI per unit of beta; k at most `MOST`.
 
-    contributions: (N, C) of each part in SI; shapes: (N, m); sigma: (N, C), one sigma of the readings in SI.
+    contributions: (N, C) of each part in SI; shapes: (N, m); sigma: (N, C), one sigma of the readings in SI; apart:
+    (N, C, n) in SI, further departures.
     """
     parts = [contributions[part] for part in (*LEAKAGE, *FRICTION) if part in contributions]
-    columns = np.concatenate([width * part[:, :, None] * shapes[:, None, :] for part in parts], axis=2)
+    columns = np.concatenate([*(width * part[:, :, None] * shapes[:, None, :] for part in parts), apart], axis=2)
     known = np.isfinite(sigma) & (sigma > 0.0)
     scaled = np.where(known[:, :, None], columns / np.where(known, sigma, 1.0)[:, :, None], 0.0)
     rows = scaled.reshape(-1, scaled.shape[-1])

@@ -72,7 +72,7 @@ def meter_response(
     at_rest = (at_once - followed)[:, :smooth] @ size[:smooth] - rates @ size[smooth:]
     steady = np.full(len(values), np.nan)
     steady[usable] = np.where(follows, known + at_rest, np.nan)
-    noise = sample_noise(residual, np.flatnonzero(usable)[follows], len(values))
+    noise = sample_noise(residual, followed[follows], np.flatnonzero(usable)[follows], len(values))
     storage = -float(size[-1]) if rates.size else 0.0
     return MeterResponse(steady, band, lag * float(np.median(np.diff(time))), storage, noise, size[:smooth])
 

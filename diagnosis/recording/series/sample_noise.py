@@ -1,9 +1,9 @@
-"""Noise of a meter's samples: white noise, noise with a short and noise with a long memory.
+"""Noise of a meter's samples: white noise and noise with short and long memories.
 
     S(f) = w + sum_k a_k (1 - r_k^2)/(1 - 2 r_k cos(2 pi f) + r_k^2)
 
-fitted to the periodogram by Whittle's (1953) likelihood. Slow frequencies are left out: a law that has been fitted to
-the readings has taken their noise up, and the correlation of what it leaves is too short.
+fitted to the periodogram of the residuals of a law by Whittle's (1953) likelihood. The law has taken up a share h(f) of
+the noise at each frequency, most where it varies slowly itself: what is left is S (1 - h).
 """
 
 from __future__ import annotations
@@ -18,9 +18,10 @@ from scipy.optimize import minimize
 
 from reynolds.numerics.arrays import Array
 
-ABSORBED = 8.0  # periods over a series: slower noise is taken up by a law with slow cosines
-MEMORIES = (3.0, 60.0)  # samples, at the beginning of the fit
+MEMORIES = (3.0, 100.0, 20.0)  # samples, at the beginning of the fit
 SHORTEST = 0.3  # samples
+LONGEST = 0.05  # of the series: slower noise is the law's
+MOST_TAKEN = 0.9  # share of a frequency that a law has taken up: what is left of more tells nothing
 FORGOTTEN = 1e-3  # correlation that counts as none
 
 
@@ -39,36 +40,48 @@ class SampleNoise:
         return np.asarray(self.sigma**2 * (shares @ matmul_toeplitz(column, shares.T)))
 
 
-def sample_noise(residual: Array, place: NDArray[np.int64], count: int) -> SampleNoise:
-    """Noise of residuals (n,) about a fitted law, at places (n,) of a raster of `count` samples."""
-    variance = float(np.var(residual))
-    if variance == 0.0 or len(residual) < 8:
+def sample_noise(residual: Array, columns: Array, place: NDArray[np.int64], count: int) -> SampleNoise:
+    """Noise of residuals (n,) of a law with columns (n, m), at places (n,) of a raster of `count` samples."""
+    variance = float(residual @ residual) / max(len(residual) - columns.shape[1], 1)
+    if variance == 0.0 or len(residual) < 2 * columns.shape[1]:
         return SampleNoise(float(np.sqrt(variance)), np.ones(1))
-    placed = np.zeros(count)
-    placed[place] = (residual - residual.mean()) / np.sqrt(variance)
-    power = np.abs(np.fft.rfft(placed)) ** 2 / len(residual)
+    power = _power(residual[:, None] / np.sqrt(variance), place, count)
+    taken = _power(np.linalg.qr(columns / np.maximum(np.abs(columns).max(axis=0), 1e-300))[0], place, count)
     frequency = np.fft.rfftfreq(count)
-    shown = (frequency > ABSORBED / count) & (frequency < 0.5)
-    waves, power = np.cos(2.0 * np.pi * frequency[shown]), power[shown]
-
-    longest = max(count / (2.0 * np.pi * ABSORBED), 2.0 * SHORTEST)
-    white, shares, memories = min((_fitted(waves, power, terms, longest) for terms in (0, 1, 2)), key=itemgetter(0))[1]
+    shown = (frequency > 0.0) & (frequency < 0.5) & (taken < MOST_TAKEN)
+    periodogram = _Periodogram(np.cos(2.0 * np.pi * frequency[shown]), power[shown], 1.0 - taken[shown])
+    fits = (_fitted(periodogram, terms, LONGEST * count) for terms in range(len(MEMORIES) + 1))
+    white, shares, memories = min(fits, key=itemgetter(0))[1]
     whole = white + shares.sum()
     apart = np.arange(int(np.ceil(memories.max(initial=0.0) * np.log(1.0 / FORGOTTEN))) + 1)
     correlation = (np.exp(-apart[:, None] / memories) @ shares + white * (apart == 0)) / whole
     return SampleNoise(float(np.sqrt(variance * whole)), correlation)
 
 
-def _fitted(waves: Array, power: Array, terms: int, longest: float) -> tuple[float, tuple[float, Array, Array]]:
-    """Akaike's (1974) criterion of white noise and some terms with memory; white variance, their variances, memories.
+@dataclass(frozen=True)
+class _Periodogram:
+    """Power by the cosine of the angle a sample, and the share of the noise that is left in it; (F,) each."""
 
-    A memory beyond the slowest wave that is shown is not told from this.
-    """
+    waves: Array
+    power: Array
+    left: Array
+
+
+def _power(values: Array, place: NDArray[np.int64], count: int) -> Array:
+    """Power (F,) of columns (n, m) together at places of a raster, a sample."""
+    placed = np.zeros((count, values.shape[1]))
+    placed[place] = values
+    return np.asarray((np.abs(np.fft.rfft(placed, axis=0)) ** 2).sum(axis=1) / len(place))
+
+
+def _fitted(of: _Periodogram, terms: int, longest: float) -> tuple[float, tuple[float, Array, Array]]:
+    """Half of Akaike's (1974) criterion, the white variance, variances and memories of some terms beside it."""
 
     def lost(logs: Array) -> float:
-        spectrum = _spectrum(*_parts(logs), waves)
-        return float(np.sum(np.log(spectrum) + power / spectrum))
+        spectrum = of.left * _spectrum(*_parts(logs), of.waves)
+        return float(np.sum(np.log(spectrum) + of.power / spectrum))
 
+    longest = max(longest, 2.0 * SHORTEST)
     start = np.log(np.concatenate((np.full(1 + terms, 1.0 / (1 + terms)), np.minimum(MEMORIES[:terms], longest))))
     bounds = [(-14.0, 3.0)] * (1 + terms) + [(float(np.log(SHORTEST)), float(np.log(longest)))] * terms
     found = minimize(lost, start, method="L-BFGS-B", bounds=bounds)

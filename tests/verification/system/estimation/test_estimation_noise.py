@@ -11,6 +11,7 @@ from scipy.linalg import toeplitz
 from scipy.stats import kstest
 
 from reynolds import Array
+from reynolds.errors import InputError
 from system import (
     Channel,
     FitLimits,
@@ -150,6 +151,40 @@ def test_whitening_makes_the_covariance_one(memory: tuple[float, ...]) -> None:
     assert matrix[:, kept] @ covariance @ matrix[:, kept].T == pytest.approx(np.eye(kept.size), abs=1e-10)
     sizes = 2.0 * np.log(observed.sigma[observed.measured]).sum()
     assert whitening.log_determinant == pytest.approx(0.5 * (sizes - np.linalg.slogdet(covariance)[1]), abs=1e-9)
+
+
+def test_known_correlation_is_whitened() -> None:
+    """W C W^T = 1 for readings whose own noise correlates between points, and ln det with it; inputs known exactly."""
+    bench, distance = _bench(), np.abs(np.subtract.outer(np.arange(POINTS), np.arange(POINTS)))
+    correlation = tuple(0.6 * np.exp(-distance / length) + 0.4 * np.eye(POINTS) for length in (3.0, 8.0))
+    values = np.zeros((POINTS, 2))
+    values[3, 0] = values[7:9, 1] = np.nan
+    observed = replace(_readings(values, input_sigma=0.0), quantum=np.zeros(2), correlation=correlation)
+    whitening = whitener(observed, bench.input_slopes(np.zeros(3)))
+    kept = np.flatnonzero(observed.measured.ravel())
+    joint = sum(np.kron(own, np.diag(np.eye(2)[k])) for k, own in enumerate(correlation))
+    spread = observed.sigma.ravel()
+    covariance = (joint * np.outer(spread, spread))[np.ix_(kept, kept)]
+    matrix = _dense(whitening, (POINTS, 2))[:, kept]
+    assert matrix @ covariance @ matrix.T == pytest.approx(np.eye(kept.size), abs=1e-10)
+    sizes = 2.0 * np.log(observed.sigma[observed.measured]).sum()
+    assert whitening.log_determinant == pytest.approx(0.5 * (sizes - np.linalg.slogdet(covariance)[1]), abs=1e-9)
+
+
+def test_noise_of_inputs_does_not_correlate() -> None:
+    """Where all noise comes from the inputs, known correlation of the readings' own noise counts for nothing."""
+    bench, values = _bench(), np.zeros((POINTS, 2))
+    loud = replace(
+        _readings(values, input_sigma=1e4), quantum=np.zeros(2), correlation=(np.full((POINTS, POINTS), 0.9),) * 2
+    )
+    factors = whitener(loud, bench.input_slopes(np.zeros(3))).serial
+    assert all(np.abs(np.tril(own, -1)).max() < 1e-4 for own in factors)
+
+
+def test_a_correlation_of_another_size_is_refused() -> None:
+    for found in ((np.eye(POINTS),), (np.eye(3), np.eye(3))):
+        with pytest.raises(InputError, match="correlation"):
+            replace(_readings(np.zeros((POINTS, 2))), correlation=found)
 
 
 def test_autocorrelation(validation) -> None:
