@@ -34,6 +34,7 @@ from system.estimation.parameters import Parameter
 from system.estimation.posterior import values_at
 from system.inputs.channels import INPUTS, OUTPUTS, ChannelName
 
+BENT = 1.0 / 3.0  # of a departure's width, what is not linear in the axes: a power bends no more over a map
 OF_PORTS = 0.05  # of the drain, one sigma of what leaks while ports change: no plate states their timing
 PEAKS = 3e5  # Pa, one sigma of what peaks while ports change add to the mean chamber pressure
 LEAST_ACROSS = 1e6  # Pa
@@ -111,7 +112,8 @@ def _of_another_make(bench: LumpedBench, axes: Array, sigma: Array, width: float
     """
     centre = values_at(bench.parameters, np.zeros(len(bench.parameters)))
     across = np.maximum(bench.points.p_out - bench.points.p_case, LEAST_ACROSS)
-    shapes = np.column_stack([smooth_shapes(axes)[:, 1:], np.log(across / np.median(across))])
+    first, second = np.split(smooth_shapes(axes)[:, 1:], [axes.shape[1]], axis=1)
+    shapes = np.column_stack([first, BENT * second, np.log(across / np.median(across))])
     of_ports = np.column_stack([np.full_like(across, OF_PORTS), PEAKS / across])
     parts = bench.components(centre)
     is_drain = np.array([name is ChannelName.Q_CASE for name in bench.channels])

@@ -22,6 +22,8 @@ from .plant.pump import MAKE, UNCERTAIN, Array, Pump
 PARTS = 10  # of the pressure's range, and of the time
 GAIN, ZERO = 0.003, 0.003  # one sigma of a meter: relative, and over its median
 P_OUT, T_CASE = 1e4, 0.5  # Pa, K: the same of the zeros of inputs
+WARMTH, BETWEEN = 3.0, 0.5  # K at 20 MPa by which films are warmer, share of the inlet in their oil: one sigma
+OF_PORTS = 0.05  # of the drain: what leaks while ports change, and delivery does not lack
 UNREAD = 1e3  # times its noise: sigma of a mean that a dead band swallows
 NAMES = ("Q_out", "Q_case", "torque")
 
@@ -129,6 +131,9 @@ def _whitening(bench: Bench, sigma: Array) -> Whitening:
     shared += [bench.means(one, state) - base for one in makes]
     shared.append(bench.means(pump, replace(state, pressure=state.pressure + P_OUT)) - base)
     shared.append(bench.means(pump, replace(state, case=state.case + T_CASE)) - base)
+    shared.append(bench.means(pump, state, replace(NOTHING, heating=WARMTH)) - base)
+    shared.append(bench.means(pump, replace(state, case=state.case + BETWEEN * (state.inlet - state.case))) - base)
+    shared.append(base * [OF_PORTS * (name == "Q_case") for name in bench.outputs])
     place, count = bench.places
     along = np.bincount(place, np.linspace(-0.5, 0.5, place.size)) / count
     for k in range(len(bench.outputs)):

@@ -64,9 +64,15 @@ def _leaks(pump: Pump, at: State, hidden: Hidden, mu: Array) -> Array:
     p = at.pressure - at.around
     opened = (1.0 + hidden.opening * p / FULL) ** 3 * np.exp(-0.5 * hidden.thickening * p / FULL)
     expanded = np.maximum(1.0 + hidden.clearance * (at.body - 40.0), 0.1) ** 3
-    warmed = np.exp(WARM * hidden.heating * (0.6 * p / MIDDLE + 0.4 * mu * at.speed / (THICK * USUAL_SPEED)))
+    warmed = 1.0 / _thinned(at, hidden, mu)
     form = (np.maximum(p, LEAST) / MIDDLE) ** pump.bend * (mu / THICK) ** pump.slack
     return np.asarray(pump.leak * pump.displacement * p / (TURN * mu) * form * opened * expanded * warmed)
+
+
+def _thinned(at: State, hidden: Hidden, mu: Array) -> Array:
+    """Viscosity of films that throttling and shear warm, over that of the case."""
+    warmer = hidden.heating * (0.6 * at.pressure / MIDDLE + 0.4 * mu * at.speed / (THICK * USUAL_SPEED))
+    return np.asarray(np.exp(-WARM * warmer))
 
 
 def _to_case(pump: Pump, at: State, hidden: Hidden) -> Array:
@@ -96,7 +102,7 @@ def _torque(pump: Pump, at: State, hidden: Hidden, mu: Array) -> Array:
     ideal = arm * p * (stroke - pump.recovered * stored + hidden.compression * stored * (p / FULL) ** -0.2)
     loaded = np.maximum(p, LEAST)
     contact = pump.coulomb * (loaded / MIDDLE) ** pump.rub + hidden.mixed / (1.0 + mu * at.speed / loaded / HERSEY)
-    viscous = pump.viscous * mu * at.speed * arm
+    viscous = pump.viscous * mu * _thinned(at, hidden, mu) * at.speed * arm
     churning = hidden.churning * (at.speed / USUAL_SPEED) ** 1.85 * (mu / THICK) ** 0.15
     creeping = hidden.creeping * np.sqrt(np.maximum(p, 0.0) / MIDDLE) * np.exp(-(at.case - 40.0) / 8.0)
     return np.asarray(ideal + arm * p * contact + viscous + pump.fixed + arm * UNIT * (churning + creeping))

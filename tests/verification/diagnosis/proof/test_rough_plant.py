@@ -74,7 +74,7 @@ def test_courses_go_over_the_map(rough: SimpleNamespace, kind: str) -> None:
 
 
 MOVES = {  # signs of Q_out, Q_case, torque at high pressure
-    "opening": (0.1, (-1, 1, 0)), "thickening": (0.2, (1, -1, 0)), "heating": (3.0, (-1, 1, 0)),
+    "opening": (0.1, (-1, 1, 0)), "thickening": (0.2, (1, -1, 0)), "heating": (3.0, (-1, 1, -1)),
     "control": (0.002, (-1, 1, 0)), "short_circuit": (0.002, (-1, 0, 0)), "cross_leak": (0.002, (-1, 0, 0)),
     "squeeze": (0.001, (0, 1, 0)), "droop": (0.01, (-1, 0, -1)), "mixed": (0.02, (0, 0, 1)),
     "compression": (0.2, (0, 0, 1)), "churning": (0.2, (0, 0, 1)), "weeping": (0.01, (-1, 1, 0)),
@@ -160,7 +160,7 @@ def test_readings_are_those_of_the_version(rough: SimpleNamespace) -> None:
     """Means of a recording with something concealed: where they differ, raise VERSION in benchmarks/proof/rough."""
     case = rough.WideCase(rough.Part.ROUGH_EFFECT, "sweep", 3, rough.cases.EFFECTS[2:3], 8.0)
     found, told = rough.recordings.recorded(case)
-    assert import_module("proof.rough").VERSION == 2
+    assert import_module("proof.rough").VERSION == 3
     assert told.effects == ("control_flow",)
     means = [float(found.columns[name].mean()) for name in ("p_out", "Q_out", "Q_case")]
     assert means == pytest.approx(MEANS, rel=1e-5)
