@@ -79,6 +79,7 @@ def _fits(
     if is_settled(detection, null, thresholds):
         refitted, failed = refit_all(study, listed, thresholds, executor, report)
     else:
+        listed = (*listed, *_listed_anew(study, screened, listed, null, thresholds))
         wrong = wrong_parameters(study, screened, thresholds)
         more = tuple(each for each, _ in wrong if each not in listed)
         reached = [look.reached for _, look in wrong]
@@ -93,6 +94,25 @@ def _fits(
         refitted, failed = (*refitted, *parts), (*failed, *not_combined, *not_parted)
     single = _unknown_anew(study, _placed(study, screened, null, refitted), null, thresholds)
     return _Fits(without_stand_ins(study, (*single, *combined), thresholds), failed)
+
+
+def _listed_anew(
+    study: Study,
+    screened: Sequence[Explanation],
+    listed: Sequence[Explanation],
+    null: Explanation,
+    thresholds: Thresholds,
+) -> tuple[Explanation, ...]:
+    """Further explanations to refit where the linear model about the prior mean misses the null: by one about its fit.
+
+    Nuisances that have moved far no longer hide what they hid at the prior mean, or hide it now.
+    """
+    linear = next(each for each in screened if each.hypothesis.kind is Kind.NO_MISMATCH)
+    if null.posterior is None or linear.log_evidence - null.log_evidence <= thresholds.name.shortlist_gap:
+        return ()
+    anew = screen(study, settled(null.posterior), [each.hypothesis for each in screened], thresholds)
+    names = {each.hypothesis.open_names for each in shortlist(anew, False, thresholds)}
+    return tuple(each for each in screened if each.hypothesis.open_names in names and each not in listed)
 
 
 def _parts(placed: Sequence[Explanation], best: Explanation) -> tuple[Explanation, ...]:

@@ -1,4 +1,4 @@
-"""Correlated noise: errors of readings that persist from one point to the next, in the order of recording."""
+"""Noise beyond what is stated: errors that persist in the order of recording, scatter about a smooth mismatch."""
 
 from __future__ import annotations
 
@@ -22,13 +22,7 @@ def noise_correlation(study: Study, limits: MismatchLimits) -> tuple[float, ...]
     pairs = _pairs(study, limits.memory_apart)
     if len(pairs) < limits.memory_pairs:
         return ()
-    base = study.base
-    slopes = np.hstack([base.slopes, _smooth_columns(study, limits.smooth)])
-    factor = cho_factor(slopes.T @ slopes + np.eye(slopes.shape[1]))
-    offset = base.residual + base.slopes @ base.xi
-    clip = limits.memory_clip
-    residual = np.clip(offset - slopes @ cho_solve(factor, slopes.T @ offset), -clip, clip)
-    left = np.eye(len(offset)) - slopes @ cho_solve(factor, slopes.T)
+    residual, left = _without_smooth_mismatch(study, limits)
     one, other = pairs.T
     half = np.zeros_like(left)
     half[one, other] = half[other, one] = 0.5
@@ -39,6 +33,29 @@ def noise_correlation(study: Study, limits: MismatchLimits) -> tuple[float, ...]
     if excess < limits.memory * spread:
         return ()
     return (min(excess / spread**2, limits.memory_most),)
+
+
+def noise_excess(study: Study, limits: MismatchLimits) -> Array:
+    """Scatter (C,) of each channel's readings in units of their noise, 1 at least.
+
+    A smooth mismatch of every channel over the map is taken out: what is left is noise, whatever the physics. Of the
+    residual r = P y with P of trace n - m the mean square is r.r/tr P.
+    """
+    residual, left = _without_smooth_mismatch(study, limits)
+    channel, count = study.base.whitening.rows[:, 1], study.observations.values.shape[1]
+    squares, free = (np.bincount(channel, each, count) for each in (residual**2, np.diag(left)))
+    return np.sqrt(np.maximum(squares / np.maximum(free, 1.0), 1.0))
+
+
+def _without_smooth_mismatch(study: Study, limits: MismatchLimits) -> tuple[Array, Array]:
+    """Residual (n,) without a smooth mismatch over the map, clipped, and the matrix (n, n) that leaves it."""
+    base = study.base
+    slopes = np.hstack([base.slopes, _smooth_columns(study, limits.smooth)])
+    factor = cho_factor(slopes.T @ slopes + np.eye(slopes.shape[1]))
+    offset = base.residual + base.slopes @ base.xi
+    residual = offset - slopes @ cho_solve(factor, slopes.T @ offset)
+    left = np.eye(len(offset)) - slopes @ cho_solve(factor, slopes.T)
+    return np.clip(residual, -limits.memory_clip, limits.memory_clip), left
 
 
 def _pairs(study: Study, least: float) -> Array:

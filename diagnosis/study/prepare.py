@@ -13,7 +13,7 @@ from diagnosis.study.felt import felt
 from diagnosis.study.inputs import assumed_parameters, bench_points, complete, measured
 from diagnosis.study.map_axes import scaled_axes, smooth_shapes
 from diagnosis.study.model import Study, study_of
-from diagnosis.study.noise_correlation import noise_correlation
+from diagnosis.study.noise_correlation import noise_correlation, noise_excess
 from diagnosis.study.readings import observations
 from diagnosis.study.traces.bench import traced_bench
 from diagnosis.study.traces.misfits import port_events, trace_misfits, trace_parameters
@@ -38,6 +38,7 @@ BENT = 1.0 / 3.0  # of a departure's width, what is not linear in the axes: a po
 OF_PORTS = 0.05  # of the drain, one sigma of what leaks while ports change: no plate states their timing
 PEAKS = 3e5  # Pa, one sigma of what peaks while ports change add to the mean chamber pressure
 LEAST_ACROSS = 1e6  # Pa
+TOLD_EXCESS = 1.2  # of the noise of a channel's points over that of its samples, from which a note gives it
 LAG = 1.0  # s, one sigma of a flow meter's lag where none is stated
 
 
@@ -77,6 +78,11 @@ def prepare(
         bench = _of_another_make(bench, axes, found.sigma, thresholds.form.other_make)
     traces = usable.channel(ChannelName.P_CHAMBER) if usable.traces else None
     bare = study_of(usable, bench, found, axes, (), thresholds)
+    if found.correlation:  # of a series: its noise is an estimate
+        excess = noise_excess(bare, thresholds.mismatch)
+        found = replace(found, sigma=found.sigma * excess)
+        usable = replace(usable, notes=(*usable.notes, *_excess_notes(channels, excess)))
+        bare = study_of(usable, bench, found, axes, (), thresholds)
     memory = () if found.correlation else noise_correlation(bare, thresholds.mismatch)
     if memory:
         text = f"residuals persist from point to point: noise is assumed correlated by {memory[0]:.2f} in the order"
@@ -94,6 +100,16 @@ def prepare(
         usable = replace(usable, notes=(*usable.notes, *_drift_notes(courses, usable)))
         study = study_of(usable, bench, found, axes, catalogue, thresholds)
     return replace(study, events=port_events(pump))
+
+
+def _excess_notes(channels: tuple[ChannelName, ...], excess: Array) -> Iterator[DataNote]:
+    """A note on each channel whose means scatter clearly more than their samples' noise tells."""
+    for channel, factor in zip(channels, excess, strict=True):
+        if factor > TOLD_EXCESS:
+            text = (
+                f"{channel.value}: its points scatter {factor:.2g} times as much as the noise of its samples: taken so"
+            )
+            yield DataNote(NoteKind.NOTED, channel, (), text)
 
 
 def _drift_notes(courses: Mapping[ChannelName, Array], recording: Recording) -> Iterator[DataNote]:
