@@ -227,8 +227,8 @@ def test_a_stuck_input_is_put_aside_and_a_set_one_told():
 def test_rows_written_twice_are_a_fault():
     recording = _sound()
     steady = recording.steady
-    twice = {name: np.concatenate([values, values[:20]]) for name, values in vars(steady).items()}
-    told = _told(replace(recording, steady=replace(steady, **twice)))
+    twice = steady.at(np.concatenate([np.arange(len(steady.values)), np.arange(20)]))
+    told = _told(replace(recording, steady=twice))
     assert any(kind is NoteKind.FAULT and "written twice" in text for kind, _, text in told)
 
 
