@@ -20,7 +20,7 @@ from diagnosis.detect.regions import strongest_region
 from diagnosis.detect.time_scan import TimeKind
 from diagnosis.study.map_axes import axis_values, inside, scaled_axes
 from diagnosis.study.model import concerned, study_of
-from diagnosis.study.noise_correlation import noise_correlation
+from diagnosis.study.noise_correlation import noise_correlation, noise_excess
 from diagnosis.verdict.locate import Location, locate, of_explanation
 from reynolds import Array
 from system import ChannelName, Component, EffectId, Extension, Kind, Parameter, Role, Scale
@@ -184,6 +184,16 @@ def test_noise_that_remembers_is_told_from_white_noise() -> None:
 def test_an_effect_is_no_memory() -> None:
     """An effect of thirty sigma, and points in an order of no system: nothing goes on from one to the next."""
     assert noise_correlation(_study(_sized(EffectId.ELASTIC_OPENING, 30.0), seed=3), LIMITS.mismatch) == ()
+
+
+def test_scatter_beyond_the_noise_is_that_of_the_readings() -> None:
+    """Noise three times as strong as stated in the first channel; of physics of thirty sigma only what is not smooth."""
+    louder = np.random.default_rng(11).normal(size=(POINTS, 3)) * SIGMA * [np.sqrt(8.0), 0.0, 0.0]
+    found = noise_excess(_study(louder, seed=4), LIMITS.mismatch)
+    assert found[0] == pytest.approx(3.0, rel=0.2)  # some 64 free readings: 9 %
+    assert found[1:] == pytest.approx(1.0, abs=0.3)
+    opened = noise_excess(_study(_sized(EffectId.ELASTIC_OPENING, 30.0), seed=3), LIMITS.mismatch)
+    assert np.all(opened < 1.5)  # with what is smooth the readings are 3.5 of their sigma off
 
 
 def test_pulls_have_the_variance_that_is_promised() -> None:
