@@ -70,6 +70,7 @@ class RefitLimits:
     tolerated: float
     reach: float
     farther: float
+    worth: float
     hopeless: float
     felt: float
     redundant: float

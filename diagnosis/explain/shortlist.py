@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from math import inf
 
 from scipy.stats import chi2
 
@@ -25,18 +26,30 @@ def is_settled(detection: Detection, null: Explanation, thresholds: Thresholds) 
     return detection.chance >= limits.suspicion and p_value >= limits.chance
 
 
-def shortlist(screened: Sequence[Explanation], settled: bool, thresholds: Thresholds) -> tuple[Explanation, ...]:
+def shortlist(
+    screened: Sequence[Explanation], settled: bool, thresholds: Thresholds, gain: float = -inf
+) -> tuple[Explanation, ...]:
     """The explanations of the catalogue to refit: those within the gap of the best in the linear model.
 
     Where the null holds, only those that gain on it, and none unless the null is improbable: a verdict needs both.
+    gain: nats over the null, at least, in the linear model.
     """
     limits = thresholds.name
     ranked = _ranked(screened)
     null = next(each for each in with_probabilities(screened, limits.temperature) if _is_null(each))
     if not ranked or (settled and null.probability >= thresholds.mismatch.null_probability):
         return ()
-    least = max(ranked[0].log_evidence - limits.shortlist_gap, null.log_evidence if settled else -float("inf"))
+    least = max(ranked[0].log_evidence - limits.shortlist_gap, null.log_evidence + (0.0 if settled else gain))
     return tuple(each for each in ranked[: limits.shortlist] if each.log_evidence > least)
+
+
+def worth_a_refit(linear: Explanation, null: Explanation, thresholds: Thresholds) -> float:
+    """Gain over the null in the linear model below which no explanation is refitted, where that model is right.
+
+    It is where it gives the evidence of the null's own fit: a cheap fit of what gains nothing would find nothing.
+    """
+    is_right = abs(linear.log_evidence - null.log_evidence) < thresholds.name.odds
+    return thresholds.fit.worth if is_right else -inf
 
 
 def wrong_parameters(
@@ -65,4 +78,4 @@ def _look(study: Study, wrong: Explanation, thresholds: Thresholds) -> FirstLook
     try:
         return first_look(study, wrong.hypothesis, thresholds)
     except NotConverged:
-        return FirstLook(float("inf"), float("inf"))
+        return FirstLook(inf, inf)

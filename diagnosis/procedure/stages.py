@@ -18,7 +18,7 @@ from diagnosis.explain.ranked import Explanation, with_probabilities
 from diagnosis.explain.refit import hopeless_beside, refit_all, try_refit, within_tolerance
 from diagnosis.explain.scaling import Scaling, scaling
 from diagnosis.explain.screen import screen, unknown_gain
-from diagnosis.explain.shortlist import is_settled, shortlist, wrong_parameters
+from diagnosis.explain.shortlist import is_settled, shortlist, worth_a_refit, wrong_parameters
 from diagnosis.study.model import Study
 from diagnosis.thresholds import Thresholds
 from diagnosis.verdict.diagnosis import Diagnosis, VerdictStatus
@@ -74,7 +74,8 @@ def _fits(
     report: Report,
 ) -> _Fits:
     """Refits of the likeliest; with a mismatch also of wrong parameters and of several effects together."""
-    listed = shortlist(screened, is_settled(detection, null, thresholds), thresholds)
+    least = worth_a_refit(screened[0], null, thresholds)
+    listed = shortlist(screened, is_settled(detection, null, thresholds), thresholds, least)
     combined: tuple[Explanation, ...] = ()
     if is_settled(detection, null, thresholds):
         refitted, failed = refit_all(study, listed, thresholds, executor, report)
