@@ -29,6 +29,7 @@ class MismatchLimits:
     memory_pairs: int
     memory_most: float
     memory_clip: float
+    excess: float
     flag_rate: float
     pull: float
 
@@ -109,6 +110,9 @@ class FormLimits:
     flat: float
     least_range: float
     other_make: float
+    bent: float
+    of_ports: float
+    peaks: float
     drift: float
 
 

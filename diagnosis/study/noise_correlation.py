@@ -36,15 +36,17 @@ def noise_correlation(study: Study, limits: MismatchLimits) -> tuple[float, ...]
 
 
 def noise_excess(study: Study, limits: MismatchLimits) -> Array:
-    """Scatter (C,) of each channel's readings in units of their noise, 1 at least.
+    """Scatter (C,) of each channel's readings in units of their noise, 1 at least; 1 where it is more than `excess`.
 
-    A smooth mismatch of every channel over the map is taken out: what is left is noise, whatever the physics. Of the
-    residual r = P y with P of trace n - m the mean square is r.r/tr P.
+    A smooth mismatch of every channel over the map is taken out: what is left is noise, whatever the physics, unless
+    it is so much that a mismatch is not smooth. Of the residual r = P y with P of trace n - m the mean square is
+    r.r/tr P.
     """
     residual, left = _without_smooth_mismatch(study, limits)
     channel, count = study.base.whitening.rows[:, 1], study.observations.values.shape[1]
     squares, free = (np.bincount(channel, each, count) for each in (residual**2, np.diag(left)))
-    return np.sqrt(np.maximum(squares / np.maximum(free, 1.0), 1.0))
+    scatter = np.sqrt(np.maximum(squares / np.maximum(free, 1.0), 1.0))
+    return np.where(scatter > limits.excess, 1.0, scatter)
 
 
 def _without_smooth_mismatch(study: Study, limits: MismatchLimits) -> tuple[Array, Array]:

@@ -17,7 +17,7 @@ from diagnosis.study.noise_correlation import noise_correlation, noise_excess
 from diagnosis.study.readings import observations
 from diagnosis.study.traces.bench import traced_bench
 from diagnosis.study.traces.misfits import port_events, trace_misfits, trace_parameters
-from diagnosis.thresholds import Thresholds
+from diagnosis.thresholds import FormLimits, Thresholds
 from reynolds.errors import InputError
 from reynolds.numerics.arrays import Array
 from system.bench.components import LEAKAGE
@@ -34,9 +34,6 @@ from system.estimation.parameters import Parameter
 from system.estimation.posterior import values_at
 from system.inputs.channels import INPUTS, OUTPUTS, ChannelName
 
-BENT = 1.0 / 3.0  # of a departure's width, what is not linear in the axes: a power bends no more over a map
-OF_PORTS = 0.05  # of the drain, one sigma of what leaks while ports change: no plate states their timing
-PEAKS = 3e5  # Pa, one sigma of what peaks while ports change add to the mean chamber pressure
 LEAST_ACROSS = 1e6  # Pa
 TOLD_EXCESS = 1.2  # of the noise of a channel's points over that of its samples, from which a note gives it
 LAG = 1.0  # s, one sigma of a flow meter's lag where none is stated
@@ -75,7 +72,7 @@ def prepare(
     bench = LumpedBench(pump, points, channels, parameters, inputs=inputs)
     found, axes = observations(usable, channels, inputs), scaled_axes(usable)
     if scant:
-        bench = _of_another_make(bench, axes, found.sigma, thresholds.form.other_make)
+        bench = _of_another_make(bench, axes, found.sigma, thresholds.form)
     traces = usable.channel(ChannelName.P_CHAMBER) if usable.traces else None
     bare = study_of(usable, bench, found, axes, (), thresholds)
     if found.correlation:  # of a series: its noise is an estimate
@@ -120,7 +117,7 @@ def _drift_notes(courses: Mapping[ChannelName, Array], recording: Recording) -> 
         yield DataNote(NoteKind.NOTED, channel, (), text)
 
 
-def _of_another_make(bench: LumpedBench, axes: Array, sigma: Array, width: float) -> LumpedBench:
+def _of_another_make(bench: LumpedBench, axes: Array, sigma: Array, form: FormLimits) -> LumpedBench:
     """The bench with departures of its leakage and friction from the simulation's laws.
 
     Leakage departs by smooth factors and a power of the pressure. While ports change, chambers leak into the case what
@@ -129,13 +126,13 @@ def _of_another_make(bench: LumpedBench, axes: Array, sigma: Array, width: float
     centre = values_at(bench.parameters, np.zeros(len(bench.parameters)))
     across = np.maximum(bench.points.p_out - bench.points.p_case, LEAST_ACROSS)
     first, second = np.split(smooth_shapes(axes)[:, 1:], [axes.shape[1]], axis=1)
-    shapes = np.column_stack([first, BENT * second, np.log(across / np.median(across))])
-    of_ports = np.column_stack([np.full_like(across, OF_PORTS), PEAKS / across])
+    shapes = np.column_stack([first, form.bent * second, np.log(across / np.median(across))])
+    of_ports = np.column_stack([np.full_like(across, form.of_ports), form.peaks / across])
     parts = bench.components(centre)
     is_drain = np.array([name is ChannelName.Q_CASE for name in bench.channels])
     drained = np.sum([parts[part] for part in LEAKAGE], axis=0) * is_drain
     apart = drained[:, :, None] * of_ports[:, None, :]
-    return bench.with_departures(departures(parts, shapes, sigma, width, apart))
+    return bench.with_departures(departures(parts, shapes, sigma, form.other_make, apart))
 
 
 def _sensors(recording: Recording, channels: tuple[ChannelName, ...]) -> tuple[Parameter, ...]:
