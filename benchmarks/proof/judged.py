@@ -43,8 +43,8 @@ def is_right(outcome: Outcome) -> bool:
 
 
 def _at_gap(claim: Claimed, pair: str | None) -> bool:
-    """Whether a claim is at a gap: told, in its class, or at no gap at all."""
-    return claim.pair is None or pair in (claim.pair, *claim.elsewhere)
+    """Whether a claim is at a gap: told, in its class, or at no gap at all. A plant without gaps (None) has no other."""
+    return claim.pair is None or pair in (None, claim.pair, *claim.elsewhere)
 
 
 def is_named(outcome: Outcome) -> bool:

@@ -51,6 +51,7 @@ def test_a_wrong_verdict(proof: SimpleNamespace, right: object) -> None:
     assert not judged.is_wrong_name(one_of)
     gap = replace(right, claims=(claimed("elastic_opening", "piston", 0.97, ()),))
     assert not judged.is_right(gap)
+    assert judged.is_right(replace(gap, pairs=(None,)))  # of a plant that has no gaps
     assert judged.is_grave(gap)
     other = replace(right, claims=(claimed("churning", None, 0.97, ()),))
     assert judged.is_grave(other)
