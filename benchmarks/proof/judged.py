@@ -43,7 +43,7 @@ def is_right(outcome: Outcome) -> bool:
 
 
 def _at_gap(claim: Claimed, pair: str | None) -> bool:
-    """Whether a claim is at a gap: told, in its class, or at no gap at all. A plant without gaps (None) has no other."""
+    """Whether a claim is at a gap: told, in its class, or at none; in a plant without gaps (None) no gap is wrong."""
     return claim.pair is None or pair in (None, claim.pair, *claim.elsewhere)
 
 
