@@ -6,7 +6,7 @@ point; its standard error follows from the noise of single samples and its corre
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
 
@@ -94,15 +94,21 @@ def quasi_steady(time: Array, readings: Array, names: Sequence[ChannelName]) -> 
     kept = np.bincount(cell) >= FEWEST
     order = np.flatnonzero(kept)[np.argsort(centre[kept, -1])]
     means = _means(steady, cell)[0][order]
-    errors, directions = np.full_like(means, np.nan), np.zeros((*means.shape, len(order)))
-    errors[np.isfinite(means)] = 0.0
-    for k, meter in meters.items():
-        there = np.zeros((len(order), len(time)))
-        there[:, usable] = (order[:, None] == cell) & np.isfinite(steady[:, k])
-        rows = np.flatnonzero(np.isfinite(means[:, k]))
-        errors[rows, k], directions[rows, k, : len(rows)] = _shared(meter, there[rows])
+    belongs = np.zeros((len(order), len(time)), dtype=bool)
+    belongs[:, usable] = order[:, None] == cell
+    errors, directions = _errors(meters, means, belongs)
     middle = time[0] + centre[order, -1] * float(time[-1] - time[0])
     return QuasiSteady(means, errors, directions, middle, meters, lag, 1.0 - float(usable.mean()))
+
+
+def _errors(meters: Mapping[int, MeterResponse], means: Array, belongs: Mask) -> tuple[Array, Array]:
+    """Standard errors (N, C) of means (N, C) over the samples (N, T) that belong to them, and directions (N, C, N)."""
+    errors, directions = np.where(np.isfinite(means), 0.0, np.nan), np.zeros((*means.shape, len(means)))
+    for k, meter in meters.items():
+        rows = np.flatnonzero(np.isfinite(means[:, k]))
+        there = belongs[rows] & np.isfinite(meter.steady)
+        errors[rows, k], directions[rows, k, : len(rows)] = _shared(meter, there.astype(float))
+    return errors, directions
 
 
 def _shared(meter: MeterResponse, there: Array) -> tuple[Array, Array]:
