@@ -55,8 +55,8 @@ Unless stated otherwise each campaign measures `Q_out`, `Q_in`, `Q_case` and `to
 """
 HASH_OF_RUN = (
     "The cases were run under sha256 `9853d599eb9c3f80b8e2f29f2c91b767b1fe8ae5c9ea90bf07db6d322a8494f0` of this "
-    "file. It had fewer numbers:\nthe code had those of its first lines, with the same values but [fit] hopeless (100 then). "
-    "Those that are new since the proof are named there."
+    "file. It had fewer numbers:\nthe code had those of its first lines, with the same values but [fit] hopeless "
+    "(100 then). Those that are new since the proof are named there."
 )
 GATES = """
 The gates were set before the program was written. A case without a required number counts as missed.
