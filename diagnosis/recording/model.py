@@ -71,8 +71,8 @@ class SteadyTable:
     values: (N, len(ChannelName)) in SI, pressures gauge, columns in the order of ChannelName, nan = not measured;
     repeats: (N,), points of one number repeat one set point; hours: (N,), h from the first point, nan = not known;
     errors: (N, len(ChannelName)), one sigma in SI of points that are means over a moving series; nan where a point has
-    the repeatability of its channel. directions: (N, len(ChannelName), K), the errors of two such points correlate by
-    the product of theirs; None where all points are independent.
+    the repeatability of its channel. directions: (N, len(ChannelName), K), the errors of two such points have the
+    scalar product of theirs as correlation; None where all points are independent.
     """
 
     values: Array
@@ -92,8 +92,7 @@ class SteadyTable:
             return None
         own = self.directions[:, list(ChannelName).index(name)]
         found = own @ own.T
-        np.fill_diagonal(found, 1.0)
-        return np.asarray(found)
+        return np.asarray(found + np.diag(np.where(np.diag(found) > 0.0, 0.0, 1.0)))
 
     def column(self, name: ChannelName) -> Array:
         """Readings (N,) of one channel in SI."""

@@ -103,9 +103,7 @@ def _excess_notes(channels: tuple[ChannelName, ...], excess: Array) -> Iterator[
     """A note on each channel whose means scatter clearly more than their samples' noise tells."""
     for channel, factor in zip(channels, excess, strict=True):
         if factor > TOLD_EXCESS:
-            text = (
-                f"{channel.value}: its points scatter {factor:.2g} times as much as the noise of its samples: taken so"
-            )
+            text = f"the points scatter {factor:.2g} times as much as the samples' noise allows: this scatter is used"
             yield DataNote(NoteKind.NOTED, channel, (), text)
 
 

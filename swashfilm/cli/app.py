@@ -56,6 +56,7 @@ class _Parser(argparse.ArgumentParser):
     """Argument parser that raises its errors as InputFaults."""
 
     def error(self, message: str) -> NoReturn:
+        """Raise InputFaults with argparse's message as a fault of the command line."""
         what, _, rest = message.partition(": ")
         if what == "the following arguments are required":
             fault = Fault(rest, "missing", f"see {self.prog} --help")

@@ -15,7 +15,7 @@ from system.pump.chamber import layout as col
 from system.pump.chamber.kernels import BEGIN, KEPT, LENGTH, STAGE, STAGES
 from system.pump.chamber.layout import GAPS, INTEGRALS, PATHS, PORTS, WAYS
 from system.pump.chamber.state_kernels import integral_rates, oil_of, oil_volume, outflows, volume, ways_out
-from system.pump.chamber.trail_kernels import RUN_IN
+from system.pump.chamber.trail_kernels import run_in_row
 
 END = STAGE + KEPT * (STAGES - 1)
 """Column of the pressure at the end of a step of a trail."""
@@ -36,18 +36,16 @@ def gaps_map(constants, tables, ports, others, other_tables, trail, begins, chan
         one = slice(point, point + 1)
         given = constants[one], tables[point], others[one], other_tables[point], ports[point]
         steps = trail[begins[point] : begins[point + 1]]
-        last = steps.shape[0] - 1
-        while last > 0 and steps[last, BEGIN] > steps[-1, BEGIN] + steps[-1, LENGTH] - RUN_IN:
-            last -= 1
-        start = turn_change(*given, steps[last:], 0.0, changes[point])
+        start = turn_change(*given, steps[run_in_row(steps) :], 0.0, changes[point])
         turn_change(*given, steps, start, changes[point])
 
 
 @numba.njit(cache=True, error_model="numpy")
 def turn_change(chamber, table, other, other_table, ports, trail, mass, change):
-    """Fill the change (INTEGRALS,) over the steps of a trail (T, TRAIL) from a change of mass in m3; that at the end.
+    """Fill the change (INTEGRALS,) over the steps of a trail (T, TRAIL), from a change of mass in m3 at its beginning.
 
-    At the first step an open port has made the change of pressure its own, so that its end stands for its mean.
+    Returned: the change of mass at its end. At the first step an open port has made the change of pressure its own, so
+    that its end stands for its mean.
     """
     oil, speed = oil_of(chamber), chamber[0].shaft_speed
     ways, flows, own = np.empty(WAYS), np.empty(PATHS), np.empty(PATHS)

@@ -111,14 +111,21 @@ def follow(chamber, table, ports, trail, pressure, tolerance, along, totals):
 
 
 @numba.njit(cache=True, error_model="numpy")
+def run_in_row(trail):
+    """First row of a trail (T, TRAIL) of those over its last RUN_IN."""
+    row = trail.shape[0] - 1
+    while row > 0 and trail[row, BEGIN] > trail[-1, BEGIN] + trail[-1, LENGTH] - RUN_IN:
+        row -= 1
+    return row
+
+
+@numba.njit(cache=True, error_model="numpy")
 def follow_turn(given, trail, tolerance, limit, turns, along, totals):
     """The periodic turn of a chamber beside that whose turn `trail` is, as `follow`: its status.
 
     Periodic when `oil_change` over it is no more than `limit`; the first is run in where the other's ends.
     """
-    last = trail.shape[0] - 1
-    while last > 0 and trail[last, BEGIN] > trail[-1, BEGIN] + trail[-1, LENGTH] - RUN_IN:
-        last -= 1
+    last = run_in_row(trail)
     start, status = follow(*given, trail[last:], trail[last, STAGE], tolerance, along, totals)
     for _ in range(turns):
         if status != OK:
