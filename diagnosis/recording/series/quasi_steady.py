@@ -67,6 +67,8 @@ def quasi_steady(time: Array, readings: Array, names: Sequence[ChannelName]) -> 
 
     Raises ValueError for fewer than `FEWEST` samples without gaps and jumps of the inputs.
     """
+    if len(time) < FEWEST:
+        raise ValueError(f"{len(time)} samples")
     readings, inputs = _filled(readings), [k for k, name in enumerate(names) if name in INPUTS]
     outputs = [k for k in range(len(names)) if k not in inputs]
     rate, usable = _calm(time, readings, names)

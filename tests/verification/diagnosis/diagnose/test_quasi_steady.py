@@ -103,8 +103,12 @@ def test_gaps_and_jumps_are_put_aside_and_few_samples_refused():
     readings[1000:1100] = np.nan
     found = quasi_steady(time, readings, NAMES)
     assert found.left == pytest.approx(100.0 / SAMPLES, abs=0.005)
+    readings[3:] = np.nan
     with pytest.raises(ValueError, match="samples without gaps"):
-        quasi_steady(time[:5], readings[:5], NAMES)
+        quasi_steady(time, readings, NAMES)
+    for few in (1, 4, 7):
+        with pytest.raises(ValueError, match=f"{few} samples"):
+            quasi_steady(time[:few], readings[:few], NAMES)
 
 
 def test_a_robust_fit_keeps_off_outliers():
