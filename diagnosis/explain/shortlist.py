@@ -43,6 +43,13 @@ def shortlist(
     return tuple(each for each in ranked[: limits.shortlist] if each.log_evidence > least)
 
 
+def first_that_gain(screened: Sequence[Explanation], thresholds: Thresholds) -> tuple[Explanation, ...]:
+    """The first explanations of the catalogue in the linear model, at most a shortlist, that gain on the null there."""
+    null = next(each for each in screened if _is_null(each))
+    first = _ranked(screened)[: thresholds.name.shortlist]
+    return tuple(each for each in first if each.log_evidence > null.log_evidence)
+
+
 def worth_a_refit(linear: Explanation, null: Explanation, thresholds: Thresholds) -> float:
     """Gain over the null in the linear model below which no explanation is refitted, where that model is right.
 

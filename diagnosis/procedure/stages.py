@@ -18,7 +18,7 @@ from diagnosis.explain.ranked import Explanation, with_probabilities
 from diagnosis.explain.refit import hopeless_beside, refit_all, try_refit, within_tolerance
 from diagnosis.explain.scaling import Scaling, scaling
 from diagnosis.explain.screen import screen, unknown_gain
-from diagnosis.explain.shortlist import is_settled, shortlist, worth_a_refit, wrong_parameters
+from diagnosis.explain.shortlist import first_that_gain, is_settled, shortlist, worth_a_refit, wrong_parameters
 from diagnosis.study.model import Study
 from diagnosis.thresholds import Thresholds
 from diagnosis.verdict.diagnosis import Diagnosis, VerdictStatus
@@ -95,7 +95,8 @@ def _fits(
         given_up = hopeless_beside(best, thresholds)
         parts, not_parted = refit_all(study, _parts(placed, best), thresholds, executor, report, given_up)
         refitted, failed = (*refitted, *parts), (*failed, *not_combined, *not_parted)
-    single = _unknown_anew(study, _placed(study, screened, null, refitted), null, thresholds)
+    is_missed = _is_missed(screened, null, thresholds)
+    single = _unknown_anew(study, _placed(study, screened, null, refitted), null, is_missed, thresholds)
     return _Fits(without_stand_ins(study, (*single, *combined), thresholds), failed)
 
 
@@ -122,16 +123,24 @@ def _listed_anew(
     null: Explanation,
     thresholds: Thresholds,
 ) -> tuple[Explanation, ...]:
-    """Further explanations to refit where the linear model about the prior mean misses the null: by one about its fit.
+    """Further explanations to refit where the linear model about the prior mean misses the null.
 
-    Nuisances that have moved far no longer hide what they hid at the prior mean, or hide it now.
+    There a gap in that model says little: the first of its ranking that gain on the null are refitted, and those of
+    a linear model about the null's fit. Nuisances that have moved far no longer hide what they hid at the prior mean,
+    or hide it now.
     """
-    linear = next(each for each in screened if each.hypothesis.kind is Kind.NO_MISMATCH)
-    if null.posterior is None or linear.log_evidence - null.log_evidence <= thresholds.name.shortlist_gap:
+    if null.posterior is None or not _is_missed(screened, null, thresholds):
         return ()
     anew = screen(study, settled(null.posterior), [each.hypothesis for each in screened], thresholds)
     names = {each.hypothesis.open_names for each in shortlist(anew, False, thresholds)}
+    names |= {each.hypothesis.open_names for each in first_that_gain(screened, thresholds)}
     return tuple(each for each in screened if each.hypothesis.open_names in names and each not in listed)
+
+
+def _is_missed(screened: Sequence[Explanation], null: Explanation, thresholds: Thresholds) -> bool:
+    """True if the linear model about the prior mean promises the null far more than its fit reaches."""
+    linear = next(each for each in screened if each.hypothesis.kind is Kind.NO_MISMATCH)
+    return linear.log_evidence - null.log_evidence > thresholds.name.shortlist_gap
 
 
 def _parts(placed: Sequence[Explanation], best: Explanation) -> tuple[Explanation, ...]:
@@ -188,9 +197,12 @@ def _key(each: Explanation) -> tuple[str, ...] | None:
 
 
 def _unknown_anew(
-    study: Study, explanations: Sequence[Explanation], null: Explanation, thresholds: Thresholds
+    study: Study, explanations: Sequence[Explanation], null: Explanation, is_missed: bool, thresholds: Thresholds
 ) -> tuple[Explanation, ...]:
-    """Unknown physics about the prior mean or about the null's refit, the larger evidence of the two."""
+    """Unknown physics about the prior mean or about the null's refit, the larger evidence of the two.
+
+    is_missed: the linear model about the prior mean misses the null, so that it says nothing of a multiplier either.
+    """
     fit = None if null.posterior is None else settled(null.posterior)
 
     def renewed(each: Explanation) -> Explanation:
@@ -198,7 +210,7 @@ def _unknown_anew(
         if component is None or fit is None:
             return each
         anew = null.log_evidence + unknown_gain(study, fit, component, thresholds)
-        return replace(each, log_evidence=max(each.log_evidence, anew))
+        return replace(each, log_evidence=anew if is_missed else max(each.log_evidence, anew))
 
     return tuple(renewed(each) for each in explanations)
 

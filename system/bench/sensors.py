@@ -17,6 +17,7 @@ BIASED_INPUTS = (ChannelName.P_OUT, ChannelName.T_CASE, ChannelName.DISPLACEMENT
 """Inputs whose bias by calibration is a parameter of its own."""
 CALIBRATION, TAKEN = "calibration of the channel", "not measured, taken"
 FARTHEST = 4.0  # sigma that what is taken may be off
+FARTHEST_GAIN = 0.3  # relative error of a meter: one that is farther off is another meter or has another unit
 ENCODER_OFFSET = "encoder_offset"
 CHAMBER_GAIN, CHAMBER_ZERO, CHAMBER_LAG = (f"{ChannelName.P_CHAMBER.value}.{what}" for what in ("gain", "zero", "lag"))
 TRACE_NAMES = frozenset({ENCODER_OFFSET, CHAMBER_GAIN, CHAMBER_ZERO, CHAMBER_LAG})
@@ -46,7 +47,7 @@ def sensor_parameters(sensors: Iterable[Sensor]) -> tuple[Parameter, ...]:
     found = []
     for sensor in sensors:
         if sensor.name in OUTPUTS and sensor.gain_sigma > 0.0:
-            found.append(_bias(sensor.name, "gain", sensor.gain_sigma, None, 0.9))
+            found.append(_bias(sensor.name, "gain", sensor.gain_sigma, None, FARTHEST_GAIN))
         if sensor.name in (*OUTPUTS, *BIASED_INPUTS) and sensor.zero_sigma > 0.0:
             found.append(_bias(sensor.name, "zero", sensor.zero_sigma, sensor.name.dimension, inf))
     return tuple(found)
@@ -80,7 +81,7 @@ def transducer_parameters(transducer: Sensor, lag: float) -> tuple[Parameter, ..
     """
     found = [lag_parameter(transducer.name, lag)]
     if transducer.gain_sigma > 0.0:
-        found.append(_bias(transducer.name, "gain", transducer.gain_sigma, None, 0.9))
+        found.append(_bias(transducer.name, "gain", transducer.gain_sigma, None, FARTHEST_GAIN))
     if transducer.zero_sigma > 0.0:
         found.append(_bias(transducer.name, "zero", transducer.zero_sigma, transducer.name.dimension, inf))
     return tuple(found)
