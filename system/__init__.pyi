@@ -10,6 +10,14 @@ from .effects.catalogue.entries import CATALOGUE as CATALOGUE, EXTENSIONS as EXT
 from .effects.components import Component as Component
 from .effects.effect import BenchState as BenchState, EffectId as EffectId, GapCourse as GapCourse, Kind as Kind
 from .effects.extension import Extension as Extension
+from .estimation.additions import (
+    Addition as Addition,
+    Ladder as Ladder,
+    Rung as Rung,
+    additions as additions,
+    held_out as held_out,
+    ladder as ladder,
+)
 from .estimation.fit import (
     FitLimits as FitLimits,
     best_posterior as best_posterior,

@@ -1,21 +1,22 @@
-"""Missing physics of a model of two tanks, found from one record and tested on another.
+"""What a model of two tanks lacks, found from one record and tested on another.
 
     python examples/cascaded_tanks/overflow.py DATA.csv
 
 DATA.csv: dataBenchmark.csv of the Cascaded Tanks benchmark (4TU.ResearchData, doi 10.4121/12960104, CC BY-SA 4.0),
-columns uEst, yEst, uVal, yVal. The estimation engine fits the model of `tanks.py`.
+columns uEst, yEst, uVal, yVal. The estimation engine adds to the model of `tanks.py` what it lacks, one piece after
+the other, as long as the evidence for it is three nats.
 
-Sizes and errors come from a simulation of the whole record. For the evidence the residual of the base model is
-noise with memory, autoregressive of second order. Neighbouring residuals have a correlation of 0.995, so that 1024
-samples count as few; evidence from independent samples would favour any addition. Of the test record only first
-levels are fitted.
+For the evidence the residual of the model so far is noise with memory, autoregressive of second order. Neighbouring
+residuals have a correlation of 0.995, so that 1024 samples count as few; evidence from independent samples would favour
+any addition. Sizes and errors come from a simulation of the whole record. Of the test record only first levels are
+fitted.
 """
 
 from __future__ import annotations
 
 import csv
 import sys
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -23,14 +24,13 @@ import numpy as np
 from tanks import BASE, EXTENSIONS, Tanks
 
 from reynolds import Array
-from system import Channel, FitLimits, Observations, Parameter, Posterior, best_posterior
+from system import Channel, FitLimits, Ladder, Observations, Parameter, Posterior, Rung, best_posterior, ladder
 
 LIMITS = FitLimits(steps=100, stall=20.0)  # rims are kinks: the last nats of thousands are out of reach
 FIRST_LEVELS = tuple(parameter for parameter in BASE if parameter.name.startswith("first"))
 SENSOR = 0.3  # V: first value of one sigma; that of the record replaces it
-STARTS = (0.1, -0.5, 1.0)  # spreads from the prior mean
 BLOCK = 64  # samples
-OVERFLOW = "overflow of both tanks"
+SIZES = (0.1, -0.5, 1.0)  # of an addition, in spreads, at which its fit starts
 
 
 @dataclass(frozen=True)
@@ -44,11 +44,15 @@ class Record:
 
 
 @dataclass(frozen=True)
-class Addition:
-    """An addition to the model: ln evidence over the model without it, RMS errors on both records in V, fit."""
+class Step:
+    """A model of the tanks: what was added last, its gain in nats, RMS errors on both records in V, fit.
+
+    note: what the readings do not tell from it, or that its gain is short of three nats.
+    """
 
     name: str
-    evidence: float
+    gain: float
+    note: str
     error: float
     test_error: float
     fit: Posterior
@@ -82,64 +86,69 @@ def noise(residual: Array) -> tuple[float, tuple[float, ...]]:
     return lag[0] ** 0.5, (float(first), float(second))
 
 
-def fitted(tanks: Tanks, readings: Observations, starts: Sequence[Array]) -> Posterior:
-    """Return the best peak from several starts, each moved within the bounds."""
+def found(record: Record, possible: Mapping[str, Sequence[Parameter]] = EXTENSIONS) -> Ladder:
+    """Return what the tanks lack, by evidence with the noise that each model leaves."""
+
+    def renewed(fit: Posterior) -> Observations:
+        return observed(record.sensor, *noise(record.sensor - fit.predictions[:, 0]))
+
+    return ladder(Tanks(record.pump), observed(record.sensor, SENSOR), possible, renewed, LIMITS)
+
+
+def steps(record: Record, climbed: Ladder) -> tuple[Step, ...]:
+    """Return the model as it is, with each addition that the evidence asks for, and with the likeliest one more."""
+    done = [_step(record, "nothing", 0.0, "", BASE, [np.zeros(len(BASE))])]
+    for rung in climbed.rungs:
+        best = rung.tried[0]
+        if best.gain > 0.0:
+            known = dict(zip((one.name for one in done[-1].fit.parameters), done[-1].fit.xi, strict=True))
+            begun = [[known.get(one.name, size) for one in best.fit.parameters] for size in SIZES]
+            starts = [best.fit.xi, *map(np.array, begun)]
+            done.append(_step(record, best.name, best.gain, _note(rung, climbed), best.fit.parameters, starts))
+    return tuple(done)
+
+
+def _note(rung: Rung, climbed: Ladder) -> str:
+    """How sure the best addition of a step is."""
+    rivals = ", ".join(one.name for one in rung.rivals)
+    if rung.taken is None:
+        return "likely, not sure"
+    if rung.taken.name not in climbed.kept:
+        return "not needed beside later ones"
+    return f"not told from {rivals}" if rivals else ""
+
+
+def _step(
+    record: Record, name: str, gain: float, note: str, parameters: tuple[Parameter, ...], starts: Sequence[Array]
+) -> Step:
+    """The simulation of both records by a model whose sizes fit the whole of the first one."""
+    fit = _fitted(Tanks(record.pump, parameters), record.sensor, starts)
+    known = {one.name: value for one, value in zip(parameters, fit.values, strict=True)}
+    there = _fitted(Tanks(record.test_pump, FIRST_LEVELS, known), record.test_sensor, [np.zeros(2)])
+    errors = (_rms(record.sensor - fit.predictions[:, 0]), _rms(record.test_sensor - there.predictions[:, 0]))
+    return Step(name, gain, note, *errors, fit)
+
+
+def _fitted(tanks: Tanks, sensor: Array, starts: Sequence[Array]) -> Posterior:
+    """The best peak from several starts, each moved within the bounds."""
     lowest = [parameter.lowest for parameter in tanks.parameters]
     highest = [parameter.highest for parameter in tanks.parameters]
-    return best_posterior(tanks, readings, [np.clip(start, lowest, highest) for start in starts], LIMITS)
+    return best_posterior(tanks, observed(sensor, SENSOR), [np.clip(one, lowest, highest) for one in starts], LIMITS)
 
 
-def simulated(record: Record, parameters: tuple[Parameter, ...], start: Array) -> Posterior:
-    """Return the model fitted to the whole record, from the peak of the model without its last parameters."""
-    added = len(parameters) - start.size
-    starts = [np.append(start, np.full(added, spreads)) for spreads in STARTS]
-    return fitted(Tanks(record.pump, parameters), observed(record.sensor, SENSOR), starts)
-
-
-def errors(record: Record, fit: Posterior) -> tuple[float, float]:
-    """Return RMS errors in V of a fit on its own record and on the test record."""
-    known = {parameter.name: value for parameter, value in zip(fit.parameters, fit.values, strict=True)}
-    there = fitted(Tanks(record.test_pump, FIRST_LEVELS, known), observed(record.test_sensor, SENSOR), [np.zeros(2)])
-    own = record.sensor - fit.predictions[:, 0]
-    return float(np.sqrt(np.mean(own**2))), float(np.sqrt(np.mean((record.test_sensor - there.predictions[:, 0]) ** 2)))
-
-
-def additions(record: Record, base: Posterior, names: Sequence[str]) -> tuple[Addition, ...]:
-    """Return each extension added to a model, the one of greatest evidence first."""
-    sigma, memory = noise(record.sensor - base.predictions[:, 0])
-    readings = observed(record.sensor, sigma, memory)
-    without = fitted(Tanks(record.pump, base.parameters), readings, [base.xi])
-    found = []
-    for name in names:
-        parameters = (*base.parameters, *EXTENSIONS[name])
-        fit = simulated(record, parameters, base.xi)
-        beside = np.append(without.xi, np.full(len(EXTENSIONS[name]), STARTS[0]))
-        peak = fitted(Tanks(record.pump, parameters), readings, [fit.xi, beside])
-        found.append(Addition(name, peak.log_evidence - without.log_evidence, *errors(record, fit), fit))
-    return tuple(sorted(found, key=lambda addition: -addition.evidence))
-
-
-def base_fit(record: Record) -> Posterior:
-    """Return the fit of the model without any addition."""
-    return simulated(record, BASE, np.zeros(len(BASE)))
-
-
-def _table(title: str, error: tuple[float, float], found: Sequence[Addition]) -> None:
-    print(f"{title}: RMS error {error[0]:.3f} V, test record {error[1]:.3f} V")
-    print(f"  {'added':28s} {'ln evidence':>11s} {'RMS, V':>8s} {'test, V':>8s}")
-    for each in found:
-        print(f"  {each.name:28s} {each.evidence:11.1f} {each.error:8.3f} {each.test_error:8.3f}")
+def _rms(error: Array) -> float:
+    return float(np.sqrt(np.mean(error**2)))
 
 
 def main(path: str) -> None:
-    """Print the gain by one addition, and by a second one beside the overflow."""
+    """Print every addition that was tried, and the errors of each model."""
     record = read_record(Path(path))
-    base = base_fit(record)
-    first = additions(record, base, tuple(EXTENSIONS))
-    _table("Torricelli's law", errors(record, base), first)
-    overflow = next(each for each in first if each.name == OVERFLOW)
-    rest = [name for name in EXTENSIONS if "overflow" not in name]
-    _table(f"\nwith {OVERFLOW}", (overflow.error, overflow.test_error), additions(record, overflow.fit, rest))
+    climbed = found(record)
+    for rung in climbed.rungs:
+        print("; ".join(f"{one.name} {one.gain:+.1f}" for one in rung.tried), "nats")
+    print(f"  {'added':28s} {'nats':>6s} {'RMS, V':>8s} {'test, V':>8s}")
+    for step in steps(record, climbed):
+        print(f"  {step.name:28s} {step.gain:6.1f} {step.error:8.3f} {step.test_error:8.3f}  {step.note}".rstrip())
 
 
 if __name__ == "__main__":

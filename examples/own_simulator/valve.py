@@ -1,10 +1,10 @@
-"""A model of your own in the estimation engine: a valve, with and without a leak beside its orifice.
+"""A model of your own in the estimation engine: what does a valve lack whose flow is that of an orifice?
 
     python examples/own_simulator/valve.py
 
-    Q = a sqrt(p), or with the leak Q = a sqrt(p) + b p
+    Q = a sqrt(p) (1 + gain) + b p + zero        gain, b and zero are possible additions
 
-A model is a function of named values. The readings are artificial.
+A model is a function of named values. The readings are artificial, with a leak b.
 """
 
 from collections.abc import Mapping
@@ -12,34 +12,34 @@ from collections.abc import Mapping
 import numpy as np
 
 from reynolds import Array
-from system import FunctionSimulator, Parameter, Role, Scale, independent_observations, maximum_posterior
+from system import FunctionSimulator, Parameter, Role, Scale, held_out, independent_observations, ladder
 
 DROP = np.linspace(1e5, 40e5, 30)  # Pa, of each reading
 SIGMA = 2e-6  # m3/s
-ORIFICE = Parameter("orifice", Role.BASE, Scale.NORMAL, 1e-7, 5e-8, 0.0, 1e-6, None, "drawing")
-LEAK = Parameter("leak", Role.EXTENSION, Scale.HALF, 0.0, 1e-11, 0.0, 1e-9, None, "a worn seat")
+ORIFICE = Parameter("orifice", Role.BASE, Scale.NORMAL, 1e-7, 1e-9, 0.0, 1e-6, None, "drawing")
+POSSIBLE = {
+    "leak": (Parameter("leak", Role.EXTENSION, Scale.HALF, 0.0, 1e-11, 0.0, 1e-9, None, "a worn seat"),),
+    "gain of the meter": (Parameter("gain", Role.SENSOR, Scale.NORMAL, 0.0, 0.05, -0.3, 0.3, None, "its class"),),
+    "zero of the meter": (Parameter("zero", Role.SENSOR, Scale.NORMAL, 0.0, 1e-5, -1e-4, 1e-4, None, "its class"),),
+}
 
 
 def flow(values: Mapping[str, float]) -> Array:
     """Return the flow (30, 1) in m3/s at DROP; a parameter that the model does not have is zero."""
-    found: Array = (values["orifice"] * np.sqrt(DROP) + values.get("leak", 0.0) * DROP)[:, None]
-    return found
+    through = values["orifice"] * np.sqrt(DROP) * (1.0 + values.get("gain", 0.0))
+    return np.array(through + values.get("leak", 0.0) * DROP + values.get("zero", 0.0))[:, None]
 
 
-def main(leak: float = 5e-12) -> float:
-    """Print both fits to a valve with a leak in m3/(s Pa); return the evidence of a leak less that of none, in nats."""
+def main(leak: float = 5e-12) -> tuple[str, ...]:
+    """Print what a valve with a leak in m3/(s Pa) lacks, one addition after the other; return what is kept."""
     noise = SIGMA * np.random.default_rng(1).standard_normal((DROP.size, 1))
     read = independent_observations(["flow"], flow({"orifice": 1e-7, "leak": leak}) + noise, np.array([SIGMA]))
-    evidence = []
-    for parameters in ((ORIFICE,), (ORIFICE, LEAK)):
-        fit = maximum_posterior(FunctionSimulator(flow, parameters), read)
-        evidence.append(fit.log_evidence)
-        sizes = (
-            f"{one.name} {value:.3g} +- {fit.sigma(one.name):.1g}"
-            for one, value in zip(parameters, fit.values, strict=True)
-        )
-        print(f"ln evidence {fit.log_evidence:8.1f}   {', '.join(sizes)}")
-    return evidence[1] - evidence[0]
+    found = ladder(FunctionSimulator(flow, (ORIFICE,)), read, POSSIBLE)
+    for rung in found.rungs:
+        print("; ".join(f"{one.name} {one.gain:+.1f} nats" for one in rung.tried))
+    errors = (held_out(fit, read) for fit in (found.before, found.fit))
+    print("held out: {:.2f} -> {:.2f} sigma by {}".format(*errors, ", ".join(found.kept) or "nothing"))
+    return found.kept
 
 
 if __name__ == "__main__":

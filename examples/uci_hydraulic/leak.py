@@ -21,7 +21,7 @@ import numpy as np
 from rig import cycle_means
 
 from reynolds import ISO_GRADES, Array, Oil, walther
-from system import Channel, Observations, Parameter, Posterior, Role, Scale, maximum_posterior
+from system import Addition, Channel, Observations, Parameter, Role, Scale, additions
 
 LPM, BAR = 1e-3 / 60.0, 1e5
 COOLERS = (3, 20, 100)  # %
@@ -119,19 +119,6 @@ class Rig:
         return replace(self, parameters=(*self.parameters, *parameters))
 
 
-@dataclass(frozen=True)
-class Explained:
-    """An explanation of the cycles with a leak: its name, ln evidence over no change, its fit."""
-
-    name: str
-    evidence: float
-    fit: Posterior
-
-    def size(self, name: str) -> tuple[float, float]:
-        """Return a parameter with its sigma, SI."""
-        return float(self.fit.values[self.fit.index(name)]), self.fit.sigma(name)
-
-
 def settings(data: Path, leak: int) -> Array:
     """Return means over the cycles of each setting, rows of p bar, Q L/min, P W, T degC."""
     found = []
@@ -159,23 +146,15 @@ def rig_of(sound: Array, leaking: Array) -> tuple[Rig, Observations]:
     return Rig(viscosity, pressure * BAR, leak), read
 
 
-def explanations(data: Path, leak: int) -> tuple[Explained, ...]:
+def explanations(data: Path, leak: int) -> tuple[Addition, ...]:
     """Return every explanation of the cycles with this leak, the one of greatest evidence first."""
-    rig, read = rig_of(settings(data, 0), settings(data, leak))
-    nothing = maximum_posterior(rig, read)
-    found = [
-        Explained(name, fit.log_evidence - nothing.log_evidence, fit)
-        for name, own in EXTENSIONS.items()
-        for fit in (maximum_posterior(rig.with_parameters(own), read),)
-    ]
-    return tuple(sorted(found, key=lambda each: -each.evidence))
+    return additions(*rig_of(settings(data, 0), settings(data, leak)), EXTENSIONS).tried
 
 
-def free_law(data: Path, leak: int) -> Explained:
+def free_law(data: Path, leak: int) -> Addition:
     """Return the fit of a leak ~ p^k nu^m, k and m free."""
     rig, read = rig_of(settings(data, 0), settings(data, leak))
-    fit = maximum_posterior(rig.with_parameters(FREE_LAW), read)
-    return Explained("leak by a free law", fit.log_evidence, fit)
+    return additions(rig, read, {"leak by a free law": FREE_LAW}).tried[0]
 
 
 def diameter(area: float) -> float:
@@ -190,7 +169,7 @@ def main(words: Sequence[str]) -> None:
         found = explanations(data, leak)
         print(f"leak {leak}: ln evidence over no change")
         for each in found:
-            print(f"  {each.name:26s} {each.evidence:9.1f}")
+            print(f"  {each.name:26s} {each.gain:9.1f}")
         orifice = next(each for each in found if each.name == "leak through an orifice")
         area, sigma = orifice.size("area")
         print(f"  orifice {1e3 * diameter(area):.3f} +- {500 * diameter(area) * sigma / area:.3f} mm")

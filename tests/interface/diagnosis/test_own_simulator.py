@@ -15,9 +15,9 @@ MOST_LINES = 40
 
 def test_a_leak_is_named_where_there_is_one(example, capsys):
     valve = example(VALVE)
-    assert valve.main() > 10.0
+    assert valve.main() == ("leak",)
     assert capsys.readouterr().out.strip() in TUTORIAL.read_text("utf-8")
-    assert valve.main(leak=0.0) < 0.0
+    assert valve.main(leak=0.0) == ()
 
 
 def test_a_model_of_one_s_own_takes_few_lines():
@@ -27,14 +27,14 @@ def test_a_model_of_one_s_own_takes_few_lines():
 
 def test_parameters_are_replaced_or_added(example):
     valve = example(VALVE)
-    grown = FunctionSimulator(valve.flow, (valve.ORIFICE,)).with_parameters((valve.LEAK,))
+    grown = FunctionSimulator(valve.flow, (valve.ORIFICE,)).with_parameters(valve.POSSIBLE["leak"])
     assert [one.name for one in grown.parameters] == ["orifice", "leak"]
-    assert grown.with_parameters((valve.LEAK,)) == grown
+    assert grown.with_parameters(valve.POSSIBLE["leak"]) == grown
 
 
 def test_slopes_are_those_of_the_function_in_the_order_of_the_names(example):
     valve = example(VALVE)
-    model = FunctionSimulator(valve.flow, (valve.ORIFICE, valve.LEAK))
+    model = FunctionSimulator(valve.flow, (valve.ORIFICE, *valve.POSSIBLE["leak"]))
     found = model.slopes(np.array([1e-6, 0.0]), ("leak", "orifice"))[:, 0]
     assert found[:, 0] == pytest.approx(valve.DROP, rel=1e-6)
     assert found[:, 1] == pytest.approx(np.sqrt(valve.DROP), rel=1e-6)

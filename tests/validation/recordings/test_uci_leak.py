@@ -44,7 +44,7 @@ def test_the_concealed_leak_is_named(leak: ModuleType, shared: Path, validation,
     data = shared / "recordings" / "uci_hydraulic"
     first, second, *_ = leak.explanations(data, switched)
     assert first.name == "leak through an orifice"
-    assert first.evidence - second.evidence > ODDS
+    assert first.gain - second.gain > ODDS
     validation(
         case="ZeMA rig, concealed leak", source=SOURCE, quantity=f"bore of orifice {switched}", unit="mm",
         expected=1e3 * bore, obtained=1e3 * leak.diameter(first.size("area")[0]),

@@ -1,0 +1,76 @@
+"""ZeMA rig: concealed states of valve, accumulator, pump leak and cooler, alone and together.
+
+recordings/uci_hydraulic by examples/uci_hydraulic/cycle.py: the estimation engine with a model of the rig's cycle.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+from types import ModuleType
+
+import numpy as np
+import pytest
+
+SOURCE = "UCI, condition monitoring of hydraulic systems; orifices by Helwig, Pignanelli and Schuetze 2015"
+CAUSES = {
+    "valve": "valve opens later",
+    "leak": "leak through an orifice",
+    "accumulator": "accumulator with less gas",
+    "cooler": "cooler removes less heat",
+}
+STATES = (
+    {"valve": 90}, {"valve": 73}, {"accumulator": 115}, {"accumulator": 100}, {"leak": 1},
+    {"valve": 73, "leak": 1, "accumulator": 100}, {"cooler": 20, "valve": 73, "leak": 2, "accumulator": 90},
+)  # fmt: skip
+
+
+@pytest.fixture(scope="module")
+def cycle(example: Callable[[str], ModuleType]) -> ModuleType:
+    return example("uci_hydraulic/cycle.py")
+
+
+def test_the_mean_flow_of_a_step_conserves_volume(cycle: ModuleType) -> None:
+    """Between two levels of pressure the flow lacks what the compliance takes up: the integral of C(p) dp."""
+    values = {one.name: one.centre for one in cycle.CYCLE} | {"level_2": 165e5, "level_3": 155e5}
+    read = cycle.Cycle(values).readings()
+    lacking = float((values["flow"] - read[17:25, 1]).sum())
+    stored = values["oil"] * 10e5 + values["gas"] * cycle.PRESSURE * (1.0 / 155e5 - 1.0 / 165e5)
+    assert lacking == pytest.approx(stored, rel=1e-3)
+
+
+def test_a_later_valve_shifts_the_mean_pressure(cycle: ModuleType) -> None:
+    """A delay keeps the relief pressure for so long: its integral over the cycle."""
+    values = {one.name: one.centre for one in cycle.CYCLE}
+    sound, late = (cycle.Cycle(values | {"delay": delay}).readings()[:, 0] for delay in (0.0, 0.2))
+    assert float((late - sound).sum()) == pytest.approx(0.2 * (values["relief"] - values["level_1"]), rel=1e-3)
+
+
+def test_a_state_without_cycles_is_refused(cycle: ModuleType) -> None:
+    """The settings that have too few cycles, and how many they have."""
+    data = cycle.Recorded(np.array([[100.0, 100.0, 0.0, 130.0, 0.0]]), np.zeros((1, cycle.SECONDS, 4)))
+    with pytest.raises(SystemExit, match="State\\(cooler=100, valve=100, leak=0, accumulator=130\\): 1 stable cycles"):
+        data.mean(cycle.SOUND, slice(None))
+
+
+@pytest.mark.slow
+def test_concealed_states_are_found(cycle: ModuleType, shared: Path, validation) -> None:
+    """Exactly the causes that were set, from half of the cycles; the others are then predicted within their noise."""
+    data = cycle.recorded(shared / "recordings" / "uci_hydraulic")
+    for settings in ({}, *STATES):
+        found, (before, after) = cycle.explained(data, cycle.State(**settings))
+        assert set(found.kept) == {CAUSES[name] for name in settings}, settings
+        assert not any(rung.failed for rung in found.rungs)
+        assert after <= before
+        assert after < 1.0
+        if settings == {"leak": 1}:
+            area = float(found.fit.values[found.fit.index("leak")])
+            validation(
+                case="ZeMA rig, concealed leak in the cycle",
+                source=SOURCE,
+                quantity="bore of orifice 1",
+                unit="mm",
+                expected=0.2,
+                obtained=1e3 * float(np.sqrt(4.0 * area / np.pi)),
+                tolerance=0.2 * (np.sqrt(0.70 / 0.61) - 1.0),
+            )
