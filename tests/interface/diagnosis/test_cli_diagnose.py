@@ -24,7 +24,7 @@ def test_too_few_readings_are_refused(tmp_path: Path, capsys: pytest.CaptureFixt
     """Two readings settle no thirty parameters: exit code 2, and nothing is left behind."""
     folder = _folder(tmp_path, "1000,100.1,1.02\n1500,200.2,2.13\n")
     assert main(["diagnose", "ref90", str(folder), "-o", str(tmp_path / "out")]) == 2
-    assert "record more points" in capsys.readouterr().err
+    assert "at 2 operating points" in capsys.readouterr().err
     assert not (tmp_path / "out").exists()
 
 

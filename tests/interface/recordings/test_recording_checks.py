@@ -287,6 +287,11 @@ def test_gaps_and_too_few_readings_are_told():
     fault = too_few(_sound(), count)
     assert fault is not None
     assert fault.kind is NoteKind.FAULT
+    assert "at 96 operating points" in fault.text
+    alone = replace(_sound(), steady=_sound().steady.at(slice(0, 1)))
+    still = too_few(alone, 8)
+    assert still is not None
+    assert "one operating point, inputs do not move" in still.text
     assert len(OUTPUTS) + len(INPUTS) <= len(ChannelName)
 
 
