@@ -162,10 +162,11 @@ class DataLimits:
 
 @dataclass(frozen=True)
 class RecordShares:
-    """Findings of a status whose likeliest explanation was the truth, as shares of all such findings of the proof."""
+    """Findings of a kind whose likeliest explanation was the truth, as shares of all such findings."""
 
     incomplete: float
     suspicion: float
+    type_plate: float
 
 
 @dataclass(frozen=True)

@@ -118,6 +118,7 @@ class Study:
 
     base: linear posterior at the prior mean. components: contribution (N, C) of each to the readings, in SI.
     axes: (N, 4), scaled to [-1, 1]: logarithm of speed, delivery pressure, displacement ratio, case temperature.
+    scant: little more than the pump's type plate is known.
     """
 
     recording: Recording
@@ -129,6 +130,7 @@ class Study:
     axes: Array
     traces: tuple[TraceMisfit, ...] = ()
     events: tuple[PortEvent, ...] = ()
+    scant: bool = False
 
     @property
     def channels(self) -> tuple[ChannelName, ...]:

@@ -96,7 +96,7 @@ def prepare(
         bench = bench.with_departures(course_departures(bare, courses, thresholds.form.drift)) if courses else bench
         usable = replace(usable, notes=(*usable.notes, *_drift_notes(courses, usable)))
         study = study_of(usable, bench, found, axes, catalogue, thresholds)
-    return replace(study, events=port_events(pump))
+    return replace(study, events=port_events(pump), scant=scant)
 
 
 def _excess_notes(channels: tuple[ChannelName, ...], excess: Array) -> Iterator[DataNote]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -79,11 +79,20 @@ def judge(
         return _suspicion(explanations, against, thresholds)
     left = residue_notes(study, null, best, along, thresholds)
     if left:
-        explanations, members = _less_sure(explanations, members, thresholds)
+        explanations, members = _less_sure(explanations, members, thresholds.record.incomplete, (Kind.UNKNOWN_PHYSICS,))
+    record = _record_of_scant(study, thresholds)
+    if record:
+        explanations, members = _less_sure(explanations, members, thresholds.record.type_plate, Kind)
     claims = _claims(members, explanations, thresholds)
     alike = any(claim.equivalent or claim.elsewhere for claim in claims)
     status = VerdictStatus.INCOMPLETE if left else VerdictStatus.CLASS if alike else VerdictStatus.NAMED
-    return Judgement(best.hypothesis.kind, status, claims, members, left, explanations)
+    return Judgement(best.hypothesis.kind, status, claims, members, (*left, *record), explanations)
+
+
+def _record_of_scant(study: Study, thresholds: Thresholds) -> tuple[str, ...]:
+    """How often findings on pumps of which little is known were right; nothing for another pump."""
+    share = f"{thresholds.record.type_plate:.0%}"
+    return (f"of findings on pumps known by their type plate alone {share} were right",) if study.scant else ()
 
 
 def _free_multiplier(
@@ -127,10 +136,13 @@ def _suspicion(explanations: Sequence[Explanation], reasons: tuple[str, ...], th
 
 
 def _less_sure(
-    explanations: Sequence[Explanation], members: Sequence[Explanation], thresholds: Thresholds
+    explanations: Sequence[Explanation], members: Sequence[Explanation], share: float, rest: Collection[Kind]
 ) -> tuple[tuple[Explanation, ...], tuple[Explanation, ...]]:
-    """The explanations and the members of the claimed class where a part remains: that part is unknown physics."""
-    ranked = doubted(explanations, thresholds.record.incomplete, (Kind.UNKNOWN_PHYSICS,))
+    """The explanations and the members of the claimed class, as sure as the record of such findings (`doubted`).
+
+    rest: what else may be true. Where a part of the mismatch remains, that part is unknown physics.
+    """
+    ranked = doubted(explanations, share, rest)
     fresh = {id(old): new for old, new in zip(explanations, ranked, strict=True)}
     return ranked, tuple(fresh[id(each)] for each in members)
 
@@ -155,7 +167,10 @@ def _unknown(
         )
     if against:
         return _suspicion(explanations, tuple(against), thresholds)
-    return Judgement(Kind.UNKNOWN_PHYSICS, VerdictStatus.NAMED, (), (), (), tuple(explanations))
+    record = _record_of_scant(study, thresholds)
+    if record:
+        explanations, _ = _less_sure(explanations, (), thresholds.record.type_plate, Kind)
+    return Judgement(Kind.UNKNOWN_PHYSICS, VerdictStatus.NAMED, (), (), record, tuple(explanations))
 
 
 def _objections(

@@ -234,6 +234,17 @@ def test_a_law_left_out_is_named_with_its_place_and_size(number: int) -> None:
         assert found.fit.after[channel] < 1.2 * noise  # 4 sigma of the mean square of 96 readings
 
 
+def test_on_a_pump_of_which_little_is_known_a_name_is_as_sure_as_its_record() -> None:
+    """The same name with the share of such findings that were right, the rest by prior; and the reason."""
+    known = _study(1, laws=(LAWS[0],))
+    sure, unsure = _diagnosis(known), _diagnosis(replace(known, scant=True))
+    assert _told(unsure) == _told(sure)
+    share = LIMITS.record.type_plate
+    assert unsure.effects[0].probability == pytest.approx(share * sure.effects[0].probability, abs=0.05)
+    assert any("type plate alone" in note for note in unsure.notes)
+    assert not any("type plate" in note for note in sure.notes)
+
+
 def test_few_right_names_are_called_incomplete() -> None:
     """False flags of one in twenty each, of regions and of growth: of six right names two at most (97 %)."""
     assert sum(_left_out(number).status is VerdictStatus.INCOMPLETE for number in range(len(LAWS))) <= 2
