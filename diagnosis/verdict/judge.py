@@ -82,11 +82,15 @@ def judge(
         explanations, members = _less_sure(explanations, members, thresholds.record.incomplete, (Kind.UNKNOWN_PHYSICS,))
     record = _record_of_scant(study, thresholds)
     if record:
-        explanations, members = _less_sure(explanations, members, thresholds.record.type_plate, Kind)
+        explanations, members = _less_sure(explanations, members, thresholds.record.type_plate, MISMATCHES)
     claims = _claims(members, explanations, thresholds)
     alike = any(claim.equivalent or claim.elsewhere for claim in claims)
     status = VerdictStatus.INCOMPLETE if left else VerdictStatus.CLASS if alike else VerdictStatus.NAMED
     return Judgement(best.hypothesis.kind, status, claims, members, (*left, *record), explanations)
+
+
+MISMATCHES = frozenset(Kind) - {Kind.NO_MISMATCH}
+"""What else may be true where there is a mismatch."""
 
 
 def _record_of_scant(study: Study, thresholds: Thresholds) -> tuple[str, ...]:
@@ -169,7 +173,7 @@ def _unknown(
         return _suspicion(explanations, tuple(against), thresholds)
     record = _record_of_scant(study, thresholds)
     if record:
-        explanations, _ = _less_sure(explanations, (), thresholds.record.type_plate, Kind)
+        explanations, _ = _less_sure(explanations, (), thresholds.record.type_plate, MISMATCHES)
     return Judgement(Kind.UNKNOWN_PHYSICS, VerdictStatus.NAMED, (), (), record, tuple(explanations))
 
 
