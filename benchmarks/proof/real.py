@@ -120,7 +120,7 @@ def _state(cycle: ModuleType, data: object, settings: tuple[int, ...]) -> _Found
     state = cycle.State(*settings)
     try:
         ladder, (before, after) = cycle.explained(data, state)
-    except SystemExit:
+    except cycle.TooFew:
         return None
     changed = frozenset(name for name in CAUSES if getattr(state, name) != getattr(cycle.SOUND, name))
     causes = frozenset(CAUSES[name] for name in changed)

@@ -27,6 +27,9 @@ from system.effects.effect import Kind
 from system.estimation.fit import is_peak
 from system.estimation.posterior import Posterior
 
+MISMATCHES = frozenset(Kind) - {Kind.NO_MISMATCH}
+"""Kinds of explanation where there is a mismatch."""
+
 
 @dataclass(frozen=True)
 class Judgement:
@@ -89,12 +92,8 @@ def judge(
     return Judgement(best.hypothesis.kind, status, claims, members, (*left, *record), explanations)
 
 
-MISMATCHES = frozenset(Kind) - {Kind.NO_MISMATCH}
-"""What else may be true where there is a mismatch."""
-
-
 def _record_of_scant(study: Study, thresholds: Thresholds) -> tuple[str, ...]:
-    """How often findings on pumps of which little is known were right; nothing for another pump."""
+    """Share of right findings on pumps of which little is known, as text; nothing for another pump."""
     share = f"{thresholds.record.type_plate:.0%}"
     return (f"of findings on pumps known by their type plate alone {share} were right",) if study.scant else ()
 

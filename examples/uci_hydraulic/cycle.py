@@ -218,6 +218,10 @@ class State:
 SOUND = State()
 
 
+class TooFew(ValueError):
+    """A state has too few cycles for a mean."""
+
+
 @dataclass(frozen=True)
 class Mean:
     """Mean of several cycles and its standard error, both (58, 4), SI."""
@@ -234,11 +238,11 @@ class Recorded:
     readings: Array
 
     def mean(self, state: State, chosen: slice) -> Mean:
-        """Return the mean of the chosen cycles of a state."""
+        """Return the mean of the chosen cycles of a state. Raises TooFew."""
         wanted = ((COOLER, state.cooler), (VALVE, state.valve), (LEAK, state.leak), (ACCUMULATOR, state.accumulator))
         own = self.readings[np.all([self.settings[:, at] == value for at, value in wanted], axis=0)][chosen]
         if len(own) < LEAST:
-            raise SystemExit(f"{state}: {len(own)} stable cycles in which the rig works, {LEAST} are needed")
+            raise TooFew(f"{state}: {len(own)} stable cycles in which the rig works, {LEAST} are needed")
         return Mean(own.mean(axis=0), own.std(axis=0, ddof=1) / np.sqrt(len(own)))
 
 
@@ -326,9 +330,14 @@ def main(words: Sequence[str]) -> None:
     parser.add_argument("--accumulator", type=int, choices=(90, 100, 115, 130), default=SOUND.accumulator)
     asked = parser.parse_args(words)
     state = State(asked.cooler, asked.valve, asked.leak, asked.accumulator)
-    found, errors = explained(recorded(asked.data), state)
+    try:
+        found, errors = explained(recorded(asked.data), state)
+    except TooFew as reason:
+        raise SystemExit(str(reason)) from reason
     for rung in found.rungs:
         print("; ".join(f"{one.name} {one.gain:+.0f}" for one in rung.tried[:4]), "nats")
+        for failure in rung.failed:
+            print(f"not fitted: {failure}")
     for name in found.kept:
         rivals = found.rivals(name)
         print(f"kept: {name}, {size(found, name)}" + (f", not told from {', '.join(rivals)}" if rivals else ""))

@@ -49,7 +49,9 @@ def test_a_later_valve_shifts_the_mean_pressure(cycle: ModuleType) -> None:
 def test_a_state_without_cycles_is_refused(cycle: ModuleType) -> None:
     """The settings that have too few cycles, and how many they have."""
     data = cycle.Recorded(np.array([[100.0, 100.0, 0.0, 130.0, 0.0]]), np.zeros((1, cycle.SECONDS, 4)))
-    with pytest.raises(SystemExit, match="State\\(cooler=100, valve=100, leak=0, accumulator=130\\): 1 stable cycles"):
+    with pytest.raises(
+        cycle.TooFew, match="State\\(cooler=100, valve=100, leak=0, accumulator=130\\): 1 stable cycles"
+    ):
         data.mean(cycle.SOUND, slice(None))
 
 
