@@ -29,7 +29,7 @@ from system.work.progress import Report
 SIZES = (0.1, 0.3, 1.0, 2.0)  # trial sizes of a start, in spreads
 ROUGHLY = (0.3, 1.0)  # trial sizes of a first look
 AT_BOUND = 0.999  # of a bound: a fit ends so near to it
-GROSS_PATIENCE = 12  # trials before a fit of a gross mismatch may be hopeless: its first slopes say little
+GROSS_PATIENCE = 8  # trials before a fit of a gross mismatch may be hopeless: its first slopes say little
 LIMITS = FitLimits(change=0.1)  # of the objective: a twentieth of a nat decides nothing, and costs sixfold less
 
 
@@ -184,16 +184,20 @@ def refit_all(
 ) -> tuple[tuple[Explanation, ...], tuple[str, ...]]:
     """The refits of some hypotheses in their order, by a crew, and the failures as text.
 
-    part: a refitted explanation; hypotheses that it is a part of start from its peak.
+    The first, which should be the likeliest, is refitted before the others and shows what is hopeless. part: a refitted
+    explanation; hypotheses that it is a part of start from its peak.
     """
-    if not listed:
-        return (), ()
-    task = partial(_numbered, study, thresholds, hopeless, part)
     found: dict[int, tuple[Explanation, str | None]] = {}
-    report(0, len(listed), f"fitting {', '.join(each.hypothesis.text for each in listed[: executor.workers])}")
-    for number, done in executor.do(task, list(enumerate(listed))):
-        found[number] = done
-        report(len(found), len(listed), f"fitted {done[0].hypothesis.text}")
+    numbered = list(enumerate(listed))
+    for wave in (numbered[:1], numbered[1:]):
+        task = partial(_numbered, study, thresholds, hopeless, part)
+        if wave:
+            names = ", ".join(each.hypothesis.text for _, each in wave[: executor.workers])
+            report(len(found), len(listed), f"fitting {names}")
+        for number, done in executor.do(task, wave):
+            found[number] = done
+            report(len(found), len(listed), f"fitted {done[0].hypothesis.text}")
+        hopeless = min([hopeless, *(hopeless_beside(each, thresholds) for each, _ in found.values())])
     ordered = [found[number] for number in range(len(listed))]
     return tuple(each for each, _ in ordered), tuple(reason for _, reason in ordered if reason is not None)
 

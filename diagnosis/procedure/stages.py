@@ -33,8 +33,6 @@ from system.inputs.channels import ChannelName
 from system.work.processes import ProcessPool, process_pool
 from system.work.progress import Report, silent
 
-LEADERS = 2  # explanations that are refitted before the others
-
 
 def diagnose_study(
     study: Study, viscosity: Array, thresholds: Thresholds, report: Report = silent, workers: int = 1
@@ -88,7 +86,7 @@ def _fits(
         reached = [look.reached for _, look in wrong]
         reached += [] if null.linear else [_fit_of(null).objective]
         hopeless = min(reached, default=inf) + 2.0 * thresholds.fit.hopeless
-        refitted, failed = _refitted(study, (*listed, *more), thresholds, executor, report, hopeless)
+        refitted, failed = refit_all(study, (*listed, *more), thresholds, executor, report, hopeless)
         placed = _placed(study, screened, null, refitted)
         combined, not_combined = combine(study, placed, thresholds, executor, report)
         best = max((*placed, *combined), key=lambda each: each.log_weight)
@@ -98,22 +96,6 @@ def _fits(
     is_missed = _is_missed(screened, null, thresholds)
     single = _unknown_anew(study, _placed(study, screened, null, refitted), null, is_missed, thresholds)
     return _Fits(without_stand_ins(study, (*single, *combined), thresholds), failed)
-
-
-def _refitted(
-    study: Study,
-    listed: Sequence[Explanation],
-    thresholds: Thresholds,
-    executor: ProcessPool,
-    report: Report,
-    hopeless: float,
-) -> tuple[tuple[Explanation, ...], tuple[str, ...]]:
-    """The refits of some hypotheses, and the failures as text: the likeliest first, which show what is hopeless."""
-    first = max(executor.workers, LEADERS)
-    led, failed = refit_all(study, listed[:first], thresholds, executor, report, hopeless)
-    hopeless = min([hopeless, *(hopeless_beside(each, thresholds) for each in led)])
-    rest, not_rest = refit_all(study, listed[first:], thresholds, executor, report, hopeless)
-    return (*led, *rest), (*failed, *not_rest)
 
 
 def _listed_anew(

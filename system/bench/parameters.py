@@ -22,6 +22,8 @@ THROTTLED = (0.4, 0.2)
 """Centre and one sigma of throttle_share: throttled oil warms by 1 - beta T = .8 of dp/(rho c), a film by half."""
 HALF_WAY = 0.5
 """Centre of inlet_share where it is uncertain: between films as warm as the case and films of the inlet's oil."""
+CONCENTRIC = 0.05
+"""Eccentricity ratio below which a piston leaks as a concentric one, within .4 %."""
 GUIDE, BEARINGS = "ball_guide_retainer", ("front_bearing", "rear_bearing")
 _THICKNESS = {
     Gap.PISTON: ("piston", "radial_clearance"),
@@ -55,7 +57,7 @@ def base_parameters(pump: PumpDescription, tolerances: Tolerances) -> tuple[Para
     """
     return (
         *(_thickness(pump, gap, tolerances) for gap in Gap),
-        _absolute("eccentricity_ratio", pump.piston.eccentricity_ratio, tolerances.eccentricity_ratio, 0.0, 0.95),
+        _eccentricity(pump.piston.eccentricity_ratio, tolerances.eccentricity_ratio),
         *_fluid(pump, tolerances),
         *_frictions(pump, tolerances),
         _absolute("displacement", 1.0, tolerances.displacement, 0.5, 1.5),
@@ -167,6 +169,12 @@ def _relative(
     return Parameter(
         name, role, Scale.LOG, centre, spread, 0.1 * centre, min(10.0 * centre, upper), dimension, "[tolerance]"
     )
+
+
+def _eccentricity(centre: float, spread: float) -> Parameter:
+    """Leakage grows with its square, so that a scale of its own would end where that has no slope."""
+    scale, lower = (Scale.SQUARE, CONCENTRIC) if centre > CONCENTRIC else (Scale.NORMAL, 0.0)
+    return Parameter("eccentricity_ratio", Role.BASE, scale, centre, spread, lower, 0.95, None, "[tolerance]")
 
 
 def _absolute(name: str, centre: float, spread: float, lower: float, upper: float) -> Parameter:

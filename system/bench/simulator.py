@@ -39,6 +39,8 @@ LAW_STEP = 0.005
 """The same of laws, whose sizes are known far better by readings than by priors: a knee seldom lies within the step."""
 LOG_STEP = 1e-3
 """The largest, of the value, on a logarithmic scale: leakage goes with the cube of a film."""
+SQUARE_STEP = 0.02
+"""The largest, of the value, on a scale of squares."""
 KEPT = 8
 """Courses of a map that are remembered, the last ones."""
 INPUT_STEPS = {
@@ -268,6 +270,8 @@ class LumpedBench:
         step = share * parameter.stretch(parameter.standard(value))
         if parameter.scale is Scale.LOG:
             step = min(step, LOG_STEP * value)
+        if parameter.scale is Scale.SQUARE:
+            step = min(step, SQUARE_STEP * value)
         return -step if value + step > parameter.upper else step
 
     def _like(self, **changed: Any) -> LumpedBench:

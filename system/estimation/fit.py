@@ -25,16 +25,18 @@ LEAST_DAMPING, FIRST_DAMPING, MOST_DAMPING = 1e-6, 1e-2, 1e6
 LOCAL = 1e2  # damping from which a failed trial shows wrong slopes here, not the curve on the way
 SHORT = 1e-3  # in xi: over shorter steps the solvers' own error exceeds the change of the readings
 GOOD = 0.5  # share of the promised fall: below it the slopes are asked for anew
+TRUE, LONGER = 0.75, 2.0  # share of the promised fall from which the next step may be so many times as long
 STEP = 0.05  # in xi, of slopes by predictions: over shorter ones steps that the solver takes otherwise would count
 NEAR = 0.02  # in xi: slopes taken no farther away are valid for a peak and its covariance
 GROSS, COARSE = 3.0, 1e-2  # objective per reading of a model that is wrong, share of it that decides nothing then
 LEVEL = 8  # trials in which a wrong model has to gain that share
+STUCK = 6  # trials after which a fit that has gained less than its `change` goes no farther by these slopes
 SAME_NOISE = 1e-2  # relative change of the whitening below which it is not renewed
 
 
 @dataclass(frozen=True)
 class FitLimits:
-    """End of a fit: steps at most, change of the objective, largest step in xi, rounds of whitening.
+    """End of a fit: steps at most, change of the objective, largest first step in xi, rounds of whitening.
 
     stall: predicted fall of the objective below which a point that no step improves counts as a peak; like the
     change it is in units of the objective per reading where that is above one. Half a nat suits smooth models;
@@ -66,12 +68,16 @@ class _Iterate:
 
 @dataclass(frozen=True)
 class _Walk:
-    """A place, the slopes that lead on from it and the xi they were taken at, the damping of the next step."""
+    """A place, the slopes that lead on from it and the xi they were taken at, damping and most length of the next step.
+
+    longest: in any xi, in units of the largest first step; it grows while steps of that length keep their promise.
+    """
 
     place: _Iterate
     slopes: Array
     taken: Array
     damping: float
+    longest: float = 1.0
 
     @property
     def moved(self) -> float:
@@ -161,6 +167,11 @@ class _Fit:
         if self.predictions - self.failed_at <= 2 * LEVEL:
             return False
         return objectives[-1 - LEVEL] < (1.0 + COARSE) * objectives[-1]
+
+    def is_stuck(self, objectives: Sequence[float], place: _Iterate) -> bool:
+        """True if the last STUCK trials together brought less than a change that counts."""
+        gained = objectives[-1 - STUCK] - objectives[-1] if len(objectives) > STUCK else inf
+        return gained < self.limits.change * _excess(place)
 
     def promised(self, walk: _Walk) -> float:
         """By how much the objective would fall to the peak that the slopes promise."""
@@ -271,7 +282,10 @@ def _descend(fit: _Fit, walk: _Walk, whitening: Whitening) -> tuple[_Iterate, Ar
 
 
 def _steps(fit: _Fit, walk: _Walk, whitening: Whitening) -> tuple[_Walk, bool]:
-    """Trials until nothing more is promised or gained; true where the predicted peak is of no use, or the model."""
+    """Trials until nothing more is promised or gained; true where the predicted peak is of no use, or the model.
+
+    Beyond MOST_DAMPING no step by these slopes gains.
+    """
     objectives: list[float] = []
     for step in range(fit.limits.steps):
         promised = fit.promised(walk)
@@ -280,9 +294,11 @@ def _steps(fit: _Fit, walk: _Walk, whitening: Whitening) -> tuple[_Walk, bool]:
             return walk, True
         if fit.is_level(objectives):
             return walk, True
-        if promised < fit.limits.change * _excess(walk.place) or walk.damping > MOST_DAMPING:
+        least = _stall(walk.place, fit.limits) if fit.exact else fit.limits.change * _excess(walk.place)
+        is_stuck = fit.is_stuck(objectives, walk.place)
+        if promised < least or walk.damping > MOST_DAMPING or is_stuck:
             if walk.moved <= NEAR:
-                break
+                return (replace(walk, damping=inf) if is_stuck else walk), False
             walk = fit.walk(walk.place, whitening)
         else:
             walk = _tried(fit, walk, whitening)
@@ -293,11 +309,11 @@ def _tried(fit: _Fit, walk: _Walk, whitening: Whitening) -> _Walk:
     """One trial: the new point where the objective falls, with damping and slopes updated from the result."""
     place = walk.place
     model = Quadratic.of(place.xi, place.residual, walk.slopes)
-    step = bounded_step(model, fit.bounds.about(place.xi), walk.damping, fit.limits.largest_step)
+    step = bounded_step(model, fit.bounds.about(place.xi), walk.damping, walk.longest * fit.limits.largest_step)
     promised = model.fall(step)
     trial = fit.trial(fit.bounds.reached(place.xi, step), whitening) if promised > 0 else None
     if trial is None:
-        return replace(walk, damping=_damping(walk.damping, 0.0))
+        return replace(walk, damping=_damping(walk.damping, 0.0), longest=1.0)
     straight = kept = (place.objective - trial.objective) / promised
     if straight < GOOD:
         corrected = fit.trial(_corrected(fit, walk, trial), whitening)
@@ -309,7 +325,8 @@ def _tried(fit: _Fit, walk: _Walk, whitening: Whitening) -> _Walk:
         missed = place.residual - trial.residual - slopes @ went
         slopes = slopes + np.outer(missed, went) / (went @ went)
     slopes = fit.moved_slopes(slopes, place.xi, trial.xi) if kept > 0 else slopes
-    here = _Walk(trial if kept > 0 else place, slopes, walk.taken, _damping(walk.damping, kept))
+    longest = walk.longest * LONGER if straight >= TRUE else walk.longest if kept > GOOD else 1.0
+    here = _Walk(trial if kept > 0 else place, slopes, walk.taken, _damping(walk.damping, kept), longest)
     return fit.renewed(here, whitening) if straight < GOOD and here.moved > SHORT else here
 
 

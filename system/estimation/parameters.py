@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from enum import Enum
-from math import exp, inf, log
+from math import exp, inf, log, sqrt
 
 from reynolds.errors import InputError
 from system.inputs.units import Dimension
@@ -16,6 +16,7 @@ class Scale(Enum):
     NORMAL = "normal"  # v0 + s xi
     LOG = "log"  # v0 exp(s xi)
     HALF = "half"  # v0 + s xi with xi >= 0: of one sign only
+    SQUARE = "square"  # (v0^2 + 2 v0 s xi)^(1/2): readings are nearly linear in the value's square
 
 
 class Role(Enum):
@@ -57,6 +58,8 @@ class Parameter:
             raise InputError(where, f"centre {self.centre}", f"one within [{self.lower}, {self.upper}]")
         if self.scale is Scale.LOG and not self.lower >= 0 < self.centre:
             raise InputError(where, f"centre {self.centre}, lower {self.lower}", "positive values on a log scale")
+        if self.scale is Scale.SQUARE and not self.lower > 0:
+            raise InputError(where, f"lower {self.lower}", "a positive value on a scale of squares")
 
     @property
     def lowest(self) -> float:
@@ -74,16 +77,22 @@ class Parameter:
         """The value in SI of a standard number."""
         if self.scale is Scale.LOG:
             return self.centre * exp(self.spread * xi)
+        if self.scale is Scale.SQUARE:
+            return sqrt(max(self.centre**2 + 2.0 * self.centre * self.spread * xi, self.lower**2))
         return self.centre + self.spread * xi
 
     def standard(self, value: float) -> float:
         """The standard number of a value in SI: the inverse of `value`."""
         if self.scale is Scale.LOG:
             return log(value / self.centre) / self.spread if value > 0 else -inf
+        if self.scale is Scale.SQUARE:
+            return (value**2 - self.centre**2) / (2.0 * self.centre * self.spread)
         return (value - self.centre) / self.spread
 
     def stretch(self, xi: float) -> float:
         """d value / d xi, in SI: what a slope by value is multiplied with to be one by xi."""
+        if self.scale is Scale.SQUARE:
+            return self.centre * self.spread / self.value(xi)
         return self.spread * (self.value(xi) if self.scale is Scale.LOG else 1.0)
 
     @property

@@ -235,13 +235,16 @@ def test_starts_find_what_a_threshold_hides() -> None:
 def test_scales(scale: Scale) -> None:
     """Value and standard number are inverse; `stretch` is the slope of the one by the other."""
     centre = 0.0 if scale is Scale.HALF else 2.0
-    parameter = _parameter("p", centre, 0.3, (0.0, 9.0), scale)
+    lower = 0.2 if scale is Scale.SQUARE else 0.0
+    parameter = _parameter("p", centre, 0.3, (lower, 9.0), scale)
     xi = 0.7
     assert parameter.standard(parameter.value(xi)) == pytest.approx(xi, rel=1e-12)
     slope = (parameter.value(xi + 1e-6) - parameter.value(xi - 1e-6)) / 2e-6
     assert parameter.stretch(xi) == pytest.approx(slope, rel=1e-8)
     assert parameter.value(parameter.highest) == pytest.approx(9.0)
-    assert parameter.lowest == {Scale.HALF: 0.0, Scale.LOG: -np.inf, Scale.NORMAL: -2.0 / 0.3}[scale]
+    of_square = (lower**2 - centre**2) / (2.0 * 2.0 * 0.3)
+    lowest = {Scale.HALF: 0.0, Scale.LOG: -np.inf, Scale.NORMAL: -2.0 / 0.3, Scale.SQUARE: of_square}
+    assert parameter.lowest == pytest.approx(lowest[scale])
     assert parameter.widened(10.0).spread == 3.0
     held = parameter.held(2.0)
     expected = (max(parameter.lowest, -2.0), min(parameter.highest, 2.0))
@@ -274,13 +277,30 @@ def test_readings_that_do_not_fit() -> None:
 
 
 def test_a_fit_that_cannot_come_low_enough_ends_early() -> None:
-    """A parameter thirty spreads off, two a step, beside a reading that nothing explains: left on its way."""
+    """A parameter 300 spreads off, two the first step, beside a reading that nothing explains: left on its way."""
     far = (_parameter("a", 0.0, 1.0, OPEN, Scale.NORMAL),)
     law = Law(far, lambda values: np.array([values[0], 0.0]))
-    readings = _readings(np.array([30.0, 1.0]), 0.01)
+    readings = _readings(np.array([300.0, 1.0]), 0.01)
     whole = maximum_posterior(law, readings)
     left = maximum_posterior(law, readings, limits=FitLimits(hopeless=5e3))
-    assert whole.values[0] == pytest.approx(30.0, abs=0.01)
+    assert whole.values[0] == pytest.approx(300.0, abs=0.1)
     assert left.effort.predictions < whole.effort.predictions
     assert whole.objective < left.objective
     assert left.log_evidence == pytest.approx(whole.log_evidence, rel=1e-3)  # that of the peak promised
+
+
+def test_steps_grow_while_they_keep_their_promise() -> None:
+    """A thousand spreads away: steps of two, four, eight; 500 trials of two each otherwise."""
+    far = (_parameter("a", 0.0, 1.0, OPEN, Scale.NORMAL),)
+    found = maximum_posterior(Law(far, lambda values: values), _readings(np.array([1000.0]), 0.001))
+    assert found.values[0] == pytest.approx(1000.0, abs=0.01)
+    assert found.effort.predictions < 15
+
+
+def test_square_scale_is_straight_where_a_value_has_no_slope() -> None:
+    """Readings 1 + 1.5 e^2 of e = 0.1 beside the bound: few trials, where a scale of e itself jumps to and fro."""
+    own = (_parameter("e", 0.6, 0.2, (0.05, 0.95), Scale.SQUARE),)
+    law = Law(own, lambda values: (1.0 + 1.5 * values[0] ** 2) * np.array([1.0, 2.0, 3.0]))
+    found = maximum_posterior(law, _readings(1.015 * np.array([1.0, 2.0, 3.0]), 1e-4))
+    assert found.values[0] == pytest.approx(0.1, abs=0.002)
+    assert found.effort.predictions < 6
