@@ -217,7 +217,7 @@ class BlockFilm:
 
     def wall_shear(self, stage: FloatingStage) -> WallShear:
         """Shear of film and contact on block (moving) and plate, webs over the ports counted as films."""
-        return wall_shear(stage.solution, self.asperities, stage.gap)
+        return wall_shear(stage.solution, self.asperities, stage.gap, self._laws.thinning)
 
     def friction_torque(self, space: FilmSpace, by: WallShear) -> float:
         """Torque (N m) of film and contact against the block's turning, webs over the ports left out."""

@@ -10,6 +10,7 @@ from reynolds.laws.contact import Asperities
 from reynolds.laws.fluid import CONSTANT, Fluid
 from reynolds.laws.roughness import Surface
 from reynolds.problem import Cavitation
+from reynolds.thermal.shear_thinning import ShearLaw, newtonian
 
 
 class Effect(Enum):
@@ -59,12 +60,16 @@ class Physics:
 
 @dataclass(frozen=True)
 class FilmLaws:
-    """Oil and walls of one gap for `reynolds.problem.FilmProblem`, the walls on any mesh."""
+    """Oil and walls of one gap for `reynolds.problem.FilmProblem`, the walls on any mesh.
+
+    thinning: of the oil where it is sheared between sliding walls (`gaps.films.friction.wall_shear`).
+    """
 
     fluid: Fluid = CONSTANT
     surface: Surface | None = None
     asperities: Asperities | None = None
     walls: GapWalls | None = None
+    thinning: ShearLaw = newtonian
 
 
 def laws_left(laws: FilmLaws, physics: Physics) -> FilmLaws:
@@ -74,4 +79,5 @@ def laws_left(laws: FilmLaws, physics: Physics) -> FilmLaws:
         surface=laws.surface if physics.roughness else None,
         asperities=laws.asperities if physics.roughness else None,
         walls=laws.walls if physics.elastic_walls else None,
+        thinning=laws.thinning,
     )

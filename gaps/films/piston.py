@@ -193,7 +193,7 @@ class PistonFilm:
 
     def wall_shear(self, stage: FloatingStage) -> WallShear:
         """Shear of film and contact on piston (moving) and bore."""
-        return wall_shear(stage.solution, self.asperities, stage.gap)
+        return wall_shear(stage.solution, self.asperities, stage.gap, self._laws.thinning)
 
     def deformation(self, stage: FloatingStage) -> PistonDeformation | None:
         """Deformation of both parts; None between rigid walls."""

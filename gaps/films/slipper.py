@@ -294,7 +294,7 @@ class SlipperFilm:
 
     def wall_shear(self, stage: FloatingStage) -> WallShear:
         """Shear of film and contact on slipper (moving) and plate."""
-        return wall_shear(stage.solution, self.asperities, stage.gap)
+        return wall_shear(stage.solution, self.asperities, stage.gap, self._laws.thinning)
 
     def friction(self, stage: FloatingStage, by: WallShear) -> SlipperFriction:
         """Friction of film and contact of the lands on the slipper; the pocket's oil has next to none."""

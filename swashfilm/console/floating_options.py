@@ -4,13 +4,11 @@ import argparse
 from dataclasses import replace
 
 from gaps.films.physics import Effect
-from reynolds.errors import InputError
 from swashfilm.case.gap.revolution import FINER
 from swashfilm.case.gap.switches import SWITCHES
 from swashfilm.console.fidelity import Fidelity
 from swashfilm.console.inputs import option_value
 from system.description.pump import SINGLE_PARTS, PumpDescription
-from system.effects.switched import hold_plain
 from system.inputs.faults import Fault
 from system.points.floating_gaps import FloatingOptions, usual_finer
 from system.pump.chamber_kinds import kinds
@@ -40,7 +38,7 @@ def floating_options(options: argparse.Namespace) -> FloatingOptions:
 def floating_faults(
     options: argparse.Namespace, pump: PumpDescription, chosen: str, by: str = "--fidelity"
 ) -> list[Fault]:
-    """Return the faults of the options of floating gaps, and of pump values that floating gaps do not read.
+    """Return the faults of the options of floating gaps.
 
     Option `by` has chosen a fidelity.
     """
@@ -49,15 +47,7 @@ def floating_faults(
     if chosen != Fidelity.FLOATING.value:
         wanted = f"{by} {Fidelity.FLOATING.value} beside it"
         return [Fault(option, f"{by} {chosen}", wanted) for option in stated]
-    return _steps_faults(options, pump) + _finer_faults(options) + _physics_faults(pump)
-
-
-def _physics_faults(pump: PumpDescription) -> list[Fault]:
-    try:
-        hold_plain(pump)
-    except InputError as reason:
-        return [Fault(reason.where, reason.found, reason.expected)]
-    return []
+    return _steps_faults(options, pump) + _finer_faults(options)
 
 
 def alike_faults(pump: PumpDescription) -> list[Fault]:

@@ -36,11 +36,11 @@ def _law(pump: PumpDescription, extension: Extension, values: Values) -> Law:
 
 
 def hold_plain(pump: PumpDescription) -> None:
-    """Raise InputError where a pump has effects switched on that a fidelity does not read."""
+    """Raise InputError where a pump has effects switched on that a computation does not read."""
     if pump.physics.on:
         found = ", ".join(dict.fromkeys(extension.id.value for extension, _ in switched_on(pump)))
-        expected = "no effects, or the lumped or the films fidelity, which read them"
-        raise InputError("physics", found, f"{expected}; try --fidelity films, or the file without [physics]")
+        expected = "no effects: swashfilm run, map and table read them"
+        raise InputError("physics", found, f"{expected}; try the file without [physics]")
 
 
 def stated_effects(laws: Sequence[tuple[Law, Values]], courses: Mapping[Gap, GapCourse], state: BenchState) -> Effects:

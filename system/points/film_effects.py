@@ -1,11 +1,13 @@
-"""[physics] in films: effects that heat, stiffen or open a film are solved in it, not applied as a factor.
+"""[physics] in films: effects that heat, stiffen, thin or open a film are solved in it, not applied as a factor.
 
     film_heating        films warm, between walls with the stated thermal resistance to the case
-    viscosity_pressure  Barus' law at every place of the films
+    viscosity_pressure  Barus' law at every place of the films; Roelands' where they float, under edges that touch
     elastic_opening     by compliance: the parts' own bodies, so many times as compliant; by opening: springs
     thermal_clearance   films of the thickness at the point's temperature (`film_thickness`)
+    shear_thinning      Cross' law at the rate of sliding, at every place of the films
 
-All other effects remain the closed-form laws of the lumped fidelity.
+Floating films also have what places their parts and lets them touch (BALANCED). All other effects remain the
+closed-form laws of the lumped fidelity.
 """
 
 import math
@@ -22,9 +24,10 @@ from gaps.revolution.film_heat import GapHeat
 from gaps.walls.pair import BoreWalls, GapWalls, PlateWalls
 from gaps.walls.springs import SpringBore, SpringPlates
 from reynolds.bodies.elasticity import Elastic
-from reynolds.laws.fluid import Fluid
+from reynolds.laws.fluid import Fluid, ViscosityLaw
 from reynolds.laws.law import Tangent
-from reynolds.laws.viscosity import barus
+from reynolds.laws.rheology import Cross
+from reynolds.laws.viscosity import Roelands, barus
 from system.description.assumptions import Assumption, Taken
 from system.description.effects import FilmHeatingSection, OpeningSection
 from system.description.gap import Gap
@@ -38,8 +41,20 @@ from system.films.rotor import Rotor
 from system.inputs.units import Dimension, format_quantity
 from system.pump.film_thickness import given_film, opening_share
 
-SOLVED = (EffectId.FILM_HEATING, EffectId.VISCOSITY_PRESSURE, EffectId.ELASTIC_OPENING, EffectId.THERMAL_CLEARANCE)
+SOLVED = (
+    EffectId.FILM_HEATING,
+    EffectId.VISCOSITY_PRESSURE,
+    EffectId.ELASTIC_OPENING,
+    EffectId.THERMAL_CLEARANCE,
+    EffectId.SHEAR_THINNING,
+)
 """Effects that films solve; any other effect acts by its closed-form law."""
+BALANCED = {
+    EffectId.SLIPPER_LIFT: "the slippers ride and tilt as the forces on them balance",
+    EffectId.BLOCK_TIPPING: "the block tips as the forces on it balance",
+    EffectId.MIXED_FRICTION: "asperities bear and rub where films are thin",
+}
+"""Effects that floating films have of themselves, whatever numbers [physics] gives them, and how."""
 _SOLVED_SHARES = (0.0, 1.0, 0.0)
 """carried_share, throttled_share and carry_over by which the closed-form law comes nearest to films that solve them."""
 _PART = {Gap.PISTON: "piston", Gap.SLIPPER: "slipper", Gap.VALVE_PLATE: "block"}
@@ -76,16 +91,28 @@ class BarusAboveCase:
         return barus(pressure, resting, self.coefficient)
 
 
-def effects_in_films(pump: PumpDescription) -> tuple[tuple[EffectId, ...], tuple[EffectId, ...]]:
+def effects_in_films(
+    pump: PumpDescription, floating: bool = False
+) -> tuple[tuple[EffectId, ...], tuple[EffectId, ...]]:
     """Effects of [physics] that films solve, and those that remain closed-form laws."""
-    on = dict.fromkeys(extension.id for extension, _ in switched_on(pump))
-    return tuple(one for one in on if one in SOLVED), tuple(one for one in on if one not in SOLVED)
+    on, solved = dict.fromkeys(extension.id for extension, _ in switched_on(pump)), _solved(floating)
+    return tuple(one for one in on if one in solved), tuple(one for one in on if one not in solved)
 
 
-def closed_laws(pump: PumpDescription) -> PumpDescription:
+def closed_laws(pump: PumpDescription, floating: bool = False) -> PumpDescription:
     """The pump with only those effects that no film solves."""
-    off = dict.fromkeys(one.value for one in SOLVED)
+    off = dict.fromkeys(one.value for one in _solved(floating))
     return replace(pump, physics=replace(pump.physics, **off))
+
+
+def film_laws(pump: PumpDescription) -> PumpDescription:
+    """The pump with only those effects that films at given positions solve: what any film of it depends on."""
+    off = {one.id.value: None for one, _ in switched_on(pump) if one.id not in SOLVED}
+    return replace(pump, physics=replace(pump.physics, **off))
+
+
+def _solved(floating: bool) -> tuple[EffectId, ...]:
+    return (*SOLVED, *BALANCED) if floating else SOLVED
 
 
 def film_effects(rotor: Rotor, parts: FloatingParts, pump: PumpDescription, physics: GapPhysics) -> FilmEffects:
@@ -94,11 +121,38 @@ def film_effects(rotor: Rotor, parts: FloatingParts, pump: PumpDescription, phys
     rotor, parts: of the pump with its film thicknesses. Differences between films and closed-form laws are listed
     among the parts' assumptions.
     """
+    found = _with_effects(rotor, parts, pump, physics, lambda coefficient: _barus(rotor, coefficient))
+    taken = all_taken(rotor, found.parts, found.physics.piston)
+    return replace(found, parts=replace(found.parts, taken=taken))
+
+
+def floating_effects(rotor: Rotor, parts: FloatingParts, pump: PumpDescription, physics: Physics) -> FilmEffects:
+    """The same of floating films, with the effects that they have of themselves among the assumptions."""
+    found, taken = _with_effects(rotor, parts, pump, GapPhysics.alike(physics), Roelands), Taken()
+    if pump.physics.viscosity_pressure is not None:
+        reason = "of the same coefficient; films under edges that touch pass the pressures of Barus' law"
+        taken.note("physics.viscosity_pressure", "Roelands' law", reason)
+    for effect, how in BALANCED.items():
+        if getattr(pump.physics, effect.value) is not None:
+            taken.note(f"physics.{effect.value}", "as the floating films have it, not by its law", how)
+    return replace(found, parts=replace(found.parts, taken=(*found.parts.taken, *taken.assumptions)))
+
+
+def _barus(rotor: Rotor, coefficient: float) -> BarusAboveCase:
+    return BarusAboveCase(coefficient, rotor.point.case_pressure)
+
+
+def _with_effects(
+    rotor: Rotor,
+    parts: FloatingParts,
+    pump: PumpDescription,
+    physics: GapPhysics,
+    stiffening: Callable[[float], ViscosityLaw],
+) -> FilmEffects:
     stated, taken = pump.physics, list(parts.taken)
     on: dict[Gap, Physics] = {gap: getattr(physics, gap.value) for gap in Gap}
     if stated.viscosity_pressure is not None and stated.viscosity_pressure.coefficient > 0.0:
-        law = BarusAboveCase(stated.viscosity_pressure.coefficient, rotor.point.case_pressure)
-        fluid = Fluid(viscosity=law)
+        fluid = Fluid(viscosity=stiffening(stated.viscosity_pressure.coefficient))
         parts = _with_laws(parts, lambda gap, laws: replace(laws, fluid=fluid))
         on = {gap: own.including(Effect.PRESSURE_VISCOSITY) for gap, own in on.items()}
         taken = [one for one in taken if one.path != "oil.pressure_viscosity"]
@@ -106,14 +160,14 @@ def film_effects(rotor: Rotor, parts: FloatingParts, pump: PumpDescription, phys
         soft = {gap: softened(pump, gap, getattr(parts, _PART[gap]).laws.walls) for gap in Gap}
         parts = _with_laws(parts, lambda gap, laws: replace(laws, walls=soft[gap] or laws.walls))
         on = {gap: own.including(Effect.ELASTIC_WALLS) if soft[gap] else own for gap, own in on.items()}
+    if stated.shear_thinning is not None:
+        thins = Cross(1.0 - stated.shear_thinning.drop, 1.0 / stated.shear_thinning.rate, 1.0)
+        parts = _with_laws(parts, lambda gap, laws: replace(laws, thinning=thins))
     if stated.film_heating is not None:
         parts, assumed = _between_walls(rotor, parts, stated.film_heating)
         on = {gap: own.including(Effect.HEAT) for gap, own in on.items()}
         taken += assumed
-    parts = replace(parts, taken=tuple(taken))
-    return FilmEffects(
-        replace(parts, taken=all_taken(rotor, parts, on[Gap.PISTON])), GapPhysics(*(on[gap] for gap in Gap))
-    )
+    return FilmEffects(replace(parts, taken=tuple(taken)), GapPhysics(*(on[gap] for gap in Gap)))
 
 
 def softened(pump: PumpDescription, gap: Gap, walls: GapWalls | None) -> GapWalls | None:

@@ -3,7 +3,8 @@
 Rounds alternate between the three gaps over the revolution and the chamber's cycle. Films leak into the chamber's
 balance, the parts' small motion changes its volume, and their friction loads each other through the ball joint.
 Friction of the three gaps is shear of their films and contact of their asperities, without Coulomb's law. The
-ball joint rubs by its forces and spins; the other pairs are the lumped fidelity's.
+ball joint rubs by its forces and spins; the other pairs are the lumped fidelity's. Films solve what [physics] states of
+them (`film_effects`); its other effects act by their laws, at the pump's chambers without any.
 """
 
 from collections.abc import Mapping
@@ -15,11 +16,16 @@ import numpy as np
 
 from gaps.revolution.march import Leg, mass_balance_error
 from reynolds.errors import NotConverged
+from system.description.effects import PhysicsSection
 from system.description.pump import PumpDescription
-from system.effects.switched import hold_plain
+from system.effects.effect import Effects
+from system.effects.friction import rubbed
+from system.films.cycle import GapPhysics
 from system.films.drives import Drives, Rubbing, no_rubbing
 from system.films.parts import FloatingParts
 from system.films.rotor import Rotor, rotor
+from system.points.effects import at_the_ports, mean_outside, point_effects
+from system.points.film_effects import closed_laws
 from system.points.floating_exchange import (
     FloatingGaps,
     block_torque,
@@ -46,6 +52,8 @@ from system.points.piston_process import PistonBeside, piston_beside
 from system.pump.assembly import PumpPoint, met_point, put_together
 from system.pump.chamber.port_coupling import PortedCycle, ported_cycle
 from system.pump.chamber.turn import Gaps
+from system.pump.chamber_kinds import kinds
+from system.pump.film_thickness import at_temperature, unpressed
 from system.pump.laws.friction_pairs import over_chambers
 from system.pump.lumped import lumped_pairs, piston_motion, port_lines, swept_displacement
 from system.pump.operating import OperatingPoint
@@ -92,7 +100,7 @@ class Round:
 
 @dataclass(frozen=True)
 class FloatingKind:
-    """Equal chambers: their parts, the last drives of their gaps, and the gaps.
+    """Equal chambers: their parts, the last drives of their gaps, the gaps and the physics of their films.
 
     chambers, from 0; of a pump whose chambers are all equal the first alone.
     """
@@ -102,16 +110,19 @@ class FloatingKind:
     parts: FloatingParts
     drives: Drives
     gaps: FloatingGaps
+    physics: GapPhysics
 
 
 @dataclass(frozen=True)
 class FloatingPoint:
     """One coupled operating point: the pump, its gaps over the revolution, and the evidence of convergence.
 
-    kinds: of chambers, the most common first; their block is one. mass_balance_error of each gap over the turn,
+    pump: as it is asked for; rotor: with films as [physics] leaves them at the point's temperature. kinds: of chambers,
+    the most common first; their block is one. mass_balance_error of each gap over the turn,
     the worst of its kinds.
     """
 
+    pump: PumpDescription
     rotor: Rotor
     options: FloatingOptions
     pump_point: PumpPoint
@@ -131,28 +142,40 @@ def floating_point(
     """One periodic operating point with the three gaps floating; side by side: the pistons in a second process.
 
     Raises NotConverged where gaps and chamber pressure do not settle within ROUND_LIMIT rounds, FilmNotConverged
-    where a film does not, ValueError for steps that do not divide among the pistons, InputError where
-    [physics] switches effects on.
+    where a film does not, ValueError for steps that do not divide among the pistons, InputError for a film that
+    warmth closes.
     """
-    hold_plain(pump)
     options = options or FloatingOptions()
-    lumped = lumped_point(pump, point)
-    at = rotor(pump, lumped.point)
-    group, angle = group_of(at), lumped.cycle.shaft_angle
-    still = (no_rubbing(angle.size),) * len(group.parts)
-    pressures = tuple(one.pressure for one in lumped.chambers)
-    asked = RoundDrives(at, angle, pressures, still, (None,) * len(group.parts), options)
+    group, asked = _beginning(pump, point, options)
+    left = at_the_ports(point, group.by_chamber)
     gaps: tuple[FloatingGaps, ...] | None = None
     rounds: list[Round] = []
     with piston_beside(group.parts) if side_by_side else nullcontext() as beside:
         while not rounds or not (_exact(rounds[-1], options) and _agree(rounds[-1])):
             if len(rounds) == ROUND_LIMIT:
                 raise _not_settled(rounds[-1])
-            closing = replace(asked, options=_loosened(options, rounds, at.pump.pump.pistons))
-            found = _round(closing, group, point, gaps, beside, _of_round(report, len(rounds) + 1))
+            closing = replace(asked, options=_loosened(options, rounds, pump.pump.pistons))
+            found = _round(closing, group, left, gaps, beside, _of_round(report, len(rounds) + 1))
             asked, gaps = found.asked, found.gaps
             rounds.append(found.taken)
-    return _floating_point(point, group, replace(found, asked=replace(asked, options=options)), tuple(rounds))
+    found = replace(found, asked=replace(asked, options=options))
+    return _floating_point(pump, point, group, found, tuple(rounds))
+
+
+def _beginning(pump: PumpDescription, point: OperatingPoint, options: FloatingOptions) -> tuple[Group, RoundDrives]:
+    """The kinds of chambers with the effects of [physics], and the first drives: the lumped pump without effects."""
+    warm = at_temperature(pump, point.temperature)
+    own, described = closed_laws(warm, floating=True), unpressed(warm, point.case_pressure)
+    plain, found = lumped_point(replace(own, physics=PhysicsSection()), point), kinds(own)
+    effects: tuple[Effects[float], ...] = ()
+    if own.physics.on:
+        cycles = [plain.chambers[found.of_chamber.index(kind)] for kind in range(len(found.pumps))]
+        effects = tuple(point_effects(one, plain.point, cycle) for one, cycle in zip(found.pumps, cycles, strict=True))
+    group, angle = group_of(rotor(described, plain.point), options.physics, effects), plain.cycle.shaft_angle
+    still = (no_rubbing(angle.size),) * len(group.parts)
+    pressures = tuple(one.pressure for one in plain.chambers)
+    at = rotor(described, at_the_ports(plain.point, group.by_chamber))
+    return group, RoundDrives(at, angle, pressures, still, (None,) * len(group.parts), options)
 
 
 @dataclass(frozen=True)
@@ -258,22 +281,25 @@ def _not_settled(taken: Round) -> NotConverged:
     )
 
 
-def _floating_point(point: OperatingPoint, group: Group, found: _Found, rounds: tuple[Round, ...]) -> FloatingPoint:
+def _floating_point(
+    pump: PumpDescription, point: OperatingPoint, group: Group, found: _Found, rounds: tuple[Round, ...]
+) -> FloatingPoint:
     """The pump with gaps and chambers that agree."""
     asked, ported, block = found.asked, found.ported, found.gaps[0].block
     pistons, speed, samples = asked.rotor.pump.pump.pistons, point.shaft_speed, asked.shaft_angle.size
+    effects, left = group.by_chamber, at_the_ports(point, group.by_chamber)
     rotors = group.rotors(asked)
     of_kinds = [
-        FloatingKind(group.kinds.chambers(kind), *each)
+        FloatingKind(group.kinds.chambers(kind), *each, group.physics)
         for kind, each in enumerate(zip(rotors, group.parts, drives_of(asked, group), found.gaps, strict=True))
     ]
     chambers = list(zip(group.kinds.by_chamber(of_kinds), by_chamber(group, found.gaps), ported.cycles, strict=True))
     each, derived = [], []
     for own, gaps, cycle in chambers:
-        motion = piston_motion(own.rotor.pump, point)
-        each.append(with_floating_gaps(lumped_pairs(own.rotor.pump, point, motion, cycle), gaps, own.drives.group))
+        motion = piston_motion(own.rotor.pump, left)
+        each.append(with_floating_gaps(lumped_pairs(own.rotor.pump, left, motion, cycle), gaps, own.drives.group))
         derived.append(swept_displacement(own.rotor.pump, motion.drive))
-    losses = mean_of(each)
+    losses = mean_of([rubbed(*one) for one in zip(each, effects, strict=True)] if effects else each)
     about_shaft = losses.ball_guide_retainer, losses.front_bearing, losses.rear_bearing
     moments = [shaft_moment(gaps, own.rotor, own.parts, own.drives.group) for own, gaps, _ in chambers]
     lumped = sum(loss.coulomb + loss.viscous for loss in about_shaft) / speed
@@ -286,10 +312,11 @@ def _floating_point(point: OperatingPoint, group: Group, found: _Found, rounds: 
         mean_of([gap_exchange(gaps, pistons, speed) for _, gaps, _ in chambers]),
         over_chambers(moments, pistons) + block_torque(block, samples) + lumped,
         mean_of([leakage_heat(gaps, pistons) for _, gaps, _ in chambers]),
+        mean_outside(closed_laws(asked.rotor.pump, floating=True), met_point(point, ported), effects),
     )
     missing = Gaps(
         max(mass_balance_error(own.piston) for own in found.gaps),
         max(mass_balance_error(own.slipper) for own in found.gaps),
         mass_balance_error(block),
     )
-    return FloatingPoint(asked.rotor, asked.options, pump_point, tuple(of_kinds), rounds, missing)
+    return FloatingPoint(pump, asked.rotor, asked.options, pump_point, tuple(of_kinds), rounds, missing)

@@ -12,20 +12,25 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from gaps.films.physics import Physics
 from gaps.films.reports import PistonReport
 from gaps.revolution.march import GapRevolution
 from reynolds.numerics.arrays import Array
 from system.description.pump import PumpDescription
+from system.effects.effect import Effects
+from system.films.cycle import GapPhysics
 from system.films.drives import Drives, Rubbing, block_drive, drives
 from system.films.parts import FloatingParts, floating_parts
 from system.films.rotor import Rotor
 from system.films.spins import SpinTorques
+from system.points.effects import affected_problem
+from system.points.film_effects import floating_effects
 from system.points.floating_exchange import FloatingGaps, growth, leak_table
 from system.points.floating_gaps import FloatingOptions, block_revolution, piston_revolution, slipper_revolution
 from system.points.piston_process import Driven, PistonBeside
 from system.pump.chamber.problem import ChamberProblem
 from system.pump.chamber_kinds import Kinds, kinds
-from system.pump.lumped import PistonMotion, chamber_problem
+from system.pump.lumped import PistonMotion
 from system.pump.operating import OperatingPoint
 from system.work.progress import Report
 
@@ -35,10 +40,20 @@ BLOCK_SHARE = 0.1
 
 @dataclass(frozen=True)
 class Group:
-    """A pump's kinds of chambers with the parts of each."""
+    """A pump's kinds of chambers: the parts of each, the physics of their films, and what other effects change.
+
+    effects: by kind, none where [physics] has no effect that acts by its law.
+    """
 
     kinds: Kinds
     parts: tuple[FloatingParts, ...]
+    physics: GapPhysics
+    effects: tuple[Effects[float], ...] = ()
+
+    @property
+    def by_chamber(self) -> tuple[Effects[float], ...]:
+        """The effects of each chamber, of one where all are equal; none where no law acts."""
+        return self.kinds.by_chamber(self.effects) if self.effects else ()
 
     def rotors(self, asked: RoundDrives) -> tuple[Rotor, ...]:
         """The rotating group at the operating point, with the parts of each kind."""
@@ -54,10 +69,11 @@ def work_of(pump: PumpDescription) -> float:
     return (1.0 - BLOCK_SHARE) * len(found.pumps) + BLOCK_SHARE * pump.pump.pistons
 
 
-def group_of(rotor: Rotor) -> Group:
-    """The kinds of a pump's chambers."""
+def group_of(rotor: Rotor, physics: Physics, effects: tuple[Effects[float], ...] = ()) -> Group:
+    """The kinds of a pump's chambers, their films with those effects of [physics] that films solve."""
     found = kinds(rotor.pump)
-    return Group(found, tuple(floating_parts(pump) for pump in found.pumps))
+    films = [floating_effects(replace(rotor, pump=pump), floating_parts(pump), pump, physics) for pump in found.pumps]
+    return Group(found, tuple(one.parts for one in films), films[0].physics, effects)
 
 
 @dataclass(frozen=True)
@@ -77,11 +93,9 @@ class RoundDrives:
 
 def driven_by(asked: RoundDrives, group: Group) -> tuple[Driven, ...]:
     """Drives of piston and slipper of each kind."""
-    pressure = np.array(asked.pressure)
+    pressure, options = np.array(asked.pressure), replace(asked.options, physics=group.physics.piston)
     return tuple(
-        Driven(
-            rotor, asked.shaft_angle, pressure[list(group.kinds.chambers(kind))].mean(axis=0), rubbing, asked.options
-        )
+        Driven(rotor, asked.shaft_angle, pressure[list(group.kinds.chambers(kind))].mean(axis=0), rubbing, options)
         for kind, (rotor, rubbing) in enumerate(zip(group.rotors(asked), asked.rubbing, strict=True))
     )
 
@@ -108,7 +122,11 @@ def gap_revolutions(
     report: Report,
 ) -> tuple[FloatingGaps, ...]:
     """The gaps of each kind over the revolution, on from those before; pistons in their own process, if any."""
-    options, block_before = asked.options, None if before is None else before[0].block
+    block_before = None if before is None else before[0].block
+    on_piston, on_slipper, on_block = (
+        replace(asked.options, physics=own)
+        for own in (group.physics.piston, group.physics.slipper, group.physics.valve_plate)
+    )
     last_of: Sequence[FloatingGaps | None] = [None] * len(driven) if before is None else before
     each = list(zip(group.rotors(asked), group.parts, driven, last_of, strict=True))
     pistons: Sequence[GapRevolution[PistonReport]] = ()
@@ -116,14 +134,14 @@ def gap_revolutions(
         beside.start(driven_by(asked, group))
     else:
         pistons = [
-            piston_revolution(rotor, parts, of.piston, options, last.piston if last else None, report)
+            piston_revolution(rotor, parts, of.piston, on_piston, last.piston if last else None, report)
             for rotor, parts, of, last in each
         ]
     slippers = [
-        slipper_revolution(rotor, parts, of.slipper, options, last.slipper if last else None, report)
+        slipper_revolution(rotor, parts, of.slipper, on_slipper, last.slipper if last else None, report)
         for rotor, parts, of, last in each
     ]
-    block = block_revolution(asked.rotor, group.parts[0], driven[0].block, options, block_before, report)
+    block = block_revolution(asked.rotor, group.parts[0], driven[0].block, on_block, block_before, report)
     if beside is not None:
         pistons = beside.fetch(report)
     return tuple(
@@ -140,9 +158,23 @@ def by_chamber(group: Group, gaps: Sequence[FloatingGaps]) -> tuple[FloatingGaps
 def chamber_problems(
     asked: RoundDrives, group: Group, point: OperatingPoint, motion: PistonMotion, gaps: Sequence[FloatingGaps]
 ) -> tuple[ChamberProblem, ...]:
-    """Each chamber between its gaps: their leakage, and the change of its volume by the parts' small motion."""
-    rotors = group.kinds.by_chamber(group.rotors(asked))
+    """Each chamber between its gaps: their leakage, the parts' small motion in its volume, and effects."""
+    rotors, parts = group.kinds.by_chamber(group.rotors(asked)), group.kinds.by_chamber(group.parts)
+    effects: list[tuple[Effects[float], ...]] = [(one,) for one in group.by_chamber] or [()] * len(rotors)
     return tuple(
-        replace(chamber_problem(at.pump, point, motion, leak_table(own)), growth=growth(own, at, parts))
-        for at, parts, own in zip(rotors, group.kinds.by_chamber(group.parts), by_chamber(group, gaps), strict=True)
+        replace(_problem(at.pump, point, motion, own, acting), growth=growth(own, at, of))
+        for at, of, own, acting in zip(rotors, parts, by_chamber(group, gaps), effects, strict=True)
     )
+
+
+def _problem(
+    pump: PumpDescription,
+    point: OperatingPoint,
+    motion: PistonMotion,
+    gaps: FloatingGaps,
+    effects: Sequence[Effects[float]],
+) -> ChamberProblem:
+    """A chamber with its films' leaks, which no effect multiplies, and what effects change of its ports and oil."""
+    leaks = leak_table(gaps)
+    own = [replace(one, conductance=np.ones_like(leaks.conductance)) for one in effects]
+    return affected_problem(pump, point, motion, leaks, own)

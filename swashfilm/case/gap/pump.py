@@ -57,7 +57,7 @@ def read_case_pump(top: Table, film: Table, folder: Path) -> CasePump | None:
         return None
     if pump.physics.on:
         effects = ", ".join(one.value for one in chain(*effects_in_films(pump)))
-        expected = "none: a case states its own physics; swashfilm run --fidelity lumped or films reads them"
+        expected = "none: a case states its own physics; swashfilm run reads them"
         film.fault("pump", f"effects of [physics], {effects}", expected)
         return None
     return CasePump(rotor(pump, operating_point(pump)), place, stated)

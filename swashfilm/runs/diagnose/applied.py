@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from datetime import date
 
 from diagnosis.finding import DiagnosisResult
 from diagnosis.verdict.diagnosis import Estimate
 from system.description.pump import PumpDescription
+from system.effects.effect import EffectId
 from system.points.film_effects import effects_in_films
 from system.pump.chamber_kinds import kinds
 from system.pump_file.file import resolved_toml
@@ -47,11 +48,16 @@ def _fidelities(pump: PumpDescription) -> Iterator[str]:
             yield "It runs in every fidelity."
         return
     yield "--fidelity lumped has all effects of [physics] as closed-form laws."
-    if solved:
-        yield f"--fidelity films solves {', '.join(one.value for one in solved)} in the films."
-    if closed:
-        yield f"--fidelity films has {', '.join(one.value for one in closed)} as closed-form laws."
-    yield "--fidelity floating and table do not read [physics]: for these delete its tables, and the finding with them."
+    for fidelity, (solved, closed) in (("films", effects_in_films(pump)), ("floating", effects_in_films(pump, True))):
+        if solved:
+            yield f"--fidelity {fidelity} solves {_names(solved)} in the films."
+        if closed:
+            yield f"--fidelity {fidelity} has {_names(closed)} as closed-form laws."
+    yield "--fidelity table has the films of its points, which swashfilm table solves, and the other laws."
+
+
+def _names(effects: Sequence[EffectId]) -> str:
+    return ", ".join(one.value for one in effects)
 
 
 def _estimate(one: Estimate) -> str:

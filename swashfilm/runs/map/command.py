@@ -173,9 +173,6 @@ def _solver_faults(options: argparse.Namespace, plan: MapPlan) -> Iterator[Fault
     if options.fidelity == Fidelity.LUMPED.value:
         return
     yield from alike_faults(plan.pump)
-    if plan.pump.physics.on and not options.direct:
-        expected = "--fidelity lumped, or --fidelity films --direct"
-        yield Fault("physics", "effects that a response table does not hold", expected)
     levels = {axis.input: len(axis.values) for axis in plan.axes}
     if not options.direct and levels[MapInput.INLET_PRESSURE] > 1:
         found = f"{levels[MapInput.INLET_PRESSURE]} levels; a response table holds one"

@@ -1,12 +1,13 @@
 """Floating gaps of a run: fields, summary, part of the page."""
 
 from collections.abc import Mapping
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
+from gaps.films.physics import Effect
 from gaps.revolution.march import GapRevolution, Leg
 from reynolds.solve.export import write_pvd
 from swashfilm.case.gap.physics import PHYSICS_HEAD, effect_rows
@@ -24,11 +25,13 @@ from swashfilm.runs.film.revolution.data import (
 from swashfilm.runs.film.revolution.plots import film_text, revolution_plots
 from swashfilm.runs.film.revolution.solve import RevolutionStudy, revolution_summary
 from swashfilm.runs.pump.data import GAPS, PICTURED_TURN
-from swashfilm.runs.pump.summary import pump_summary
+from swashfilm.runs.pump.summary import effect_lists, pump_summary
+from system.description.assumptions import Assumption
 from system.description.gap import Gap
 from system.films.heat import all_taken
 from system.films.rotor import Rotor
 from system.inputs.units import LPM
+from system.points.film_effects import effects_in_films
 from system.points.floating import FloatingKind, FloatingPoint
 from system.points.floating_gaps import FloatingOptions
 
@@ -85,7 +88,7 @@ def _place(kind: FloatingKind) -> str:
 def _study(found: FloatingPoint, kind: FloatingKind, gap: Gap, revolution: GapRevolution[Any]) -> RevolutionStudy:
     chamber = kind.drives.piston.chamber_pressure
     return RevolutionStudy(
-        FloatingGap(found.rotor.pump.name, gap, kind.rotor, found.options),
+        FloatingGap(found.pump.name, gap, kind.rotor, replace(found.options, physics=getattr(kind.physics, gap.value))),
         kind.parts,
         revolution,
         np.array([float(chamber(angle)) for angle in revolution.angles]),
@@ -112,8 +115,9 @@ def floating_summary(found: FloatingPoint, warnings: list[str]) -> dict[str, Any
         {gap: {key: own[key] for key in own if key not in _OF_PUMP} for gap, own in gaps.items()}
         for gaps in by_place.values()
     )
-    summary, last = pump_summary(found.rotor.pump, found.pump_point, None, texts), found.rounds[-1]
+    summary, last = pump_summary(found.pump, found.pump_point, None, texts), found.rounds[-1]
     at, spent = found.kinds[0].rotor, {leg: sum(one.spent[leg] for one in found.rounds) for leg in Leg}
+    physics = [getattr(found.kinds[0].physics, gap.value) for gap in Gap]
     checks = {
         "coupling_rounds": len(found.rounds),
         "coupling_pressure_change": last.pressure_change,
@@ -123,6 +127,7 @@ def floating_summary(found: FloatingPoint, warnings: list[str]) -> dict[str, Any
     }
     return summary | {
         "fidelity": Fidelity.FLOATING.value,
+        "physics": effect_lists(*effects_in_films(found.pump, floating=True)),
         "gaps": here,
         "spin_ratio": {part: spin / at.point.shaft_speed for part, spin in asdict(at.spins).items()},
         "unlike": {
@@ -135,13 +140,15 @@ def floating_summary(found: FloatingPoint, warnings: list[str]) -> dict[str, Any
             "rounds_seconds": [one.seconds for one in found.rounds],
             "physics_seconds": {leg.value: time for leg, time in spent.items() if time > 0.0},
         },
-        "physics_left_out": [effect.value for effect in found.options.physics.left_out],
-        "assumptions": list(
-            dict.fromkeys(
-                str(one) for kind in found.kinds for one in all_taken(kind.rotor, kind.parts, found.options.physics)
-            )
-        ),
+        "physics_left_out": [effect.value for effect in Effect if all(effect in of.left_out for of in physics)],
+        "assumptions": list(dict.fromkeys(str(one) for kind in found.kinds for one in _taken(kind))),
     }
+
+
+def _taken(kind: FloatingKind) -> tuple[Assumption, ...]:
+    """Assumptions of a kind's films, those of heat where any of them warms."""
+    warm = next((one for one in (getattr(kind.physics, gap.value) for gap in Gap) if one.heat), kind.physics.piston)
+    return all_taken(kind.rotor, kind.parts, warm)
 
 
 def write_floating(folder: Path, found: FloatingPoint) -> dict[Path, list[Path]]:

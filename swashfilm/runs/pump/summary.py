@@ -13,6 +13,7 @@ from swashfilm.runs.pump.data import gap_films
 from swashfilm.runs.pump.edge_losses import loss_records
 from swashfilm.runs.pump.flow_coefficients import coefficient_records
 from system.description.pump import PumpDescription
+from system.effects.effect import EffectId
 from system.points.film_effects import effects_in_films
 from system.points.films import FilmsPoint
 from system.pump.assembly import PumpPoint
@@ -82,8 +83,11 @@ def pump_summary(
 def _physics(pump: PumpDescription, films: FilmsPoint | None) -> dict[str, list[str]]:
     """Return the effects of [physics], those solved by the films and those of closed-form laws."""
     solved, laws = effects_in_films(pump)
-    if films is None:
-        solved, laws = (), (*solved, *laws)
+    return effect_lists(solved, laws) if films else effect_lists((), (*solved, *laws))
+
+
+def effect_lists(solved: Sequence[EffectId], laws: Sequence[EffectId]) -> dict[str, list[str]]:
+    """Return the names of effects that films solve, and of those of closed-form laws."""
     return {"films_solve": [one.value for one in solved], "closed_laws": [one.value for one in laws]}
 
 

@@ -13,7 +13,6 @@ from reynolds.laws.oil import dynamic_viscosity, temperature_of
 from reynolds.numerics.arrays import Array
 from reynolds.numerics.cache import content_key
 from system.description.pump import PumpDescription
-from system.effects.switched import hold_plain
 from system.inputs.units import Dimension, format_quantity
 from system.points.table.means import MEANINGS, TABLE_FORMAT, mean_ratios, measured_outputs
 from system.points.table.point import table_point
@@ -28,7 +27,7 @@ from system.points.table.response_table import (
     ResponseTable,
     TableOrigin,
 )
-from system.points.table.sources import PointSolver, with_held_ports
+from system.points.table.sources import PointSolver, films_alone
 from system.points.table.store import KEY_LENGTH, keep_table, pump_key
 from system.pump.operating import OperatingPoint, operating_point
 from system.work.processes import HERE
@@ -74,7 +73,7 @@ class TableCase:
 
     def solve(self, x: Array) -> Array:
         """The gaps' means over the turn, by their ratios to the lumped law; after them the pump's numbers."""
-        pump = with_held_ports(self.pump)
+        pump = films_alone(self.pump)
         solved = self.solver.solve(pump, point_at(self, x))
         return np.concatenate([mean_ratios(pump, solved), pump_numbers(solved.pump_point)])
 
@@ -119,14 +118,13 @@ def build_table(
     """The table of a case, kept in the cache; its points as `solved_points`.
 
     Held-out points are also run by the table, for its error in the pump's numbers. Raises NotConverged where too
-    few points have a result, InputError for a pump with effects of [physics], and as `table_point`.
+    few points have a result, and as `table_point`.
     """
-    hold_plain(case.pump)
     found = solved_points(case, executor=executor, report=report, folder=folder)
     (learnt, _), (held_out, numbers) = (_parted(samples) for samples in samples_of(case, found))
     outputs = measured_outputs(np.concatenate([learnt.values, held_out.values]))
     table = ResponseTable(_origin(case, found), Response(case.axes, outputs, learnt, held_out))
-    pump = with_held_ports(case.pump)
+    pump = films_alone(case.pump)
     predicted = [pump_numbers(table_point(pump, point_at(case, x), table).pump_point) for x in held_out.points]
     table = replace(table, numbers=numbers_error(np.array(predicted), numbers))
     keep_table(table, tables_folder(folder) / f"{table.origin.pump_key}-{case_key(case)}")

@@ -7,11 +7,17 @@ import numpy as np
 
 from reynolds.errors import NotConverged
 from reynolds.numerics.arrays import Array
+from system.description.effects import PhysicsSection
 from system.description.pump import PumpDescription
-from system.effects.switched import hold_plain
+from system.effects.effect import Effects
+from system.effects.friction import rubbed
 from system.inputs.units import TURN
+from system.points.effects import affected_problem, at_the_ports, mean_outside, point_effects
+from system.points.film_effects import closed_laws
+from system.points.lumped import lumped_point
 from system.points.table.means import GAP_PAIRS, given_films, law_moments, plate_flow
 from system.points.table.response_table import ResponseTable
+from system.points.table.sources import Source
 from system.pump.assembly import PumpPoint, assemble, met_point
 from system.pump.chamber.cycle import solve_cycle
 from system.pump.chamber.port_coupling import ported_cycle
@@ -53,33 +59,39 @@ def table_point(pump: PumpDescription, point: OperatingPoint, table: ResponseTab
     """One periodic operating point by the lumped kernel, with leakage and friction of its gaps from the table.
 
     Raises InputError outside the table's box or at another inlet or case pressure, NotConverged as
-    `ported_cycle` and where an orifice line does not converge, ValueError where chambers differ.
+    `ported_cycle` and where an orifice line does not converge, ValueError where chambers differ. Effects of [physics]
+    that the table's films have not solved act by their laws.
     """
     kinds(pump).hold_alike()
-    hold_plain(pump)
-    motion, lines, pistons = piston_motion(pump, point), port_lines(pump, point), pump.pump.pistons
-    asked = point
+    own = closed_laws(pump, floating=table.origin.source is Source.FLOATING)
+    effects = _effects(own, point)
+    left = at_the_ports(point, effects)
+    motion, lines, pistons = piston_motion(pump, left), port_lines(pump, left), pump.pump.pistons
+    asked = left
     for _ in range(ROUND_LIMIT):
         means = table.at(asked)
-        problem = chamber_problem(pump, point, motion, _leaks(pump, asked, motion, means))
+        problem = affected_problem(pump, left, motion, _leaks(pump, asked, motion, means), effects)
         draws = _draws(pump, asked, means)
         none = GapExchange(Gaps(0.0, 0.0, 0.0), *draws)
         ported = ported_cycle((problem,), lines, pistons, motion.shaft_angle.size, draws=port_draw(problem, none))
-        met = met_point(point, ported).delivery_pressure
+        met = met_point(left, ported).delivery_pressure
         if abs(met - asked.delivery_pressure) <= SETTLED * problem.pressure_span:
             break
-        asked = replace(point, delivery_pressure=met)
+        asked = replace(left, delivery_pressure=met)
     else:
         raise NotConverged(
             f"table and delivery line: after {ROUND_LIMIT} rounds the delivery pressure still moves, expected at "
             f"most {SETTLED:g} of the pressure difference; leave delivery_line.orifice_area out"
         )
-    cycle, met_at = ported.cycle, met_point(point, ported)
-    moments = law_moments(lumped_leaks(pump, point, motion), pump, point, cycle.pressure)
+    cycle, met_at = ported.cycle, met_point(left, ported)
+    moments = law_moments(lumped_leaks(pump, left, motion), pump, left, cycle.pressure)
     losses = _losses(lumped_pairs(pump, met_at, motion, cycle), pistons * moments.power, means)
+    for one in effects:
+        losses = rubbed(losses, one)
     exchange = GapExchange(chamber_exchange(cycle, pistons * point.shaft_speed / TURN).drag_power, *draws)
     derived, masses = swept_displacement(pump, motion.drive), group_masses(pump)
-    found = assemble(point, ported, (losses,), pistons, derived, exchange, (masses,))
+    outside = mean_outside(own, met_point(point, ported), effects)
+    found = assemble(point, ported, (losses,), pistons, derived, exchange, (masses,), outside)
     given = given_films(pump)
     return TablePoint(
         pump_point=found,
@@ -88,6 +100,14 @@ def table_point(pump: PumpDescription, point: OperatingPoint, table: ResponseTab
         film_least=Gaps(*(getattr(given, gap) * means[f"{gap}.film_least"] for gap in GAP_PAIRS)),
         contact_share=Gaps(*(means[f"{gap}.contact_share"] for gap in GAP_PAIRS)),
     )
+
+
+def _effects(own: PumpDescription, point: OperatingPoint) -> tuple[Effects[float], ...]:
+    """What the laws of a pump change at a point, its chambers as they are at the lumped fidelity without any."""
+    if not own.physics.on:
+        return ()
+    plain = lumped_point(replace(own, physics=PhysicsSection()), point)
+    return (point_effects(own, plain.point, plain.cycle),)
 
 
 def _leaks(pump: PumpDescription, point: OperatingPoint, motion: PistonMotion, means: Mapping[str, float]) -> LeakTable:

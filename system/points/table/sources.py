@@ -9,6 +9,7 @@ import numpy as np
 
 from system.description.lines import LineSection
 from system.description.pump import PumpDescription
+from system.points.film_effects import film_laws
 from system.points.films import POSITIONS_PER_PITCH, TOLERANCE, films_point
 from system.points.floating import PRESSURE_TOLERANCE, floating_point
 from system.points.floating_gaps import FloatingOptions
@@ -104,6 +105,6 @@ def solver_of(source: Source, options: FloatingOptions) -> PointSolver:
     return FilmsSolver() if source is Source.FILMS else FloatingSolver(options)
 
 
-def with_held_ports(pump: PumpDescription) -> PumpDescription:
-    """The pump without its lines: points of a table are solved at held port pressures."""
-    return replace(pump, delivery_line=LineSection(), suction_line=LineSection())
+def films_alone(pump: PumpDescription) -> PumpDescription:
+    """The pump of a table's points: at held port pressures, without effects of [physics] that act by their laws."""
+    return replace(film_laws(pump), delivery_line=LineSection(), suction_line=LineSection())

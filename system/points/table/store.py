@@ -16,7 +16,7 @@ from system.inputs.units import Dimension
 from system.points.table.means import MEANINGS, TABLE_FORMAT
 from system.points.table.pump_numbers import NUMBERS, NumbersError
 from system.points.table.response_table import DIMENSIONS, Failed, ResponseTable, TableOrigin, box_text, point_text
-from system.points.table.sources import Source, with_held_ports
+from system.points.table.sources import Source, films_alone
 from system.pump.operating import OperatingPoint
 from system.pump_file.file import resolved_toml
 from system.work.sampled_points import tables_folder
@@ -25,9 +25,9 @@ KEY_LENGTH = 24
 
 
 def pump_key(pump: PumpDescription) -> str:
-    """Hash of all inputs of a pump's gaps besides the axes: without its name and its lines."""
+    """Hash of all inputs of a pump's gaps besides the axes: without its name, its lines and laws outside its films."""
     stated = replace(pump.operating, speed=0.0, pressure=0.0, displacement_ratio=1.0, temperature=0.0)
-    bare = replace(with_held_ports(pump), name="", operating=stated)
+    bare = replace(films_alone(pump), name="", operating=stated)
     made_of = TABLE_FORMAT, resolved_toml(bare), pump.file_contents
     return content_key("pump of a response table", *made_of)[:KEY_LENGTH]
 

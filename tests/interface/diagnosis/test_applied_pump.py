@@ -45,10 +45,16 @@ def test_each_fidelity_is_named_with_what_it_does_of_the_effects():
     whole = _applied(_with(EffectId.CHURNING, EffectId.VISCOSITY_PRESSURE))
     assert "films solves viscosity_pressure in the films" in whole
     assert "films has churning as closed-form laws" in whole
-    assert "--fidelity floating and table do not read [physics]: for these delete" in whole
+    assert "floating solves viscosity_pressure in the films" in whole
+    assert "floating has churning as closed-form laws" in whole
+    lifted = _applied(
+        extended_pump(PUMP, {"slipper_lift.ride_height": 5e-5}, entry_of(EffectId.SLIPPER_LIFT).extensions)
+    )
+    assert "films has slipper_lift as closed-form laws" in lifted
+    assert "floating solves slipper_lift in the films" in lifted
     assert "It runs in every fidelity" in _applied(PUMP)
 
 
-def test_a_fidelity_that_refuses_effects_names_the_remedy():
-    with pytest.raises(InputError, match=r"churning.*--fidelity films, or the file without \[physics\]"):
+def test_what_refuses_effects_names_the_remedy():
+    with pytest.raises(InputError, match=r"churning.*swashfilm run, map and table read them.*without \[physics\]"):
         hold_plain(_with(EffectId.CHURNING))

@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from reynolds import Array, InputError
+from reynolds import Array
 from system import (
     EXTENSIONS,
     SIMULATED,
@@ -17,7 +17,6 @@ from system import (
     base_parameters,
     check_pump,
     extended_pump,
-    floating_point,
     load_pump,
     lumped_point,
     operating_point,
@@ -186,12 +185,6 @@ def test_a_table_states_one_form_of_a_law(table, keys):
     stated = {f"physics.{name}.{key}": value for name, own in table.items() for key, value in own.items()}
     with pytest.raises(InputFaults, match=f"one of the two, {keys}"):
         load_pump("ref90", stated)
-
-
-def test_floating_gaps_refuse_a_pump_with_effects():
-    pump = with_effect(EXTENSIONS[0])
-    with pytest.raises(InputError, match="physics: film_heating; expected no effects, or the lumped or the films"):
-        floating_point(pump, operating_point(pump))
 
 
 def test_a_pump_has_one_coefficient_of_barus():

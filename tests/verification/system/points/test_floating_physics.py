@@ -1,0 +1,138 @@
+"""[physics] in floating films: what films solve, what the balance of forces has, what acts by its law."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from system import (
+    RIGID,
+    EffectId,
+    FloatingOptions,
+    FloatingPoint,
+    Gap,
+    floating_parts,
+    floating_point,
+    load_pump,
+    operating_point,
+    rotor,
+)
+from system.description.effects import PhysicsSection
+from system.inputs.sections.reader import section_of
+from system.points.film_effects import closed_laws, effects_in_films, floating_effects
+from system.points.lumped import lumped_point
+
+PUMP = load_pump("ref90_floating", {"operating.pressure": "10 MPa"})
+COARSE = FloatingOptions(RIGID, steps=36, finer=0.35)
+BALANCED = 5e-3
+"""Largest error of the power balance at 36 angles a turn, of the shaft power."""
+
+
+def extended(tables):
+    return replace(PUMP, physics=section_of(PhysicsSection, tables))
+
+
+def floating(tables) -> FloatingPoint:
+    pump = extended(tables)
+    return floating_point(pump, operating_point(pump), COARSE)
+
+
+def test_what_floating_films_solve_is_more_than_films_at_given_positions():
+    pump = extended(
+        {
+            "shear_thinning": {"drop": 0.3, "rate": 1e6},
+            "elastic_opening": {"slipper": {"opening": 1e-8}},
+            "block_tipping": {"wedge": 5e-6},
+            "swash_droop": {"rate": 1e-10, "play": 0.0},
+        }
+    )
+    solved, laws = effects_in_films(pump)
+    assert set(laws) == {EffectId.BLOCK_TIPPING, EffectId.SWASH_DROOP}
+    afloat, left = effects_in_films(pump, floating=True)
+    assert (set(afloat) - set(solved), left) == ({EffectId.BLOCK_TIPPING}, (EffectId.SWASH_DROOP,))
+    assert closed_laws(pump, floating=True) == extended({"swash_droop": {"rate": 1e-10, "play": 0.0}})
+    at = rotor(pump, operating_point(pump))
+    films = floating_effects(at, floating_parts(pump), pump, RIGID)
+    assert [getattr(films.physics, gap.value).elastic_walls for gap in Gap] == [False, True, False]
+    thins = films.parts.piston.laws.thinning
+    assert float(thins(np.array(1e6), np.array(0.02))) == pytest.approx(0.85 * 0.02)
+    told = [str(one) for one in films.parts.taken if one.path == "physics.block_tipping"]
+    assert len(told) == 1
+    assert "the block tips as the forces on it balance" in told[0]
+
+
+@pytest.fixture(scope="module")
+def plain() -> FloatingPoint:
+    return floating({})
+
+
+@pytest.mark.slow
+def test_what_acts_outside_the_films_adds_what_it_adds_at_the_lumped_fidelity(plain):
+    """Drain, cross leak and drag: flows and torque of both fidelities grow alike; the films stay as they are."""
+    tables = {
+        "control_flow": {"area": 2e-7, "laminar": 0.5},
+        "laminar_cross_leak": {"conductance": 1.2e-14},
+        "churning": {"factor": 1.0},
+    }
+    found, pump = floating(tables), extended(tables)
+    lumped = [lumped_point(one, operating_point(one)).bench for one in (PUMP, pump)]
+    for name in ("delivery_flow", "inlet_flow", "drain_flow", "shaft_torque"):
+        own = getattr(found.pump_point.bench, name) - getattr(plain.pump_point.bench, name)
+        expected = getattr(lumped[1], name) - getattr(lumped[0], name)
+        assert own == pytest.approx(expected, rel=0.01, abs=1e-5 * abs(getattr(lumped[0], name))), name
+    assert found.pump_point.pairs.power == pytest.approx(plain.pump_point.pairs.power, rel=1e-9)
+    assert found.pump_point.checks.energy_balance_error < BALANCED
+    solved, laws = effects_in_films(pump, floating=True)
+    assert (solved, set(laws)) == ((), {EffectId(name) for name in tables})
+
+
+@pytest.mark.slow
+def test_oil_that_thins_shears_more_easily_at_the_films_own_rates(plain):
+    """Every film runs at rates far beyond 1e3 1/s: shear falls by the whole drop, forces and heat alike."""
+    found = floating({"shear_thinning": {"drop": 0.3, "rate": 1e3}})
+    for pair in ("slipper_swash_plate", "valve_plate_cylinder"):
+        before, after = (getattr(one.pump_point.pairs, pair).mean_viscous for one in (plain, found))
+        assert after == pytest.approx(0.7 * before, rel=0.02), pair
+    assert found.pump_point.checks.energy_balance_error < BALANCED
+
+
+@pytest.mark.slow
+def test_what_the_forces_place_is_told_and_not_doubled(plain):
+    """A slipper's lift by its law would multiply its leakage; floating, the film itself says how it rides."""
+    tables = {
+        "slipper_lift": {"ride_height": 1e-4, "retainer_force": 0.0},
+        "mixed_friction": {"slipper": 0.08, "hersey_scale": 1e-6},
+    }
+    found = floating(tables)
+    assert found.pump_point.leakage_flow == plain.pump_point.leakage_flow
+    assert found.pump_point.pairs.power == plain.pump_point.pairs.power
+    told = [str(one) for one in found.kinds[0].parts.taken if one.path.startswith("physics.")]
+    assert len(told) == 2
+    assert "slippers ride and tilt as the forces" in told[0]
+
+
+@pytest.mark.slow
+def test_clearance_and_stroke_are_those_that_effects_leave(plain):
+    pump = extended({"thermal_clearance": {"piston": {"rate": 0.01}}, "swash_droop": {"rate": 3e-10, "play": 0.0}})
+    warm = replace(operating_point(pump), temperature=pump.operating.temperature + 10.0)
+    found = floating_point(pump, warm, COARSE)
+    assert found.rotor.pump.piston.radial_clearance == pytest.approx(1.1 * PUMP.piston.radial_clearance)
+    less = 1.0 - found.rotor.point.displacement_ratio
+    assert 0.0 < less < 0.05
+    falls = 1.0 - found.pump_point.bench.delivery_flow / plain.pump_point.bench.delivery_flow
+    assert falls == pytest.approx(less, rel=0.3)
+
+
+@pytest.mark.slow
+def test_springs_soften_the_film_that_states_them_alone():
+    """And oil of another coefficient stands in all three films for the pump's own, by Roelands' law."""
+    pump = extended({"elastic_opening": {"slipper": {"opening": 1e-8}}, "viscosity_pressure": {"coefficient": 1e-8}})
+    found = floating_point(pump, operating_point(pump), COARSE)
+    physics = found.kinds[0].physics
+    assert [getattr(physics, gap.value).elastic_walls for gap in Gap] == [False, True, False]
+    assert all(getattr(physics, gap.value).pressure_viscosity for gap in Gap)
+    growth = np.array([one.mean_film for one in found.kinds[0].gaps.slipper.turn.instants])
+    assert growth.min() > 0.0
+    assert found.pump_point.checks.energy_balance_error < BALANCED
