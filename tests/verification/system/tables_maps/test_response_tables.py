@@ -10,6 +10,7 @@ import json
 import math
 import pickle
 from dataclasses import asdict, dataclass, replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -27,11 +28,13 @@ from system import (
     operating_point,
     table_point,
 )
+from system.description.effects import PhysicsSection
+from system.inputs.sections.reader import section_of
 from system.points.table.build import TableCase, point_at, table_axes
 from system.points.table.means import GAP_PAIRS, MEANINGS, SolvedPoint, mean_ratios
 from system.points.table.point import TablePoint
 from system.points.table.pump_numbers import numbers_error, pump_numbers
-from system.points.table.sources import FilmsSolver, Source
+from system.points.table.sources import FilmsSolver, Source, films_alone
 from system.points.table.store import keep_table, own_table, pump_key, read_table, table_record
 from system.pump.chamber.turn import Gaps
 from system.work.processes import process_pool
@@ -242,6 +245,35 @@ def test_a_table_is_found_by_its_pump(table, folder, tmp_path):
         find_table(PUMP, point, tmp_path)
 
 
+def test_effects_outside_the_films_act_beside_a_table(table, folder):
+    """The plain pump's table serves: drain, drag, stroke, ports and a boundary layer change all as in a direct run."""
+    tables = {
+        "control_flow": {"area": 2e-7, "laminar": 0.5},
+        "churning": {"factor": 1.0},
+        "swash_droop": {"rate": 5e-11, "play": 1e-3},
+        "notch_erosion": {"advance": 0.02, "widening": 0.3},
+        "mixed_friction": {"piston": 0.05, "hersey_scale": 1e-6},
+    }
+    pump = replace(PUMP, physics=section_of(PhysicsSection, tables))
+    point = point_at(case(), table.response.learnt.points[20])
+    assert pump_key(pump) == pump_key(PUMP)
+    told, direct = table_point(pump, point, table).pump_point, Thinning().solve(pump, point).pump_point
+    plain = table_point(PUMP, point, table).pump_point
+    assert numbers(told) == pytest.approx(numbers(direct), rel=2e-3)
+    drains = [one.bench.drain_flow - plain.bench.drain_flow for one in (told, direct)]
+    assert drains[0] == pytest.approx(drains[1], rel=0.01)
+    assert drains[0] > 1e-5
+    assert told.checks.energy_balance_error < 1e-3
+
+
+def test_effects_of_films_make_another_table():
+    tables = {"viscosity_pressure": {"coefficient": 1e-8}, "churning": {"factor": 1.0}}
+    pump = replace(PUMP, physics=section_of(PhysicsSection, tables))
+    assert pump_key(pump) != pump_key(PUMP)
+    kept = films_alone(pump).physics
+    assert (kept.viscosity_pressure is not None, kept.churning) == (True, None)
+
+
 def test_a_table_comes_back_from_its_files(table, tmp_path):
     keep_table(table, tmp_path / "mine")
     back = read_table(tmp_path / "mine.npz")
@@ -299,6 +331,8 @@ def at_ratios(point, ratios) -> TablePoint:
 
     @dataclass(frozen=True)
     class Everywhere:
+        origin = SimpleNamespace(source=Source.FILMS)
+
         def at(self, point):
             return dict(zip(NAMES, ratios, strict=True))
 
