@@ -49,6 +49,7 @@ LEAST_PISTON_CELLS = 8
 RIGID_FINER, SOFT_FINER = 1.0, 0.5
 SLIPPER_START = BLOCK_START = 1e-5  # m: a film that every pump starts with
 SOFTLY = "a coarser mesh to find where, or rigid walls"
+STIFFLY = "elastic walls, or oil of one viscosity: under an edge that cannot yield, oil that stiffens has no bound"
 USUAL = Physics()
 """Physics of films at high pressure: elastic walls, viscosity that rises with pressure, rough walls, cavities."""
 
@@ -231,9 +232,11 @@ def _run(
         march = run_revolution if heat is None else partial(warm_revolution, heat=heat)
         return march(solver, floating, schedule, start, report_of, accuracy=accuracy, before=before, report=report)
     except FilmNotConverged as reason:
-        if not options.physics.elastic_walls:
-            raise
-        raise FilmNotConverged(f"between elastic walls, {reason.what}", f"{reason.remedy}; {SOFTLY}") from None
+        if options.physics.elastic_walls:
+            raise FilmNotConverged(f"between elastic walls, {reason.what}", f"{reason.remedy}; {SOFTLY}") from None
+        if options.physics.pressure_viscosity:
+            raise FilmNotConverged(reason.what, f"{STIFFLY}; {reason.remedy}") from None
+        raise
 
 
 def _of_turn(report: Report, steps: int, gap: str) -> TurnReport:

@@ -7,6 +7,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from gaps import Effect
+from reynolds import FilmNotConverged
 from system import (
     RIGID,
     EffectId,
@@ -20,7 +22,9 @@ from system import (
     rotor,
 )
 from system.description.effects import PhysicsSection
+from system.films.drives import drives, no_rubbing
 from system.inputs.sections.reader import section_of
+from system.points import floating_gaps
 from system.points.film_effects import closed_laws, effects_in_films, floating_effects
 from system.points.lumped import lumped_point
 
@@ -61,6 +65,21 @@ def test_what_floating_films_solve_is_more_than_films_at_given_positions():
     told = [str(one) for one in films.parts.taken if one.path == "physics.block_tipping"]
     assert len(told) == 1
     assert "the block tips as the forces on it balance" in told[0]
+
+
+def test_rigid_walls_that_stiff_oil_breaks_are_told_with_the_remedy(monkeypatch):
+    def broken(*given, **more):
+        raise FilmNotConverged("piston: Roelands, pressure: 4e9 MPa", "a shorter step")
+
+    monkeypatch.setattr(floating_gaps, "run_revolution", broken)
+    point = operating_point(PUMP)
+    at, parts, cycle = rotor(PUMP, point), floating_parts(PUMP), lumped_point(PUMP, point).cycle
+    driven = drives(at, parts, cycle.shaft_angle, cycle.pressure, no_rubbing(cycle.shaft_angle.size))
+    stiff = RIGID.including(Effect.PRESSURE_VISCOSITY)
+    with pytest.raises(FilmNotConverged, match="Roelands.*Try: elastic walls, or oil of one viscosity.*shorter step"):
+        floating_gaps.piston_revolution(at, parts, driven.piston, FloatingOptions(stiff))
+    with pytest.raises(FilmNotConverged, match="Try: a shorter step$"):
+        floating_gaps.piston_revolution(at, parts, driven.piston, FloatingOptions(RIGID))
 
 
 @pytest.fixture(scope="module")
