@@ -76,9 +76,9 @@ def test_rigid_walls_that_stiff_oil_breaks_are_told_with_the_remedy(monkeypatch)
     at, parts, cycle = rotor(PUMP, point), floating_parts(PUMP), lumped_point(PUMP, point).cycle
     driven = drives(at, parts, cycle.shaft_angle, cycle.pressure, no_rubbing(cycle.shaft_angle.size))
     stiff = RIGID.including(Effect.PRESSURE_VISCOSITY)
-    with pytest.raises(FilmNotConverged, match="Roelands.*Try: elastic walls, or oil of one viscosity.*shorter step"):
+    with pytest.raises(FilmNotConverged, match=r"Roelands.*Try: elastic walls, or oil of one viscosity.*shorter step"):
         floating_gaps.piston_revolution(at, parts, driven.piston, FloatingOptions(stiff))
-    with pytest.raises(FilmNotConverged, match="Try: a shorter step$"):
+    with pytest.raises(FilmNotConverged, match=r"Try: a shorter step$"):
         floating_gaps.piston_revolution(at, parts, driven.piston, FloatingOptions(RIGID))
 
 
