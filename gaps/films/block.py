@@ -210,10 +210,7 @@ class BlockFilm:
         """Pressures (z,) Pa of the chambers, chamber k at shaft angle + (k - 1) pitch."""
         places = self.geometry.kidney_places(shaft_angle)
         known = [np.broadcast_to(self.drive.chamber_pressure(float(angle)), places.shape) for angle in places]
-        pressure = np.diagonal(known).copy()
-        # Between two angles at the cavity's pressure interpolation may round below it.
-        at_cavity = np.isclose(pressure, self.drive.cavitation_pressure, rtol=1e-12, atol=0.0)
-        return np.where(at_cavity, self.drive.cavitation_pressure, pressure)
+        return np.diagonal(known).copy()
 
     def wall_shear(self, stage: FloatingStage) -> WallShear:
         """Shear of film and contact on block (moving) and plate, webs over the ports counted as films."""

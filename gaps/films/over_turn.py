@@ -42,7 +42,13 @@ class PeriodicCurve:
     def __call__(self, angle: float) -> Array:
         """The value at a shaft angle (rad)."""
         first = self.angles[0]
-        return np.asarray(self._between(first + (angle - first) % TURN))
+        lowest, highest = self._range
+        return np.clip(self._between(first + (angle - first) % TURN), lowest, highest)
+
+    @cached_property
+    def _range(self) -> tuple[Array, Array]:
+        """Least and largest values, beyond which interpolation may round in the last digit."""
+        return self.values.min(axis=0), self.values.max(axis=0)
 
     @cached_property
     def _between(self) -> PchipInterpolator:
