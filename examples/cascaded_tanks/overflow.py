@@ -109,7 +109,7 @@ def steps(record: Record, climbed: Ladder) -> tuple[Step, ...]:
 
 
 def _note(rung: Rung, climbed: Ladder) -> str:
-    """How sure the best addition of a step is."""
+    """Certainty of the best addition of a step."""
     rivals = ", ".join(one.name for one in rung.rivals)
     if rung.taken is None:
         return "likely, not sure"

@@ -200,7 +200,7 @@ class Cycle:
 
 
 def _lagging(course: Array, lag: float) -> Array:
-    """What a meter with a first-order lag in s reads of a course, settled at its beginning."""
+    """Reading of a course by a meter with a first-order lag in s, settled at its beginning."""
     keep = np.exp(-STEP / lag) if lag > 0.0 else 0.0
     return course[0] + np.asarray(lfilter([1.0 - keep], [1.0, -keep], course - course[0]))
 

@@ -1,4 +1,4 @@
-"""What a model lacks: possible additions compared by evidence, one beside the other until none gains."""
+"""Search for the physics that a model lacks: additions are compared by evidence until none gains."""
 
 from __future__ import annotations
 
@@ -59,7 +59,7 @@ class Rung:
 
 @dataclass(frozen=True)
 class Ladder:
-    """What a model lacks: the steps, the additions that are kept in their order, and the fit with all of them."""
+    """Result of the search: the steps, the additions that are kept in their order, and the fit with all of them."""
 
     rungs: tuple[Rung, ...]
     kept: tuple[str, ...]

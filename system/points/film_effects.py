@@ -6,7 +6,7 @@
     thermal_clearance   films of the thickness at the point's temperature (`film_thickness`)
     shear_thinning      Cross' law at the rate of sliding, at every place of the films
 
-Floating films also have what places their parts and lets them touch (BALANCED). All other effects remain the
+Floating films also compute lift, tipping and contact of their parts (BALANCED). All other effects remain the
 closed-form laws of the lumped fidelity.
 """
 
@@ -54,7 +54,7 @@ BALANCED = {
     EffectId.BLOCK_TIPPING: "the block tips as the forces on it balance",
     EffectId.MIXED_FRICTION: "asperities bear and rub where films are thin",
 }
-"""Effects that floating films have of themselves, whatever numbers [physics] gives them, and how."""
+"""Effects that floating films compute by themselves, without the numbers of [physics], and how."""
 _SOLVED_SHARES = (0.0, 1.0, 0.0)
 """carried_share, throttled_share and carry_over by which the closed-form law comes nearest to films that solve them."""
 _PART = {Gap.PISTON: "piston", Gap.SLIPPER: "slipper", Gap.VALVE_PLATE: "block"}
@@ -106,7 +106,7 @@ def closed_laws(pump: PumpDescription, floating: bool = False) -> PumpDescriptio
 
 
 def film_laws(pump: PumpDescription) -> PumpDescription:
-    """The pump with only those effects that films at given positions solve: what any film of it depends on."""
+    """The pump with only those effects that films at given positions solve; all of its films depend on these."""
     off = {one.id.value: None for one, _ in switched_on(pump) if one.id not in SOLVED}
     return replace(pump, physics=replace(pump.physics, **off))
 
@@ -127,14 +127,16 @@ def film_effects(rotor: Rotor, parts: FloatingParts, pump: PumpDescription, phys
 
 
 def floating_effects(rotor: Rotor, parts: FloatingParts, pump: PumpDescription, physics: Physics) -> FilmEffects:
-    """The same of floating films, with the effects that they have of themselves among the assumptions."""
+    """The same for floating films; the effects that they compute by themselves are listed among the assumptions."""
     found, taken = _with_effects(rotor, parts, pump, GapPhysics.alike(physics), Roelands), Taken()
     if pump.physics.viscosity_pressure is not None:
         reason = "of the same coefficient; films under edges that touch pass the pressures of Barus' law"
         taken.note("physics.viscosity_pressure", "Roelands' law", reason)
     for effect, how in BALANCED.items():
         if getattr(pump.physics, effect.value) is not None:
-            taken.note(f"physics.{effect.value}", "as the floating films have it, not by its law", how)
+            smooth = effect is EffectId.MIXED_FRICTION and not physics.roughness
+            reason = "smooth films, which nothing touches" if smooth else how
+            taken.note(f"physics.{effect.value}", "computed by the floating films, not by its law", reason)
     return replace(found, parts=replace(found.parts, taken=(*found.parts.taken, *taken.assumptions)))
 
 

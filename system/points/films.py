@@ -12,7 +12,6 @@ import numpy as np
 
 from reynolds.errors import InputError, NotConverged
 from reynolds.numerics.arrays import Array
-from system.description.effects import PhysicsSection
 from system.description.pump import PumpDescription
 from system.effects.applied import affected_leaks
 from system.effects.effect import Effects
@@ -21,9 +20,9 @@ from system.films.cycle import PLAIN, GapCycle, GapPhysics, gap_cycle
 from system.films.parts import FloatingParts, floating_parts
 from system.films.rotor import Rotor, rotor
 from system.inputs.units import TURN
-from system.points.effects import affected_problem, at_the_ports, mean_outside, point_effects
+from system.points.effects import affected_problem, at_the_ports, mean_outside
 from system.points.film_effects import FilmEffects, closed_laws, film_effects
-from system.points.lumped import lumped_point
+from system.points.lumped import point_and_effects
 from system.pump.assembly import PumpPoint, assemble, met_point
 from system.pump.chamber.cycle import ChamberCycle, solve_cycle
 from system.pump.chamber.port_coupling import PortedCycle, ported_cycle
@@ -172,8 +171,7 @@ class _Coupling:
 def _work(pump: PumpDescription, point: OperatingPoint, physics: GapPhysics) -> _Coupling:
     warm = at_temperature(pump, point.temperature)
     own, described = closed_laws(warm), unpressed(warm, point.case_pressure)
-    plain = lumped_point(replace(own, physics=PhysicsSection()), point)
-    effects = (point_effects(own, plain.point, plain.cycle),) if own.physics.on else ()
+    plain, effects = point_and_effects(own, point)
     asked, at = at_the_ports(point, effects), rotor(described, at_the_ports(plain.point, effects))
     films = film_effects(at, floating_parts(described), warm, physics)
     return _Coupling(own, asked, piston_motion(own, asked), effects, films, at, plain.cycle)

@@ -16,15 +16,13 @@ import numpy as np
 
 from gaps.revolution.march import Leg, mass_balance_error
 from reynolds.errors import NotConverged
-from system.description.effects import PhysicsSection
 from system.description.pump import PumpDescription
-from system.effects.effect import Effects
 from system.effects.friction import rubbed
 from system.films.cycle import GapPhysics
 from system.films.drives import Drives, Rubbing, no_rubbing
 from system.films.parts import FloatingParts
 from system.films.rotor import Rotor, rotor
-from system.points.effects import at_the_ports, mean_outside, point_effects
+from system.points.effects import at_the_ports, mean_outside
 from system.points.film_effects import closed_laws
 from system.points.floating_exchange import (
     FloatingGaps,
@@ -47,12 +45,11 @@ from system.points.floating_kinds import (
     gap_revolutions,
     group_of,
 )
-from system.points.lumped import lumped_point
+from system.points.lumped import point_and_effects
 from system.points.piston_process import PistonBeside, piston_beside
 from system.pump.assembly import PumpPoint, met_point, put_together
 from system.pump.chamber.port_coupling import PortedCycle, ported_cycle
 from system.pump.chamber.turn import Gaps
-from system.pump.chamber_kinds import kinds
 from system.pump.film_thickness import at_temperature, unpressed
 from system.pump.laws.friction_pairs import over_chambers
 from system.pump.lumped import lumped_pairs, piston_motion, port_lines, swept_displacement
@@ -117,9 +114,9 @@ class FloatingKind:
 class FloatingPoint:
     """One coupled operating point: the pump, its gaps over the revolution, and the evidence of convergence.
 
-    pump: as it is asked for; rotor: with films as [physics] leaves them at the point's temperature. kinds: of chambers,
-    the most common first; their block is one. mass_balance_error of each gap over the turn,
-    the worst of its kinds.
+    pump: as given; rotor: with the clearances of the point's temperature ([physics.thermal_clearance]). kinds: of
+    chambers, the most common first; their block is one. mass_balance_error of each gap over the turn, the worst of its
+    kinds.
     """
 
     pump: PumpDescription
@@ -166,11 +163,7 @@ def _beginning(pump: PumpDescription, point: OperatingPoint, options: FloatingOp
     """The kinds of chambers with the effects of [physics], and the first drives: the lumped pump without effects."""
     warm = at_temperature(pump, point.temperature)
     own, described = closed_laws(warm, floating=True), unpressed(warm, point.case_pressure)
-    plain, found = lumped_point(replace(own, physics=PhysicsSection()), point), kinds(own)
-    effects: tuple[Effects[float], ...] = ()
-    if own.physics.on:
-        cycles = [plain.chambers[found.of_chamber.index(kind)] for kind in range(len(found.pumps))]
-        effects = tuple(point_effects(one, plain.point, cycle) for one, cycle in zip(found.pumps, cycles, strict=True))
+    plain, effects = point_and_effects(own, point)
     group, angle = group_of(rotor(described, plain.point), options.physics, effects), plain.cycle.shaft_angle
     still = (no_rubbing(angle.size),) * len(group.parts)
     pressures = tuple(one.pressure for one in plain.chambers)

@@ -40,7 +40,7 @@ BLOCK_SHARE = 0.1
 
 @dataclass(frozen=True)
 class Group:
-    """A pump's kinds of chambers: the parts of each, the physics of their films, and what other effects change.
+    """A pump's kinds of chambers: the parts of each, the physics of their films, and the changes by other effects.
 
     effects: by kind, none where [physics] has no effect that acts by its law.
     """
@@ -174,7 +174,7 @@ def _problem(
     gaps: FloatingGaps,
     effects: Sequence[Effects[float]],
 ) -> ChamberProblem:
-    """A chamber with its films' leaks, which no effect multiplies, and what effects change of its ports and oil."""
+    """A chamber with the leaks of its films; effects change its ports and its oil, but not these leaks."""
     leaks = leak_table(gaps)
     own = [replace(one, conductance=np.ones_like(leaks.conductance)) for one in effects]
     return affected_problem(pump, point, motion, leaks, own)

@@ -1,10 +1,12 @@
 """One operating point at the lumped fidelity, with the effects that the pump's [physics] switches on."""
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
 
 from reynolds.errors import NotConverged
+from system.description.effects import PhysicsSection
 from system.description.pump import PumpDescription
 from system.effects.effect import Effects
 from system.effects.friction import rubbed
@@ -47,9 +49,22 @@ def lumped_point(pump: PumpDescription, point: OperatingPoint, tolerance: float 
     plain = _solved(found, pump, point, (), tolerance)
     if not pump.physics.on:
         return plain
+    return _solved(found, pump, point, _effects(found, plain), tolerance)
+
+
+def point_and_effects(pump: PumpDescription, point: OperatingPoint) -> tuple[PumpPoint, tuple[Effects[float], ...]]:
+    """The lumped point without any effect, and the changes by the pump's [physics] there, by kind of chamber.
+
+    Without effects there are no changes: an empty tuple. Raises as `lumped_point`.
+    """
+    plain = lumped_point(replace(pump, physics=PhysicsSection()), point)
+    return plain, _effects(kinds(pump), plain) if pump.physics.on else ()
+
+
+def _effects(found: Kinds, plain: PumpPoint) -> tuple[Effects[float], ...]:
+    """The changes by [physics] of each kind of chamber, at the pressures of a point without any."""
     cycles = [plain.chambers[found.of_chamber.index(kind)] for kind in range(len(found.pumps))]
-    effects = [point_effects(own, plain.point, cycle) for own, cycle in zip(found.pumps, cycles, strict=True)]
-    return _solved(found, pump, point, effects, tolerance)
+    return tuple(point_effects(own, plain.point, cycle) for own, cycle in zip(found.pumps, cycles, strict=True))
 
 
 def _solved(

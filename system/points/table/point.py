@@ -7,14 +7,12 @@ import numpy as np
 
 from reynolds.errors import NotConverged
 from reynolds.numerics.arrays import Array
-from system.description.effects import PhysicsSection
 from system.description.pump import PumpDescription
-from system.effects.effect import Effects
 from system.effects.friction import rubbed
 from system.inputs.units import TURN
-from system.points.effects import affected_problem, at_the_ports, mean_outside, point_effects
+from system.points.effects import affected_problem, at_the_ports, mean_outside
 from system.points.film_effects import closed_laws
-from system.points.lumped import lumped_point
+from system.points.lumped import point_and_effects
 from system.points.table.means import GAP_PAIRS, given_films, law_moments, plate_flow
 from system.points.table.response_table import ResponseTable
 from system.points.table.sources import Source
@@ -64,7 +62,7 @@ def table_point(pump: PumpDescription, point: OperatingPoint, table: ResponseTab
     """
     kinds(pump).hold_alike()
     own = closed_laws(pump, floating=table.origin.source is Source.FLOATING)
-    effects = _effects(own, point)
+    _, effects = point_and_effects(own, point)
     left = at_the_ports(point, effects)
     motion, lines, pistons = piston_motion(pump, left), port_lines(pump, left), pump.pump.pistons
     asked = left
@@ -100,14 +98,6 @@ def table_point(pump: PumpDescription, point: OperatingPoint, table: ResponseTab
         film_least=Gaps(*(getattr(given, gap) * means[f"{gap}.film_least"] for gap in GAP_PAIRS)),
         contact_share=Gaps(*(means[f"{gap}.contact_share"] for gap in GAP_PAIRS)),
     )
-
-
-def _effects(own: PumpDescription, point: OperatingPoint) -> tuple[Effects[float], ...]:
-    """What the laws of a pump change at a point, its chambers as they are at the lumped fidelity without any."""
-    if not own.physics.on:
-        return ()
-    plain = lumped_point(replace(own, physics=PhysicsSection()), point)
-    return (point_effects(own, plain.point, plain.cycle),)
 
 
 def _leaks(pump: PumpDescription, point: OperatingPoint, motion: PistonMotion, means: Mapping[str, float]) -> LeakTable:

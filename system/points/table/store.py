@@ -26,7 +26,9 @@ KEY_LENGTH = 24
 
 def pump_key(pump: PumpDescription) -> str:
     """Hash of all inputs of a pump's gaps besides the axes: without its name, its lines and laws outside its films."""
-    stated = replace(pump.operating, speed=0.0, pressure=0.0, displacement_ratio=1.0, temperature=0.0)
+    # A clearance that grows with temperature starts from the pump's own, which is then no axis alone.
+    own = pump.operating.temperature if pump.physics.thermal_clearance else 0.0
+    stated = replace(pump.operating, speed=0.0, pressure=0.0, displacement_ratio=1.0, temperature=own)
     bare = replace(films_alone(pump), name="", operating=stated)
     made_of = TABLE_FORMAT, resolved_toml(bare), pump.file_contents
     return content_key("pump of a response table", *made_of)[:KEY_LENGTH]

@@ -274,6 +274,15 @@ def test_effects_of_films_make_another_table():
     assert (kept.viscosity_pressure is not None, kept.churning) == (True, None)
 
 
+def test_a_clearance_by_temperature_makes_a_table_of_its_own_temperature():
+    """It counts from the pump's temperature, which is an axis of all other tables."""
+    warm = {"operating.temperature": "70 degC"}
+    growing = section_of(PhysicsSection, {"thermal_clearance": {"piston": {"rate": 5e-3}}})
+    keys = [pump_key(replace(load_pump("ref90", stated), physics=growing)) for stated in ({}, warm)]
+    assert keys[0] != keys[1]
+    assert pump_key(load_pump("ref90", warm)) == pump_key(PUMP)
+
+
 def test_a_table_comes_back_from_its_files(table, tmp_path):
     keep_table(table, tmp_path / "mine")
     back = read_table(tmp_path / "mine.npz")
