@@ -88,9 +88,9 @@ def pump_case(options: argparse.Namespace) -> PumpCase:
         pump = load_pump(options.pump, stated)
     except InputFaults as reason:
         raise _at_options(reason, stated, faults) from None
-    reads = options.fidelity in (Fidelity.LUMPED.value, Fidelity.FILMS.value)
-    if reads and _TEMPERATURE in stated and pump.physics.thermal_clearance is not None:
-        pump = moved_to(load_pump(options.pump), pump.operating)
+    if _TEMPERATURE in stated and pump.physics.thermal_clearance is not None:
+        own = {path: value for path, value in stated.items() if path != _TEMPERATURE}
+        pump = moved_to(load_pump(options.pump, own), pump.operating)
     faults += floating_faults(options, pump, options.fidelity)
     if options.fidelity in (Fidelity.FILMS.value, Fidelity.TABLE.value):
         faults += alike_faults(pump)

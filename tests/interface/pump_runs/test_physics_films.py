@@ -103,6 +103,14 @@ def test_a_run_at_another_temperature_has_the_films_of_that_temperature(tmp_path
     assert not again.physics.on
 
 
+@pytest.mark.parametrize("fidelity", ["lumped", "films", "floating"])
+def test_a_clearance_that_warmth_closes_is_refused_however_it_is_stated(fidelity, capsys):
+    """By --set beside --temperature: the law starts from the file's temperature in every fidelity."""
+    shrinks = ["--set", "physics.thermal_clearance.piston.rate=-0.02 1/K", "--temperature", "110degC"]
+    assert main(["run", "ref90", "--fidelity", fidelity, *shrinks]) == 2
+    assert "a film that is closed at +60 K; expected above -0.0158 1/K" in capsys.readouterr().err
+
+
 def test_a_run_at_the_pumps_own_temperature_keeps_the_law(tmp_path):
     path = tmp_path / "pump.toml"
     path.write_text(resolved_toml(extended({"thermal_clearance": {"slipper": {"rate": 0.01}}})), encoding="utf-8")
