@@ -29,7 +29,7 @@ from gaps.films.slipper import SlipperFilm, floating_slipper
 from gaps.revolution.march import GapRevolution, run_revolution
 from gaps.revolution.schedule import evenly
 from reynolds.floating.problem import Floating
-from reynolds.floating.step import FloatingStage
+from reynolds.floating.stage import FloatingStage
 from reynolds.numerics.arrays import Array
 from reynolds.solve.solver import FilmSolver
 from system.films.drives import drives, no_rubbing, piston_shape, slipper_shape

@@ -38,7 +38,7 @@ from reynolds.fem.space import FilmSpace
 from reynolds.fem.sphere import Sphere
 from reynolds.floating.coordinates import Modes, contact_force, modes_on
 from reynolds.floating.problem import Floating, Outer
-from reynolds.floating.step import FloatingStage
+from reynolds.floating.stage import FloatingStage
 from reynolds.laws.contact import Asperities
 from reynolds.numerics.arrays import Array
 from reynolds.problem import ZERO, Film, FilmProblem, FilmSolution, Held

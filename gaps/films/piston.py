@@ -30,7 +30,7 @@ from reynolds.errors import FilmInputError
 from reynolds.fem.mesh import Cell, rectangle, rename
 from reynolds.fem.space import FilmSpace, film_space
 from reynolds.floating.problem import Floating, Outer, steady
-from reynolds.floating.step import FloatingStage
+from reynolds.floating.stage import FloatingStage
 from reynolds.laws.contact import Asperities
 from reynolds.laws.law import require_positive
 from reynolds.numerics.arrays import Array

@@ -16,7 +16,7 @@ import numpy as np
 from gaps.walls.pair import BoreWalls
 from gaps.walls.parts import Pose
 from reynolds.bodies.compliance import full
-from reynolds.floating.step import FloatingStage
+from reynolds.floating.stage import FloatingStage
 from reynolds.numerics.arrays import Array
 from reynolds.problem import FilmSolution
 from reynolds.solve.loads import evaluate

@@ -10,7 +10,7 @@ from gaps.films.block import BlockFilm
 from gaps.films.friction import Dissipation
 from gaps.films.piston import PistonFilm, PistonFriction
 from gaps.films.slipper import SlipperFilm, SlipperFriction
-from reynolds.floating.step import FloatingStage
+from reynolds.floating.stage import FloatingStage
 from reynolds.laws.contact import Asperities
 from reynolds.numerics.arrays import Array
 from reynolds.solve.loads import boundary_flows, cavitated_fraction

@@ -25,7 +25,7 @@ from gaps.walls.parts import Pose
 from reynolds.bodies.compliance import ElasticWalls
 from reynolds.fem.space import FilmSpace, film_space
 from reynolds.floating.problem import Floating, Outer
-from reynolds.floating.step import FloatingStage
+from reynolds.floating.stage import FloatingStage
 from reynolds.laws.contact import Asperities
 from reynolds.laws.law import Tangent, require_positive
 from reynolds.numerics.arrays import Array

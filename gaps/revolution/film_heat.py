@@ -21,8 +21,8 @@ from gaps.revolution.warmth import GapTemperatures, HeatFlows, ViscosityRatios, 
 from reynolds.equation.coefficients import at_points
 from reynolds.errors import FilmNotConverged, InputError
 from reynolds.floating.problem import Floating
+from reynolds.floating.stage import FloatingStage
 from reynolds.floating.start import seats_of
-from reynolds.floating.step import FloatingStage
 from reynolds.laws.fluid import Fluid, isoviscous
 from reynolds.numerics.anderson import History
 from reynolds.numerics.arrays import Array

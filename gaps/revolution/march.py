@@ -16,7 +16,7 @@ from gaps.revolution.turn import GapInstant, GapTurn, Turns, Value
 from gaps.revolution.warmth import GapTemperatures
 from reynolds.errors import FilmInputError
 from reynolds.floating.problem import Floating
-from reynolds.floating.step import FloatingStage
+from reynolds.floating.stage import FloatingStage
 from reynolds.numerics.arrays import Array
 from reynolds.numerics.dirk import ALEXANDER_2, Tableau
 from reynolds.numerics.shooting import PeriodicTurn, approached, periodic

@@ -6,7 +6,7 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from reynolds.floating.step import Closeness
+from reynolds.floating.stage import Closeness
 from reynolds.numerics.arrays import Array
 
 MORE_EXACT = 10.0  # times, at most, are the steps of the first turns
@@ -48,7 +48,8 @@ class Schedule:
     """Schedule of a revolution: shaft speed rad/s, angles (n,) rad to report, `breaks` to step on, films to keep.
 
     Angles rise from above 0 to the last, at which the turn closes: 2 pi, or a pitch where parts and mesh repeat
-    with it. `breaks` are those of kinks of the drive (a port opens). Every `keep`th reported film is kept.
+    with it. `breaks` are those of kinks of the drive (a port opens). Every `keep`th reported film is kept; between
+    such angles steps are as long as their accuracy allows, and what is reported there is interpolated.
     """
 
     speed: float
@@ -57,10 +58,15 @@ class Schedule:
     keep: int = 10
 
     @property
-    def times(self) -> Array:
-        """Nodes of the march, s: angles and breaks together."""
+    def kept(self) -> Array:
+        """Angles (rad) whose films are kept: every `keep`th."""
+        return self.angles[self.keep - 1 :: self.keep]
+
+    @property
+    def nodes(self) -> Array:
+        """Times (s) at which steps end: those of kept films, of the breaks and of the last angle."""
         inside = self.breaks[(self.breaks > 0.0) & (self.breaks < self.angles[-1])]
-        return np.unique(np.concatenate([self.angles, inside])) / self.speed
+        return np.unique(np.concatenate([self.kept, inside, self.angles[-1:]])) / self.speed
 
     @property
     def wide(self) -> Schedule:

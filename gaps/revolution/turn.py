@@ -14,8 +14,9 @@ from reynolds.equation.rough_overlap import vertex_thickness
 from reynolds.errors import FilmNotConverged
 from reynolds.fem.space import FilmSpace
 from reynolds.floating.problem import Floating
+from reynolds.floating.stage import FloatingStage
 from reynolds.floating.start import pressed, restarted, seats_of, started
-from reynolds.floating.step import FloatingStage, solve_stage
+from reynolds.floating.step import solve_stage
 from reynolds.numerics.arrays import Array
 from reynolds.numerics.dirk import AcceptedStep, State, Tableau, integrate, nodes_only
 from reynolds.problem import FilmSolution
@@ -24,6 +25,7 @@ from reynolds.solve.solver import FilmSolver
 
 MET = 0.1  # of the distance at which a turn counts as closed: near enough to join the turn before
 SHORT = 1e-2  # of the first way to a node: a step in which elastic walls deform under their first load
+SAME = 1e-9  # of an angle or a step: round-off
 FARTHEST = 2e-2  # of the film's length, by which a wall may leave its shape: then nothing is thin, no tilt small
 
 Value = TypeVar("Value")
@@ -106,9 +108,8 @@ class Turns(Generic[Value]):
     ) -> None:
         self._solver, self._floating, self._report_of = solver, floating, report_of
         self._accuracy, self._method, self._opening = accuracy, method, opening
-        self._times, self._speed = schedule.times, schedule.speed
-        self._angles = dict(zip(schedule.angles / schedule.speed, schedule.angles, strict=True))
-        self._kept = set(schedule.angles[schedule.keep - 1 :: schedule.keep])
+        self._nodes, self._speed = schedule.nodes, schedule.speed
+        self._angles, self._kept = schedule.angles, set(schedule.kept)
         self._adaptive = 2 if opening is None else 1  # turns left that choose their steps
         self._progress, self._turn = progress, 0
         self._solved: deque[FloatingStage] = deque(maxlen=len(method.matrix))  # of the step taken last
@@ -125,19 +126,22 @@ class Turns(Generic[Value]):
         self._adaptive -= 1
         gathered: _Gathered[Value] = _Gathered()
         since: Passed[Value] = Passed()
+        behind: GapInstant[Value] | None = None
         for taken in self._marched(begin, again):
-            state, stage = taken.state, taken.stage
+            state = taken.state
             gathered.step(state, self._excess(taken))
-            angle = self._angles.get(state.time)
+            angles = self._within(state.time - taken.step, state.time)
             # Turns that approach the periodic motion report their last step alone.
-            if angle is None and self._opening is None:
+            if self._opening is None and not len(angles):
                 continue
-            report = self._report_step(taken.step, since)
-            if angle is None:
-                continue
-            gathered.add(_instant(angle, stage, state.rate, report, since), stage, kept=angle in self._kept)
-            since = Passed()
-            if joins and before is not None and gathered.meets(before, self._accuracy.closed):
+            course = self._course(taken, behind)
+            behind, began = course.end, state.time - taken.step
+            for angle in angles:
+                course.passed(began, began := angle / self._speed, since)
+                gathered.add(course.at(angle, since), taken.stage, course.oil(angle), kept=angle in self._kept)
+                since = Passed()
+            course.passed(began, state.time, since)
+            if len(angles) and joins and before is not None and gathered.meets(before, self._accuracy.closed):
                 state = gathered.join(before)
                 break
         end = gathered.instants[-1]
@@ -154,17 +158,21 @@ class Turns(Generic[Value]):
             repeats=_oil_moved(self._floating.shape_at(0.0).space, begin, state) <= self._accuracy.closed,
         )
 
-    def _report_step(self, step: float, since: Passed[Value]) -> Value:
-        """Add the reports of a step's stages (s), each for its share of the step; the last stage's report."""
-        for stage, share in zip(self._solved, self._method.matrix[-1], strict=True):
-            report = self._report_of(stage)
-            since.add(share * step, report, -float(stage.outer.force @ stage.rate))
-        return report
+    def _within(self, began: float, ended: float) -> Array:
+        """Reported angles (rad) after one time (s) and up to another."""
+        first, last = np.searchsorted(self._angles, self._speed * np.array([began, ended]) * (1.0 + SAME), side="right")
+        return self._angles[first:last]
+
+    def _course(self, taken: AcceptedStep[FloatingStage], behind: GapInstant[Value] | None) -> _Course[Value]:
+        """The gap over a step: at its stages, and at the end of the step before if that is known."""
+        stages = tuple(self._solved)
+        instants = tuple(_instant(self._speed * stage.time, stage, self._report_of(stage)) for stage in stages)
+        return _Course(behind, instants, tuple(stage.holds for stage in stages), taken.step, self._speed)
 
     def _marched(self, begin: State[FloatingStage], again: Array | None) -> Iterator[AcceptedStep[FloatingStage]]:
         """Steps of a turn, chosen by their error or those of an earlier turn again."""
         if again is None:
-            steps = integrate(self._method, self._stage, begin, self._times, self._excess)
+            steps = integrate(self._method, self._stage, begin, self._nodes, self._excess)
         else:
             steps = integrate(self._method, self._stage, begin, again, nodes_only)
         reached = begin.time
@@ -173,7 +181,7 @@ class Turns(Generic[Value]):
             for taken in steps:
                 reached = taken.state.time
                 _check_near(taken.stage)
-                self._progress(self._turn, reached / self._times[-1])
+                self._progress(self._turn, reached / self._nodes[-1])
                 yield taken
         except FilmNotConverged as reason:
             angle = np.degrees(self._speed * reached)
@@ -189,7 +197,7 @@ class Turns(Generic[Value]):
                 return begin
         if self._floating.shape_at(0.0).walls is None:
             return begin
-        return pressed(self._solver, self._floating, begin, SHORT * self._times[0])
+        return pressed(self._solver, self._floating, begin, SHORT * self._angles[0] / self._speed)
 
     def _stage(
         self, time: float, before: Array, step: float, guess: Array, last: FloatingStage | None
@@ -236,10 +244,10 @@ class _Gathered(Generic[Value]):
         self.times.append(state.time)
         self.errors.append(error)
 
-    def add(self, instant: GapInstant[Value], stage: FloatingStage, *, kept: bool) -> None:
-        """One more reported angle."""
+    def add(self, instant: GapInstant[Value], stage: FloatingStage, oil: Array, *, kept: bool) -> None:
+        """One more reported angle, with the state (held,) there; the film of a kept one is that of the stage."""
         self.instants.append(instant)
-        self.oil.append(stage.holds[: stage.instant.shape.space.size])
+        self.oil.append(oil[: stage.instant.shape.space.size])
         if kept:
             self.films[instant.angle] = stage.solution
 
@@ -272,13 +280,60 @@ def _moved(came: Array, went: Array) -> float:
     return float(np.abs(came - went).sum() / np.abs(went).sum())
 
 
-def _instant(angle: float, stage: FloatingStage, rate: Array, report: Value, since: Passed[Value]) -> GapInstant[Value]:
-    """The instant at the end of a step."""
+@dataclass(frozen=True)
+class _Course(Generic[Value]):
+    """A gap over one step (s): its instants at the stages, the last at the end, and that at the step's start.
+
+    Between them the parabola through all; flows the line through the stages alone, whose integral over the step is
+    the method's: what passes in parts of a step adds up to what the march keeps.
+    """
+
+    behind: GapInstant[Value] | None
+    stages: tuple[GapInstant[Value], ...]
+    holds: tuple[Array, ...]
+    step: float
+    speed: float
+
+    @property
+    def end(self) -> GapInstant[Value]:
+        """The gap at the end of the step."""
+        return self.stages[-1]
+
+    def at(self, angle: float, since: Passed[Value]) -> GapInstant[Value]:
+        """The gap at a shaft angle (rad) of the step; `since`: what has passed since the reported angle before."""
+        known = self.stages if self.behind is None else (self.behind, *self.stages)
+        found = weighted_mean(known, self._shares(angle, [one.angle for one in known]))
+        return replace(found, angle=angle, passed=since.mean, pushed=since.mean_pushed)
+
+    def oil(self, angle: float) -> Array:
+        """State (held,) at a shaft angle (rad)."""
+        return weighted_mean(self.holds, self._shares(angle, [one.angle for one in self.stages]))
+
+    def passed(self, began: float, ended: float, since: Passed[Value]) -> None:
+        """Add what passes from one time (s) of the step to another."""
+        middle = 0.5 * self.speed * (began + ended)
+        shares = self._shares(middle, [one.angle for one in self.stages])
+        for one, share in zip(self.stages, shares, strict=True):
+            since.add(share * (ended - began), one.report, one.pushed)
+
+    def _shares(self, angle: float, known: list[float]) -> Array:
+        """Lagrange's weights of known angles (rad) at another one; that of the end alone there."""
+        places = np.array(known)
+        if abs(angle - places[-1]) <= SAME * self.speed * self.step:
+            return np.eye(len(places))[-1]
+        others = places[:, None] - places + np.eye(len(places))
+        ways = angle - np.tile(places, (len(places), 1))
+        np.fill_diagonal(ways, 1.0)
+        return np.asarray(np.prod(ways / others, axis=1))
+
+
+def _instant(angle: float, stage: FloatingStage, report: Value) -> GapInstant[Value]:
+    """The instant of a stage; what passes is what its report has."""
     area, film = stage.solution.problem.space.area, stage.solution.film
     return GapInstant(
         angle=angle,
         position=stage.q,
-        rate=rate,
+        rate=stage.rate,
         film_force=stage.film_force,
         contact_force=stage.contact_force,
         outer_force=stage.outer.force,
@@ -289,8 +344,8 @@ def _instant(angle: float, stage: FloatingStage, rate: Array, report: Value, sin
         pressure_max=float(stage.solution.pressure.max()),
         cavitated_area_fraction=cavitated_fraction(stage.solution),
         report=report,
-        passed=since.mean,
-        pushed=since.mean_pushed,
+        passed=report,
+        pushed=-float(stage.outer.force @ stage.rate),
     )
 
 
@@ -298,7 +353,8 @@ def weighted_mean(items: Sequence[Item], weights: Array) -> Item:
     """Weighted mean of reports of several stages, of the same unit.
 
     Numbers and arrays are averaged, dataclasses field by field; anything else is the last one's.
-    A flow averaged over stages by the weights of their method is what the step has passed, to round-off.
+    A flow averaged over stages by the weights of their method is what the step has passed, to round-off; weights may
+    have either sign.
     """
     last = items[-1]
     if is_dataclass(last) and not isinstance(last, type):

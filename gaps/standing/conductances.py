@@ -10,7 +10,7 @@ import numpy as np
 
 from gaps.films.block import BlockFilm
 from gaps.films.slipper import SlipperFilm
-from reynolds.floating.step import FloatingStage
+from reynolds.floating.stage import FloatingStage
 from reynolds.numerics.arrays import Array
 from reynolds.problem import ZERO, Boundary, Cavitation, FilmProblem, FilmSolution, Held, Pocket, no_feed
 from reynolds.solve.loads import boundary_flows

@@ -21,8 +21,9 @@ from gaps.films.reports import (
 from gaps.films.slipper import SlipperFilm
 from reynolds.floating.problem import Floating
 from reynolds.floating.rest import come_to_rest
+from reynolds.floating.stage import FloatingStage
 from reynolds.floating.start import pressed, started
-from reynolds.floating.step import FloatingStage, solve_stage
+from reynolds.floating.step import solve_stage
 from reynolds.numerics.arrays import Array
 from reynolds.problem import FilmSolution
 from reynolds.solve.loads import Loads, loads

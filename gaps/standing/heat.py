@@ -13,7 +13,7 @@ from gaps.revolution.film_heat import AGREED, MOST_WALL_ROUNDS, WALL_SETTLED, Ga
 from reynolds.errors import FilmNotConverged
 from reynolds.floating.problem import Floating
 from reynolds.floating.rest import held_at
-from reynolds.floating.step import FloatingStage
+from reynolds.floating.stage import FloatingStage
 from reynolds.numerics.anderson import History
 from reynolds.numerics.arrays import Array
 from reynolds.solve.solver import FilmSolver

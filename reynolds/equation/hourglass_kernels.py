@@ -9,7 +9,7 @@ have no part of the mode, and 0 for other shapes.
 
 from numba import njit
 
-from reynolds.fem.kernels import _any_couples, _at
+from reynolds.fem.kernels import _any_couples, at_index
 
 _FAST = {"cache": True, "fastmath": {"contract"}, "error_model": "numpy"}
 SIDES = (0, 2, 3, 5)  # pairs of neighbours among (0, 1), (0, 2), (0, 3), (1, 2), (1, 3), (2, 3)
@@ -25,7 +25,7 @@ def _coupled(conductance, pairs, e, s, pair, points):
 
 
 @njit(inline="always")
-def _sides(conductance, pairs, e, s, points):
+def sides_of(conductance, pairs, e, s, points):
     """Couplings of the four sides, below zero where they conduct."""
     return (
         _coupled(conductance, pairs, e, s, SIDES[0], points),
@@ -36,7 +36,7 @@ def _sides(conductance, pairs, e, s, points):
 
 
 @njit(inline="always")
-def _reduction(sides):
+def reduction_of(sides):
     """Reduction of a cell's hourglass stiffness, by the couplings of its sides.
 
     A sixth of their sum makes gradients at the corners those at Gauss's points, for a uniform film between
@@ -56,23 +56,24 @@ def stiffness(slots, shape, pairs, parallel, conductance, points, data):
     """
     crossed = _any_couples(pairs, 1) or _any_couples(pairs, 4)
     for e in range(slots.shape[0]):
-        s = _at(shape[e])
-        south, west, east, north = sides = _sides(conductance, pairs, e, s, points)
-        less = parallel[s] * _reduction(sides)
+        s = at_index(shape[e])
+        south, west, east, north = sides = sides_of(conductance, pairs, e, s, points)
+        less = parallel[s] * reduction_of(sides)
         rising = falling = -less
         if crossed:
             rising += _coupled(conductance, pairs, e, s, 1, points)
             falling += _coupled(conductance, pairs, e, s, 4, points)
-        data[_at(slots[e, 1])] += south + less
-        data[_at(slots[e, 2])] += rising
-        data[_at(slots[e, 3])] += west + less
-        data[_at(slots[e, 5])] += east + less
-        data[_at(slots[e, 6])] += falling
-        data[_at(slots[e, 8])] += north + less
+        data[at_index(slots[e, 1])] += south + less
+        data[at_index(slots[e, 2])] += rising
+        data[at_index(slots[e, 3])] += west + less
+        data[at_index(slots[e, 5])] += east + less
+        data[at_index(slots[e, 6])] += falling
+        data[at_index(slots[e, 8])] += north + less
 
 
 @njit(inline="always")
-def _mode(dofs, pressure, e):
+def mode_of(dofs, pressure, e):
+    """Amplitude of the hourglass mode of a cell's pressures."""
     return pressure[dofs[e, 0]] - pressure[dofs[e, 1]] + pressure[dofs[e, 2]] - pressure[dofs[e, 3]]
 
 
@@ -81,8 +82,8 @@ def changed(dofs, shape, pairs, parallel, conductance, slope, pressure, points, 
     """out[e, q] = - w d(reduction)/dk_q slope_q: flow into corners 0 and 2 by a change of the conductance."""
     for e in range(dofs.shape[0]):
         s = shape[e]
-        sides = _sides(conductance, pairs, e, s, points)
-        less, w = _reduction(sides), _mode(dofs, pressure, e)
+        sides = sides_of(conductance, pairs, e, s, points)
+        less, w = reduction_of(sides), mode_of(dofs, pressure, e)
         weakest = 0
         for k in range(4):
             if sides[k] > sides[weakest]:
@@ -101,8 +102,8 @@ def saved(dofs, shape, pairs, parallel, conductance, pressure, points, out):
     """out[e] = reduction w^2, the dissipation taken off the cell, W."""
     for e in range(dofs.shape[0]):
         s = shape[e]
-        less = _reduction(_sides(conductance, pairs, e, s, points))
-        out[e] = parallel[s] * less * _mode(dofs, pressure, e) ** 2
+        less = reduction_of(sides_of(conductance, pairs, e, s, points))
+        out[e] = parallel[s] * less * mode_of(dofs, pressure, e) ** 2
 
 
 @njit(**_FAST)

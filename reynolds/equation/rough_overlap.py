@@ -8,8 +8,9 @@ from dataclasses import replace
 
 import numpy as np
 
+from reynolds.laws.contact import Asperities
 from reynolds.laws.law import Tangent
-from reynolds.laws.roughness import mean_thickness
+from reynolds.laws.roughness import Surface, mean_thickness
 from reynolds.numerics.arrays import Array
 from reynolds.problem import FilmProblem, FilmSolution
 
@@ -23,11 +24,16 @@ def film_between(problem: FilmProblem, gap: Array) -> Tangent:
     of Patir and Cheng (half a standard deviation or one), from there on an exponential with the same value and slope.
     That continuation is ours: it keeps the film positive and is no measurement.
     """
-    if problem.asperities is None or (problem.surface is None and problem.walls is not None):
+    return film_at(problem.surface, problem.asperities, problem.walls is not None, gap)
+
+
+def film_at(surface: Surface | None, asperities: Asperities | None, elastic: bool, gap: Array) -> Tangent:
+    """The same by roughness and summits of the walls, and whether they are elastic."""
+    if asperities is None or (surface is None and elastic):
         return Tangent(gap, np.ones((1,) * gap.ndim))
-    if problem.surface is None:
-        return mean_thickness(problem.asperities.height, gap)
-    least = problem.surface.lowest_ratio * problem.surface.composite_roughness
+    if surface is None:
+        return mean_thickness(asperities.height, gap)
+    least = surface.lowest_ratio * surface.composite_roughness
     below = least * np.exp(np.minimum(gap / least, 1.0) - 1.0)
     return Tangent(np.where(gap < least, below, gap), np.where(gap < least, below / least, 1.0))
 

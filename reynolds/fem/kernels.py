@@ -28,7 +28,7 @@ ROUNDING = 1e-6
 
 
 @njit(inline="always")
-def _at(index):
+def at_index(index):
     """An index that is not below zero, unsigned, so that numba does not test for counting from the end."""
     return np.uint32(index)
 
@@ -78,7 +78,7 @@ def stiffness(slots, shape, pairs, conductance, basis, points, data):
     for pair in range(pairs.shape[1]):
         couples[pair] = _any_couples(pairs, pair)
     for e in range(slots.shape[0]):
-        s = _at(shape[e])
+        s = at_index(shape[e])
         k = pair = 0
         for i in range(len(basis)):
             k += 1  # the diagonal's slot
@@ -87,7 +87,7 @@ def stiffness(slots, shape, pairs, conductance, basis, points, data):
                     value = 0.0
                     for q in range(len(points)):
                         value += conductance[e, q] * pairs[s, pair, q]
-                    data[_at(slots[e, k])] += value
+                    data[at_index(slots[e, k])] += value
                 k += 1
                 pair += 1
 
@@ -101,12 +101,12 @@ def close_rows(indptr, indices, data):
     diagonal = np.zeros(indptr.shape[0] - 1)
     for j in range(indptr.shape[0] - 1):
         total = 0.0
-        for k in range(_at(indptr[j]), _at(indptr[j + 1] - 1)):
+        for k in range(at_index(indptr[j]), at_index(indptr[j + 1] - 1)):
             total += data[k]
-            diagonal[_at(indices[k])] -= data[k]
+            diagonal[at_index(indices[k])] -= data[k]
         diagonal[j] -= total
     for j in range(indptr.shape[0] - 1):
-        data[_at(indptr[j + 1] - 1)] = diagonal[j]
+        data[at_index(indptr[j + 1] - 1)] = diagonal[j]
 
 
 @njit(**_FAST)
@@ -117,13 +117,13 @@ def wall_outflow(dofs, shape, gradient, flux, basis, points, out, size):
     the cells, which cancel in a uniform film.
     """
     for e in range(dofs.shape[0]):
-        s = _at(shape[e])
+        s = at_index(shape[e])
         for i in range(len(basis)):
             flow = 0.0
             for q in range(len(points)):
                 flow -= flux[e, q] * gradient[s, q, i]
-            out[_at(dofs[e, i])] += flow
-            size[_at(dofs[e, i])] += abs(flow)
+            out[at_index(dofs[e, i])] += flow
+            size[at_index(dofs[e, i])] += abs(flow)
 
 
 @njit(**_FAST)
@@ -136,7 +136,7 @@ def convection(dofs, slots, shape, value, gradient, flux_x, flux_y, basis, point
     upper[:] = 0.0
     lower[:] = 0.0
     for e in range(dofs.shape[0]):
-        s = _at(shape[e])
+        s = at_index(shape[e])
         for q in range(len(points)):
             fx, fy = flux_x[e, q], flux_y[e, q]
             for i in range(len(basis)):
@@ -148,7 +148,7 @@ def convection(dofs, slots, shape, value, gradient, flux_x, flux_y, basis, point
                 for q in range(len(points)):
                     c_ij -= value[q, j] * along[q, i]
                     c_ji -= value[q, i] * along[q, j]
-                slot = _at(slots[e, k])
+                slot = at_index(slots[e, k])
                 one, two = dofs[e, i], dofs[e, j]
                 if i == j:
                     upper[slot] += c_ij
@@ -174,16 +174,16 @@ def upwinding(indptr, indices, upper, lower, leaves, diffusion):
     taken, brought = np.zeros(size), np.zeros(size)
     diffusion[:] = 0.0
     for j in range(size):
-        for k in range(_at(indptr[j]), _at(indptr[j + 1] - 1)):
-            i = _at(indices[k])
+        for k in range(at_index(indptr[j]), at_index(indptr[j + 1] - 1)):
+            i = at_index(indices[k])
             if leaves[i] != leaves[j]:
                 beside, c = (i, upper[k]) if leaves[j] else (j, lower[k])
                 taken[beside] += max(0.0, c)
                 brought[beside] += max(0.0, -c)
     for j in range(size):
-        diagonal_j = _at(indptr[j + 1] - 1)
-        for k in range(_at(indptr[j]), diagonal_j):
-            i = _at(indices[k])
+        diagonal_j = at_index(indptr[j + 1] - 1)
+        for k in range(at_index(indptr[j]), diagonal_j):
+            i = at_index(indices[k])
             if leaves[i] != leaves[j]:
                 beside, d = (i, upper[k]) if leaves[j] else (j, lower[k])
                 if d < 0.0:
@@ -193,7 +193,7 @@ def upwinding(indptr, indices, upper, lower, leaves, diffusion):
                 d = 0.0 if leaves[i] else max(0.0, upper[k], lower[k])
             diffusion[k] = -d
             diffusion[diagonal_j] += d
-            diffusion[_at(indptr[i + 1] - 1)] += d
+            diffusion[at_index(indptr[i + 1] - 1)] += d
 
 
 @njit(**_FAST)
@@ -206,8 +206,8 @@ def exchange(indptr, indices, coupling, level, out, size):
     for j in range(indptr.shape[0] - 1):
         there = level[j]
         gone = met = 0.0
-        for k in range(_at(indptr[j]), _at(indptr[j + 1] - 1)):
-            i = _at(indices[k])
+        for k in range(at_index(indptr[j]), at_index(indptr[j + 1] - 1)):
+            i = at_index(indices[k])
             flow = coupling[k] * (there - level[i])
             lost = abs(flow) + ROUNDING * abs(coupling[k]) * (abs(level[i]) + abs(there))
             out[i] += flow
@@ -222,12 +222,12 @@ def exchange(indptr, indices, coupling, level, out, size):
 def convect(indptr, indices, upper, lower, filling, out, size):
     """out += A filling, A's upper triangle by columns and the mirror of each entry in lower; size as above."""
     for j in range(indptr.shape[0] - 1):
-        last = _at(indptr[j + 1] - 1)
+        last = at_index(indptr[j + 1] - 1)
         full = filling[j]
         come = upper[last] * full
         met = abs(come)
-        for k in range(_at(indptr[j]), last):
-            i = _at(indices[k])
+        for k in range(at_index(indptr[j]), last):
+            i = at_index(indices[k])
             there, here = upper[k] * full, lower[k] * filling[i]
             out[i] += there
             size[i] += abs(there)
@@ -246,7 +246,7 @@ def lump(dofs, value, area, field, basis, points, out):
             total = 0.0
             for q in range(len(points)):
                 total += area[e, q] * field[e, q] * value[q, i]
-            out[_at(dofs[e, i])] += total
+            out[at_index(dofs[e, i])] += total
 
 
 @njit(**_FAST)
@@ -300,7 +300,7 @@ def evaluate(vertices, cells, dofs, value, gradient, geometry_gradient, weights,
             _, ixx, ixy, iyx, iyy = _inverse_map(vertices, cells[e], geometry_gradient, q)
             p = rx = ry = 0.0
             for i in range(nb):
-                node = nodal[_at(dofs[e, i])]
+                node = nodal[at_index(dofs[e, i])]
                 p += node * value[q, i]
                 rx += node * gradient[q, i, 0]
                 ry += node * gradient[q, i, 1]
@@ -317,9 +317,9 @@ def hold(indptr, indices, data, unit, held, gain, data_out):
     part of a factorisation is kept while nodes enter and leave the cavity.
     """
     for k in range(data.shape[0]):
-        data_out[k] = 0.0 if held[_at(indices[k])] else unit * data[k]
+        data_out[k] = 0.0 if held[at_index(indices[k])] else unit * data[k]
     for j in range(indptr.shape[0] - 1):
-        last = _at(indptr[j + 1] - 1)
+        last = at_index(indptr[j + 1] - 1)
         if held[j]:
             data_out[indptr[j] : last] = 0.0
             data_out[last] = 1.0
@@ -338,9 +338,9 @@ def choose_columns(
     additions to their diagonals; p_scale and f_scale multiply them. Held unknowns get identity rows and columns.
     """
     for j in range(indptr.shape[0] - 1):
-        last = _at(indptr[j + 1] - 1)
-        for k in range(_at(indptr[j]), last):
-            i = _at(indices[k])
+        last = at_index(indptr[j + 1] - 1)
+        for k in range(at_index(indptr[j]), last):
+            i = at_index(indices[k])
             if held[i] or held[j]:
                 upper[k] = 0.0
                 lower[k] = 0.0

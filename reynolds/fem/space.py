@@ -168,6 +168,17 @@ class FilmSpace:
     def _rim_normal(self) -> Array:
         return _outward(self, self._rim)
 
+    @property
+    def rim(self) -> tuple[NDArray[np.int64], Array]:
+        """Cell beside each facet of all named boundaries, and its outward normal times length (2, facets) m."""
+        return self._rim_cells, self._rim_normal
+
+    @cached_property
+    def rim_dofs(self) -> NDArray[np.int64]:
+        """Unknowns of each facet of all named boundaries, (2 | 3, facets)."""
+        nothing = np.zeros((self.degree + 1, 0), dtype=np.int64)
+        return np.ascontiguousarray(np.hstack([nothing, *self.facet_dofs.values()]))
+
     @cached_property
     def _rim_length(self) -> Array:
         return np.asarray(np.hypot(*self._rim_normal))

@@ -11,10 +11,10 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
+from reynolds.equation import thickness_kernels as kernels
 from reynolds.equation.deformation import Touch
 from reynolds.errors import FilmInputError
 from reynolds.fem.space import FilmSpace
-from reynolds.floating import coordinate_kernels as kernels
 from reynolds.laws.contact import Asperities, contact_pressure
 from reynolds.numerics.arrays import Array
 

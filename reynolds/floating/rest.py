@@ -10,7 +10,8 @@ import numpy as np
 
 from reynolds.errors import FilmInputError, FilmNotConverged
 from reynolds.floating.problem import Floating
-from reynolds.floating.step import FloatingStage, full_film
+from reynolds.floating.stage import FloatingStage
+from reynolds.floating.step import full_film
 from reynolds.floating.trial import instant_of
 from reynolds.numerics.arrays import Array
 from reynolds.numerics.dirk import BACKWARD_EULER, AcceptedStep, S, StageSolver, State, advance

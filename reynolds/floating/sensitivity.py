@@ -13,7 +13,7 @@ from reynolds.equation.balance import FilmState, Operators, cavity_density, dens
 from reynolds.equation.coefficients import along, at_points
 from reynolds.equation.deformation import deformation_slope
 from reynolds.equation.hourglass import hourglass_slope, signs
-from reynolds.floating import coordinate_kernels as generalised_kernels
+from reynolds.equation.thickness_kernels import integrate, mixed_more, thicken
 from reynolds.linear.factor import ITERATIVE_TOLERANCE
 from reynolds.numerics.arrays import Array
 from reynolds.problem import Cavitation, FilmSolution
@@ -50,14 +50,14 @@ def thickness_load(solution: FilmSolution, thicker: Array, parts: Operators) -> 
     convected = (full * part for part in terms.flux_slope)
     per_second = 0.0 if problem.storage is None else terms.content_slope / problem.storage.step
     out = np.empty((space.size, thicker.shape[2]))
-    generalised_kernels.thicken(
+    thicken(
         space.dofs, tensors.shape, space.reference.value, tensors.steep_gradient, tensors.gradient, signs(space),
         space.area, *(space.everywhere(part) for part in (*driven, mode, *convected, np.atleast_2d(per_second))),
         filling, thicker, *space.reference.loops, out,
     )  # fmt: skip
     if problem.cavitation is Cavitation.JFO and bool(np.any(state.film_fraction != 1.0)):
         # Upwinding's diffusion grows with the walls' flow.
-        generalised_kernels.mixed_more(
+        mixed_more(
             space.dofs, space.pattern.slots, tensors.shape, space.reference.value, tensors.gradient,
             *(space.everywhere(part) for part in terms.flux_slope), thicker, *space.reference.loops,
             space.pattern.indptr, space.pattern.indices, *parts.convection, parts.leaves,
@@ -80,7 +80,7 @@ def oil_slopes(solution: FilmSolution, thicker: Array, changed: FilmSensitivity,
         opened = deformation_slope(problem, solution.deformation) @ changed.pressure
         thicker = thicker + space.reference.geometry_value @ opened[space.cells]
     wider = np.ascontiguousarray(terms.content_slope[:, :, None] * thicker)
-    generalised_kernels.integrate(space.dofs, space.reference.value, space.area, wider, *space.reference.loops, grown)
+    integrate(space.dofs, space.reference.value, space.area, wider, *space.reference.loops, grown)
     content, fraction = parts.content[:, None], solution.film_fraction[:, None]
     ratio, ratio_slope = ratio[:, None], ratio_slope[:, None]
     return np.asarray(

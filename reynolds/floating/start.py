@@ -11,7 +11,8 @@ from reynolds.fem.space import FilmSpace
 from reynolds.floating.pockets import pockets_grown
 from reynolds.floating.problem import Floating
 from reynolds.floating.sensitivity import FilmSensitivity, oil_slopes
-from reynolds.floating.step import FloatingStage, full_film, solve_stage
+from reynolds.floating.stage import FloatingStage
+from reynolds.floating.step import full_film, solve_stage
 from reynolds.numerics.arrays import Array
 from reynolds.numerics.dirk import State, StateTangent
 from reynolds.solve.solver import FilmSolver

@@ -1,12 +1,13 @@
 """A floating film tried at one position: its forces, which are to balance, and their exact slopes."""
 
 from dataclasses import dataclass, replace
+from typing import Protocol
 
 import numpy as np
 
 from reynolds.equation.deformation import touch_at
+from reynolds.equation.thickness_kernels import mixed
 from reynolds.errors import FilmNotConverged
-from reynolds.floating import coordinate_kernels as generalised_kernels
 from reynolds.floating.coordinates import (
     ContactForce,
     Modes,
@@ -124,16 +125,25 @@ class FloatingInstant:
             at = deformed_pose(at, solution, contact)
         rate = (q - self.before.position) / self.step
         force = generalised_force(solution.pressure, self.modes, reference)
-        size = np.abs(solution.pressure - reference) @ np.abs(self.modes.weights)
         outer = self.floating.outer_at(self.time, q, rate)
-        missing, size = force + outer.force, size + np.abs(outer.force)
-        if contact is not None:
-            missing, size = missing + contact.force, size + contact.size
-        pushed = self.inertia_force(rate)
-        missing, size = missing + pushed, size + np.abs(pushed)
+        missing, size = self.balance_of(solution.pressure, force, contact, outer, rate)
         return Trial(
             q, rate, at.gap, at.corner_gap, at.least, at.thicker, solution, force, contact, outer, missing, size
         )
+
+    def balance_of(
+        self, pressure: Array, force: Array, contact: ContactForce | None, outer: Outer, rate: Array
+    ) -> tuple[Array, Array]:
+        """Residual of the forces' balance (k,) N, and the magnitudes in it (k,) N.
+
+        `force` (k,) N: that of film pressures (size,) Pa.
+        """
+        pushed = self.inertia_force(rate)
+        size = np.abs(pressure - self.floating.reference) @ np.abs(self.modes.weights)
+        missing, size = force + outer.force + pushed, size + np.abs(outer.force) + np.abs(pushed)
+        if contact is not None:
+            missing, size = missing + contact.force, size + contact.size
+        return missing, size
 
     def inertia_force(self, rate: Array) -> Array:
         """-M q'' (k,) N of a rate (k,) m/s over the step."""
@@ -151,25 +161,9 @@ class FloatingInstant:
     def room(self, at: Trial, step: Array, film: FilmSensitivity) -> float:
         """The share of a step (k,) m, maybe more than one, that leaves as much gap as one step may take.
 
-        That is a fifth of the least gap, or of rough walls three standard deviations of the summits less than it.
-        Elastic walls follow the pressure of the step, `film` per unit of it; smooth ones the further the nearer
-        they come.
+        Elastic walls follow the pressure of the step, `film` per unit of it.
         """
-        if self.shape.walls is not None and self.shape.asperities is None:
-            return np.inf
-        asperities, floor = self.shape.asperities, LEAST_SHARE * at.least
-        if asperities is not None:
-            floor = min(floor, at.least - DEEPEST * asperities.height)
-        floor = max(floor, lowest_gap(self.shape))
-        grows = self.grown(at, film)
-        falls = []
-        if at.corner_gap is not None:
-            falls.append((at.corner_gap - floor, -(grows @ step)))
-        falls.append((at.gap - floor, -self.shape.space.sample_vertices(grows @ step)))
-        return min(
-            float(np.min(np.divide(gap, fall, out=np.full(fall.shape, np.inf), where=fall > 0.0)))
-            for gap, fall in falls
-        )
+        return room_within(self.shape, at, self.grown(at, film) @ step)
 
     def grown(self, at: Trial, film: FilmSensitivity) -> Array:
         """Growth of the gap by each coordinate at the vertices, (vertices, k), elastic walls following."""
@@ -223,9 +217,14 @@ class FloatingInstant:
 
     def slopes(self, at: Trial, film: FilmSensitivity) -> Array:
         """d missing/dq, (k, k) N/m."""
-        total = self.film_slopes(film) + at.outer.by_position + at.outer.by_rate / self.step
-        if at.contact is not None:
-            total = total + at.contact.slopes + at.contact.by_pressure(film.pressure)
+        total = self.stiffness(self.film_slopes(film), at.contact, at.outer)
+        return total if at.contact is None else total + at.contact.by_pressure(film.pressure)
+
+    def stiffness(self, of_film: Array, contact: ContactForce | None, outer: Outer) -> Array:
+        """d missing/dq, (k, k) N/m, but for contact by the film's pressure; of_film: dQ/dq without contact."""
+        total = of_film + outer.by_position + outer.by_rate / self.step
+        if contact is not None:
+            total = total + contact.slopes
         if self.floating.inertia is not None:
             total = total - self.floating.inertia / self.step**2
         return np.asarray(total)
@@ -241,19 +240,23 @@ class FloatingInstant:
 
     def _oil_by(self, at: Trial, both: FilmSensitivity, moved: Array) -> Array:
         """Change of the unknowns' oil, pockets included, with film and position (k, m) m."""
-        thicker = generalised_kernels.mixed(at.thicker, np.ascontiguousarray(moved))
+        thicker = mixed(at.thicker, np.ascontiguousarray(moved))
         oil = oil_slopes(at.solution, thicker, both, self.solver.operators(at.solution))
         return np.asarray(oil + pockets_grown(at.solution, self.modes) @ moved)
 
     def by_before(self, at: Trial, changed: StepStart) -> tuple[FilmSensitivity, Array]:
         """Change of the film and of `missing` (k, m) with the state before, at constant position."""
         film = response(self.solver, at.solution, changed.oil / self.step, self.exactness)
+        return film, self.missing_by_before(at, film, changed)
+
+    def missing_by_before(self, at: Trial, film: FilmSensitivity, changed: StepStart) -> Array:
+        """Change of `missing` (k, m) with the state before and the film's change by it, at constant position."""
         missing = self.modes.weights.T @ film.pressure - at.outer.by_rate @ changed.position / self.step
         if at.contact is not None:
             missing += at.contact.by_pressure(film.pressure)
         if self.floating.inertia is not None:
             missing += self.floating.inertia @ (changed.position / self.step + changed.rate) / self.step
-        return film, missing
+        return np.asarray(missing)
 
     def onward(self, at: Trial, own: FilmSensitivity, slopes: Array, changed: StepStart) -> StepStart:
         """Change of the state at the end of the step with that before it, in balance.
@@ -264,6 +267,42 @@ class FloatingInstant:
         q = -solved(slopes, missing, self.floating.name)
         both = FilmSensitivity(film.pressure + own.pressure @ q, film.film_fraction + own.film_fraction @ q)
         return StepStart(self._oil_by(at, both, q), q, (q - changed.position) / self.step)
+
+
+class Posed(Protocol):
+    """Gap of a film at a position: at its points (cells, points) and corners (vertices,) m, and the least."""
+
+    @property
+    def gap(self) -> Array:
+        """At the points, m."""
+
+    @property
+    def corner_gap(self) -> Array | None:
+        """At the vertices, m; None where it is not known."""
+
+    @property
+    def least(self) -> float:
+        """The least of both, m."""
+
+
+def room_within(shape: FilmProblem, at: Posed, growth: Array) -> float:
+    """The share of a growth of the gap (vertices,) m, maybe more than one, that leaves as much as one step may take.
+
+    A step leaves a fifth of the least gap, or of rough walls all but three standard deviations of the summits; smooth
+    elastic ones go any way, since they yield the further the nearer they come.
+    """
+    if shape.walls is not None and shape.asperities is None:
+        return np.inf
+    asperities, floor = shape.asperities, LEAST_SHARE * at.least
+    if asperities is not None:
+        floor = min(floor, at.least - DEEPEST * asperities.height)
+    floor = max(floor, lowest_gap(shape))
+    falls = [(at.gap - floor, -shape.space.sample_vertices(growth))]
+    if at.corner_gap is not None:
+        falls.append((at.corner_gap - floor, -growth))
+    return min(
+        float(np.min(np.divide(gap, fall, out=np.full(fall.shape, np.inf), where=fall > 0.0))) for gap, fall in falls
+    )
 
 
 def instant_of(solver: FilmSolver, floating: Floating, time: float, step: float, held: Array) -> FloatingInstant:

@@ -112,26 +112,57 @@ def substitute(band, x):
 
 
 @njit(**_FAST)
-def answer(band, inverse, order, load, x, new):
-    """new := x + A^-1 load, (n,); `inverse` of the corner, `order` the new number of each unknown."""
-    half, size, hubs = band.half, len(band.reach), len(band.across)
-    wide, rest = np.zeros(size + 2 * half), np.empty(hubs)
-    for i in range(len(load)):
-        if order[i] < size:
-            wide[half + order[i]] = load[i]
-        else:
-            rest[order[i] - size] = load[i]
-    substitute(band, wide)
-    inner = wide[half : half + size]
-    for hub in range(hubs):
-        for j in range(size):
-            rest[hub] -= band.down[hub, j] * inner[j]
-    rest = inverse @ rest
-    for hub in range(hubs):
-        for j in range(size):
-            inner[j] -= band.across[hub, j] * rest[hub]
-    for i in range(len(load)):
-        new[i] = x[i] + (inner[order[i]] if order[i] < size else rest[order[i] - size])
+def substitute_rows(band, x):
+    """x := (L U)^-1 x within the band for eight right-hand sides, x (n WIDTH,) with those of an unknown side by side.
+
+    Each entry of the factors is read once for all eight.
+    """
+    a, half, size = band.rows, band.half, len(band.reach)
+    width = 2 * half + 1
+    for i in range(size):
+        total = lanes(x, i * WIDTH)
+        for j in range(max(0, i - half), i):
+            entry = a[i * width + half + j - i]
+            if entry != 0.0:
+                total -= all_lanes(a, entry) * lanes(x, j * WIDTH)
+        put_lanes(x, i * WIDTH, total)
+    for i in range(size - 1, -1, -1):
+        total = lanes(x, i * WIDTH)
+        for j in range(i + 1, band.reach[i] + 1):
+            total -= all_lanes(a, a[i * width + half + j - i]) * lanes(x, j * WIDTH)
+        put_lanes(x, i * WIDTH, total / all_lanes(a, a[i * width + half]))
+
+
+@njit(**_FAST)
+def answers(band, inverse, order, loads, found):
+    """Rows of found (m, n) := A^-1 rows of loads; `inverse` of the corner, `order` the new number of each unknown."""
+    size, hubs = len(band.reach), len(band.across)
+    wide, rest = np.zeros(size * WIDTH), np.zeros((hubs, WIDTH))
+    for first in range(0, loads.shape[0], WIDTH):
+        some = min(WIDTH, loads.shape[0] - first)
+        for i in range(loads.shape[1]):
+            for m in range(some):
+                if order[i] < size:
+                    wide[order[i] * WIDTH + m] = loads[first + m, i]
+                else:
+                    rest[order[i] - size, m] = loads[first + m, i]
+        substitute_rows(band, wide)
+        for hub in range(hubs):
+            for j in range(size):
+                down = band.down[hub, j]
+                if down != 0.0:
+                    for m in range(some):
+                        rest[hub, m] -= down * wide[j * WIDTH + m]
+        hub_answers = inverse @ rest
+        for hub in range(hubs):
+            for j in range(size):
+                across = band.across[hub, j]
+                for m in range(some):
+                    wide[j * WIDTH + m] -= across * hub_answers[hub, m]
+        for i in range(loads.shape[1]):
+            for m in range(some):
+                here = wide[order[i] * WIDTH + m] if order[i] < size else hub_answers[order[i] - size, m]
+                found[first + m, i] = here
 
 
 @njit(**_FAST)
@@ -155,19 +186,19 @@ def solve(band, inverse, order, pattern, entries, loads, tolerance, rounds, foun
 
     `pattern`: indptr and indices by columns. The residual is the largest |A x - load|/|load|.
     """
-    worst, nothing = 0.0, np.zeros(loads.shape[1])
-    new, rest = np.empty(loads.shape[1]), np.empty(loads.shape[1])
+    answers(band, inverse, order, loads, found)
+    worst, rest, more = 0.0, np.empty((1, loads.shape[1])), np.empty((1, loads.shape[1]))
     for m in range(loads.shape[0]):
-        answer(band, inverse, order, loads[m], nothing, found[m])
-        left, size = residual(pattern[0], pattern[1], entries, loads[m], found[m], rest)
+        left, size = residual(pattern[0], pattern[1], entries, loads[m], found[m], rest[0])
         for _ in range(rounds):
             if left <= tolerance * size:
                 break
-            answer(band, inverse, order, rest, found[m], new)
-            less, size = residual(pattern[0], pattern[1], entries, loads[m], new, rest)
+            answers(band, inverse, order, rest, more)
+            more[0] += found[m]
+            less, size = residual(pattern[0], pattern[1], entries, loads[m], more[0], rest[0])
             if not less < left:
                 break
             left = less
-            found[m] = new
+            found[m] = more[0]
         worst = max(worst, left / max(size, 1e-300)) if left == left else np.inf
     return worst

@@ -126,12 +126,16 @@ def fixed_in(problem: FilmProblem, setting: BoundaryValues, at: Iterate) -> NDAr
 
 def with_pockets(setting: BoundaryValues, at: Iterate) -> tuple[Array, Array]:
     """The balance less the pockets' feeds, and their part of the diagonal."""
-    net = at.balance.net
+    return pocket_feeds(setting, at.balance.net, at.state.pressure)
+
+
+def pocket_feeds(setting: BoundaryValues, net: Array, pressure: Array) -> tuple[Array, Array]:
+    """A balance (size,) m3/s less the pockets' feeds at pressures (size,) Pa, and their part of the diagonal."""
     rest, gain = net.copy() if setting.pockets else net, np.zeros(len(net))
     for node, pocket in setting.pockets:
-        inflow, slope = pocket.feed(at.state.pressure[node])
+        inflow, slope = pocket.feed(pressure[node])
         if not (np.isfinite(inflow) and np.isfinite(slope)):
-            found = f"{inflow:g} m3/s, slope {slope:g}, at {at.state.pressure[node]:.4g} Pa"
+            found = f"{inflow:g} m3/s, slope {slope:g}, at {pressure[node]:.4g} Pa"
             raise FilmInputError("feed of a pocket", found, "finite numbers at any pressure")
         rest[node] -= inflow
         gain[node] = -slope

@@ -54,6 +54,8 @@ class FilmSolver:
     """Solves films on one space, its vertices moved or not; keeps the symbolic factorisation between calls."""
 
     def __init__(self, space: FilmSpace) -> None:
+        self.slopes_factor = GeneralFactor(grid_of(space))
+        """For balances of this space that are linearised elsewhere (`floating.joint`)."""
         self._pattern = space.pattern
         self._grid = grid_of(space)
         self._factor = Factor(self._grid)
@@ -333,7 +335,6 @@ def _lifting(problem: FilmProblem, setting: BoundaryValues) -> Array:
 
 
 def _solution(problem: FilmProblem, setting: BoundaryValues, at: Iterate, path: list[float]) -> FilmSolution:
-    # A cavity full of oil is a film at the cavitation pressure.
     conserving = problem.cavitation is Cavitation.JFO and bool(at.cavity.any())
     return FilmSolution(
         problem=problem,
@@ -348,6 +349,11 @@ def _solution(problem: FilmProblem, setting: BoundaryValues, at: Iterate, path: 
         upwind_exchange=at.balance.upwind_exchange,
         flow_scale=at.balance.flow_scale,
         held=setting.held,
-        cavity=at.cavity & (at.state.film_fraction <= 1.0 - TOLERANCE) if conserving else at.cavity,
+        cavity=without_full(at.cavity, at.state.film_fraction) if conserving else at.cavity,
         path=tuple(path),
     )
+
+
+def without_full(cavity: NDArray[np.bool_], fraction: Array) -> NDArray[np.bool_]:
+    """A cavity without the unknowns that are full of oil: there is a film at the cavitation pressure."""
+    return np.asarray(cavity & (fraction <= 1.0 - TOLERANCE))

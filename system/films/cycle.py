@@ -14,7 +14,7 @@ from gaps.revolution.film_heat import GapHeat
 from gaps.standing.conductances import drag_power, kidney_conductances, piston_conductance, slipper_conductance
 from gaps.standing.gap_film import GapFilm
 from gaps.standing.heat import warm_turn
-from reynolds.floating.step import FloatingStage
+from reynolds.floating.stage import FloatingStage
 from reynolds.laws.fluid import isoviscous
 from reynolds.numerics.arrays import Array
 from system.films.drives import drives, no_rubbing

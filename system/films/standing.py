@@ -13,7 +13,7 @@ from gaps.films.slipper import SlipperDrive, SlipperFilm, floating_slipper
 from gaps.standing.gap_film import GapFilm, standing_block_film, standing_piston_film, standing_slipper_film
 from reynolds.floating.problem import Floating
 from reynolds.floating.rest import held_at
-from reynolds.floating.step import FloatingStage
+from reynolds.floating.stage import FloatingStage
 from reynolds.numerics.arrays import Array
 from reynolds.problem import FilmSolution
 from reynolds.solve.solver import FilmSolver

@@ -28,7 +28,7 @@ from gaps.revolution.schedule import Accuracy, Schedule, evenly
 from reynolds.errors import FilmNotConverged
 from reynolds.fem.space import FilmSpace
 from reynolds.floating.problem import Floating
-from reynolds.floating.step import FloatingStage
+from reynolds.floating.stage import FloatingStage
 from reynolds.numerics.arrays import Array
 from reynolds.solve.solver import FilmSolver
 from system.description.pump import PumpDescription

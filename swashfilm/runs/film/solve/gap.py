@@ -12,7 +12,7 @@ from gaps.films.slipper import face_force
 from gaps.loads.ball_joint import lateral_force
 from gaps.standing.gap_film import GapFilm, rest_from
 from reynolds.errors import FilmNotConverged
-from reynolds.floating.step import FloatingStage
+from reynolds.floating.stage import FloatingStage
 from reynolds.numerics.arrays import Array
 from swashfilm.case.gap.instant import GapCase
 from swashfilm.case.gap.position import FaceLoad, PistonLoad, rim

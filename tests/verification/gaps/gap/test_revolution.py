@@ -86,7 +86,7 @@ def _power(stage: FloatingStage) -> float:
 @pytest.mark.parametrize("share", [0.02, 1.0, 20.0])
 def test_plate_on_a_spring(share, validation):
     """c h' + k h = W cos wt, found from far away in two turns and a third that shows it."""
-    found = _swayed(share, evenly(SPEED, 90))
+    found = _swayed(share, evenly(SPEED, 90, keep=1))
     wave = 2.0 * np.mean((found.positions[:, 0] - THICKNESS) * np.exp(-1j * found.angles))
     exact = SWAY / (DAMPING * SPEED * (share + 1j))
     source = "closed form: c h' + k h = W cos wt"
@@ -125,9 +125,9 @@ def test_plate_on_a_spring(share, validation):
 
 def test_oil_returns_and_work_is_spent():
     """Over the turn as much oil leaves as enters, and the load's work is what the film takes."""
-    found = _swayed(1.0, evenly(SPEED, 120))
+    found = _swayed(1.0, evenly(SPEED, 120, keep=1))
     instants = found.turn.instants
-    drained = _swayed(1.0, evenly(SPEED, 120), look=lambda stage: sum(boundary_flows(stage.solution).values()))
+    drained = _swayed(1.0, evenly(SPEED, 120, keep=1), look=lambda stage: sum(boundary_flows(stage.solution).values()))
     flow = np.array([instant.report for instant in drained.turn.instants])
     assert abs(flow.sum()) < 1e-5 * np.abs(flow).sum()
     load = np.array([SWAY * np.cos(instant.angle) * instant.rate[0] for instant in instants])
@@ -158,17 +158,17 @@ def test_goes_on_from_another():
 
 def test_a_turn_joins_the_one_before():
     """Where a film forgets its start, the turn that shows that the one before closes ends as soon as they meet."""
-    first = _swayed(4.0, evenly(SPEED, 90))
+    first = _swayed(4.0, evenly(SPEED, 90, keep=1))
     looks: list[float] = []
 
     def look(stage: FloatingStage) -> float:
         looks.append(stage.time)
         return _power(stage)
 
-    joined = _swayed(4.1, evenly(SPEED, 90), look, before=first)
+    joined = _swayed(4.1, evenly(SPEED, 90, keep=1), look, before=first)
     assert joined.closing.turns == 2
     assert 2 * 90 < len(looks) < 3 * 90  # two stages a step of one whole turn, and of less than half of the next
-    whole = _swayed(4.1, evenly(SPEED, 90))
+    whole = _swayed(4.1, evenly(SPEED, 90, keep=1))
     np.testing.assert_allclose(joined.positions, whole.positions, atol=CLOSE.closed * THICKNESS)
     np.testing.assert_array_equal(joined.angles, whole.angles)
     assert sorted(joined.turn.films) == sorted(whole.turn.films)
@@ -179,7 +179,7 @@ def test_a_turn_joins_the_one_before():
 
 def test_steps_by_their_error():
     """Half the tolerance of a step brings the motion nearer to that of the finest steps."""
-    fine = _swayed(1.0, evenly(SPEED, 120)).positions[29::30]
+    fine = _swayed(1.0, evenly(SPEED, 120, keep=1)).positions[29::30]
     gaps = []
     for floor in (3e-9, 3e-10):
         accuracy = Accuracy(step=0.0, floor=floor, closed=1e-7)

@@ -58,7 +58,7 @@ def swayed(share: float, n: int) -> GapRevolution[float]:
     return run_revolution(
         FilmSolver(film.space),
         floating_slipper(film),
-        evenly(drive.shaft_speed, 8 * n),
+        evenly(drive.shaft_speed, 8 * n, keep=1),
         np.array([1.02 * FILM, 0.0, 0.0]),
         power,
         accuracy=Accuracy(step=1.0, closed=1e-7),

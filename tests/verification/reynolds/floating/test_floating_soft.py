@@ -142,7 +142,7 @@ def turned(load: float, asperities: Asperities | None) -> tuple[FilmSpace, list[
     surface = None if asperities is None else Surface(3e-7, 4e-7)
     floating = plate(space, winkler(space, STIFFNESS), (HIGH, LOW), pressed, asperities, surface)
     found = run_revolution(
-        FilmSolver(space), floating, evenly(speed, 24), np.array([4e-6]), lambda stage: (stage,),
+        FilmSolver(space), floating, evenly(speed, 24, keep=1), np.array([4e-6]), lambda stage: (stage,),
         accuracy=Accuracy(step=1.0, floor=1.0, balance=1e-12, closed=1e-7),
     )  # fmt: skip
     assert found.closing.changes[-1] < 1e-7 * 5e-6

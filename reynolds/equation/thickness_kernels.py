@@ -1,6 +1,6 @@
-"""Element loops over modes of the film's thickness: integrals of a mode, and its effect on the flow balance.
+"""Modes of the film's thickness: their integrals and sums, and the slopes of the flow balance by them.
 
-`basis` and `points` are tuples as in `kernels`; modes (cells, points, k) are given at the quadrature points.
+`basis` and `points` are tuples as in `fem.kernels`; modes (cells, points, k) are given at the quadrature points.
 """
 
 # mypy: allow-untyped-defs, allow-incomplete-defs, no-check-untyped-defs
@@ -111,6 +111,24 @@ def _largest_slope(upper, lower, more_upper, more_lower):
 
 
 @njit(**_FAST)
+def _exchanging(indptr, indices, leaves, level):
+    """Entries beside an edge without inflow; entries between two levels; the column of each entry."""
+    columns = np.empty(len(indices), dtype=np.int32)
+    beside, uneven = np.empty(len(indices), dtype=np.int32), np.empty(len(indices), dtype=np.int32)
+    one = two = 0
+    for j in range(len(level)):
+        for k in range(indptr[j], indptr[j + 1]):
+            i, columns[k] = indices[k], j
+            if leaves[i] != leaves[j]:
+                beside[one] = k
+                one += 1
+            if level[i] != level[j] and not (leaves[i] and leaves[j]):
+                uneven[two] = k
+                two += 1
+    return beside[:one], uneven[:two], columns
+
+
+@njit(**_FAST)
 def mixed_more(
     dofs, slots, shape, value, gradient, slope_x, slope_y, modes, basis, points,
     indptr, indices, upper, lower, leaves, level, out,
@@ -124,33 +142,29 @@ def mixed_more(
     _convection_slopes(
         dofs, slots, shape, value, gradient, slope_x, slope_y, modes, wanted, basis, points, more_up, more_low
     )
+    beside, uneven, columns = _exchanging(indptr, indices, leaves, level)
     size = indptr.shape[0] - 1
     for m in range(count):
         taken, brought, taken_more, brought_more = np.zeros(size), np.zeros(size), np.zeros(size), np.zeros(size)
-        for j in range(size):
-            for k in range(indptr[j], indptr[j + 1] - 1):
-                i = indices[k]
-                if leaves[i] != leaves[j]:
-                    beside, c, more = (i, upper[k], more_up[k, m]) if leaves[j] else (j, lower[k], more_low[k, m])
-                    taken[beside] += max(0.0, c)
-                    brought[beside] += max(0.0, -c)
-                    if c > 0.0:
-                        taken_more[beside] += more
-                    else:
-                        brought_more[beside] -= more
-        for j in range(size):
-            for k in range(indptr[j], indptr[j + 1] - 1):
-                i = indices[k]
-                if level[i] == level[j] or (leaves[i] and leaves[j]):
-                    continue
-                more = _largest_slope(upper[k], lower[k], more_up[k, m], more_low[k, m])
-                if leaves[i] != leaves[j]:
-                    beside, c, grown = (i, upper[k], more_up[k, m]) if leaves[j] else (j, lower[k], more_low[k, m])
-                    if c < 0.0 and taken[beside] < brought[beside]:
-                        share = taken[beside] / brought[beside]
-                        steeper = (taken_more[beside] - share * brought_more[beside]) / brought[beside]
-                        grown = share * grown + c * steeper
-                    more = LEAST_MIXING * more + (1.0 - LEAST_MIXING) * grown
-                flow = -more * (level[j] - level[i])
-                out[i, m] += flow
-                out[j, m] -= flow
+        for k in beside:
+            j = columns[k]
+            at, c, more = (indices[k], upper[k], more_up[k, m]) if leaves[j] else (j, lower[k], more_low[k, m])
+            taken[at] += max(0.0, c)
+            brought[at] += max(0.0, -c)
+            if c > 0.0:
+                taken_more[at] += more
+            else:
+                brought_more[at] -= more
+        for k in uneven:
+            i, j = indices[k], columns[k]
+            more = _largest_slope(upper[k], lower[k], more_up[k, m], more_low[k, m])
+            if leaves[i] != leaves[j]:
+                at, c, grown = (i, upper[k], more_up[k, m]) if leaves[j] else (j, lower[k], more_low[k, m])
+                if c < 0.0 and taken[at] < brought[at]:
+                    share = taken[at] / brought[at]
+                    steeper = (taken_more[at] - share * brought_more[at]) / brought[at]
+                    grown = share * grown + c * steeper
+                more = LEAST_MIXING * more + (1.0 - LEAST_MIXING) * grown
+            flow = -more * (level[j] - level[i])
+            out[i, m] += flow
+            out[j, m] -= flow
