@@ -30,11 +30,11 @@ from .fem.mesh import (
 )
 from .fem.space import FilmSpace as FilmSpace, film_space as film_space
 from .floating.coordinates import generalised_force as generalised_force, modes_on as modes_on
-from .floating.load_search import RigidLoad as RigidLoad, carry_load as carry_load
 from .floating.problem import Floating as Floating, Outer as Outer, steady as steady
 from .floating.rest import held_at as held_at
+from .floating.stage import FloatingStage as FloatingStage
 from .floating.start import started as started
-from .floating.step import FloatingStage as FloatingStage, full_film as full_film, solve_stage as solve_stage
+from .floating.step import full_film as full_film, solve_stage as solve_stage
 from .laws.contact import Asperities as Asperities, contact_pressure as contact_pressure
 from .laws.density import BulkModulus as BulkModulus, RationalDensity as RationalDensity
 from .laws.fluid import CONSTANT as CONSTANT, Fluid as Fluid
@@ -65,6 +65,7 @@ from .problem import (
     no_feed as no_feed,
 )
 from .solve.export import write_vtu as write_vtu
+from .solve.load_search import RigidLoad as RigidLoad, carry_load as carry_load
 from .solve.loads import Loads as Loads, boundary_flows as boundary_flows, loads as loads, point_fields as point_fields
 from .solve.solver import FilmSolver as FilmSolver
 from .solve.transient import march as march

@@ -107,7 +107,9 @@ def warm_revolution(
     `run_revolution`, FilmInputError where the oil's law ends, and FilmNotConverged.
     """
     began, films, found, spent = perf_counter(), 0, before, {}
-    warm = _Warming(floating, schedule, report_of, heat, None if before is None else before.warmth)
+    warmed = _warmed_angles(schedule.angles)
+    schedule = replace(schedule, breaks=np.union1d(schedule.breaks, warmed))  # their films are needed
+    warm = _Warming(floating, schedule.speed, warmed, report_of, heat, None if before is None else before.warmth)
     for rounds in range(1, MOST_ROUNDS + 1):
         moving = thinned(floating, schedule.speed, warm.shares)
         found = run_revolution(
@@ -138,14 +140,15 @@ class _Warming(Generic[Reported]):
     def __init__(
         self,
         floating: Floating,
-        schedule: Schedule,
+        speed: float,
+        angles: Array,
         report_of: Callable[[FloatingStage], Reported],
         heat: GapHeat,
         last: GapTemperatures | None,
     ) -> None:
+        """`angles` (n,) rad, at which steps end, have temperatures; speed rad/s."""
         self._floating, self._heat, self._report_of = floating, heat, report_of
-        self._angles = _warmed_angles(schedule.angles)
-        self._times = self._angles / schedule.speed
+        self._angles, self._times = angles, angles / speed
         self._gathered: dict[float, FilmSolution] = {}
         self._solver = FilmSolver(floating.shape_at(0.0).space)
         self._warm: dict[float, Found] = {}

@@ -25,6 +25,7 @@ from reynolds.solve.solver import FilmSolver
 
 MET = 0.1  # of the distance at which a turn counts as closed: near enough to join the turn before
 SHORT = 1e-2  # of the first way to a node: a step in which elastic walls deform under their first load
+TOO_COARSE = 3.0  # times its tolerance: an error at which steps of an earlier turn are chosen anew
 SAME = 1e-9  # of an angle or a step: round-off
 FARTHEST = 2e-2  # of the film's length, by which a wall may leave its shape: then nothing is thin, no tilt small
 
@@ -66,7 +67,8 @@ class GapTurn(Generic[Value]):
     """One turn: its start q, its instants, kept films by angle, its end, and what it cost.
 
     oil: (size,) m3 of each unknown at each reported angle; times (s) of its steps; step_error: largest error of a
-    step over what was allowed; allowed, reach, repeats: as `reynolds.numerics.shooting.Turn` has them.
+    step over what was allowed; accuracy: that allowance, share of the film; allowed, reach, repeats: as
+    `reynolds.numerics.shooting.Turn` has them.
     """
 
     start: Array
@@ -76,6 +78,7 @@ class GapTurn(Generic[Value]):
     last: State[FloatingStage] = field(repr=False)
     times: Array = field(repr=False)
     step_error: float
+    accuracy: float
     allowed: float
     reach: float
     repeats: bool
@@ -111,6 +114,9 @@ class Turns(Generic[Value]):
         self._nodes, self._speed = schedule.nodes, schedule.speed
         self._angles, self._kept = schedule.angles, set(schedule.kept)
         self._adaptive = 2 if opening is None else 1  # turns left that choose their steps
+        self._steps: Array | None = None
+        if opening is not None and opening.accuracy == accuracy.step and np.isin(self._nodes, opening.times).all():
+            self._adaptive, self._steps = 0, opening.times
         self._progress, self._turn = progress, 0
         self._solved: deque[FloatingStage] = deque(maxlen=len(method.matrix))  # of the step taken last
         self.films_solved = 0
@@ -121,13 +127,11 @@ class Turns(Generic[Value]):
         Once the film is where it was in that turn, and that one ended next to the start, its rest is taken over.
         """
         state = begin = self._begin(start, before or self._opening)
-        again = before.times if before is not None and self._adaptive <= 0 else None
         joins = before is not None and bool(np.abs(before.end - start).max() <= before.allowed)
-        self._adaptive -= 1
         gathered: _Gathered[Value] = _Gathered()
         since: Passed[Value] = Passed()
         behind: GapInstant[Value] | None = None
-        for taken in self._marched(begin, again):
+        for taken in self._marched(begin):
             state = taken.state
             gathered.step(state, self._excess(taken))
             angles = self._within(state.time - taken.step, state.time)
@@ -144,6 +148,7 @@ class Turns(Generic[Value]):
             if len(angles) and joins and before is not None and gathered.meets(before, self._accuracy.closed):
                 state = gathered.join(before)
                 break
+        self._choose(gathered)
         end = gathered.instants[-1]
         return GapTurn(
             start=start,
@@ -153,6 +158,7 @@ class Turns(Generic[Value]):
             last=state,
             times=np.array(gathered.times),
             step_error=max(gathered.errors),
+            accuracy=self._accuracy.step,
             allowed=self._accuracy.closed * end.mean_film,
             reach=self._accuracy.reach * end.film_thickness_min,
             repeats=_oil_moved(self._floating.shape_at(0.0).space, begin, state) <= self._accuracy.closed,
@@ -169,12 +175,20 @@ class Turns(Generic[Value]):
         instants = tuple(_instant(self._speed * stage.time, stage, self._report_of(stage)) for stage in stages)
         return _Course(behind, instants, tuple(stage.holds for stage in stages), taken.step, self._speed)
 
-    def _marched(self, begin: State[FloatingStage], again: Array | None) -> Iterator[AcceptedStep[FloatingStage]]:
+    def _choose(self, gathered: _Gathered[Value]) -> None:
+        """Choose the steps of the next turn: those of this one once settled, while they are fine enough."""
+        self._adaptive -= 1
+        if max(gathered.errors) > TOO_COARSE:
+            self._steps = None
+        elif self._adaptive <= 0 and self._steps is None:
+            self._steps = np.array(gathered.times)
+
+    def _marched(self, begin: State[FloatingStage]) -> Iterator[AcceptedStep[FloatingStage]]:
         """Steps of a turn, chosen by their error or those of an earlier turn again."""
-        if again is None:
+        if self._steps is None:
             steps = integrate(self._method, self._stage, begin, self._nodes, self._excess)
         else:
-            steps = integrate(self._method, self._stage, begin, again, nodes_only)
+            steps = integrate(self._method, self._stage, begin, self._steps, nodes_only)
         reached = begin.time
         self._turn += 1
         try:

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from reynolds.equation import hourglass_kernels
 from reynolds.equation.balance import NO_FLOW, NOTHING
+from reynolds.equation.deformation_kernels import slopes_by_deformation
 from reynolds.equation.thickness_kernels import integrate, mixed_more, thicken
 from reynolds.fem import kernels
 
@@ -217,6 +218,29 @@ def _dragged(dofs, value, filling, slope_x, slope_y, basis, points, x, y):
                 full += filling[kernels.at_index(dofs[e, i])] * value[q, i]
             x[e, q] = full * slope_x[e, q]
             y[e, q] = full * slope_y[e, q]
+
+
+@njit(**_FAST)
+def by_deformation(mesh, c, oil, given, rows, slots, entries):
+    """dR by the gap at each vertex, each row times its factor in rows (size,), m2/s at the entries of a pattern.
+
+    slots and entries as `equation.deformation_sparsity` has them.
+    """
+    shape, filling, data = mesh.area.shape, oil.fraction * oil.ratio, np.empty(entries)
+    driven_x, driven_y = _gradient(mesh, oil.pressure)
+    driven_x *= c.conductance_slope
+    driven_y *= c.conductance_slope
+    mode = _hourglass(mesh, c.conductance, c.conductance_slope, oil.pressure)
+    dragged_x, dragged_y = np.empty(shape), np.empty(shape)
+    _dragged(
+        mesh.dofs, mesh.value, filling, c.flux_x_slope, c.flux_y_slope, mesh.basis, mesh.points, dragged_x, dragged_y
+    )
+    slopes_by_deformation(
+        mesh.dofs, slots, mesh.shape, mesh.value, mesh.steep, mesh.gradient, mesh.corner, mesh.signs, mesh.area,
+        driven_x, driven_y, mode, dragged_x, dragged_y, c.content_slope / given.step, filling, rows, mesh.basis,
+        mesh.points, data,
+    )  # fmt: skip
+    return data
 
 
 @njit(**_FAST)

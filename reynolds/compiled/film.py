@@ -9,6 +9,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
+from reynolds.bodies.compliance import WallOperator
 from reynolds.compiled import balance_kernels as kernels
 from reynolds.compiled.balance_kernels import FlowBalance
 from reynolds.compiled.gap_table import GapTable, gap_table, is_isotropic
@@ -16,9 +17,11 @@ from reynolds.compiled.gap_table_kernels import Coefficients, Motion, coefficien
 from reynolds.compiled.mesh_tables import Conditions, Filling, Mesh, conditions_of, mesh_of
 from reynolds.equation.balance import cavity_density
 from reynolds.equation.coefficients import at_points
+from reynolds.equation.deformation_sparsity import ElasticPatterns
 from reynolds.fem.kernels import ROUNDING
 from reynolds.laws.fluid import CONSTANT
-from reynolds.linear.factor import ITERATIVE_TOLERANCE, GeneralFactor
+from reynolds.linear.elastic import NearFactor, WallBalance, compliant_answer, rows_of
+from reynolds.linear.factor import ITERATIVE_TOLERANCE, GeneralFactor, Solve
 from reynolds.numerics.array_kernels import largest_share
 from reynolds.numerics.arrays import Array
 from reynolds.problem import Boundary, Cavitation, FilmProblem, FilmSolution, Pocket
@@ -35,14 +38,9 @@ NO_SLOPE = np.zeros((1, 1))
 def is_compiled(problem: FilmProblem) -> bool:
     """True if a film of this kind has a compiled form.
 
-    Rigid walls, roughness without direction, and a cavity that conserves oil or none.
+    Linear elements, roughness without direction, and a cavity that conserves oil or none.
     """
-    return (
-        problem.walls is None
-        and is_isotropic(problem.surface)
-        and problem.cavitation is not Cavitation.REYNOLDS
-        and problem.space.degree == 1
-    )
+    return is_isotropic(problem.surface) and problem.cavitation is not Cavitation.REYNOLDS and problem.space.degree == 1
 
 
 @dataclass(frozen=True)
@@ -122,14 +120,22 @@ class FilmBalance:
             size = size + np.where(self.cavity, ROUNDING * self.flow.brim, 0.0)
         return float(largest_share(rest, size, ROUNDING, self.film.setting.held))
 
+    @cached_property
+    def missing(self) -> float:
+        """Sum of the residuals of the free unknowns, m3/s."""
+        return float(np.abs(self.fed[0][~self.film.setting.held]).sum())
+
     @property
     def holds(self) -> Array:
         """Oil of each unknown (size,) m3 that its flows leave there: what is not in balance is not lost."""
         oil = self.flow.contents * self.oil.fraction * self.oil.ratio
         return oil - self.film.given.step * np.where(self.film.setting.held, 0.0, self.fed[0])
 
-    def solution(self, problem: FilmProblem) -> FilmSolution:
-        """The film as a solution of `problem`, whose film, boundary and storage are those of this balance."""
+    def solution(self, problem: FilmProblem, deformation: Array | None = None) -> FilmSolution:
+        """The film as a solution of `problem`, whose boundary and storage are those of this balance.
+
+        deformation (vertices,) m of elastic walls, None: none.
+        """
         c, given = self.coefficients, self.film.problem.film
         thinned = (
             None if given.couette_viscosity is None else given.couette_viscosity * self.viscosity / given.viscosity
@@ -138,8 +144,8 @@ class FilmBalance:
             problem=problem,
             pressure=self.oil.pressure,
             film_fraction=self.oil.fraction,
-            film=replace(problem.film, viscosity=self.viscosity, couette_viscosity=thinned),
-            deformation=np.zeros(len(problem.space.vertices)),
+            film=replace(problem.film, thickness=c.film, viscosity=self.viscosity, couette_viscosity=thinned),
+            deformation=np.zeros(len(problem.space.vertices)) if deformation is None else deformation,
             flux=(c.flux_x, c.flux_y),
             content=c.content,
             outflow=-self.flow.net,
@@ -157,14 +163,14 @@ class Linearised:
     """A film's balance, its slopes factorised: changes of pressures and film fractions by inflows and by modes."""
 
     balance: FilmBalance
-    factor: GeneralFactor
+    solve: Solve
     unit: float
     scale: float
 
     def changes(self, inflow: Array, tolerance: float = ITERATIVE_TOLERANCE) -> Array:
         """Changes (size, m) by inflows (size, m) m3/s: Pa, and in the cavity film fractions over `scale`."""
         load = np.where(self.balance.film.setting.held[:, None], 0.0, inflow / self.unit)
-        return self.factor.solve(np.ascontiguousarray(load.T), tolerance).T
+        return self.solve(np.ascontiguousarray(load.T), tolerance).T
 
     def parted(self, change: Array) -> tuple[Array, Array]:
         """Pressures (size, m) Pa and film fractions (size, m) of such changes."""
@@ -188,15 +194,15 @@ class Linearised:
         dense, denser = oil.ratio[:, None], (oil.fraction * oil.ratio_slope)[:, None]
         return np.asarray(content * (dense * fraction + denser * pressure))
 
-    def stepped(self, change: Array) -> tuple[Array, Array, Marks]:
-        """Pressures (size,) Pa, film fractions (size,) and cavity after a change (size,), as `solve.iterate`."""
+    def stepped(self, pressed: Array, filled: Array) -> tuple[Array, Array, Marks]:
+        """Pressures (size,) Pa, film fractions (size,) and cavity after changes of both, as `solve.iterate`."""
         at, setting = self.balance, self.balance.film.setting
         problem = at.film.problem
-        level, pressure, fraction = problem.cavitation_pressure, at.oil.pressure + change, at.oil.fraction
+        level, pressure, fraction = problem.cavitation_pressure, at.oil.pressure + pressed, at.oil.fraction
         self._feed_pockets(pressure)
         if problem.cavitation is Cavitation.NONE:
             return np.where(setting.held, setting.pressure, pressure), fraction, at.cavity
-        lack = (fraction + self.scale * change - 1.0) * at.flow.lack
+        lack = (fraction + filled - 1.0) * at.flow.lack
         signed = np.where(at.cavity, lack, pressure - level)
         cavity = (signed < 0.0) & ~setting.held
         fraction = np.where(cavity, 1.0 + signed / at.flow.lack, setting.film_fraction)
@@ -217,16 +223,38 @@ class Linearised:
 
 
 def linearised(balance: FilmBalance, factor: GeneralFactor) -> Linearised:
-    """The slopes of a balance, factorised in `factor`, which serves until its next use.
+    """The slopes of a balance between rigid walls, factorised in `factor`, which serves until its next use.
 
     Raises FilmNotConverged where nothing enters the film.
     """
+    upper, lower, unit, scale = _newton_matrix(balance)
+    factor.update(balance.film.problem.space.matrix(upper), lower, balance.cavity)
+    return Linearised(balance, factor.solve, unit, scale)
+
+
+def linearised_soft(
+    balance: FilmBalance, wider: WallOperator, patterns: ElasticPatterns, near: NearFactor
+) -> Linearised:
+    """The same between elastic walls that the film's pressure opens by `wider` (vertices, size) m/Pa.
+
+    `patterns` are those of the mesh, `near` keeps a factor for later ones. Raises FilmNotConverged where it is
+    singular.
+    """
+    film, pattern = balance.film, patterns.deformation
+    upper, lower, unit, scale = _newton_matrix(balance)
+    free = (~film.setting.held).astype(float)
+    data = kernels.by_deformation(
+        film.mesh, balance.coefficients, balance.oil, film.given, free / unit, pattern.slots, pattern.entries
+    )
+    coupled = WallBalance(patterns.full_matrix(upper, lower), pattern.matrix(data), wider, free * ~balance.cavity)
+    return Linearised(balance, rows_of(compliant_answer(coupled, near)), unit, scale)
+
+
+def _newton_matrix(balance: FilmBalance) -> tuple[Array, Array, float, float]:
     film = balance.film
-    upper, lower, unit, scale = kernels.newton_matrix(
+    return kernels.newton_matrix(
         film.mesh, balance.coefficients, balance.oil, balance.flow, balance.cavity, film.setting.held, balance.fed[1]
     )
-    factor.update(film.problem.space.matrix(upper), lower, balance.cavity)
-    return Linearised(balance, factor, unit, scale)
 
 
 def pocket_volumes(problem: FilmProblem, boundary: Mapping[str, Boundary]) -> Array:

@@ -26,6 +26,7 @@ class Mesh(NamedTuple):
     slots: Numbers
     shape: Numbers
     value: Reals
+    corner: Reals
     gradient: Reals
     steep: Reals
     pairs: Reals
@@ -53,6 +54,7 @@ def mesh_of(space: FilmSpace) -> Mesh:
         slots=pattern.slots,
         shape=tensors.shape,
         value=tables.value,
+        corner=tables.geometry_value,
         gradient=tensors.gradient,
         steep=tensors.steep_gradient,
         pairs=tensors.pairs,

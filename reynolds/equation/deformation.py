@@ -46,17 +46,16 @@ def deformation(problem: FilmProblem, pressure: Array, start: Array | None = Non
         raise FilmInputError("walls", "a compliance that is not finite", "numbers, m/Pa")
     if problem.asperities is None:
         return alone
-    return _balanced(problem, alone, alone if start is None else start)
+    return settled_deformation(meeting_of(problem), given_gap(problem), alone, alone if start is None else start)
 
 
-def _balanced(problem: FilmProblem, alone: Array, start: Array) -> Array:
+def settled_deformation(meeting: Meeting, given: Array, alone: Array, start: Array) -> Array:
     """The deformation in balance with contact, of walls that deform by `alone` (vertices,) m under the oil.
 
-    Each step reduces the imbalance, and goes at most nine tenths of the way to the end of the law of contact.
+    `given` (vertices,) m: the gap without deformation. Each step reduces the imbalance, and goes at most nine tenths
+    of the way to the end of the law of contact. Raises as `deformation`.
     """
-    assert problem.asperities is not None
-    meeting, given = meeting_of(problem), _given_gap(problem)
-    summits, height = problem.asperities.summit_height, problem.asperities.height
+    summits, height = meeting.asperities.summit_height, meeting.asperities.height
     enough = TOLERANCE * (np.max(np.abs(given)) + height)
 
     def left(found: Array) -> tuple[Touch, Array]:
@@ -89,7 +88,12 @@ def deformation_slope(problem: FilmProblem, found: Array) -> WallOperator:
     compliance = problem.walls.matrix
     if problem.asperities is None:
         return compliance
-    touch = touch_at(problem, found)
+    return resisted(touch_at(problem, found))
+
+
+def resisted(touch: Touch) -> WallOperator:
+    """The compliance of walls against their contact, (vertices, size) m/Pa."""
+    compliance = touch.compliance
     if not touch.felt.size:
         return compliance
     if isinstance(compliance, csr_array):
@@ -223,10 +227,11 @@ def meeting_of(problem: FilmProblem) -> Meeting:
 
 def touch_at(problem: FilmProblem, found: Array) -> Touch:
     """Contact of rough elastic walls at a deformation (vertices,) m; raises as the law of contact does."""
-    return meeting_of(problem).at(_given_gap(problem) + found)
+    return meeting_of(problem).at(given_gap(problem) + found)
 
 
-def _given_gap(problem: FilmProblem) -> Array:
+def given_gap(problem: FilmProblem) -> Array:
+    """Distance of the mean planes without deformation at the vertices, (vertices,) m."""
     if problem.space.degree != 1:
         raise FilmInputError("film_space", "quadratic pressure between walls that touch", "degree 1")
     known = problem.film.thickness_at_vertices

@@ -49,7 +49,7 @@ def solve_stage(
     """
     instant = instant_of(solver, floating, time, step, before)
     if last is not None and is_compiled(instant.shape):
-        jointly = JointSearch(instant, solver.slopes_factor, close).stage(guess, last.ahead(guess))
+        jointly = JointSearch(instant, close).stage(guess, last.ahead(guess))
         if jointly is not None:
             return jointly
     return films_in_balance(instant, guess, last, close)

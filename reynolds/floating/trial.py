@@ -91,7 +91,28 @@ class Trial:
     @property
     def scale(self) -> Array:
         """Magnitudes that balance (k,) N; where next to nothing does, round-off of the largest."""
-        return np.maximum(self.size, ROUNDING * float(np.max(self.size)) + 1e-300)
+        return force_scale(self.size)
+
+
+class Posed(Protocol):
+    """Gap of a film at a position: at its points (cells, points) and corners (vertices,) m, and the least."""
+
+    @property
+    def gap(self) -> Array:
+        """At the points, m."""
+
+    @property
+    def corner_gap(self) -> Array | None:
+        """At the vertices, m; None where it is not known."""
+
+    @property
+    def least(self) -> float:
+        """The least of both, m."""
+
+
+def force_scale(size: Array) -> Array:
+    """Magnitudes that balance (k,) N, those of next to nothing raised to round-off of the largest."""
+    return np.maximum(size, ROUNDING * float(np.max(size)) + 1e-300)
 
 
 @dataclass(frozen=True)
@@ -198,7 +219,7 @@ class FloatingInstant:
         q = at.q + step
         return as_given(self._problem(q, posed(self.shape, self.modes, q)), self.ahead(at, step, film))
 
-    def touching(self, at: Trial) -> bool:
+    def touching(self, at: Posed) -> bool:
         """True where walls are next to the end of the film, or of the law of contact."""
         asperities = self.shape.asperities
         height = THINNEST if asperities is None else asperities.height
@@ -267,22 +288,6 @@ class FloatingInstant:
         q = -solved(slopes, missing, self.floating.name)
         both = FilmSensitivity(film.pressure + own.pressure @ q, film.film_fraction + own.film_fraction @ q)
         return StepStart(self._oil_by(at, both, q), q, (q - changed.position) / self.step)
-
-
-class Posed(Protocol):
-    """Gap of a film at a position: at its points (cells, points) and corners (vertices,) m, and the least."""
-
-    @property
-    def gap(self) -> Array:
-        """At the points, m."""
-
-    @property
-    def corner_gap(self) -> Array | None:
-        """At the vertices, m; None where it is not known."""
-
-    @property
-    def least(self) -> float:
-        """The least of both, m."""
 
 
 def room_within(shape: FilmProblem, at: Posed, growth: Array) -> float:

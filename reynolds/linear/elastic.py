@@ -19,16 +19,29 @@ from scipy.sparse.linalg import SuperLU, splu
 
 from reynolds.bodies.compliance import WallOperator, columns_of, compliance_of, contact_of
 from reynolds.errors import FilmNotConverged
+from reynolds.linear import elastic_kernels as kernels
 from reynolds.numerics.arrays import Array
 from reynolds.numerics.gmres import gmres
 
 DENSE_LIMIT = 1500  # free pressures up to which a dense factor is as fast as GMRES on two loads
+SMALL = 600  # unknowns up to which the whole matrix is factorised as fast as it is reduced
 KEPT_LIMIT = 4000  # unknowns up to which a dense factor is kept: 128 MB
 MOST_STEPS = 150  # of GMRES; one that needs more is cheaper with the dense factor
 WORTH = 1.0 / 80.0  # steps over unknowns that cost as much as the dense factor
 GOOD_ENOUGH = 1e-9  # residual over load, where round-off allows no less
 Answer = Callable[[Array, float], Array]
 """(load (size,), tolerance) -> change (size,) with |J change - load| <= tolerance |load|, round-off allowing."""
+
+
+def rows_of(answer: Answer) -> Answer:
+    """The answer for rows of loads (m, size): at once by a dense factor, else one by one."""
+
+    def solved(loads: Array, tolerance: float) -> Array:
+        if isinstance(answer, _Iterated):
+            return np.array([answer(load, tolerance) for load in loads])
+        return np.asarray(answer(np.ascontiguousarray(loads.T), tolerance).T)
+
+    return solved
 
 
 class NearFactor:
@@ -60,11 +73,11 @@ def compliant_answer(balance: WallBalance, near: NearFactor | None = None) -> An
 
     `near` keeps the dense factor of a balance for later ones of its size. Raises FilmNotConverged where J is singular.
     """
+    size = len(balance.pressures)
     if isinstance(balance.wider, csr_array):
         return _sparse(csc_array(balance.rigid + balance.slope @ (balance.wider * balance.pressures[None, :])))
     if np.count_nonzero(balance.pressures) <= DENSE_LIMIT:
-        return reduced_answer(balance)
-    size = len(balance.pressures)
+        return _small_answer(balance) if size <= SMALL else reduced_answer(balance)
     return _Iterated(balance, NearFactor() if near is None or size > KEPT_LIMIT else near)
 
 
@@ -172,6 +185,27 @@ def _add(dense: Array, sparse: csr_array) -> None:
     """Add a sparse matrix to the first columns and rows of a dense one."""
     entries = sparse.tocoo()
     np.add.at(dense, entries.coords, entries.data)
+
+
+def _small_answer(balance: WallBalance) -> Answer:
+    """The answer of J by the dense factor of its unknowns but for held ones, which couple to no other."""
+    alone = _alone(balance)
+    number = np.where(alone, -1, np.cumsum(~alone) - 1)
+    coupled, size = np.flatnonzero(~alone), int(np.count_nonzero(~alone))
+    matrix, rigid, slope = np.empty((size, size)), balance.rigid, balance.slope
+    wider = columns_of(balance.wider, np.arange(len(alone)))
+    kernels.assemble(
+        number, (rigid.indptr, rigid.indices, rigid.data), (slope.indptr, slope.indices, slope.data),
+        np.ascontiguousarray(wider), balance.pressures, matrix,
+    )  # fmt: skip
+    inner, diagonal = dense_answer(matrix), rigid.diagonal()
+
+    def answer(load: Array, tolerance: float) -> Array:
+        change = (load.T / diagonal).T
+        change[coupled] = inner(load[coupled], tolerance)
+        return np.asarray(change)
+
+    return answer
 
 
 def _whole_answer(balance: WallBalance, free: NDArray[np.intp]) -> Answer:

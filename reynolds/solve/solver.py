@@ -54,13 +54,17 @@ class FilmSolver:
     """Solves films on one space, its vertices moved or not; keeps the symbolic factorisation between calls."""
 
     def __init__(self, space: FilmSpace) -> None:
-        self.slopes_factor = GeneralFactor(grid_of(space))
-        """For balances of this space that are linearised elsewhere (`floating.joint`)."""
+        # For balances of this space that are linearised elsewhere (`floating.joint`).
+        self.slopes_factor, self.near_factor, self.patterns = (
+            GeneralFactor(grid_of(space)),
+            NearFactor(),
+            ElasticPatterns(space),
+        )
         self._pattern = space.pattern
         self._grid = grid_of(space)
         self._factor = Factor(self._grid)
         self._general = GeneralFactor(self._grid)
-        self._near, self._patterns = NearFactor(), ElasticPatterns(space)
+        self._near = NearFactor()
         self._cascade: Cascade | None = None
         self._answers: _Answers | None = None
         self._answered: FilmSolution | None = None  # the film that came of them
@@ -235,7 +239,7 @@ class FilmSolver:
                 self._general.update(problem.space.matrix(upper), lower, at.cavity)
                 solve = self._general.solve
             else:
-                solve = row_by_row(compliant(problem, setting, at, upper, lower, self._patterns, self._near))
+                solve = row_by_row(compliant(problem, setting, at, upper, lower, self.patterns, self._near))
         made = _Answers(solve, at, fixed, scale, imbalance)
         self._answers, self._answered = made, None
         return made, load

@@ -65,13 +65,8 @@ SPIN_TOLERANCE = 2e-3
 """Largest change of a spin between two rounds, of the shaft's."""
 FIRST_CLOSED = 0.05
 """Distance from the periodic motion at which the first round lets its turns be, share of the mean film."""
-FEW_STEPS = 8
-"""Steps a pitch of rounds before gaps and chambers nearly agree."""
 NEARLY = 20.0
-"""Times as large as their tolerances may the changes of a round be for gaps and chambers to nearly agree.
-
-No less than what turns of more steps change themselves: 5 to 15 times.
-"""
+"""Times as large as their tolerances may the changes of a round be for gaps and chambers to nearly agree."""
 CLOSING = 0.5
 """The same of later rounds, over what the round before changed."""
 ROUND_LIMIT = 12
@@ -81,14 +76,13 @@ ROUND_LIMIT = 12
 class Round:
     """One round of gaps and chamber.
 
-    Changes by the round (as the tolerances count them), the steps of its turns and their closure (share of the
-    mean film), films solved, time s; time of its gaps on each leg, s, with that of pistons in their own process.
+    Changes by the round (as the tolerances count them), closure of its turns (share of the mean film), films solved,
+    time s; time of its gaps on each leg, s, with that of pistons in their own process.
     """
 
     pressure_change: float
     friction_change: float
     spin_change: float
-    steps: int
     closed: float
     films_solved: int
     seconds: float
@@ -151,7 +145,7 @@ def floating_point(
         while not rounds or not (_exact(rounds[-1], options) and _agree(rounds[-1])):
             if len(rounds) == ROUND_LIMIT:
                 raise _not_settled(rounds[-1])
-            closing = replace(asked, options=_loosened(options, rounds, pump.pump.pistons))
+            closing = replace(asked, options=_loosened(options, rounds))
             found = _round(closing, group, left, gaps, beside, _of_round(report, len(rounds) + 1))
             asked, gaps = found.asked, found.gaps
             rounds.append(found.taken)
@@ -213,7 +207,6 @@ def _round(
         max(map(_rubbing_change, asked.rubbing, following.rubbing))
         / max(at.forces.lift for one in driven for at in one.group),
         max(map(_spin_change, turning, group.rotors(following))),
-        asked.options.steps,
         asked.options.accuracy.closed,
         sum(gap.films_solved for gap in turned),
         perf_counter() - began,
@@ -238,7 +231,7 @@ def _of_round(report: Report, number: int) -> Report:
     return lambda done, total, what: report(done, total, f"round {number}, {what}")
 
 
-def _loosened(options: FloatingOptions, rounds: list[Round], pistons: int) -> FloatingOptions:
+def _loosened(options: FloatingOptions, rounds: list[Round]) -> FloatingOptions:
     """Accuracy of a round's gaps: reduced before they nearly agree with the chambers."""
     if rounds and (_agree(rounds[-1], NEARLY) or _exact(rounds[-1], options)):
         return options
@@ -246,8 +239,7 @@ def _loosened(options: FloatingOptions, rounds: list[Round], pistons: int) -> Fl
     unknown = max(last.pressure_change, last.friction_change, last.spin_change) if last else FIRST_CLOSED
     closed = max(options.accuracy.closed, min(FIRST_CLOSED, CLOSING * unknown))
     accuracy = replace(options.accuracy, closed=closed, step=max(options.accuracy.step, closed))
-    steps = min(options.steps, FEW_STEPS * pistons)
-    return replace(options, steps=steps, accuracy=accuracy)
+    return replace(options, accuracy=accuracy)
 
 
 def _agree(taken: Round, times: float = 1.0) -> bool:
@@ -261,7 +253,7 @@ def _agree(taken: Round, times: float = 1.0) -> bool:
 
 
 def _exact(taken: Round, options: FloatingOptions) -> bool:
-    return taken.steps == options.steps and taken.closed == options.accuracy.closed
+    return taken.closed == options.accuracy.closed
 
 
 def _not_settled(taken: Round) -> NotConverged:

@@ -7,8 +7,8 @@ from dataclasses import dataclass
 from typing import Annotated
 
 from reynolds.fem.space import FilmSpace
-from reynolds.floating.load_search import RigidLoad
 from reynolds.problem import Cavitation
+from reynolds.solve.load_search import RigidLoad
 from swashfilm.case.fields.field import Field, Uniform
 from swashfilm.case.fields.mesh import MeshForm
 from swashfilm.case.fields.reader import field_fault

@@ -6,8 +6,8 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from reynolds.errors import FilmNotConverged
-from reynolds.floating.load_search import LoadedFilm, carry_load
 from reynolds.problem import FilmProblem, FilmSolution
+from reynolds.solve.load_search import LoadedFilm, carry_load
 from swashfilm.runs.film.solve.oil import Found, OilSolver, film_of, oil_solver
 
 if TYPE_CHECKING:

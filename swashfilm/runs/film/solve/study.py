@@ -4,8 +4,8 @@ import time
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from reynolds.floating.load_search import LoadedFilm
 from reynolds.problem import FilmSolution
+from reynolds.solve.load_search import LoadedFilm
 from reynolds.solve.loads import Loads, loads
 from reynolds.thermal.energy import FilmTemperature
 from swashfilm.case.file import FilmCase

@@ -179,9 +179,9 @@ def test_a_turn_joins_the_one_before():
 
 def test_steps_by_their_error():
     """Half the tolerance of a step brings the motion nearer to that of the finest steps."""
-    fine = _swayed(1.0, evenly(SPEED, 120, keep=1)).positions[29::30]
+    fine = _swayed(1.0, evenly(SPEED, 720, keep=1)).positions[179::180]
     gaps = []
-    for floor in (3e-9, 3e-10):
+    for floor in (3e-11, 3e-12):
         accuracy = Accuracy(step=0.0, floor=floor, closed=1e-7)
         found = _swayed(1.0, evenly(SPEED, 4), accuracy=accuracy)
         gaps.append(float(np.abs(found.positions - fine).max()))

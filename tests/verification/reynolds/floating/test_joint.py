@@ -6,7 +6,7 @@ and without cavity, contact, pocket, inertia and oil under pressure.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 import pytest
@@ -65,6 +65,7 @@ class Case:
     surface: Surface | None = None
     asperities: Asperities | None = None
     inertia: Array | None = None
+    softness: float = 0.0  # opening of the walls by the pressure above them, m/Pa
     cell: Cell = Cell.QUADRILATERAL
     cavitation: Cavitation = Cavitation.JFO
 
@@ -77,8 +78,26 @@ CASES = {
     "oil": Case(9e3, fluid=OIL),
     "contact": Case(3e5, asperities=SUMMITS),
     "rough": Case(3e4, surface=HEIGHTS),
+    "soft": Case(2e2, softness=2e-12, cavitation=Cavitation.NONE),
+    "soft cavity": Case(3e3, softness=2e-13),
+    "soft contact": Case(4e4, softness=2e-13, asperities=SUMMITS),
+    "soft rough oil": Case(4e4, OIL, HEIGHTS, SUMMITS, softness=2e-13),
     "rough contact": Case(6e5, surface=HEIGHTS, asperities=SUMMITS),
 }
+
+
+@dataclass(frozen=True)
+class Springs:
+    """Walls of which each place opens by the pressure above it, with a weak lift of all by their mean."""
+
+    matrix: Array
+
+
+def springs(space: FilmSpace, softness: float) -> Springs:
+    """Walls that open by `softness` (m/Pa) times the pressure above, and a tenth of the mean pressure."""
+    matrix = np.full((len(space.vertices), space.size), 0.1 / space.size)
+    matrix[np.arange(len(matrix)), space.vertex_dofs] += 1.0
+    return Springs(softness * matrix)
 
 
 def journal(case: Case) -> tuple[FilmSpace, Floating]:
@@ -92,6 +111,8 @@ def journal(case: Case) -> tuple[FilmSpace, Floating]:
     problem = FilmProblem(
         space, oil, held, case.cavitation, fluid=case.fluid, surface=case.surface, asperities=case.asperities
     )
+    if case.softness:
+        problem = replace(problem, walls=springs(space, case.softness))
     angle = space.vertices[:, 0] / RADIUS
     modes = -np.column_stack([np.cos(angle), np.sin(angle)])
     spring, damper = np.array([[1e6, 2e5], [0.0, 1e6]]), np.array([[1e4, 0.0], [3e3, 1e4]])
@@ -150,10 +171,12 @@ def same(floating: Floating, stage: FloatingStage, before: Array) -> None:
     np.testing.assert_allclose(stage.holds[:oil], other.holds[:oil], atol=1e-6 * other.holds[:oil].max())
     flow = other.solution.flow_scale.max()
     np.testing.assert_allclose(stage.solution.outflow, other.solution.outflow, atol=1e-6 * flow)
-    np.testing.assert_allclose(stage.force_slopes, other.force_slopes, atol=1e-5 * np.abs(other.force_slopes).max())
+    # Upwinding's change with the deformation of elastic walls is left out of both slopes, not in the same way.
+    close = 1e-5 if stage.instant.shape.walls is None else 1e-3
+    np.testing.assert_allclose(stage.force_slopes, other.force_slopes, atol=close * np.abs(other.force_slopes).max())
     changes = np.random.default_rng(1).normal(size=(len(before), 2)) * np.abs(before).max()
     for mine, reference in zip(stage.propagated(changes), other.propagated(changes), strict=True):
-        np.testing.assert_allclose(mine, reference, atol=1e-5 * np.abs(reference).max())
+        np.testing.assert_allclose(mine, reference, atol=close * np.abs(reference).max())
 
 
 @pytest.mark.parametrize("case", CASES.values(), ids=CASES)

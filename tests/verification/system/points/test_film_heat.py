@@ -35,7 +35,7 @@ DENSITY, SPECIFIC_HEAT, CONDUCTIVITY, INLET, THINNING = 860.0, 2000.0, 0.14, 313
 PRESSURE, SHAFT, SPIN = 20e6, 220.0, 900.0
 SPEED, AREA = 0.5 * DIAMETER * SPIN, np.pi * DIAMETER * LENGTH
 NOTHING_PASSES = 1e6  # m2 K/W
-SCHEDULE, ROUGHLY = evenly(SHAFT, 12, keep=6), Accuracy(step=3e-2)
+SCHEDULE, ROUGHLY = evenly(SHAFT, 12, keep=1), Accuracy(step=3e-2)
 
 
 def piston(side: float = 0.0, spin: float = SPIN) -> PistonFilm:
