@@ -11,7 +11,7 @@ volume grows in turn.
 """
 
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, lru_cache
 from pathlib import Path
 
 import numpy as np
@@ -30,7 +30,7 @@ ALIKE = 1e-9  # of the largest influence: round-off of a part that is the same a
 POINTS, WEIGHTS = np.polynomial.legendre.leggauss(2)  # exact for the product of two hats
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class FaceGrid:
     """A cylindrical part's whole face as rows along the bore and columns around it.
 
@@ -203,7 +203,13 @@ def _numbers(space: FilmSpace) -> tuple[NDArray[np.signedinteger], NDArray[np.si
 
 def _between(grid: FaceGrid, film: Array) -> tuple[Array, Array]:
     """Rows of a face (n,) and of a film on it (m,): pressures there (n, m) and openings back (m, n)."""
-    face = grid.rows
+    return _between_rows(grid, tuple(film.tolist()))
+
+
+@lru_cache(maxsize=8)
+def _between_rows(grid: FaceGrid, rows: tuple[float, ...]) -> tuple[Array, Array]:
+    """The same, kept for the films of an instant."""
+    face, film = grid.rows, np.array(rows)
     slack = 1e-9 * float(face[-1] - face[0])
     if not (film[0] >= face[0] - slack and film[-1] <= face[-1] + slack):
         found = f"a film from {film[0]:.6g} to {film[-1]:.6g} m"

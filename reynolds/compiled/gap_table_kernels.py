@@ -46,7 +46,7 @@ class Coefficients(NamedTuple):
 
 
 @njit(inline="always")
-def _place(table, gap):
+def place(table, gap):
     """Knot below a gap, share of the way to the next one, and du/dgap times the number of knots."""
     knots = table.values.shape[0]
     above = max(gap - table.start, 0.0)
@@ -57,7 +57,7 @@ def _place(table, gap):
 
 
 @njit(inline="always")
-def _read(table, knot, share, steep, column):
+def read(table, knot, share, steep, column):
     """Value and slope by the gap of a column: the cubic of values and rises at both knots."""
     a, b = table.values[knot, column], table.values[knot + 1, column]
     p, q = table.rises[knot, column], table.rises[knot + 1, column]
@@ -81,14 +81,14 @@ def coefficients(table, gap, factor, motion):
             h, widening, phi, phi_slope = gap[e, q], 1.0, 1.0, 0.0
             filled, filled_slope, shear, shear_slope = h, 1.0, 0.0, 0.0
             if rough:
-                knot, share, steep = _place(table, gap[e, q])
-                more, more_slope = _read(table, knot, share, steep, FILM)
+                knot, share, steep = place(table, gap[e, q])
+                more, more_slope = read(table, knot, share, steep, FILM)
                 h, widening = h + more, widening + more_slope
-                phi, phi_slope = _read(table, knot, share, steep, CONDUCTION)
-                more, more_slope = _read(table, knot, share, steep, CONTENT)
+                phi, phi_slope = read(table, knot, share, steep, CONDUCTION)
+                more, more_slope = read(table, knot, share, steep, CONTENT)
                 filled, filled_slope = h + more, widening + more_slope
-                shear, shear_slope = _read(table, knot, share, steep, SHEAR)
-                contact[e, q], by_contact[e, q] = _read(table, knot, share, steep, CONTACT)
+                shear, shear_slope = read(table, knot, share, steep, SHEAR)
+                contact[e, q], by_contact[e, q] = read(table, knot, share, steep, CONTACT)
             square = factor[e, q] * h * h
             widened[e, q] = widening
             film[e, q], content[e, q], by_content[e, q] = h, filled, filled_slope

@@ -7,13 +7,28 @@ from functools import cached_property
 
 import numpy as np
 
+from reynolds.compiled.contact_kernels import settle
 from reynolds.compiled.film import FilmBalance, Linearised, linearised, linearised_soft
+from reynolds.compiled.gap_table import gap_table
 from reynolds.compiled.gap_table_kernels import contact_forces
 from reynolds.equation.coefficients import WIDEST
-from reynolds.equation.deformation import Meeting, Touch, given_gap, meeting_of, resisted, settled_deformation
+from reynolds.equation.deformation import (
+    DEEPEST,
+    FELT,
+    TOLERANCE,
+    Meeting,
+    Touch,
+    given_gap,
+    meeting_of,
+    resisted,
+    settled_deformation,
+)
+from reynolds.errors import FilmNotConverged
 from reynolds.floating.coordinates import ContactForce, SoftContact, soft_contact
 from reynolds.floating.pose import lowest_gap
 from reynolds.floating.trial import FloatingInstant
+from reynolds.laws.contact import LOWEST_RATIO
+from reynolds.laws.law import Tangent
 from reynolds.numerics.arrays import Array
 
 
@@ -91,8 +106,7 @@ class SoftWalls:
         deformation = np.asarray(shape.walls.matrix @ pressure)
         undeformed, touch = self._given + modes.at_vertices @ q, None
         if meeting is not None:
-            deformation = settled_deformation(meeting, undeformed, deformation, deformation if near is None else near)
-            touch = meeting.at(undeformed + deformation)
+            deformation, touch = _settled(meeting, undeformed, deformation, deformation if near is None else near)
         gap = shape.film.thickness + modes.rise(q) + shape.space.sample_vertices(deformation)
         corners = None if shape.film.thickness_at_vertices is None else undeformed + deformation
         least = min(float(part.min()) for part in (gap, corners) if part is not None)
@@ -126,6 +140,23 @@ class SoftWalls:
         walls = self.instant.shape.walls
         assert walls is not None
         return np.asarray(walls.matrix @ pressure + self.instant.modes.at_vertices @ q)
+
+
+def _settled(meeting: Meeting, given: Array, alone: Array, start: Array) -> tuple[Array, Touch]:
+    """The deformation in balance with contact and that contact, as `equation.deformation` has them."""
+    law, compliance = meeting.asperities, meeting.compliance
+    if not isinstance(compliance, np.ndarray):
+        found = settled_deformation(meeting, given, alone, start)
+        return found, meeting.at(given + found)
+    start = np.maximum(start, law.summit_height - DEEPEST * law.height - given)
+    lowest, enough = law.summit_height + LOWEST_RATIO * law.height, TOLERANCE * (np.max(np.abs(given)) + law.height)
+    table, stiff = gap_table(None, law, elastic=True), FELT * law.elastic_factor * law.modulus / law.height
+    found, bears, slopes, converged = settle(
+        table, compliance, meeting.seats, meeting.shares, given, alone, start, lowest, enough, stiff
+    )
+    if not converged:
+        raise FilmNotConverged("deformation of walls in contact not converged", "a thicker film, or stiffer walls")
+    return found, Touch(meeting, Tangent(bears, slopes), np.flatnonzero(-slopes > stiff))
 
 
 JointWalls = RigidWalls | SoftWalls
