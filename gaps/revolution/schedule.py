@@ -10,6 +10,7 @@ from reynolds.floating.stage import Closeness
 from reynolds.numerics.arrays import Array
 
 MORE_EXACT = 10.0  # times, at most, are the steps of the first turns
+APART = 1e-9  # of the turn: nodes nearer than this are one
 FEWEST = 24  # nodes of a whole turn with steps as wide as their error allows
 
 
@@ -74,6 +75,8 @@ class Schedule:
         span = self.angles[-1]
         count = max(1, round(FEWEST * span / (2.0 * np.pi)))
         nodes = span * np.arange(1, count) / count
+        if self.breaks.size:  # round-off beside a break would be a step of its own
+            nodes = nodes[np.abs(nodes[:, None] - self.breaks).min(axis=1) > APART * span]
         return Schedule(self.speed, self.angles[-1:], np.union1d(self.breaks, nodes), keep=2)
 
 
