@@ -128,7 +128,7 @@ def free_spins(
     bore_axis: Array,
     plate_normal: Array,
     shaft_speed: float,
-    friction: float,
+    friction: Array,
     piston_drag: float,
     slipper_drag: float,
     stated: tuple[float | None, float | None] = (None, None),
@@ -136,32 +136,34 @@ def free_spins(
 ) -> Spins:
     """The spins at which the joint's friction and both films' drag balance about bore and plate normal.
 
-    `stated`: spins (rad/s) of piston and slipper that are given; None: free. `driven`: torques T (N m) by which films
-    turn piston and slipper that do not spin. friction: mu |B| r of the joint, N m; drags: N m s, above zero. They are
-    the least of friction |W| + (piston_drag s_p^2 + slipper_drag s^2)/2 - T . s, a convex function of both, found by
-    Newton's method. A joint that rubs harder than the films drags the piston back against the block until neither turns
-    in space (s = 0, s_p = -w on a cylindrical block); without friction neither is turned (s = s_p = 0). Quasi-steady:
-    at a piston's inertia spins follow within some 1e-2 s, so that means over a turn belong here. Raises FilmInputError
-    for a drag that is not positive, FilmNotConverged where Newton's method does not settle.
+    bore_axis (n, 3) and friction mu |B| r (n,) N m of the joint are those at n equidistant shaft angles: a joint that
+    nearly sticks feels how its axes swing. `stated`: spins (rad/s) of piston and slipper that are given; None: free.
+    `driven`: torques T (N m) by which films turn piston and slipper that do not spin; drags: N m s, above zero. They
+    are the least of mean(friction |W|) + (piston_drag s_p^2 + slipper_drag s^2)/2 - T . s, a convex function of both,
+    found by Newton's method. A joint that rubs harder than the films drags the piston back against the block until
+    neither turns in space (s = 0, s_p = -w on a cylindrical block); without friction neither is turned (s = s_p = 0).
+    Quasi-steady: at a piston's inertia spins follow within some 1e-2 s, so that means over a turn belong here. Raises
+    FilmInputError for a drag that is not positive, FilmNotConverged where Newton's method does not settle.
     """
     require_positive("free spins", shaft_speed=shaft_speed, piston_drag=piston_drag, slipper_drag=slipper_drag)
     free = np.array([spin is None for spin in stated])
     found = np.array([spin or 0.0 for spin in stated])
-    turns = np.column_stack([-bore_axis, plate_normal])[:, free]
-    still = relative_spin(bore_axis, plate_normal, shaft_speed, found[0], found[1])
+    turns = np.stack([-bore_axis, np.broadcast_to(plate_normal, bore_axis.shape)], axis=2)[:, :, free]
+    still = np.array([relative_spin(axis, plate_normal, shaft_speed, found[0], found[1]) for axis in bore_axis])
     drag, torque = np.diag(np.array([piston_drag, slipper_drag])[free]), np.array(driven)[free]
 
     def spent(spins: Array) -> float:
         by_films = 0.5 * spins @ drag @ spins - torque @ spins
-        return float(friction * _width(still + turns @ spins, shaft_speed) + by_films)
+        return float(np.mean(friction * _width(still + turns @ spins, shaft_speed)) + by_films)
 
     spins = np.zeros(int(free.sum()))
     for _ in range(MOST_STEPS):
         relative = still + turns @ spins
         width = _width(relative, shaft_speed)
-        pull = turns.T @ relative / width
-        slope = friction * pull + drag @ spins - torque
-        bend = friction / width * (turns.T @ turns - np.outer(pull, pull)) + drag
+        pull = np.einsum("nij,ni->nj", turns, relative) / width[:, None]
+        slope = np.mean(friction[:, None] * pull, axis=0) + drag @ spins - torque
+        stiff = np.einsum("nij,nik->njk", turns, turns) - np.einsum("nj,nk->njk", pull, pull)
+        bend = np.mean((friction / width)[:, None, None] * stiff, axis=0) + drag
         step = np.linalg.solve(bend, -slope)
         if np.max(np.abs(step), initial=0.0) < SETTLED * shaft_speed:
             found[free] = spins
@@ -172,8 +174,8 @@ def free_spins(
     raise FilmNotConverged(f"spins of piston and slipper not settled after {MOST_STEPS} steps", "given spin ratios")
 
 
-def _width(spin: Array, shaft_speed: float) -> float:
-    return float(np.sqrt(spin @ spin + (CREEP * shaft_speed) ** 2))
+def _width(spin: Array, shaft_speed: float) -> Array:
+    return np.asarray(np.sqrt(np.sum(spin * spin, axis=-1) + (CREEP * shaft_speed) ** 2))
 
 
 def lateral_force(guide_length: float, depth: float, force: Array) -> Array:

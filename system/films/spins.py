@@ -6,19 +6,23 @@ from dataclasses import dataclass
 import numpy as np
 
 from gaps.loads.ball_joint import Spins, bore_drag, free_spins, land_drag
+from reynolds.numerics.arrays import Array
 from system.description.pump import PumpDescription
-from system.pump.laws.directions import plate_axes
+from system.inputs.units import TURN
+from system.pump.laws.directions import bore_axis, plate_axes
 from system.pump.laws.kinematics import SwashDrive, stroke
 from system.pump.lumped import piston_area, piston_stand_out
 from system.pump.operating import OperatingPoint
 
+ESTIMATED = 36  # shaft angles at which the joint's axes swing before films are solved
+
 
 @dataclass(frozen=True)
 class SpinTorques:
-    """Torques that set spins: friction mu |B| r of the joint (N m); drags (N m s) of both films,
-    and torques (N m) of the films on parts without spin."""
+    """Torques that set spins: friction mu |B| r (n,) N m of the joint at n equidistant shaft angles; drags (N m s) of
+    both films, and torques (N m) of the films on parts without spin."""
 
-    friction: float
+    friction: Array
     drags: tuple[float, float]
     driven: tuple[float, float] = (0.0, 0.0)
 
@@ -27,14 +31,15 @@ def spins(pump: PumpDescription, point: OperatingPoint, drive: SwashDrive, torqu
     """Spins (rad/s) of the piston relative to the block and of the slipper in space, constant over the turn.
 
     spin_ratio times shaft speed where stated; where left out, that at which the joint's friction and the films' drags
-    balance (`gaps.loads.ball_joint.free_spins`); the bore is along the shaft, as the cone's mean over the turn does.
+    balance (`gaps.loads.ball_joint.free_spins`).
     """
     speed, ratios = point.shaft_speed, (pump.piston.spin_ratio, pump.slipper.spin_ratio)
     piston, slipper = (None if ratio is None else ratio * speed for ratio in ratios)
     if piston is not None and slipper is not None:
         return Spins(piston, slipper)
+    angles = TURN * np.arange(len(torques.friction)) / len(torques.friction)
     return free_spins(
-        bore_axis=np.array([0.0, 0.0, 1.0]),
+        bore_axis=np.array([bore_axis(drive, angle) for angle in angles]),
         plate_normal=plate_axes(drive)[2],
         shaft_speed=speed,
         friction=torques.friction,
@@ -58,13 +63,13 @@ def estimated_torques(pump: PumpDescription, point: OperatingPoint, drive: Swash
     length = min(engaged, part.guide_length or engaged)
     lands = (land_drag(point.viscosity, *land, slipper.film_thickness) for land in slipper.lands.radii)
     return SpinTorques(
-        pump.friction.piston_slipper_socket * force * slipper.ball_joint_radius,
+        np.full(ESTIMATED, pump.friction.piston_slipper_socket * force * slipper.ball_joint_radius),
         (bore_drag(point.viscosity, pump.pump.piston_diameter, length, part.radial_clearance), math.fsum(lands)),
     )
 
 
 def torques_of_films(
-    estimated: SpinTorques, friction: float, turned: Spins, torques: tuple[float, float]
+    estimated: SpinTorques, friction: Array, turned: Spins, torques: tuple[float, float]
 ) -> SpinTorques:
     """Torques that set spins, from films solved at spins (rad/s): mean torques (N m) on piston and slipper there.
 

@@ -157,7 +157,7 @@ def rubbing(gaps: FloatingGaps, samples: int) -> Rubbing:
 def spin_torques(gaps: FloatingGaps, rotor: Rotor, group: tuple[GroupInstant, ...]) -> SpinTorques:
     """Torques on the spins of piston and slipper by their films and the joint's forces, means over the turn."""
     pump = rotor.pump
-    force = float(np.mean([np.linalg.norm(at.forces.ball) for at in group]))
+    force = np.array([np.linalg.norm(at.forces.ball) for at in group])
     friction = pump.friction.piston_slipper_socket * force * pump.slipper.ball_joint_radius
     torques = (
         _mean(gaps.piston, lambda report: report.friction.torque),

@@ -204,14 +204,14 @@ def test_ball_friction():
 
 
 def test_spins_without_friction():
-    spins = free_spins(bore_axis(DRIVE, 1.0), plate_axes(DRIVE)[2], SPEED, 0.0, 5e-4, 1e-4)
+    spins = free_spins(bore_axis(DRIVE, 1.0)[None], plate_axes(DRIVE)[2], SPEED, np.zeros(1), 5e-4, 1e-4)
     assert (spins.piston, spins.slipper) == pytest.approx((0.0, 0.0), abs=1e-9)
 
 
 def test_spins_of_a_stiff_joint(validation):
     """A cylindrical block's piston and slipper that stick together turn neither in space."""
     axis, normal = bore_axis(CYLINDER, 1.0), plate_axes(CYLINDER)[2]
-    spins = free_spins(axis, normal, SPEED, 1e6, 5e-4, 1e-4)
+    spins = free_spins(axis[None], normal, SPEED, np.array([1e6]), 5e-4, 1e-4)
     for quantity, expected, obtained in (
         ("spin of the piston against the block over shaft speed", -1.0, spins.piston / SPEED),
         ("spin of the slipper over shaft speed", 0.0, spins.slipper / SPEED),
@@ -231,7 +231,7 @@ def test_spins_of_a_stiff_joint(validation):
 def test_spins_balance_the_torques(friction):
     axis, normal = bore_axis(DRIVE, 1.0), plate_axes(DRIVE)[2]
     drags = bore_drag(0.0258, 22e-3, 40e-3, 15e-6), land_drag(0.0258, 8.2e-3, 14e-3, 8e-6)
-    spins = free_spins(axis, normal, SPEED, friction, *drags)
+    spins = free_spins(axis[None], normal, SPEED, np.array([friction]), *drags)
     spin = relative_spin(axis, normal, SPEED, spins.piston, spins.slipper)
     moment = ball_friction(friction, 1.0, 1.0, spin, SPEED)
     assert moment @ normal == pytest.approx(drags[1] * spins.slipper, abs=1e-8 * friction)
@@ -242,11 +242,11 @@ def test_a_stated_spin_leaves_the_other_free():
     """The free one still has its own torque balance; both stated are both kept."""
     axis, normal = bore_axis(DRIVE, 1.0), plate_axes(DRIVE)[2]
     drags = bore_drag(0.0258, 22e-3, 40e-3, 15e-6), land_drag(0.0258, 8.2e-3, 14e-3, 8e-6)
-    spins = free_spins(axis, normal, SPEED, 0.08, *drags, stated=(-20.0, None))
+    spins = free_spins(axis[None], normal, SPEED, np.array([0.08]), *drags, stated=(-20.0, None))
     assert spins.piston == -20.0
     moment = ball_friction(0.08, 1.0, 1.0, relative_spin(axis, normal, SPEED, -20.0, spins.slipper), SPEED)
     assert moment @ normal == pytest.approx(drags[1] * spins.slipper, abs=1e-8)
-    assert free_spins(axis, normal, SPEED, 0.08, *drags, stated=(-20.0, 3.0)) == Spins(-20.0, 3.0)
+    assert free_spins(axis[None], normal, SPEED, np.array([0.08]), *drags, stated=(-20.0, 3.0)) == Spins(-20.0, 3.0)
 
 
 def test_drags():
