@@ -49,7 +49,13 @@ from .multibody.assumed import assumptions as assumptions
 from .multibody.rotating_group import joint_forces as joint_forces
 from .points.films import FilmsPoint as FilmsPoint, films_point as films_point
 from .points.floating import FloatingPoint as FloatingPoint, floating_point as floating_point
-from .points.floating_gaps import FloatingOptions as FloatingOptions, slipper_revolution as slipper_revolution
+from .points.floating_gaps import (
+    USUAL as USUAL,
+    FloatingOptions as FloatingOptions,
+    block_revolution as block_revolution,
+    piston_revolution as piston_revolution,
+    slipper_revolution as slipper_revolution,
+)
 from .points.lumped import lumped_point as lumped_point
 from .points.table.build import build_table as build_table
 from .points.table.point import table_point as table_point

@@ -17,11 +17,31 @@ from dataclasses import dataclass
 from multiprocessing import get_context
 from pathlib import Path
 
-import numpy as np
-from rich.console import Console
-from rich.table import Table
+# Films are small: threads of one cost the others more than they gain. Set before numpy is imported, in every process.
+for name in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"):
+    os.environ.setdefault(name, "1")
 
-THREADS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
+import numpy as np  # noqa: E402
+from rich.console import Console  # noqa: E402
+from rich.table import Table  # noqa: E402
+
+from gaps import Effect, GapRevolution  # noqa: E402
+from reynolds import FilmNotConverged  # noqa: E402
+from system import (  # noqa: E402
+    USUAL,
+    FloatingOptions,
+    block_revolution,
+    drives,
+    floating_parts,
+    load_pump,
+    lumped_point,
+    no_rubbing,
+    operating_point,
+    piston_revolution,
+    rotor,
+    slipper_revolution,
+)
+
 PUMP = Path(__file__).with_name("ref90_design.toml")
 KELVIN = 273.15
 
@@ -66,30 +86,19 @@ VARIANTS = (
 
 def row(variant: Variant, pressure: str) -> list[str]:
     """A line of the table, with the reason where a gap has no periodic film."""
-    from gaps.films.physics import Effect
-    from gaps.revolution.march import GapRevolution
-    from reynolds import FilmNotConverged
-    from system import load_pump
-    from system.films.drives import drives, no_rubbing
-    from system.films.parts import floating_parts
-    from system.films.rotor import rotor
-    from system.points import floating_gaps
-    from system.points.lumped import lumped_point
-    from system.pump.operating import operating_point
-
     pump = load_pump(PUMP, {**variant.changes, "operating.pressure": pressure})
     point = operating_point(pump)
     shaft, parts, cycle = rotor(pump, point), floating_parts(pump), lumped_point(pump, point).cycle
     driven = drives(shaft, parts, cycle.shaft_angle, cycle.pressure, no_rubbing(len(cycle.shaft_angle)))
-    options = floating_gaps.FloatingOptions(floating_gaps.USUAL.including(Effect.HEAT), steps=180)
+    options = FloatingOptions(USUAL.including(Effect.HEAT), steps=180)
     found: GapRevolution
     try:
         if variant.gap == "piston":
-            found = floating_gaps.piston_revolution(shaft, parts, driven.piston, options)
+            found = piston_revolution(shaft, parts, driven.piston, options)
         elif variant.gap == "slipper":
-            found = floating_gaps.slipper_revolution(shaft, parts, driven.slipper, options)
+            found = slipper_revolution(shaft, parts, driven.slipper, options)
         else:
-            found = floating_gaps.block_revolution(shaft, parts, driven.block, options)
+            found = block_revolution(shaft, parts, driven.block, options)
     except FilmNotConverged as reason:
         return [variant.gap, variant.name, str(reason)]
     instants, count = found.turn.instants, 1 if variant.gap == "block" else pump.pump.pistons
@@ -113,23 +122,14 @@ def main() -> None:
     parser.add_argument("--workers", type=int, default=2, help="gaps side by side (2)")
     parser.add_argument("words", nargs="*", help="only rows that contain one of them")
     asked = parser.parse_args()
-    for name in THREADS:  # small films: threads of one cost the others more than they gain
-        os.environ.setdefault(name, "1")
-    picked = [
-        one for one in VARIANTS if not asked.words or any(word in f"{one.gap} {one.name}" for word in asked.words)
-    ]
-    table = Table(title=f"{PUMP.stem} at {asked.pressure}, all pistons and slippers")
-    for head in (
-        "gap",
-        "dimension",
-        "mean film / um",
-        "least / um",
-        "rubbing / W",
-        "shear / W",
-        "leak / L/min",
-        "hottest / degC",
-    ):
-        table.add_column(head, justify="left" if head in ("gap", "dimension") else "right")
+    words = asked.words or [""]
+    picked = [one for one in VARIANTS if any(word in f"{one.gap} {one.name}" for word in words)]
+    if not picked:
+        names = "\n  ".join(f"{one.gap} {one.name}" for one in VARIANTS)
+        parser.error(f"no row contains {' or '.join(words)}; the rows are\n  {names}")
+    table = Table(title=f"{PUMP.stem} at {asked.pressure}")
+    for head in HEADS:
+        table.add_column(head, justify="left" if head in HEADS[:2] else "right", no_wrap=True)
     console = Console()
     with ProcessPoolExecutor(asked.workers, mp_context=get_context("spawn")) as pool:
         for cells in pool.map(row, picked, [asked.pressure] * len(picked)):

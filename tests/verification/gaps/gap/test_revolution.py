@@ -149,6 +149,29 @@ def test_what_is_reported_and_kept():
     np.testing.assert_allclose(least.film_force + least.outer_force, 0.0, atol=1e-6 * SWAY)
 
 
+def test_between_its_steps():
+    """Angles inside a step have its motion, and what passes between them adds up to what passes in all."""
+    accuracy = Accuracy(step=0.0, floor=1e-10, closed=1e-7)
+    wide, fine = (_swayed(1.0, evenly(SPEED, 360, keep=keep), accuracy=accuracy) for keep in (60, 1))
+    assert len(wide.turn.times) < 120
+    np.testing.assert_array_equal(wide.angles, fine.angles)
+    sway = np.ptp(fine.positions)
+    np.testing.assert_allclose(wide.positions, fine.positions, atol=1e-2 * sway)
+    forces = np.array([[at.film_force[0] for at in one.turn.instants] for one in (wide, fine)])
+    np.testing.assert_allclose(*forces, atol=1e-2 * np.ptp(forces))
+    few = _swayed(1.0, evenly(SPEED, 6, keep=1), accuracy=accuracy)
+    np.testing.assert_array_equal(few.turn.times, wide.turn.times)
+    spent = [np.mean([at.passed for at in one.turn.instants]) for one in (wide, few)]
+    assert spent[0] == pytest.approx(spent[1], rel=1e-9)
+
+
+def test_a_break_beside_a_node_is_one():
+    """A break that round-off parts from an even angle is no step of its own."""
+    even = evenly(SPEED, 180)
+    beside = np.nextafter(2.0 * np.pi * np.arange(1, 24) / 24, 7.0)  # the turn of wide steps has these angles
+    assert np.diff(replace(even, breaks=beside).wide.nodes).min() > 0.1 / SPEED
+
+
 def test_goes_on_from_another():
     first = _swayed(0.02, evenly(SPEED, 60))
     again = _swayed(0.02, evenly(SPEED, 60), before=first)
