@@ -66,7 +66,7 @@ def lands(inner: str, outer: str) -> dict[str, str]:
     return {"slipper.land_inner_radius": inner, "slipper.land_outer_radius": outer}
 
 
-HEADS = ("gap", "dimension", "film / um", "least / um", "rub / W", "shear / W", "leak / L/min", "oil / degC")
+HEADS = ("gap", "dimension", "film\num", "least\num", "rub\nW", "shear\nW", "leak\nL/min", "oil\ndegC")
 VARIANTS = (
     Variant("piston", "as designed", {}),
     Variant("piston", "60 mm in the bore", {"piston.engaged_length": "60 mm"}),
