@@ -285,7 +285,7 @@ def turn_of(pump: PumpDescription) -> Array:
     cycle = lumped_point(pump, at.point).cycle
     driven = drives(at, parts, cycle.shaft_angle, cycle.pressure, no_rubbing(len(cycle.shaft_angle)))
     soft = Physics().without(Effect.PRESSURE_VISCOSITY)
-    options = FloatingOptions(soft, steps=24, accuracy=Accuracy(step=0.1), finer=0.5, keep=8)
+    options = FloatingOptions(soft, steps=24, accuracy=Accuracy(step=0.1), finer=0.5, keep=1)
     found = slipper_revolution(at, parts, driven.slipper, options)
     return np.array([instant.mean_film for instant in found.turn.instants])
 
