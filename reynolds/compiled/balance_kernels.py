@@ -221,20 +221,27 @@ def _dragged(dofs, value, filling, slope_x, slope_y, basis, points, x, y):
 
 
 @njit(**_FAST)
+def _flow_slopes(mesh, c, oil, filling):
+    """Slopes by the gap at the points (cells, points): flow by pressure x, y, that of the hourglass mode, drag x, y."""
+    driven_x, driven_y = _gradient(mesh, oil.pressure)
+    driven_x *= c.conductance_slope
+    driven_y *= c.conductance_slope
+    mode = _hourglass(mesh, c.conductance, c.conductance_slope, oil.pressure)
+    dragged_x, dragged_y = np.empty(mesh.area.shape), np.empty(mesh.area.shape)
+    _dragged(
+        mesh.dofs, mesh.value, filling, c.flux_x_slope, c.flux_y_slope, mesh.basis, mesh.points, dragged_x, dragged_y
+    )
+    return driven_x, driven_y, mode, dragged_x, dragged_y
+
+
+@njit(**_FAST)
 def by_deformation(mesh, c, oil, given, rows, slots, entries):
     """dR by the gap at each vertex, each row times its factor in rows (size,), m2/s at the entries of a pattern.
 
     slots and entries as `equation.deformation_sparsity` has them.
     """
-    shape, filling, data = mesh.area.shape, oil.fraction * oil.ratio, np.empty(entries)
-    driven_x, driven_y = _gradient(mesh, oil.pressure)
-    driven_x *= c.conductance_slope
-    driven_y *= c.conductance_slope
-    mode = _hourglass(mesh, c.conductance, c.conductance_slope, oil.pressure)
-    dragged_x, dragged_y = np.empty(shape), np.empty(shape)
-    _dragged(
-        mesh.dofs, mesh.value, filling, c.flux_x_slope, c.flux_y_slope, mesh.basis, mesh.points, dragged_x, dragged_y
-    )
+    filling, data = oil.fraction * oil.ratio, np.empty(entries)
+    driven_x, driven_y, mode, dragged_x, dragged_y = _flow_slopes(mesh, c, oil, filling)
     slopes_by_deformation(
         mesh.dofs, slots, mesh.shape, mesh.value, mesh.steep, mesh.gradient, mesh.corner, mesh.signs, mesh.area,
         driven_x, driven_y, mode, dragged_x, dragged_y, c.content_slope / given.step, filling, rows, mesh.basis,
@@ -249,15 +256,8 @@ def by_thickness(mesh, c, oil, given, balance, modes, pockets):
 
     modes (cells, points, k): growth of the gap; pockets (size, k) m2: of the pockets' volumes.
     """
-    out, filling, shape = np.empty((len(oil.pressure), modes.shape[2])), oil.fraction * oil.ratio, mesh.area.shape
-    driven_x, driven_y = _gradient(mesh, oil.pressure)
-    driven_x *= c.conductance_slope
-    driven_y *= c.conductance_slope
-    mode = _hourglass(mesh, c.conductance, c.conductance_slope, oil.pressure)
-    dragged_x, dragged_y = np.empty(shape), np.empty(shape)
-    _dragged(
-        mesh.dofs, mesh.value, filling, c.flux_x_slope, c.flux_y_slope, mesh.basis, mesh.points, dragged_x, dragged_y
-    )
+    out, filling = np.empty((len(oil.pressure), modes.shape[2])), oil.fraction * oil.ratio
+    driven_x, driven_y, mode, dragged_x, dragged_y = _flow_slopes(mesh, c, oil, filling)
     thicken(
         mesh.dofs, mesh.shape, mesh.value, mesh.steep, mesh.gradient, mesh.signs, mesh.area, driven_x, driven_y, mode,
         dragged_x, dragged_y, c.content_slope / given.step, filling, modes, mesh.basis, mesh.points, out,

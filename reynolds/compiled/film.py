@@ -31,7 +31,6 @@ from reynolds.solve.solver import without_full
 
 Marks = NDArray[np.bool_]
 
-ONE = np.ones(1)
 NO_SLOPE = np.zeros((1, 1))
 
 

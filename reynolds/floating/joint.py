@@ -1,8 +1,8 @@
 """One implicit step of a floating film by a single Newton's method on its pressures, its filling and its position.
 
-Film and forces approach their balance together, so that a step costs two or three linear solves where a film
-solved anew at each position takes ten. Near a solution it is as sure; far from one `step.solve_stage`, which
-falls back on films in balance, is.
+Film and forces approach their balance together. A step takes two or three linear solves, where a search over
+positions with a film in balance at each takes ten. The method converges near a solution; `step.solve_stage` uses films
+in balance where it does not.
 """
 
 from __future__ import annotations
@@ -14,17 +14,17 @@ import numpy as np
 from numpy.typing import NDArray
 
 from reynolds.compiled.film import CompiledFilm, FilmBalance, Linearised, compiled_film, pocket_volumes
-from reynolds.equation.rough_overlap import film_between
 from reynolds.errors import FilmNotConverged, InputError
 from reynolds.floating.coordinates import ContactForce, generalised_force
 from reynolds.floating.joint_walls import JointWalls, WallPose, walls_of
 from reynolds.floating.pockets import filled
+from reynolds.floating.pose import film_at_corners, posed
 from reynolds.floating.problem import Outer
 from reynolds.floating.sensitivity import FilmSensitivity
 from reynolds.floating.stage import EXACT, Closeness, FloatingStage
 from reynolds.floating.trial import FloatingInstant, StepStart, Trial, force_scale, joined, parted, room_within, solved
 from reynolds.numerics.arrays import Array
-from reynolds.problem import FilmSolution, Storage
+from reynolds.problem import FilmProblem, FilmSolution, Storage
 
 MOST_STEPS = 20
 MOST_HALVINGS, FEW_HALVINGS = 8, 3  # of a step where a law ends, and where flows are no nearer to balance
@@ -225,31 +225,40 @@ class JointSearch:
         if at.film.imbalance > LOOSE_FILM:
             return False
         ahead = solved(slopes.stiff, at.missing, self._instant.floating.name)
-        allowed = self._close.share * float(at.film.coefficients.film.min()) + self._close.floor
+        allowed = self._close.allows(at.film.coefficients.film)
         return bool(np.abs(self._instant.modes.at_vertices @ ahead).max() <= allowed)
 
-    def _stage(self, at: JointState, slopes: JointSlopes) -> JointStage:
-        instant, shape, c = self._instant, self._shape, at.film.coefficients
-        corners, soft = shape.film.thickness_at_vertices, shape.walls is not None
-        if corners is not None:
-            corners = corners + instant.modes.at_vertices @ at.q
-            corners = corners if soft else film_between(shape, corners).value
-        thickness = shape.film.thickness + instant.modes.rise(at.q) if soft else c.film
-        problem = replace(
+    def _problem(self, at: JointState) -> FilmProblem:
+        """The film at a state as a problem of its own: elastic walls with their shape before they deform."""
+        instant, shape = self._instant, self._shape
+        if shape.walls is None:
+            film = replace(
+                shape.film,
+                thickness=at.film.coefficients.film,
+                thickness_at_vertices=film_at_corners(shape, instant.modes, at.q),
+            )
+        else:
+            film = posed(shape, instant.modes, at.q).film
+        return replace(
             shape,
-            film=replace(shape.film, thickness=thickness, thickness_at_vertices=corners),
-            asperities=shape.asperities if soft else None,
+            film=film,
+            asperities=None if shape.walls is None else shape.asperities,
             boundary=filled(instant.floating, shape, at.q),
             storage=Storage(instant.before.oil, instant.step),
         )
+
+    def _stage(self, at: JointState, slopes: JointSlopes) -> JointStage:
+        instant, growth = self._instant, slopes.growth
+        if self._shape.walls is None:
+            growth = np.ascontiguousarray(at.film.coefficients.film_slope[:, :, None] * growth)
         trial = Trial(
             q=at.q,
             rate=at.rate,
             gap=at.pose.gap,
             corner_gap=at.pose.corner_gap,
             least=at.pose.least,
-            thicker=slopes.growth if soft else np.ascontiguousarray(c.film_slope[:, :, None] * slopes.growth),
-            solution=at.film.solution(problem, at.pose.deformation),
+            thicker=growth,
+            solution=at.film.solution(self._problem(at), at.pose.deformation),
             film_force=at.film_force,
             contact=at.contact,
             outer=at.outer,

@@ -25,7 +25,7 @@ from reynolds.equation.deformation import (
 )
 from reynolds.errors import FilmNotConverged
 from reynolds.floating.coordinates import ContactForce, SoftContact, soft_contact
-from reynolds.floating.pose import lowest_gap
+from reynolds.floating.pose import lowest_gap, rigid_gap
 from reynolds.floating.trial import FloatingInstant
 from reynolds.laws.contact import LOWEST_RATIO
 from reynolds.laws.law import Tangent
@@ -54,16 +54,8 @@ class RigidWalls:
 
     def pose(self, q: Array, pressure: Array, near: Array | None) -> WallPose | None:
         """The walls at a position (k,) m; None where they overlap further than contact goes."""
-        shape, modes = self.instant.shape, self.instant.modes
-        gap, corners = shape.film.thickness + modes.rise(q), shape.film.thickness_at_vertices
-        least = float(gap.min())
-        if corners is not None:
-            corners = corners + modes.at_vertices @ q
-            if shape.asperities is not None and shape.surface is not None:
-                corners = None  # summits bear at the points
-            else:
-                least = min(least, float(corners.min()))
-        return WallPose(gap, corners, least) if least > lowest_gap(shape) else None
+        gap, corners, least = rigid_gap(self.instant.shape, self.instant.modes, q)
+        return WallPose(gap, corners, least) if least > lowest_gap(self.instant.shape) else None
 
     def contact(self, pose: WallPose, film: FilmBalance) -> ContactForce | None:
         """Force of the asperities."""

@@ -36,17 +36,29 @@ def posed(shape: FilmProblem, modes: Modes, q: Array) -> PosedFilm:
         corners = None if corners is None else corners + modes.at_vertices @ q
         film = replace(shape.film, thickness=gap, thickness_at_vertices=corners)
         return PosedFilm(film, shape.asperities, gap, corners, float(gap.min()), modes.at_points)
-    between, at_corners, least = film_between(shape, gap), None, float(gap.min())
-    if corners is not None:
-        corners = corners + modes.at_vertices @ q
-        at_corners = film_between(shape, corners).value
-        if shape.asperities is not None and shape.surface is not None:
-            corners = None  # summits bear at the points, and a film is between them at any gap of the corners
-        else:
-            least = min(least, float(corners.min()))
+    between, at_corners = film_between(shape, gap), film_at_corners(shape, modes, q)
+    gap, corners, least = rigid_gap(shape, modes, q)
     film = replace(shape.film, thickness=between.value, thickness_at_vertices=at_corners)
     thicker = np.ascontiguousarray(between.slope[:, :, None] * modes.at_points)
     return PosedFilm(film, None, gap, corners, least, thicker)
+
+
+def rigid_gap(shape: FilmProblem, modes: Modes, q: Array) -> tuple[Array, Array | None, float]:
+    """Gap between rigid walls at the points (cells, points) and vertices (vertices,) m, and the least of both.
+
+    Rough walls have no gap at the vertices: summits bear at the points, and a film is between them at any gap there.
+    """
+    gap, corners = shape.film.thickness + modes.rise(q), shape.film.thickness_at_vertices
+    if corners is None or (shape.asperities is not None and shape.surface is not None):
+        return gap, None, float(gap.min())
+    corners = corners + modes.at_vertices @ q
+    return gap, corners, min(float(gap.min()), float(corners.min()))
+
+
+def film_at_corners(shape: FilmProblem, modes: Modes, q: Array) -> Array | None:
+    """Film thickness (vertices,) m between rigid walls at a position (k,) m; None where the shape gives none."""
+    given = shape.film.thickness_at_vertices
+    return None if given is None else film_between(shape, given + modes.at_vertices @ q).value
 
 
 def deformed_pose(at: PosedFilm, solution: FilmSolution, contact: ContactForce | None) -> PosedFilm:

@@ -27,9 +27,9 @@ class Closeness:
     share: float = 0.0
     floor: float = 0.0
 
-    def allows(self, at: Trial) -> float:
-        """Allowed length at a trial, m."""
-        return self.share * float(at.solution.film.thickness.min()) + self.floor
+    def allows(self, film: Array) -> float:
+        """Allowed length (m) at a film thickness (cells, points) m."""
+        return self.share * float(film.min()) + self.floor
 
 
 EXACT = Closeness()

@@ -118,7 +118,9 @@ class _Search:
 
     def _near(self, at: Trial, step: Array) -> bool:
         """True for a step within the closeness."""
-        return bool(np.abs(self._instant.modes.at_vertices @ step).max() <= self._close.allows(at))
+        return bool(
+            np.abs(self._instant.modes.at_vertices @ step).max() <= self._close.allows(at.solution.film.thickness)
+        )
 
     def _tried(self, q: Array, ahead: FilmSolution | None = None) -> Trial | None:
         """The film there, None where it fails; `ahead` is a guess of it."""
