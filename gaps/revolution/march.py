@@ -11,8 +11,9 @@ from typing import Generic
 import numpy as np
 
 from gaps.films.reports import Reported, drawn
+from gaps.revolution.course import GapInstant, Value
 from gaps.revolution.schedule import Accuracy, Schedule
-from gaps.revolution.turn import GapInstant, GapTurn, Turns, Value
+from gaps.revolution.turn import GapTurn, Turns
 from gaps.revolution.warmth import GapTemperatures
 from reynolds.errors import FilmInputError
 from reynolds.floating.problem import Floating

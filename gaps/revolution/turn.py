@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 from collections import deque
-from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass, field, fields, is_dataclass, replace
-from typing import Generic, TypeVar, cast
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, field
+from typing import Generic
 
 import numpy as np
 
+from gaps.revolution.course import SAME, Course, GapInstant, Passed, Value, instant_of_stage
 from gaps.revolution.schedule import Accuracy, Schedule
-from reynolds.equation.rough_overlap import vertex_thickness
 from reynolds.errors import FilmNotConverged
 from reynolds.fem.space import FilmSpace
 from reynolds.floating.problem import Floating
@@ -20,46 +20,12 @@ from reynolds.floating.step import solve_stage
 from reynolds.numerics.arrays import Array
 from reynolds.numerics.dirk import AcceptedStep, State, Tableau, integrate, nodes_only
 from reynolds.problem import FilmSolution
-from reynolds.solve.loads import cavitated_fraction
 from reynolds.solve.solver import FilmSolver
 
 MET = 0.1  # of the distance at which a turn counts as closed: near enough to join the turn before
 SHORT = 1e-2  # of the first way to a node: a step in which elastic walls deform under their first load
 TOO_COARSE = 3.0  # times its tolerance: an error at which steps of an earlier turn are chosen anew
-SAME = 1e-9  # of an angle or a step: round-off
 FARTHEST = 2e-2  # of the film's length, by which a wall may leave its shape: then nothing is thin, no tilt small
-
-Value = TypeVar("Value")
-Item = TypeVar("Item")
-
-
-@dataclass(frozen=True)
-class GapInstant(Generic[Value]):
-    """A gap at one shaft angle (rad): position (k,) m, rate (k,) m/s, forces (k,) N along the position, film.
-
-    Forces of film, contact, outside and inertia, -M q'', add up to zero.
-
-    least_gap m is the least distance of the mean planes, negative where rough walls overlap; film_thickness_min
-    and mean_film m the least and the area mean of the film's thickness; pressure_max Pa; cavitated_area_fraction;
-    report: of the gap at the instant; passed: its mean since the angle before, in which flows balance as in the
-    march; pushed: power (W) of the film on the outer forces, such a mean too.
-    """
-
-    angle: float
-    position: Array
-    rate: Array
-    film_force: Array
-    contact_force: Array
-    outer_force: Array
-    inertia_force: Array
-    least_gap: float
-    film_thickness_min: float
-    mean_film: float
-    pressure_max: float
-    cavitated_area_fraction: float
-    report: Value
-    passed: Value
-    pushed: float
 
 
 @dataclass(frozen=True)
@@ -169,11 +135,11 @@ class Turns(Generic[Value]):
         first, last = np.searchsorted(self._angles, self._speed * np.array([began, ended]) * (1.0 + SAME), side="right")
         return self._angles[first:last]
 
-    def _course(self, taken: AcceptedStep[FloatingStage], behind: GapInstant[Value] | None) -> _Course[Value]:
+    def _course(self, taken: AcceptedStep[FloatingStage], behind: GapInstant[Value] | None) -> Course[Value]:
         """The gap over a step: at its stages, and at the end of the step before if that is known."""
         stages = tuple(self._solved)
-        instants = tuple(_instant(self._speed * stage.time, stage, self._report_of(stage)) for stage in stages)
-        return _Course(behind, instants, tuple(stage.holds for stage in stages), taken.step, self._speed)
+        instants = tuple(instant_of_stage(self._speed * stage.time, stage, self._report_of(stage)) for stage in stages)
+        return Course(behind, instants, tuple(stage.holds for stage in stages), taken.step, self._speed)
 
     def _choose(self, gathered: _Gathered[Value]) -> None:
         """Choose the steps of the next turn: those of this one once settled, while they are fine enough."""
@@ -292,116 +258,3 @@ def _oil_moved(first: FilmSpace, begin: State[FloatingStage], end: State[Floatin
 def _moved(came: Array, went: Array) -> float:
     """Oil that differs in place, over all."""
     return float(np.abs(came - went).sum() / np.abs(went).sum())
-
-
-@dataclass(frozen=True)
-class _Course(Generic[Value]):
-    """A gap over one step (s): its instants at the stages, the last at the end, and that at the step's start.
-
-    Between them the parabola through all; flows the line through the stages alone, whose integral over the step is
-    the method's: what passes in parts of a step adds up to what the march keeps.
-    """
-
-    behind: GapInstant[Value] | None
-    stages: tuple[GapInstant[Value], ...]
-    holds: tuple[Array, ...]
-    step: float
-    speed: float
-
-    @property
-    def end(self) -> GapInstant[Value]:
-        """The gap at the end of the step."""
-        return self.stages[-1]
-
-    def at(self, angle: float, since: Passed[Value]) -> GapInstant[Value]:
-        """The gap at a shaft angle (rad) of the step; `since`: what has passed since the reported angle before."""
-        known = self.stages if self.behind is None else (self.behind, *self.stages)
-        found = weighted_mean(known, self._shares(angle, [one.angle for one in known]))
-        return replace(found, angle=angle, passed=since.mean, pushed=since.mean_pushed)
-
-    def oil(self, angle: float) -> Array:
-        """State (held,) at a shaft angle (rad)."""
-        return weighted_mean(self.holds, self._shares(angle, [one.angle for one in self.stages]))
-
-    def passed(self, began: float, ended: float, since: Passed[Value]) -> None:
-        """Add what passes from one time (s) of the step to another."""
-        middle = 0.5 * self.speed * (began + ended)
-        shares = self._shares(middle, [one.angle for one in self.stages])
-        for one, share in zip(self.stages, shares, strict=True):
-            since.add(share * (ended - began), one.report, one.pushed)
-
-    def _shares(self, angle: float, known: list[float]) -> Array:
-        """Lagrange's weights of known angles (rad) at another one; that of the end alone there."""
-        places = np.array(known)
-        if abs(angle - places[-1]) <= SAME * self.speed * self.step:
-            return np.eye(len(places))[-1]
-        others = places[:, None] - places + np.eye(len(places))
-        ways = angle - np.tile(places, (len(places), 1))
-        np.fill_diagonal(ways, 1.0)
-        return np.asarray(np.prod(ways / others, axis=1))
-
-
-def _instant(angle: float, stage: FloatingStage, report: Value) -> GapInstant[Value]:
-    """The instant of a stage; what passes is what its report has."""
-    area, film = stage.solution.problem.space.area, stage.solution.film
-    return GapInstant(
-        angle=angle,
-        position=stage.q,
-        rate=stage.rate,
-        film_force=stage.film_force,
-        contact_force=stage.contact_force,
-        outer_force=stage.outer.force,
-        inertia_force=stage.inertia_force,
-        least_gap=stage.least_gap,
-        film_thickness_min=float(min(vertex_thickness(stage.solution).min(), film.thickness.min())),
-        mean_film=float(np.sum(film.thickness * area) / np.sum(area)),
-        pressure_max=float(stage.solution.pressure.max()),
-        cavitated_area_fraction=cavitated_fraction(stage.solution),
-        report=report,
-        passed=report,
-        pushed=-float(stage.outer.force @ stage.rate),
-    )
-
-
-def weighted_mean(items: Sequence[Item], weights: Array) -> Item:
-    """Weighted mean of reports of several stages, of the same unit.
-
-    Numbers and arrays are averaged, dataclasses field by field; anything else is the last one's.
-    A flow averaged over stages by the weights of their method is what the step has passed, to round-off; weights may
-    have either sign.
-    """
-    last = items[-1]
-    if is_dataclass(last) and not isinstance(last, type):
-        names = (field.name for field in fields(last))
-        means = {name: weighted_mean([getattr(one, name) for one in items], weights) for name in names}
-        return cast(Item, replace(last, **means))
-    if isinstance(last, float):
-        return cast(Item, float(np.average(np.array(items), weights=weights)))
-    if isinstance(last, np.ndarray):
-        return cast(Item, np.average(np.array(items), axis=0, weights=weights))
-    return last
-
-
-class Passed(Generic[Item]):
-    """Reports of the stages of some steps, each with its share of time (s)."""
-
-    def __init__(self) -> None:
-        self._reports: list[Item] = []
-        self._pushed: list[float] = []
-        self._times: list[float] = []
-
-    def add(self, time: float, report: Item, pushed: float) -> None:
-        """One more stage; pushed: power (W) of its film on the outer forces."""
-        self._reports.append(report)
-        self._pushed.append(pushed)
-        self._times.append(time)
-
-    @property
-    def mean(self) -> Item:
-        """Mean of the reports."""
-        return weighted_mean(self._reports, np.array(self._times))
-
-    @property
-    def mean_pushed(self) -> float:
-        """Mean of the power (W)."""
-        return weighted_mean(self._pushed, np.array(self._times))

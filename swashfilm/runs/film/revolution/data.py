@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from gaps.films.reports import Active
-from gaps.revolution.turn import GapInstant
+from gaps.revolution.course import GapInstant
 from reynolds.equation.rough_overlap import vertex_thickness
 from reynolds.numerics.arrays import Array
 from reynolds.solve.export import write_pvd, write_vtu

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 import pytest
 
-from gaps.revolution.turn import weighted_mean
+from gaps.revolution.course import weighted_mean
 
 
 @dataclass(frozen=True)

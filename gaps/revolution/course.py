@@ -1,0 +1,161 @@
+"""Course of a gap over one step of its march: its instants, what lies between them, and what passes."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, fields, is_dataclass, replace
+from typing import Generic, TypeVar, cast
+
+import numpy as np
+
+from reynolds.equation.rough_overlap import vertex_thickness
+from reynolds.floating.stage import FloatingStage
+from reynolds.numerics.arrays import Array
+from reynolds.solve.loads import cavitated_fraction
+
+SAME = 1e-9  # of an angle or a step: round-off
+
+Value = TypeVar("Value")
+Item = TypeVar("Item")
+
+
+@dataclass(frozen=True)
+class GapInstant(Generic[Value]):
+    """A gap at one shaft angle (rad): position (k,) m, rate (k,) m/s, forces (k,) N along the position, film.
+
+    Forces of film, contact, outside and inertia, -M q'', add up to zero.
+
+    least_gap m is the least distance of the mean planes, negative where rough walls overlap; film_thickness_min
+    and mean_film m the least and the area mean of the film's thickness; pressure_max Pa; cavitated_area_fraction;
+    report: of the gap at the instant; passed: its mean since the angle before, in which flows balance as in the
+    march; pushed: power (W) of the film on the outer forces, such a mean too.
+    """
+
+    angle: float
+    position: Array
+    rate: Array
+    film_force: Array
+    contact_force: Array
+    outer_force: Array
+    inertia_force: Array
+    least_gap: float
+    film_thickness_min: float
+    mean_film: float
+    pressure_max: float
+    cavitated_area_fraction: float
+    report: Value
+    passed: Value
+    pushed: float
+
+
+@dataclass(frozen=True)
+class Course(Generic[Value]):
+    """A gap over one step (s): its instants at the stages, the last at the end, and that at the step's start.
+
+    Between them the parabola through all; flows the line through the stages alone, whose integral over the step is
+    the method's: what passes in parts of a step adds up to what the march keeps.
+    """
+
+    behind: GapInstant[Value] | None
+    stages: tuple[GapInstant[Value], ...]
+    holds: tuple[Array, ...]
+    step: float
+    speed: float
+
+    @property
+    def end(self) -> GapInstant[Value]:
+        """The gap at the end of the step."""
+        return self.stages[-1]
+
+    def at(self, angle: float, since: Passed[Value]) -> GapInstant[Value]:
+        """The gap at a shaft angle (rad) of the step; `since`: what has passed since the reported angle before."""
+        known = self.stages if self.behind is None else (self.behind, *self.stages)
+        found = weighted_mean(known, self._shares(angle, [one.angle for one in known]))
+        return replace(found, angle=angle, passed=since.mean, pushed=since.mean_pushed)
+
+    def oil(self, angle: float) -> Array:
+        """State (held,) at a shaft angle (rad)."""
+        return weighted_mean(self.holds, self._shares(angle, [one.angle for one in self.stages]))
+
+    def passed(self, began: float, ended: float, since: Passed[Value]) -> None:
+        """Add what passes from one time (s) of the step to another."""
+        middle = 0.5 * self.speed * (began + ended)
+        shares = self._shares(middle, [one.angle for one in self.stages])
+        for one, share in zip(self.stages, shares, strict=True):
+            since.add(share * (ended - began), one.report, one.pushed)
+
+    def _shares(self, angle: float, known: list[float]) -> Array:
+        """Lagrange's weights of known angles (rad) at another one; that of the end alone there."""
+        places = np.array(known)
+        if abs(angle - places[-1]) <= SAME * self.speed * self.step:
+            return np.eye(len(places))[-1]
+        others = places[:, None] - places + np.eye(len(places))
+        ways = angle - np.tile(places, (len(places), 1))
+        np.fill_diagonal(ways, 1.0)
+        return np.asarray(np.prod(ways / others, axis=1))
+
+
+def instant_of_stage(angle: float, stage: FloatingStage, report: Value) -> GapInstant[Value]:
+    """The instant of a stage; what passes is what its report has."""
+    area, film = stage.solution.problem.space.area, stage.solution.film
+    return GapInstant(
+        angle=angle,
+        position=stage.q,
+        rate=stage.rate,
+        film_force=stage.film_force,
+        contact_force=stage.contact_force,
+        outer_force=stage.outer.force,
+        inertia_force=stage.inertia_force,
+        least_gap=stage.least_gap,
+        film_thickness_min=float(min(vertex_thickness(stage.solution).min(), film.thickness.min())),
+        mean_film=float(np.sum(film.thickness * area) / np.sum(area)),
+        pressure_max=float(stage.solution.pressure.max()),
+        cavitated_area_fraction=cavitated_fraction(stage.solution),
+        report=report,
+        passed=report,
+        pushed=-float(stage.outer.force @ stage.rate),
+    )
+
+
+def weighted_mean(items: Sequence[Item], weights: Array) -> Item:
+    """Weighted mean of reports of several stages, of the same unit.
+
+    Numbers and arrays are averaged, dataclasses field by field; anything else is the last one's.
+    A flow averaged over stages by the weights of their method is what the step has passed, to round-off; weights may
+    have either sign.
+    """
+    last = items[-1]
+    if is_dataclass(last) and not isinstance(last, type):
+        names = (field.name for field in fields(last))
+        means = {name: weighted_mean([getattr(one, name) for one in items], weights) for name in names}
+        return cast(Item, replace(last, **means))
+    if isinstance(last, float):
+        return cast(Item, float(np.average(np.array(items), weights=weights)))
+    if isinstance(last, np.ndarray):
+        return cast(Item, np.average(np.array(items), axis=0, weights=weights))
+    return last
+
+
+class Passed(Generic[Item]):
+    """Reports of the stages of some steps, each with its share of time (s)."""
+
+    def __init__(self) -> None:
+        self._reports: list[Item] = []
+        self._pushed: list[float] = []
+        self._times: list[float] = []
+
+    def add(self, time: float, report: Item, pushed: float) -> None:
+        """One more stage; pushed: power (W) of its film on the outer forces."""
+        self._reports.append(report)
+        self._pushed.append(pushed)
+        self._times.append(time)
+
+    @property
+    def mean(self) -> Item:
+        """Mean of the reports."""
+        return weighted_mean(self._reports, np.array(self._times))
+
+    @property
+    def mean_pushed(self) -> float:
+        """Mean of the power (W)."""
+        return weighted_mean(self._pushed, np.array(self._times))
