@@ -19,6 +19,7 @@ from reynolds.numerics.arrays import Array
 
 MOST_TURNS = 30
 MOST_DOUBLINGS = 40  # of the linearised turns taken at once: 1e12 of them
+INWARDS = 3.0  # times the reach, for a start inside the circles that turns draw
 RETREAT = 0.25  # of the reach, after a step too far
 
 
@@ -134,10 +135,20 @@ def _too_far(last_start: Array, last: Turn, start: Array, turn: Turn) -> bool:
     return bool(back @ (start - last_start) < 0.0 and np.abs(back).max() > np.abs(forth).max())
 
 
+def _circles(slopes: Array) -> bool:
+    """True if turns lead round and away from a periodic motion, none straight away: Newton's step leads to it."""
+    multipliers = np.linalg.eigvals(slopes)
+    straight = multipliers.real - 1.0 >= np.abs(multipliers.imag)
+    return bool(np.abs(multipliers).max() >= 1.0 and not straight.any())
+
+
 def _next(start: Array, turn: Turn, share: float) -> Array:
-    """The end of as many linearised turns as stay within reach of the turn's end."""
+    """The end of as many linearised turns as stay within reach of the turn's end; towards where they circle, if so."""
     reach = share * turn.reach
     way, power = turn.end - start, turn.slopes
+    if _circles(turn.slopes):
+        beyond = np.linalg.solve(np.eye(len(start)) - turn.slopes, way) - way
+        return _within(INWARDS * reach, turn.end, beyond)
     beyond = np.zeros(len(start))
     for _ in range(MOST_DOUBLINGS):
         further = way + power @ way
@@ -145,4 +156,9 @@ def _next(start: Array, turn: Turn, share: float) -> Array:
         if np.abs(beyond).max() > reach or np.array_equal(further, way):
             break
         way, power = further, power @ power
-    return np.asarray(turn.end + beyond * min(1.0, reach / max(float(np.abs(beyond).max()), 1e-300)))
+    return _within(reach, turn.end, beyond)
+
+
+def _within(reach: float, end: Array, beyond: Array) -> Array:
+    """The place `beyond` an end, or as much of the way there as the reach allows."""
+    return np.asarray(end + beyond * min(1.0, reach / max(float(np.abs(beyond).max()), 1e-300)))
