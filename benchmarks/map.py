@@ -39,7 +39,7 @@ def main() -> None:
     options = parser.parse_args()
     paper = map_plan(load_pump("ref90"), paper_axes())
     if options.films:
-        rows = [timed("112 films by table", paper, Fidelity.FILMS, lambda: process_pool(2))]
+        rows = [timed("112 films by table", paper, Fidelity.FIXED, lambda: process_pool(2))]
     else:
         plans = {"112 lumped": paper, f"{len(finer(paper).points)} lumped": finer(paper)}
         timed("112 lumped", paper, Fidelity.LUMPED, lambda: process_pool(1))  # compiles

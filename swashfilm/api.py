@@ -73,7 +73,7 @@ def run(
     """Solve one operating point of a pump, as `swashfilm run`.
 
     set: values that replace those of the pump file, {"slipper.orifice_diameter": "0.8 mm"}. options of floating
-    gaps: steps, finer, rigid, isoviscous, smooth, no_cavitation, heat. Raises InputFaults and NotConverged.
+    gaps: steps, finer, rigid, isoviscous, smooth, no_cavitation, isothermal. Raises InputFaults and NotConverged.
     """
     given = {
         "speed": speed,
@@ -98,7 +98,7 @@ def film(
 ) -> FilmRun | RevolutionRun:
     """Solve one film, free or a gap of a pump, at an instant or over the turn, as `swashfilm film`.
 
-    refine: number of meshes, for order and error. options: rigid, isoviscous, heat, smooth, no_cavitation. Raises
+    refine: number of meshes, for order and error. options: rigid, isoviscous, isothermal, smooth, no_cavitation. Raises
     InputFaults and FilmNotConverged.
     """
     with _door("film"), _case_file(case) as path:
@@ -176,7 +176,7 @@ def table(pump: str | Path | PumpDescription, *, report: Report = silent, **opti
     """Build a response table of a pump's gaps, or of one gap by its case, as `swashfilm table`.
 
     options: speed, pressure, displacement, temperature (ranges "MIN..MAX" or one value), inlet_pressure,
-    case_pressure, source, points, held_out, workers, steps, finer, rigid, isoviscous, heat. Raises InputFaults.
+    case_pressure, source, points, held_out, workers, steps, finer, rigid, isoviscous, isothermal. Raises InputFaults.
     """
     with _door("table"), _pump_file(pump) as name:
         from swashfilm.runs.table.command import table_case
@@ -285,7 +285,7 @@ def calibrate(
 def reproduce(figure: str = "all", *, report: Report = silent, **options: object) -> Reproduction:
     """Reproduce the paper's figures and tables, as `swashfilm reproduce`.
 
-    options: fidelity, pump, recording, workers, steps, finer, rigid, isoviscous, heat. Raises InputFaults.
+    options: fidelity, pump, recording, workers, steps, finer, rigid, isoviscous, isothermal. Raises InputFaults.
     """
     with _door("reproduce"):
         from swashfilm.runs.reproduce.command import reproduce_case

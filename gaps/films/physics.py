@@ -37,7 +37,7 @@ class Physics:
     pressure_viscosity: bool = True
     roughness: bool = True
     elastic_walls: bool = True
-    heat: bool = False
+    heat: bool = True
 
     def without(self, *effects: Effect) -> Physics:
         """The same with these effects left out."""

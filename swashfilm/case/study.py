@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 
 from swashfilm.case.file import Case, read_case
-from swashfilm.case.gap.switches import switch_of
+from swashfilm.case.gap.switches import switches_of
 from system.inputs.faults import Fault, InputFaults, nearest_choice
 from system.inputs.toml_table import Table, fault_lines, quoted, read_toml
 from system.inputs.units import Dimension, QuantityError, format_quantity, parse_quantity
@@ -129,7 +129,7 @@ def _switch(tables: dict[str, Any], switched: Mapping[str, str]) -> None:
     film = tables.get("film")
     if not isinstance(film, dict) or film.get("revolution") is not True:
         case = "a case with revolution = true in [film]"
-        faults = [Fault(switch_of(key), "a switch of floating gaps", case) for key in switched]
+        faults = [Fault(switch, "a switch of floating gaps", case) for switch in switches_of(switched)]
         raise InputFaults("command line", faults)
     for key, value in switched.items():
         _put(tables, f"revolution.{key}", value)

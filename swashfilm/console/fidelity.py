@@ -4,11 +4,11 @@ from enum import Enum
 
 
 class Fidelity(Enum):
-    """Films of given thickness (lumped), solved at given positions (films), at positions by balance of forces
+    """Films of given thickness (lumped), solved at given positions (fixed), at positions by balance of forces
     (floating), or by a response table (table).
     """
 
     LUMPED = "lumped"
-    FILMS = "films"
+    FIXED = "fixed"
     FLOATING = "floating"
     TABLE = "table"

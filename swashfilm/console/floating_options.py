@@ -3,9 +3,9 @@
 import argparse
 from dataclasses import replace
 
-from gaps.films.physics import Effect
+from swashfilm.case.gap.physics import effects_of
 from swashfilm.case.gap.revolution import FINER
-from swashfilm.case.gap.switches import SWITCHES
+from swashfilm.case.gap.switches import SWITCHES, switched_keys
 from swashfilm.console.fidelity import Fidelity
 from swashfilm.console.inputs import option_value
 from system.description.pump import SINGLE_PARTS, PumpDescription
@@ -15,22 +15,13 @@ from system.pump.chamber_kinds import kinds
 
 ALIKE = "identical chambers; with differing ones: swashfilm run with --fidelity lumped or floating"
 FEWEST_STEPS, MOST_STEPS = 24, 7200
-_INCLUDED = {"--heat": Effect.HEAT}
-_LEFT_OUT = {
-    "--rigid": Effect.ELASTIC_WALLS,
-    "--isoviscous": Effect.PRESSURE_VISCOSITY,
-    "--smooth": Effect.ROUGHNESS,
-    "--no-cavitation": Effect.CAVITATION,
-}
 
 
 def floating_options(options: argparse.Namespace) -> FloatingOptions:
     """Return the options of the floating gaps by a command line without faults; defaults where it states none."""
     usual = FloatingOptions()
     steps = usual.steps if options.steps is None else int(options.steps)
-    switched = _switched(options)
-    physics = usual.physics.without(*(_LEFT_OUT[switch] for switch in switched if switch in _LEFT_OUT))
-    physics = physics.including(*(_INCLUDED[switch] for switch in switched if switch in _INCLUDED))
+    physics = usual.physics.without(*effects_of(switched_keys(options)))
     finer = usual_finer(physics) if options.finer is None else float(options.finer)
     return replace(usual, steps=steps, physics=physics, finer=finer, keep=max(1, usual.keep * steps // usual.steps))
 

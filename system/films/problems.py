@@ -8,7 +8,7 @@ from system.films.drives import piston_shape, slipper_shape
 from system.films.parts import FloatingParts
 from system.films.rotor import Rotor, valve_plate_geometry
 
-RIGID = Physics().without(Effect.ELASTIC_WALLS, Effect.PRESSURE_VISCOSITY)
+RIGID = Physics().without(Effect.ELASTIC_WALLS, Effect.PRESSURE_VISCOSITY, Effect.HEAT)
 """Rigid walls and oil of constant viscosity: physics without elastic bodies."""
 Cells = tuple[int, int]
 

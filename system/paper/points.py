@@ -41,7 +41,7 @@ class PointFidelity(Enum):
     """Fidelity of a point: films of given thickness, or films solved at given positions."""
 
     LUMPED = "lumped"
-    FILMS = "films"
+    FIXED = "fixed"
 
 
 class LossReading(Enum):

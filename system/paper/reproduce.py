@@ -45,7 +45,7 @@ class PaperFidelity(Enum):
     """Fidelity of the paper's numbers: films of given thickness, solved at given positions, or floating."""
 
     LUMPED = "lumped"
-    FILMS = "films"
+    FIXED = "fixed"
     FLOATING = "floating"
 
     @property

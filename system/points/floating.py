@@ -262,7 +262,7 @@ def _not_settled(taken: Round) -> NotConverged:
         f"{taken.pressure_change:.2g} of the ports' difference (expected at most {PRESSURE_TOLERANCE:g}), "
         f"friction by {taken.friction_change:.2g} of the largest force (at most {FRICTION_TOLERANCE:g}), a spin "
         f"by {taken.spin_change:.2g} of the shaft's (at most {SPIN_TOLERANCE:g}); "
-        "try more steps, a lower pressure, or the films fidelity"
+        "try more steps, a lower pressure, or the fidelity fixed"
     )
 
 

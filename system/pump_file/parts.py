@@ -240,19 +240,6 @@ def lines_have_the_keys_of_their_kinds(pump: PumpDescription) -> Iterator[Findin
         yield Fault("suction_line.orifice_area", "missing", expected)
 
 
-@needs()
-def spins_are_stated(pump: PumpDescription) -> Iterator[Finding]:
-    """A spin that is not stated is what ball joint and films leave, as `system.films.spins` estimates it."""
-    for name in ("piston", "slipper"):
-        if getattr(pump, name).spin_ratio is None:
-            yield CheckWarning(
-                f"{name}.spin_ratio",
-                "left out",
-                "a known ratio (films take the spin at which ball friction and film drags balance over the turn)",
-                "state it where it is known",
-            )
-
-
 @needs("swash_plate.angle_min", "pump.swash_angle_max")
 def stops_are_apart(pump: PumpDescription) -> Iterator[Finding]:
     """The swash plate's lower stop is below the upper one, and no farther over centre than that."""
@@ -289,6 +276,6 @@ def _not_alike(single: str) -> CheckWarning:
     return CheckWarning(
         single,
         "a part unlike the others",
-        "alike parts in the fidelities lumped and films, which take the common table for every chamber",
+        "alike parts in the fidelities lumped and fixed, which take the common table for every chamber",
         "give every chamber that part to see what it does",
     )

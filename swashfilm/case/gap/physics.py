@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 from enum import Enum
 from typing import Any
@@ -61,7 +61,7 @@ _SUMMARY = {
     Effect.ROUGHNESS: ("rough walls, contact of asperities", "--smooth", Leg.RIGID),
     Effect.PRESSURE_VISCOSITY: ("viscosity dependent on pressure", "--isoviscous", None),
     Effect.ELASTIC_WALLS: ("elastic walls", "--rigid", Leg.ELASTIC),
-    Effect.HEAT: ("temperature of films and parts", "--heat", Leg.HEAT),
+    Effect.HEAT: ("temperature of films and parts", "--isothermal", Leg.HEAT),
 }
 """Each effect in words, its switch, and the march that ends with it (its time holds all before it)."""
 
@@ -88,6 +88,11 @@ class SwitchesSection:
 def choices(physics: Physics) -> dict[str, Any]:
     """Return the choices by key from which a `SwitchesSection` has this physics."""
     return {key: off if effect in physics.left_out else on for effect, (key, on, off) in _KEYS.items()}
+
+
+def effects_of(keys: Collection[str]) -> list[Effect]:
+    """Return the effects that some keys choose."""
+    return [effect for effect, (key, *_) in _KEYS.items() if key in keys]
 
 
 def effect_rows(left_out: Sequence[str], seconds: Mapping[str, float]) -> list[tuple[str, ...]]:

@@ -3,29 +3,37 @@
 from __future__ import annotations
 
 import argparse
+from collections.abc import Collection
 
 SWITCHES = {
-    "--rigid": ("walls", "rigid", "rigid walls"),
-    "--isoviscous": ("oil", "isoviscous", "viscosity independent of pressure"),
-    "--smooth": ("surfaces", "smooth", "smooth walls without contact of asperities"),
-    "--no-cavitation": ("cavitation", "none", "films without cavitation"),
-    "--heat": ("heat", "solved", "solved temperature of films and parts"),
+    "--rigid": ({"walls": "rigid", "oil": "isoviscous"}, "rigid walls, and viscosity independent of pressure"),
+    "--isoviscous": ({"oil": "isoviscous"}, "viscosity independent of pressure"),
+    "--isothermal": ({"heat": "none"}, "films and parts at the temperature of the case"),
+    "--smooth": ({"surfaces": "smooth"}, "smooth walls without contact of asperities"),
+    "--no-cavitation": ({"cavitation": "none"}, "films without cavitation"),
 }
-"""Key of `swashfilm.case.gap.physics`, its value, and its meaning, by switch."""
+"""Keys of `swashfilm.case.gap.physics` with their values, and the meaning, by switch.
+
+Rigid walls take the law of viscosity over pressure with them: under an edge that cannot yield it has no bound.
+"""
 
 
 def add_switches(command: argparse.ArgumentParser) -> None:
     """Add the switches to a command."""
-    for switch, (*_, what) in SWITCHES.items():
+    for switch, (_, what) in SWITCHES.items():
         command.add_argument(switch, action="store_true", help=f"floating gaps: {what}")
 
 
 def switched_keys(options: argparse.Namespace) -> dict[str, str]:
-    """Return the keys of `physics.SwitchesSection` that the command line sets, such as `walls` to "rigid"."""
+    """Return the keys of `physics.SwitchesSection` that the command line sets, such as `walls` to "rigid".
+
+    Each leaves an effect out.
+    """
     on = {switch for switch in SWITCHES if getattr(options, switch[2:].replace("-", "_"))}
-    return {key: value for switch, (key, value, _) in SWITCHES.items() if switch in on}
+    return {key: value for switch, (keys, _) in SWITCHES.items() if switch in on for key, value in keys.items()}
 
 
-def switch_of(key: str) -> str:
-    """Return the switch of a key."""
-    return next(switch for switch, (own, *_) in SWITCHES.items() if own == key)
+def switches_of(stated: Collection[str]) -> list[str]:
+    """Return the switches that set these keys; one that sets all keys of another stands for both."""
+    found = {switch: set(keys) for switch, (keys, _) in SWITCHES.items() if set(keys) <= set(stated)}
+    return [switch for switch, keys in found.items() if not any(keys < more for more in found.values())]

@@ -27,7 +27,7 @@ LEVELS = {
     "--inlet-pressures": ("INLET_PRESSURE", "25bar", "inlet pressures, gauge"),
 }
 """Member of `MapInput`, example and meaning of each axis of a map."""
-FIDELITIES = (Fidelity.LUMPED, Fidelity.FILMS, Fidelity.TABLE)
+FIDELITIES = (Fidelity.LUMPED, Fidelity.FIXED, Fidelity.TABLE)
 PLANS = ("paper", "point")
 
 
@@ -41,12 +41,12 @@ def add_map_options(command: argparse.ArgumentParser) -> None:
         help="levels of axes that are not stated: the paper's 112 points (paper), or the pump's own point (point)",
     )  # fmt: skip
     command.add_argument(
-        "--fidelity", metavar=f"{{{','.join(one.value for one in FIDELITIES)}}}", default=Fidelity.FILMS.value,
-        help="films of given thickness (lumped), solved at given positions by a table built first (films), or by "
+        "--fidelity", metavar=f"{{{','.join(one.value for one in FIDELITIES)}}}", default=Fidelity.FIXED.value,
+        help="films of given thickness (lumped), solved at given positions by a table built first (fixed), or by "
         "an existing table (table)",
     )  # fmt: skip
     command.add_argument("--table", type=Path, metavar="FILE.json", help="--fidelity table: file of the table")
-    command.add_argument("--direct", action="store_true", help="--fidelity films: solve each point, no table")
+    command.add_argument("--direct", action="store_true", help="--fidelity fixed: solve each point, no table")
     command.add_argument("--check", metavar="N", help="fresh points that measure the error between levels (40)")
     command.add_argument("--workers", metavar="N", help="processes that solve points side by side (all cores)")
     command.add_argument("--cluster", metavar="ADDRESS", help="Dask scheduler; its workers solve points")
@@ -148,8 +148,8 @@ def _word_faults(options: argparse.Namespace) -> Iterator[Fault]:
             yield Fault(option, repr(text), f"a number, {least} to {most}")
     if options.table and options.fidelity != Fidelity.TABLE.value:
         yield Fault("--table", f"beside --fidelity {options.fidelity}", "no table, or --fidelity table")
-    if options.direct and options.fidelity != Fidelity.FILMS.value:
-        yield Fault("--direct", f"beside --fidelity {options.fidelity}", "--fidelity films")
+    if options.direct and options.fidelity != Fidelity.FIXED.value:
+        yield Fault("--direct", f"beside --fidelity {options.fidelity}", "--fidelity fixed")
     if options.cluster is not None and options.workers is not None:
         yield Fault("--workers", "beside --cluster", "one of the two: a cluster has its own workers")
     if options.resume is not None:

@@ -57,7 +57,7 @@ class MapCase:
     def cost(self) -> float:
         """Approximate processor time, s."""
         points = len(self.plan.points)
-        if self.fidelity is not Fidelity.FILMS:
+        if self.fidelity is not Fidelity.FIXED:
             return points * (LumpedSolver.cost if self.fidelity is Fidelity.LUMPED else TableSolver.cost)
         solved = points if self.direct or not self.varied else sum(usual_counts(len(self.varied)))
         return FILMS_COST * solved

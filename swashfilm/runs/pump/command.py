@@ -37,11 +37,11 @@ def add_run_options(command: argparse.ArgumentParser) -> None:
     for option, (_, example, what) in _OVERRIDES.items():
         command.add_argument(option, metavar=example, help=f"{what}; default: that of the pump file")
     what = (
-        "films of given thickness (lumped), solved at given positions (films), at positions by balance of forces "
+        "films of given thickness (lumped), solved at given positions (fixed), at positions by balance of forces "
         "(floating), or by a response table (table)"
     )
     metavar = f"{{{','.join(_FIDELITIES)}}}"
-    command.add_argument("--fidelity", metavar=metavar, default=Fidelity.FILMS.value, help=what)
+    command.add_argument("--fidelity", metavar=metavar, default=Fidelity.FLOATING.value, help=what)
     what = "response table in place of the stored one of this pump"
     command.add_argument("--table", type=Path, metavar="FILE.json", help=what)
     command.add_argument("--steps", metavar="N", help="floating gaps: reported angles per turn (360)")
@@ -92,7 +92,7 @@ def pump_case(options: argparse.Namespace) -> PumpCase:
         own = {path: value for path, value in stated.items() if path != _TEMPERATURE}
         pump = moved_to(load_pump(options.pump, own), pump.operating)
     faults += floating_faults(options, pump, options.fidelity)
-    if options.fidelity in (Fidelity.FILMS.value, Fidelity.TABLE.value):
+    if options.fidelity in (Fidelity.FIXED.value, Fidelity.TABLE.value):
         faults += alike_faults(pump)
     if faults:
         raise InputFaults(COMMAND_LINE, faults)

@@ -100,7 +100,7 @@ def losses_left_out(pump: PumpDescription) -> list[str]:
     if not keys:
         return []
     listed = ", ".join(keys)
-    return [f"losses_left_out: {listed}: floating gaps have no edge losses; run --fidelity lumped or films"]
+    return [f"losses_left_out: {listed}: floating gaps have no edge losses; run --fidelity lumped or fixed"]
 
 
 def _flows(point: PumpPoint) -> Array:

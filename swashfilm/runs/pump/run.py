@@ -59,7 +59,7 @@ def solve_pump(case: PumpCase, report: Report = silent) -> PumpRun:
     match case.fidelity:
         case Fidelity.LUMPED:
             return lumped_run(case, lumped_point(case.pump, operating_point(case.pump)))
-        case Fidelity.FILMS:
+        case Fidelity.FIXED:
             return _films(case, report)
         case Fidelity.FLOATING:
             return _floating(case, report)

@@ -42,7 +42,7 @@ def pump_summary(
         "format": 1,
         "kind": "pump",
         "name": pump.name,
-        "fidelity": (Fidelity.FILMS if films else Fidelity.LUMPED).value,
+        "fidelity": (Fidelity.FIXED if films else Fidelity.LUMPED).value,
         "operating_point": _operating_point(point),
         "displacement": {
             "geometric_m3_per_rev": point.geometric_displacement,

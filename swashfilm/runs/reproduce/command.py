@@ -27,7 +27,7 @@ def add_reproduce_options(command: argparse.ArgumentParser) -> None:
         "figure", nargs="?", default=ALL, metavar="FIGURE", help="fig2, table1, ..; all; or list for the names"
     )
     command.add_argument(
-        "--fidelity", metavar="{lumped,films,floating}", default=_LUMPED,
+        "--fidelity", metavar="{lumped,fixed,floating}", default=_LUMPED,
         help="films of given thickness (seconds), solved at given positions (minutes), or floating (fig8, fig9)",
     )  # fmt: skip
     command.add_argument(

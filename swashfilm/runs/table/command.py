@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from system.points.table.build import Range, TableCase
     from system.work.progress import Report
 
-_SOURCE = "films"
+_SOURCE = "fixed"
 MOST = 10000  # points, or processes
 RANGES = {
     "--speed": ("operating.speed", "500rpm..2500rpm", "shaft speeds (0.2 .. 1.2 of the rated one)"),
@@ -52,7 +52,7 @@ def add_table_options(command: argparse.ArgumentParser) -> None:
     for option, (_, example, what) in HELD.items():
         command.add_argument(option, metavar=example, help=f"{what}; default: that of the pump file")
     command.add_argument(
-        "--source", metavar="{films,floating}", default=_SOURCE, help="fidelity of the solved points (films)"
+        "--source", metavar="{fixed,floating}", default=_SOURCE, help="fidelity of the solved points (fixed)"
     )
     command.add_argument("--steps", metavar="N", help="floating gaps: steps per turn (360)")
     command.add_argument("--finer", metavar="X", help="floating gaps: factor on the cells (.5; --rigid: 1)")

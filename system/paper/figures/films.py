@@ -22,7 +22,7 @@ GIVEN = "The film is that of the pump file. Only --fidelity floating computes it
 def fig8_of_films(pump: PumpDescription) -> FigureResult:
     """The piston's film at rated point in the position that the description gives."""
     place = Place(RATED, PRESSURES[-1], FULL)
-    found = films_point(pump, PaperWork(pump, PointFidelity.FILMS).at(place)).gaps
+    found = films_point(pump, PaperWork(pump, PointFidelity.FIXED).at(place)).gaps
     at = int(np.argmin(np.abs(found.shaft_angle - SHOWN_ANGLE)))
     mean = float(np.mean([film.film_thickness_mean for film in found.piston]))
     field = film_field(found.piston[at].solution)

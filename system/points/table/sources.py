@@ -21,7 +21,7 @@ from system.pump.operating import OperatingPoint
 class Source(Enum):
     """The fidelity that a table condenses, the finer one later."""
 
-    FILMS = "films"
+    FIXED = "fixed"
     FLOATING = "floating"
 
 
@@ -48,7 +48,7 @@ class FilmsSolver:
     """`films_point`: rigid isothermal films at the positions that the description gives."""
 
     positions_per_pitch: int = POSITIONS_PER_PITCH
-    source = Source.FILMS
+    source = Source.FIXED
 
     @property
     def stated(self) -> Mapping[str, str]:
@@ -102,7 +102,7 @@ class FloatingSolver:
 
 def solver_of(source: Source, options: FloatingOptions) -> PointSolver:
     """The solver of the points of a source; `options` are those of floating gaps."""
-    return FilmsSolver() if source is Source.FILMS else FloatingSolver(options)
+    return FilmsSolver() if source is Source.FIXED else FloatingSolver(options)
 
 
 def films_alone(pump: PumpDescription) -> PumpDescription:

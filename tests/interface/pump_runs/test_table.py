@@ -26,7 +26,7 @@ FEW = ["--points", "32", "--held-out", "6"]
 class Lumped:
     """The lumped law as a source: ratios of 1, but a slipper film that touches above 30 MPa."""
 
-    source = Source.FILMS
+    source = Source.FIXED
     stops_at: float = np.inf
 
     @property

@@ -19,6 +19,7 @@ from system.pump_file.floating import block_tips, slipper_has_a_wedge
 LARGEST_OVERLAP = 3.0  # standard deviations of the summits; beyond, asperities flatten completely
 LARGEST_STEP_ERROR = 2.0  # relative to the tolerance of a step
 LARGEST_BALANCE_ERROR = 0.01
+LONGEST_WHIRL = 100.0  # turns once round; slower ones lead straight away
 _CHECKS = {Gap.SLIPPER: (slipper_has_a_wedge,), Gap.VALVE_PLATE: (block_tips,), Gap.PISTON: ()}
 
 
@@ -93,10 +94,13 @@ def _pressures(case: GapOverTurn, found: GapRevolution[Any]) -> Iterator[tuple[s
 def _motion(case: GapOverTurn, found: GapRevolution[Any], balance: float) -> Iterator[tuple[str, str]]:
     """Yield warnings of unstable motion, of too long steps, and of oil lost between reported angles."""
     if (grows := found.closing.largest_multiplier) > 1.0:
+        round_in = 2.0 * np.pi / np.abs(np.angle(max(found.closing.multipliers, key=abs)))
+        other = "another, stable one may exist"
+        if round_in < LONGEST_WHIRL:
+            other = f"the part whirls about it, once round in {round_in:.2g} turns; more load or less spin steadies it"
         yield (
             "motion_unstable",
-            f"a small disturbance grows {grows:.3g} times per turn (limit 1): the motion is unstable; another, "
-            "stable one may exist",
+            f"a small disturbance grows {grows:.3g} times per turn (limit 1): the motion is unstable; {other}",
         )
     if (error := found.turn.step_error) > LARGEST_STEP_ERROR:
         yield (

@@ -50,7 +50,7 @@ class Thinning:
 
     exponent: float = 0.1
     broken: bool = False
-    source = Source.FILMS
+    source = Source.FIXED
 
     @property
     def stated(self):
@@ -340,7 +340,7 @@ def at_ratios(point, ratios) -> TablePoint:
 
     @dataclass(frozen=True)
     class Everywhere:
-        origin = SimpleNamespace(source=Source.FILMS)
+        origin = SimpleNamespace(source=Source.FIXED)
 
         def at(self, point):
             return dict(zip(NAMES, ratios, strict=True))
