@@ -1,6 +1,6 @@
 """Time floating gaps over a turn: `python benchmarks/revolution.py [--gap GAP] [--growth] [--save DIR]`.
 
-Prints for each gap of ref90_floating at 35 MPa (rigid, isothermal, JFO, rough) what the periodic turn costs (of
+Prints for each gap of ref90 at 35 MPa (rigid, isothermal, JFO, rough) what the periodic turn costs (of
 the block the pitch after which all repeats) and where the time goes; with --growth how that grows with reported
 angles, and with the mesh at 72 of them. --save keeps positions and loads of the periodic turn as DIR/<gap>.npz,
 against which a change of the program can be held. Nothing in it runs in parallel; times are those of the process,
@@ -40,7 +40,7 @@ from system.points.lumped import lumped_point
 from system.pump.operating import operating_point
 from system.pump_file.file import load_pump
 
-PUMP, PRESSURE = "ref90_floating", "35 MPa"
+PUMP, PRESSURE = "ref90", "35 MPa"
 CELLS = {"slipper": (12, 40), "piston": (48, 16), "block": (4, 16)}
 COARSE = {"slipper": (6, 20), "piston": (24, 8), "block": (2, 8)}
 FEW_ANGLES = 72  # a turn: for what is timed on several meshes

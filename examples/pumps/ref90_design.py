@@ -1,4 +1,4 @@
-"""Design study of a floating pump: each dimension of `ref90_design.toml` varied alone, by the gap that it decides.
+"""Design study of a floating pump: each dimension of the built-in `ref90` varied alone, by the gap that it decides.
 
     python examples/pumps/ref90_design.py [--pressure "35 MPa"] [--workers 2] [WORD ..]
 
@@ -15,7 +15,6 @@ import os
 from concurrent.futures import ProcessPoolExecutor
 from dataclasses import dataclass
 from multiprocessing import get_context
-from pathlib import Path
 
 # Films are small: threads of one cost the others more than they gain. Set before numpy is imported, in every process.
 for name in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"):
@@ -25,10 +24,9 @@ import numpy as np  # noqa: E402
 from rich.console import Console  # noqa: E402
 from rich.table import Table  # noqa: E402
 
-from gaps import Effect, GapRevolution  # noqa: E402
+from gaps import GapRevolution  # noqa: E402
 from reynolds import FilmNotConverged  # noqa: E402
 from system import (  # noqa: E402
-    USUAL,
     FloatingOptions,
     block_revolution,
     drives,
@@ -42,7 +40,7 @@ from system import (  # noqa: E402
     slipper_revolution,
 )
 
-PUMP = Path(__file__).with_name("ref90_design.toml")
+PUMP = "ref90"
 KELVIN = 273.15
 
 
@@ -90,7 +88,7 @@ def row(variant: Variant, pressure: str) -> list[str]:
     point = operating_point(pump)
     shaft, parts, cycle = rotor(pump, point), floating_parts(pump), lumped_point(pump, point).cycle
     driven = drives(shaft, parts, cycle.shaft_angle, cycle.pressure, no_rubbing(len(cycle.shaft_angle)))
-    options = FloatingOptions(USUAL.including(Effect.HEAT), steps=180)
+    options = FloatingOptions(steps=180)
     found: GapRevolution
     try:
         if variant.gap == "piston":
@@ -127,7 +125,7 @@ def main() -> None:
     if not picked:
         names = "\n  ".join(f"{one.gap} {one.name}" for one in VARIANTS)
         parser.error(f"no row contains {' or '.join(words)}; the rows are\n  {names}")
-    table = Table(title=f"{PUMP.stem} at {asked.pressure}")
+    table = Table(title=f"{PUMP} at {asked.pressure}")
     for head in HEADS:
         table.add_column(head, justify="left" if head in HEADS[:2] else "right", no_wrap=True)
     console = Console()

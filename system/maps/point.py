@@ -20,11 +20,12 @@ from system.points.table.point import table_point
 from system.points.table.response_table import ResponseTable
 from system.points.table.sources import PointSolver
 from system.points.table.store import table_record
+from system.pump.chamber.turn import Gaps
 from system.pump.laws.friction_pairs import Pair
 from system.pump.operating import OperatingPoint
 from system.pump_file.file import resolved_toml
 
-MAP_FORMAT = 1
+MAP_FORMAT = 2
 """Raised when the same point gives other numbers: by the laws behind it, or by what is kept."""
 GAPS = ("piston", "slipper", "valve_plate")
 KEY_LENGTH = 24
@@ -77,7 +78,7 @@ class LumpedSolver:
     def solve(self, pump: PumpDescription, point: OperatingPoint) -> SolvedPoint:
         """The point, films as given."""
         given = given_films(pump)
-        return SolvedPoint(lumped_point(pump, point), given, given)
+        return SolvedPoint(lumped_point(pump, point), given, given, Gaps(0.0, 0.0, 0.0))
 
 
 @dataclass(frozen=True)
@@ -106,7 +107,7 @@ class TableSolver:
     def solve(self, pump: PumpDescription, point: OperatingPoint) -> SolvedPoint:
         """The point, with the films of the table."""
         found = table_point(pump, point, self.table)
-        return SolvedPoint(found.pump_point, found.film_mean, found.film_least)
+        return SolvedPoint(found.pump_point, found.film_mean, found.film_least, found.film_rise)
 
 
 @dataclass(frozen=True)
@@ -199,6 +200,10 @@ QUANTITIES = (
     _of_gaps("leakage_flow", "m3/s", "flow through a gap into the case, at its pressure", "pump_point.leakage_flow"),
     _of_gaps("film_mean", "m", "mean film of a gap over area and turn", "film_mean"),
     _of_gaps("film_least", "m", "least film of a gap anywhere in the turn", "film_least"),
+    Quantity(
+        "film_temperature", "K", "hottest oil in a gap in the turn", Members.GAP,
+        lambda solved, gap: solved.pump_point.point.temperature + float(getattr(solved.film_rise, gap)),
+    ),
     Quantity(
         "chamber_pressure_peak", "Pa", "highest chamber pressure, gauge", Members.PUMP,
         lambda solved, _: float(max(np.max(own.pressure) for own in solved.pump_point.chambers)),

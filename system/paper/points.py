@@ -1,7 +1,7 @@
-"""Operating points of the figures of Xu, Hu, Zhang and Mao (2017), solved once by a fidelity and read two ways."""
+"""Operating points of the figures of Xu, Hu, Zhang and Mao (2017), each solved once by a fidelity."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import asdict, dataclass, replace
+from dataclasses import asdict, dataclass, field, replace
 from enum import Enum
 from typing import Any
 
@@ -13,8 +13,12 @@ from reynolds.numerics.cache import content_key
 from system.description.pump import PumpDescription
 from system.inputs.units import RPM
 from system.paper.figure import Figure
+from system.paper.film_records import films_record
 from system.points.films import films_point
+from system.points.floating import floating_point
+from system.points.floating_gaps import FloatingOptions
 from system.points.lumped import lumped_point
+from system.points.table.sources import FloatingSolver
 from system.pump.assembly import PumpPoint
 from system.pump.bench import BenchReading, LossSplit, paper_efficiency, paper_losses
 from system.pump.laws.friction_pairs import Pair
@@ -24,7 +28,7 @@ from system.work.kept_results import KeptPoints, run_kept
 from system.work.progress import Report, silent
 from system.work.tasks import Executor, PartStatus, Record
 
-POINT_FORMAT = 1
+POINT_FORMAT = 2
 """Raised when the same point gives other numbers: by the laws behind it, or by what is kept."""
 KEY_LENGTH = 24
 SPEEDS = tuple(RPM * speed for speed in (1000.0, 1300.0, 1700.0, 2100.0))
@@ -37,22 +41,29 @@ NEAR_ZERO = 5e5
 """Pressure difference (Pa) taken for the "near 0" at which Case 2 of Fig. 3 begins."""
 
 
-class PointFidelity(Enum):
-    """Fidelity of a point: films of given thickness, or films solved at given positions."""
-
-    LUMPED = "lumped"
-    FIXED = "fixed"
-
-
 class LossReading(Enum):
     """Reading of a pair's loss.
 
-    WITH_SHEAR: a Coulomb coefficient and the shear of the film, REF90's loss model. MIXED: coefficients alone, as
-    in the paper, whose coefficients contain the film's shear too; the shaft's torque then lacks the shear.
+    WITH_SHEAR: shear of the film beside a Coulomb coefficient, REF90's loss model, or beside the contact that balance
+    of forces leaves. MIXED: coefficients alone, as in the paper, whose coefficients contain the film's shear too; the
+    shaft's torque then lacks the shear.
     """
 
     WITH_SHEAR = "with shear"
     MIXED = "mixed coefficients alone"
+
+
+class PaperFidelity(Enum):
+    """Fidelity of the paper's numbers: films of given thickness, solved at given positions, or floating."""
+
+    LUMPED = "lumped"
+    FIXED = "fixed"
+    FLOATING = "floating"
+
+    @property
+    def readings(self) -> tuple[LossReading, ...]:
+        """Readings of its losses: floating films have no coefficients."""
+        return (LossReading.WITH_SHEAR,) if self is PaperFidelity.FLOATING else tuple(LossReading)
 
 
 @dataclass(frozen=True)
@@ -72,7 +83,10 @@ class Place:
 @dataclass(frozen=True)
 class PaperPoint:
     """A solved point, SI: bench reading, mean losses of the seven pairs (in the order of `Pair`), port throttling,
-    and a chamber's pressure (Pa gauge) over its shaft angle (rad, inner dead centre at 0)."""
+    and a chamber's pressure (Pa gauge) over its shaft angle (rad, inner dead centre at 0).
+
+    films: of floating gaps, by `system.paper.film_records`; else None.
+    """
 
     bench: BenchReading
     coulomb: tuple[float, ...]
@@ -80,6 +94,7 @@ class PaperPoint:
     throttling: float
     shaft_angle: tuple[float, ...]
     chamber_pressure: tuple[float, ...]
+    films: Record | None = None
 
     def pair_losses(self, reading: LossReading) -> Array:
         """Losses (7,) of the pairs in W, in the order of `Pair`."""
@@ -124,25 +139,30 @@ def paper_point(found: PumpPoint) -> PaperPoint:
 
 @dataclass(frozen=True)
 class PaperWork:
-    """Solves the paper's points of a pump: a `system.work.tasks.Work`."""
+    """Solves the paper's points of a pump: a `system.work.tasks.Work`; options: of floating gaps."""
 
     pump: PumpDescription
-    fidelity: PointFidelity
+    fidelity: PaperFidelity
+    options: FloatingOptions = field(default_factory=FloatingOptions)
 
     def key(self, part: Place) -> str:
         """Name of all that the point's numbers depend on."""
-        return content_key(POINT_FORMAT, self.fidelity, resolved_toml(self.pump), part)[:KEY_LENGTH]
+        stated = sorted(FloatingSolver(self.options).stated.items()) if self.fidelity is PaperFidelity.FLOATING else ()
+        return content_key(POINT_FORMAT, self.fidelity, resolved_toml(self.pump), part, stated)[:KEY_LENGTH]
 
     def solve(self, part: Place) -> Record:
         """The point as JSON; raises as the fidelity."""
-        return asdict(paper_point(self.solved(part)))
+        return asdict(self.solved(part))
 
-    def solved(self, place: Place) -> PumpPoint:
+    def solved(self, place: Place) -> PaperPoint:
         """The point itself; raises as the fidelity."""
         point = self.at(place)
-        if self.fidelity is PointFidelity.LUMPED:
-            return lumped_point(self.pump, point)
-        return films_point(self.pump, point).pump_point
+        if self.fidelity is PaperFidelity.LUMPED:
+            return paper_point(lumped_point(self.pump, point))
+        if self.fidelity is PaperFidelity.FIXED:
+            return paper_point(films_point(self.pump, point).pump_point)
+        found = floating_point(self.pump, point, self.options)
+        return replace(paper_point(found.pump_point), films=films_record(found))
 
     def at(self, place: Place) -> OperatingPoint:
         """The point of a place; KeyError if it was not solved."""
@@ -156,7 +176,7 @@ class PaperPoints:
     """A pump's solved points by place."""
 
     pump: PumpDescription
-    fidelity: PointFidelity
+    fidelity: PaperFidelity
     points: Mapping[Place, PaperPoint]
 
     def at(self, speed: float, pressure: float, ratio: float) -> PaperPoint:
@@ -185,6 +205,8 @@ def places_of(pump: PumpDescription, figures: Sequence[Figure]) -> tuple[Place, 
             *_grid((RATED,), low, RATIOS[:1]),
             *_grid((RATED,), PRESSURES[-1:], (FULL,)),
         ),
+        Figure.FIG8: _grid((RATED,), PRESSURES[-1:], (FULL,)),
+        Figure.FIG9: _grid((RATED,), (PRESSURES[0], PRESSURES[-1]), RATIOS[1:]),
         Figure.FIG10: _grid((RATED,), PRESSURES[-1:], (FULL,)),
         Figure.FIG11: _grid((RATED,), (PRESSURES[0], PRESSURES[-1]), (FULL,)),
         Figure.FIG13: plan,
@@ -204,20 +226,15 @@ def _grid(speeds: Sequence[float], pressures: Sequence[float], ratios: Sequence[
 
 
 def solve_points(
-    pump: PumpDescription,
-    fidelity: PointFidelity,
-    places: Sequence[Place],
-    store: KeptPoints,
-    executor: Executor,
-    report: Report = silent,
+    work: PaperWork, places: Sequence[Place], store: KeptPoints, executor: Executor, report: Report = silent
 ) -> PaperPoints:
     """The places solved, or taken from `store`. Raises InputError for the first that has no solution."""
-    work = PaperWork(pump, fidelity)
-    if fidelity is PointFidelity.LUMPED:  # dearer to keep than to solve
+    pump, fidelity = work.pump, work.fidelity
+    if fidelity is PaperFidelity.LUMPED:  # dearer to keep than to solve
         solved = {}
         for done, place in enumerate(places):
             report(done, len(places), "lumped points")
-            solved[place] = paper_point(work.solved(place))
+            solved[place] = work.solved(place)
         return PaperPoints(pump, fidelity, solved)
     kept = run_kept(work, places, store, executor, report=report)
     for place, outcome in zip(places, kept.outcomes, strict=True):
@@ -231,4 +248,5 @@ def _point(record: Mapping[str, Any]) -> PaperPoint:
     coulomb, viscous, angle, pressure = (
         tuple(record[name]) for name in ("coulomb", "viscous", "shaft_angle", "chamber_pressure")
     )
-    return PaperPoint(BenchReading(**record["bench"]), coulomb, viscous, record["throttling"], angle, pressure)
+    bench, films = BenchReading(**record["bench"]), record["films"]
+    return PaperPoint(bench, coulomb, viscous, record["throttling"], angle, pressure, films)

@@ -2,7 +2,6 @@
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from enum import Enum
 
 from system.description.pump import PumpDescription
 from system.paper.figure import Figure
@@ -11,12 +10,12 @@ from system.paper.figures.coefficients import fig13
 from system.paper.figures.efficiencies import fig2, fig3
 from system.paper.figures.equations import equations
 from system.paper.figures.films import GIVEN, NO_FIELD, fig8_of_films
-from system.paper.figures.floating_films import floating_figures
+from system.paper.figures.floating_films import floating_fig8, floating_fig9
 from system.paper.figures.guide import fig15, fig19
 from system.paper.figures.pair_losses import fig16, fig17, fig18, fig20, fig21, fig22
 from system.paper.figures.table_one import table1
 from system.paper.judge import FigureResult
-from system.paper.points import PaperPoints, PointFidelity, places_of, solve_points
+from system.paper.points import PaperFidelity, PaperPoints, PaperWork, places_of, solve_points
 from system.points.floating_gaps import FloatingOptions
 from system.work.kept_results import KeptPoints
 from system.work.progress import Report, silent
@@ -41,22 +40,6 @@ OF_POINTS: Mapping[Figure, Callable[[PaperPoints], FigureResult]] = {
 """Figures that are made of the operating points alone."""
 
 
-class PaperFidelity(Enum):
-    """Fidelity of the paper's numbers: films of given thickness, solved at given positions, or floating."""
-
-    LUMPED = "lumped"
-    FIXED = "fixed"
-    FLOATING = "floating"
-
-    @property
-    def figures(self) -> tuple[Figure, ...]:
-        """The figures that mean something by it; the floating gaps' films alone are Figs. 8 and 9."""
-        return FLOATING if self is PaperFidelity.FLOATING else tuple(Figure)
-
-
-FLOATING = (Figure.FIG8, Figure.FIG9)
-
-
 @dataclass(frozen=True)
 class Means:
     """Means of the work: folder of costly points, executor, options of floating gaps."""
@@ -72,35 +55,31 @@ def reproduce(
 ) -> tuple[FigureResult, ...]:
     """The figures, in the given order; for those without meaning in this fidelity the reason alone.
 
-    Raises InputError where a point has no solution, as the fidelity where the pump is unsuitable for it.
+    Raises InputError where a point has no solution.
     """
-    if fidelity is PaperFidelity.FLOATING:
-        made = {
-            result.figure: result
-            for result in floating_figures(pump, means.floating, means.store, means.executor, means.report)
-        }
-        return tuple(made.get(figure, _nothing(figure)) for figure in figures)
-    own = PointFidelity(fidelity.value)
-    points = solve_points(pump, own, places_of(pump, figures), means.store, means.executor, means.report)
+    work = PaperWork(pump, fidelity, means.floating)
+    floats = fidelity is PaperFidelity.FLOATING
+    places = places_of(pump, [one for one in figures if floats or one not in (Figure.FIG8, Figure.FIG9)])
+    points = solve_points(work, places, means.store, means.executor, means.report)
     return tuple(_made(points, figures, means))
 
 
 def _made(points: PaperPoints, figures: Sequence[Figure], means: Means) -> Iterator[FigureResult]:
-    lumped = points.fidelity is PointFidelity.LUMPED
+    fidelity = points.fidelity
+    lumped, floating = fidelity is PaperFidelity.LUMPED, fidelity is PaperFidelity.FLOATING
     for figure in figures:
         if figure in OF_POINTS:
             yield OF_POINTS[figure](points)
+        elif figure is Figure.FIG8 and lumped:
+            yield FigureResult(figure, remarks=(NO_FIELD,))
         elif figure is Figure.FIG8:
-            yield FigureResult(figure, remarks=(NO_FIELD,)) if lumped else fig8_of_films(points.pump)
+            yield floating_fig8(points) if floating else fig8_of_films(points.pump)
         elif figure is Figure.FIG9:
-            yield FigureResult(figure, remarks=(GIVEN,))
+            yield floating_fig9(points) if floating else FigureResult(figure, remarks=(GIVEN,))
         else:
             yield fig13(points if lumped else _lumped(points.pump, means), points)
 
 
 def _lumped(pump: PumpDescription, means: Means) -> PaperPoints:
-    return solve_points(pump, PointFidelity.LUMPED, places_of(pump, (Figure.FIG13,)), means.store, means.executor)
-
-
-def _nothing(figure: Figure) -> FigureResult:
-    return FigureResult(figure, remarks=("Floating gaps are solved for Figs. 8 and 9 alone: minutes a point.",))
+    work = PaperWork(pump, PaperFidelity.LUMPED)
+    return solve_points(work, places_of(pump, (Figure.FIG13,)), means.store, means.executor)

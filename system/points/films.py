@@ -1,4 +1,4 @@
-"""The films fidelity: leakage and viscous friction of the three gaps from films at given positions.
+"""The fidelity fixed: leakage and viscous friction of the three gaps from films at given positions.
 
 The parts have the positions of the pump's description. Chamber pressure and films are solved in turn until the pressure
 of the whole revolution repeats. Coulomb losses are those of the lumped fidelity, since a smooth film has no contact.

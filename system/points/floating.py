@@ -127,11 +127,13 @@ def floating_point(
     point: OperatingPoint,
     options: FloatingOptions | None = None,
     *,
+    near: FloatingPoint | None = None,
     side_by_side: bool = False,
     report: Report = silent,
 ) -> FloatingPoint:
     """One periodic operating point with the three gaps floating; side by side: the pistons in a second process.
 
+    near: a point of the same pump with the same options, whose motion, temperatures and spins this one starts from.
     Raises NotConverged where gaps and chamber pressure do not settle within ROUND_LIMIT rounds, FilmNotConverged
     where a film does not, ValueError for steps that do not divide among the pistons, InputError for a film that
     warmth closes.
@@ -141,7 +143,11 @@ def floating_point(
     left = at_the_ports(point, group.by_chamber)
     gaps: tuple[FloatingGaps, ...] | None = None
     rounds: list[Round] = []
-    with piston_beside(group.parts) if side_by_side else nullcontext() as beside:
+    if near is not None:
+        gaps = tuple(kind.gaps for kind in near.kinds)
+        asked = _rubbed_as(asked, near)
+    pistons = [None] * len(group.parts) if gaps is None else [own.piston.bare for own in gaps]
+    with piston_beside(group.parts, pistons) if side_by_side else nullcontext() as beside:
         while not rounds or not (_exact(rounds[-1], options) and _agree(rounds[-1])):
             if len(rounds) == ROUND_LIMIT:
                 raise _not_settled(rounds[-1])
@@ -163,6 +169,15 @@ def _beginning(pump: PumpDescription, point: OperatingPoint, options: FloatingOp
     pressures = tuple(one.pressure for one in plain.chambers)
     at = rotor(described, at_the_ports(plain.point, group.by_chamber))
     return group, RoundDrives(at, angle, pressures, still, (None,) * len(group.parts), options)
+
+
+def _rubbed_as(asked: RoundDrives, near: FloatingPoint) -> RoundDrives:
+    """The drives with friction and spins of another point."""
+    return replace(
+        asked,
+        rubbing=tuple(rubbing(kind.gaps, asked.shaft_angle.size) for kind in near.kinds),
+        spin_torques=tuple(spin_torques(kind.gaps, kind.rotor, kind.drives.group) for kind in near.kinds),
+    )
 
 
 @dataclass(frozen=True)

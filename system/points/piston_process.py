@@ -6,7 +6,7 @@ only drives and reports are exchanged.
 
 import multiprocessing
 import signal
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from multiprocessing.connection import Connection
@@ -78,10 +78,13 @@ class PistonBeside:
 
 
 @contextmanager
-def piston_beside(parts: tuple[FloatingParts, ...]) -> Iterator[PistonBeside]:
-    """A process for the pistons as long as the context lasts; Ctrl-C is for this process alone, which ends it."""
+def piston_beside(parts: tuple[FloatingParts, ...], before: Sequence[Found | None]) -> Iterator[PistonBeside]:
+    """A process for the pistons as long as the context lasts; Ctrl-C is for this process alone, which ends it.
+
+    before: the revolution that each piston's first one goes on from, if any.
+    """
     ours, theirs = multiprocessing.get_context("spawn").Pipe()
-    process = multiprocessing.get_context("spawn").Process(target=_serve, args=(theirs, parts), daemon=True)
+    process = multiprocessing.get_context("spawn").Process(target=_serve, args=(theirs, parts, before), daemon=True)
     process.start()
     theirs.close()
     try:
@@ -92,10 +95,10 @@ def piston_beside(parts: tuple[FloatingParts, ...]) -> Iterator[PistonBeside]:
         process.join()
 
 
-def _serve(connection: Connection, parts: tuple[FloatingParts, ...]) -> None:
+def _serve(connection: Connection, parts: tuple[FloatingParts, ...], first: Sequence[Found | None]) -> None:
     """Rounds of the pistons, one for each request, until the process ends."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
-    before: list[Found | None] = [None] * len(parts)
+    before = [*first]
     while True:
         try:
             asked: tuple[Driven, ...] = connection.recv()

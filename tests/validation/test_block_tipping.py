@@ -1,7 +1,7 @@
 """Tipping of the block, on the floating block of two pumps.
 
 REF90's lands lift 0.93 of the pistons' force, but 8 mm further in than the pistons press: what is left acts
-outside the outer land. ref90_floating has the same pistons and lands under them.
+outside the outer land. ref90 has the same pistons and lands under them.
 """
 
 from __future__ import annotations
@@ -48,12 +48,12 @@ def test_a_block_pressed_outside_its_land_has_no_film():
 
 def test_a_block_with_its_lands_under_the_pistons_floats(validation):
     """Parallel but for the wedge by the pistons' pattern: far from the published wedge of a tipped block."""
-    assert check_floating(load_pump("ref90_floating")).warnings == ()
-    found = block("ref90_floating")
-    rim = load_pump("ref90_floating").valve_plate.land_radius_4
+    assert check_floating(load_pump("ref90")).warnings == ()
+    found = block("ref90")
+    rim = load_pump("ref90").valve_plate.land_radius_4
     wedge = np.hypot(*found.positions[:, 1:].T) / rim
     validation(
-        case="B7, block that does not tip, ref90_floating at 35 MPa, 2100 r/min",
+        case="B7, block that does not tip, ref90 at 35 MPa, 2100 r/min",
         source="moments on the block, docs/theory.md, Physics left out, as laws",
         quantity="largest wedge of the film",
         unit="rad",

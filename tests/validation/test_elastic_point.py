@@ -9,7 +9,7 @@ from system import FloatingOptions, floating_point, load_pump, operating_point
 @pytest.mark.long
 def test_energy_between_walls_that_give_way(energy_balances):
     """What the bodies store comes back over a turn: the shaft pays for oil and heat alone."""
-    pump = load_pump("ref90_floating", {"operating.pressure": "10 MPa"})
+    pump = load_pump("ref90", {"operating.pressure": "10 MPa"})
     found = floating_point(pump, operating_point(pump), FloatingOptions(Physics(), steps=36, finer=0.5))
     energy_balances(
         case="REF90 floating between elastic walls, coarse films, 10 MPa, 2100 r/min: balances",

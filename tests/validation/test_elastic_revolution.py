@@ -29,8 +29,8 @@ SOFT = Physics().without(Effect.PRESSURE_VISCOSITY)
 
 
 def driven_at(pressure: str) -> tuple[Rotor, FloatingParts, Drives]:
-    """ref90_floating at a delivery pressure and what drives its gaps."""
-    pump = load_pump("ref90_floating", {"operating.pressure": pressure})
+    """ref90 at a delivery pressure and what drives its gaps."""
+    pump = load_pump("ref90", {"operating.pressure": pressure})
     at, parts = rotor(pump, operating_point(pump)), floating_parts(pump)
     cycle = lumped_point(pump, at.point).cycle
     return at, parts, drives(at, parts, cycle.shaft_angle, cycle.pressure, no_rubbing(len(cycle.shaft_angle)))
@@ -38,7 +38,7 @@ def driven_at(pressure: str) -> tuple[Rotor, FloatingParts, Drives]:
 
 @pytest.fixture(scope="module")
 def slippers() -> tuple[GapRevolution[SlipperReport], GapRevolution[SlipperReport]]:
-    """That of ref90_floating at 10 MPa between rigid and between elastic walls."""
+    """That of ref90 at 10 MPa between rigid and between elastic walls."""
     at, parts, driven = driven_at("10 MPa")
     rigid, soft = (
         slipper_revolution(at, parts, driven.slipper, replace(COARSE, physics=physics)) for physics in (RIGID, SOFT)

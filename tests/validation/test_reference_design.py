@@ -4,20 +4,14 @@ Xu, Hu, Zhang and Mao 2017: piston film 15 um; slipper film 8 um at 35 MPa and 1
 film 8 um.
 """
 
-from pathlib import Path
-
 import numpy as np
 import pytest
 
-from gaps.films.physics import Effect
 from gaps.revolution.march import GapRevolution
 from system import load_pump
 from system.points.floating import FloatingPoint, floating_point
-from system.points.floating_gaps import USUAL, FloatingOptions
 from system.pump.operating import operating_point
 
-PUMP = Path(__file__).parents[2] / "examples" / "pumps" / "ref90_design.toml"
-ALL = FloatingOptions(USUAL.including(Effect.HEAT))
 HOTTEST = 393.15  # K
 SOURCE = "Xu, Hu, Zhang and Mao 2017, films of the pairs"
 
@@ -28,8 +22,8 @@ def mean_film(gap: GapRevolution) -> float:
 
 
 def point_at(pressure: str) -> FloatingPoint:
-    pump = load_pump(PUMP, {"operating.pressure": pressure})
-    return floating_point(pump, operating_point(pump), ALL, side_by_side=True)
+    pump = load_pump("ref90", {"operating.pressure": pressure})
+    return floating_point(pump, operating_point(pump), side_by_side=True)
 
 
 @pytest.mark.long

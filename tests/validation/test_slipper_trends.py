@@ -1,6 +1,6 @@
 """Floating slipper over the turn: trends of the paper, sizes of effects that loss models neglect.
 
-ref90_floating, rigid walls and oil of constant viscosity, chamber pressure by the lumped cycle: the paper's
+ref90, rigid walls and oil of constant viscosity, chamber pressure by the lumped cycle: the paper's
 Fig. 9, and mixed friction (B1), micro-motion (B5) and lift (B6). Their sizes are estimated as ranges: the
 tolerances.
 """
@@ -51,7 +51,7 @@ class At:
 
 def driven(at: At) -> tuple[Rotor, FloatingParts, Drives]:
     pump = load_pump(
-        "ref90_floating",
+        "ref90",
         {
             "operating.pressure": f"{at.pressure} MPa",
             "operating.speed": f"{at.speed} rpm",

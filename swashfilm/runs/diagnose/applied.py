@@ -48,7 +48,7 @@ def _fidelities(pump: PumpDescription) -> Iterator[str]:
             yield "It runs in every fidelity."
         return
     yield "--fidelity lumped has all effects of [physics] as closed-form laws."
-    for fidelity, (solved, closed) in (("films", effects_in_films(pump)), ("floating", effects_in_films(pump, True))):
+    for fidelity, (solved, closed) in (("fixed", effects_in_films(pump)), ("floating", effects_in_films(pump, True))):
         if solved:
             yield f"--fidelity {fidelity} solves {_names(solved)} in the films."
         if closed:

@@ -8,6 +8,7 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from swashfilm.case.gap.switches import add_switches
 from swashfilm.console.command import Command
 from swashfilm.console.fidelity import Fidelity
 from swashfilm.console.inputs import COMMAND_LINE, expect, given_text, option_value
@@ -27,7 +28,11 @@ LEVELS = {
     "--inlet-pressures": ("INLET_PRESSURE", "25bar", "inlet pressures, gauge"),
 }
 """Member of `MapInput`, example and meaning of each axis of a map."""
-FIDELITIES = (Fidelity.LUMPED, Fidelity.FIXED, Fidelity.TABLE)
+FIDELITIES = (Fidelity.LUMPED, Fidelity.FIXED, Fidelity.FLOATING, Fidelity.TABLE)
+SOLVED = (Fidelity.FIXED.value, Fidelity.FLOATING.value)
+"""Fidelities that solve films."""
+WORTH_TELLING = 120.0
+"""Seconds of processor time above which the command says what it will take."""
 PLANS = ("paper", "point")
 
 
@@ -41,12 +46,15 @@ def add_map_options(command: argparse.ArgumentParser) -> None:
         help="levels of axes that are not stated: the paper's 112 points (paper), or the pump's own point (point)",
     )  # fmt: skip
     command.add_argument(
-        "--fidelity", metavar=f"{{{','.join(one.value for one in FIDELITIES)}}}", default=Fidelity.FIXED.value,
-        help="films of given thickness (lumped), solved at given positions by a table built first (fixed), or by "
-        "an existing table (table)",
+        "--fidelity", metavar=f"{{{','.join(one.value for one in FIDELITIES)}}}", default=Fidelity.FLOATING.value,
+        help="films of given thickness (lumped), solved at given positions (fixed) or by balance of forces (floating), "
+        "both by a response table built first where it needs fewer points than the map; or an existing table (table)",
     )  # fmt: skip
     command.add_argument("--table", type=Path, metavar="FILE.json", help="--fidelity table: file of the table")
-    command.add_argument("--direct", action="store_true", help="--fidelity fixed: solve each point, no table")
+    command.add_argument("--direct", action="store_true", help="--fidelity fixed, floating: solve each point, no table")
+    command.add_argument("--steps", metavar="N", help="floating gaps: reported angles per turn (360)")
+    command.add_argument("--finer", metavar="X", help="floating gaps: factor on the cells (.5; --rigid: 1)")
+    add_switches(command)
     command.add_argument("--check", metavar="N", help="fresh points that measure the error between levels (40)")
     command.add_argument("--workers", metavar="N", help="processes that solve points side by side (all cores)")
     command.add_argument("--cluster", metavar="ADDRESS", help="Dask scheduler; its workers solve points")
@@ -65,6 +73,8 @@ def run_map_command(options: argparse.Namespace) -> int:
     early = [*asked.plan.checked().warnings.values()]
     for warning in early:
         show(f"warning: {warning}")
+    if asked.cost > WORTH_TELLING:
+        show(f"{asked.points_words}: about {asked.cost / 60.0:.0f} min of processor time; --resume continues")
     name = asked.plan.pump.name
     with (
         map_executor(options, asked) as executor,
@@ -96,6 +106,7 @@ def map_executor(options: argparse.Namespace, asked: MapCase) -> Iterator[Execut
 
 def map_case(options: argparse.Namespace) -> MapCase:
     """Return the map of a command line; raise InputFaults with every fault."""
+    from swashfilm.console.floating_options import floating_options
     from swashfilm.runs.map.run import MapCase
     from system.maps.plan import map_plan
     from system.pump_file.file import load_pump
@@ -114,7 +125,8 @@ def map_case(options: argparse.Namespace) -> MapCase:
     checks = None if options.check is None else int(options.check)
     fidelity = Fidelity(options.fidelity)
     given = given_text(options.pump, {})
-    return MapCase(plan, fidelity, given, options.table, options.direct, checks, options.resume)
+    floating = floating_options(options)
+    return MapCase(plan, fidelity, given, options.table, options.direct, checks, options.resume, floating)
 
 
 def _axes(options: argparse.Namespace, faults: list[Fault]) -> list[MapAxis]:
@@ -148,8 +160,8 @@ def _word_faults(options: argparse.Namespace) -> Iterator[Fault]:
             yield Fault(option, repr(text), f"a number, {least} to {most}")
     if options.table and options.fidelity != Fidelity.TABLE.value:
         yield Fault("--table", f"beside --fidelity {options.fidelity}", "no table, or --fidelity table")
-    if options.direct and options.fidelity != Fidelity.FIXED.value:
-        yield Fault("--direct", f"beside --fidelity {options.fidelity}", "--fidelity fixed")
+    if options.direct and options.fidelity not in SOLVED:
+        yield Fault("--direct", f"beside --fidelity {options.fidelity}", f"--fidelity {' or '.join(SOLVED)}")
     if options.cluster is not None and options.workers is not None:
         yield Fault("--workers", "beside --cluster", "one of the two: a cluster has its own workers")
     if options.resume is not None:
@@ -167,16 +179,19 @@ def _resume_faults(folder: Path) -> Iterator[Fault]:
 
 def _solver_faults(options: argparse.Namespace, plan: MapPlan) -> Iterator[Fault]:
     """Yield the faults of a plan that the fidelity does not solve."""
-    from swashfilm.console.floating_options import alike_faults
+    from swashfilm.console.floating_options import alike_faults, floating_faults
     from system.maps.plan import MapInput
 
+    yield from floating_faults(options, plan.pump, options.fidelity)
     if options.fidelity == Fidelity.LUMPED.value:
         return
     yield from alike_faults(plan.pump)
     levels = {axis.input: len(axis.values) for axis in plan.axes}
     if not options.direct and levels[MapInput.INLET_PRESSURE] > 1:
         found = f"{levels[MapInput.INLET_PRESSURE]} levels; a response table holds one"
-        seconds = 2.0 * len(plan.points)
+        from swashfilm.runs.map.run import POINT_COST
+
+        seconds = POINT_COST[Fidelity(options.fidelity)] * len(plan.points)
         expected = "one inlet pressure per map, --fidelity lumped, or --direct"
         yield Fault("--inlet-pressures", found, expected, f"--direct needs about {seconds:.0f} s of processor time")
 

@@ -6,6 +6,7 @@ from typing import Any
 
 from swashfilm.output.page import keep_pictures, read_summary, write_page
 from swashfilm.runs.map.files import MAP, read_map
+from swashfilm.runs.map.film_plots import film_plots
 from swashfilm.runs.map.plots import map_plots
 
 FILES = ("summary.json", "resolved.toml", MAP)
@@ -19,7 +20,8 @@ _SHOWN = {"W": (1e-3, "kW"), "Nm": (1.0, "N m"), "m3_per_s": (6e4, "L/min")}
 def write_map_page(folder: Path) -> Path:
     """Write report.html and plots/ of a map's folder; raise InputFaults where one of its files is missing."""
     summary = read_summary(folder, FILES, "a map's run folder")
-    pictures = map_plots(read_map(folder / MAP)[0]) if summary["solved"] else {}
+    data = read_map(folder / MAP)[0]
+    pictures = map_plots(data) | film_plots(data) if summary["solved"] else {}
     return write_page(
         folder,
         "map",

@@ -3,7 +3,7 @@
 import math
 import time
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from pathlib import Path
 from typing import Any
@@ -20,9 +20,10 @@ from system.maps.data import MapData, map_data
 from system.maps.interpolation import CHECKED, MapError, MapInterpolant, check_points, fresh_error, left_out_error
 from system.maps.plan import MapInput, MapPlan, point_words
 from system.maps.point import DirectSolver, LumpedSolver, MapSolver, MapWork, TableSolver, columns
+from system.points.floating_gaps import FloatingOptions
 from system.points.table.build import TableCase, build_table, table_axes
 from system.points.table.response_table import PRESSURE, RATIO, SPEED, VISCOSITY, ResponseTable, point_text
-from system.points.table.sources import FilmsSolver
+from system.points.table.sources import PointSolver, Source, solver_of
 from system.points.table.store import find_table, own_table
 from system.pump.operating import OperatingPoint
 from system.pump_file.file import resolved_toml
@@ -31,8 +32,8 @@ from system.work.progress import Report
 from system.work.sampled_points import usual_counts
 from system.work.tasks import Executor, PartOutcome, PartStatus
 
-FILMS_COST = 2.0
-"""Approximate processor time of a point of the films fidelity, s (benchmarks/map.py)."""
+POINT_COST = {Fidelity.FIXED: 2.0, Fidelity.FLOATING: 70.0}
+"""Approximate processor time of a point whose films are solved, s (benchmarks/map.py)."""
 CHEAP = 0.1
 """Seconds per point up to which fresh points are checked by default."""
 START = 4.0
@@ -52,15 +53,31 @@ class MapCase:
     direct: bool = False
     checks: int | None = None
     resume: Path | None = None
+    floating: FloatingOptions = field(default_factory=FloatingOptions)
 
     @property
     def cost(self) -> float:
         """Approximate processor time, s."""
-        points = len(self.plan.points)
-        if self.fidelity is not Fidelity.FIXED:
-            return points * (LumpedSolver.cost if self.fidelity is Fidelity.LUMPED else TableSolver.cost)
-        solved = points if self.direct or not self.varied else sum(usual_counts(len(self.varied)))
-        return FILMS_COST * solved
+        if self.fidelity in POINT_COST:
+            return POINT_COST[self.fidelity] * (sum(self.table_points) if self.by_table else len(self.plan.points))
+        return len(self.plan.points) * (LumpedSolver.cost if self.fidelity is Fidelity.LUMPED else TableSolver.cost)
+
+    @property
+    def points_words(self) -> str:
+        """What is solved, in words."""
+        own = f"{len(self.plan.points)} {self.fidelity.value} points"
+        return f"{own} by a table of {sum(self.table_points)} solved ones" if self.by_table else own
+
+    @property
+    def by_table(self) -> bool:
+        """True if points are those of a response table that is built first: it needs fewer than the map."""
+        solves = self.fidelity in POINT_COST and bool(self.varied) and not self.direct
+        return solves and sum(self.table_points) < len(self.plan.points)
+
+    @property
+    def table_points(self) -> tuple[int, int]:
+        """Points that a table over the plan's box learns, and that measure its error."""
+        return usual_counts(len(self.varied))
 
     @cached_property
     def varied(self) -> frozenset[MapInput]:
@@ -129,21 +146,21 @@ def _solver(asked: MapCase, executor: Executor, report: Report) -> MapSolver:
             return LumpedSolver()
         case Fidelity.TABLE:
             return TableSolver(_kept_table(asked))
-        case _ if asked.direct or not asked.varied:
-            return DirectSolver(FilmsSolver(), FILMS_COST)
-        case _:
-            case = _table_case(asked.plan)
-            return TableSolver(build_table(case, executor=executor, report=report))
+    solver = solver_of(Source(asked.fidelity.value), asked.floating)
+    if not asked.by_table:
+        return DirectSolver(solver, POINT_COST[asked.fidelity])
+    return TableSolver(build_table(_table_case(asked, solver), executor=executor, report=report))
 
 
-def _table_case(plan: MapPlan) -> TableCase:
+def _table_case(asked: MapCase, solver: PointSolver) -> TableCase:
     """Return the response table over a plan's box; inputs with one level are constant."""
+    plan = asked.plan
     pump, ends = at_levels(plan), {axis.input: (axis.values[0], axis.values[-1]) for axis in plan.axes}
     names = {MapInput.SPEED: SPEED, MapInput.PRESSURE: PRESSURE, MapInput.RATIO: RATIO, MapInput.TEMPERATURE: VISCOSITY}
     held = [name for given, name in names.items() if ends[given][0] == ends[given][1]]
     speeds, pressures, ratios, temperatures = (None if name in held else ends[given] for given, name in names.items())
     axes = table_axes(pump, speeds, pressures, ratios, temperatures, held)
-    return TableCase(pump, FilmsSolver(), axes, *usual_counts(len(axes)))
+    return TableCase(pump, solver, axes, *asked.table_points)
 
 
 def at_levels(plan: MapPlan) -> PumpDescription:

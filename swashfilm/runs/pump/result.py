@@ -142,7 +142,7 @@ class PumpRun(Result):
             faults.append(Fault("gap", repr(gap), f"one of {', '.join(GAPS)}", nearest_choice(gap, GAPS)))
         elif f"{gap}_film_pressure" not in data:
             found = f"fidelity {self.summary['fidelity']}, without film fields"
-            faults.append(Fault("gap", found, "a run of fidelity films"))
+            faults.append(Fault("gap", found, "a run of the fidelity fixed"))
         try:
             at = parse_quantity(angle, Dimension.ANGLE) if isinstance(angle, str) else float(angle)
         except QuantityError as reason:

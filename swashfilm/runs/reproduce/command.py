@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from swashfilm.runs.reproduce.run import ReproduceCase
 
 ALL, LIST = "all", "list"
-_LUMPED, _FLOATING = "lumped", "floating"
+_LUMPED = "lumped"
 _TUNED = "fig13"
 
 
@@ -30,9 +30,7 @@ def add_reproduce_options(command: argparse.ArgumentParser) -> None:
         "--fidelity", metavar="{lumped,fixed,floating}", default=_LUMPED,
         help="films of given thickness (seconds), solved at given positions (minutes), or floating (fig8, fig9)",
     )  # fmt: skip
-    command.add_argument(
-        "--pump", metavar="PUMP", help="built-in name or pump file (ref90; --fidelity floating: ref90_floating)"
-    )
+    command.add_argument("--pump", default="ref90", metavar="PUMP", help="built-in name or pump file (ref90)")
     command.add_argument(
         "--recording", type=Path, metavar="RECORDING",
         help="fig13: fit to readings of a bench (folder of a recording.toml), not to computed ones",
@@ -88,12 +86,12 @@ def reproduce_case(options: argparse.Namespace) -> tuple[ReproduceCase, int]:
     from swashfilm.console.floating_options import alike_faults, floating_faults, floating_options
     from swashfilm.runs.reproduce.run import ReproduceCase
     from system.paper.figure import Figure
-    from system.paper.reproduce import PaperFidelity
+    from system.paper.points import PaperFidelity
     from system.pump_file.file import load_pump
 
     faults = _word_faults(options)
     try:
-        pump = load_pump(_pump_of(options))
+        pump = load_pump(options.pump)
     except InputFaults as reason:
         raise InputFaults(reason.source, [*faults, *reason.faults], reason.lines) from None
     faults += floating_faults(options, pump, options.fidelity)
@@ -102,7 +100,7 @@ def reproduce_case(options: argparse.Namespace) -> tuple[ReproduceCase, int]:
     if faults:
         raise InputFaults(COMMAND_LINE, faults)
     fidelity, recording = PaperFidelity(options.fidelity), _recording_of(options)
-    figures = fidelity.figures if options.figure == ALL else (Figure.named(options.figure),)
+    figures = tuple(Figure) if options.figure == ALL else (Figure.named(options.figure),)
     asked = ReproduceCase(pump, figures, fidelity, floating_options(options), recording)
     return asked, int(options.workers or 1)
 
@@ -113,18 +111,13 @@ def _recording_of(options: argparse.Namespace) -> Recording | None:
         return None
     from swashfilm.runs.reproduce.run import recording_for_fig13
 
-    return recording_for_fig13(options.recording, _pump_of(options))
-
-
-def _pump_of(options: argparse.Namespace) -> str:
-    """Return the named pump, by default the reference pump, in floating fidelity the one with floating parts."""
-    return options.pump or ("ref90_floating" if options.fidelity == _FLOATING else "ref90")
+    return recording_for_fig13(options.recording, options.pump)
 
 
 def _word_faults(options: argparse.Namespace) -> list[Fault]:
     """Return the faults of options that do not depend on the pump."""
     from system.paper.figure import DRAWINGS, Figure
-    from system.paper.reproduce import PaperFidelity
+    from system.paper.points import PaperFidelity
 
     faults: list[Fault] = []
     figures = [ALL, LIST, *(figure.value for figure in Figure)]
@@ -149,7 +142,7 @@ def _command(options: argparse.Namespace) -> str:
     """Return the command that writes the same page."""
     names = ("--fidelity", "--pump", "--recording", "--steps", "--finer")
     stated = {name: option_value(options, name) for name in names}
-    words = [f" {name} {text}" for name, text in stated.items() if text not in (None, _LUMPED)]
+    words = [f" {name} {text}" for name, text in stated.items() if text not in (None, _LUMPED, "ref90")]
     words += [f" {switch}" for switch in SWITCHES if option_value(options, switch)]
     return f"swashfilm reproduce {options.figure}{''.join(words)} --page {options.page}"
 

@@ -18,16 +18,16 @@ from system.inputs.faults import Fault, InputFaults
 from system.paper.figure import DRAWINGS, Figure
 from system.paper.figures.coefficients import fig13_of
 from system.paper.judge import FigureResult
-from system.paper.points import LossReading
-from system.paper.reproduce import Means, PaperFidelity, reproduce
+from system.paper.points import LossReading, PaperFidelity
+from system.paper.reproduce import Means, reproduce
 from system.points.floating_gaps import FloatingOptions
 from system.pump_file.file import load_pump, resolved_toml
 from system.work.kept_results import KeptPoints
 from system.work.progress import Report
 from system.work.tasks import Executor
 
-PAPERS_OWN = ("ref90", "ref90_floating")
-"""Built-in pumps that represent the paper's."""
+PAPERS_OWN = "ref90"
+"""Built-in pump that represents the paper's."""
 
 
 @dataclass(frozen=True)
@@ -51,7 +51,7 @@ def paper_points() -> KeptPoints:
 
 def about(pump: PumpDescription) -> str:
     """Return a remark for a pump that does not represent the paper's; empty otherwise."""
-    if any(pump == load_pump(name) for name in PAPERS_OWN):
+    if pump == load_pump(PAPERS_OWN):
         return ""
     return (
         f"The statements are about the paper's pump, which ref90 represents. For {pump.name} the verdicts compare "

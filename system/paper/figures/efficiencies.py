@@ -20,7 +20,6 @@ from system.paper.points import (
     PaperWork,
     Place,
     near_zero,
-    paper_point,
     places_of,
 )
 from system.paper.statements import CLAIMS
@@ -36,7 +35,7 @@ def fig2(points: PaperPoints) -> FigureResult:
     if idle := _undelivered(points, Figure.FIG2):
         return FigureResult(Figure.FIG2, remarks=idle)
     panels, judged = [], []
-    for reading in LossReading:
+    for reading in points.fidelity.readings:
         field = _field(points, reading)
         panels.append(
             Panel(
@@ -59,7 +58,7 @@ def fig3(points: PaperPoints) -> FigureResult:
     if idle := _undelivered(points, Figure.FIG3):
         return FigureResult(Figure.FIG3, remarks=idle)
     judged: list[Judged] = []
-    for reading in LossReading:
+    for reading in points.fidelity.readings:
         judged += _judged_cases(points, reading)
     cases = (
         ("Case 1: 5 MPa, rated speed", FigureAxis("displacement", Unit.SHARE), np.array(RATIOS), case_one(points)),
@@ -129,13 +128,20 @@ def _best_point(field: FigureField) -> Curve:
 
 
 def _best_reason(points: PaperPoints, best: float, reading: LossReading) -> str:
-    """The best efficiency by the other reading, and without oil trapped at the inner dead centre."""
+    """What the pump loses at its best point; where oil is trapped at the inner dead centre, the best without it."""
     at = max(
         (Place(RATED, p, ratio) for p in PRESSURES for ratio in RATIOS),
         key=lambda one: points.points[one].overall(reading),
     )
-    open_longer = paper_point(PaperWork(without_trapped_oil(points.pump), points.fidelity).solved(at))
-    stated, own = points.points[at], open_longer.overall(reading)
+    stated = points.points[at]
+    if points.pump.ports.kidney_end >= LATE_END:
+        loss, shaft = stated.pair_losses(reading).sum(), stated.bench.shaft_torque * stated.bench.shaft_speed
+        return (
+            f"of {shaft:.0f} W at the shaft the seven pairs take {loss:.0f} W and the ports {stated.throttling:.0f} W; "
+            "the rest of the loss is leakage and compression"
+        )
+    open_longer = PaperWork(without_trapped_oil(points.pump), points.fidelity).solved(at)
+    own = open_longer.overall(reading)
     text = (
         f"the ports throttle {stated.throttling:.0f} W at this point. With kidneys that close at "
         f"{np.degrees(LATE_END):.0f} deg, not at the assumed {np.degrees(points.pump.ports.kidney_end):.0f} deg, they "

@@ -1,28 +1,23 @@
 """Fig. 8 by films solved at given positions, and how a film is drawn."""
 
-from math import pi
-
 import numpy as np
 
-from reynolds.problem import FilmSolution
 from system.description.pump import PumpDescription
 from system.paper.figure import Figure, FigureAxis, FigureField, Panel, PanelKind, Unit
+from system.paper.film_records import SHOWN_ANGLE, film_field
 from system.paper.judge import FigureResult, Range, judge
-from system.paper.points import FULL, PRESSURES, RATED, PaperWork, Place, PointFidelity
+from system.paper.points import FULL, PRESSURES, RATED, PaperFidelity, PaperWork, Place
 from system.paper.statements import CLAIMS
 from system.points.films import films_point
 
-FILM = FigureAxis("film", Unit.FILM)
-SHOWN_ANGLE = 1.5 * pi
-"""Shaft angle (rad) of the film that is drawn: the middle of the delivery half."""
-NO_FIELD = "Films of given thickness have no field: --fidelity films or floating."
+NO_FIELD = "Films of given thickness have no field: --fidelity fixed or floating."
 GIVEN = "The film is that of the pump file. Only --fidelity floating computes it over the displacement."
 
 
 def fig8_of_films(pump: PumpDescription) -> FigureResult:
     """The piston's film at rated point in the position that the description gives."""
     place = Place(RATED, PRESSURES[-1], FULL)
-    found = films_point(pump, PaperWork(pump, PointFidelity.FIXED).at(place)).gaps
+    found = films_point(pump, PaperWork(pump, PaperFidelity.FIXED).at(place)).gaps
     at = int(np.argmin(np.abs(found.shaft_angle - SHOWN_ANGLE)))
     mean = float(np.mean([film.film_thickness_mean for film in found.piston]))
     field = film_field(found.piston[at].solution)
@@ -41,17 +36,3 @@ def film_panel(field: FigureField, shaft_angle: float) -> Panel:
         f"Film of the piston at {np.degrees(shaft_angle):.0f} deg", PanelKind.FIELD,
         FigureAxis("angle round the piston", Unit.ANGLE), FigureAxis("length ratio", Unit.NUMBER), field=field,
     )  # fmt: skip
-
-
-def film_field(solution: FilmSolution) -> FigureField:
-    """Thickness at a film's quadrature points over angle (rad) and share of the length."""
-    space = solution.problem.space
-    x, y = (one.ravel() for one in space.points)
-    thickness = np.broadcast_to(solution.film.thickness, space.points[0].shape).ravel()
-    columns, column = np.unique(np.round(x / np.ptp(x), 9), return_inverse=True)
-    rows, row = np.unique(np.round(y / np.ptp(y), 9), return_inverse=True)
-    values = np.full((rows.size, columns.size), np.nan)
-    values[row, column] = thickness
-    angle = 2.0 * pi * (columns - columns[0]) / (columns[-1] - columns[0] + columns[1] - columns[0])
-    length = (rows - rows[0]) / (rows[-1] - rows[0])
-    return FigureField(FILM, angle, length, values)

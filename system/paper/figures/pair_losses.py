@@ -8,7 +8,17 @@ from reynolds.numerics.arrays import Array
 from system.inputs.units import RPM
 from system.paper.figure import Curve, Figure, FigureAxis, Panel, PanelKind, Unit
 from system.paper.judge import FigureResult, Impossibility, Judged, Range, judge, range_of
-from system.paper.points import FULL, PRESSURES, RATED, RATIOS, SPEEDS, LossReading, PaperPoint, PaperPoints
+from system.paper.points import (
+    FULL,
+    PRESSURES,
+    RATED,
+    RATIOS,
+    SPEEDS,
+    LossReading,
+    PaperFidelity,
+    PaperPoint,
+    PaperPoints,
+)
 from system.paper.statements import CLAIMS
 from system.pump.laws.friction_pairs import Pair
 
@@ -30,9 +40,10 @@ def pair_words(pair: Pair) -> str:
 def fig16(points: PaperPoints) -> FigureResult:
     """Hydromechanical loss over pressure: sum of the pairs, and Eq. (2) of a bench."""
     cases = [points.over_pressure(speed, ratio) for speed, ratio in PRINTED]
-    panels = tuple(_case(*each) for each in zip("abcdefgh", PRINTED, cases, strict=True))
+    readings = points.fidelity.readings
+    panels = tuple(_case(*each, readings) for each in zip("abcdefgh", PRINTED, cases, strict=True))
     judged = []
-    for reading in LossReading:
+    for reading in points.fidelity.readings:
         rows = [(_pairs_sum(row, reading), _by_bench(row, reading)) for row in cases]
         departs = max(from_line(np.array(PRESSURES), pairs) for pairs, _ in rows)
         over = range_of(value for pairs, bench in rows for value in bench / pairs - 1.0)
@@ -45,11 +56,11 @@ def fig16(points: PaperPoints) -> FigureResult:
     ))  # fmt: skip
 
 
-def _case(letter: str, at: tuple[float, float], row: Sequence[PaperPoint]) -> Panel:
+def _case(letter: str, at: tuple[float, float], row: Sequence[PaperPoint], readings: Sequence[LossReading]) -> Panel:
     (speed, ratio), x = at, np.array(PRESSURES)
     curves = tuple(
         Curve(f"{what}, {reading.value}", x, of(row, reading))
-        for reading in LossReading
+        for reading in readings
         for what, of in (("pairs", _pairs_sum), ("Eq. (2)", _by_bench))
     )
     words = f"({letter}) {speed / RPM:.0f} r/min, {100.0 * ratio:.0f} % of displacement"
@@ -87,12 +98,12 @@ def fig17(points: PaperPoints) -> FigureResult:
     rows = {speed: points.over_pressure(speed, FULL) for speed in reversed(SPEEDS)}
     panels = tuple(
         stacked(f"{speed / RPM:.0f} r/min, full displacement, {reading.value}", _PRESSURE, PRESSURES, row, reading)
-        for reading in LossReading
+        for reading in points.fidelity.readings
         for speed, row in rows.items()
     )
     every = [one for row in rows.values() for one in row]
-    judged: list[Judged] = []
-    for reading in LossReading:
+    about_guide, judged = _guide_reason(rows[RATED][0], points.fidelity), list[Judged]()
+    for reading in points.fidelity.readings:
         for pair in MAIN:
             found = range_of(one.share(pair, reading) for one in every)
             reason = _share_reason(points, every, pair, reading)
@@ -103,9 +114,7 @@ def fig17(points: PaperPoints) -> FigureResult:
         judged += [
             judge(CLAIMS["fig17.top"], _part(top), reading=reading),
             judge(CLAIMS["fig17.main"], _part(main), reading=reading, reason=_others_reason(every, reading)),
-            judge(
-                CLAIMS["fig17.ball_guide"], Range(guide, guide), reading=reading, reason=_guide_reason(rows[RATED][0])
-            ),
+            judge(CLAIMS["fig17.ball_guide"], Range(guide, guide), reading=reading, reason=about_guide),
         ]
     return FigureResult(Figure.FIG17, panels, tuple(judged))
 
@@ -113,7 +122,7 @@ def fig17(points: PaperPoints) -> FigureResult:
 def fig18(points: PaperPoints) -> FigureResult:
     """Loss of each pair over pressure at rated speed and full displacement."""
     row, panels, judged = points.over_pressure(RATED, FULL), [], []
-    for reading in LossReading:
+    for reading in points.fidelity.readings:
         losses = np.array([one.pair_losses(reading) for one in row])
         curves = tuple(Curve(pair_words(pair), np.array(PRESSURES), losses[:, k]) for k, pair in enumerate(Pair))
         title = f"Loss of each pair, rated speed, full displacement, {reading.value}"
@@ -134,7 +143,7 @@ def fig20(points: PaperPoints) -> FigureResult:
     """Shares over displacement at the least pressure and rated speed."""
     row = [points.at(RATED, PRESSURES[0], ratio) for ratio in RATIOS]
     panels, judged = [], []
-    for reading in LossReading:
+    for reading in points.fidelity.readings:
         axis = FigureAxis("displacement", Unit.SHARE)
         panels.append(stacked(f"rated speed, 5 MPa, {reading.value}", axis, RATIOS, row, reading))
         steps = {pair: np.array([one.share(pair, reading) for one in row]) for pair in MAIN}
@@ -152,21 +161,24 @@ def fig20(points: PaperPoints) -> FigureResult:
 def fig21(points: PaperPoints) -> FigureResult:
     """Shares over pressure at 28 % and rated speed."""
     row = points.over_pressure(RATED, RATIOS[1])
-    return _leading(Figure.FIG21, "fig21.lead", "rated speed, 28 %", _PRESSURE, PRESSURES, row)
+    return _leading(points.fidelity, Figure.FIG21, "rated speed, 28 %", _PRESSURE, PRESSURES, row)
 
 
 def fig22(points: PaperPoints) -> FigureResult:
     """Shares over speed at 28 % and the least pressure."""
     row = [points.at(speed, PRESSURES[0], RATIOS[1]) for speed in SPEEDS]
-    return _leading(Figure.FIG22, "fig22.lead", "5 MPa, 28 %", FigureAxis("shaft speed", Unit.SPEED), SPEEDS, row)
+    along = FigureAxis("shaft speed", Unit.SPEED)
+    return _leading(points.fidelity, Figure.FIG22, "5 MPa, 28 %", along, SPEEDS, row)
 
 
 def _leading(
-    figure: Figure, claim: str, words: str, axis: FigureAxis, at: Sequence[float], row: Sequence[PaperPoint]
-) -> FigureResult:
-    panels = tuple(stacked(f"{words}, {reading.value}", axis, at, row, reading) for reading in LossReading)
+    fidelity: PaperFidelity, figure: Figure, words: str, axis: FigureAxis, at: Sequence[float],
+    row: Sequence[PaperPoint],
+) -> FigureResult:  # fmt: skip
+    readings, claim = fidelity.readings, f"{figure.value}.lead"
+    panels = tuple(stacked(f"{words}, {reading.value}", axis, at, row, reading) for reading in readings)
     judged = []
-    for reading in LossReading:
+    for reading in readings:
         leads = [uppermost(one, reading, 2) == {SLIPPER, PLATE} for one in row]
         shares = (
             f"{pair_words(pair)} {_percent(np.array([one.share(pair, reading) for one in row]))} %" for pair in MAIN
@@ -205,6 +217,12 @@ def _share_reason(points: PaperPoints, every: Sequence[PaperPoint], pair: Pair, 
     """The part of the paper's range that ours covers, and the coefficient for its upper end."""
     expected, found = CLAIMS[f"fig17.{pair.value}"].expected, range_of(one.share(pair, reading) for one in every)
     spans = (found.high - found.low) / (expected.high - expected.low)
+    if points.fidelity is PaperFidelity.FLOATING:
+        rated, k = points.at(RATED, PRESSURES[-1], FULL), list(Pair).index(pair)
+        return (
+            f"the computed range spans {100.0 * spans:.0f} % of the paper's. No coefficient is fitted: at the rated "
+            f"point the film shears {rated.viscous[k]:.0f} W, and contact takes {rated.coulomb[k]:.0f} W"
+        )
     stated = getattr(points.pump.friction, pair.value)
     needed = min(coefficient_for_share(one, pair, expected.high, reading) for one in every) * stated
     return (
@@ -220,8 +238,8 @@ def _others_reason(every: Sequence[PaperPoint], reading: LossReading) -> str:
     return f"the third place goes to {text} at some points" if text else ""
 
 
-def _guide_reason(point: PaperPoint) -> str:
-    shares = ", ".join(f"{100.0 * point.share(GUIDE, reading):.1f} % {reading.value}" for reading in LossReading)
+def _guide_reason(point: PaperPoint, fidelity: PaperFidelity) -> str:
+    shares = ", ".join(f"{100.0 * point.share(GUIDE, reading):.1f} % {reading.value}" for reading in fidelity.readings)
     return f"the share is {shares}; it depends on the films' shear in the sum of all pairs"
 
 

@@ -21,7 +21,7 @@ from system.pump.laws.friction_pairs import Pair
 from system.pump.lumped import lumped_leaks, lumped_pairs, piston_motion
 from system.pump.operating import OperatingPoint
 
-TABLE_FORMAT = 3
+TABLE_FORMAT = 4
 """Raised when solved points give other numbers in a table: by what is kept of them, or by the laws behind it."""
 GAP_PAIRS = {
     "piston": Pair.PISTON_CYLINDER,
@@ -35,6 +35,7 @@ OF_EVERY_GAP = {
     "contact_share": "loss of contact (Coulomb friction) / loss of the pair",
     "film_mean": "mean film over area and turn / the film given by the description",
     "film_least": "least film anywhere in the turn / the film given by the description",
+    "film_rise": "hottest oil of the film in the turn, above the temperature of the case / 100 K",
 }
 OF_ONE_PART = {
     "socket.friction": "mean loss of the ball joints / by the lumped law",
@@ -47,6 +48,10 @@ MEANINGS = {f"{gap}.{name}": text for gap in GAP_PAIRS for name, text in OF_EVER
 OF_ORDER_ONE = ("leakage", "friction", "film_mean", "film_least")
 """Learnt by logarithm, their error relative, where they are positive at all points: a flow may turn its sign, so
 may the distance of rough walls. The others may be nothing; their error is that of the ratio itself."""
+
+
+FILM_RISE = 100.0
+"""K: the scale of temperatures in a table."""
 
 
 def measured_outputs(values: Array) -> tuple[Output, ...]:
@@ -62,11 +67,15 @@ def measured_outputs(values: Array) -> tuple[Output, ...]:
 
 @dataclass(frozen=True)
 class SolvedPoint:
-    """A point as a costly fidelity solves it; films in m: mean over area and turn, least anywhere in the turn."""
+    """A point as a costly fidelity solves it, with its films.
+
+    In m: mean over area and turn, least anywhere in the turn; K: the hottest oil in the turn, above the case.
+    """
 
     pump_point: PumpPoint
     film_mean: Gaps
     film_least: Gaps
+    film_rise: Gaps
 
 
 @dataclass(frozen=True)
@@ -123,6 +132,7 @@ def mean_ratios(pump: PumpDescription, solved: SolvedPoint) -> Array:
             found.pairs.loss(pair).mean_coulomb / found.pairs.loss(pair).mean,
             getattr(solved.film_mean, gap) / getattr(given, gap),
             getattr(solved.film_least, gap) / getattr(given, gap),
+            getattr(solved.film_rise, gap) / FILM_RISE,
         )
         for k, (gap, pair) in enumerate(GAP_PAIRS.items())
     ]

@@ -13,7 +13,7 @@ from system.inputs.units import TURN
 from system.points.effects import affected_problem, at_the_ports, mean_outside
 from system.points.film_effects import closed_laws
 from system.points.lumped import point_and_effects
-from system.points.table.means import GAP_PAIRS, given_films, law_moments, plate_flow
+from system.points.table.means import FILM_RISE, GAP_PAIRS, given_films, law_moments, plate_flow
 from system.points.table.response_table import ResponseTable
 from system.points.table.sources import Source
 from system.pump.assembly import PumpPoint, assemble, met_point
@@ -44,12 +44,13 @@ at: only an orifice of stated area moves it."""
 
 @dataclass(frozen=True)
 class TablePoint:
-    """A point by a table: the pump, and each gap's films (m) and contact share over the turn."""
+    """A point by a table: the pump, and each gap's films (m), hottest oil above the case (K), share of contact."""
 
     pump_point: PumpPoint
     table: ResponseTable
     film_mean: Gaps
     film_least: Gaps
+    film_rise: Gaps
     contact_share: Gaps
 
 
@@ -96,6 +97,7 @@ def table_point(pump: PumpDescription, point: OperatingPoint, table: ResponseTab
         table=table,
         film_mean=Gaps(*(getattr(given, gap) * means[f"{gap}.film_mean"] for gap in GAP_PAIRS)),
         film_least=Gaps(*(getattr(given, gap) * means[f"{gap}.film_least"] for gap in GAP_PAIRS)),
+        film_rise=Gaps(*(FILM_RISE * means[f"{gap}.film_rise"] for gap in GAP_PAIRS)),
         contact_share=Gaps(*(means[f"{gap}.contact_share"] for gap in GAP_PAIRS)),
     )
 

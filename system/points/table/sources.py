@@ -1,12 +1,15 @@
 """Sources of the points of a response table: a fidelity that solves the films, by one call."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from enum import Enum
-from typing import Protocol
+from typing import Any, Protocol
 
 import numpy as np
 
+from gaps.revolution.march import GapRevolution
+from gaps.standing.gap_film import GapFilm
+from reynolds.laws.oil import temperature_of
 from system.description.lines import LineSection
 from system.description.pump import PumpDescription
 from system.points.film_effects import film_laws
@@ -55,17 +58,21 @@ class FilmsSolver:
         """Inputs of its numbers."""
         return {
             "physics": "rigid, isothermal, mass-conserving cavitation; positions and Coulomb coefficients given",
-            "mesh": f"meshes of the films fidelity, {self.positions_per_pitch} film angles a piston pitch",
+            "mesh": f"meshes of the fidelity fixed, {self.positions_per_pitch} film angles a piston pitch",
             "accuracy": f"chamber pressure repeats to {TOLERANCE:g} of the pressure difference",
         }
 
     def solve(self, pump: PumpDescription, point: OperatingPoint) -> SolvedPoint:
         """The point by `films_point`."""
         found = films_point(pump, point, positions_per_pitch=self.positions_per_pitch)
-        series = (found.gaps.piston, found.gaps.slipper, found.gaps.valve_plate)
+        series, physics = (found.gaps.piston, found.gaps.slipper, found.gaps.valve_plate), found.physics
         mean = (float(np.mean([film.film_thickness_mean for film in films])) for films in series)
         least = (min(film.loads.film_thickness_min for film in films) for films in series)
-        return SolvedPoint(found.pump_point, Gaps(*mean), Gaps(*least))
+        rise = (
+            _oil_temperature(pump, films) - point.temperature if own.heat else 0.0
+            for own, films in zip((physics.piston, physics.slipper, physics.valve_plate), series, strict=True)
+        )
+        return SolvedPoint(found.pump_point, Gaps(*mean), Gaps(*least), Gaps(*rise))
 
 
 @dataclass(frozen=True)
@@ -97,7 +104,19 @@ class FloatingSolver:
         turns = (gaps.piston.turn, gaps.slipper.turn, gaps.block.turn)
         mean = (float(np.mean([instant.mean_film for instant in turn.instants])) for turn in turns)
         least = (min(instant.least_gap for instant in turn.instants) for turn in turns)
-        return SolvedPoint(found.pump_point, Gaps(*mean), Gaps(*least))
+        rise = (_hottest(gap, point) - point.temperature for gap in (gaps.piston, gaps.slipper, gaps.block))
+        return SolvedPoint(found.pump_point, Gaps(*mean), Gaps(*least), Gaps(*rise))
+
+
+def _oil_temperature(pump: PumpDescription, films: Sequence[GapFilm[Any]]) -> float:
+    """Temperature (K) of the thinnest oil of a gap over the turn, by its viscosity under no pressure."""
+    thinnest = min(float(np.min(film.solution.problem.film.viscosity)) for film in films)
+    return temperature_of(pump.oil.fluid, thinnest)
+
+
+def _hottest(gap: GapRevolution[Any], point: OperatingPoint) -> float:
+    """Temperature (K) of the hottest oil of a gap over the turn; that of the case where films do not warm."""
+    return point.temperature if gap.warmth is None else float(gap.warmth.hottest.max())
 
 
 def solver_of(source: Source, options: FloatingOptions) -> PointSolver:

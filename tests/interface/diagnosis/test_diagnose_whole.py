@@ -116,7 +116,7 @@ def test_an_effect_left_out_is_named_and_applied(tmp_path: Path) -> None:
     head, described = pump.read_text("utf-8"), load_pump(pump)
     assert head.startswith("# ref90 as fitted to the recording 'made', 24 points, on 20")
     assert f"churning, probability {claim['probability']:.2f}: " in head
-    assert "--fidelity films has churning as closed-form laws" in head
+    assert "--fidelity fixed has churning as closed-form laws" in head
     assert described.name == "ref90, fitted to made"
     assert 0.0 < described.tolerance.film_thickness < 0.5
     tables = ("changes.csv", "next_points.csv", "residuals.csv", "hypotheses.csv", "parameters.csv", "report.html")

@@ -29,7 +29,7 @@ eccentricity_case = ["0 um", "0 um"]
 SLIPPER = """format = 1
 [film]
 gap = "slipper"
-pump = "ref90_floating"
+pump = "ref90"
 revolution = true
 [revolution]
 steps = 24
@@ -99,7 +99,7 @@ def test_a_piston_in_the_middle_is_learnt_as_the_power_law_that_it_is(capsys):
 @pytest.mark.slow
 def test_a_slipper_over_the_turn_is_learnt(capsys):
     assert main(["table", written(SLIPPER), "--points", "4", "--held-out", "2", "-o", "out"]) == 0
-    assert "slipper of ref90_floating" in capsys.readouterr().out
+    assert "slipper of ref90" in capsys.readouterr().out
     summary = json.loads(Path("out/summary.json").read_text("utf-8"))
     assert summary["kind"] == "gap_table"
     assert summary["failed"] == []

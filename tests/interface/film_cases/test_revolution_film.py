@@ -20,7 +20,7 @@ from system import InputFaults, lumped_point
 SLIPPER = """format = 1
 [film]
 gap = "slipper"
-pump = "ref90_floating"
+pump = "ref90"
 revolution = true
 chamber_pressure = "5 MPa"
 [operating]

@@ -96,7 +96,7 @@ def test_the_version_is_that_of_the_package(capsys):
         (["run", "--temperature", "300degC"], ["--temperature", "Walther"]),
         (
             ["run", "--fidelity", "film", "--speed", "9"],
-            ["2 faults", "--fidelity", "one of lumped, films, floating, table"],
+            ["2 faults", "--fidelity", "one of lumped, fixed, floating, table"],
         ),
         (["run", "ref9"], ["ref9", "ref90"]),
         (["run", "-o", "pad.toml"], ["-o", "pad.toml", "a file", "nothing is overwritten", "pad.toml-2"]),

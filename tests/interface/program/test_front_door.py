@@ -116,7 +116,7 @@ def test_plots_return_axes(point):
         (lambda: sf.transient("nowhere.toml"), ["no such file"]),
         (lambda: sf.reference("nowhere.toml"), ["no such file"]),
         (lambda: sf.reproduce("fig99"), ["fig99"]),
-        (lambda: sf.table("ref90", source="fild"), ["source", "films"]),
+        (lambda: sf.table("ref90", source="fixd"), ["source", "fixed"]),
         (lambda: sf.compare("ref90", "ref9"), ["ref9"]),
     ],
 )

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import re
 import shutil
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -18,16 +19,26 @@ from swashfilm.runs.reproduce.plots import figure_picture
 from swashfilm.runs.reproduce.run import about, paper_points
 from system import FloatingOptions, load_pump
 from system.paper.figure import Figure
-from system.paper.figures.floating_films import FLOATING_RATIOS, FloatingWork, floating_figures
+from system.paper.figures.floating_films import FLOATING_RATIOS, floating_fig8, floating_fig9
+from system.paper.figures.pair_losses import fig17
 from system.paper.judge import StatementVerdict
-from system.paper.points import PRESSURES, RATED, Place
-from system.paper.reproduce import Means, PaperFidelity, reproduce
+from system.paper.points import (
+    PRESSURES,
+    RATED,
+    LossReading,
+    PaperFidelity,
+    PaperPoints,
+    PaperWork,
+    Place,
+    places_of,
+    solve_points,
+)
+from system.paper.reproduce import Means, reproduce
 from system.paper.statements import CLAIMS
 from system.pump_file.check import run_checks
 from system.pump_file.floating import slipper_has_a_wedge
 from system.work.kept_results import KeptPoints
 from system.work.processes import HERE
-from system.work.tasks import PartOutcome, PartStatus
 
 ROOT = Path(__file__).parents[3]
 PAGE = ROOT / "docs" / "reproduction.md"
@@ -89,31 +100,44 @@ def test_a_pump_that_is_not_the_papers_is_told_so(tmp_path, capsys):
     assert "about the paper's pump" in capsys.readouterr().out
     assert f"--pump {pump}" in page.read_text("utf-8")
     assert "about the paper's pump" in page.read_text("utf-8")
-    assert about(load_pump("ref90")) == about(load_pump("ref90_floating")) == ""
+    assert about(load_pump("ref90")) == about(load_pump("ref90")) == ""
 
 
-def test_floating_films_are_drawn_from_what_is_kept(tmp_path):
-    """Points kept by content make both figures: a slipper whose film falls, a piston tilted across its bore."""
-    pump, store = load_pump("ref90_floating"), KeptPoints(tmp_path)
-    work = FloatingWork(pump, FloatingOptions())
-    angle = np.linspace(0.0, 2.0 * np.pi, 9)
+def test_floating_films_are_drawn(tmp_path):
+    """A slipper whose film falls with displacement, a piston tilted across its bore: both figures, all reached."""
+    pump, angle, points = load_pump("ref90"), np.linspace(0.0, 2.0 * np.pi, 9), {}
+    lumped = PaperWork(pump, PaperFidelity.LUMPED).solved(Place(RATED, PRESSURES[-1], 1.0))
     for ratio, film in zip(FLOATING_RATIOS, (9e-6, 8.7e-6, 8.4e-6, 8.2e-6), strict=True):
         piston = {
             "mean": 15.2e-6, "least": -1e-6, "contact": 3e3, "angle": angle.tolist(), "shown": 4.7,
             "eccentricity": [[1.2e-5] * 9, [0.9e-5] * 9],
             "field": [[0.0, 3.0, 6.0], [0.0, 1.0], [[1e-6, 15e-6, 29e-6], [29e-6, 15e-6, 1e-6]]],
         }  # fmt: skip
-        record = {"slipper": {"mean": film, "least": 2e-6, "contact": 0.0}, "piston": piston}
-        key = work.key(Place(RATED, PRESSURES[-1], ratio))
-        store.put(PartOutcome(key, PartStatus.SOLVED, "", record, 1.0, "test"))
-    figures = floating_figures(pump, work.options, store, HERE)
+        films = {"slipper": {"mean": film, "least": 2e-6, "contact": 0.0}, "piston": piston}
+        for pressure in (PRESSURES[0], PRESSURES[-1]):
+            points[Place(RATED, pressure, ratio)] = replace(lumped, films=films)
+    solved = PaperPoints(pump, PaperFidelity.FLOATING, points)
+    figures = (floating_fig8(solved), floating_fig9(solved))
     verdicts = {one.claim.id: one.verdict for figure in figures for one in figure.judged}
     assert set(verdicts) == FLOATING
     assert set(verdicts.values()) == {StatementVerdict.REACHED}
     for figure in figures:
         assert len(figure_picture(figure.panels).axes) >= len(figure.panels)
-    assert "0.80 at the film's inner end" in figures[0].remarks[0]
+    assert "at the film's inner end" in figures[0].remarks[0]
     assert not run_checks((slipper_has_a_wedge,), pump).warnings
+
+
+def test_losses_of_floating_films_are_read_once(tmp_path):
+    """Without coefficients there is one reading; a share's reason names shear and contact in place of them."""
+    points = solve_points(
+        PaperWork(load_pump("ref90"), PaperFidelity.LUMPED),
+        places_of(load_pump("ref90"), (Figure.FIG17,)),
+        KeptPoints(tmp_path),
+        HERE,
+    )
+    found = fig17(replace(points, fidelity=PaperFidelity.FLOATING))
+    assert {one.reading for one in found.judged} == {LossReading.WITH_SHEAR}
+    assert any("No coefficient is fitted" in one.reason for one in found.judged)
 
 
 def test_the_example_recording_is_whole():
@@ -153,7 +177,7 @@ def test_coefficients_are_tuned_to_a_recording(tmp_path):
     ("words", "told"),
     [
         (["fig2", "--recording", str(EXAMPLE)], "fig13 or all"),
-        (["fig13", "--fidelity", "films", "--recording", str(EXAMPLE)], "--fidelity lumped"),
+        (["fig13", "--fidelity", "fixed", "--recording", str(EXAMPLE)], "--fidelity lumped"),
         (["fig13", "--recording", "no_such_folder"], "no_such_folder"),
         (["fig2", "--pump", "ref9"], "ref90"),
         (["fig7"], "a drawing (co-simulation model)"),

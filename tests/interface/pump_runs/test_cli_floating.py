@@ -10,7 +10,7 @@ from swashfilm.cli.app import build_parser
 from swashfilm.console.floating_options import floating_faults, floating_options
 from system import FloatingOptions, load_pump
 
-FLOATING = ["run", "ref90_floating", "--fidelity", "floating"]
+FLOATING = ["run", "ref90", "--fidelity", "floating"]
 
 
 @pytest.mark.parametrize(
@@ -40,7 +40,7 @@ def test_options_of_the_command_line():
     usual = FloatingOptions()
     words = [*FLOATING, "--rigid", "--isoviscous", "--smooth", "--no-cavitation", "--steps", "72", "--finer", "2"]
     given = build_parser().parse_args(words)
-    assert floating_faults(given, load_pump("ref90_floating"), given.fidelity) == []
+    assert floating_faults(given, load_pump("ref90"), given.fidelity) == []
     found = floating_options(given)
     assert found.physics.left_out == tuple(Effect)
     rigid = floating_options(build_parser().parse_args([*FLOATING, "--rigid"]))

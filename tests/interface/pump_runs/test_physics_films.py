@@ -46,7 +46,7 @@ def pump_file(tmp_path_factory):
 @pytest.fixture(scope="module")
 def run(pump_file, tmp_path_factory):
     folder = tmp_path_factory.mktemp("films") / "run"
-    assert main(["run", str(pump_file), "-o", str(folder)]) == 0
+    assert main(["run", str(pump_file), "--fidelity", "fixed", "-o", str(folder)]) == 0
     return folder
 
 
@@ -103,7 +103,7 @@ def test_a_run_at_another_temperature_has_the_films_of_that_temperature(tmp_path
     assert not again.physics.on
 
 
-@pytest.mark.parametrize("fidelity", ["lumped", "films", "floating"])
+@pytest.mark.parametrize("fidelity", ["lumped", "fixed", "floating"])
 def test_a_clearance_that_warmth_closes_is_refused_however_it_is_stated(fidelity, capsys):
     """By --set beside --temperature: the law starts from the file's temperature in every fidelity."""
     shrinks = ["--set", "physics.thermal_clearance.piston.rate=-0.02 1/K", "--temperature", "110degC"]

@@ -25,7 +25,7 @@ def lumped(tmp_path_factory):
 @pytest.fixture(scope="module")
 def films(tmp_path_factory):
     folder = tmp_path_factory.mktemp("films") / "run"
-    assert main(["run", "ref90", "--speed", "1500 rpm", "-o", str(folder)]) == 0
+    assert main(["run", "ref90", "--fidelity", "fixed", "--speed", "1500 rpm", "-o", str(folder)]) == 0
     return folder
 
 

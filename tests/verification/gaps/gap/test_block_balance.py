@@ -128,7 +128,7 @@ def test_film_and_kidneys_lift_as_the_lands_do(validation, refine):
 @pytest.mark.parametrize(
     ("radii", "share", "middle", "moments"),
     [(RADII, 0.933, 36.5e-3, 0.757), ((37e-3, 40.5e-3, 48e-3, 52.5e-3), 0.939, 44.8e-3, 0.935)],
-    ids=["ref90", "ref90_floating"],
+    ids=["ref90", "ref90"],
 )
 def test_balance_of_the_block(validation, radii, share, middle, moments):
     found = BlockBalance(radii, PISTONS, PISTON_AREA, PITCH_RADIUS)

@@ -34,7 +34,7 @@ FAST = {"operating.speed": "2800 rpm", "operating.pressure": "10 MPa", "operatin
 
 def turned(stated):
     """Retainer, drive and revolution of the slipper alone, over its pump's own cycle."""
-    pump = load_pump("ref90_floating", stated)
+    pump = load_pump("ref90", stated)
     cycle = lumped_point(pump, operating_point(pump)).cycle
     at, parts = rotor(pump, operating_point(pump)), floating_parts(pump)
     drive = drives(at, parts, cycle.shaft_angle, cycle.pressure, no_rubbing(cycle.shaft_angle.size)).slipper
@@ -69,7 +69,7 @@ def test_a_spring_that_holds_no_retainer_is_told():
 
 def test_slippers_that_pull_together_are_told():
     """150 N each over a third of the turn: of nine slippers four at a time, more than tips the plate."""
-    pump = load_pump("ref90_floating", FAST)
+    pump = load_pump("ref90", FAST)
     at, parts = rotor(pump, operating_point(pump)), floating_parts(pump)
     clearance = parts.slipper.retainer.clearance
 

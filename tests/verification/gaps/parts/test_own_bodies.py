@@ -261,13 +261,13 @@ def test_plates_turn_in_their_film(columns, tolerance, tmp_path):
 
 @pytest.mark.long
 def test_a_pump_of_own_meshes_runs_alike(tmp_path):
-    """Slipper and swash plate of ref90_floating from files, straight edges: films over the turn differ by 1 %.
+    """Slipper and swash plate of ref90 from files, straight edges: films over the turn differ by 1 %.
 
     Chords stray by 0.9 % of their radius (24 around), openings by up to 3 %, of films that walls open by a third.
     """
     stated = {"operating.pressure": "10 MPa"}
     own = dict(stated)
-    upper, lower = floating_parts(load_pump("ref90_floating", stated)).slipper.laws.walls.parts
+    upper, lower = floating_parts(load_pump("ref90", stated)).slipper.laws.walls.parts
     for table, body, names, mirrored in (
         ("slipper", slipper_body(upper), {"film": "film", "pocket": "pocket", "held": "held"}, (1, 1, 1)),
         ("swash_plate", plate_body(lower), {"film": "top", "pocket": "pocket", "held": "bottom"}, (1, 1, -1)),
@@ -275,7 +275,7 @@ def test_a_pump_of_own_meshes_runs_alike(tmp_path):
         faces = {name: body.mesh.mesh.boundaries[face] for name, face in names.items()}
         place = written(tmp_path / f"{table}.vtu", body.mesh.mesh, faces, mirrored=mirrored)
         own[f"{table}.body"] = {"mesh": str(place), "unit": "mm"}
-    one, two = (turn_of(load_pump("ref90_floating", tables)) for tables in (stated, own))
+    one, two = (turn_of(load_pump("ref90", tables)) for tables in (stated, own))
     assert two == pytest.approx(one, rel=0.01, abs=0.0)
 
 

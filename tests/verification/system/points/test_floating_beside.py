@@ -25,7 +25,7 @@ ROUGHLY = FloatingOptions(RIGID, steps=36, finer=0.25, accuracy=Accuracy(step=0.
 
 
 def asked(options: FloatingOptions = ROUGHLY) -> Driven:
-    pump = load_pump("ref90_floating", {"operating.pressure": "3 MPa"})
+    pump = load_pump("ref90", {"operating.pressure": "3 MPa"})
     lumped = lumped_point(pump, operating_point(pump))
     cycle = lumped.cycle
     return Driven(
@@ -38,7 +38,7 @@ def test_a_process_of_its_own_finds_the_same_piston():
     here, told = asked(), []
     parts = floating_parts(here.rotor.pump)
     driven = drives(here.rotor, parts, here.shaft_angle, here.pressure, here.rubbing)
-    with piston_beside((parts,)) as beside:
+    with piston_beside((parts,), [None]) as beside:
         beside.start((here,))
         alone = piston_revolution(here.rotor, parts, driven.piston, ROUGHLY)
         (found,) = beside.fetch(lambda done, total, what: told.append(what))

@@ -26,8 +26,8 @@ def test_a_strong_spring_keeps_it_down():
     assert "block tips" not in told("ref90", {"pump.rated_pressure": "4 MPa", "operating.pressure": "4 MPa"})
 
 
-def test_ref90_floating_has_what_it_needs():
-    assert told("ref90_floating") == ""
+def test_ref90_has_what_it_needs():
+    assert told("ref90") == ""
 
 
 def test_an_overbalanced_block_lifts_off():

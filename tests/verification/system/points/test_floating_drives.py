@@ -30,7 +30,7 @@ CYLINDER = {"pump.bore_cone_angle": "0 deg", "pump.displacement": "89.46 cm3/rev
 
 
 def posed(**overrides):
-    pump = load_pump("ref90_floating", {key.replace("__", "."): value for key, value in overrides.items()})
+    pump = load_pump("ref90", {key.replace("__", "."): value for key, value in overrides.items()})
     return rotor(pump, operating_point(pump)), floating_parts(pump)
 
 

@@ -11,7 +11,7 @@ import pytest
 from system import floating_parts, load_pump, operating_point, piston_area, plate_axes, rotor, valve_plate_geometry
 from system.points.floating_exchange import FloatingGaps, around, ball_shift, chamber_draws, growth, of_each, resampled
 
-PUMP = load_pump("ref90_floating")
+PUMP = load_pump("ref90")
 ROTOR, PARTS = rotor(PUMP, operating_point(PUMP)), floating_parts(PUMP)
 PISTONS, STEPS = PUMP.pump.pistons, 36
 TURN = 2.0 * np.pi

@@ -28,7 +28,7 @@ from system.points import floating_gaps
 from system.points.film_effects import closed_laws, effects_in_films, floating_effects
 from system.points.lumped import lumped_point
 
-PUMP = load_pump("ref90_floating", {"operating.pressure": "10 MPa"})
+PUMP = load_pump("ref90", {"operating.pressure": "10 MPa"})
 COARSE = FloatingOptions(RIGID, steps=36, finer=0.35)
 BALANCED = 5e-3
 """Largest error of the power balance at 36 angles a turn, of the shaft power."""

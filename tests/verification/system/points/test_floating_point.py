@@ -15,7 +15,7 @@ pytestmark = pytest.mark.slow
 
 
 def pump() -> PumpDescription:
-    return load_pump("ref90_floating", {"operating.pressure": "10 MPa"})
+    return load_pump("ref90", {"operating.pressure": "10 MPa"})
 
 
 @pytest.fixture(scope="module")

@@ -31,8 +31,8 @@ pytestmark = pytest.mark.long
 
 @pytest.fixture(scope="module")
 def found(tmp_path_factory) -> FloatingPoint:
-    """ref90_floating at 5 MPa without its spin ratios, once its spins have settled."""
-    rows = resolved_toml(load_pump("ref90_floating", {"operating.pressure": "5 MPa"})).splitlines()
+    """ref90 at 5 MPa without its spin ratios, once its spins have settled."""
+    rows = resolved_toml(load_pump("ref90", {"operating.pressure": "5 MPa"})).splitlines()
     path = tmp_path_factory.mktemp("free") / "pump.toml"
     path.write_text("\n".join(row for row in rows if not row.startswith("spin_ratio")), "utf-8")
     pump = load_pump(path)

@@ -17,7 +17,7 @@ from system.points.floating import PRESSURE_TOLERANCE
 ROUGHLY = FloatingOptions(
     RIGID, steps=36, finer=0.25, accuracy=Accuracy(step=0.1, floor=1e-7, closed=0.5, reach=1.0), keep=6
 )
-PUMP = load_pump("ref90_floating", {"operating.pressure": "5 MPa"})
+PUMP = load_pump("ref90", {"operating.pressure": "5 MPa"})
 CLEARANCE = PUMP.piston.radial_clearance
 WORN, WEAR = 2, 2.0  # chamber 3
 pytestmark = pytest.mark.long
@@ -88,7 +88,7 @@ def test_a_worn_pump_comes_to_its_end():
     whether the chambers' pressure settles.
     """
     wear = [["0 mm", "6 um"], ["4 mm", "2 um"], ["12 mm", "0 um"], ["45 mm", "0 um"]]
-    worn = load_pump("ref90_floating", {"piston.3": {"radial_clearance": "18 um", "profile": wear}})
+    worn = load_pump("ref90", {"piston.3": {"radial_clearance": "18 um", "profile": wear}})
     found = floating_point(worn, operating_point(worn), FloatingOptions(RIGID, steps=36, finer=0.25))
     assert [len(kind.chambers) for kind in found.kinds] == [8, 1]
     assert found.rounds[-1].pressure_change <= PRESSURE_TOLERANCE

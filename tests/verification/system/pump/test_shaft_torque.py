@@ -137,7 +137,7 @@ LINE = LineSection(kind=LineKind.ORIFICE, volume=0.2e-3)
         ("ref90", LINE, {}),
         ("ref90", None, {"delivery_pressure": 5e6}),
         ("ref90", None, {"displacement_ratio": 0.3, "delivery_pressure": 20e6}),
-        ("ref90_floating", LINE, {"delivery_pressure": 20e6}),
+        ("ref90", LINE, {"delivery_pressure": 20e6}),
         (str(EXAMPLES / "cylindrical_block.toml"), LINE, {}),
     ],
 )

@@ -77,7 +77,7 @@ def with_number(model, path, value):
 
 def test_what_changes_a_point_changes_its_name():
     """Every number of the pump file by 1 %: where the result is another, so is the key."""
-    pump = load_pump("ref90_floating")
+    pump = load_pump("ref90")
     point = operating_point(pump, delivery_pressure=20e6, displacement_ratio=0.77)
     solver = LumpedSolver()
 

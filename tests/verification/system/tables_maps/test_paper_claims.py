@@ -17,7 +17,7 @@ from system.paper.figures.equations import equations
 from system.paper.figures.guide import turned
 from system.paper.figures.pair_losses import coefficient_for_share, fig17, fig18, from_line, zero_share
 from system.paper.judge import Impossibility, PaperClaim, Range, StatementVerdict, judge
-from system.paper.points import PRESSURES, LossReading, PaperPoint, PointFidelity, places_of, solve_points
+from system.paper.points import PRESSURES, LossReading, PaperFidelity, PaperPoint, PaperWork, places_of, solve_points
 from system.paper.statements import CLAIMS
 from system.pump.bench import LossSplit
 from system.work.kept_results import KeptPoints
@@ -31,7 +31,7 @@ NEEDED = Impossibility("needed", Unit.NUMBER, 5.0, Range(high=3.0))
 
 def _points(tmp_path, pump, figure):
     places = places_of(pump, (figure,))
-    return solve_points(pump, PointFidelity.LUMPED, places, KeptPoints(tmp_path), HERE)
+    return solve_points(PaperWork(pump, PaperFidelity.LUMPED), places, KeptPoints(tmp_path), HERE)
 
 
 @pytest.mark.parametrize(
@@ -115,7 +115,7 @@ def test_losses_without_spring_shear_and_charge_pressure_would_be_proportional(t
 
 
 def test_equations_in_print_are_contradicted(tmp_path):
-    points = solve_points(REF90, PointFidelity.LUMPED, (), KeptPoints(tmp_path), HERE)
+    points = solve_points(PaperWork(REF90, PaperFidelity.LUMPED), (), KeptPoints(tmp_path), HERE)
     found = {one.claim.id: one for one in equations(points).judged}
     assert {one.verdict for one in found.values()} == {StatementVerdict.CONTRADICTED}
     assert found["equations.8"].found.low == pytest.approx(39.0, rel=0.05)

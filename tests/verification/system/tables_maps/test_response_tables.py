@@ -68,7 +68,8 @@ class Thinning:
         found = lumped_point(replace(pump, **films), point)
         clearance = pump.piston.radial_clearance
         mean = Gaps(clearance, films["slipper"].film_thickness, films["valve_plate"].film_thickness)
-        return SolvedPoint(found, mean, Gaps(*(0.5 * value for value in asdict(mean).values())))
+        least = Gaps(*(0.5 * value for value in asdict(mean).values()))
+        return SolvedPoint(found, mean, least, Gaps(40.0 / thin, 20.0 / thin, 30.0 / thin))
 
 
 @dataclass(frozen=True)
