@@ -15,6 +15,8 @@ from diagnosis.finding import diagnose
 from diagnosis.study.acceptance import checked_recording
 from diagnosis.study.scaled_pump import load_known_pump
 
+BENCH = Path(__file__).parents[1] / "examples" / "recordings" / "bench_pump.toml"
+
 
 def main() -> None:
     """Print a row for each recording named on the command line; process time counts the other processes too."""
@@ -22,7 +24,7 @@ def main() -> None:
     parser.add_argument("recordings", nargs="+", type=Path)
     parser.add_argument("--workers", type=int, default=1)
     options = parser.parse_args()
-    known = load_known_pump("ref90")
+    known = load_known_pump(BENCH)
     sys.stdout.write(f"load {os.getloadavg()[0]:.1f}, {options.workers} workers\n")
     sys.stdout.write("recording, points, verdict, status, wall / s, process / s, of it fits / s, predictions, slopes\n")
     for path in options.recordings:

@@ -54,8 +54,8 @@ def commands() -> Iterator[list[str]]:
             yield ["swashfilm", command, str(case.relative_to(ROOT))]
     for pump in sorted((EXAMPLES / "pumps").glob("*.toml")):
         yield ["swashfilm", "run", str(pump.relative_to(ROOT)), "--fidelity", "lumped"]
-    yield ["swashfilm", "diagnose", "ref90", "examples/recordings/open-06"]
-    yield ["swashfilm", "calibrate", "ref90", "examples/recordings/open-01"]
+    yield ["swashfilm", "diagnose", "examples/recordings/bench_pump.toml", "examples/recordings/open-06"]
+    yield ["swashfilm", "calibrate", "examples/recordings/bench_pump.toml", "examples/recordings/open-01"]
     yield ["swashfilm", "reproduce", "fig13", "--recording", "examples/recordings/paper_points"]
     yield ["examples/own_simulator/valve.py"]
     yield ["examples/hst196/band.py"]

@@ -31,6 +31,7 @@ from .plant.losses import Losses
 from .plant.machine import CELSIUS, Array
 from .plant.settings import RPM, Settings
 from .sensors import Readings, read
+from .writing import BENCH
 
 KEPT = Path(__file__).resolve().parent / "film_truths"
 ATMOSPHERE = 101325.0
@@ -94,7 +95,7 @@ def set_points(count: int) -> Array:
 
 def solved(plant: FilmPlant, row: Array) -> tuple[float, float, float, float]:
     """True readings of a plant at a row of `set_points`: delivery, inlet, drain L/min, torque N m."""
-    pump = load_pump("ref90")
+    pump = load_pump(BENCH)
     rpm, stroke, pressure, warmth = map(float, row)
     kelvin = warmth + CELSIUS
     point = replace(

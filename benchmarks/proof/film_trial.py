@@ -13,7 +13,7 @@ from diagnosis.verdict.diagnosis import ClaimedEffect, Diagnosis
 from system.effects.catalogue.entries import CATALOGUE, with_films_solved
 
 from .film_plant import FilmPlant, readings
-from .writing import write_recording
+from .writing import BENCH, write_recording
 
 HEAD = ("plant", "concealed", "said", "status", "size", "held out: before / after, of the noise", "chi2", "s")
 SEED = 3  # of calibrations and noise
@@ -28,7 +28,7 @@ def write_film_recording(plant: FilmPlant, folder: Path, seed: int) -> None:
 
 def diagnosed(plant: FilmPlant, seed: int = SEED, film_tables: bool = False) -> tuple[str, ...]:
     """A row of HEAD: what `swashfilm diagnose` says of a plant's recording."""
-    known, begun = load_known_pump("ref90"), process_time()
+    known, begun = load_known_pump(BENCH), process_time()
     with tempfile.TemporaryDirectory() as folder:
         write_film_recording(plant, Path(folder), seed)
         catalogue = with_films_solved(known.pump) if film_tables else CATALOGUE

@@ -42,7 +42,7 @@ from .rig import Rig
 from .rivals import rivals
 from .store import program
 from .worth import worth
-from .writing import write_recording
+from .writing import BENCH, write_recording
 
 KEPT = 15  # explanations of the ranking
 NINETY = 1.645  # sigma either side of a 90 % interval
@@ -102,7 +102,7 @@ def _rig(case: Case, made: Made) -> Rig:
 
 
 def tried(
-    folder: Path, expected: Outcome, pump: str | Path = "ref90", with_rivals: bool = True
+    folder: Path, expected: Outcome, pump: str | Path = BENCH, with_rivals: bool = True
 ) -> tuple[Outcome, Diagnosed | None]:
     """What is told beside what is expected; a recording of which no diagnosis comes about tells why."""
     begun = process_time()
@@ -114,7 +114,7 @@ def tried(
     return _outcome(expected, diagnosed, process_time() - begun), diagnosed
 
 
-def diagnose_folder(folder: Path, pump: str | Path = "ref90", with_rivals: bool = True) -> Diagnosed:
+def diagnose_folder(folder: Path, pump: str | Path = BENCH, with_rivals: bool = True) -> Diagnosed:
     """What `swashfilm diagnose PUMP FOLDER` finds, and what others make of the same study."""
     known, thresholds = load_known_pump(pump), load_thresholds()
     recording, allowed = checked_recording(folder, known), tolerances(known.pump)[0]

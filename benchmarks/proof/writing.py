@@ -8,6 +8,8 @@ import numpy as np
 
 from .sensors import METERS, TRACE_NOISE, Meter, Readings
 
+BENCH = Path(__file__).parents[2] / "examples" / "recordings" / "bench_pump.toml"
+"""The pump of the recordings."""
 HEAD = """format = 1
 title = "{title}"
 pump = "ref90"

@@ -6,6 +6,8 @@ import math
 import tomllib
 from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import reduce
+from operator import attrgetter, getitem
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -29,6 +31,8 @@ _POWERS = {
     "pump.pitch_radius": (0, 1),
     "pump.rated_speed": (0, -1),
     "piston.overhang": (1, 0),
+    "piston.edge_relief.width": (1, 0),
+    "bore.edge_relief.width": (1, 0),
     "piston.mass": (2, 1),
     "slipper.land_inner_radius": (1, 0),
     "slipper.land_outer_radius": (1, 0),
@@ -37,6 +41,8 @@ _POWERS = {
     "slipper.mass": (3, 0),
     "slipper.centre_of_mass_to_ball": (1, 0),
     "slipper.ball_joint_radius": (1, 0),
+    "slipper.flange_thickness": (1, 0),
+    "slipper.rim_relief.width": (1, 0),
     "valve_plate.kidney_pitch_radius": (0, 1),
     "ports.groove_area": (2, 0),
     "ports.kidney_area": (2, 0),
@@ -157,8 +163,8 @@ def _tables(facts: _Facts) -> dict[str, dict[str, Any]]:
     """REF90's tables at the size of the facts, values as text.
 
     Pistons keep their share of the pitch circle: with the scale s of diameters and r of radii, r = s z/9 and
-    s^2 r = V/(z area stroke) of REF90 at the swash angle. Films, clearances, angles and friction are REF90's,
-    sliding speeds on the pitch circle at rated speed too; ports are parted by z.
+    s^2 r = V/(z area stroke) of REF90 at the swash angle. Films, clearances, depths of reliefs, angles and friction
+    are REF90's, sliding speeds on the pitch circle at rated speed too; ports are parted by z.
     """
     model = load_pump(MODEL)
     tables = {k: dict(v) for k, v in tomllib.loads(resolved_toml(model)).items() if isinstance(v, dict)}
@@ -170,13 +176,12 @@ def _tables(facts: _Facts) -> dict[str, dict[str, Any]]:
     piston, group = _scales(facts, model, size, share)
 
     def put(path: str, value: float, dimension: Dimension) -> None:
-        section, key = path.split(".")
-        tables[section][key] = format_quantity(float(value), dimension, digits=5)
+        *sections, key = path.split(".")
+        table: Any = reduce(getitem, sections, tables)
+        table[key] = format_quantity(float(value), dimension, digits=5)
 
     for path, (of_piston, of_group) in _POWERS.items():
-        section, key = path.split(".")
-        value = getattr(getattr(model, section), key) * piston**of_piston * group**of_group
-        put(path, value, _dimension(path))
+        put(path, attrgetter(path)(model) * piston**of_piston * group**of_group, _dimension(path))
     plate, ports = model.valve_plate, model.ports
     for key in ("land_radius_1", "land_radius_2", "land_radius_3", "land_radius_4"):
         beside = getattr(plate, key) - plate.kidney_pitch_radius

@@ -39,6 +39,7 @@ class Example:
     part: tuple[float, float, float, float] = (0.0, 0.0, 1.0, 1.0)
 
 
+BENCH = "examples/recordings/bench_pump.toml"
 EXAMPLES = (
     Example("journal", "Journal bearing with a cavity", "film examples/films/journal_bearing.toml"),
     Example("stribeck", "Stribeck curve of rough walls", "film examples/films/stribeck_study.toml", "stribeck"),
@@ -52,8 +53,8 @@ EXAMPLES = (
     Example("map", "Efficiency map", "map ref90 --fidelity lumped", part=(0.0, 0.0, 0.36, 1.0)),
     Example("destroke", "Swash plate that swings back", "transient examples/transients/destroke.toml"),
     Example("orifice", "Navier-Stokes flow of a bore", "reference examples/references/slipper_orifice.toml"),
-    Example("diagnose", "Cause of a mismatch", "diagnose ref90 examples/recordings/open-06", "What is claimed"),
-    Example("calibrate", "Friction coefficients fitted", "calibrate ref90 examples/recordings/open-01"),
+    Example("diagnose", "Cause of a mismatch", f"diagnose {BENCH} examples/recordings/open-06", "What is claimed"),
+    Example("calibrate", "Friction coefficients fitted", f"calibrate {BENCH} examples/recordings/open-01"),
     Example(
         "reproduce",
         "Published figure beside our numbers",

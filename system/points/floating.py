@@ -45,6 +45,7 @@ from system.points.floating_kinds import (
     gap_revolutions,
     group_of,
 )
+from system.points.floating_progress import WholeRun
 from system.points.lumped import point_and_effects
 from system.points.piston_process import PistonBeside, piston_beside
 from system.pump.assembly import PumpPoint, met_point, put_together
@@ -146,15 +147,17 @@ def floating_point(
     if near is not None:
         gaps = tuple(kind.gaps for kind in near.kinds)
         asked = _rubbed_as(asked, near)
+    whole = WholeRun(report, ROUND_LIMIT)
     pistons = [None] * len(group.parts) if gaps is None else [own.piston.bare for own in gaps]
     with piston_beside(group.parts, pistons) if side_by_side else nullcontext() as beside:
         while not rounds or not (_exact(rounds[-1], options) and _agree(rounds[-1])):
             if len(rounds) == ROUND_LIMIT:
                 raise _not_settled(rounds[-1])
             closing = replace(asked, options=_loosened(options, rounds))
-            found = _round(closing, group, left, gaps, beside, _of_round(report, len(rounds) + 1))
+            found = _round(closing, group, left, gaps, beside, whole.begun())
             asked, gaps = found.asked, found.gaps
             rounds.append(found.taken)
+            whole.ended(max(change / tolerance for change, tolerance in _changes(found.taken)))
     found = replace(found, asked=replace(asked, options=options))
     return _floating_point(pump, point, group, found, tuple(rounds))
 
@@ -242,10 +245,6 @@ def _spin_change(one: Rotor, other: Rotor) -> float:
     return change / one.point.shaft_speed
 
 
-def _of_round(report: Report, number: int) -> Report:
-    return lambda done, total, what: report(done, total, f"round {number}, {what}")
-
-
 def _loosened(options: FloatingOptions, rounds: list[Round]) -> FloatingOptions:
     """Accuracy of a round's gaps: reduced before they nearly agree with the chambers."""
     if rounds and (_agree(rounds[-1], NEARLY) or _exact(rounds[-1], options)):
@@ -259,12 +258,16 @@ def _loosened(options: FloatingOptions, rounds: list[Round]) -> FloatingOptions:
 
 def _agree(taken: Round, times: float = 1.0) -> bool:
     """True if a round's changes are within the tolerances, or within so many times them."""
-    changes = (
+    return all(change <= times * tolerance for change, tolerance in _changes(taken))
+
+
+def _changes(taken: Round) -> tuple[tuple[float, float], ...]:
+    """The changes of a round, each with its tolerance."""
+    return (
         (taken.pressure_change, PRESSURE_TOLERANCE),
         (taken.friction_change, FRICTION_TOLERANCE),
         (taken.spin_change, SPIN_TOLERANCE),
     )
-    return all(change <= times * tolerance for change, tolerance in changes)
 
 
 def _exact(taken: Round, options: FloatingOptions) -> bool:

@@ -15,14 +15,12 @@ from ..rig import Rig
 from ..sensors import Readings, read, set_in_truth
 from ..wide.case import What, WideCase
 from ..wide.made import WideMade, expected
-from ..writing import write_recording
+from ..writing import BENCH, write_recording
 from .plant.hidden import NOTHING, Hidden
 from .plant.points import Points
 from .plant.pump import Pump, drawn
 from .plant.rig import Readout, run
 from .sizing import concealed, repeatability, shift, sized
-
-PUMP = "ref90"
 
 
 def make(case: WideCase) -> WideMade:
@@ -43,7 +41,7 @@ def make(case: WideCase) -> WideMade:
     rig = Rig(case.campaign, case.seed, partial(_run, pump, hidden), float(there.ratio[0] - at.ratio[0]), faults,
               readings.calibrations)  # fmt: skip
     told = replace(told, true_turn=turn, shift=dict(zip(campaign.outputs, map(_rounded, moved.T), strict=True)))
-    return WideMade(told, partial(_write, case, readings), PUMP, rig)
+    return WideMade(told, partial(_write, case, readings), BENCH, rig)
 
 
 def _run(pump: Pump, hidden: Hidden, at: Settings) -> Readout:

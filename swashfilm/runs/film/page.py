@@ -13,9 +13,9 @@ from swashfilm.output.field_maps import MapField, draw_map
 from swashfilm.output.figures import figure_of
 from swashfilm.output.headline import named
 from swashfilm.output.page import inlined, read_summary, write_page
+from swashfilm.output.refinement import refinement_head, refinement_rows
 from swashfilm.output.result import read_netcdf
 from swashfilm.runs.film.history import last_of
-from swashfilm.runs.film.refine import refinement_head, refinement_rows
 
 if TYPE_CHECKING:
     import xarray

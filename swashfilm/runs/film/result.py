@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, ClassVar
 
+from swashfilm.output.refinement import refinement_head, refinement_rows
 from swashfilm.output.result import Result, framed, plotted
 from swashfilm.output.tables import Table
 from swashfilm.runs.film.history import last_of
 from swashfilm.runs.film.page import film_figure, summary_rows
-from swashfilm.runs.film.refine import refinement_head, refinement_rows
 
 if TYPE_CHECKING:
     import pandas

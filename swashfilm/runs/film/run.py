@@ -10,11 +10,12 @@ from reynolds.numerics.arrays import Array
 from reynolds.solve.export import write_pvd, write_vtu
 from swashfilm.case.file import FilmCase
 from swashfilm.case.gap.instant import GapCase
+from swashfilm.output.refinement import Refinement, refinement_summary, write_refinement
 from swashfilm.output.run_folder import write_json
 from swashfilm.runs.film.history import at_moment, fields_over_time, last_of, written
 from swashfilm.runs.film.page import write_film_page
 from swashfilm.runs.film.physics import vertex_fields, write_history
-from swashfilm.runs.film.refine import Refinement, check_refinement, refine_study, refinement_summary, write_refinement
+from swashfilm.runs.film.refine import check_refinement, refine_study
 from swashfilm.runs.film.result import FilmRun
 from swashfilm.runs.film.solve.gap import true_place
 from swashfilm.runs.film.solve.study import FilmStudy, solve_case

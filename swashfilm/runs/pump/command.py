@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 from swashfilm.case.gap.switches import add_switches
 from swashfilm.console.command import Command
 from swashfilm.console.fidelity import Fidelity
-from swashfilm.console.inputs import COMMAND_LINE, expect, given_text, option_value
+from swashfilm.console.inputs import COMMAND_LINE, expect, given_text, option_value, whole
 from swashfilm.console.terminal import show, show_result
 from system.inputs.faults import Fault, InputFaults, nearest_choice
 from system.inputs.units import with_point
@@ -46,6 +46,8 @@ def add_run_options(command: argparse.ArgumentParser) -> None:
     command.add_argument("--table", type=Path, metavar="FILE.json", help=what)
     command.add_argument("--steps", metavar="N", help="floating gaps: reported angles per turn (360)")
     command.add_argument("--finer", metavar="X", help="floating gaps: factor on the cells each way (.5; --rigid: 1)")
+    what = "floating gaps: solve N times, cells, angles and steps each twice finer; report order and limit"
+    command.add_argument("--refine", metavar="N", help=what)
     what = "another value of a key of the pump file, such as valve_plate.film_thickness=10um; may be repeated"
     command.add_argument("--set", action="append", default=[], metavar="KEY=VALUE", help=what)
     add_switches(command)
@@ -92,12 +94,15 @@ def pump_case(options: argparse.Namespace) -> PumpCase:
         own = {path: value for path, value in stated.items() if path != _TEMPERATURE}
         pump = moved_to(load_pump(options.pump, own), pump.operating)
     faults += floating_faults(options, pump, options.fidelity)
+    levels = whole(faults, "--refine", options.refine, 1, (2, 4), "a number of levels")
+    if levels > 1 and options.fidelity != Fidelity.FLOATING.value:
+        faults.append(Fault("--refine", f"beside --fidelity {options.fidelity}", "--fidelity floating"))
     if options.fidelity in (Fidelity.FIXED.value, Fidelity.TABLE.value):
         faults += alike_faults(pump)
     if faults:
         raise InputFaults(COMMAND_LINE, faults)
     given, fidelity = given_text(options.pump, stated), Fidelity(options.fidelity)
-    return PumpCase(pump, given, fidelity, options.table, floating_options(options), cores() > 1)
+    return PumpCase(pump, given, fidelity, options.table, floating_options(options), cores() > 1, levels)
 
 
 def pump_faults(options: argparse.Namespace, words: Sequence[str]) -> list[Fault]:

@@ -9,6 +9,7 @@ import numpy as np
 from swashfilm.console.fidelity import Fidelity
 from swashfilm.output.gap_names import TITLES
 from swashfilm.output.page import inlined, read_summary, write_page
+from swashfilm.output.refinement import refinement_head, refinement_rows
 from swashfilm.output.result import read_netcdf
 from swashfilm.runs.pump import plots as pump_plots
 from swashfilm.runs.pump.data import GAPS
@@ -44,6 +45,7 @@ def write_pump_page(folder: Path) -> Path:
         floating=floating_view(folder, summary) if floats else None,
         table_rows=list(table_point_rows(summary)) if "table" in summary else [],
         table_head=TABLE_POINT_HEAD,
+        refinement=[refinement_head(found), *refinement_rows(found)] if (found := summary.get("refinement")) else [],
         ripple=ripple_rows(summary),
         checks=check_rows(summary),
         forces=forces_view(folder, summary),

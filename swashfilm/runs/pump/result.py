@@ -9,6 +9,7 @@ import numpy as np
 
 from swashfilm.case.gap.physics import PHYSICS_HEAD, effect_rows
 from swashfilm.console.fidelity import Fidelity
+from swashfilm.output.refinement import refinement_head, refinement_rows
 from swashfilm.output.result import Numbers, Result, Table, plotted
 from swashfilm.runs.pump import plots
 from swashfilm.runs.pump.data import GAPS
@@ -110,6 +111,8 @@ class PumpRun(Result):
             tables.append(("Floating gaps: one piston, one slipper, the block", [HEAD, *floating_rows(summary)]))
             physics = effect_rows(summary["physics_left_out"], summary["cost"]["physics_seconds"])
             tables.append(("Physics of the floating gaps", [PHYSICS_HEAD, *physics]))
+        if found := summary.get("refinement"):
+            tables.append(("On finer levels", [refinement_head(found), *refinement_rows(found)]))
         if "table" in summary:
             title = f"Gaps by a table of the {summary['table']['source']} fidelity"
             tables.append((title, [TABLE_POINT_HEAD, *table_point_rows(summary)]))

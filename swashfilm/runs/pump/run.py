@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any, assert_never
 from swashfilm.console.fidelity import Fidelity
 from swashfilm.output.gap_names import FIELDS, vtu_name
 from swashfilm.output.picture3d import draw
+from swashfilm.output.refinement import refinement_summary, write_refinement
 from swashfilm.output.run_folder import write_json
 from swashfilm.runs.pump.data import GAPS, PICTURED_TURN, films_dataset, point_dataset, write_tables
 from swashfilm.runs.pump.edge_losses import loss_warnings, losses_left_out
@@ -18,6 +19,7 @@ from swashfilm.runs.pump.floating import floating_summary, write_floating
 from swashfilm.runs.pump.flow_coefficients import coefficient_warnings
 from swashfilm.runs.pump.forces import force_warnings, forces_summary, write_forces
 from swashfilm.runs.pump.page import write_pump_page
+from swashfilm.runs.pump.refine import refine_point
 from swashfilm.runs.pump.result import PumpRun
 from swashfilm.runs.pump.summary import films_warnings, pump_summary
 from swashfilm.runs.table.summary import point_by_table, table_point_summary, table_point_warnings
@@ -25,7 +27,7 @@ from system.description.pump import PumpDescription
 from system.multibody.floating_group import floating_joint_forces
 from system.multibody.rotating_group import JointForces, joint_forces
 from system.points.films import FilmsPoint, films_point
-from system.points.floating import floating_point
+from system.points.floating import FloatingPoint, floating_point
 from system.points.floating_gaps import FloatingOptions
 from system.points.lumped import lumped_point
 from system.points.table.sources import Source
@@ -43,7 +45,7 @@ class PumpCase:
     """One operating point to solve: the pump, the text of its file, and the fidelity of its films.
 
     table: file of a response table in place of the stored one; options: of floating gaps; side_by_side: a second
-    process solves the piston of floating gaps.
+    process solves the piston of floating gaps; levels: of refinement, the first being that of the options.
     """
 
     pump: PumpDescription
@@ -52,6 +54,7 @@ class PumpCase:
     table: Path | None = None
     options: FloatingOptions | None = None
     side_by_side: bool = False
+    levels: int = 1
 
 
 def solve_pump(case: PumpCase, report: Report = silent) -> PumpRun:
@@ -91,11 +94,21 @@ def _films(case: PumpCase, report: Report) -> PumpRun:
 
 def _floating(case: PumpCase, report: Report) -> PumpRun:
     pump = case.pump
-    found = floating_point(pump, operating_point(pump), case.options, side_by_side=case.side_by_side, report=report)
+    at = operating_point(pump)
+
+    def solve(options: FloatingOptions | None, near: FloatingPoint | None, told: Report) -> FloatingPoint:
+        return floating_point(pump, at, options, near=near, side_by_side=case.side_by_side, report=told)
+
+    found = solve(case.options, None, report)
     point = found.pump_point
     summary = floating_summary(found, _warnings(pump, point) + losses_left_out(pump))
+    refinement = refine_point(found, case.levels, solve, report) if case.levels > 1 else None
+    if refinement is not None:
+        summary["refinement"] = refinement_summary(refinement)
 
     def fields(folder: Path) -> list[str]:
+        if refinement is not None:
+            write_refinement(folder / "refinement.csv", refinement)
         reason = draw(write_floating(folder, found)).reason
         return [reason] if reason else []
 

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, ClassVar
 
+from swashfilm.output.refinement import refinement_head, refinement_rows
 from swashfilm.output.result import Result, plotted
 from swashfilm.output.tables import Table
-from swashfilm.runs.film.refine import refinement_head, refinement_rows
 from swashfilm.runs.film.revolution.page import FILES, revolution_rows
 from swashfilm.runs.film.revolution.plots import film_plot, path_plot
 

@@ -5,8 +5,8 @@ from typing import Any
 
 from swashfilm.case.gap.revolution import RevolutionCase
 from swashfilm.output.convergence import convergence
+from swashfilm.output.refinement import Refinement, refinement_summary, write_refinement
 from swashfilm.output.run_folder import write_json
-from swashfilm.runs.film.refine import Refinement, refinement_summary, write_refinement
 from swashfilm.runs.film.revolution.data import (
     revolution_dataset,
     write_convergence,

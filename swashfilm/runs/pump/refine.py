@@ -1,0 +1,83 @@
+"""Convergence of a floating point: the same point on meshes, angles and time steps each twice finer."""
+
+from collections.abc import Callable, Mapping
+from dataclasses import asdict, replace
+from typing import Any
+
+from gaps.revolution.march import GapRevolution
+from swashfilm.output.convergence import convergence
+from swashfilm.output.headline import sizes
+from swashfilm.output.refinement import Refinement
+from system.points.floating import FloatingPoint
+from system.points.floating_gaps import FloatingOptions
+from system.points.table.means import GAP_PAIRS
+from system.pump.bench import paper_efficiency
+from system.work.progress import Report
+
+EXPECTED = (1.0, 2.0)
+"""Orders: two of smooth films and of steps in time; one where cavities' fronts move by whole cells, and of heat."""
+STEPS_FINER = 4.0
+"""Factor by which the allowed error of a step falls with each halving of cells and angles: steps are of order two."""
+
+
+def refined(options: FloatingOptions) -> FloatingOptions:
+    """Return cells and angles of half the size, and steps of a fourth of the error."""
+    exact = options.accuracy
+    finer = replace(exact, step=exact.step / STEPS_FINER, closed=exact.closed / STEPS_FINER)
+    return replace(
+        options, steps=2 * options.steps, keep=2 * options.keep, finer=2.0 * options.finer, accuracy=finer
+    )  # fmt: skip
+
+
+def refine_point(
+    first: FloatingPoint, levels: int, solve: Callable[[FloatingOptions, FloatingPoint | None, Report], FloatingPoint],
+    report: Report,
+) -> Refinement:  # fmt: skip
+    """Return the numbers of a point on `levels` levels, `first` being the coarsest.
+
+    `solve` solves it with other options, without a start, since the meshes differ.
+
+    Raises as `floating_point`.
+    """
+    found = [first]
+    for number in range(2, levels + 1):
+        options = refined(found[-1].options)
+        found.append(solve(options, None, _of_level(report, number, levels)))
+    rows = [point_numbers(one) for one in found]
+    size = sizes(rows[-1], {})
+    numbers = {key: convergence([row[key] for row in rows], EXPECTED, size[key]) for key in rows[0]}
+    return Refinement(tuple(map(_unknowns, found)), EXPECTED, numbers)
+
+
+def _of_level(report: Report, number: int, levels: int) -> Report:
+    return lambda done, total, what: report(done, total, f"level {number} of {levels}, {what}")
+
+
+def _unknowns(found: FloatingPoint) -> int:
+    """Return the number of unknown pressures of all gaps of the most common chamber and the block."""
+    gaps = found.kinds[0].gaps
+    films = (next(iter(gap.turn.films.values())) for gap in (gaps.piston, gaps.slipper, gaps.block))
+    return sum(film.problem.space.size for film in films)
+
+
+def point_numbers(found: FloatingPoint) -> Mapping[str, float]:
+    """Return the headline numbers of a point by key, SI with the unit in the key."""
+    point, gaps = found.pump_point, found.kinds[0].gaps
+    turns: dict[str, GapRevolution[Any]] = {"piston": gaps.piston, "slipper": gaps.slipper, "valve_plate": gaps.block}
+    numbers = {
+        "shaft_torque_Nm": point.bench.shaft_torque,
+        "delivery_flow_m3_per_s": point.bench.delivery_flow,
+        "drain_flow_m3_per_s": point.bench.drain_flow,
+        "overall_efficiency": paper_efficiency(point.bench).overall,
+        "chamber_pressure_peak_Pa": max(float(own.pressure.max()) for own in point.chambers),
+    }
+    numbers |= {f"leakage_flow_m3_per_s.{gap}": flow for gap, flow in asdict(point.leakage_flow).items()}
+    for gap, pair in GAP_PAIRS.items():
+        instants = turns[gap].turn.instants
+        numbers[f"loss_W.{gap}"] = point.pairs.loss(pair).mean
+        numbers[f"contact_loss_W.{gap}"] = point.pairs.loss(pair).mean_coulomb
+        numbers[f"film_mean_m.{gap}"] = sum(one.mean_film for one in instants) / len(instants)
+        numbers[f"film_least_m.{gap}"] = min(one.film_thickness_min for one in instants)
+        if (warmth := turns[gap].warmth) is not None:
+            numbers[f"hottest_oil_K.{gap}"] = float(warmth.hottest.max())
+    return numbers

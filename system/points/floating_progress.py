@@ -1,0 +1,68 @@
+"""Progress of a floating point as a whole, in units of work: rounds until all agrees, gaps of a round, turns of a gap.
+
+How many rounds a point needs shows only on the way. The first takes as long as several later ones, since its films
+have no start; the others are expected by the rate at which the changes of the rounds before fell.
+"""
+
+import math
+from dataclasses import dataclass, field
+
+from system.work.progress import Report
+
+FIRST, LATER = 100, 35
+"""Units of the first round and of a later one (`ref90`, all physics: 20 s and 5 to 8 s on two cores)."""
+EXPECTED_ROUNDS = 5
+RATE = 0.2
+"""Factor by which a round reduces the changes, before two rounds have shown it."""
+SLOWEST = 0.8
+GAP_SHARES = {"slipper": 0.25, "block": 0.3, "piston": 0.45}
+"""Shares of a round's work, in the order in which a single process solves them last."""
+TURNS = 12
+"""Turns at which a gap counts as nine tenths done."""
+
+
+@dataclass
+class WholeRun:
+    """Progress of one point: tells `report` the units done and the units in all, as they are known now."""
+
+    report: Report
+    most: int
+    rounds: int = 0
+    expected: int = EXPECTED_ROUNDS
+    changes: list[float] = field(default_factory=list)
+    turns: dict[str, set[str]] = field(default_factory=dict)
+    done: int = 0
+
+    def begun(self) -> Report:
+        """A round begins; returns the progress callback of its gaps."""
+        self.rounds += 1
+        self.turns = {}
+        return self._turn
+
+    def ended(self, change: float) -> None:
+        """A round has ended; change: the largest of its changes over its tolerance."""
+        self.changes.append(change)
+        self.expected = min(self.most, self.rounds + self._left(change))
+        self.done = max(self.done, self._before(self.rounds + 1))
+
+    def _left(self, change: float) -> int:
+        """Rounds still expected: the changes go on falling as they fell, and the last round confirms it."""
+        if change <= 1.0:
+            return 1
+        rate = self.changes[-1] / self.changes[-2] if len(self.changes) > 1 else RATE
+        return max(1, math.ceil(math.log(change) / -math.log(min(max(rate, RATE**2), SLOWEST))))
+
+    def _turn(self, done: int, total: int, what: str) -> None:
+        """One report of a gap: steps of a turn whose name begins with the gap's."""
+        gap, _, turn = what.partition(", ")
+        self.turns.setdefault(gap, set()).add(turn)
+        *passed, last = self.turns
+        of_last = 1.0 - 0.1 ** ((len(self.turns[last]) - 1 + done / total) / TURNS)
+        share = sum(GAP_SHARES[one] for one in passed) + of_last * GAP_SHARES[last]
+        units = FIRST if self.rounds == 1 else LATER
+        self.done = max(self.done, self._before(self.rounds) + int(share * units))
+        self.report(self.done, max(self._before(self.expected + 1), self.done), f"round {self.rounds}, {what}")
+
+    def _before(self, number: int) -> int:
+        """Units of the rounds before one."""
+        return 0 if number == 1 else FIRST + LATER * (number - 2)
