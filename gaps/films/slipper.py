@@ -275,9 +275,7 @@ class SlipperFilm:
     @property
     def pockets(self) -> dict[str, Array]:
         """Area (3,) m2 by which the volume of pocket and closed grooves grows with each coordinate."""
-        polygon = 0.5 * self._around * np.sin(2.0 * np.pi / self._around)
-        areas = self.shape.lands.closed_areas(float(polygon))
-        return {name: np.array([area, 0.0, 0.0]) for name, area in areas.items()}
+        return {name: np.array([area, 0.0, 0.0]) for name, area in self.shape.lands.closed_areas.items()}
 
     def outer_at(self, time: float, position: Array, rate: Array) -> Outer:
         """Outer generalised forces at a time (s) and position, with the retainer's."""

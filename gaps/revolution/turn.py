@@ -25,6 +25,7 @@ from reynolds.solve.solver import FilmSolver
 MET = 0.1  # of the distance at which a turn counts as closed: near enough to join the turn before
 SHORT = 1e-2  # of the first way to a node: a step in which elastic walls deform under their first load
 TOO_COARSE = 3.0  # times its tolerance: an error at which steps of an earlier turn are chosen anew
+SHORTEST = 3e-5  # of a turn: a step in which a part without mass may jump, as a cavity under it fills
 FARTHEST = 2e-2  # of the film's length, by which a wall may leave its shape: then nothing is thin, no tilt small
 
 
@@ -33,7 +34,7 @@ class GapTurn(Generic[Value]):
     """One turn: its start q, its instants, kept films by angle, its end, and what it cost.
 
     oil: (size,) m3 of each unknown at each reported angle; times (s) of its steps; step_error: largest error of a
-    step over what was allowed; accuracy: that allowance, share of the film; allowed, reach, repeats: as
+    step over what was allowed, jumps left out; accuracy: that allowance, share of the film; allowed, reach, repeats: as
     `reynolds.numerics.shooting.Turn` has them.
     """
 
@@ -78,6 +79,7 @@ class Turns(Generic[Value]):
         self._solver, self._floating, self._report_of = solver, floating, report_of
         self._accuracy, self._method, self._opening = accuracy, method, opening
         self._nodes, self._speed = schedule.nodes, schedule.speed
+        self._shortest = SHORTEST * 2.0 * np.pi / schedule.speed
         self._angles, self._kept = schedule.angles, set(schedule.kept)
         self._adaptive = 2 if opening is None else 1  # turns left that choose their steps
         self._steps: Array | None = None
@@ -99,7 +101,7 @@ class Turns(Generic[Value]):
         behind: GapInstant[Value] | None = None
         for taken in self._marched(begin):
             state = taken.state
-            gathered.step(state, self._excess(taken))
+            gathered.step(state, self._excess(taken), jumps=taken.step <= self._shortest)
             angles = self._within(state.time - taken.step, state.time)
             # Turns that approach the periodic motion report their last step alone.
             if self._opening is None and not len(angles):
@@ -152,7 +154,7 @@ class Turns(Generic[Value]):
     def _marched(self, begin: State[FloatingStage]) -> Iterator[AcceptedStep[FloatingStage]]:
         """Steps of a turn, chosen by their error or those of an earlier turn again."""
         if self._steps is None:
-            steps = integrate(self._method, self._stage, begin, self._nodes, self._excess)
+            steps = integrate(self._method, self._stage, begin, self._nodes, self._excess, self._shortest)
         else:
             steps = integrate(self._method, self._stage, begin, self._steps, nodes_only)
         reached = begin.time
@@ -219,10 +221,10 @@ class _Gathered(Generic[Value]):
         self.times: list[float] = []
         self.errors: list[float] = []
 
-    def step(self, state: State[FloatingStage], error: float) -> None:
-        """One more step, with its error over what was allowed."""
+    def step(self, state: State[FloatingStage], error: float, *, jumps: bool) -> None:
+        """One more step, with its error over what was allowed; a jump has none."""
         self.times.append(state.time)
-        self.errors.append(error)
+        self.errors.append(0.0 if jumps else error)
 
     def add(self, instant: GapInstant[Value], stage: FloatingStage, oil: Array, *, kept: bool) -> None:
         """One more reported angle, with the state (held,) there; the film of a kept one is that of the stage."""

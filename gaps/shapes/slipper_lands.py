@@ -10,6 +10,7 @@ from itertools import pairwise
 
 import numpy as np
 
+from gaps.shapes.round_mesh import round_scale
 from reynolds.errors import FilmInputError
 from reynolds.fem.mesh import FilmMesh, ring
 
@@ -86,13 +87,11 @@ class SlipperLands:
         """Names of the mesh's edges at case pressure: the vented grooves and the rim."""
         return (*(f"groove_{n}" for n in self.vented), "case")
 
-    def closed_areas(self, unit_circle: float = np.pi) -> dict[str, float]:
-        """Area (m2) of pocket and closed grooves, by the area of the unit circle.
-
-        With that of a mesh's polygon film, grooves and pocket together leave nothing out and count nothing twice.
-        """
+    @property
+    def closed_areas(self) -> dict[str, float]:
+        """Area (m2) of pocket and closed grooves."""
         radii = [0.0, *(radius for land in self.radii for radius in land)]
-        areas = [unit_circle * (end**2 - start**2) for start, end in zip(radii[::2], radii[1::2], strict=False)]
+        areas = [np.pi * (end**2 - start**2) for start, end in zip(radii[::2], radii[1::2], strict=False)]
         names = ["pocket", *(f"groove_{n}" for n in range(1, len(self.radii)))]
         return {name: float(area) for name, area in zip(names, areas, strict=True) if name in self.closed}
 
@@ -113,13 +112,13 @@ def lands_between(
 def slipper_mesh(lands: tuple[Land, ...], cells: tuple[int, int]) -> FilmMesh:
     """Rings of quadrilaterals, one a land, `cells` (across each, around), with boundaries pocket, groove_k, case.
 
-    Radii of each land rise by one ratio, as the pressure falls with the logarithm. A groove is one boundary: both
-    its edges. Raises FilmInputError as `reynolds.fem.mesh.hollow_cylinder`.
+    Radii of each land rise by one ratio, as the pressure falls with the logarithm; polygons have the areas of the
+    circles that they stand for. A groove is one boundary: both its edges. Raises FilmInputError as `reynolds.fem.mesh.hollow_cylinder`.
     """
     radii = np.concatenate([np.geomspace(*land, cells[0] + 1) for land in lands])
     keep = np.ones((len(radii) - 1, cells[1]), dtype=bool)
     keep[cells[0] :: cells[0] + 1] = False
-    whole = ring(radii, cells[1], keep=keep)
+    whole = ring(radii * round_scale(np.full(cells[1], 2.0 * np.pi / cells[1])), cells[1], keep=keep)
     mesh, middle = whole.mesh, [0.5 * (one[1] + two[0]) for one, two in pairwise(lands)]
     facets = mesh.boundary_facets()
     distance = np.hypot(*mesh.p[:, mesh.facets[0, facets]])

@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gaps.shapes.bearing_pads import EDGE, BearingPads, with_pads
+from gaps.shapes.round_mesh import round_scale
 from reynolds.fem.mesh import FilmMesh, rename, ring
 from reynolds.fem.space import FilmSpace, film_space
 from reynolds.fem.sphere import PLANE, Sphere
@@ -112,8 +113,8 @@ class Ring:
         self.space = _on(geometry.sphere, drawn)
         self.column = geometry.pitch / cells[1]
         self._vertices, self._cells = ring_mesh.mesh.p.shape[1], ring_mesh.mesh.t.shape[1]
-        _, r2, r3, _ = geometry.land_radii
         radius = np.hypot(*drawn.vertices.T)
+        _, r2, r3, _ = np.array(geometry.land_radii) * radius.max() / geometry.land_radii[3]
         self._in_kidney_ring = (radius > r2 * (1.0 - 1e-9)) & (radius < r3 * (1.0 + 1e-9))
 
     def turned(self, shaft_angle: float) -> FilmSpace:
@@ -189,5 +190,7 @@ def _ring_mesh(geometry: ValvePlateGeometry, cells: tuple[int, int]) -> FilmMesh
     column = np.round(np.arctan2(y, x) / (2.0 * np.pi) * around) % around
     within = np.interp(column % per_pitch, [0, per_kidney, per_pitch], [0.0, geometry.kidney_arc, pitch])
     angle = column // per_pitch * pitch + within - 0.5 * geometry.kidney_arc
-    places = np.hypot(x, y) * np.vstack([np.cos(angle), np.sin(angle)])
+    corners = np.append(np.unique(np.round(angle % (2.0 * np.pi), 9)), 0.0)
+    corners[-1] = corners[0] + 2.0 * np.pi
+    places = round_scale(np.diff(corners)) * np.hypot(x, y) * np.vstack([np.cos(angle), np.sin(angle)])
     return replace(mesh, mesh=replace(mesh.mesh, doflocs=np.ascontiguousarray(places)))

@@ -183,11 +183,12 @@ def integrate(
     start: State[S],
     nodes: Sequence[float] | Array,
     excess: Callable[[AcceptedStep[S]], float],
+    shortest: float = 0.0,
 ) -> Iterator[AcceptedStep[S]]:
     """Step by step from a state to the last of `nodes` (s), each of which ends a step.
 
-    Each step's error estimate over its tolerance, `excess(step)`, is at most one; the first step aims at the
-    first node. A step on which a stage has no solution is halved. Raises FilmInputError for nodes that
+    Each step's error estimate over its tolerance, `excess(step)`, is at most one, but for steps up to `shortest` (s):
+    a motion without mass may jump, and no step resolves that. The first step aims at the first node. A step on which a stage has no solution is halved. Raises FilmInputError for nodes that
     do not rise from the state's time on, FilmNotConverged where no step is short enough.
     """
     times = np.array([start.time, *nodes])
@@ -196,7 +197,7 @@ def integrate(
     state, pace = start, Pace(times[1] - times[0])
     for node in times[1:]:
         while node - state.time > 0.0:
-            taken, pace = _kept(tableau, solve, state, node, excess, pace)
+            taken, pace = _kept(tableau, solve, state, node, excess, shortest, pace)
             state = taken.state
             yield taken
 
@@ -232,9 +233,10 @@ def _kept(
     state: State[S],
     node: float,
     excess: Callable[[AcceptedStep[S]], float],
+    shortest: float,
     pace: Pace,
 ) -> tuple[AcceptedStep[S], Pace]:
-    """A step towards the node that keeps the tolerance, and the pace after it."""
+    """A step towards the node that keeps the tolerance or is no longer than the shortest, and the pace after it."""
     order, reason = tableau.error_order, FilmNotConverged("no step tried", "a later node")
     for _ in range(MOST_REFUSALS):
         step = _towards(node - state.time, pace.step)
@@ -245,8 +247,8 @@ def _kept(
             continue
         taken = replace(taken, state=replace(taken.state, time=node)) if step == node - state.time else taken
         error = excess(taken)
-        if error <= 1.0:
-            return taken, pace.kept(step, error, order)
+        if error <= 1.0 or step <= shortest:
+            return taken, pace.kept(step, min(error, 1.0), order)
         reason = FilmNotConverged(
             f"error {error:.3g} times its tolerance", "a wider tolerance, or nodes where the motion bends"
         )

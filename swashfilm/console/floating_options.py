@@ -10,7 +10,7 @@ from swashfilm.console.fidelity import Fidelity
 from swashfilm.console.inputs import option_value
 from system.description.pump import SINGLE_PARTS, PumpDescription
 from system.inputs.faults import Fault
-from system.points.floating_gaps import FloatingOptions, usual_finer
+from system.points.floating_gaps import FloatingOptions
 from system.pump.chamber_kinds import kinds
 
 ALIKE = "identical chambers; with differing ones: swashfilm run with --fidelity lumped or floating"
@@ -22,7 +22,7 @@ def floating_options(options: argparse.Namespace) -> FloatingOptions:
     usual = FloatingOptions()
     steps = usual.steps if options.steps is None else int(options.steps)
     physics = usual.physics.without(*effects_of(switched_keys(options)))
-    finer = usual_finer(physics) if options.finer is None else float(options.finer)
+    finer = usual.finer if options.finer is None else float(options.finer)
     return replace(usual, steps=steps, physics=physics, finer=finer, keep=max(1, usual.keep * steps // usual.steps))
 
 

@@ -42,11 +42,12 @@ from system.pump_file.floating import block_tips
 from system.work.progress import Report, silent
 
 MARCHED = Accuracy(step=1e-2, balance=0.1)
-PISTON_CELLS, SLIPPER_CELLS, BLOCK_CELLS = (48, 16), (12, 40), (4, 16)
+PISTON_CELLS, SLIPPER_CELLS, BLOCK_CELLS = (48, 24), (12, 72), (6, 24)
 LEAST_CELLS = 2
 LEAST_PISTON_CELLS = 8
 """Along a bore: on fewer, a tilted piston with much clearance leaves the ends of its film between their points."""
-RIGID_FINER, SOFT_FINER = 1.0, 0.5
+FINER = 0.5
+"""Multiple of these cells that films have where nothing else is stated."""
 SLIPPER_START = BLOCK_START = 1e-5  # m: a film that every pump starts with
 SOFTLY = "a coarser mesh to find where, or rigid walls"
 STIFFLY = "elastic walls, or oil of one viscosity: under an edge that cannot yield, oil that stiffens has no bound"
@@ -54,23 +55,17 @@ USUAL = Physics()
 """Physics of films at high pressure: elastic walls, viscosity that rises with pressure, rough walls, cavities."""
 
 
-def usual_finer(physics: Physics) -> float:
-    """Default multiple of the usual cells each way: a half between elastic walls, for their cost."""
-    return SOFT_FINER if physics.elastic_walls else RIGID_FINER
-
-
 @dataclass(frozen=True)
 class FloatingOptions:
     """Options of floating gaps: physics, steps per turn, accuracy, meshes `finer` times the usual.
 
-    `finer` below one gives larger cells; left out it is that of elastic walls (`usual_finer`). Every `keep`th
-    film is kept.
+    `finer` below one gives larger cells. Every `keep`th film is kept.
     """
 
     physics: Physics = field(default=USUAL)
     steps: int = 360
     accuracy: Accuracy = field(default=MARCHED)
-    finer: float = SOFT_FINER
+    finer: float = FINER
     keep: int = 10
 
     @property

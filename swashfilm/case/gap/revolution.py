@@ -17,7 +17,7 @@ from system.inputs.sections.fields import Limits
 from system.inputs.sections.reader import table_section
 from system.inputs.sections.writer import section_rows
 from system.inputs.toml_table import Table, quoted
-from system.points.floating_gaps import MARCHED, USUAL, FloatingOptions, usual_finer
+from system.points.floating_gaps import MARCHED, FloatingOptions
 
 FILMS, RING_FILMS = 36, 180  # kept films of a turn; those of the valve plate repeat with the pitch
 MOST = 7200  # steps or films of a turn
@@ -110,8 +110,9 @@ def _options(top: Table, gap: Gap | None, pump: CasePump | None) -> FloatingOpti
     stated = table_section(top, "revolution", RevolutionSection, left_out=True)
     if stated is None:
         return None
-    steps, ring, physics = stated.steps, gap is Gap.VALVE_PLATE, stated.physics(USUAL)
-    finer = usual_finer(physics) if stated.finer is None else stated.finer
+    usual = FloatingOptions()
+    steps, ring, physics = stated.steps, gap is Gap.VALVE_PLATE, stated.physics(usual.physics)
+    finer = usual.finer if stated.finer is None else stated.finer
     pistons = pump.rotor.pump.pump.pistons if pump else 1
     if ring and steps % pistons:
         nearest = max(1, round(steps / pistons)) * pistons

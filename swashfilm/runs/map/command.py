@@ -53,7 +53,7 @@ def add_map_options(command: argparse.ArgumentParser) -> None:
     command.add_argument("--table", type=Path, metavar="FILE.json", help="--fidelity table: file of the table")
     command.add_argument("--direct", action="store_true", help="--fidelity fixed, floating: solve each point, no table")
     command.add_argument("--steps", metavar="N", help="floating gaps: reported angles per turn (360)")
-    command.add_argument("--finer", metavar="X", help="floating gaps: factor on the cells (.5; --rigid: 1)")
+    command.add_argument("--finer", metavar="X", help="floating gaps: factor on the cells (.5)")
     add_switches(command)
     command.add_argument("--check", metavar="N", help="fresh points that measure the error between levels (40)")
     command.add_argument("--workers", metavar="N", help="processes that solve points side by side (all cores)")

@@ -45,7 +45,7 @@ def add_run_options(command: argparse.ArgumentParser) -> None:
     what = "response table in place of the stored one of this pump"
     command.add_argument("--table", type=Path, metavar="FILE.json", help=what)
     command.add_argument("--steps", metavar="N", help="floating gaps: reported angles per turn (360)")
-    command.add_argument("--finer", metavar="X", help="floating gaps: factor on the cells each way (.5; --rigid: 1)")
+    command.add_argument("--finer", metavar="X", help="floating gaps: factor on the cells each way (.5)")
     what = "floating gaps: solve N times, cells, angles and steps each twice finer; report order and limit"
     command.add_argument("--refine", metavar="N", help=what)
     what = "another value of a key of the pump file, such as valve_plate.film_thickness=10um; may be repeated"

@@ -38,7 +38,7 @@ def add_reproduce_options(command: argparse.ArgumentParser) -> None:
     command.add_argument("--page", type=Path, metavar="FILE.md", help="write the page to this file as Markdown too")
     command.add_argument("--workers", metavar="N", help="processes that solve points side by side (1)")
     command.add_argument("--steps", metavar="N", help="floating gaps: reported angles per turn (360)")
-    command.add_argument("--finer", metavar="X", help="floating gaps: factor on the cells (.5; --rigid: 1)")
+    command.add_argument("--finer", metavar="X", help="floating gaps: factor on the cells (.5)")
     add_switches(command)
 
 

@@ -55,7 +55,7 @@ def add_table_options(command: argparse.ArgumentParser) -> None:
         "--source", metavar="{fixed,floating}", default=_SOURCE, help="fidelity of the solved points (fixed)"
     )
     command.add_argument("--steps", metavar="N", help="floating gaps: steps per turn (360)")
-    command.add_argument("--finer", metavar="X", help="floating gaps: factor on the cells (.5; --rigid: 1)")
+    command.add_argument("--finer", metavar="X", help="floating gaps: factor on the cells (.5)")
     add_switches(command)
     command.add_argument(
         "--points", metavar="N", help="points to fit, with the corners of the box (120 for four inputs)"
