@@ -25,6 +25,7 @@ MODEL = "ref90"
 NEEDED = ("slipper", "valve_plate", "ports")
 """Tables without which a pump file is a scant one."""
 FEWEST, MOST = 5, 15  # pistons for which REF90's ports can be parted anew
+ENDS = ("inner", "outer")
 NARROWER = 0.999  # kidneys, so that rounded values still lie between their lands
 _POWERS = {
     "pump.piston_diameter": (1, 0),
@@ -34,8 +35,6 @@ _POWERS = {
     "piston.edge_relief.width": (1, 0),
     "bore.edge_relief.width": (1, 0),
     "piston.mass": (2, 1),
-    "slipper.land_inner_radius": (1, 0),
-    "slipper.land_outer_radius": (1, 0),
     "slipper.orifice_diameter": (1, 0),
     "slipper.orifice_length": (1, 0),
     "slipper.mass": (3, 0),
@@ -162,9 +161,10 @@ def _displacement(raw: object, _: Mapping[str, object], reading: Reading) -> Map
 def _tables(facts: _Facts) -> dict[str, dict[str, Any]]:
     """REF90's tables at the size of the facts, values as text.
 
-    Pistons keep their share of the pitch circle: with the scale s of diameters and r of radii, r = s z/9 and
-    s^2 r = V/(z area stroke) of REF90 at the swash angle. Films, clearances, depths of reliefs, angles and friction
-    are REF90's, sliding speeds on the pitch circle at rated speed too; ports are parted by z.
+    Pistons keep their share of the pitch circle, and slippers are no wider than their distance allows: with the scale
+    s of diameters and r of radii, r = s z/9 and s^2 r = V/(z area stroke) of REF90 at the swash angle. Films,
+    clearances, depths of reliefs, angles and friction are REF90's, sliding speeds on the pitch circle at rated speed
+    too; ports are parted by z.
     """
     model = load_pump(MODEL)
     tables = {k: dict(v) for k, v in tomllib.loads(resolved_toml(model)).items() if isinstance(v, dict)}
@@ -182,6 +182,11 @@ def _tables(facts: _Facts) -> dict[str, dict[str, Any]]:
 
     for path, (of_piston, of_group) in _POWERS.items():
         put(path, attrgetter(path)(model) * piston**of_piston * group**of_group, _dimension(path))
+    apart = group * math.sin(math.pi / facts.pistons) / math.sin(math.pi / model.pump.pistons)
+    narrow = min(piston, apart)  # neighbours stay clear of each other
+    for end in ENDS:
+        path = f"slipper.land_{end}_radius"
+        put(path, attrgetter(path)(model) * narrow, Dimension.LENGTH)
     plate, ports = model.valve_plate, model.ports
     for key in ("land_radius_1", "land_radius_2", "land_radius_3", "land_radius_4"):
         beside = getattr(plate, key) - plate.kidney_pitch_radius
@@ -191,7 +196,7 @@ def _tables(facts: _Facts) -> dict[str, dict[str, Any]]:
     put("ports.kidney_full_end", ports.kidney_end - plate.kidney_arc / share, Dimension.ANGLE)
     lift, old_lift = stroke(drive) * group, _stroke(model)
     put("pump.dead_volume", model.pump.dead_volume * piston**2 * lift / old_lift, Dimension.VOLUME)
-    left = (model.piston.engaged_length - old_lift) * piston  # in the bore at the outer dead centre
+    left = (model.piston.engaged_length - old_lift) * narrow  # in the bore at the outer dead centre
     put("piston.engaged_length", left + lift, Dimension.LENGTH)
     put("valve_plate.kidney_width", NARROWER * plate.kidney_width * piston, Dimension.LENGTH)
     put("pump.displacement", facts.displacement, Dimension.DISPLACEMENT)
@@ -229,7 +234,7 @@ def _dimension(path: str) -> Dimension:
 
 def _assumptions(tables: Mapping[str, Any], stated: set[str]) -> tuple[Assumption, ...]:
     """Values that the file does not state, with their reasons."""
-    scaled = {*_POWERS, "pump.dead_volume", "piston.engaged_length"}
+    scaled = {*_POWERS, "pump.dead_volume", "piston.engaged_length", *(f"slipper.land_{one}_radius" for one in ENDS)}
     taken = []
     for name, table in tables.items():
         for key, value in table.items() if isinstance(table, dict) else ():

@@ -9,12 +9,12 @@ import meshio
 import numpy as np
 
 AROUND = 24
-radius = np.array([0.45, 2.5, 4.5, 6.5, 8.2, 9.65, 11.1, 12.55, 14.0])  # orifice .. pocket 8.2 .. rim
-height = np.array([-14.0, -11.0, -8.0, -4.9, -2.45, 0.0])  # socket's edge .. flange's back -4.9 .. face
+radius = np.array([0.45, 2.5, 4.5, 6.0, 7.4, 9.25, 11.1, 12.95, 14.8])  # orifice .. pocket 7.4 .. rim
+height = np.array([-18.0, -15.0, -12.0, -9.0, -4.5, 0.0])  # socket's edge .. flange's back -9 .. face
 
 # Cells of the section: the whole flange, and the wall of the socket on its back.
 column, row = np.meshgrid(np.arange(len(radius) - 1), np.arange(len(height) - 1), indexing="ij")
-solid = (height[row] >= -4.9) | ((radius[column] >= 8.2) & (radius[column] < 11.1))
+solid = (height[row] >= -9.0) | ((radius[column] >= 7.4) & (radius[column] < 11.1))
 column, row = column[solid], row[solid]
 
 angle = 2.0 * np.pi * np.arange(AROUND) / AROUND

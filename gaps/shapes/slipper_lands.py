@@ -113,7 +113,8 @@ def slipper_mesh(lands: tuple[Land, ...], cells: tuple[int, int]) -> FilmMesh:
     """Rings of quadrilaterals, one a land, `cells` (across each, around), with boundaries pocket, groove_k, case.
 
     Radii of each land rise by one ratio, as the pressure falls with the logarithm; polygons have the areas of the
-    circles that they stand for. A groove is one boundary: both its edges. Raises FilmInputError as `reynolds.fem.mesh.hollow_cylinder`.
+    circles that they stand for. A groove is one boundary: both its edges. Raises FilmInputError as
+    `reynolds.fem.mesh.hollow_cylinder`.
     """
     radii = np.concatenate([np.geomspace(*land, cells[0] + 1) for land in lands])
     keep = np.ones((len(radii) - 1, cells[1]), dtype=bool)

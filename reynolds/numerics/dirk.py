@@ -188,8 +188,9 @@ def integrate(
     """Step by step from a state to the last of `nodes` (s), each of which ends a step.
 
     Each step's error estimate over its tolerance, `excess(step)`, is at most one, but for steps up to `shortest` (s):
-    a motion without mass may jump, and no step resolves that. The first step aims at the first node. A step on which a stage has no solution is halved. Raises FilmInputError for nodes that
-    do not rise from the state's time on, FilmNotConverged where no step is short enough.
+    a motion without mass may jump, and no step resolves that. The first step aims at the first node. A step on which
+    a stage has no solution is halved. Raises FilmInputError for nodes that do not rise from the state's time on,
+    FilmNotConverged where no step is short enough.
     """
     times = np.array([start.time, *nodes])
     if len(times) < 2 or not np.all(np.diff(times) > 0.0) or not np.all(np.isfinite(times)):

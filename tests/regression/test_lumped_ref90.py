@@ -5,13 +5,14 @@ What its description and the paper say a simulation of it must give, and what it
 
 import numpy as np
 import pytest
+from bench_pump import BENCH
 
 from system import Pair, PointWarning, PumpPoint, load_pump, lumped_point, operating_point, piston_area, piston_motion
 from system.pump.bench import ideal_flow, ideal_torque
 from system.pump.lumped import lumped_pairs
 
 RPM = 2 * np.pi / 60
-PUMP = load_pump("ref90")
+PUMP = load_pump(BENCH)
 PRESSURES = (5e6, 10e6, 20e6, 35e6)
 SPEEDS = (1000, 1300, 1700, 2100)
 RANGES = {

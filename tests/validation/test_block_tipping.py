@@ -1,13 +1,16 @@
 """Tipping of the block, on the floating block of two pumps.
 
-REF90's lands lift 0.93 of the pistons' force, but 8 mm further in than the pistons press: what is left acts
-outside the outer land. ref90 has the same pistons and lands under them.
+The lands of the recordings' pump lift 0.93 of the pistons' force, but 8 mm further in than the pistons press: what is
+left acts outside the outer land. ref90 has the same pistons and lands under them.
 """
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import numpy as np
 import pytest
+from bench_pump import BENCH
 
 from gaps import Accuracy, GapRevolution
 from gaps.films.reports import BlockReport
@@ -30,7 +33,7 @@ COARSE = FloatingOptions(RIGID, steps=72, accuracy=Accuracy(step=3e-2), finer=0.
 pytestmark = pytest.mark.slow
 
 
-def block(name: str) -> GapRevolution[BlockReport]:
+def block(name: str | Path) -> GapRevolution[BlockReport]:
     """The block over a pitch at rated pressure, chambers by the lumped cycle."""
     pump = load_pump(name)
     point, parts = operating_point(pump), floating_parts(pump)
@@ -41,9 +44,9 @@ def block(name: str) -> GapRevolution[BlockReport]:
 
 
 def test_a_block_pressed_outside_its_land_has_no_film():
-    assert any("block tips" in str(warning) for warning in check_floating(load_pump("ref90")).warnings)
+    assert any("block tips" in str(warning) for warning in check_floating(load_pump(BENCH)).warnings)
     with pytest.raises(FilmNotConverged, match=r"block leaves its film: .* open"):
-        block("ref90")
+        block(BENCH)
 
 
 def test_a_block_with_its_lands_under_the_pistons_floats(validation):

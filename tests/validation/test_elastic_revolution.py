@@ -25,7 +25,7 @@ from system import (
 from system.points.floating_gaps import block_revolution, piston_revolution
 
 COARSE = FloatingOptions(RIGID, steps=24, accuracy=Accuracy(step=0.1), finer=0.5, keep=8)
-SOFT = Physics().without(Effect.PRESSURE_VISCOSITY)
+SOFT = Physics().without(Effect.PRESSURE_VISCOSITY, Effect.HEAT)
 
 
 def driven_at(pressure: str) -> tuple[Rotor, FloatingParts, Drives]:
@@ -82,7 +82,7 @@ def test_elastic_piston_closes():
     accuracy = Accuracy(step=0.1, closed=0.02)
     soft, rigid = (
         piston_revolution(at, parts, driven.piston, FloatingOptions(physics, 24, accuracy, finer=0.25, keep=8))
-        for physics in (Physics(), RIGID)
+        for physics in (Physics().without(Effect.HEAT), RIGID)
     )
     turn = soft.turn
     assert turn.repeats
@@ -99,7 +99,9 @@ def test_elastic_piston_closes():
 def test_elastic_block_closes():
     """With contact and oil that stiffens, at rated pressure; begun between rigid walls, it says what both took."""
     at, parts, driven = driven_at("35 MPa")
-    options = FloatingOptions(Physics(), steps=27, accuracy=Accuracy(step=0.1, closed=3e-3), finer=0.25, keep=3)
+    options = FloatingOptions(
+        Physics().without(Effect.HEAT), steps=27, accuracy=Accuracy(step=0.1, closed=3e-3), finer=0.25, keep=3
+    )
     found = block_revolution(at, parts, driven.block, options)
     turn = found.turn
     assert turn.repeats

@@ -7,6 +7,7 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from bench_pump import BENCH
 
 from gaps import floating_slipper, standing_block
 from gaps.revolution.film_heat import GapHeat, local_law, wall_image
@@ -24,7 +25,7 @@ from system.films.positions import given_block, given_slipper, instant_drives
 from system.films.problems import block_film, slipper_film
 
 RPM = np.pi / 30
-REF90 = load_pump("ref90")
+REF90 = load_pump(BENCH)
 PARTS = floating_parts(REF90)
 RESISTANCE = 6.6e-5  # m2 K/W, one for all: fitted to 18 films a gap, docs/theory.md
 ANGLE = {Gap.SLIPPER: 1.5 * np.pi, Gap.VALVE_PLATE: 0.1}

@@ -180,20 +180,25 @@ def _resume_faults(folder: Path) -> Iterator[Fault]:
 def _solver_faults(options: argparse.Namespace, plan: MapPlan) -> Iterator[Fault]:
     """Yield the faults of a plan that the fidelity does not solve."""
     from swashfilm.console.floating_options import alike_faults, floating_faults
+    from swashfilm.runs.map.run import POINT_COST, MapCase
     from system.maps.plan import MapInput
 
+    if options.fidelity not in (fidelity.value for fidelity in FIDELITIES):
+        return
     yield from floating_faults(options, plan.pump, options.fidelity)
-    if options.fidelity == Fidelity.LUMPED.value:
+    fidelity = Fidelity(options.fidelity)
+    if fidelity is Fidelity.LUMPED:
         return
     yield from alike_faults(plan.pump)
-    levels = {axis.input: len(axis.values) for axis in plan.axes}
-    if not options.direct and levels[MapInput.INLET_PRESSURE] > 1:
-        found = f"{levels[MapInput.INLET_PRESSURE]} levels; a response table holds one"
-        from swashfilm.runs.map.run import POINT_COST
-
-        seconds = POINT_COST[Fidelity(options.fidelity)] * len(plan.points)
-        expected = "one inlet pressure per map, --fidelity lumped, or --direct"
-        yield Fault("--inlet-pressures", found, expected, f"--direct needs about {seconds:.0f} s of processor time")
+    asked = MapCase(plan, fidelity, direct=options.direct)
+    levels = len(plan.axes[list(MapInput).index(MapInput.INLET_PRESSURE)].values)
+    if levels > 1 and (asked.by_table or fidelity is Fidelity.TABLE):
+        seconds = POINT_COST.get(fidelity, POINT_COST[Fidelity.FLOATING]) * len(plan.points)
+        yield Fault(
+            "--inlet-pressures", f"{levels} levels; a response table holds one",
+            "one inlet pressure per map, --fidelity lumped, or --direct",
+            f"--direct needs about {seconds:.0f} s of processor time",
+        )  # fmt: skip
 
 
 COMMAND = Command(

@@ -19,6 +19,9 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 
+MEAN = "mean film / um"
+
+
 def film_plots(data: MapData) -> dict[str, Figure]:
     """Return the pictures of the films by caption, over pressure and speed and over pressure and displacement."""
     found = {}
@@ -30,10 +33,11 @@ def film_plots(data: MapData) -> dict[str, Figure]:
 
 
 def film_plot(data: MapData, piece: Slice) -> Figure | None:
-    """Draw a row for each quantity that varies on the slice, a panel for each gap; None where none does."""
-    rows = [(words, fields) for words, fields in _quantities(data, piece).items() if _varies(fields)]
-    if not rows:
+    """Draw a row for each quantity that varies on the slice, a panel for each gap; None where films are given."""
+    found = _quantities(data, piece)
+    if not _varies(found[MEAN]):
         return None
+    rows = [(words, fields) for words, fields in found.items() if _varies(fields)]
     figure = figure_of(11.0, 3.2 * len(rows))
     panels = figure.subplots(len(rows), len(GAP_PAIRS), squeeze=False)
     for own, (words, fields) in zip(panels, rows, strict=True):
@@ -47,7 +51,7 @@ def _quantities(data: MapData, piece: Slice) -> dict[str, dict[str, Array]]:
     """Return the fields on a slice by quantity and gap, in the units of their names."""
     values = data.values
     return {
-        "mean film / um": {gap: 1e6 * piece.of(values[f"film_mean.{gap}"]) for gap in GAP_PAIRS},
+        MEAN: {gap: 1e6 * piece.of(values[f"film_mean.{gap}"]) for gap in GAP_PAIRS},
         "least film / um": {gap: 1e6 * piece.of(values[f"film_least.{gap}"]) for gap in GAP_PAIRS},
         "hottest oil / degC": {gap: _celsius(piece.of(values[f"film_temperature.{gap}"])) for gap in GAP_PAIRS},
         "contact / W": {

@@ -43,14 +43,14 @@ def test_the_file_has_its_origin_and_loads_to_the_pump_under_a_name_of_its_own(t
 
 def test_each_fidelity_is_named_with_what_it_does_of_the_effects():
     whole = _applied(_with(EffectId.CHURNING, EffectId.VISCOSITY_PRESSURE))
-    assert "films solves viscosity_pressure in the films" in whole
-    assert "films has churning as closed-form laws" in whole
+    assert "fixed solves viscosity_pressure in the films" in whole
+    assert "fixed has churning as closed-form laws" in whole
     assert "floating solves viscosity_pressure in the films" in whole
     assert "floating has churning as closed-form laws" in whole
     lifted = _applied(
         extended_pump(PUMP, {"slipper_lift.ride_height": 5e-5}, entry_of(EffectId.SLIPPER_LIFT).extensions)
     )
-    assert "films has slipper_lift as closed-form laws" in lifted
+    assert "fixed has slipper_lift as closed-form laws" in lifted
     assert "floating solves slipper_lift in the films" in lifted
     assert "It runs in every fidelity" in _applied(PUMP)
 

@@ -7,6 +7,7 @@ from pathlib import Path
 import meshio
 import numpy as np
 import pytest
+from bench_pump import BENCH
 
 from reynolds import Cell, annulus, mesh_from_file, rectangle
 from reynolds.fem.mesh_check import mesh_faults
@@ -145,7 +146,7 @@ def test_a_wrong_number_of_meshes_is_told(words, told, tmp_path, capsys):
 
 def test_a_gap_of_a_pump_has_finer_meshes_too(tmp_path):
     path = tmp_path / "gap.toml"
-    text = 'format = 1\n[film]\ngap = "slipper"\npump = "ref90"\n[position]\nfilm_thickness = "9 um"\n'
+    text = f'format = 1\n[film]\ngap = "slipper"\npump = "{BENCH}"\n[position]\nfilm_thickness = "9 um"\n'
     path.write_text(text + 'slope_x = "0.01 deg"\n', encoding="utf-8")
     assert main(["film", str(path), "--refine", "3", "-o", str(tmp_path / "run")]) == 0
     found = json.loads((tmp_path / "run" / "summary.json").read_text("utf-8"))["refinement"]

@@ -6,6 +6,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from bench_pump import BENCH
 
 from swashfilm.__main__ import main
 from swashfilm.runs.table.gap_case import load_gap_table
@@ -13,18 +14,18 @@ from swashfilm.runs.table.gap_run import read_gap_table
 from system import InputFaults
 
 # A concentric piston held at its dead centre: leakage pi d h^3 p/(12 mu l), a power of all that varies.
-PISTON = """format = 1
+PISTON = f"""format = 1
 [film]
 gap = "piston"
-pump = "ref90"
+pump = "{BENCH}"
 shaft_angle = "0 deg"
 chamber_pressure = "10 MPa"
 [position]
 eccentricity_inner = ["0 um", "0 um"]
 eccentricity_case = ["0 um", "0 um"]
 [table]
-"film.chamber_pressure" = { from = "5 MPa", to = "20 MPa", spacing = "log" }
-"pump.piston.radial_clearance" = { from = "10 um", to = "20 um", spacing = "log" }
+"film.chamber_pressure" = {{ from = "5 MPa", to = "20 MPa", spacing = "log" }}
+"pump.piston.radial_clearance" = {{ from = "10 um", to = "20 um", spacing = "log" }}
 """
 SLIPPER = """format = 1
 [film]
@@ -38,6 +39,7 @@ finer = 0.25
 tolerance = 0.1
 walls = "rigid"
 oil = "isoviscous"
+heat = "none"
 [table]
 "operating.pressure" = { from = "5 MPa", to = "8 MPa" }
 """

@@ -8,6 +8,7 @@ import numpy as np
 import pint
 import pytest
 import xarray
+from bench_pump import BENCH
 
 from reynolds import NotConverged
 from swashfilm.__main__ import main
@@ -28,14 +29,14 @@ SMALL = [
 def run(tmp_path_factory):
     """A whole run, pictures and all; the other tests go without pictures, which take most of the time."""
     folder = tmp_path_factory.mktemp("map") / "run"
-    assert main(["map", "ref90", *SMALL, "-o", str(folder)]) == 0
+    assert main(["map", str(BENCH), *SMALL, "-o", str(folder)]) == 0
     return folder
 
 
 @pytest.fixture(autouse=True)
 def no_pictures(run, monkeypatch):
-    for module, name in (("page", "map_plots"), ("duty", "duty_plots"), ("compare", "compare_plots")):
-        monkeypatch.setattr(f"swashfilm.runs.map.{module}.{name}", lambda *_: {})
+    for place in ("page.map_plots", "page.film_plots", "duty.duty_plots", "compare.compare_plots"):
+        monkeypatch.setattr(f"swashfilm.runs.map.{place}", lambda *_: {})
 
 
 @pytest.mark.parametrize(
@@ -112,7 +113,7 @@ def test_another_level_solves_its_points_only(run, tmp_path, monkeypatch):
         map_point.LumpedSolver, "solve", lambda *own: solved.append(own[-1].delivery_pressure) or solve(*own)
     )
     words = [*SMALL[:5], "10,15,20,30MPa", *SMALL[6:8], "--check", "0", "--resume", str(run)]
-    assert main(["map", "ref90", *words, "-o", str(tmp_path / "more")]) == 0
+    assert main(["map", str(BENCH), *words, "-o", str(tmp_path / "more")]) == 0
     assert solved == [15e6] * 6
     summary = json.loads((tmp_path / "more" / "summary.json").read_text())
     assert (summary["kept"], summary["solved"]) == (18, 24)
@@ -128,7 +129,7 @@ def test_an_interrupted_map_goes_on(run, tmp_path, monkeypatch, capsys):
         return solve(self, pump, point)
 
     monkeypatch.setattr(map_point.LumpedSolver, "solve", broken)
-    words = ["map", "ref90", *SMALL[:3], "1000..2000rpm:9", *SMALL[4:], "-o", str(tmp_path / "run")]
+    words = ["map", str(BENCH), *SMALL[:3], "1000..2000rpm:9", *SMALL[4:], "-o", str(tmp_path / "run")]
     assert main(words) == 130
     assert f"--resume {tmp_path / 'run.partial'}" in capsys.readouterr().err
     monkeypatch.setattr(map_point.LumpedSolver, "solve", solve)
@@ -146,7 +147,7 @@ def test_a_point_that_fails_stops_no_other(tmp_path, monkeypatch, capsys):
         return solve(self, pump, point)
 
     monkeypatch.setattr(map_point.LumpedSolver, "solve", stalls)
-    assert main(["map", "ref90", *SMALL, "-o", str(tmp_path / "run")]) == 0
+    assert main(["map", str(BENCH), *SMALL, "-o", str(tmp_path / "run")]) == 0
     assert "made to fail" in (tmp_path / "run" / "report.html").read_text()
     assert "12 of 18 solved, 6 failed" in capsys.readouterr().out
     (tmp_path / "cycle.csv").write_text(
@@ -154,7 +155,7 @@ def test_a_point_that_fails_stops_no_other(tmp_path, monkeypatch, capsys):
     )
     assert main(["duty", str(tmp_path / "run"), str(tmp_path / "cycle.csv"), "-o", str(tmp_path / "d")]) == 2
     assert "points without a result" in capsys.readouterr().err
-    assert main(["map", "ref90", *SMALL[:4], "--pressures", "20MPa", "-o", str(tmp_path / "none")]) == 3
+    assert main(["map", str(BENCH), *SMALL[:4], "--pressures", "20MPa", "-o", str(tmp_path / "none")]) == 3
 
 
 @pytest.mark.parametrize(
@@ -163,7 +164,7 @@ def test_a_point_that_fails_stops_no_other(tmp_path, monkeypatch, capsys):
         (["--speeds", "1000", "--plan", "papr", "--workers", "0"], ["--speeds", "--plan", "--workers"]),
         (["--pressures", "10bar", "--fidelity", "lumped"], ["operating.pressure", "inlet_pressure"]),
         (["--displacements", "1.2", "--fidelity", "lumped"], ["operating.displacement_ratio"]),
-        (["--inlet-pressures", "10,25bar"], ["--inlet-pressures", "--direct needs about 448 s"]),
+        (["--inlet-pressures", "10,25bar"], ["--inlet-pressures", "--direct needs about 15680 s"]),
         (["--fidelity", "lumped", "--direct"], ["--direct"]),
         (["--fidelity", "table", "--table", "no.json"], ["no.json"]),
         (["--workers", "2", "--cluster", "tcp://nowhere:1"], ["--workers"]),
@@ -172,7 +173,7 @@ def test_a_point_that_fails_stops_no_other(tmp_path, monkeypatch, capsys):
     ],
 )
 def test_what_is_wrong_is_told_before_the_first_point(words, told, tmp_path, capsys):
-    assert main(["map", "ref90", *words, "-o", str(tmp_path / "run")]) == 2
+    assert main(["map", str(BENCH), *words, "-o", str(tmp_path / "run")]) == 2
     error = capsys.readouterr().err
     assert all(text in error for text in told), error
     assert not (tmp_path / "run").exists()
@@ -215,7 +216,7 @@ def test_solved_points_outlive_an_error(tmp_path, monkeypatch, capsys):
         raise ZeroDivisionError("a bug")
 
     monkeypatch.setattr("swashfilm.runs.map.run.write_tables", broken)
-    words = ["map", "ref90", *SMALL[:2], "--speeds", "1000rpm", *SMALL[4:], "-o", str(tmp_path / "run")]
+    words = ["map", str(BENCH), *SMALL[:2], "--speeds", "1000rpm", *SMALL[4:], "-o", str(tmp_path / "run")]
     with pytest.raises(ZeroDivisionError):
         main(words)
     assert f"--resume {tmp_path / 'run.partial'}" in capsys.readouterr().err

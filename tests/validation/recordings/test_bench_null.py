@@ -3,6 +3,7 @@
 from pathlib import Path
 
 import numpy as np
+from bench_pump import BENCH
 
 from diagnosis import observations, read_recording
 from diagnosis.study.inputs import bench_points
@@ -19,7 +20,7 @@ def test_null_recording_is_noise(validation):
     would have it, it is missed: leakage falls by 12 % from full to 28 % displacement.
     """
     recording = read_recording(Path(__file__).parents[3] / "examples" / "recordings" / "open-01")
-    pump = load_pump(recording.pump)
+    pump = load_pump(BENCH)
     points, _ = bench_points(recording, pump)
     parameters = (*base_parameters(pump, tolerances(pump)[0]), *sensor_parameters(recording.channels))
     bench = LumpedBench(pump, points, SIMULATED, parameters, inputs=INPUTS)
@@ -32,6 +33,6 @@ def test_null_recording_is_noise(validation):
         expected=1.0, obtained=found.objective / size, tolerance=3.0 * np.sqrt(2.0 / size),
     )  # fmt: skip
     fixed = tuple(one for one in parameters if one.name != "stand_out_share")
-    pivoted = load_pump("ref90", {"piston.stand_out_share": 1.0})
+    pivoted = load_pump(BENCH, {"piston.stand_out_share": 1.0})
     missed = linear_posterior(LumpedBench(pivoted, points, SIMULATED, fixed, inputs=INPUTS), read)
     assert missed.objective / size > 1.0 + 3.0 * np.sqrt(2.0 / size)

@@ -7,6 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from bench_pump import BENCH
 
 from diagnosis import Recording, Study, load_thresholds, prepare, read_recording
 from diagnosis.study.drift_course import drift_courses
@@ -15,7 +16,7 @@ from system import ChannelName, load_pump, tolerances
 from system.bench.simulator import LumpedBench
 
 LIMITS = load_thresholds()
-PUMP = load_pump("ref90")
+PUMP = load_pump(BENCH)
 
 
 @pytest.fixture(scope="module")

@@ -7,6 +7,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from bench_pump import BENCH
 
 from diagnosis import Recording, Study, load_thresholds, prepare, read_recording
 from diagnosis.detect.mismatch import detect
@@ -17,7 +18,7 @@ from system import ChannelName, load_pump, tolerances
 
 LIMITS = load_thresholds()
 RECORDINGS = Path(__file__).parents[4] / "examples" / "recordings"
-PUMP = load_pump("ref90")
+PUMP = load_pump(BENCH)
 
 
 def _every(recording: Recording, step: int) -> Recording:

@@ -190,5 +190,5 @@ def test_physics_switches():
     assert laws_left(laws, Physics()) == laws
     assert laws_left(laws, bare) == FilmLaws(fluid=CONSTANT)
     assert (Physics().film_rupture, bare.film_rupture) == (Cavitation.JFO, Cavitation.NONE)
-    assert bare.left_out == (Effect.CAVITATION, Effect.ROUGHNESS, Effect.HEAT)
+    assert bare.left_out == (Effect.CAVITATION, Effect.ROUGHNESS)
     assert bare.including(Effect.ROUGHNESS, Effect.CAVITATION) == Physics()

@@ -5,6 +5,7 @@ from time import process_time
 
 import numpy as np
 import pytest
+from bench_pump import BENCH
 
 from reynolds import InputError, NotConverged
 from system import (
@@ -29,8 +30,8 @@ from system.bench.sensors import encoder_parameter
 from system.bench.simulator import INPUT_STEPS
 from system.pump import lumped
 
-REF90 = load_pump("ref90")
-CROSSED = load_pump("ref90", {"pump.cross_angle": "3 deg", "pump.displacement": "91.31 cm3/rev"})
+REF90 = load_pump(BENCH)
+CROSSED = load_pump(BENCH, {"pump.cross_angle": "3 deg", "pump.displacement": "91.31 cm3/rev"})
 RPM = np.pi / 30.0
 GAPS = ("film_thickness.piston", "film_thickness.slipper", "film_thickness.valve_plate", "eccentricity_ratio",
         "viscosity", "viscosity_slope", "stand_out_share")  # fmt: skip
@@ -120,7 +121,7 @@ def test_piston_stands_out_by_its_share():
     point = operating_point(REF90, displacement_ratio=0.4)
     lengths = {}
     for share in (0.0, 0.5, 1.0):
-        pump = load_pump("ref90", {"piston.stand_out_share": share})
+        pump = load_pump(BENCH, {"piston.stand_out_share": share})
         lengths[share] = lumped.piston_motion(pump, point).engaged_length
     assert lengths[0.0][0] == pytest.approx(REF90.piston.engaged_length, rel=1e-14)
     assert lengths[0.5] == pytest.approx(0.5 * (lengths[0.0] + lengths[1.0]), rel=1e-14)
@@ -207,7 +208,7 @@ def test_what_no_map_can_be_made_of_is_told():
     with pytest.raises(InputError, match="swash_droop"):
         LumpedBench(REF90, MAP, SIMULATED, (replace(parameters[0], name="swash_droop.rate"),))
     with pytest.raises(InputError, match="alike"):
-        _bench(load_pump("ref90", {"piston.3": {"radial_clearance": "20 um"}}))
+        _bench(load_pump(BENCH, {"piston.3": {"radial_clearance": "20 um"}}))
     with pytest.raises(InputError, match="temperature"):
         _bench(points=replace(MAP, T_case=MAP.T_case + 200.0))
     with pytest.raises(NotConverged, match="no pump has these values"):
@@ -237,7 +238,7 @@ def test_starved_chambers_keep_their_oil_from_turn_to_turn(loss):
 
     By their pressure turns would end 2 % apart where chambers begin to starve, and Q_out jump by 20 sigma.
     """
-    starved = load_pump("ref90", {"physics.incomplete_filling.inlet_loss": loss})
+    starved = load_pump(BENCH, {"physics.incomplete_filling.inlet_loss": loss})
     inlet = np.arange(-50e3, 30e3, 400.0)
     bench = _bench(starved, _points(np.full(inlet.size, 2200.0), 1.0, 20e6, inlet, 0.0))
     values = _means(bench)
@@ -249,7 +250,7 @@ def test_starved_chambers_keep_their_oil_from_turn_to_turn(loss):
 
 def test_a_starved_cycle_keeps_its_oil():
     """The same of single points, solved to their own tolerance."""
-    starved = load_pump("ref90", {"physics.incomplete_filling.inlet_loss": 1.0})
+    starved = load_pump(BENCH, {"physics.incomplete_filling.inlet_loss": 1.0})
     for inlet in np.arange(-50e3, 30e3, 8e3):
         point = operating_point(
             starved, shaft_speed=2200.0 * RPM, delivery_pressure=20e6, inlet_pressure=inlet, case_pressure=0.0
@@ -269,6 +270,6 @@ def test_a_map_without_effects_is_solved_where_a_law_asks_for_it(table, maps, mo
 
     monkeypatch.setattr(simulator, "solve_map", counted)
     size = {"notch_erosion.advance": "2 deg", "elastic_opening.slipper.opening": "10 1/GPa"}[table]
-    bench = _bench(load_pump("ref90", {f"physics.{table}": size}), _points([1500.0], 1.0, 20e6))
+    bench = _bench(load_pump(BENCH, {f"physics.{table}": size}), _points([1500.0], 1.0, 20e6))
     bench.predict(_means(bench))
     assert len(solved) == maps

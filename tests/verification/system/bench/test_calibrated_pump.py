@@ -8,6 +8,7 @@ from itertools import product
 
 import numpy as np
 import pytest
+from bench_pump import BENCH
 
 from system import (
     SIMULATED,
@@ -29,7 +30,7 @@ from system import (
 from system.bench.calibration.extended_pump import calibrated_pump
 from system.bench.calibration.hersey_curve import PAIRS, hersey_curves
 
-PUMP = load_pump("ref90")
+PUMP = load_pump(BENCH)
 GRID = np.array(list(product((1000.0, 2100.0), (10e6, 30e6), (0.5, 1.0))))
 HELD = {"p_in": 2.5e6, "p_case": 1.5e5, "T_in": 323.0, "T_case": 326.0, "hours": np.nan}
 POINTS = BenchPoints(

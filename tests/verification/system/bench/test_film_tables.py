@@ -5,6 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from bench_pump import BENCH
 
 from gaps import Axis, Response, floating_slipper
 from gaps.response import Samples
@@ -37,7 +38,7 @@ from system.films.positions import given_slipper, instant_drives
 from system.films.problems import slipper_film
 from system.pump.lumped import SAMPLES_PER_PITCH
 
-REF90 = load_pump("ref90")
+REF90 = load_pump(BENCH)
 STEEPEST = 1.5 * np.pi
 SLOPE = 3e-8  # 1/Pa, of the leakage in the tables made up here
 ROUNDED = 1e-14  # some tens of roundings of a table that is looked up

@@ -4,6 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from bench_pump import BENCH
 
 from gaps import Effect, Pose
 from gaps.walls.pair import BoreWalls, PlateWalls
@@ -31,7 +32,7 @@ from system.points.film_effects import SOLVED, effects_in_films, even_rise, film
 from system.points.films import leak_table
 from system.pump.film_thickness import at_temperature, moved_to, unpressed
 
-REF90 = load_pump("ref90")
+REF90 = load_pump(BENCH)
 COARSE = {"positions_per_pitch": 2, "finer": 0.5}
 FEW = {"finer": 0.25, "tolerance": 1.0}
 OPENING, COEFFICIENT = 2e-8, 2e-8
@@ -55,7 +56,7 @@ def leaks(films):
 def slow_flow(tables, case_pressure):
     """Flow (N,) m3/s past pistons in the middle of their bores that hardly slide, under one pressure."""
     centred = {"piston.eccentricity_ratio": 0.0, "operating.case_pressure": f"{case_pressure} Pa"}
-    pump = extended(tables, load_pump("ref90", centred))
+    pump = extended(tables, load_pump(BENCH, centred))
     point, stands = replace(operating_point(pump), shaft_speed=SLOW), unpressed(pump, case_pressure)
     at = rotor(stands, point)
     films = film_effects(at, floating_parts(stands), pump, PLAIN)
@@ -149,7 +150,7 @@ def test_compliance_one_is_the_pumps_own_bodies_and_none_is_rigid(gap, plain):
 
 def test_compliance_is_a_softer_material():
     softer = {f"materials.{name}.youngs_modulus": f"{value / 1.5} GPa" for name, value in SLIDES.items()}
-    pump = load_pump("ref90", softer | {f"materials.{name}.poissons_ratio": r for name, r in RATIOS.items()})
+    pump = load_pump(BENCH, softer | {f"materials.{name}.poissons_ratio": r for name, r in RATIOS.items()})
     own = coarse(pump, physics=GapPhysics(slipper=SMOOTH.including(Effect.ELASTIC_WALLS)), **FEW)
     stated = coarse(extended({"elastic_opening": {"slipper": {"compliance": 1.5}}}), **FEW)
     np.testing.assert_allclose(leaks(stated), leaks(own), rtol=1e-6)
@@ -293,7 +294,7 @@ def test_a_pump_moved_to_another_temperature_keeps_its_films_there():
 
 
 def test_single_parts_expand_too():
-    pump = extended(RATES, load_pump("ref90", {"piston.3.radial_clearance": "25 um"}))
+    pump = extended(RATES, load_pump(BENCH, {"piston.3.radial_clearance": "25 um"}))
     there = at_temperature(pump, pump.operating.temperature + WARMER)
     ((chamber, part),) = there.single_pistons
     assert chamber == 3

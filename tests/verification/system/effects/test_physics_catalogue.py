@@ -2,12 +2,13 @@
 
 import numpy as np
 import pytest
+from bench_pump import BENCH
 
 from reynolds import dynamic_viscosity
 from system import CATALOGUE, EXTENSIONS, BenchState, EffectId, Gap, GapCourse, Kind, entry_of, load_pump
 from system.effects.effect import both, neutral
 
-REF90 = load_pump("ref90")
+REF90 = load_pump(BENCH)
 POINTS, ANGLES = 3, 6
 BY_NAME = [pytest.param(one, id=one.parameters[0].name) for one in EXTENSIONS]
 

@@ -5,6 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from bench_pump import BENCH
 from scipy.integrate import quad
 
 from reynolds import dynamic_viscosity
@@ -26,7 +27,7 @@ from system.pump.bench import NOTHING_OUTSIDE
 from system.pump.ports.wear import PortWear, eroded
 
 RPM = np.pi / 30
-REF90 = load_pump("ref90")
+REF90 = load_pump(BENCH)
 
 
 def state(rpm, pressure=35e6, ratio=1.0, kelvin=323.15, inlet=2.5e6, case=0.15e6):

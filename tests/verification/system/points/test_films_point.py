@@ -13,6 +13,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from bench_pump import BENCH
 
 from gaps import GapFilm
 from system import (
@@ -40,7 +41,7 @@ FORCES = 1e-3  # trapezoidal rule over 360 angles of a pressure that bends by 35
 
 @pytest.fixture(scope="module")
 def rated() -> FilmsPoint:
-    pump = load_pump("ref90")
+    pump = load_pump(BENCH)
     return films_point(pump, operating_point(pump))
 
 
@@ -54,7 +55,7 @@ def pocket_pressure(film: GapFilm) -> float:
 
 def with_pistons(count: int) -> PumpDescription:
     """REF90's parts with another number of pistons."""
-    pump = load_pump("ref90")
+    pump = load_pump(BENCH)
     return replace(pump, pump=replace(pump.pump, pistons=count, displacement=None))
 
 
@@ -196,8 +197,8 @@ def test_parts_stand_where_the_description_puts_them(rated):
 
 def test_stated_tilts_open_the_films_to_their_sides():
     """Radial outwards, tangential forwards; the plate's two along x and y."""
-    part = replace(load_pump("ref90").slipper, tilt_radial=1e-4, tilt_tangential=2e-4)
-    pump = replace(load_pump("ref90"), slipper=part)
+    part = replace(load_pump(BENCH).slipper, tilt_radial=1e-4, tilt_tangential=2e-4)
+    pump = replace(load_pump(BENCH), slipper=part)
     group, radius = rotor(pump, operating_point(pump)), part.lands.outer_radius
     for angle in (0.3, 2.0, 4.0):
         rises = given_slipper(group, angle)[1:] / radius
@@ -212,7 +213,7 @@ def test_stated_tilts_open_the_films_to_their_sides():
 
 def test_slow_parallel_pump_leaks_as_the_equations_say(validation):
     """Pistons concentric, 50 r/min: what is left are equations (15) to (17) over the chamber's own pressure."""
-    pump = load_pump("ref90")
+    pump = load_pump(BENCH)
     piston = replace(pump.piston, eccentricity_ratio=0.0)
     pump = replace(pump, piston=piston)
     slow = operating_point(pump, shaft_speed=50.0 * RPM)
@@ -240,7 +241,7 @@ def test_slow_parallel_pump_leaks_as_the_equations_say(validation):
 
 
 def test_film_angles_must_fit_the_samples():
-    pump = load_pump("ref90")
+    pump = load_pump(BENCH)
     with pytest.raises(ValueError, match="found 7, expected an even divisor of 40"):
         films_point(pump, operating_point(pump), positions_per_pitch=7)
 

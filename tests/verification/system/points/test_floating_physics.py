@@ -82,6 +82,11 @@ def test_rigid_walls_that_stiff_oil_breaks_are_told_with_the_remedy(monkeypatch)
         floating_gaps.piston_revolution(at, parts, driven.piston, FloatingOptions(RIGID))
 
 
+def mean_film(point: FloatingPoint, gap: str) -> float:
+    """Film over area and turn, m."""
+    return float(np.mean([at.mean_film for at in getattr(point.kinds[0].gaps, gap).turn.instants]))
+
+
 @pytest.fixture(scope="module")
 def plain() -> FloatingPoint:
     return floating({})
@@ -98,17 +103,25 @@ OF_FORCES = {
 }
 
 
+IN_FILMS = {**OF_FORCES, "shear_thinning": {"drop": 0.3, "rate": 1e3}}
+"""Of the balance of forces, and oil that thins by 30 % in any film of a pump."""
+
+
+@pytest.fixture(scope="module")
+def inside() -> FloatingPoint:
+    return floating(IN_FILMS)
+
+
 @pytest.fixture(scope="module")
 def found() -> FloatingPoint:
-    """Effects outside the films, of the balance of forces, and oil that thins by 30 % in any film of a pump."""
-    return floating({**OUTSIDE, **OF_FORCES, "shear_thinning": {"drop": 0.3, "rate": 1e3}})
+    return floating({**OUTSIDE, **IN_FILMS})
 
 
 @pytest.mark.slow
-def test_what_acts_outside_the_films_adds_what_it_adds_at_the_lumped_fidelity(plain, found):
-    """Drain, cross leak and drag: flows and torque of both fidelities grow alike, beside what the films change."""
+def test_what_acts_outside_the_films_adds_what_it_adds_at_the_lumped_fidelity(inside, found):
+    """Drain, cross leak and drag: flows and torque of both fidelities grow alike."""
     lumped = [lumped_point(one, operating_point(one)).bench for one in (PUMP, extended(OUTSIDE))]
-    before, after = plain.pump_point, found.pump_point
+    before, after = inside.pump_point, found.pump_point
     for name in ("delivery_flow", "inlet_flow", "drain_flow", "shaft_torque"):
         own = getattr(after.bench, name) - getattr(before.bench, name)
         if name == "shaft_torque":
@@ -119,19 +132,24 @@ def test_what_acts_outside_the_films_adds_what_it_adds_at_the_lumped_fidelity(pl
 
 
 @pytest.mark.slow
-def test_oil_that_thins_shears_more_easily_at_the_films_own_rates(plain, found):
-    """Every film runs at rates far beyond 1e3 1/s: shear falls by the whole drop, in forces and heat alike."""
-    for pair in ("slipper_swash_plate", "valve_plate_cylinder"):
-        before, after = (getattr(one.pump_point.pairs, pair).mean_viscous for one in (plain, found))
-        assert after == pytest.approx(0.7 * before, rel=0.02), pair
+def test_oil_that_thins_shears_more_easily_at_the_films_own_rates(plain, inside):
+    """Every film runs at rates far beyond 1e3 1/s: shear at one film thickness falls by the whole drop.
+
+    Films of thinner oil tilt by other angles too, which shear at one mean thickness notices by some percent.
+    """
+    for pair, gap in (("slipper_swash_plate", "slipper"), ("valve_plate_cylinder", "block")):
+        before, after = (
+            getattr(one.pump_point.pairs, pair).mean_viscous * mean_film(one, gap) for one in (plain, inside)
+        )
+        assert after == pytest.approx(0.7 * before, rel=0.04), pair
 
 
 @pytest.mark.slow
-def test_what_the_forces_place_is_told_and_not_doubled(plain, found):
-    """A lift by its law would multiply the slippers' leakage; floating, the film itself says how they ride."""
-    before, after = (one.pump_point.leakage_flow.slipper for one in (plain, found))
+def test_what_the_forces_place_is_told_and_not_doubled(plain, inside):
+    """A lift by its law would multiply the slippers' film; floating, the film itself says how they ride."""
+    before, after = (mean_film(one, "slipper") for one in (plain, inside))
     assert after == pytest.approx(before, rel=0.05)
-    told = [str(one) for one in found.kinds[0].parts.taken if one.path.startswith("physics.")]
+    told = [str(one) for one in inside.kinds[0].parts.taken if one.path.startswith("physics.")]
     assert len(told) == len(OF_FORCES)
     assert "slippers ride and tilt as the forces" in told[0]
 

@@ -4,6 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from bench_pump import BENCH
 
 from gaps.loads.ball_joint import Spins
 from system import drives, floating_parts, load_pump, no_rubbing, operating_point, resolved_toml, rotor
@@ -13,7 +14,7 @@ from system.films.spins import SpinTorques, spins, torques_of_films
 @pytest.fixture
 def free(tmp_path):
     """ref90 without its spin ratios."""
-    rows = [row for row in resolved_toml(load_pump("ref90")).splitlines() if not row.startswith("spin_ratio")]
+    rows = [row for row in resolved_toml(load_pump(BENCH)).splitlines() if not row.startswith("spin_ratio")]
     path = tmp_path / "pump.toml"
     path.write_text("\n".join(rows), "utf-8")
     return load_pump(path)
@@ -25,7 +26,7 @@ def test_free_parts_turn_with_what_rubs_more(free):
     Bores of a cone swing about the shaft, and a joint that nearly sticks feels it: the piston follows a little.
     """
     point = operating_point(free)
-    assert rotor(load_pump("ref90"), point).spins.piston == 0.0
+    assert rotor(load_pump(BENCH), point).spins.piston == 0.0
     straight = replace(free, pump=replace(free.pump, bore_cone_angle=0.0))
     pressed = rotor(straight, point).spins
     assert pressed.piston / point.shaft_speed == pytest.approx(-1.0, abs=0.06)
@@ -67,6 +68,6 @@ def test_free_spins_reach_every_gap_and_are_told(free):
     found = drives(group, parts, angles, np.full(18, 20e6), no_rubbing(18))
     assert found.piston.piston_spin == speed + free_to.piston
     assert found.slipper.spin == free_to.slipper
-    still = drives(rotor(load_pump("ref90"), group.point), parts, angles, np.full(18, 20e6), no_rubbing(18))
+    still = drives(rotor(load_pump(BENCH), group.point), parts, angles, np.full(18, 20e6), no_rubbing(18))
     # A slipper that the piston follows is hardly turned by its joint: free, the moment falls.
     assert np.linalg.norm(found.group[0].ball_moment) < np.linalg.norm(still.group[0].ball_moment)

@@ -9,6 +9,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from bench_pump import BENCH
 
 from reynolds import InputError
 from system import joint_forces, load_pump, lumped_point, operating_point, orifice_flow
@@ -28,7 +29,7 @@ def held_at(pressure: float) -> ControlPressure:
 def run(
     stated: dict[str, object], control: ControlPressure, end: float, step: float | None = None, **asked: float
 ) -> Transient:
-    pump = load_pump("ref90", stated)
+    pump = load_pump(BENCH, stated)
     return run_transient(TransientCase(pump, operating_point(pump, **asked), control, end, step and step * DEGREES))
 
 

@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from bench_pump import BENCH
 
 from system import (
     InputFaults,
@@ -14,13 +15,13 @@ from system import (
     valve_plate_geometry,
 )
 
-PUMP = load_pump("ref90")
+PUMP = load_pump(BENCH)
 ARC = PUMP.valve_plate.kidney_arc
 LATER = {"ports.delivery.kidney_end": "173 deg", "ports.delivery.kidney_full_end": "143 deg"}
 
 
 def test_said_alike_they_are_alike():
-    own = load_pump("ref90", {"ports.delivery.kidney_area": f"{PUMP.ports.kidney_area * 1e6!r} mm2"})
+    own = load_pump(BENCH, {"ports.delivery.kidney_area": f"{PUMP.ports.kidney_area * 1e6!r} mm2"})
     assert port_openings(own) == port_openings(PUMP)
     assert valve_plate_geometry(own) == valve_plate_geometry(PUMP)
 
@@ -28,7 +29,7 @@ def test_said_alike_they_are_alike():
 def test_each_port_opens_by_its_own_law():
     """The delivery's kidney alone is smaller; grooves of another kind take the place of that of [ports]."""
     groove = [{"start": "2 deg", "end": "12 deg", "shape": "area", "area": "3 mm2"}]
-    own = load_pump("ref90", {"ports.delivery.kidney_area": "140 mm2", "ports.delivery.grooves": groove})
+    own = load_pump(BENCH, {"ports.delivery.kidney_area": "140 mm2", "ports.delivery.grooves": groove})
     (suction, delivery), (plain, _) = port_openings(own), port_openings(PUMP)
     assert suction == plain
     quarter = np.array([0.5 * np.pi, 1.5 * np.pi])
@@ -40,7 +41,7 @@ def test_each_port_opens_by_its_own_law():
 
 
 def test_the_films_ports_follow_their_own_side(tmp_path):
-    own = load_pump("ref90", LATER | {"ports.delivery.webs": [["90 deg", "20 deg"]]})
+    own = load_pump(BENCH, LATER | {"ports.delivery.webs": [["90 deg", "20 deg"]]})
     found, plain = valve_plate_geometry(own), valve_plate_geometry(PUMP)
     assert found.suction == plain.suction
     assert len(found.delivery) == 2
@@ -53,7 +54,7 @@ def test_the_films_ports_follow_their_own_side(tmp_path):
 def test_a_delivery_port_that_opens_late_leaves_the_chamber_empty_for_longer():
     """Just behind the outer dead centre its pressure is lower; the suction stroke knows nothing of it."""
     late = {"ports.delivery.groove_start": "8 deg", "ports.delivery.groove_area": "5 mm2"}
-    own, point = load_pump("ref90", late), operating_point(PUMP)
+    own, point = load_pump(BENCH, late), operating_point(PUMP)
     cycle, other = (lumped_point(pump, point).cycle for pump in (PUMP, own))
     at = np.searchsorted(cycle.shaft_angle, np.radians(186.0))
     assert other.pressure[at] < 0.5 * cycle.pressure[at]
@@ -62,10 +63,10 @@ def test_a_delivery_port_that_opens_late_leaves_the_chamber_empty_for_longer():
 
 def test_faults_stand_at_the_table_that_brings_them():
     with pytest.raises(InputFaults) as raised:
-        load_pump("ref90", {"ports.delivery.kidney_end": "200 deg", "ports.delivery.kidney_area": "900 mm2"})
+        load_pump(BENCH, {"ports.delivery.kidney_end": "200 deg", "ports.delivery.kidney_area": "900 mm2"})
     told = {fault.path: f"{fault.found} {fault.expected}" for fault in raised.value.faults}
     assert "delivery is still open when suction opens" in told["ports.delivery.kidney_end"]
     assert "square ends" in told["ports.delivery.kidney_area"]
     with pytest.raises(InputFaults) as raised:
-        load_pump("ref90", {"ports.delivery.kidney_ends": "170 deg"})
+        load_pump(BENCH, {"ports.delivery.kidney_ends": "170 deg"})
     assert [fault.nearest for fault in raised.value.faults] == ["kidney_end"]

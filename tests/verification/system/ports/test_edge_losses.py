@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from bench_pump import BENCH
 
 from gaps import PocketOrifice
 from gaps.films.slipper import hagen_poiseuille_conductance, supply
@@ -38,7 +39,7 @@ def step_file(place, extra, into, out, name="steps.csv"):
 
 
 def leakage(over):
-    pump = load_pump("ref90", over)
+    pump = load_pump(BENCH, over)
     return lumped_point(pump, operating_point(pump))
 
 
@@ -99,7 +100,7 @@ def test_lossless_files_leave_the_pump_as_it_is(tmp_path, plain):
 
 
 def test_extra_length_is_that_much_land(tmp_path, plain):
-    pump = load_pump("ref90")
+    pump = load_pump(BENCH)
     slipper, plate = pump.slipper, pump.valve_plate
     file = step_file(tmp_path, 0.63, *LOSSLESS)
     found = leakage({"slipper.pocket_file": file, "valve_plate.kidney_file": file}).leakage_flow
@@ -119,8 +120,7 @@ def test_films_that_are_parallel_lose_as_the_lumped_law(tmp_path):
     file = step_file(tmp_path, 0.63, 1.6, -1.4)
     over = {"slipper.film_thickness": "30 um", "valve_plate.film_thickness": "24 um"}
     plain, edged = (
-        load_pump("ref90", over | files)
-        for files in ({}, {"slipper.pocket_file": file, "valve_plate.kidney_file": file})
+        load_pump(BENCH, over | files) for files in ({}, {"slipper.pocket_file": file, "valve_plate.kidney_file": file})
     )
     point = operating_point(plain)
     motion = piston_motion(plain, point)
@@ -177,7 +177,7 @@ def test_flow_and_drop_of_a_table_are_each_other_s_inverse():
 
 def test_a_bore_s_file_takes_the_place_of_its_length(tmp_path):
     """A file of Poiseuille's flow through 5 mm is the pump's own bore; one of twice the length is another."""
-    pump = load_pump("ref90")
+    pump = load_pump(BENCH)
     opening = 0.25e6 * np.pi * pump.slipper.orifice_diameter**2
 
     def file(ratio):
@@ -191,13 +191,13 @@ def test_a_bore_s_file_takes_the_place_of_its_length(tmp_path):
     point = operating_point(pump)
     motion = piston_motion(pump, point)
     wanted = lumped_leaks(pump, point, motion).conductance[1]
-    same = load_pump("ref90", {"slipper.orifice_file": file(own)})
+    same = load_pump(BENCH, {"slipper.orifice_file": file(own)})
     assert lumped_leaks(same, point, motion).conductance[1] == pytest.approx(wanted, rel=1e-9)
     assert leakage({"slipper.orifice_file": file(own)}).leakage_flow.slipper == pytest.approx(
         leakage({}).leakage_flow.slipper, rel=1e-8
     )
-    longer = load_pump("ref90", {"slipper.orifice_length": "10 mm"})
-    twice = load_pump("ref90", {"slipper.orifice_file": file(2.0 * own)})
+    longer = load_pump(BENCH, {"slipper.orifice_length": "10 mm"})
+    twice = load_pump(BENCH, {"slipper.orifice_file": file(2.0 * own)})
     assert lumped_leaks(twice, point, motion).conductance[1] == pytest.approx(
         lumped_leaks(longer, point, motion).conductance[1], rel=1e-9
     )
@@ -224,7 +224,7 @@ def test_grooves_take_their_own_file(tmp_path):
     groove.write_text(head + "\n".join(rows) + "\n", encoding="utf-8")
     steps = step_file(tmp_path, 0.6, 1.6, -1.5)
     stated = {"slipper.groove_file": str(groove), "slipper.pocket_file": steps}
-    pump = load_pump("ref90", {**stated, "slipper.grooves": [["10 mm", "10.1 mm"]]})
+    pump = load_pump(BENCH, {**stated, "slipper.grooves": [["10 mm", "10.1 mm"]]})
     path = land_losses(pump).slipper
     into, middle, out = path.edges
     assert (into.radius, middle.radius, out.radius) == (8.2e-3, pytest.approx(10.05e-3), 14e-3)

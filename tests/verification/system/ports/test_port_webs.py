@@ -4,6 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from bench_pump import BENCH
 
 from gaps.shapes.valve_plate_ring import Ring
 from system import (
@@ -47,7 +48,7 @@ def test_webs_bend_the_area_at_breaks():
 
 def test_ring_has_a_film_on_the_webs():
     """Cells of the kidneys' ring over a web are film again; its unknowns are held by no port."""
-    geometry = valve_plate_geometry(load_pump("ref90", {"ports.webs": [["90 deg", "20 deg"]]}))
+    geometry = valve_plate_geometry(load_pump(BENCH, {"ports.webs": [["90 deg", "20 deg"]]}))
     assert np.degrees(geometry.suction) == pytest.approx(np.array([[25.0, 80.0], [100.0, 155.0]]))
     assert np.degrees(geometry.delivery) == pytest.approx(np.array([[205.0, 260.0], [280.0, 335.0]]))
     # At 70 deg of shaft angle the block's web between kidneys 1 and 2 lies from 85 to 95 deg.
@@ -61,13 +62,13 @@ def test_ring_has_a_film_on_the_webs():
 
 
 def test_webs_reach_the_chamber(tmp_path):
-    pump = load_pump("ref90", {"ports.webs": [["90 deg", "20 deg"]]})
+    pump = load_pump(BENCH, {"ports.webs": [["90 deg", "20 deg"]]})
     file = tmp_path / "pump.toml"
     file.write_text(resolved_toml(pump), "utf-8")
     assert load_pump(file) == pump
     area = opening_area(port_openings(pump)[1], np.radians([270.0, 230.0]))
     assert area == pytest.approx([152e-6 * (1.0 - 20.0 / 30.0), 152e-6])
-    plain, point = load_pump("ref90"), operating_point(pump)
+    plain, point = load_pump(BENCH), operating_point(pump)
     throttled, free = (lumped_point(one, point).cycle.pressure[270] for one in (pump, plain))
     assert throttled - free > 0.0  # a delivery kidney that is two thirds covered
 
@@ -83,7 +84,7 @@ def test_webs_reach_the_chamber(tmp_path):
 )
 def test_webs_that_cannot_be_are_told(webs, found, expected):
     with pytest.raises(InputFaults) as raised:
-        load_pump("ref90", {"ports.webs": webs})
+        load_pump(BENCH, {"ports.webs": webs})
     (fault,) = raised.value.faults
     assert fault.path == "ports.webs"
     assert found in fault.found

@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from bench_pump import BENCH
 
 from system import (
     InputFaults,
@@ -94,7 +95,7 @@ def grooved(tmp_path):
     """ref90 without its own groove, to which grooves are given."""
 
     def load(grooves):
-        rows = resolved_toml(load_pump("ref90")).splitlines()
+        rows = resolved_toml(load_pump(BENCH)).splitlines()
         kept = [row for row in rows if not row.startswith(("groove_start", "groove_area"))]
         path = tmp_path / "pump.toml"
         path.write_text("\n".join(kept), "utf-8")
@@ -122,7 +123,7 @@ def test_shapes_reach_the_chamber(grooved, tmp_path):
 
 def test_paper_groove_is_one_of_a_known_area(grooved):
     own = grooved([{"start": "-5 deg", "end": "10 deg", "shape": "area", "area": "4 mm2"}])
-    assert port_openings(own)[0] == port_openings(load_pump("ref90"))[0]
+    assert port_openings(own)[0] == port_openings(load_pump(BENCH))[0]
 
 
 @pytest.mark.parametrize(
@@ -150,10 +151,10 @@ def test_grooves_that_cannot_be_are_told(changed, path, expected, grooved):
 
 def test_two_ways_of_stating_a_groove_are_one_too_many(tmp_path):
     with pytest.raises(InputFaults) as raised:
-        load_pump("ref90", {"ports.grooves": GROOVES})
+        load_pump(BENCH, {"ports.grooves": GROOVES})
     assert {fault.path for fault in raised.value.faults} == {"ports.groove_start", "ports.groove_area"}
     file = tmp_path / "pump.toml"
-    text = resolved_toml(load_pump("ref90")) + '\n[[ports.grooves]]\nstart = "1 deg"\nend = "0 bar"\nshape = "v"\n'
+    text = resolved_toml(load_pump(BENCH)) + '\n[[ports.grooves]]\nstart = "1 deg"\nend = "0 bar"\nshape = "v"\n'
     file.write_text(text, "utf-8")
     with pytest.raises(InputFaults, match=rf"ports.grooves.1.end \(line {len(text.splitlines()) - 1}\)"):
         load_pump(file)

@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from bench_pump import BENCH
 
 from gaps.shapes.bearing_pads import EDGE
 from gaps.shapes.valve_plate_ring import Ring
@@ -59,13 +60,13 @@ def test_ports_and_face_lie_later_by_the_shift():
     """In chamber and film alike; derived displacement counts from where the ports then shut."""
     stated = {"pump.cross_angle": "3 deg", "pump.displacement": "91.4 cm3/rev"}
     pads = [{"inner": "50 mm", "outer": "54 mm", "arc": "20 deg", "number": 3}]
-    pump = load_pump("ref90", stated | {"valve_plate.pads": pads})
+    pump = load_pump(BENCH, stated | {"valve_plate.pads": pads})
     group = rotor(pump, operating_point(pump))
     shift = group.drive.dead_centre_shift
     problem = _problem(pump)
     assert problem.suction_port.dead_centre == shift
     assert problem.delivery_port.dead_centre == np.pi + shift
-    plain = _problem(load_pump("ref90"))
+    plain = _problem(load_pump(BENCH))
     assert break_angles(problem.suction_port) == pytest.approx(
         np.sort((break_angles(plain.suction_port) + shift) % (2.0 * np.pi)), abs=1e-12
     )
@@ -84,11 +85,11 @@ def test_ports_and_face_lie_later_by_the_shift():
 def test_a_displacement_below_the_cross_angles_own_is_refused():
     stated = {"pump.cross_angle": "3 deg", "pump.displacement": "91.4 cm3/rev", "operating.displacement_ratio": 0.1}
     with pytest.raises(InputFaults, match=r"operating.displacement_ratio(?s:.*)at least 0.177"):
-        load_pump("ref90", stated)
+        load_pump(BENCH, stated)
 
 
 def test_mass_and_energy_close_with_a_cross_angle():
-    pump = load_pump("ref90", {"pump.cross_angle": "2 deg", "operating.displacement_ratio": 0.5})
+    pump = load_pump(BENCH, {"pump.cross_angle": "2 deg", "operating.displacement_ratio": 0.5})
     found = lumped_point(pump, operating_point(pump))
     assert found.checks.energy_balance_error < 1e-3
     assert found.checks.mass_balance_error < 1e-6

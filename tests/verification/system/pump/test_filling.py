@@ -4,6 +4,7 @@ from math import pi, sqrt
 
 import numpy as np
 import pytest
+from bench_pump import BENCH
 
 from system import PumpDescription, PumpPoint, load_pump, lumped_point, opening_area, operating_point, port_openings
 from system.effects.laws.filling import filled_share
@@ -11,11 +12,11 @@ from system.pump.chamber.layout import CAVITY_PRESSURE
 
 RPM = pi / 30
 LOST = {1000.0: 10e3, 2100.0: 46e3, 3000.0: 94e3, 3600.0: 135e3}
-REF90 = load_pump("ref90")
+REF90 = load_pump(BENCH)
 
 
 def _behind(loss: float) -> PumpDescription:
-    return load_pump("ref90", {"physics.incomplete_filling.inlet_loss": loss})
+    return load_pump(BENCH, {"physics.incomplete_filling.inlet_loss": loss})
 
 
 def _point(pump: PumpDescription, rpm: float, inlet: float) -> PumpPoint:
@@ -81,7 +82,7 @@ def test_flow_grows_no_more_with_speed_once_chambers_starve():
 
 def _behind_a_line(loss: float, laminar: float = 0.0) -> PumpDescription:
     stated = {"physics.incomplete_filling.inlet_loss": loss, "physics.incomplete_filling.laminar": laminar}
-    return load_pump("ref90", stated)
+    return load_pump(BENCH, stated)
 
 
 @pytest.mark.parametrize("loss", [1.0, 3.0])

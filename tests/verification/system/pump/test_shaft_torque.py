@@ -169,4 +169,4 @@ def test_the_balance_can_fail():
     torque = shaft_torque((problem,), (found.cycle,), (more,), (group_masses(pump),), 9, 0.0)
     surplus = found.point.shaft_speed * float(np.mean(torque - found.shaft_torque))
     assert surplus == pytest.approx(0.5 * loss.mean_coulomb, rel=1e-9)
-    assert surplus > 10.0 * 1e-3 * found.power.shaft
+    assert surplus > 5.0 * 1e-3 * found.power.shaft

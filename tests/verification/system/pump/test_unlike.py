@@ -6,19 +6,20 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from bench_pump import BENCH
 
 from system import PumpDescription, films_point, load_pump, lumped_point, operating_point
 from system.pump.chamber_kinds import kinds
 from system.pump.laws.friction_pairs import over_chambers
 
-CLEARANCE = load_pump("ref90").piston.radial_clearance
+CLEARANCE = load_pump(BENCH).piston.radial_clearance
 PISTONS = 9
 THROTTLED = {"delivery_line.kind": "orifice", "delivery_line.volume": "0.5 L"}
 
 
 def with_clearances(clearances: dict[int, float], stated: dict[str, str] | None = None) -> PumpDescription:
     """REF90 with radial clearances (m) of single pistons."""
-    pump = load_pump("ref90", stated or {})
+    pump = load_pump(BENCH, stated or {})
     singles = {k: replace(pump.piston, radial_clearance=c) for k, c in clearances.items()}
     return replace(pump, single_pistons=tuple(singles.items()))
 
@@ -28,7 +29,7 @@ def point(pump: PumpDescription):
 
 
 def test_parts_that_say_the_same_are_of_one_kind():
-    assert kinds(load_pump("ref90")).of_chamber == (0,)
+    assert kinds(load_pump(BENCH)).of_chamber == (0,)
     assert kinds(with_clearances(dict.fromkeys(range(1, 10), CLEARANCE))).alike
     assert kinds(with_clearances(dict.fromkeys(range(1, 10), 2.0 * CLEARANCE))).alike
     found = kinds(with_clearances({3: 2.0 * CLEARANCE, 7: 2.0 * CLEARANCE}))
@@ -47,7 +48,7 @@ def test_chambers_add_each_at_its_own_angle():
 @pytest.mark.parametrize("stated", [{}, THROTTLED], ids=["held ports", "throttled delivery"])
 def test_chambers_written_out_one_by_one_are_the_pump_that_is_alike(stated):
     """Clearances that differ by rounding alone: nothing changes but the way it is found."""
-    alike = point(load_pump("ref90", stated))
+    alike = point(load_pump(BENCH, stated))
     one_by_one = point(with_clearances({3: CLEARANCE * (1.0 + 1e-12)}, stated))
     assert len(one_by_one.chambers) == PISTONS
     for tell, close in (
@@ -63,7 +64,7 @@ def test_chambers_written_out_one_by_one_are_the_pump_that_is_alike(stated):
 
 def test_a_worn_piston_leaks_by_the_cube_and_pulses_once_a_turn():
     """(1 + 1.5 eps^2) c^3: 8 times, less a tenth for the pressure that it loses; the others' stays."""
-    alike, worn = point(load_pump("ref90", THROTTLED)), point(with_clearances({3: 2.0 * CLEARANCE}, THROTTLED))
+    alike, worn = point(load_pump(BENCH, THROTTLED)), point(with_clearances({3: 2.0 * CLEARANCE}, THROTTLED))
     leaked = np.array([float(one.outflow.piston) for one in worn.chambers]) / float(alike.cycle.outflow.piston)
     assert leaked[2] == pytest.approx(8.0, rel=0.02)
     assert np.delete(leaked, 2) == pytest.approx(np.ones(PISTONS - 1), rel=2e-3)

@@ -6,6 +6,7 @@ from itertools import product
 
 import numpy as np
 import pytest
+from bench_pump import BENCH
 
 from reynolds import InputError
 from system import InputFaults, load_pump, lumped_point, map_plan, operating_point
@@ -19,7 +20,7 @@ from system.maps.point import LumpedSolver, MapWork, point_numbers
 from system.pump.efficiency import EfficiencyDefinition
 from system.work.tasks import PartStatus, done_part
 
-PUMP = load_pump("ref90")
+PUMP = load_pump(BENCH)
 RPM = np.pi / 30.0
 AXES = (
     MapAxis(MapInput.SPEED, tuple(RPM * speed for speed in (1000.0, 1400.0, 1800.0, 2100.0))),
@@ -223,7 +224,7 @@ def test_a_cycle_with_steps_and_ramps_is_within_its_error():
 def test_a_map_beside_itself_has_no_difference():
     found = compare(solved(), solved(), (None, None))
     assert all(one.largest == 0.0 for one in found.differences)
-    worn = load_pump("ref90", {"piston.radial_clearance": "25 um"})
+    worn = load_pump(BENCH, {"piston.radial_clearance": "25 um"})
     differences = {one.words: one for one in compare(solved(), solved(pump=worn), (None, None)).differences}
     assert differences["leakage of pistons"].largest > 0.0
     assert differences["leakage of pistons"].significant

@@ -8,6 +8,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from bench_pump import BENCH
 
 from reynolds import InputError
 from system import Pair, load_pump
@@ -24,7 +25,7 @@ from system.work.kept_results import KeptPoints
 from system.work.processes import HERE
 
 PUMPS = Path(__file__).parents[4] / "examples" / "pumps"
-REF90 = load_pump("ref90")
+REF90 = load_pump(BENCH)
 CLAIM = PaperClaim("a", Figure.FIG2, "words", "quantity", Unit.SHARE, Range(0.2, 0.4))
 NEEDED = Impossibility("needed", Unit.NUMBER, 5.0, Range(high=3.0))
 

@@ -14,6 +14,7 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from bench_pump import BENCH
 
 from gaps.response import Measure
 from reynolds import FilmNotConverged, InputError, NotConverged
@@ -40,7 +41,7 @@ from system.pump.chamber.turn import Gaps
 from system.work.processes import process_pool
 from system.work.sampled_points import points_of
 
-PUMP = load_pump("ref90")
+PUMP = load_pump(BENCH)
 NAMES = list(MEANINGS)
 
 
@@ -179,17 +180,17 @@ def test_other_content_is_another_point(table, folder):
     """Another solver, part, oil or case pressure finds nothing; name, operating point and line do not matter."""
     with pytest.raises(RuntimeError, match="kept point"):
         build_table(case(NeverCalled(exponent=0.2)), folder=folder)
-    thinner = load_pump("ref90", {"slipper.film_thickness": "9 um"})
+    thinner = load_pump(BENCH, {"slipper.film_thickness": "9 um"})
     with pytest.raises(RuntimeError, match="kept point"):
         build_table(case(NeverCalled(), pump=thinner), folder=folder)
     keys = {
-        pump_key(load_pump("ref90", stated))
+        pump_key(load_pump(BENCH, stated))
         for stated in (
             {}, {"operating.case_pressure": "2 bar"}, {"oil.density": "870 kg/m3"}, {"piston.mass": "150 g"},
         )
     }  # fmt: skip
     assert len(keys) == 4
-    same = load_pump("ref90", {"name": "other", "operating.speed": "900 rpm", "operating.temperature": "60 degC"})
+    same = load_pump(BENCH, {"name": "other", "operating.speed": "900 rpm", "operating.temperature": "60 degC"})
     assert pump_key(same) == pump_key(PUMP)
 
 
@@ -279,9 +280,9 @@ def test_a_clearance_by_temperature_makes_a_table_of_its_own_temperature():
     """It counts from the pump's temperature, which is an axis of all other tables."""
     warm = {"operating.temperature": "70 degC"}
     growing = section_of(PhysicsSection, {"thermal_clearance": {"piston": {"rate": 5e-3}}})
-    keys = [pump_key(replace(load_pump("ref90", stated), physics=growing)) for stated in ({}, warm)]
+    keys = [pump_key(replace(load_pump(BENCH, stated), physics=growing)) for stated in ({}, warm)]
     assert keys[0] != keys[1]
-    assert pump_key(load_pump("ref90", warm)) == pump_key(PUMP)
+    assert pump_key(load_pump(BENCH, warm)) == pump_key(PUMP)
 
 
 def test_a_table_comes_back_from_its_files(table, tmp_path):
@@ -293,7 +294,7 @@ def test_a_table_comes_back_from_its_files(table, tmp_path):
     assert back.at(point) == table.at(point)
     assert own_table(tmp_path / "mine.json", PUMP).origin == table.origin
     with pytest.raises(InputFaults, match="this very pump"):
-        own_table(tmp_path / "mine.json", load_pump("ref90", {"piston.mass": "150 g"}))
+        own_table(tmp_path / "mine.json", load_pump(BENCH, {"piston.mass": "150 g"}))
     record = json.loads((tmp_path / "mine.json").read_text())
     (tmp_path / "mine.json").write_text(json.dumps(record | {"table_format": 0}))
     with pytest.raises(InputFaults, match="build it anew"):
@@ -314,9 +315,9 @@ def test_a_line_of_stated_orifice_is_met(table):
     """The delivery pressure that the orifice makes of the flow is the one that the table is asked at."""
     held = table_point(PUMP, operating_point(PUMP, delivery_pressure=20e6), table)
     lined = {"delivery_line.kind": "orifice", "delivery_line.volume": "1 L"}
-    free = table_point(load_pump("ref90", lined), operating_point(PUMP, delivery_pressure=20e6), table)
+    free = table_point(load_pump(BENCH, lined), operating_point(PUMP, delivery_pressure=20e6), table)
     area = free.pump_point.delivery.orifice_area
-    pump = load_pump("ref90", lined | {"delivery_line.orifice_area": f"{area * 1e6!r} mm2"})
+    pump = load_pump(BENCH, lined | {"delivery_line.orifice_area": f"{area * 1e6!r} mm2"})
     found = table_point(pump, operating_point(PUMP, delivery_pressure=26e6), table).pump_point
     assert found.point.delivery_pressure == pytest.approx(20e6, rel=1e-3)
     assert numbers(found) == pytest.approx(numbers(held.pump_point), rel=2e-3)
