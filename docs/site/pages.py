@@ -12,7 +12,7 @@ CONTENTS = {
     "Start": ("/README", "tutorial", "gallery", "notebooks/film", "notebooks/pump", "wrong_results"),
     "Reference": ("files", "conventions", "/examples/README", "/meshes/README", "cluster", "api/index"),
     "Background": ("theory", "architecture", "validation", "proof", "Reproduction <reproduction>",
-                   "Reproduction with films <reproduction_films>",
+                   "Reproduction with films <reproduction_fixed>",
                    "Reproduction with floating films <reproduction_floating>", "benchmarks", "/CHANGELOG"),
 }  # fmt: skip
 """Pages by their place in the menu, relative to docs/; a title in front of <page> stands for the page's own."""
