@@ -32,7 +32,7 @@ from system.work.progress import Report
 from system.work.sampled_points import usual_counts
 from system.work.tasks import Executor, PartOutcome, PartStatus
 
-POINT_COST = {Fidelity.FIXED: 2.0, Fidelity.FLOATING: 70.0}
+POINT_COST = {Fidelity.FIXED: 2.0, Fidelity.FLOATING: 100.0}
 """Approximate processor time of a point whose films are solved, s (benchmarks/map.py)."""
 CHEAP = 0.1
 """Seconds per point up to which fresh points are checked by default."""

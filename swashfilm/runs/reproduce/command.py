@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from swashfilm.runs.reproduce.run import ReproduceCase
 
 ALL, LIST = "all", "list"
-_LUMPED = "lumped"
+_LUMPED, _FLOATING = "lumped", "floating"
 _TUNED = "fig13"
 
 
@@ -27,8 +27,9 @@ def add_reproduce_options(command: argparse.ArgumentParser) -> None:
         "figure", nargs="?", default=ALL, metavar="FIGURE", help="fig2, table1, ..; all; or list for the names"
     )
     command.add_argument(
-        "--fidelity", metavar="{lumped,fixed,floating}", default=_LUMPED,
-        help="films of given thickness (seconds), solved at given positions (minutes), or floating (fig8, fig9)",
+        "--fidelity", metavar="{lumped,fixed,floating}",
+        help="films of given thickness (lumped: seconds; with --recording), solved at given positions (fixed: "
+        "minutes), or floating (the default: hours for all figures; points are kept between runs)",
     )  # fmt: skip
     command.add_argument("--pump", default="ref90", metavar="PUMP", help="built-in name or pump file (ref90)")
     command.add_argument(
@@ -47,6 +48,8 @@ def run_reproduce_command(options: argparse.Namespace) -> int:
     if options.figure == LIST:
         return _list()
     asked, workers = reproduce_case(options)
+    if minutes := asked.minutes:
+        show(f"{asked.points} floating points: about {minutes:.0f} min of processor time, less those that are kept")
     from swashfilm.console.progress import progress
     from swashfilm.output.run_folder import run_folder
     from swashfilm.runs.reproduce.page import count_words, markdown_page
@@ -89,6 +92,7 @@ def reproduce_case(options: argparse.Namespace) -> tuple[ReproduceCase, int]:
     from system.paper.points import PaperFidelity
     from system.pump_file.file import load_pump
 
+    options.fidelity = options.fidelity or (_FLOATING if options.recording is None else _LUMPED)
     faults = _word_faults(options)
     try:
         pump = load_pump(options.pump)
@@ -142,7 +146,7 @@ def _command(options: argparse.Namespace) -> str:
     """Return the command that writes the same page."""
     names = ("--fidelity", "--pump", "--recording", "--steps", "--finer")
     stated = {name: option_value(options, name) for name in names}
-    words = [f" {name} {text}" for name, text in stated.items() if text not in (None, _LUMPED, "ref90")]
+    words = [f" {name} {text}" for name, text in stated.items() if text not in (None, _FLOATING, "ref90")]
     words += [f" {switch}" for switch in SWITCHES if option_value(options, switch)]
     return f"swashfilm reproduce {options.figure}{''.join(words)} --page {options.page}"
 

@@ -11,6 +11,8 @@ from diagnosis.recording.model import Recording
 from diagnosis.study.acceptance import checked_recording
 from diagnosis.study.scaled_pump import load_known_pump
 from reynolds.numerics.cache import cache_folder
+from swashfilm.console.fidelity import Fidelity
+from swashfilm.runs.map.run import POINT_COST
 from swashfilm.runs.reproduce.files import claim_rows, figure_row, write_reproduction
 from system.bench.calibration.equation_21 import LOSS_CHANNELS
 from system.description.pump import PumpDescription
@@ -18,7 +20,7 @@ from system.inputs.faults import Fault, InputFaults
 from system.paper.figure import DRAWINGS, Figure
 from system.paper.figures.coefficients import fig13_of
 from system.paper.judge import FigureResult
-from system.paper.points import LossReading, PaperFidelity
+from system.paper.points import LossReading, PaperFidelity, places_of
 from system.paper.reproduce import Means, reproduce
 from system.points.floating_gaps import FloatingOptions
 from system.pump_file.file import load_pump, resolved_toml
@@ -42,6 +44,17 @@ class ReproduceCase:
     fidelity: PaperFidelity
     floating: FloatingOptions
     recording: Recording | None = None
+
+    @property
+    def points(self) -> int:
+        """Number of operating points that the figures are made of."""
+        return len(places_of(self.pump, self.figures))
+
+    @property
+    def minutes(self) -> float:
+        """Approximate processor time of floating points, min; 0 for another fidelity."""
+        floats = self.fidelity is PaperFidelity.FLOATING
+        return self.points * POINT_COST[Fidelity.FLOATING] / 60.0 if floats else 0.0
 
 
 def paper_points() -> KeptPoints:

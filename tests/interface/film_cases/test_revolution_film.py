@@ -161,8 +161,10 @@ def test_the_ring_repeats_with_the_pitch():
 
 
 def test_a_film_that_may_not_cavitate_warns():
-    stated = BLOCK
-    study = solve_revolution(case_of(stated + 'cavitation = "none"\n'))
+    """A rim that falls by more than the film pulls on the oil behind the slipper."""
+    fallen = 'cavitation = "none"\n[pump.slipper]\nrim_relief.depth = "20 um"\n'
+    stated = SLIPPER.replace('chamber_pressure = "5 MPa"', 'chamber_pressure = "1 bar"')
+    study = solve_revolution(case_of(stated + fallen))
     assert "pressure_below_cavitation" in {told["name"] for told in revolution_summary(study)["warnings"]}
 
 

@@ -67,7 +67,7 @@ def test_the_page_in_the_docs_is_the_program(monkeypatch, tmp_path):
 
 def test_a_figure_leaves_a_run_folder(tmp_path, capsys):
     folder, page = tmp_path / "run", tmp_path / "page.md"
-    assert main(["reproduce", "fig11", "-o", str(folder), "--page", str(page)]) == 0
+    assert main(["reproduce", "fig11", "--fidelity", "lumped", "-o", str(folder), "--page", str(page)]) == 0
     assert "2 reached" in capsys.readouterr().out
     for name in ("claims.json", "claims.csv", "data/fig11.csv", "plots/fig11.png", "resolved.toml", "report.html"):
         assert (folder / name).is_file(), name
@@ -88,7 +88,7 @@ def test_figures_are_listed(capsys):
 
 
 def test_what_means_nothing_in_a_fidelity_says_so(tmp_path, capsys):
-    assert main(["reproduce", "fig9", "-o", str(tmp_path / "run")]) == 0
+    assert main(["reproduce", "fig9", "--fidelity", "lumped", "-o", str(tmp_path / "run")]) == 0
     assert "Only --fidelity floating" in capsys.readouterr().out
     summary = json.loads((tmp_path / "run" / "summary.json").read_text("utf-8"))
     assert "floating" in summary["figures"][0]["remarks"][0]
@@ -96,7 +96,12 @@ def test_what_means_nothing_in_a_fidelity_says_so(tmp_path, capsys):
 
 def test_a_pump_that_is_not_the_papers_is_told_so(tmp_path, capsys):
     pump, folder, page = ROOT / "examples" / "pumps" / "ref90_worn.toml", tmp_path / "run", tmp_path / "page.md"
-    assert main(["reproduce", "fig15", "--pump", str(pump), "-o", str(folder), "--page", str(page)]) == 0
+    assert (
+        main(
+            ["reproduce", "fig15", "--fidelity", "lumped", "--pump", str(pump), "-o", str(folder), "--page", str(page)]
+        )
+        == 0
+    )
     assert "about the paper's pump" in capsys.readouterr().out
     assert f"--pump {pump}" in page.read_text("utf-8")
     assert "about the paper's pump" in page.read_text("utf-8")
@@ -184,7 +189,7 @@ def test_coefficients_are_tuned_to_a_recording(tmp_path):
         (["fig99"], "'fig99'"),
         (["fig2", "--fidelity", "lumpd"], "lumped"),
         (["fig2", "--workers", "none"], "--workers"),
-        (["fig2", "--steps", "36"], "--steps"),
+        (["fig2", "--fidelity", "lumped", "--steps", "36"], "--steps"),
     ],
 )
 def test_words_that_mean_nothing_are_refused(words, told, tmp_path, capsys):
