@@ -1,5 +1,7 @@
 """One point of an operating map: its solver, the key of its content, and the numbers that are kept of it."""
 
+from __future__ import annotations
+
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import astuple, dataclass, replace
 from enum import Enum
@@ -56,6 +58,9 @@ class MapSolver(Protocol):
     def solve(self, pump: PumpDescription, point: OperatingPoint) -> SolvedPoint:
         """The point; raises as the fidelity."""
 
+    def row(self) -> MapSolver:
+        """The solver of points that follow each other in one process."""
+
 
 @dataclass(frozen=True)
 class LumpedSolver:
@@ -79,6 +84,10 @@ class LumpedSolver:
         """The point, films as given."""
         given = given_films(pump)
         return SolvedPoint(lumped_point(pump, point), given, given, Gaps(0.0, 0.0, 0.0))
+
+    def row(self) -> LumpedSolver:
+        """The same."""
+        return self
 
 
 @dataclass(frozen=True)
@@ -109,6 +118,10 @@ class TableSolver:
         found = table_point(pump, point, self.table)
         return SolvedPoint(found.pump_point, found.film_mean, found.film_least, found.film_rise)
 
+    def row(self) -> TableSolver:
+        """The same."""
+        return self
+
 
 @dataclass(frozen=True)
 class DirectSolver:
@@ -134,6 +147,10 @@ class DirectSolver:
     def solve(self, pump: PumpDescription, point: OperatingPoint) -> SolvedPoint:
         """The point as the fidelity solves it."""
         return self.solver.solve(pump, point)
+
+    def row(self) -> DirectSolver:
+        """A solver whose films may start from those of the point before."""
+        return replace(self, solver=self.solver.row())
 
 
 class Members(Enum):
@@ -256,6 +273,10 @@ class MapWork:
         solved = self.solver.solve(self.pump, point)
         remarks = [[remark.warning.value, remark.text] for remark in solved.pump_point.warnings]
         return {"numbers": point_numbers(solved), "warnings": remarks}
+
+    def row(self) -> MapWork:
+        """The same points, each on from the one before."""
+        return replace(self, solver=self.solver.row())
 
     @cached_property
     def _read(self) -> str:

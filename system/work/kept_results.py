@@ -14,7 +14,7 @@ from reynolds.errors import InputError
 from system.inputs.faults import Fault, InputFaults, nearest_path
 from system.work.processes import WorkerDied
 from system.work.progress import Report, silent
-from system.work.tasks import Executor, PartOutcome, PartStatus, Work, done_part, internal_reason
+from system.work.tasks import Executor, PartOutcome, PartStatus, Work, WorkInRows, done_part, internal_reason
 
 FORMAT = 1
 POINTS = "points"
@@ -95,7 +95,8 @@ def run_kept(
     """Every part's outcome. Each is in `store` as soon as it is known here: an interruption loses only the parts
     under way.
 
-    Outcomes in `store` or `earlier` are taken from there. `batch` parts go to a process at a time. No part's
+    Outcomes in `store` or `earlier` are taken from there. `batch` parts go to a process at a time, as a row where the
+    work has rows. No part's
     failure ends the others; parts of a batch whose process dies are tried one by one.
     """
     found = {index: outcome for index, part in enumerate(parts) if (outcome := _known(work, part, store, earlier))}
@@ -140,7 +141,8 @@ def _outcomes(
 
 
 def _done(work: Work[Part], group: list[tuple[int, Part]]) -> list[tuple[int, PartOutcome]]:
-    return [(index, done_part(work, part)) for index, part in group]
+    own = work.row() if isinstance(work, WorkInRows) else work
+    return [(index, done_part(own, part)) for index, part in group]
 
 
 def _lost(fault: Exception | None) -> PartOutcome:

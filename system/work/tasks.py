@@ -8,7 +8,7 @@ import traceback
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from enum import Enum
-from typing import Any, Protocol, TypeVar
+from typing import Any, Protocol, TypeVar, runtime_checkable
 
 from reynolds.errors import InputError, NotConverged
 from system.inputs.faults import InputFaults
@@ -55,6 +55,14 @@ class Work(Protocol[GivenPart]):
 
     def solve(self, part: GivenPart) -> Record:
         """The part's record; raises NotConverged, FilmNotConverged, InputError or InputFaults."""
+
+
+@runtime_checkable
+class WorkInRows(Protocol):
+    """Work whose parts, one after the other in one process, may start from each other's results."""
+
+    def row(self) -> Work[Any]:
+        """The work of one such row."""
 
 
 class Executor(Protocol):

@@ -38,6 +38,8 @@ CHEAP = 0.1
 """Seconds per point up to which fresh points are checked by default."""
 START = 4.0
 """Seconds to start another process: each one must have more work."""
+ROW = 4
+"""Points of a map that are solved one after the other, each on from its neighbour's films."""
 PART = 0.2
 """Least seconds of work in a batch, for which the data sent with it are negligible."""
 
@@ -130,6 +132,8 @@ def _solved(
     """Return the outcomes of all points; each one is written to points/ as soon as it is solved."""
     store, earlier = KeptPoints(folder / POINTS), points_of_run(resume) if resume else None
     batch = max(1, round(PART / work.solver.cost))
+    if isinstance(work.solver, DirectSolver):
+        batch = ROW  # a point starts from its neighbour's films
     return run_kept(
         work, points, store, executor, earlier=earlier, batch=batch, described=_progress_text, report=report
     )

@@ -1,5 +1,7 @@
 """Sources of the points of a response table: a fidelity that solves the films, by one call."""
 
+from __future__ import annotations
+
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from enum import Enum
@@ -9,12 +11,13 @@ import numpy as np
 
 from gaps.revolution.march import GapRevolution
 from gaps.standing.gap_film import GapFilm
+from reynolds.errors import NotConverged
 from reynolds.laws.oil import temperature_of
 from system.description.lines import LineSection
 from system.description.pump import PumpDescription
 from system.points.film_effects import film_laws
 from system.points.films import POSITIONS_PER_PITCH, TOLERANCE, films_point
-from system.points.floating import PRESSURE_TOLERANCE, floating_point
+from system.points.floating import PRESSURE_TOLERANCE, FloatingPoint, floating_point
 from system.points.floating_gaps import FloatingOptions
 from system.points.table.means import SolvedPoint
 from system.pump.chamber.turn import Gaps
@@ -45,6 +48,9 @@ class PointSolver(Protocol):
     def solve(self, pump: PumpDescription, point: OperatingPoint) -> SolvedPoint:
         """The point solved; raises NotConverged or FilmNotConverged."""
 
+    def row(self) -> PointSolver:
+        """The solver of points of one pump that follow each other: a later one may start from the one before."""
+
 
 @dataclass(frozen=True)
 class FilmsSolver:
@@ -74,6 +80,10 @@ class FilmsSolver:
         )
         return SolvedPoint(found.pump_point, Gaps(*mean), Gaps(*least), Gaps(*rise))
 
+    def row(self) -> FilmsSolver:
+        """The same: given positions need no start."""
+        return self
+
 
 @dataclass(frozen=True)
 class FloatingSolver:
@@ -99,13 +109,53 @@ class FloatingSolver:
 
     def solve(self, pump: PumpDescription, point: OperatingPoint) -> SolvedPoint:
         """The point by `floating_point`; least film: of the mean planes, below 0 where rough walls overlap."""
-        found = floating_point(pump, point, self.options)
-        gaps = found.kinds[0].gaps
-        turns = (gaps.piston.turn, gaps.slipper.turn, gaps.block.turn)
-        mean = (float(np.mean([instant.mean_film for instant in turn.instants])) for turn in turns)
-        least = (min(instant.least_gap for instant in turn.instants) for turn in turns)
-        rise = (_hottest(gap, point) - point.temperature for gap in (gaps.piston, gaps.slipper, gaps.block))
-        return SolvedPoint(found.pump_point, Gaps(*mean), Gaps(*least), Gaps(*rise))
+        return _of_floating(floating_point(pump, point, self.options))
+
+    def row(self) -> FloatingRow:
+        """A solver whose points start from the motion, the temperatures and the spins of the one before."""
+        return FloatingRow(self)
+
+
+@dataclass
+class FloatingRow:
+    """`floating_point` at points of one pump that follow each other; the last one solved is the next one's start."""
+
+    solver: FloatingSolver
+    last: FloatingPoint | None = None
+    source = Source.FLOATING
+
+    @property
+    def stated(self) -> Mapping[str, str]:
+        """Inputs of its numbers: a start changes them by less than the accuracy."""
+        return self.solver.stated
+
+    def solve(self, pump: PumpDescription, point: OperatingPoint) -> SolvedPoint:
+        """As `FloatingSolver.solve`; where the neighbour's motion leads nowhere, without a start."""
+        try:
+            self.last = floating_point(pump, point, self.solver.options, near=self.last)
+        except NotConverged:
+            if self.last is None:
+                raise
+            self.last = None
+            self.last = floating_point(pump, point, self.solver.options)
+        return _of_floating(self.last)
+
+    def row(self) -> FloatingRow:
+        """One of its own."""
+        return FloatingRow(self.solver)
+
+
+def _of_floating(found: FloatingPoint) -> SolvedPoint:
+    gaps, point = found.kinds[0].gaps, found.pump_point.point
+    turns = (gaps.piston.turn, gaps.slipper.turn, gaps.block.turn)
+    mean = (float(np.mean([instant.mean_film for instant in turn.instants])) for turn in turns)
+    least = (min(instant.least_gap for instant in turn.instants) for turn in turns)
+    rise = (_hottest(gap, point) - point.temperature for gap in (gaps.piston, gaps.slipper, gaps.block))
+    return SolvedPoint(found.pump_point, Gaps(*mean), Gaps(*least), Gaps(*rise))
+
+    def row(self) -> FilmsSolver:
+        """The same: given positions need no start."""
+        return self
 
 
 def _oil_temperature(pump: PumpDescription, films: Sequence[GapFilm[Any]]) -> float:

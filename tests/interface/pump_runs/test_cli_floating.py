@@ -21,9 +21,11 @@ FLOATING = ["run", "ref90", "--fidelity", "floating"]
         ([*FLOATING, "--steps", "many"], ["--steps", "'many'", "a whole multiple"]),
         ([*FLOATING, "--finer", "0"], ["--finer", "'0'", "0.25 to 8"]),
         ([*FLOATING, "--finer", "fine"], ["--finer", "'fine'", "a number"]),
-        (["run", "ref90", "--finer", "1"], ["--finer", "--fidelity floating"]),
+        (["run", "ref90", "--fidelity", "fixed", "--finer", "1"], ["--finer", "--fidelity floating"]),
         ([*FLOATING, "--rgid"], ["--rgid", "unknown option", "--rigid"]),
-        (["run", "ref90", "--smooth", "--steps", "72"], ["2 faults", "--smooth", "--steps", "--fidelity floating"]),
+        (["run", "--fidelity", "lumped", "--smooth", "--steps", "72"], ["2 faults", "--smooth", "--steps"]),
+        (["run", "--fidelity", "lumped", "--refine", "2"], ["--refine", "--fidelity floating"]),
+        ([*FLOATING, "--refine", "9"], ["--refine", "'9'", "2 to 4"]),
     ],
 )
 def test_bad_options_end_with_2_and_say_what_to_do(words, told, capsys, tmp_path, monkeypatch):
@@ -36,20 +38,19 @@ def test_bad_options_end_with_2_and_say_what_to_do(words, told, capsys, tmp_path
 
 
 def test_options_of_the_command_line():
-    """Heat comes by a switch, the rest goes by one; fewer steps keep as many films; rigid walls mesh finer."""
+    """All physics goes by switches, oil that stiffens with elastic walls; fewer steps keep as many films."""
     usual = FloatingOptions()
-    words = [*FLOATING, "--rigid", "--isoviscous", "--smooth", "--no-cavitation", "--steps", "72", "--finer", "2"]
+    words = [*FLOATING, "--rigid", "--isothermal", "--smooth", "--no-cavitation", "--steps", "72", "--finer", "2"]
     given = build_parser().parse_args(words)
     assert floating_faults(given, load_pump("ref90"), given.fidelity) == []
     found = floating_options(given)
     assert found.physics.left_out == tuple(Effect)
     rigid = floating_options(build_parser().parse_args([*FLOATING, "--rigid"]))
-    assert rigid.piston_cells == tuple(2 * cells for cells in usual.piston_cells)
-    assert floating_options(build_parser().parse_args([*FLOATING, "--heat"])).physics.heat
+    assert rigid.physics.left_out == (Effect.PRESSURE_VISCOSITY, Effect.ELASTIC_WALLS)
     assert (found.steps, found.keep) == (72, usual.keep * 72 // usual.steps)
     assert found.piston_cells == tuple(4 * cells for cells in usual.piston_cells)
     assert floating_options(build_parser().parse_args(FLOATING)) == usual
-    assert usual.physics.left_out == (Effect.HEAT,)
+    assert usual.physics.left_out == ()
 
 
 def test_physics_is_told_with_its_switches_and_what_it_took():
@@ -58,4 +59,4 @@ def test_physics_is_told_with_its_switches_and_what_it_took():
     assert set(rows) == set(SWITCHES)
     assert rows["--rigid"][1:] == ("on", "--rigid", "40.0 s")
     assert rows["--smooth"][1:] == ("off", "--smooth", "3.0 s")
-    assert rows["--heat"][1:] == ("off", "--heat", "")
+    assert rows["--isothermal"][1:] == ("off", "--isothermal", "")

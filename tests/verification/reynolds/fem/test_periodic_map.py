@@ -174,6 +174,20 @@ class Mapped:
     repeats: bool = True
 
 
+@pytest.mark.parametrize("growth", [1.06, 1.4])
+def test_motion_that_turns_circle_about_is_found(growth):
+    """Turns lead round and away from the periodic motion, as a light piston whirls in its bore: Newton's step there."""
+    around, middle = 0.8, np.array([3.0, -2.0])
+    slopes = growth * np.array([[np.cos(around), -np.sin(around)], [np.sin(around), np.cos(around)]])
+
+    def turn(start, before):
+        return Turn(start, middle + slopes @ (start - middle), slopes, np.zeros((0, 2)), reach=0.5)
+
+    found = periodic(turn, np.zeros(2))
+    assert found.start == pytest.approx(middle, abs=1e-11)
+    assert found.largest_multiplier == pytest.approx(growth)
+
+
 def test_step_that_overshoots_is_taken_back():
     """end = start - arctan(3 start)/3: Newton's method alone runs away from |start| > 0.46."""
 
