@@ -25,6 +25,7 @@ from reynolds.solve.solver import FilmSolver
 MET = 0.1  # of the distance at which a turn counts as closed: near enough to join the turn before
 SHORT = 1e-2  # of the first way to a node: a step in which elastic walls deform under their first load
 TOO_COARSE = 3.0  # times its tolerance: an error at which steps of an earlier turn are chosen anew
+ROUGH_ROOM = 0.1  # of the mean film, between rough walls
 SHORTEST = 3e-5  # of a turn: a step in which a part without mass may jump, as a cavity under it fills
 FARTHEST = 2e-2  # of the film's length, by which a wall may leave its shape: then nothing is thin, no tilt small
 
@@ -101,7 +102,10 @@ class Turns(Generic[Value]):
         behind: GapInstant[Value] | None = None
         for taken in self._marched(begin):
             state = taken.state
-            gathered.step(state, self._excess(taken), jumps=taken.step <= self._shortest)
+            if taken.step > self._shortest:
+                gathered.step(state, self._excess(taken))
+            else:
+                gathered.jump(state, float(np.abs(taken.stage.moved(taken.error)).max()))
             angles = self._within(state.time - taken.step, state.time)
             # Turns that approach the periodic motion report their last step alone.
             if self._opening is None and not len(angles):
@@ -127,10 +131,15 @@ class Turns(Generic[Value]):
             times=np.array(gathered.times),
             step_error=max(gathered.errors),
             accuracy=self._accuracy.step,
-            allowed=self._accuracy.closed * end.mean_film,
-            reach=self._accuracy.reach * end.film_thickness_min,
+            allowed=max(self._accuracy.closed * end.mean_film, gathered.jumped),
+            reach=self._accuracy.reach * self._room(end),
             repeats=_oil_moved(self._floating.shape_at(0.0).space, begin, state) <= self._accuracy.closed,
         )
+
+    def _room(self, end: GapInstant[Value]) -> float:
+        """Film (m) at the end of a turn that the next start may use up: rough walls bear where they come too near."""
+        rough = self._floating.shape_at(0.0).asperities is not None
+        return max(end.film_thickness_min, ROUGH_ROOM * end.mean_film if rough else 0.0)
 
     def _within(self, began: float, ended: float) -> Array:
         """Reported angles (rad) after one time (s) and up to another."""
@@ -220,11 +229,18 @@ class _Gathered(Generic[Value]):
         self.oil: list[Array] = []
         self.times: list[float] = []
         self.errors: list[float] = []
+        self.jumped = 0.0
 
-    def step(self, state: State[FloatingStage], error: float, *, jumps: bool) -> None:
-        """One more step, with its error over what was allowed; a jump has none."""
+    def step(self, state: State[FloatingStage], error: float) -> None:
+        """One more step, with its error over what was allowed."""
         self.times.append(state.time)
-        self.errors.append(0.0 if jumps else error)
+        self.errors.append(error)
+
+    def jump(self, state: State[FloatingStage], height: float) -> None:
+        """One more step, the shortest, in which the film may jump by a height (m): no turn closes nearer than that."""
+        self.times.append(state.time)
+        self.errors.append(0.0)
+        self.jumped = max(self.jumped, height)
 
     def add(self, instant: GapInstant[Value], stage: FloatingStage, oil: Array, *, kept: bool) -> None:
         """One more reported angle, with the state (held,) there; the film of a kept one is that of the stage."""

@@ -145,10 +145,10 @@ def floating_point(
     gaps: tuple[FloatingGaps, ...] | None = None
     rounds: list[Round] = []
     if near is not None:
-        gaps = tuple(kind.gaps for kind in near.kinds)
+        gaps = tuple(_begun(kind.gaps) for kind in near.kinds)
         asked = _rubbed_as(asked, near)
     whole = WholeRun(report, ROUND_LIMIT)
-    pistons = [None] * len(group.parts) if gaps is None else [own.piston.bare for own in gaps]
+    pistons = [None] * len(group.parts) if gaps is None else [own.piston for own in gaps]
     with piston_beside(group.parts, pistons) if side_by_side else nullcontext() as beside:
         while not rounds or not (_exact(rounds[-1], options) and _agree(rounds[-1])):
             if len(rounds) == ROUND_LIMIT:
@@ -172,6 +172,11 @@ def _beginning(pump: PumpDescription, point: OperatingPoint, options: FloatingOp
     pressures = tuple(one.pressure for one in plain.chambers)
     at = rotor(described, at_the_ports(plain.point, group.by_chamber))
     return group, RoundDrives(at, angle, pressures, still, (None,) * len(group.parts), options)
+
+
+def _begun(gaps: FloatingGaps) -> FloatingGaps:
+    """Gaps of another point as a start: their films' meshes and oil are that point's."""
+    return replace(gaps, piston=gaps.piston.bare, slipper=gaps.slipper.bare, block=gaps.block.bare)
 
 
 def _rubbed_as(asked: RoundDrives, near: FloatingPoint) -> RoundDrives:

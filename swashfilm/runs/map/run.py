@@ -38,7 +38,7 @@ CHEAP = 0.1
 """Seconds per point up to which fresh points are checked by default."""
 START = 4.0
 """Seconds to start another process: each one must have more work."""
-ROW = 4
+ROW = 7
 """Points of a map that are solved one after the other, each on from its neighbour's films."""
 PART = 0.2
 """Least seconds of work in a batch, for which the data sent with it are negligible."""
@@ -131,12 +131,22 @@ def _solved(
 ) -> KeptOutcomes:
     """Return the outcomes of all points; each one is written to points/ as soon as it is solved."""
     store, earlier = KeptPoints(folder / POINTS), points_of_run(resume) if resume else None
-    batch = max(1, round(PART / work.solver.cost))
+    order, batch = list(range(len(points))), max(1, round(PART / work.solver.cost))
     if isinstance(work.solver, DirectSolver):
-        batch = ROW  # a point starts from its neighbour's films
-    return run_kept(
-        work, points, store, executor, earlier=earlier, batch=batch, described=_progress_text, report=report
-    )
+        order.sort(key=lambda k: _place_in_rows(points[k]))
+        batch = ROW
+    kept = run_kept(
+        work, [points[k] for k in order], store, executor, earlier=earlier, batch=batch, described=_progress_text,
+        report=report,
+    )  # fmt: skip
+    outcomes = dict(zip(order, kept.outcomes, strict=True))
+    return KeptOutcomes(tuple(outcomes[k] for k in range(len(points))), kept.known)
+
+
+def _place_in_rows(point: OperatingPoint) -> tuple[float, ...]:
+    """Place of a point among others: the pressure changes first, from the highest down, whose films lead farthest."""
+    held = point.shaft_speed, point.displacement_ratio, point.temperature, point.inlet_pressure
+    return *held, -point.delivery_pressure
 
 
 def _progress_text(point: OperatingPoint, outcome: PartOutcome) -> str:

@@ -56,8 +56,7 @@ def _of_level(report: Report, number: int, levels: int) -> Report:
 def _unknowns(found: FloatingPoint) -> int:
     """Return the number of unknown pressures of all gaps of the most common chamber and the block."""
     gaps = found.kinds[0].gaps
-    films = (next(iter(gap.turn.films.values())) for gap in (gaps.piston, gaps.slipper, gaps.block))
-    return sum(film.problem.space.size for film in films)
+    return sum(gap.turn.oil[0].size for gap in (gaps.piston, gaps.slipper, gaps.block))
 
 
 def point_numbers(found: FloatingPoint) -> Mapping[str, float]:

@@ -26,7 +26,7 @@ from system.points.floating_gaps import FloatingOptions
 from system.pump_file.file import load_pump, resolved_toml
 from system.work.kept_results import KeptPoints
 from system.work.progress import Report
-from system.work.tasks import Executor
+from system.work.tasks import Executor, PartStatus
 
 PAPERS_OWN = "ref90"
 """Built-in pump that represents the paper's."""
@@ -59,7 +59,7 @@ class ReproduceCase:
 
 def paper_points() -> KeptPoints:
     """Return the store of points of the costly fidelities, kept between runs."""
-    return KeptPoints(cache_folder() / "paper" / "points")
+    return KeptPoints(cache_folder() / "paper" / "points", frozenset({PartStatus.SOLVED}))
 
 
 def about(pump: PumpDescription) -> str:
