@@ -1,10 +1,10 @@
 """What a pump file says of parts that float: points, choices, tables in tables, single parts, what is taken."""
 
 from dataclasses import replace
-from importlib.resources import files
 
 import numpy as np
 import pytest
+from bench_pump import BENCH
 
 from system import InputFaults, check_pump, floating_parts, load_pump, operating_point, resolved_toml, rotor
 from system.description.lines import LineKind
@@ -15,11 +15,10 @@ from system.films.rotor import travel
 from system.inputs.sections.fields import fields_of
 from system.inputs.sections.values import units_shown
 from system.pump_file.check import CheckReport
-from system.pump_file.file import builtin_pumps
 from system.pump_file.floating import check_floating
 from system.pump_file.schema import section_models
 
-REF90 = files("system.description").joinpath("pumps", "ref90.toml").read_text("utf-8")
+REF90 = BENCH.read_text("utf-8")
 PROFILE = [["0 mm", "3 um"], ["3 mm", "0 um"], ["45 mm", "0.5 um"]]
 EVERY = {
     "pump.cross_angle": "1 deg",
@@ -112,7 +111,7 @@ NOT_OF_ITS_KIND = {"delivery_line": {"impedance"}, "suction_line": {"orifice_are
 
 def faults_of(overrides):
     with pytest.raises(InputFaults) as raised:
-        load_pump("ref90", overrides)
+        load_pump(BENCH, overrides)
     return {fault.path: fault for fault in raised.value.faults}
 
 
@@ -121,7 +120,7 @@ def faults_of(overrides):
 
 def test_every_key_of_the_floating_parts_is_read_and_written_back(tmp_path):
     """All optional keys at once come back from `resolved_toml`, and nothing is then left to be taken."""
-    pump = load_pump("ref90", EVERY)
+    pump = load_pump(BENCH, EVERY)
     for name, model in section_models():
         own = name in ("ports.grooves", "valve_plate.pads") or name.startswith(("physics", "ports.delivery"))
         if own or name.endswith(".body"):
@@ -139,7 +138,7 @@ def test_every_key_of_the_floating_parts_is_read_and_written_back(tmp_path):
 
 
 def test_points_and_choices_in_si():
-    pump = load_pump("ref90", EVERY)
+    pump = load_pump(BENCH, EVERY)
     assert pump.piston.profile == ((0.0, 3e-6), (3e-3, 0.0), (45e-3, 0.5e-6))
     assert pump.retainer.kind is RetainerKind.CLEARANCE
     assert pump.delivery_line.kind is LineKind.ORIFICE
@@ -148,7 +147,7 @@ def test_points_and_choices_in_si():
 
 
 def test_a_file_without_them_has_none_of_them():
-    pump = load_pump("ref90")
+    pump = load_pump(BENCH)
     assert pump.piston.profile is None
     assert pump.materials.piston is None
     assert resolved_toml(pump).count("[") == REF90.count("\n[")
@@ -159,20 +158,6 @@ def test_units_shown_of_columns():
     assert units_shown(fields_of(models["piston"])["profile"]) == "mm, um"
     assert units_shown(fields_of(models["piston"])["mass"]) == "g"
     assert units_shown(fields_of(models["retainer"])["kind"]) == "-"
-
-
-def test_ref90_differs_where_it_says():
-    """The other built-in pump is ref90 but for the lands, the kidneys and the relieved edges."""
-    assert "ref90" in builtin_pumps()
-    floating, ref90 = load_pump("ref90"), load_pump("ref90")
-    same = ("pump", "ports", "ball_guide", "block", "bearings", "friction", "oil", "operating")
-    assert all(getattr(floating, name) == getattr(ref90, name) for name in same)
-    assert floating.valve_plate.film_thickness == ref90.valve_plate.film_thickness
-    assert {row.split(" = ")[0] for row in set(_rows(floating)) ^ set(_rows(ref90))} == {
-        "name", "width", "depth", "kidney_pitch_radius", "kidney_width", "[piston.edge_relief]",
-        "[bore.edge_relief]", "[slipper.rim_relief]", "[valve_plate.waviness]",
-        "waves", "amplitude", *(f"land_radius_{n}" for n in (1, 2, 3, 4)),
-    }  # fmt: skip
 
 
 def _rows(pump):
@@ -296,11 +281,11 @@ def test_a_line_of_a_table_in_a_table_is_found(tmp_path):
 
 
 def test_a_single_part_has_the_rest_from_the_table(tmp_path):
-    pump = load_pump("ref90", {"piston.3.radial_clearance": "20 um", "slipper.9.crown": "2 um"})
+    pump = load_pump(BENCH, {"piston.3.radial_clearance": "20 um", "slipper.9.crown": "2 um"})
     assert [chamber for chamber, _ in pump.single_pistons] == [3]
     third, fourth, ninth = (pump.of_chamber(chamber) for chamber in (3, 4, 9))
     assert third.piston == replace(pump.piston, radial_clearance=20e-6)
-    assert fourth == load_pump("ref90")
+    assert fourth == load_pump(BENCH)
     assert ninth.slipper.crown == 2e-6
     file = tmp_path / "pump.toml"
     file.write_text(resolved_toml(pump), "utf-8")
@@ -309,7 +294,7 @@ def test_a_single_part_has_the_rest_from_the_table(tmp_path):
 
 
 def test_single_parts_are_told_where_all_are_taken_alike():
-    pump = load_pump("ref90", {"piston.3.radial_clearance": "20 um"})
+    pump = load_pump(BENCH, {"piston.3.radial_clearance": "20 um"})
     assert "piston.3" in {warning.path for warning in check_pump(pump).warnings}
 
 
@@ -336,7 +321,7 @@ def test_single_parts_are_refused_as_all_would_be(overrides, path):
 
 def test_everything_taken_is_told_with_value_and_reason():
     """One assumption for each optional quantity that a gap needs, by its path, none twice."""
-    pump = load_pump("ref90")
+    pump = load_pump(BENCH)
     parts = floating_parts(pump)
     told = {taken.path: taken for taken in parts.taken}
     assert len(told) == len(parts.taken)
@@ -351,7 +336,7 @@ def test_everything_taken_is_told_with_value_and_reason():
 
 def test_a_stated_value_is_not_taken():
     stated = {"piston.guide_length": "40 mm", "surfaces.piston_cylinder.composite_roughness": "0.8 um"}
-    parts = floating_parts(load_pump("ref90", stated))
+    parts = floating_parts(load_pump(BENCH, stated))
     assert not stated.keys() & {taken.path for taken in parts.taken}
     assert parts.piston.guide_length == 40e-3
     laws = parts.piston.laws
@@ -363,7 +348,7 @@ def test_a_stated_value_is_not_taken():
 
 def test_material_left_out_in_part_is_the_usual_one():
     stated = {"materials.slipper": {"youngs_modulus": "120 GPa", "poissons_ratio": 0.35}}
-    parts = floating_parts(load_pump("ref90", stated))
+    parts = floating_parts(load_pump(BENCH, stated))
     assert parts.materials["slipper"].youngs_modulus == 120e9
     assert parts.materials["slipper"].density == BRASS.density
     told = {taken.path for taken in parts.taken if taken.path.startswith("materials.slipper")}
@@ -371,7 +356,7 @@ def test_material_left_out_in_part_is_the_usual_one():
 
 
 def test_shapes_add_up():
-    parts = floating_parts(load_pump("ref90", EVERY))
+    parts = floating_parts(load_pump(BENCH, EVERY))
     place = np.array([0.0, 1e-3])
     barrel = 2e-6 * (2.0 * place / 45e-3 - 1.0) ** 2
     edge = 3e-6 * (1.0 - place / 3e-3) ** 2
@@ -383,7 +368,7 @@ def test_shapes_add_up():
 
 def test_ball_plane_height_is_where_the_places_of_the_pump_have_it():
     """The bore's case edge lies an overhang and the piston's way below the ball; at 90 deg on the shaft."""
-    pump = load_pump("ref90")
+    pump = load_pump(BENCH)
     group = rotor(pump, operating_point(pump))
     frame = guide_frame(group, 0.0, 0.5 * np.pi)
     ball = frame.origin + (pump.piston.overhang + travel(group, 0.5 * np.pi)) * frame.z
@@ -398,7 +383,7 @@ def _told(report: CheckReport) -> dict[str, str]:
 
 
 def test_ref90_tips_and_lies_flat():
-    told = _told(check_floating(load_pump("ref90")))
+    told = _told(check_floating(load_pump(BENCH)))
     assert set(told) == {"valve_plate.land_radius_4", "slipper.profile"}
     assert "block tips: at 35 MPa the film's lift is 0.933" in told["valve_plate.land_radius_4"]
     assert "limit 45.7 mm" in told["valve_plate.land_radius_4"]
@@ -410,7 +395,7 @@ def test_ref90_does_not():
 
 def test_wide_lands_lift_the_block_off():
     wide = {"valve_plate.land_radius_1": "24 mm", "valve_plate.land_radius_4": "49 mm"}
-    told = _told(check_floating(load_pump("ref90", wide)))
+    told = _told(check_floating(load_pump(BENCH, wide)))
     assert "block lifts off" in told["valve_plate.land_radius_4"]
 
 
