@@ -186,6 +186,6 @@ def write_pair_table(path: Path, point: PumpPoint, summary: dict[str, Any]) -> N
         count = getattr(point.pairs, name).count
         lines.append(
             f"{name},{count},{loss['coulomb_W']:.6g},{loss['viscous_W']:.6g},{loss['total_W']:.6g},"
-            f"{100.0 * loss['share']:.4g}"
+            f"{100.0 * loss['share']:.6g}"
         )
     path.write_text("\n".join(lines) + "\n", encoding="utf-8")

@@ -412,7 +412,7 @@ def test_resolved_toml_loads_to_the_same(tmp_path, source):
 @given(clearance=st.floats(1e-6, 1e-4), speed=st.floats(10.0, 400.0), tilt=st.floats(1e-9, 7e-4))
 def test_resolved_toml_loads_to_the_same_for_any_numbers(tmp_path_factory, clearance, speed, tilt):
     pump = load_pump(
-        "ref90",
+        BENCH,
         {
             "piston.radial_clearance": f"{clearance!r} m",
             "operating.speed": f"{speed!r} rad/s",

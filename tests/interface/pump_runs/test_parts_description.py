@@ -170,7 +170,7 @@ def _rows(pump):
 @pytest.mark.parametrize(
     ("key", "raw", "found", "expected"),
     [
-        ("piston.profile", "3 um", "'3 um', which is no file", "place [mm], material taken off [um]"),
+        ("piston.profile", "3 um", "3 um', which is no file", "place [mm], material taken off [um]"),
         ("piston.profile", [["0 mm", "3 um"], ["3 mm"]], "1 values in row 2", "rows of place"),
         ("piston.profile", [["0 mm", "3 um"], ["3 mm", "3 lux"]], "as material taken off of row 2", "a length"),
         ("piston.profile", [["0 mm", 3], ["45 mm", "0 um"]], "3 as material taken off of row 1", "a length"),

@@ -184,7 +184,6 @@ def test_films_that_cannot_be_solved_tell_why():
 @pytest.mark.parametrize(
     ("words", "told"),
     [
-        (["reproduce", "fig8", "--fidelity", "floating", "--pump", "PUMP"], "swashfilm run, map and table read them"),
         (["film", "CASE"], "a case states its own physics; swashfilm run reads them"),
         (["transient", "TRANSIENT"], "a case states its own physics; swashfilm run reads them"),
     ],
@@ -213,7 +212,7 @@ def test_a_maps_points_are_kept_by_the_temperature_that_clearances_change_from()
 
 
 def test_a_map_of_films_solved_point_by_point_reads_them(pump_file, tmp_path):
-    words = ["map", str(pump_file), "--plan", "point", "--direct", "--check", "0", "-o", str(tmp_path / "map")]
+    words = ["map", str(pump_file), "--fidelity", "fixed", "--plan", "point", "--direct", "--check", "0", "-o", str(tmp_path / "map")]
     assert main(words) == 0
     told = json.loads((tmp_path / "map" / "summary.json").read_text("utf-8"))["assumptions"]
     assert told[0] == "[physics]: solved in the films: viscosity_pressure; by closed-form laws: churning"

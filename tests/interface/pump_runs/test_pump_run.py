@@ -192,7 +192,8 @@ def test_paraview_series_lie_in_their_true_place(films):
     assert direction == pytest.approx(1.0, abs=2e-3)
     ring = pyvista.read(films / "fields" / "valve_plate_000.vtu")
     assert np.ptp(ring.points[:, 2]) == 0.0
-    assert np.hypot(*ring.points[:, :2].T).max() == pytest.approx(45.7e-3, rel=1e-6)
+    rim = load_pump("ref90").valve_plate.land_radius_4  # the mesh is a polygon of the same area
+    assert np.hypot(*ring.points[:, :2].T).max() == pytest.approx(rim, rel=1e-3)
     for name in ("film_pressure", "film_thickness"):
         assert name in piston.point_data
     assert "wall_shear" in piston.cell_data

@@ -80,7 +80,7 @@ def test_a_table_is_built_told_and_run(stand_in, tmp_path, capsys):
 
     run = tmp_path / "run"
     assert main(["run", "ref90", "--fidelity", "table", "-o", str(run)]) == 0
-    assert "Gaps by a table of the fidelity fixed" in capsys.readouterr().out
+    assert "Gaps by a table of the fixed fidelity" in capsys.readouterr().out
     found = json.loads((run / "summary.json").read_text())
     assert found["fidelity"] == "table"
     assert found["table"]["points"] == {"learnt": 32, "held_out": 6}
