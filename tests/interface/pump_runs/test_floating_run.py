@@ -26,6 +26,7 @@ def folder(tmp_path_factory):
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr("system.points.floating.PRESSURE_TOLERANCE", 1.0)
         patch.setattr("system.points.floating.FRICTION_TOLERANCE", 1.0)
+        patch.setattr("system.points.floating.SPIN_TOLERANCE", 1.0)
         place = tmp_path_factory.mktemp("floating")
         pump = load_pump("ref90", {"operating.pressure": "5 MPa", "operating.speed": "1000 rpm"})
         solve_pump(PumpCase(pump, "", Fidelity.FLOATING, options=ROUGHLY)).write(place)

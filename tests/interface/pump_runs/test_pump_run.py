@@ -11,6 +11,7 @@ import pyvista
 import xarray
 
 from swashfilm.__main__ import main
+from system import load_pump
 
 TURN = 2.0 * np.pi
 
