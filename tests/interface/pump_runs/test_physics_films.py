@@ -212,8 +212,8 @@ def test_a_maps_points_are_kept_by_the_temperature_that_clearances_change_from()
 
 
 def test_a_map_of_films_solved_point_by_point_reads_them(pump_file, tmp_path):
-    words = ["map", str(pump_file), "--fidelity", "fixed", "--plan", "point", "--direct", "--check", "0", "-o", str(tmp_path / "map")]
-    assert main(words) == 0
+    words = ["map", str(pump_file), "--fidelity", "fixed", "--plan", "point", "--direct", "--check", "0"]
+    assert main([*words, "-o", str(tmp_path / "map")]) == 0
     told = json.loads((tmp_path / "map" / "summary.json").read_text("utf-8"))["assumptions"]
     assert told[0] == "[physics]: solved in the films: viscosity_pressure; by closed-form laws: churning"
     assert not any("oil.pressure_viscosity" in one for one in told)
