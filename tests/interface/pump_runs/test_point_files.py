@@ -4,6 +4,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from bench_pump import BENCH
 
 from gaps.shapes.profiles import PointsAround, measured
 from reynolds import InputError
@@ -17,11 +18,11 @@ NET = "material_taken_off [um], place [cm], angle [deg]\n"
 
 @pytest.fixture
 def pump_file(tmp_path):
-    """A copy of ref90 in a folder of its own, to which lines can be added."""
+    """A copy of the recordings' pump in a folder of its own, to which lines can be added."""
 
     def write(lines: str = "") -> Path:
         path = tmp_path / "pump.toml"
-        path.write_text(resolved_toml(load_pump("ref90")) + lines, "utf-8")
+        path.write_text(resolved_toml(load_pump(BENCH)) + lines, "utf-8")
         return path
 
     return write

@@ -363,7 +363,7 @@ def test_pocket_presses_on_slipper_and_plate(tmp_path):
     assert both[:, pocket] == pytest.approx(sum(part.matrix[:, pocket] for part in parts), abs=0.0)
     assert all(part.origin is CacheOrigin.CACHE for part in parts)  # kept from the first time
     radius = np.hypot(*film.vertices.T)
-    rim, edge = radius > 14e-3 * (1.0 - 1e-9), radius < 8e-3 * (1.0 + 1e-9)
+    rim, edge = radius > radius.max() * (1.0 - 1e-9), radius < radius.min() * (1.0 + 1e-9)
     assert parts[1].matrix[edge, pocket].mean() > 5.0 * abs(parts[1].matrix[rim, pocket].mean())  # dents the plate
     assert parts[0].matrix[rim, pocket].mean() > parts[0].matrix[edge, pocket].mean() > 0.0  # turns the flange back
     fine = film_space(annulus(30e-3, 50e-3, (6, 40)))
@@ -375,8 +375,8 @@ def test_pocket_presses_on_slipper_and_plate(tmp_path):
     assert isinstance(part_wall(large, fine, folder=tmp_path), BodyWall)
 
 
-def test_slipper_bends_alike_on_coarse_films(refine):
-    """Films of eight sectors on: the rim's deformation errs as the area of the film's polygon, by 1/n^2."""
+def test_slipper_bends_alike_on_coarse_films():
+    """Films of eight sectors on: a polygon presses on the area of its circle."""
     from gaps import slipper_mesh
 
     body = slipper_body(SlipperPart(0.5e-3, 8e-3, 7e-3, 14e-3, 5e-3, BRONZE), (6, 12, 1))
@@ -384,10 +384,11 @@ def test_slipper_bends_alike_on_coarse_films(refine):
     def rim(sectors: int) -> float:
         film = film_space(slipper_mesh(((8e-3, 14e-3),), (3, sectors)), pockets=["pocket"])
         deformation = part_wall(body, film).matrix @ np.ones(film.size)
-        return float(deformation[np.hypot(*film.vertices.T) > 14e-3 * (1.0 - 1e-9)].mean())
+        radius = np.hypot(*film.vertices.T)
+        return float(deformation[radius > radius.max() * (1.0 - 1e-9)].mean())
 
-    found = refine(rim, (8, 16, 32), 2.0)
-    assert abs(found.finest - rim(48)) < found.tolerance()
+    finest = rim(48)
+    assert [rim(sectors) for sectors in (8, 16, 32)] == pytest.approx([finest] * 3, rel=1e-3)
 
 
 def test_grooves_press_on_slipper_and_plate(tmp_path):
@@ -406,8 +407,8 @@ def test_grooves_press_on_slipper_and_plate(tmp_path):
             film = film_space(slipper_mesh(lands.radii, (6, 24)), pockets=lands.closed)
             deformation = part_wall(body, film, folder=tmp_path).matrix @ np.full(film.size, PRESSURE)
             radius = np.hypot(*film.vertices.T)
-            found.append([deformation[np.abs(radius - at) < 1e-9].mean() for at in (8e-3, 14e-3)])
-        # The film's sectors of 15 degrees are chords, its area by 1.1 % short of the groove's arcs.
+            ends = radius.min(), radius.max()
+            found.append([deformation[np.abs(radius - at) < 1e-9].mean() for at in ends])
         assert found[0] == pytest.approx(found[1], rel=0.02)
 
 
