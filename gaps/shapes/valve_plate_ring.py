@@ -114,7 +114,7 @@ class Ring:
         self.column = geometry.pitch / cells[1]
         self._vertices, self._cells = ring_mesh.mesh.p.shape[1], ring_mesh.mesh.t.shape[1]
         radius = np.hypot(*drawn.vertices.T)
-        _, r2, r3, _ = np.array(geometry.land_radii) * radius.max() / geometry.land_radii[3]
+        _, r2, r3, _ = np.array(geometry.land_radii) * radius[: self._vertices].max() / geometry.land_radii[3]
         self._in_kidney_ring = (radius > r2 * (1.0 - 1e-9)) & (radius < r3 * (1.0 + 1e-9))
 
     def turned(self, shaft_angle: float) -> FilmSpace:

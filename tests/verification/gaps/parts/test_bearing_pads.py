@@ -4,6 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from bench_pump import BENCH
 
 from gaps import BlockDrive, BlockFilm, Effect, Physics, ValvePlateGeometry, constant, wall_shear
 from gaps.shapes.bearing_pads import EDGE, BearingPads
@@ -88,13 +89,13 @@ PADS = [{"inner": "66 mm", "outer": "74 mm", "arc": "30 deg", "number": 9}]
 
 def test_pads_hold_a_block_that_tips(tmp_path):
     """ref90's block presses at 73 mm: beyond its outer land, within pads that reach further."""
-    pump = load_pump("ref90", {"valve_plate.pads": PADS})
+    pump = load_pump(BENCH, {"valve_plate.pads": PADS})
     file = tmp_path / "pump.toml"
     file.write_text(resolved_toml(pump), "utf-8")
     assert load_pump(file) == pump
     assert "valve_plate.land_radius_4" not in {warning.path for warning in check_floating(pump).warnings}
     assert valve_plate_geometry(pump).pads == (BearingPads(66e-3, 74e-3, pump.valve_plate.kidney_arc, 9),)
-    bare, point = load_pump("ref90"), operating_point(pump)
+    bare, point = load_pump(BENCH), operating_point(pump)
     loss = [lumped_point(one, point).pairs.loss(Pair.VALVE_PLATE_CYLINDER).mean for one in (pump, bare)]
     pads = pump.valve_plate.bearing_pads[0]
     speed = point.shaft_speed * 70e-3
@@ -113,7 +114,7 @@ def test_pads_hold_a_block_that_tips(tmp_path):
 )
 def test_pads_that_cannot_be_are_told(changed, path, expected):
     with pytest.raises(InputFaults) as raised:
-        load_pump("ref90", {"valve_plate.pads": [PADS[0] | changed]})
+        load_pump(BENCH, {"valve_plate.pads": [PADS[0] | changed]})
     told = {fault.path: fault for fault in raised.value.faults}
     assert list(told) == [path]
     assert expected in told[path].expected

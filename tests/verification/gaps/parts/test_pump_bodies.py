@@ -404,7 +404,7 @@ def test_grooves_press_on_slipper_and_plate(tmp_path):
         assert groove == pytest.approx(np.pi * (11.5e-3**2 - 10e-3**2), rel=1e-3)
         found = []
         for lands in (grooved, plain):
-            film = film_space(slipper_mesh(lands.radii, (6, 36)), pockets=lands.closed)
+            film = film_space(slipper_mesh(lands.radii, (12, 48)), pockets=lands.closed)
             deformation = part_wall(body, film, folder=tmp_path).matrix @ np.full(film.size, PRESSURE)
             radius = np.hypot(*film.vertices.T)
             ends = radius.min(), radius.max()
