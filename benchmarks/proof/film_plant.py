@@ -1,6 +1,6 @@
 """Recordings whose plant is the film simulation: the fidelity proof.
 
-A point is the films fidelity (`system.points.films.films_point`): three gaps solved on meshes over the turn, parts
+A point is the fidelity fixed (`system.points.films.films_point`): three gaps solved on meshes over the turn, parts
 at the places that the pump file gives, with one piece of film physics that the lumped simulation leaves out. A
 point takes half a second to two, a warm one ten, so that the true readings are kept beside this file; sensors read
 them as those of the other plant.

@@ -34,7 +34,7 @@ drawing. One point locates nothing: no cause is named (`examples/hst196/band.py`
 TANKS_TEXT = """Two tanks (Schoukens et al. 2016), Torricelli's law as the model; in truth both overflow. One record
 decides, the other is held out. Errors by simulating whole records (`examples/cascaded_tanks/overflow.py`). In the last
 row's residual no possible addition gains three nats."""
-FILMS_TEXT = """The plant is the films fidelity (`system.points.films`), with one or two pieces of film physics
+FILMS_TEXT = """The plant is the fidelity fixed (`system.points.films`), with one or two pieces of film physics
 more each; the diagnosis has the lumped simulation. Rigid: nothing is left out (`benchmarks/proof_films.py`)."""
 
 

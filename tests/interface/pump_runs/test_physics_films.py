@@ -1,4 +1,4 @@
-"""[physics] in runs of the films fidelity: what a folder tells, a finding's films, and what refuses such pumps."""
+"""[physics] in runs of the fidelity fixed: what a folder tells, a finding's films, and what refuses such pumps."""
 
 import json
 from dataclasses import replace

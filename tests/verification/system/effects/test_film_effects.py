@@ -1,4 +1,4 @@
-"""[physics] at the films fidelity: closed forms, equivalent inputs, all effects."""
+"""[physics] at the fidelity fixed: closed forms, equivalent inputs, all effects."""
 
 from dataclasses import replace
 

@@ -1,4 +1,4 @@
-"""The pump: films fidelity.
+"""The pump: fidelity fixed.
 
 Films of the three gaps and chamber pressure over a revolution. Everything here is a balance, a limit in which the
 closed forms of the lumped fidelity must come back, or a change under refinement; one REF90 point at 2100 r/min and

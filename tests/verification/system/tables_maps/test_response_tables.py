@@ -325,7 +325,7 @@ def test_a_line_of_stated_orifice_is_met(table):
 
 @pytest.mark.slow
 def test_films_point_by_its_own_ratios():
-    """A table that knows a point of the films fidelity gives its leakage, losses and torque back to 0.2 %.
+    """A table that knows a point of the fidelity fixed gives its leakage, losses and torque back to 0.2 %.
 
     What is lost is the course over the angle of each gap's conductance and friction; means are kept.
     """
