@@ -1,6 +1,7 @@
 """The pump: REF90 with films.
 
-What the fidelity fixed gives for the pump of the recordings, held so that a change of it is seen, and beside closed forms.
+What the fidelity fixed gives for the pump of the recordings, held so that a change of it is seen, and beside
+closed forms.
 """
 
 from __future__ import annotations

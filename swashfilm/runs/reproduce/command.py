@@ -24,8 +24,9 @@ _TUNED = "fig13"
 def add_reproduce_options(command: argparse.ArgumentParser) -> None:
     """Add the arguments of the command to its parser."""
     command.add_argument(
-        "figure", nargs="?", default=ALL, metavar="FIGURE", help="fig2, table1, ..; all; or list for the names"
-    )
+        "figure", nargs="?", default=ALL, metavar="FIGURE",
+        help="fig2, table1, ..; several with commas; all; or list for the names",
+    )  # fmt: skip
     command.add_argument(
         "--fidelity", metavar="{lumped,fixed,floating}",
         help="films of given thickness (lumped: seconds; with --recording), solved at given positions (fixed: "
@@ -104,7 +105,7 @@ def reproduce_case(options: argparse.Namespace) -> tuple[ReproduceCase, int]:
     if faults:
         raise InputFaults(COMMAND_LINE, faults)
     fidelity, recording = PaperFidelity(options.fidelity), _recording_of(options)
-    figures = tuple(Figure) if options.figure == ALL else (Figure.named(options.figure),)
+    figures = tuple(Figure) if options.figure == ALL else tuple(map(Figure.named, _named(options)))
     asked = ReproduceCase(pump, figures, fidelity, floating_options(options), recording)
     return asked, int(options.workers or 1)
 
@@ -118,24 +119,29 @@ def _recording_of(options: argparse.Namespace) -> Recording | None:
     return recording_for_fig13(options.recording, options.pump)
 
 
+def _named(options: argparse.Namespace) -> list[str]:
+    """Return the names of the figures that the command line asks for."""
+    return [name.strip() for name in options.figure.split(",")]
+
+
 def _word_faults(options: argparse.Namespace) -> list[Fault]:
     """Return the faults of options that do not depend on the pump."""
     from system.paper.figure import DRAWINGS, Figure
     from system.paper.points import PaperFidelity
 
     faults: list[Fault] = []
-    figures = [ALL, LIST, *(figure.value for figure in Figure)]
-    if options.figure in DRAWINGS:
-        expected = f"one of {', '.join(figures)}"
-        faults.append(Fault("FIGURE", f"{options.figure}, a drawing ({DRAWINGS[options.figure]})", expected))
-    elif options.figure not in figures:
-        near = nearest_choice(options.figure, figures)
-        faults.append(Fault("FIGURE", repr(options.figure), f"one of {', '.join(figures)}", near))
+    figures = [*([] if "," in options.figure else [ALL, LIST]), *(figure.value for figure in Figure)]
+    expected = f"one of {', '.join(figures)}"
+    for name in _named(options):
+        if name in DRAWINGS:
+            faults.append(Fault("FIGURE", f"{name}, a drawing ({DRAWINGS[name]})", expected))
+        elif name not in figures:
+            faults.append(Fault("FIGURE", repr(name), expected, nearest_choice(name, figures)))
     fidelities = [fidelity.value for fidelity in PaperFidelity]
     if options.fidelity not in fidelities:
         near = nearest_choice(options.fidelity, fidelities)
         faults.append(Fault("--fidelity", repr(options.fidelity), f"one of {', '.join(fidelities)}", near))
-    if options.recording is not None and (options.figure not in (ALL, _TUNED) or options.fidelity != _LUMPED):
+    if options.recording is not None and (not {ALL, _TUNED} & set(_named(options)) or options.fidelity != _LUMPED):
         found = f"with {options.figure}, --fidelity {options.fidelity}"
         faults.append(Fault("--recording", found, f"{_TUNED} or {ALL}, --fidelity {_LUMPED}: only they use it"))
     whole(faults, "--workers", options.workers, 1, (1, 256))

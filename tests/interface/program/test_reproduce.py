@@ -187,6 +187,8 @@ def test_coefficients_are_tuned_to_a_recording(tmp_path):
         (["fig2", "--pump", "ref9"], "ref90"),
         (["fig7"], "a drawing (co-simulation model)"),
         (["fig99"], "'fig99'"),
+        (["fig2,fig99"], "'fig99'"),
+        (["fig2,all"], "'all'"),
         (["fig2", "--fidelity", "lumpd"], "lumped"),
         (["fig2", "--workers", "none"], "--workers"),
         (["fig2", "--fidelity", "lumped", "--steps", "36"], "--steps"),
