@@ -56,7 +56,13 @@ def _of_level(report: Report, number: int, levels: int) -> Report:
 def _unknowns(found: FloatingPoint) -> int:
     """Return the number of unknown pressures of all gaps of the most common chamber and the block."""
     gaps = found.kinds[0].gaps
-    return sum(gap.turn.oil[0].size for gap in (gaps.piston, gaps.slipper, gaps.block))
+    return _size(gaps.piston) + _size(gaps.slipper) + _size(gaps.block)
+
+
+def _size(gap: GapRevolution[Any]) -> int:
+    """Return the unknowns of a gap's film: by a kept film, or by its oil where none is kept."""
+    kept = [film.problem.space.size for film in gap.turn.films.values()]
+    return kept[0] if kept else int(gap.turn.oil[0].size)
 
 
 def point_numbers(found: FloatingPoint) -> Mapping[str, float]:
