@@ -70,7 +70,7 @@ NEARLY = 20.0
 """Times as large as their tolerances may the changes of a round be for gaps and chambers to nearly agree."""
 CLOSING = 0.5
 """The same of later rounds, over what the round before changed."""
-ROUND_LIMIT = 12
+ROUND_LIMIT = 20
 
 
 @dataclass(frozen=True)
