@@ -75,6 +75,11 @@ class GapRevolution(Generic[Value]):
         return replace(self, turn=turn, closing=replace(self.closing, turn=turn))
 
     @property
+    def mean_film(self) -> float:
+        """Film thickness over area and turn, m."""
+        return float(np.mean([instant.mean_film for instant in self.turn.instants]))
+
+    @property
     def least_film(self) -> GapInstant[Value]:
         """The instant at which the film is thinnest."""
         return min(self.turn.instants, key=lambda instant: instant.film_thickness_min)

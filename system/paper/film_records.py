@@ -34,7 +34,7 @@ def _film_record(found: GapRevolution[Any]) -> Record:
     """Means over the turn: film over the area (m), contact load (N); least film anywhere (m), hottest oil (K)."""
     instants = found.turn.instants
     return {
-        "mean": float(np.mean([one.mean_film for one in instants])),
+        "mean": found.mean_film,
         "least": min(one.least_gap for one in instants),
         "hottest": None if found.warmth is None else float(found.warmth.hottest.max()),
         "contact": float(np.mean([one.report.contact_load for one in instants])),

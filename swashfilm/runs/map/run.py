@@ -33,7 +33,7 @@ from system.work.sampled_points import usual_counts
 from system.work.tasks import Executor, PartOutcome, PartStatus
 
 POINT_COST = {Fidelity.FIXED: 2.0, Fidelity.FLOATING: 100.0}
-"""Approximate processor time of a point whose films are solved, s (benchmarks/map.py)."""
+"""Approximate processor time of a point whose films are solved, s (`swashfilm map ref90 --direct`)."""
 CHEAP = 0.1
 """Seconds per point up to which fresh points are checked by default."""
 START = 4.0
@@ -66,7 +66,7 @@ class MapCase:
 
     @property
     def points_words(self) -> str:
-        """What is solved, in words."""
+        """The points to solve, in words."""
         own = f"{len(self.plan.points)} {self.fidelity.value} points"
         return f"{own} by a table of {sum(self.table_points)} solved ones" if self.by_table else own
 
@@ -132,9 +132,9 @@ def _solved(
     """Return the outcomes of all points; each one is written to points/ as soon as it is solved."""
     store, earlier = KeptPoints(folder / POINTS), points_of_run(resume) if resume else None
     order, batch = list(range(len(points))), max(1, round(PART / work.solver.cost))
-    if isinstance(work.solver, DirectSolver):
+    if isinstance(work.solver, DirectSolver) and work.solver.solver.source is Source.FLOATING:
         order.sort(key=lambda k: _place_in_rows(points[k]))
-        batch = ROW
+        batch = min(ROW, math.ceil(len(points) / executor.workers))
     kept = run_kept(
         work, [points[k] for k in order], store, executor, earlier=earlier, batch=batch, described=_progress_text,
         report=report,
@@ -144,7 +144,7 @@ def _solved(
 
 
 def _place_in_rows(point: OperatingPoint) -> tuple[float, ...]:
-    """Place of a point among others: the pressure changes first, from the highest down, whose films lead farthest."""
+    """Sort key of a point: rows along the pressure, from the highest, all other inputs alike."""
     held = point.shaft_speed, point.displacement_ratio, point.temperature, point.inlet_pressure
     return *held, -point.delivery_pressure
 

@@ -78,11 +78,10 @@ def point_numbers(found: FloatingPoint) -> Mapping[str, float]:
     }
     numbers |= {f"leakage_flow_m3_per_s.{gap}": flow for gap, flow in asdict(point.leakage_flow).items()}
     for gap, pair in GAP_PAIRS.items():
-        instants = turns[gap].turn.instants
         numbers[f"loss_W.{gap}"] = point.pairs.loss(pair).mean
         numbers[f"contact_loss_W.{gap}"] = point.pairs.loss(pair).mean_coulomb
-        numbers[f"film_mean_m.{gap}"] = sum(one.mean_film for one in instants) / len(instants)
-        numbers[f"film_least_m.{gap}"] = min(one.film_thickness_min for one in instants)
+        numbers[f"film_mean_m.{gap}"] = turns[gap].mean_film
+        numbers[f"film_least_m.{gap}"] = turns[gap].least_film.film_thickness_min
         if (warmth := turns[gap].warmth) is not None:
             numbers[f"hottest_oil_K.{gap}"] = float(warmth.hottest.max())
     return numbers

@@ -128,7 +128,7 @@ def _best_point(field: FigureField) -> Curve:
 
 
 def _best_reason(points: PaperPoints, best: float, reading: LossReading) -> str:
-    """What the pump loses at its best point; where oil is trapped at the inner dead centre, the best without it."""
+    """Losses at the best point; where oil is trapped at the inner dead centre, the best efficiency without it."""
     at = max(
         (Place(RATED, p, ratio) for p in PRESSURES for ratio in RATIOS),
         key=lambda one: points.points[one].overall(reading),

@@ -146,16 +146,12 @@ class FloatingRow:
 
 
 def _of_floating(found: FloatingPoint) -> SolvedPoint:
-    gaps, point = found.kinds[0].gaps, found.pump_point.point
-    turns = (gaps.piston.turn, gaps.slipper.turn, gaps.block.turn)
-    mean = (float(np.mean([instant.mean_film for instant in turn.instants])) for turn in turns)
-    least = (min(instant.least_gap for instant in turn.instants) for turn in turns)
-    rise = (_hottest(gap, point) - point.temperature for gap in (gaps.piston, gaps.slipper, gaps.block))
+    own, point = found.kinds[0].gaps, found.pump_point.point
+    gaps: tuple[GapRevolution[Any], ...] = (own.piston, own.slipper, own.block)
+    mean = (gap.mean_film for gap in gaps)
+    least = (min(instant.least_gap for instant in gap.turn.instants) for gap in gaps)
+    rise = (_hottest(gap, point) - point.temperature for gap in gaps)
     return SolvedPoint(found.pump_point, Gaps(*mean), Gaps(*least), Gaps(*rise))
-
-    def row(self) -> FilmsSolver:
-        """The same: given positions need no start."""
-        return self
 
 
 def _oil_temperature(pump: PumpDescription, films: Sequence[GapFilm[Any]]) -> float:
