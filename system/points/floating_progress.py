@@ -1,7 +1,7 @@
 """Progress of a floating point as a whole, in units of work: rounds until all agrees, gaps of a round, turns of a gap.
 
-How many rounds a point needs shows only on the way. The first takes as long as several later ones, since its films
-have no start; the others are expected by the rate at which the changes of the rounds before fell.
+The number of rounds is not known in advance. The first round takes as long as several later ones, since its films
+have no start. The others are expected by the rate at which the changes fell in the rounds before.
 """
 
 import math
@@ -16,9 +16,9 @@ RATE = 0.2
 """Factor by which a round reduces the changes, before two rounds have shown it."""
 SLOWEST = 0.8
 GAP_SHARES = {"slipper": 0.25, "block": 0.3, "piston": 0.45}
-"""Shares of a round's work, in the order in which a single process solves them last."""
+"""Share of each gap in the work of a round."""
 TURNS = 12
-"""Turns at which a gap counts as nine tenths done."""
+"""Number of turns after which a gap counts as nine tenths solved."""
 
 
 @dataclass
