@@ -1,5 +1,7 @@
 """Errors of the program: an input that cannot be used, and a solution that was not found."""
 
+from typing import Any
+
 
 class InputError(ValueError):
     """An input that cannot be used: where, what was found, what was expected."""
@@ -31,6 +33,6 @@ class FilmNotConverged(NotConverged):
         super().__init__(f"{what}. Try: {remedy}")
         self.what, self.remedy = what, remedy
 
-    def __reduce__(self) -> tuple[type, tuple[str, str]]:
+    def __reduce__(self) -> tuple[type, tuple[Any, ...]]:
         """Arguments from which another process makes the same error."""
         return type(self), (self.what, self.remedy)

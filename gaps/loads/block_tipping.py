@@ -83,16 +83,37 @@ class BlockBalance:
     def _leverage(self) -> float:
         return 1.0 + self.spline_height / self.sphere.radius
 
+    def lift(self, places: Array, above: Array) -> Array:
+        """(F_z N, moments about x and y through the spline N m) of the lands' lift, a sector of each chamber.
+
+        places: angles (z,) rad of the chambers; above: their pressures (z,) Pa over the case's.
+        """
+        land = land_lift(self.land_radii, self.sphere)
+        forces = 2.0 * np.pi / self.pistons * land.force * above
+        lever = self._leverage * self.lift_radius
+        return np.array([forces.sum(), lever * (forces @ np.sin(places)), -lever * (forces @ np.cos(places))])
+
     def pressed_at(self, delivery: float, suction: float, spring: float) -> float:
         """Distance from the shaft (m) at which what the film does not lift presses; pressures over the case's, Pa.
 
-        F = z Ap (pd + ps)/2 (1 - B) + spring (N), M = z Ap (pd - ps)/pi R (1 - B_M). Beyond R4 no film without
-        hydrodynamic lift can hold it: the block tips. Infinite where nothing presses (F <= 0: it lifts off).
+        F = z Ap (pd + ps)/2 (1 - B) + spring (N), M = z Ap (pd - ps)/pi R (1 - B_M), placed as `pressed_by` does.
         """
         area = self.pistons * self.piston_area
         force = 0.5 * area * (delivery + suction) * (1.0 - self.force_ratio) + spring
         moment = area * (delivery - suction) / np.pi * self.pitch_radius * (1.0 - self.moment_ratio)
+        return self.pressed_by(force, moment)
+
+    def pressed_by(self, force: float, moment: float) -> float:
+        """Distance from the shaft (m) at which a force (N) with a moment about the spline (N m) presses.
+
+        Beyond the face no film without hydrodynamic lift can hold it: the block tips. Infinite where nothing presses
+        (F <= 0: it lifts off).
+        """
         if force <= 0.0:
             return np.inf
         lever = abs(moment) / (force * self._leverage)
         return float(lever / np.hypot(1.0, lever / self.sphere.radius))
+
+    def force_within(self, radius: float, moment: float) -> float:
+        """Force (N) that with a moment about the spline (N m) presses at a distance (m) from the shaft."""
+        return float(abs(moment) * np.sqrt(1.0 - (radius / self.sphere.radius) ** 2) / (radius * self._leverage))

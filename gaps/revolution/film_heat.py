@@ -17,6 +17,7 @@ import numpy as np
 from gaps.films.reports import Reported
 from gaps.revolution.march import GapRevolution, Leg, TurnReport, no_report, run_revolution
 from gaps.revolution.schedule import Accuracy, Schedule
+from gaps.revolution.stopped import TurnStopped
 from gaps.revolution.warmth import GapTemperatures, HeatFlows, ViscosityRatios, thinned
 from reynolds.equation.coefficients import at_points
 from reynolds.errors import FilmNotConverged, InputError
@@ -220,11 +221,12 @@ class _Warming(Generic[Reported]):
         try:
             return _with_heat(agree(posed, levels(), AGREED, self._solver, self._warm.get(time)))
         except (InputError, FilmNotConverged) as reason:
-            angle = np.degrees(self._angles[self._times == time][0])
+            angle = float(self._angles[self._times == time][0])
             why = reason.what if isinstance(reason, FilmNotConverged) else str(reason)
-            raise FilmNotConverged(
-                f"temperature of the {self._floating.name} at {angle:.5g} deg: {why}",
+            raise TurnStopped(
+                f"temperature of the {self._floating.name} at {np.degrees(angle):.5g} deg: {why}",
                 "less load, a thicker oil, or a film without heat",
+                angle,
             ) from None
 
     def _over_turn(self, of_films: list[Array]) -> Array:

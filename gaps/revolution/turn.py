@@ -11,6 +11,7 @@ import numpy as np
 
 from gaps.revolution.course import SAME, Course, GapInstant, Passed, Value, instant_of_stage
 from gaps.revolution.schedule import Accuracy, Schedule
+from gaps.revolution.stopped import TurnStopped
 from reynolds.errors import FilmNotConverged
 from reynolds.fem.space import FilmSpace
 from reynolds.floating.problem import Floating
@@ -175,8 +176,8 @@ class Turns(Generic[Value]):
                 self._progress(self._turn, reached / self._nodes[-1])
                 yield taken
         except FilmNotConverged as reason:
-            angle = np.degrees(self._speed * reached)
-            raise FilmNotConverged(f"after {angle:.5g} deg: {reason.what}", reason.remedy) from None
+            angle = float(self._speed * reached)
+            raise TurnStopped(f"after {np.degrees(angle):.5g} deg: {reason.what}", reason.remedy, angle) from None
 
     def _begin(self, start: Array, last: GapTurn[Value] | None) -> State[FloatingStage]:
         """The start of a turn; a cold one, or one of another drive (`opening`), first deforms under this load."""

@@ -14,17 +14,31 @@ from system.pump.laws.kinematics import SwashDrive, stroke
 from system.pump.lumped import piston_area, piston_stand_out
 from system.pump.operating import OperatingPoint
 
+FLATTEST = 0.1  # of the estimated drag: the least change of a film's torque with spin
+REMEMBERED = 5  # rounds, whose films set the next spins
 ESTIMATED = 36  # shaft angles at which the joint's axes swing before films are solved
+
+
+@dataclass(frozen=True)
+class SpunFilms:
+    """Films solved at spins: mean torques (N m) on piston and slipper there."""
+
+    turned: Spins
+    torques: tuple[float, float]
 
 
 @dataclass(frozen=True)
 class SpinTorques:
     """Torques that set spins: friction mu |B| r (n,) N m of the joint at n equidistant shaft angles; drags (N m s) of
-    both films, and torques (N m) of the films on parts without spin."""
+    both films, and torques (N m) of the films on parts without spin.
+
+    tried: the films of the last rounds at this point, the latest last; empty: estimated, or films of another point.
+    """
 
     friction: Array
     drags: tuple[float, float]
     driven: tuple[float, float] = (0.0, 0.0)
+    tried: tuple[SpunFilms, ...] = ()
 
 
 def spins(pump: PumpDescription, point: OperatingPoint, drive: SwashDrive, torques: SpinTorques) -> Spins:
@@ -69,17 +83,52 @@ def estimated_torques(pump: PumpDescription, point: OperatingPoint, drive: Swash
 
 
 def torques_of_films(
-    estimated: SpinTorques, friction: Array, turned: Spins, torques: tuple[float, float]
+    estimated: SpinTorques, friction: Array, spun: SpunFilms, before: tuple[SpunFilms, ...] = ()
 ) -> SpinTorques:
-    """Torques that set spins, from films solved at spins (rad/s): mean torques (N m) on piston and slipper there.
+    """Torques that set the next spins, by films just solved and those of the rounds `before` at the same point.
 
-    A torque against its spin is drag, as far as it exceeds the estimated one; what is left of it the film drives.
-    friction as `SpinTorques` has it.
+    Each film's torque is taken as a line over spin: through rest where its own torque alone is known (drag, if it
+    exceeds the estimated one; what is left of it the film drives), else by `_drag`. friction as `SpinTorques` has it.
     """
-    spun = turned.piston, turned.slipper
-    drags = tuple(
-        max(least, -torque / spin) if spin else least
-        for least, torque, spin in zip(estimated.drags, torques, spun, strict=True)
-    )
-    driven = tuple(torque + drag * spin for torque, drag, spin in zip(torques, drags, spun, strict=True))
-    return SpinTorques(friction, (drags[0], drags[1]), (driven[0], driven[1]))
+    tried = (*before, spun)[-REMEMBERED:]
+    lines = []
+    for part, least in enumerate(estimated.drags):
+        places = [(one.turned.piston, one.turned.slipper)[part] for one in tried]
+        torques = [one.torques[part] for one in tried]
+        drag = _drag(places, torques, least)
+        lines.append((drag, torques[-1] + drag * places[-1]))
+    (piston, by_piston), (slipper, by_slipper) = lines
+    return SpinTorques(friction, (piston, slipper), (by_piston, by_slipper), tried)
+
+
+def _drag(spins: list[float], torques: list[float], least: float) -> float:
+    """Drag (N m s) of a film by its torques (N m) at the spins (rad/s) tried: how the torque falls with spin.
+
+    By the last two, between FLATTEST of the estimated drag `least` and the line through rest. A film that warms and
+    lifts as it turns drags less when it turns faster: then steps grow, until they pass the balance. From there on
+    the line is at least as steep as that to the nearest spins from which the balance lay on either side.
+    """
+    last, torque = spins[-1], torques[-1]
+    through_rest = max(least, -torque / last) if last else least
+    if len(spins) == 1 or spins[-2] == last:
+        return through_rest
+    slopes = [_slope(spin, other, last, torque) for spin, other in zip(spins[:-1], torques[:-1], strict=True)]
+    return max(min(through_rest, slopes[-1]), FLATTEST * least, *(slopes[k] for k in _around(spins)))
+
+
+def _slope(spin: float, torque: float, last: float, last_torque: float) -> float:
+    """Drag (N m s) between two spins with their torques; 0 between equal ones."""
+    return (torque - last_torque) / (last - spin) if spin != last else 0.0
+
+
+def _around(spins: list[float]) -> tuple[int, ...]:
+    """Numbers of the tried spins next to the last one on both sides, from which the next ones came towards it.
+
+    Empty where it has none on a side: the balance is not known to lie between two spins.
+    """
+    last, way = spins[-1], np.sign(np.diff(spins))
+    below = [k for k, to in enumerate(way) if to > 0.0 and spins[k] < last]
+    above = [k for k, to in enumerate(way) if to < 0.0 and spins[k] > last]
+    if not below or not above:
+        return ()
+    return max(below, key=lambda k: spins[k]), min(above, key=lambda k: spins[k])

@@ -1,5 +1,7 @@
 """Operating points of the figures of Xu, Hu, Zhang and Mao (2017), each solved once by a fidelity."""
 
+from __future__ import annotations
+
 from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass, field, replace
 from enum import Enum
@@ -15,10 +17,9 @@ from system.inputs.units import RPM
 from system.paper.figure import Figure
 from system.paper.film_records import films_record
 from system.points.films import films_point
-from system.points.floating import floating_point
 from system.points.floating_gaps import FloatingOptions
 from system.points.lumped import lumped_point
-from system.points.table.sources import FloatingSolver
+from system.points.table.sources import FloatingRow, FloatingSolver
 from system.pump.assembly import PumpPoint
 from system.pump.bench import BenchReading, LossSplit, paper_efficiency, paper_losses
 from system.pump.laws.friction_pairs import Pair
@@ -139,11 +140,19 @@ def paper_point(found: PumpPoint) -> PaperPoint:
 
 @dataclass(frozen=True)
 class PaperWork:
-    """Solves the paper's points of a pump: a `system.work.tasks.Work`; options: of floating gaps."""
+    """Solves the paper's points of a pump: a `system.work.tasks.WorkInRows`; options: of floating gaps.
+
+    floating: the row of floating points whose last one the next starts from.
+    """
 
     pump: PumpDescription
     fidelity: PaperFidelity
     options: FloatingOptions = field(default_factory=FloatingOptions)
+    floating: FloatingRow | None = None
+
+    def row(self) -> PaperWork:
+        """The same, whose floating points start from the one before."""
+        return replace(self, floating=FloatingSolver(self.options).row())
 
     def key(self, part: Place) -> str:
         """Name of all that the point's numbers depend on."""
@@ -161,7 +170,7 @@ class PaperWork:
             return paper_point(lumped_point(self.pump, point))
         if self.fidelity is PaperFidelity.FIXED:
             return paper_point(films_point(self.pump, point).pump_point)
-        found = floating_point(self.pump, point, self.options)
+        found = (self.floating or FloatingSolver(self.options).row()).floating(self.pump, point)
         return replace(paper_point(found.pump_point), films=films_record(found))
 
     def at(self, place: Place) -> OperatingPoint:
@@ -236,11 +245,12 @@ def solve_points(
             report(done, len(places), "lumped points")
             solved[place] = work.solved(place)
         return PaperPoints(pump, fidelity, solved)
-    kept = run_kept(work, places, store, executor, report=report)
-    for place, outcome in zip(places, kept.outcomes, strict=True):
+    rows = sorted(places, key=lambda place: (place.ratio, place.speed, place.pressure), reverse=True)
+    kept = run_kept(work, rows, store, executor, batch=len(PRESSURES), report=report)
+    for place, outcome in zip(rows, kept.outcomes, strict=True):
         if outcome.status is not PartStatus.SOLVED:
             raise InputError(f"paper's point {place.text}", outcome.reason, "a point that can be solved")
-    points = {place: _point(one.record) for place, one in zip(places, kept.outcomes, strict=True)}
+    points = {place: _point(one.record) for place, one in zip(rows, kept.outcomes, strict=True)}
     return PaperPoints(pump, fidelity, points)
 
 

@@ -184,7 +184,9 @@ def _rubbed_as(asked: RoundDrives, near: FloatingPoint) -> RoundDrives:
     return replace(
         asked,
         rubbing=tuple(rubbing(kind.gaps, asked.shaft_angle.size) for kind in near.kinds),
-        spin_torques=tuple(spin_torques(kind.gaps, kind.rotor, kind.drives.group) for kind in near.kinds),
+        spin_torques=tuple(
+            replace(spin_torques(kind.gaps, kind.rotor, kind.drives.group), tried=()) for kind in near.kinds
+        ),
     )
 
 
@@ -222,7 +224,10 @@ def _round(
         rotor=rotor(pump, met_point(point, ported)),
         pressure=tuple(cycle.pressure for cycle in ported.cycles),
         rubbing=tuple(rubbing(own, samples) for own in gaps),
-        spin_torques=tuple(spin_torques(own, at, of.group) for own, at, of in zip(gaps, turning, driven, strict=True)),
+        spin_torques=tuple(
+            spin_torques(own, at, of.group, torques.tried if torques else ())
+            for own, at, of, torques in zip(gaps, turning, driven, asked.spin_torques, strict=True)
+        ),
     )
     turned = [*(gap for own in gaps for gap in (own.piston, own.slipper)), gaps[0].block]
     taken = Round(

@@ -15,7 +15,7 @@ from reynolds.numerics.arrays import Array
 from system.films.drives import GroupInstant, Rubbing
 from system.films.parts import FloatingParts
 from system.films.rotor import Rotor, travel, valve_plate_geometry
-from system.films.spins import SpinTorques, torques_of_films
+from system.films.spins import SpinTorques, SpunFilms, torques_of_films
 from system.inputs.units import TURN
 from system.pump.chamber.problem import LeakTable
 from system.pump.chamber.setup import periodic_values
@@ -154,8 +154,13 @@ def rubbing(gaps: FloatingGaps, samples: int) -> Rubbing:
     )
 
 
-def spin_torques(gaps: FloatingGaps, rotor: Rotor, group: tuple[GroupInstant, ...]) -> SpinTorques:
-    """Torques on the spins of piston and slipper by their films and the joint's forces, means over the turn."""
+def spin_torques(
+    gaps: FloatingGaps, rotor: Rotor, group: tuple[GroupInstant, ...], tried: tuple[SpunFilms, ...] = ()
+) -> SpinTorques:
+    """Torques on the spins of piston and slipper by their films and the joint's forces, means over the turn.
+
+    tried: films of the rounds before at the same point, from which the change of torque with spin follows.
+    """
     pump = rotor.pump
     force = np.array([np.linalg.norm(at.forces.ball) for at in group])
     friction = pump.friction.piston_slipper_socket * force * pump.slipper.ball_joint_radius
@@ -163,7 +168,7 @@ def spin_torques(gaps: FloatingGaps, rotor: Rotor, group: tuple[GroupInstant, ..
         _mean(gaps.piston, lambda report: report.friction.torque),
         _mean(gaps.slipper, lambda report: report.friction.torque),
     )
-    return torques_of_films(rotor.estimated_torques, friction, rotor.spins, torques)
+    return torques_of_films(rotor.estimated_torques, friction, SpunFilms(rotor.spins, torques), tried)
 
 
 def shaft_moment(gaps: FloatingGaps, rotor: Rotor, parts: FloatingParts, group: tuple[GroupInstant, ...]) -> Array:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from functools import partial
@@ -25,20 +24,19 @@ from gaps.films.slipper import SlipperDrive, floating_slipper
 from gaps.revolution.film_heat import GapHeat, warm_revolution
 from gaps.revolution.march import GapRevolution, TurnReport, run_revolution
 from gaps.revolution.schedule import Accuracy, Schedule, evenly
+from gaps.revolution.stopped import TurnStopped, replaced
 from reynolds.errors import FilmNotConverged
 from reynolds.fem.space import FilmSpace
 from reynolds.floating.problem import Floating
 from reynolds.floating.stage import FloatingStage
 from reynolds.numerics.arrays import Array
 from reynolds.solve.solver import FilmSolver
-from system.description.pump import PumpDescription
 from system.films.heat import block_heat, piston_heat, slipper_heat
 from system.films.parts import FloatingParts
 from system.films.problems import block_film, piston_film, slipper_film
 from system.films.rotor import Rotor
+from system.points.floating_balance import Shortfall, block_shortfall, piston_shortfall, slipper_shortfall
 from system.pump.chamber_kinds import kinds
-from system.pump_file.check import run_checks
-from system.pump_file.floating import block_tips
 from system.work.progress import Report, silent
 
 MARCHED = Accuracy(step=1e-2, balance=0.1)
@@ -102,7 +100,7 @@ def piston_revolution(
 ) -> GapRevolution[PistonReport]:
     """The piston over the turn, from the middle of its bore or on from a revolution `before`.
 
-    Raises as `run_revolution`.
+    Raises as `run_revolution`; a turn that stops with the balance of forces there.
     """
     cells = options.piston_cells
     film = piston_film(rotor, parts, drive, options.physics, cells)
@@ -111,7 +109,10 @@ def piston_revolution(
     report_of = partial(piston_report, film)
     heat = piston_heat(rotor, parts) if options.physics.heat else None
     space, start = film.space_at(0.0), np.zeros(4)
-    return _run(space, floating, schedule, start, report_of, options, heat, before, progress)
+    try:
+        return _run(space, floating, schedule, start, report_of, options, heat, before, progress)
+    except TurnStopped as stopped:
+        raise _short_of(stopped, piston_shortfall(rotor, drive, stopped.angle)) from stopped
 
 
 def slipper_revolution(
@@ -124,7 +125,7 @@ def slipper_revolution(
 ) -> GapRevolution[SlipperReport]:
     """The slipper over the turn, from a film of SLIPPER_START without tilt or on from a revolution `before`.
 
-    Raises as `run_revolution`; where nothing presses the slipper on, that is the reason given.
+    Raises as `run_revolution`; a turn that stops with the balance of forces there.
     """
     cells = options.slipper_cells
     film = slipper_film(rotor, parts, drive, options.physics, cells)
@@ -134,24 +135,8 @@ def slipper_revolution(
     heat = slipper_heat(rotor, parts) if options.physics.heat else None
     try:
         return _run(film.space, floating, schedule, start, report_of, options, heat, before, progress)
-    except FilmNotConverged as stopped:
-        raise _pulled_off(drive, options.steps, stopped) from stopped
-
-
-def _pulled_off(drive: SlipperDrive, steps: int, stopped: FilmNotConverged) -> FilmNotConverged:
-    """Error of a slipper's turn, pulled off its plate where the force exceeds the limit of the retainer."""
-    degrees = np.linspace(0.0, 360.0, steps, endpoint=False)
-    lift = np.array([-float(np.asarray(drive.outer(np.radians(at)))[0]) for at in degrees])
-    worst = int(np.argmin(lift))
-    holds = math.inf if drive.retainer is None else drive.retainer.limit
-    if -lift[worst] < holds:
-        return stopped
-    pulled = (
-        f"at {degrees[worst]:.0f} deg the slipper is pulled off its plate with {-lift[worst]:.4g} N beyond the "
-        f"spring's share, and the retainer lifts off from {holds:.4g} N on"
-    )
-    remedy = "a stiffer spring (ball_guide.spring_preload), or retainer.kind = 'clearance'"
-    return FilmNotConverged(f"{stopped.what}; {pulled}", f"{remedy}; {stopped.remedy}")
+    except TurnStopped as stopped:
+        raise _short_of(stopped, slipper_shortfall(rotor, drive, stopped.angle)) from stopped
 
 
 def block_revolution(
@@ -166,7 +151,7 @@ def block_revolution(
 
     From a film of BLOCK_START without tilt or on from a revolution `before`; between elastic walls from the
     result between rigid ones. Raises ValueError where the steps do not divide among the pitches, else as
-    `run_revolution`; where its lands cannot support it, that is the reason given.
+    `run_revolution`; a turn that stops with the balance of forces there.
     """
     pistons, pump = rotor.pump.pump.pistons, rotor.pump
     if options.steps % pistons:
@@ -184,15 +169,13 @@ def block_revolution(
     heat = block_heat(rotor, parts) if options.physics.heat else None
     try:
         return _run(film.space, floating_block(film), schedule, start, report_of, options, heat, before, progress)
-    except FilmNotConverged as stopped:
-        raise _off_its_plate(pump, stopped) from stopped
+    except TurnStopped as stopped:
+        raise _short_of(stopped, block_shortfall(rotor, drive, stopped.angle)) from stopped
 
 
-def _off_its_plate(pump: PumpDescription, stopped: FilmNotConverged) -> FilmNotConverged:
-    """Reason for the end of a block's turn, with any doubt about its lands."""
-    doubts = run_checks((block_tips,), pump).warnings
-    what = "; ".join([stopped.what, *(f"{doubt.path}: {doubt.value}" for doubt in doubts)])
-    return FilmNotConverged(what, "; ".join([*(doubt.remedy for doubt in doubts), stopped.remedy]))
+def _short_of(stopped: TurnStopped, shortfall: Shortfall) -> FilmNotConverged:
+    """The same end of a turn, with the balance of forces there."""
+    return replaced(stopped, f"{stopped.what}; {shortfall.what}", f"{shortfall.remedy}; {stopped.remedy}")
 
 
 def _between_rigid(
@@ -228,9 +211,9 @@ def _run(
         return march(solver, floating, schedule, start, report_of, accuracy=accuracy, before=before, report=report)
     except FilmNotConverged as reason:
         if options.physics.elastic_walls:
-            raise FilmNotConverged(f"between elastic walls, {reason.what}", f"{reason.remedy}; {SOFTLY}") from None
+            raise replaced(reason, f"between elastic walls, {reason.what}", f"{reason.remedy}; {SOFTLY}") from None
         if options.physics.pressure_viscosity:
-            raise FilmNotConverged(reason.what, f"{STIFFLY}; {reason.remedy}") from None
+            raise replaced(reason, reason.what, f"{STIFFLY}; {reason.remedy}") from None
         raise
 
 

@@ -17,6 +17,7 @@ from system.inputs.sections.point_files import read_rows
 from system.inputs.sections.values import listed_rows
 from system.inputs.toml_table import Table, quoted
 from system.inputs.units import Dimension, QuantityError, format_quantity, parse_quantity
+from system.points.film_effects import closed_laws
 from system.points.lumped import lumped_point
 from system.pump.chamber.layout import CAVITY_PRESSURE
 from system.pump.lumped import piston_motion
@@ -33,7 +34,8 @@ Row = tuple[float, ...]
 
 @dataclass(frozen=True)
 class ChamberPressure:
-    """Rows of shaft angle (rad) and pressure (Pa) of one chamber; no rows: the pump's own lumped cycle.
+    """Rows of shaft angle (rad) and pressure (Pa) of one chamber; no rows: the pump's own lumped cycle, with those
+    effects of its [physics] that floating films do not solve.
 
     `text`: its entry in a case. Between rows the pressure is a `PeriodicCurve` (`gaps.films.over_turn`); one is
     constant over the turn.
@@ -48,7 +50,7 @@ class ChamberPressure:
         Raises NotConverged where the pump's own cycle does not become periodic.
         """
         if not self.rows:
-            cycle = lumped_point(rotor.pump, rotor.point).cycle
+            cycle = lumped_point(closed_laws(rotor.pump, floating=True), rotor.point).cycle
             return cycle.shaft_angle, cycle.pressure
         angles = piston_motion(rotor.pump, rotor.point).shaft_angle
         if len(self.rows) == 1:

@@ -15,6 +15,7 @@ from swashfilm.case.gap.physics import SwitchesSection, choices
 from swashfilm.case.gap.position import LOADS, POSITIONS, Load, Position, pose_of, stated_position, touching, with_arm
 from swashfilm.case.gap.pump import CasePump, own_rows, read_case_pump
 from system.description.gap import Gap
+from system.films.cycle import GapPhysics
 from system.films.parts import FloatingParts, floating_parts
 from system.films.problems import RIGID
 from system.films.rotor import Rotor, rotor
@@ -23,11 +24,13 @@ from system.inputs.sections.reader import Reading, read_entry, read_section, tab
 from system.inputs.sections.writer import section_rows
 from system.inputs.toml_table import Table, quoted
 from system.inputs.units import Dimension, format_quantity
+from system.points.film_effects import FilmEffects, film_effects, floating_effects
 from system.pump.chamber.layout import CAVITY_PRESSURE
 from system.pump.operating import operating_point
 from system.pump_file.file import load_pump
 
 FORMAT = 1
+HEAT_OF_A_TURN = "none: the temperature of parts depends on the whole turn"
 Pressures = Annotated[tuple[float, ...], Several(), Dimension.PRESSURE]
 
 
@@ -90,11 +93,23 @@ def read_gap_case(name: str, text: str, top: Table, film: Table, folder: Path) -
     pressures = _chamber_pressure(film, stated, known, count_pistons=pump is not None)
     if gap is None or pump is None or len(top.faults) > faults:
         return None
-    angle, parts = stated.shaft_angle, floating_parts(known.pump)
+    angle, effects = stated.shaft_angle, _effects(known, physics, held=raw_position is not None)
+    parts, physics = effects.parts, getattr(effects.physics, gap.value)
+    if physics.heat:
+        film.fault("pump", "[physics.film_heating]", HEAT_OF_A_TURN)
+        return None
     pose = None if position is None else pose_of(position, gap, known, parts, angle, pressures)
     forces = None if load is None else with_arm(load, known, angle)
     case = GapCase(name, text, "", gap, known, parts, angle, pressures, physics, pose, forces)
     return replace(case, resolved=_resolved(case, pump)) if _is_possible(top, film, case) else None
+
+
+def _effects(at: Rotor, physics: Physics, *, held: bool) -> FilmEffects:
+    """Return the parts and their physics, with what the pump's [physics] states of films that are held or float."""
+    parts = floating_parts(at.pump)
+    if held:
+        return film_effects(at, parts, at.pump, GapPhysics.alike(physics))
+    return floating_effects(at, parts, at.pump, physics)
 
 
 def _of_gap(path: str, forms: Mapping[Gap, FieldType], gap: Gap | None, raw: object, reading: Reading) -> Any:
@@ -115,8 +130,7 @@ def _film(top: Table, film: Table, reading: Reading) -> InstantSection:
 def _physics(top: Table) -> Physics:
     physics = (table_section(top, "physics", SwitchesSection, left_out=True) or SwitchesSection()).physics(RIGID)
     if physics.heat:
-        expected = "none: the temperature of parts depends on the whole turn"
-        top.fault("physics.heat", '"solved"', expected, '"none"')
+        top.fault("physics.heat", '"solved"', HEAT_OF_A_TURN, '"none"')
     return physics
 
 

@@ -5,7 +5,6 @@ from __future__ import annotations
 import json
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
-from itertools import chain
 from pathlib import Path
 from typing import Any
 
@@ -15,7 +14,7 @@ from system.inputs.faults import Fault, InputFaults
 from system.inputs.sections.fields import fields_of
 from system.inputs.sections.json_schema import Schema, section_schema
 from system.inputs.toml_table import Table
-from system.points.film_effects import effects_in_films
+from system.pump.film_thickness import at_temperature, unpressed
 from system.pump.operating import operating_point
 from system.pump_file.file import builtin_pumps, load_pump
 
@@ -55,12 +54,9 @@ def read_case_pump(top: Table, film: Table, folder: Path) -> CasePump | None:
     except InputFaults as reason:
         top.faults += [_at_case(fault, stated, film.name("pump")) for fault in reason.faults]
         return None
-    if pump.physics.on:
-        effects = ", ".join(one.value for one in chain(*effects_in_films(pump)))
-        expected = "none: a case states its own physics; swashfilm run reads them"
-        film.fault("pump", f"effects of [physics], {effects}", expected)
-        return None
-    return CasePump(rotor(pump, operating_point(pump)), place, stated)
+    point = operating_point(pump)
+    warm = at_temperature(pump, point.temperature)
+    return CasePump(rotor(unpressed(warm, point.case_pressure), point), place, stated)
 
 
 def own_rows(stated: Mapping[str, Any]) -> list[str]:

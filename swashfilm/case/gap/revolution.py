@@ -12,11 +12,13 @@ from swashfilm.case.gap.instant import FORMAT
 from swashfilm.case.gap.physics import SwitchesSection, choices
 from swashfilm.case.gap.pump import CasePump, own_rows, read_case_pump
 from system.description.gap import Gap
+from system.films.parts import floating_parts
 from system.films.rotor import Rotor
 from system.inputs.sections.fields import Limits
 from system.inputs.sections.reader import table_section
 from system.inputs.sections.writer import section_rows
 from system.inputs.toml_table import Table, quoted
+from system.points.film_effects import floating_effects
 from system.points.floating_gaps import MARCHED, FloatingOptions
 
 FILMS, RING_FILMS = 36, 180  # kept films of a turn; those of the valve plate repeat with the pitch
@@ -77,7 +79,8 @@ class RevolutionCase:
 def read_revolution_case(name: str, text: str, top: Table, film: Table, folder: Path) -> RevolutionCase | None:
     """Return the case of a file whose [film] has `gap` and `revolution = true`; None with its faults listed.
 
-    Defaults: the pump's operating point, the lumped cycle of its chamber, all physics, 360 steps per turn.
+    Defaults: the pump's operating point, the lumped cycle of its chamber, all physics, 360 steps per turn. Films solve
+    what the pump's [physics] states of them.
     """
     gap = film.choice("gap", Gap)
     if film.get("revolution") is not True:
@@ -92,6 +95,8 @@ def read_revolution_case(name: str, text: str, top: Table, film: Table, folder: 
     film.close()
     if gap is None or pump is None or pressure is None or options is None:
         return None
+    of_pump = floating_effects(pump.rotor, floating_parts(pump.rotor.pump), pump.rotor.pump, options.physics)
+    options = replace(options, physics=getattr(of_pump.physics, gap.value))
     case = RevolutionCase(name, text, "", gap, pump.rotor, pressure, options)
     return replace(case, resolved=_resolved(case, pump))
 

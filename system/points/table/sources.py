@@ -130,15 +130,19 @@ class FloatingRow:
         return self.solver.stated
 
     def solve(self, pump: PumpDescription, point: OperatingPoint) -> SolvedPoint:
-        """As `FloatingSolver.solve`; where the neighbour's motion leads nowhere, without a start."""
+        """As `FloatingSolver.solve`, by `floating`."""
+        return _of_floating(self.floating(pump, point))
+
+    def floating(self, pump: PumpDescription, point: OperatingPoint) -> FloatingPoint:
+        """The point itself; where the neighbour's motion leads nowhere, without a start."""
+        near, self.last = self.last, None
         try:
-            self.last = floating_point(pump, point, self.solver.options, near=self.last)
+            self.last = floating_point(pump, point, self.solver.options, near=near)
         except NotConverged:
-            if self.last is None:
+            if near is None:
                 raise
-            self.last = None
             self.last = floating_point(pump, point, self.solver.options)
-        return _of_floating(self.last)
+        return self.last
 
     def row(self) -> FloatingRow:
         """One of its own."""

@@ -1,5 +1,6 @@
 """Values of the pump that a gap case states itself, in place of the pump file's."""
 
+import numpy as np
 import pytest
 
 from swashfilm.__main__ import main
@@ -60,3 +61,26 @@ def test_a_case_with_values_of_a_pump_is_no_pump_file(here, capsys):
     assert "[pump]\npiston.radial_clearance" in capsys.readouterr().out
     assert main(["run", "gap.toml"]) == 2
     assert "swashfilm film gap.toml" in capsys.readouterr().err
+
+
+def test_films_of_a_case_solve_what_its_pump_states_of_them(here):
+    """[physics] of the pump: stiffening by Barus where the film is held, by Roelands where it floats; heat over a turn
+    alone."""
+    stiff = '[pump.physics.viscosity_pressure]\ncoefficient = "20 1/GPa"\n'
+    held = loaded(here, "[position]\neccentricity_ratio = 0.1\n" + stiff)
+    floats = loaded(here, stiff)
+    plain = loaded(here, "")
+    assert not plain.physics.pressure_viscosity
+    assert held.physics.pressure_viscosity
+    assert floats.physics.pressure_viscosity
+    thick = [case.parts.piston.laws.fluid.viscosity(35e6, 0.02)[0] for case in (held, floats)]
+    above = 20e-9 * (35e6 - held.rotor.point.case_pressure)
+    assert thick[0] == pytest.approx(0.02 * np.exp(above), rel=1e-9)
+    assert thick[1] < thick[0]
+    turn = here / "turn.toml"
+    warm = '[pump.physics.film_heating]\npiston = "1e-4 m2 K/W"\n'
+    turn.write_text(GAP.replace('"ref90"', '"ref90"\nrevolution = true') + '[revolution]\nheat = "none"\n' + warm)
+    case = load_film(turn)
+    assert case.options.physics.heat
+    with pytest.raises(InputFaults, match=r"(?s)film_heating.*depends on the whole turn"):
+        loaded(here, warm)

@@ -17,6 +17,7 @@ from system.films.drives import Drives, drives, no_rubbing, slipper_shape
 from system.films.heat import all_taken
 from system.films.parts import FloatingParts, floating_parts
 from system.films.rotor import valve_plate_geometry
+from system.points.film_effects import floating_effects
 from system.points.floating_gaps import block_revolution, piston_revolution, slipper_revolution
 from system.work.progress import Report, silent
 
@@ -50,7 +51,8 @@ def solve_revolution(case: RevolutionCase, report: Report = silent) -> Revolutio
     Raises FilmNotConverged with the angle and a remedy, and NotConverged for the pump's own cycle.
     """
     began = time.perf_counter()
-    rotor, parts = case.rotor, floating_parts(case.rotor.pump)
+    rotor = case.rotor
+    parts = floating_effects(rotor, floating_parts(rotor.pump), rotor.pump, case.options.physics).parts
     angles, pressure = case.chamber_pressure.over_turn(rotor)
     driven = drives(rotor, parts, angles, pressure, no_rubbing(len(angles)))
     found = _revolved(case, parts, driven, report)

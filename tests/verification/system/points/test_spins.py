@@ -8,7 +8,7 @@ from bench_pump import BENCH
 
 from gaps.loads.ball_joint import Spins
 from system import drives, floating_parts, load_pump, no_rubbing, operating_point, resolved_toml, rotor
-from system.films.spins import SpinTorques, spins, torques_of_films
+from system.films.spins import SpinTorques, SpunFilms, spins, torques_of_films
 
 
 @pytest.fixture
@@ -37,18 +37,63 @@ def test_free_parts_turn_with_what_rubs_more(free):
     assert (rest.piston, rest.slipper) == pytest.approx((0.0, 0.0), abs=1e-9)
 
 
+def _films(piston, slipper, *torques):
+    return SpunFilms(Spins(piston, slipper), torques)
+
+
 def test_torques_of_films_are_parted_into_drag_and_drive():
     """The very torques come back at the spins at which they were: -(drag) spin + drive."""
-    estimated, turned = SpinTorques(np.array([0.1]), (1e-3, 1e-4)), Spins(-150.0, 20.0)
+    estimated, friction = SpinTorques(np.array([0.1]), (1e-3, 1e-4)), np.array([0.2])
     for torques in ((0.3, -4e-3), (0.1, 2e-3), (-0.2, 0.0)):
-        found = torques_of_films(estimated, np.array([0.2]), turned, torques)
+        found = torques_of_films(estimated, friction, _films(-150.0, 20.0, *torques))
         back = [t - d * s for t, d, s in zip(found.driven, found.drags, (-150.0, 20.0), strict=True)]
         assert back == pytest.approx(torques)
         assert all(drag >= least for drag, least in zip(found.drags, estimated.drags, strict=True))
-    held = torques_of_films(estimated, np.array([0.2]), Spins(-150.0, 20.0), (0.3, -4e-3))
+    held = torques_of_films(estimated, friction, _films(-150.0, 20.0, 0.3, -4e-3))
     assert held.driven == pytest.approx((0.0, 0.0), abs=1e-15)
-    still = torques_of_films(estimated, np.array([0.2]), Spins(0.0, 0.0), (0.3, -4e-3))
+    still = torques_of_films(estimated, friction, _films(0.0, 0.0, 0.3, -4e-3))
     assert (still.drags, still.driven) == (estimated.drags, (0.3, -4e-3))
+
+
+def test_drag_is_the_change_of_torque_with_spin():
+    """Two spins of a film that drags less than in proportion; noise, a flat film or equal spins stay within bounds."""
+    estimated, friction = SpinTorques(np.array([0.1]), (1e-3, 1e-4)), np.array([0.2])
+    first = (_films(-150.0, 20.0, 0.45, -4e-3),)
+    second = torques_of_films(estimated, friction, _films(-100.0, 20.0, 0.37, -4e-3), first)
+    assert second.drags == pytest.approx((0.08 / 50.0, 2e-4))
+    assert second.driven[0] - second.drags[0] * -100.0 == pytest.approx(0.37)
+    assert second.driven[0] - second.drags[0] * -150.0 == pytest.approx(0.45)
+    flat = torques_of_films(estimated, friction, _films(-100.0, 20.0, 0.45, -4e-3), first)
+    assert flat.drags[0] == pytest.approx(0.1 * estimated.drags[0])
+    steep = torques_of_films(estimated, friction, _films(-149.9, 20.0, 0.1, -4e-3), first)
+    assert steep.drags[0] == pytest.approx(max(1e-3, 0.1 / 149.9))
+
+
+def test_a_peak_of_torque_over_spin_is_no_trap():
+    """A film that drags most where it turns slowly: the spin of balance lies below the peak, and rounds end there.
+
+    One film's torque over spin, T = k s/(1 + (s/s0)^2), beside a joint that gives c - s: found by bisection.
+    """
+    estimated, friction = SpinTorques(np.array([0.1]), (1e-3, 1e-4)), np.array([0.2])
+
+    def drag(spin):
+        return -12.0e-3 * spin / (1.0 + (spin / 20.0) ** 2) - 2e-4 * spin
+
+    def joint(spin):
+        return -(0.1 + 6e-4 * spin)
+
+    spin, tried, seen = -75.0, (), []
+    for _ in range(20):
+        found = torques_of_films(estimated, friction, _films(spin, 20.0, drag(spin), 0.0), tried)
+        tried = found.tried
+        # joint(s) + driven - drags s = 0
+        spin, last = (found.driven[0] - 0.1) / (found.drags[0] + 6e-4), spin
+        seen.append(abs(spin - last))
+        if seen[-1] < 0.4:
+            break
+    assert seen[-1] < 0.4
+    assert drag(spin) + joint(spin) == pytest.approx(0.0, abs=2e-3)
+    assert -20.0 < spin < 0.0
 
 
 def test_a_film_that_drives_turns_what_no_joint_holds(free):
