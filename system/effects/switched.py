@@ -39,7 +39,7 @@ def hold_plain(pump: PumpDescription) -> None:
     """Raise InputError where a pump has effects switched on that a computation does not read."""
     if pump.physics.on:
         found = ", ".join(dict.fromkeys(extension.id.value for extension, _ in switched_on(pump)))
-        expected = "no effects: swashfilm run, map and table read them"
+        expected = "no effects: swashfilm run, map, table and film read them"
         raise InputError("physics", found, f"{expected}; try the file without [physics]")
 
 

@@ -187,7 +187,7 @@ def test_a_transient_does_not_read_them_and_says_so(pump_file, tmp_path, monkeyp
     transient.write_text(f'format = 1\n[transient]\npump = "{pump_file}"\n', encoding="utf-8")
     assert main(["transient", str(transient)]) == 2
     said = capsys.readouterr().err
-    assert "a case states its own physics; swashfilm run reads them" in said
+    assert "none: swashfilm run, map, table and film read them" in said
     assert "viscosity_pressure" in said
     assert not list(tmp_path.glob("runs/*"))
 
