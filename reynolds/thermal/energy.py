@@ -38,9 +38,9 @@ from reynolds.thermal.walls import ConductingBody, Convecting, GivenTemperature,
 LEAST_WET = 1e-6  # film fraction that conducts where there is less: a dry film has its walls' temperature
 LEAST_JUMP = 2e-5  # of the range of temperature: smaller jumps go upwind, for the corrections to converge
 LEAST_RANGE = 1e-3  # K, where all is nearly at one temperature
-CORRECTED = 1e-7  # change of the last correction over the range of temperature
+CORRECTED = 1e-5  # change of the last correction over the range of temperature
 PATIENCE = 40  # corrections, after which larger and larger jumps go upwind too
-CLOSER = 0.02  # of the residual is left by the solve of a correction
+CLOSER = 0.1  # of the residual is left by the solve of a correction
 MAX_CORRECTIONS = 100
 NO_INFLOW = 1e-9  # of the unknown's flow scale
 
