@@ -23,7 +23,7 @@ from reynolds.equation.coefficients import at_points
 from reynolds.errors import FilmNotConverged, InputError
 from reynolds.floating.problem import Floating
 from reynolds.floating.stage import FloatingStage
-from reynolds.floating.start import seats_of
+from reynolds.floating.start import places_of
 from reynolds.laws.fluid import Fluid, isoviscous
 from reynolds.numerics.anderson import History
 from reynolds.numerics.arrays import Array
@@ -238,7 +238,7 @@ class _Warming(Generic[Reported]):
     def _over_turn(self, of_films: list[Array]) -> Array:
         """Values of the films at their unknowns, preceded by the turn's start: its end's, at moved places."""
         first, last = (self._floating.shape_at(time).space for time in (0.0, self._times[-1]))
-        return np.array([of_films[-1][seats_of(first, last)], *of_films])
+        return np.array([of_films[-1][places_of(first, last).unknowns], *of_films])
 
     def _flows(self, rubbing: float) -> HeatFlows:
         """Heat, mean over the turn; rubbing (W) goes into the walls that rub."""

@@ -16,7 +16,7 @@ from reynolds.errors import FilmNotConverged
 from reynolds.fem.space import FilmSpace
 from reynolds.floating.problem import Floating
 from reynolds.floating.stage import FloatingStage
-from reynolds.floating.start import pressed, restarted, seats_of, started
+from reynolds.floating.start import places_of, pressed, restarted, started
 from reynolds.floating.step import solve_stage
 from reynolds.numerics.arrays import Array
 from reynolds.numerics.dirk import AcceptedStep, State, Tableau, integrate, nodes_only
@@ -271,7 +271,7 @@ def _oil_moved(first: FilmSpace, begin: State[FloatingStage], end: State[Floatin
     """Oil that differs in place at the end, over all."""
     assert end.stage is not None
     space = end.stage.instant.shape.space
-    return _moved(end.held[: space.size][seats_of(first, space)], begin.held[: space.size])
+    return _moved(end.held[: space.size][places_of(first, space).unknowns], begin.held[: space.size])
 
 
 def _moved(came: Array, went: Array) -> float:

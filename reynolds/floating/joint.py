@@ -95,6 +95,15 @@ class JointStage(FloatingStage):
         """A guess of the film at another position (k,) m: this one, from which cavities change least."""
         return self.trial.solution
 
+    def turned(self, unknowns: NDArray[np.intp], vertices: NDArray[np.intp]) -> JointStage:
+        """The same on a mesh turned by a pitch, as a guess of its film: the unknown and vertex at each place there."""
+        film = self.trial.solution
+        moved = replace(
+            film, pressure=film.pressure[unknowns], film_fraction=film.film_fraction[unknowns],
+            cavity=film.cavity[unknowns], deformation=film.deformation[vertices],
+        )  # fmt: skip
+        return replace(self, trial=replace(self.trial, solution=moved))
+
     def propagated(self, before: Array) -> tuple[Array, Array]:
         """Change of q (k, m) and of `holds` (held, m) by changes (held, m) of the state before."""
         instant, slopes, own = self.instant, self.slopes.film, self.by_position

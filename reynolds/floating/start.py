@@ -1,6 +1,7 @@
 """Start of a march of a floating film: its oil at a position, and the change of the oil with the position."""
 
 from dataclasses import replace
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -8,6 +9,7 @@ from scipy.spatial import cKDTree
 
 from reynolds.errors import FilmInputError
 from reynolds.fem.space import FilmSpace
+from reynolds.floating.joint import JointStage
 from reynolds.floating.pockets import pockets_grown
 from reynolds.floating.problem import Floating
 from reynolds.floating.sensitivity import FilmSensitivity, oil_slopes
@@ -65,30 +67,40 @@ def restarted(floating: Floating, time: float, last: State[FloatingStage], q: Ar
     oil = oil + pockets_grown(film, stage.instant.modes)
     beside = np.zeros((len(last.held) - len(oil), k))  # position, and rates where walls have inertia
     beside[:k] = np.eye(k)
-    seats = seats_of(floating.shape_at(time).space, stage.instant.shape.space)
+    places = places_of(floating.shape_at(time).space, stage.instant.shape.space)
+    seats = places.unknowns
     slopes = np.vstack([oil[seats], beside])
     held = np.concatenate([last.held[: len(oil)][seats], last.held[len(oil) :]]) + slopes @ (q - stage.q)
     least = float(held[: len(oil)].min())
     if least < min(0.0, float(last.held[: len(oil)].min())):
         found = f"{least:.3g} m3 of oil at an unknown, {np.abs(q - stage.q).max():.3g} m from the last position"
         raise FilmInputError(f"{floating.name}, start of a turn", found, "a position nearer to it")
-    warm = stage if np.array_equal(seats, np.arange(len(oil))) else None
+    warm = stage if places.same else stage.turned(seats, places.vertices) if isinstance(stage, JointStage) else None
     tangent = StateTangent(np.eye(k), slopes)
     return State(time, np.asarray(q, dtype=float), held, last.rate, last.acceleration, warm, tangent)
 
 
-def seats_of(space: FilmSpace, other: FilmSpace) -> NDArray[np.intp]:
-    """Unknown of a moved mesh at the place of each unknown of the mesh, (size,).
+class Places(NamedTuple):
+    """Vertex (vertices,) and unknown (size,) of a moved mesh at the place of each of a mesh."""
 
-    Raises FilmInputError where places differ by more than round-off.
-    """
+    vertices: NDArray[np.intp]
+    unknowns: NDArray[np.intp]
+
+    @property
+    def same(self) -> bool:
+        """True if each is at its own place."""
+        return np.array_equal(self.unknowns, np.arange(len(self.unknowns)))
+
+
+def places_of(space: FilmSpace, other: FilmSpace) -> Places:
+    """The places of a mesh on a moved one. Raises FilmInputError where places differ by more than round-off."""
     near = NEAR * float(np.ptp(space.vertices, axis=0).max())
     if np.abs(space.vertices - other.vertices).max() <= near:
-        return np.arange(space.size)
+        return Places(np.arange(len(space.vertices)), np.arange(space.size))
     distance, vertex = cKDTree(other.vertices).query(space.vertices)
     if distance.max() > near or space.degree > 1:
         found = f"vertices up to {distance.max():.3g} m away"
         raise FilmInputError("mesh at the end of a turn", found, "those of its start, or turned by a pitch")
     seats = np.empty(space.size, dtype=np.intp)
     seats[space.vertex_dofs] = other.vertex_dofs[vertex]
-    return seats
+    return Places(vertex, seats)

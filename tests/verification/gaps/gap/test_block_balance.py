@@ -39,7 +39,7 @@ from reynolds import (
     solve_stage,
 )
 from reynolds.floating.coordinates import contact_force
-from reynolds.floating.start import seats_of
+from reynolds.floating.start import places_of
 
 RADII = (26.5e-3, 31.5e-3, 40.5e-3, 45.7e-3)
 ARC, PISTONS, PITCH = np.radians(30.0), 9, np.radians(40.0)
@@ -252,7 +252,7 @@ def test_a_pitch_on_every_unknown_meets_its_like():
     film = BlockFilm(PORTS, drive(**RUNNING), cells=(2, 8))
     ring, period = film.ring, PITCH / SPEED
     later = ring.turned(PITCH)
-    behind = seats_of(ring.space, later)
+    behind = places_of(ring.space, later).unknowns
     assert later.vertices[behind] == pytest.approx(ring.space.vertices, abs=1e-12)
     first, then = film.problem_at(0.1 * period), film.problem_at(1.1 * period)
     assert then.held_nodes is not None

@@ -39,7 +39,7 @@ from reynolds import (
     started,
     steady,
 )
-from reynolds.floating.start import restarted, seats_of
+from reynolds.floating.start import places_of, restarted
 from reynolds.numerics.dirk import within
 
 LENGTH, WIDTH, THICKNESS, VISCOSITY, SPEED = 0.01, 0.002, 1e-5, 0.03, 220.0
@@ -268,16 +268,16 @@ def test_a_plate_without_spring_never_closes():
         run_revolution(FilmSolver(space), plate, evenly(SPEED, 4), np.array([1e-5]), _power)
 
 
-def test_seats_of_a_mesh_that_turned_by_a_pitch():
+def test_places_of_a_mesh_that_turned_by_a_pitch():
     """A ring of nine alike sectors: what its film holds goes over to the sector before."""
     space = film_space(ring(np.array([0.03, 0.035, 0.05]), 18))
-    assert np.array_equal(seats_of(space, space), np.arange(space.size))
+    assert np.array_equal(places_of(space, space).unknowns, np.arange(space.size))
     c, s = np.cos(2.0 * np.pi / 9.0), np.sin(2.0 * np.pi / 9.0)
     turned = space.moved(space.vertices @ np.array([[c, s], [-s, c]]))
-    seats = seats_of(space, turned)
+    seats = places_of(space, turned).unknowns
     field = np.empty(space.size)
     field[turned.vertex_dofs] = np.arctan2(*turned.vertices.T[::-1])
     there = np.arctan2(*space.vertices.T[::-1])
     np.testing.assert_allclose(np.exp(1j * field[seats][space.vertex_dofs]), np.exp(1j * there), atol=1e-12)
     with pytest.raises(FilmInputError, match="mesh at the end of a turn"):
-        seats_of(space, space.moved(1.01 * space.vertices))
+        places_of(space, space.moved(1.01 * space.vertices))
