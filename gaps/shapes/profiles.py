@@ -1,8 +1,8 @@
 """Shapes of faces and pistons: material taken off a plain face or cylinder, as a sum of simple shapes.
 
 `place` is the length along the profile (m): from its chamber's end on a piston, from the case edge in a bore, the
-radius on a face. `angle` (rad) goes round the part. Positive depths open the film, negative ones close it. Where a
-shape's depth or slope jumps it has a knee, at which a mesh does well to have a line; the rest of it is smooth.
+radius on a face. `angle` (rad) goes round the part. Positive depths open the film, negative ones close it. A film
+samples depth and slopes at the quadrature points of its mesh, which does not resolve what is shorter than a cell.
 """
 
 from collections.abc import Iterable, Sequence
@@ -28,10 +28,6 @@ class Relief(NamedTuple):
 class ProfileShape(Protocol):
     """A shape of a profile."""
 
-    @property
-    def knees(self) -> tuple[float, ...]:
-        """Places (m) at which depth or slope jump."""
-
     def __call__(self, place: Array, angle: Array) -> Relief:
         """Relief at places (m) and angles (rad), arrays of one shape."""
 
@@ -41,11 +37,6 @@ class Profile:
     """The sum of shapes; without any, a plain face or cylinder."""
 
     shapes: tuple[ProfileShape, ...] = ()
-
-    @property
-    def knees(self) -> tuple[float, ...]:
-        """Places (m) at which depth or slope jump, rising."""
-        return tuple(sorted({knee for shape in self.shapes for knee in shape.knees}))
 
     def __call__(self, place: Array, angle: Array) -> Relief:
         """Depth and slopes of all shapes together."""
@@ -59,17 +50,8 @@ PLAIN = Profile()
 """Nothing taken off."""
 
 
-class _Smooth:
-    """A shape without knees."""
-
-    @property
-    def knees(self) -> tuple[float, ...]:
-        """None."""
-        return ()
-
-
 @dataclass(frozen=True)
-class Barrel(_Smooth):
+class Barrel:
     """A parabola over a length (m) from place 0, `height` (m) taken off at both ends and nothing in the middle."""
 
     length: float
@@ -85,7 +67,7 @@ class Barrel(_Smooth):
 
 
 @dataclass(frozen=True)
-class Crown(_Smooth):
+class Crown:
     """A face domed as a parabola: `height` (m) taken off at `radius` (m), nothing in the centre.
 
     A negative height makes it dished.
@@ -103,7 +85,7 @@ class Crown(_Smooth):
 
 
 @dataclass(frozen=True)
-class EdgeRelief(_Smooth):
+class EdgeRelief:
     """An edge at a place (m) taken back by `depth` (m), falling to nothing at `end` (m) as a parabola.
 
     depth ((x - end)/(edge - end))^2 from `end` to the edge and beyond it: depth and slope run on at `end`, where
@@ -135,11 +117,6 @@ class RingGroove:
     def __post_init__(self) -> None:
         require_positive("ring groove", width=self.width, depth=self.depth)
 
-    @property
-    def knees(self) -> tuple[float, ...]:
-        """Both sides (m)."""
-        return self.middle - 0.5 * self.width, self.middle + 0.5 * self.width
-
     def __call__(self, place: Array, angle: Array) -> Relief:
         flat = _level(place)
         within_it = np.abs(place - self.middle) < 0.5 * self.width
@@ -147,7 +124,7 @@ class RingGroove:
 
 
 @dataclass(frozen=True)
-class Waviness(_Smooth):
+class Waviness:
     """Waves around a part: amplitude cos(waves (angle - crest)), m, half of peak to peak; mean depth zero.
 
     `crest` (rad) is an angle at which most is taken off.
@@ -181,11 +158,6 @@ class DepthPoints:
         _check_rising("profile, places", np.array(self.places))
         _check_table("profile, depths", np.array(self.depths), (len(self.places),))
 
-    @property
-    def knees(self) -> tuple[float, ...]:
-        """All places but the ends."""
-        return self.places[1:-1]
-
     def __call__(self, place: Array, angle: Array) -> Relief:
         places, depths = np.array(self.places), np.array(self.depths)
         cell, share = _cell_of("profile, place", places, place)
@@ -212,11 +184,6 @@ class PointsAround:
             span = f"{np.degrees(self.angles[-1] - self.angles[0]):g} deg"
             raise FilmInputError("profile, angles", span, "less than a turn; it closes by itself")
         _check_table("profile, depths", np.array(self.depths), (len(self.places), len(self.angles)))
-
-    @property
-    def knees(self) -> tuple[float, ...]:
-        """All places but the ends."""
-        return self.places[1:-1]
 
     def __call__(self, place: Array, angle: Array) -> Relief:
         places = np.array(self.places)
@@ -245,6 +212,22 @@ def measured(rows: Sequence[Sequence[float]]) -> DepthPoints | PointsAround:
         found = f"{len(rows)} rows at {len(places)} places and {len(angles)} angles"
         raise FilmInputError("profile", found, f"{len(places) * len(angles)} rows, each place with each angle once")
     return PointsAround(places, angles, tuple(tuple(depths[i, j] for j in angles) for i in places))
+
+
+def missed_rise(profile: Profile, edges: Array) -> float:
+    """Largest error (m) of the rise of measured points over a cell between edges (n,) m, 0.0 without points.
+
+    A film takes the rise from slopes at its quadrature points; what it misses flows into it, times the part's speed.
+    Three points along a cell, twelve angles around.
+    """
+    points = Profile(tuple(shape for shape in profile.shapes if isinstance(shape, (DepthPoints, PointsAround))))
+    nodes, weights = np.polynomial.legendre.leggauss(3)
+    half = 0.5 * np.diff(edges)
+    within_cells = (edges[:-1] + half)[:, None] + half[:, None] * nodes
+    around = np.linspace(0.0, 2.0 * np.pi, 12, endpoint=False)[:, None]
+    depth = points(*np.broadcast_arrays(edges, around)).depth
+    slope = points(*np.broadcast_arrays(within_cells, around[:, :, None])).along
+    return float(np.max(np.abs(np.diff(depth) - half * (slope @ weights))))
 
 
 def ring_grooves(grooves: Iterable[tuple[float, float, float]]) -> Profile:

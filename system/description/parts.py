@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from enum import Enum
 from typing import Annotated
 
+from system.description.profile import Profile
 from system.inputs.sections.fields import (
     Angle,
     AnyLength,
@@ -25,7 +26,6 @@ from system.inputs.sections.fields import (
     Length,
     Limits,
     MeshFile,
-    Profile,
     Stiffness,
     Torque,
 )

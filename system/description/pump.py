@@ -29,6 +29,7 @@ from system.description.parts import (
     WavinessSection,
 )
 from system.description.ports import PortsSection
+from system.description.profile import Profile
 from system.description.tolerance import ToleranceSection
 from system.inputs.sections.fields import (
     AcuteAngle,
@@ -56,7 +57,6 @@ from system.inputs.sections.fields import (
     Positive,
     Pressure,
     PressureCoefficient,
-    Profile,
     SlipperGrooves,
     SpecificHeat,
     StepFile,
@@ -199,6 +199,7 @@ class BlockSection:
     mass: Mass
     spline_position: AnyLength | None = None  # above the valve plate: where the shaft holds the block sideways
     end_thickness: Length | None = None  # between the bores and the face on the valve plate
+    profile: Profile | None = None  # of that face over the radius
     body: BodySection | None = None
 
 
@@ -272,7 +273,7 @@ class OperatingSection:
     case_pressure: Pressure
 
 
-SINGLE_PARTS = ("piston", "slipper")
+SINGLE_PARTS = ("piston", "slipper", "bore")
 """Tables of which single parts may differ: [piston.3] puts its values in place of [piston]'s for chamber 3."""
 
 
@@ -305,6 +306,7 @@ class PumpDescription:
     tolerance: ToleranceSection = field(default_factory=ToleranceSection)
     single_pistons: tuple[tuple[int, PistonSection], ...] = ()  # by chamber, complete
     single_slippers: tuple[tuple[int, SlipperSection], ...] = ()
+    single_bores: tuple[tuple[int, BoreSection], ...] = ()
 
     @property
     def bodies(self) -> tuple[BodySection, ...]:
@@ -312,7 +314,7 @@ class PumpDescription:
         stated = (
             self.piston.body, self.bore.body, self.slipper.body, self.swash_plate.body, self.block.body,
             self.valve_plate.body, *(part.body for _, part in self.single_pistons),
-            *(part.body for _, part in self.single_slippers),
+            *(part.body for _, part in self.single_slippers), *(part.body for _, part in self.single_bores),
         )  # fmt: skip
         return tuple(body for body in stated if body is not None)
 
@@ -329,11 +331,13 @@ class PumpDescription:
         return (*(body.mesh.content for body in self.bodies), *losses)
 
     def of_chamber(self, chamber: int) -> PumpDescription:
-        """The pump with the piston and slipper of a chamber (1 .. z) in place of all, and no single parts."""
+        """The pump with piston, slipper and bore of a chamber (1 .. z) in place of all, and no single parts."""
         return replace(
             self,
             piston=dict(self.single_pistons).get(chamber, self.piston),
             slipper=dict(self.single_slippers).get(chamber, self.slipper),
+            bore=dict(self.single_bores).get(chamber, self.bore),
             single_pistons=(),
             single_slippers=(),
+            single_bores=(),
         )

@@ -94,10 +94,10 @@ class SlipperParts:
 
 @dataclass(frozen=True)
 class BlockParts:
-    """spline_height m over the valve plate; shape of the plate by radius and angle; laws of oil and walls."""
+    """spline_height m over the valve plate; shape of plate and block by radius and angle; laws of oil and walls."""
 
     spline_height: float
-    plate: Profile
+    faces: Profile
     laws: FilmLaws
 
 
@@ -226,8 +226,8 @@ def spline_height(pump: PumpDescription, taken: Taken) -> float:
 
 def _block(pump: PumpDescription, laws: FilmLaws, taken: Taken) -> BlockParts:
     height = spline_height(pump, taken)
-    waves, rows = pump.valve_plate.waviness, pump.valve_plate.profile
-    shapes: list[ProfileShape] = [] if rows is None else [measured(rows)]
+    waves, faces = pump.valve_plate.waviness, (pump.valve_plate.profile, pump.block.profile)
+    shapes: list[ProfileShape] = [measured(rows) for rows in faces if rows is not None]
     if waves is not None:
         shapes.append(Waviness(waves.waves, waves.amplitude))
     if not shapes:

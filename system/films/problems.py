@@ -28,4 +28,4 @@ def slipper_film(
 def block_film(rotor: Rotor, parts: FloatingParts, drive: BlockDrive, physics: Physics, cells: Cells) -> BlockFilm:
     """The block's film; cells = (across a land, a kidney pitch)."""
     geometry = valve_plate_geometry(rotor.pump, rotor.drive.dead_centre_shift)
-    return BlockFilm(geometry, drive, parts.block.plate, parts.block.laws, physics, cells)
+    return BlockFilm(geometry, drive, parts.block.faces, parts.block.laws, physics, cells)

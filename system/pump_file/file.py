@@ -64,12 +64,13 @@ def load_pump(source: str | Path, overrides: Mapping[str, object] | None = None)
     lines: dict[str, int | None] = {**key_lines(text)}
     for path, value in (overrides or {}).items():
         *within, key = path.split(".")
-        table: object = tables
+        table = tables
         for name in within:
-            table = table.setdefault(name, {}) if isinstance(table, dict) else None
-        if isinstance(table, dict):
-            table.pop(key + ABSOLUTE, None)
-            table[key] = value
+            if not isinstance(table.get(name), dict):
+                table[name] = {}
+            table = table[name]
+        table.pop(key + ABSOLUTE, None)
+        table[key] = value
         lines[path] = None
     folder = HERE if str(source) in builtin_pumps() else Path(source).parent
     return _describe(label, tables, lines, folder)

@@ -18,6 +18,7 @@ _Found = TypeVar("_Found", Fault, CheckWarning)
 
 Rows = tuple[tuple[float, ...], ...]
 STEEPEST = 0.01  # depth of a shape over its width; above it the film is no thin film
+DEEPEST = 100e-6  # m, of wear; more than any film that carries
 
 _BORE = ("piston.engaged_length", "pump.dead_volume", "pump.piston_diameter")
 
@@ -87,21 +88,37 @@ def valve_plate_profile_fits(pump: PumpDescription) -> Iterator[Finding]:
     yield from _places("valve_plate.profile", rows, part.land_radius_1, part.outer_radius)
 
 
+@needs("block.profile", "valve_plate.land_radius_1", "valve_plate.land_radius_4")
+def block_profile_fits(pump: PumpDescription) -> Iterator[Finding]:
+    """The block face's measured shape reaches as far, and is the same all around."""
+    rows, part = pump.block.profile or (), pump.valve_plate
+    yield from _places("block.profile", rows, part.land_radius_1, part.outer_radius)
+    if rows and len(rows[0]) == 3:
+        expected = "rows of radius, material taken off: a face that turns has the same shape all around in the film"
+        yield Fault("block.profile", "rows with angles", expected)
+
+
 def _places(path: str, rows: Rows, start: float, end: float) -> Iterator[Finding]:
     """Places of a profile grow, and reach from `start` to `end`: what was not measured is not known.
 
-    Of a profile with angles each place has each angle once, within less than a turn.
+    Of a profile with angles each place has each angle once, within less than a turn. Depths are those of a film.
     """
     places = [row[0] for row in rows]
     if rows and len(rows[0]) == 3:
         yield from _net(path, rows)
     else:
-        for before, after in pairwise(places):
+        for row, (before, after) in enumerate(pairwise(places), start=2):
             if before >= after:
-                yield Fault(path, f"{length(after)} after {length(before)}", "places that grow from row to row")
+                found = f"{length(after)} after {length(before)} in row {row}"
+                yield Fault(path, found, "places that grow from row to row")
     if places and (min(places) > start or max(places) < end):
         found = f"places from {length(min(places))} to {length(max(places))}"
         yield Fault(path, found, f"places from {length(start)} or less to {length(end)} or more")
+    within = [row for row in rows if start <= row[0] <= end]
+    deepest = max(within, key=lambda row: abs(row[-1]), default=(0.0, 0.0))
+    if abs(deepest[-1]) > DEEPEST:
+        found, limit = f"{length(deepest[-1])} taken off at {length(deepest[0])}", f"{length(DEEPEST)} of wear"
+        yield CheckWarning(path, found, limit, "check the unit: um, not mm? A groove belongs into its own key")
 
 
 @needs("piston.grooves", "piston.engaged_length")
@@ -276,6 +293,6 @@ def _not_alike(single: str) -> CheckWarning:
     return CheckWarning(
         single,
         "a part unlike the others",
-        "alike parts in the fidelities lumped and fixed, which take the common table for every chamber",
-        "give every chamber that part to see what it does",
+        "alike parts in the fidelities fixed and table, diagnose, calibrate and transient, which refuse this pump",
+        "run the fidelity lumped or floating; or give every chamber that part to see what it does",
     )

@@ -45,7 +45,7 @@ def section_models() -> Iterator[tuple[str, type[Any]]]:
 
 def _tables_in(model: type[Any], above: str) -> Iterator[tuple[str, type[Any]]]:
     for name, own in fields_of(model).items():
-        inner = own.table or own.tables
+        inner = own.table or own.tables or (own.from_table.section if own.from_table else None)
         if inner is not None:
             yield above + name, inner
             yield from _tables_in(inner, f"{above}{name}.")

@@ -11,7 +11,7 @@ import numpy as np
 from gaps.films.over_turn import TURN, PeriodicCurve
 from reynolds.numerics.arrays import Array
 from system.films.rotor import Rotor
-from system.inputs.faults import nearest_choice
+from system.inputs.faults import InputFaults, nearest_choice
 from system.inputs.sections.fields import Points
 from system.inputs.sections.point_files import read_rows
 from system.inputs.sections.values import listed_rows
@@ -69,6 +69,10 @@ def read_chamber_pressure(film: Table, folder: Path) -> ChamberPressure | None:
     except QuantityError as reason:
         near = nearest_choice(raw, [CYCLE]) if isinstance(raw, str) else ""
         film.fault("chamber_pressure", reason.found, reason.expected, near or reason.nearest)
+        return None
+    except InputFaults as reason:
+        for fault in reason.faults:
+            film.fault("chamber_pressure", f"{fault.path}: {fault.found}", fault.expected, fault.nearest)
         return None
     if (checked := _checked(film, rows)) is None:
         return None

@@ -19,6 +19,7 @@ from system.pump.operating import operating_point
 from system.pump_file.file import builtin_pumps, load_pump
 
 OPERATING = "operating"
+FILE_KEYS = (".body.mesh", ".profile.trace")
 
 
 @dataclass(frozen=True)
@@ -87,9 +88,9 @@ def _flat(tables: Mapping[str, Any], above: str = "") -> Iterator[tuple[str, Any
 
 
 def _beside(path: str, value: Any, folder: Path) -> Any:
-    """Return a value; the path of a file (rows, a part's mesh) is completed with the case's folder."""
-    names_file = isinstance(value, str) and (value.lower().endswith(".csv") or path.endswith(".body.mesh"))
-    return str((folder / value).absolute()) if names_file else value
+    """Return a value; the path of a file (rows, a trace, a part's mesh) is completed with the case's folder."""
+    of_file = isinstance(value, str) and (value.lower().endswith(".csv") or path.endswith(FILE_KEYS))
+    return str((folder / value).absolute()) if of_file else value
 
 
 def _at_case(fault: Fault, stated: Mapping[str, Any], source: str) -> Fault:

@@ -48,12 +48,14 @@ class Limits:
 class Points:
     """Marks a field that is a list of rows, one quantity a column, with an example row.
 
-    A field may have several: rows are all of one of these layouts.
+    A field may have several: rows are all of one of these layouts. `opposite`: a head that a file may have in place
+    of the last one, for the same quantity with the opposite sign.
     """
 
     columns: tuple[Dimension, ...]
     heads: tuple[str, ...]
     example: tuple[str, ...]
+    opposite: str = ""
 
 
 @dataclass(frozen=True)
@@ -110,6 +112,14 @@ class FromFile:
     read: Callable[[Path], Any]
 
 
+@dataclass(frozen=True)
+class FromTable:
+    """Marks a field whose entry may be a table: its section, and its value; that raises InputFaults by its keys."""
+
+    section: type[Any]
+    value: Callable[[Any], Any]
+
+
 Positive = Limits(above=0.0)
 NotNegative = Limits(least=0.0)
 
@@ -143,16 +153,6 @@ Fraction = Annotated[float, Limits(least=0.0, most=1.0)]
 Coefficient = Annotated[float, NotNegative]
 Spread = Annotated[float, Limits(above=0.0, most=2.0)]  # one sigma, a pure number
 
-Profile = Annotated[
-    tuple[tuple[float, ...], ...],
-    Points((Dimension.LENGTH, Dimension.LENGTH), ("place", "material taken off"), ("3 mm", "2 um")),
-    Points(
-        (Dimension.LENGTH, Dimension.ANGLE, Dimension.LENGTH),
-        ("place", "angle", "material taken off"),
-        ("3 mm", "90 deg", "2 um"),
-    ),
-    Limits(fewest=2),
-]
 ImpedanceRows = Annotated[
     tuple[tuple[float, float, float], ...],
     Points(
@@ -250,6 +250,11 @@ class FieldType:
     def file(self) -> FromFile | None:
         """Reader of a file that the entry names, None for another field."""
         return self._mark(FromFile)
+
+    @property
+    def from_table(self) -> FromTable | None:
+        """Table that may stand in place of the entry, None for another field."""
+        return self._mark(FromTable)
 
     @property
     def choices(self) -> tuple[Enum, ...]:

@@ -68,7 +68,7 @@ def field_schema(own: FieldType, *, complete: bool = True) -> Schema:
         return section_schema(own.table, complete=complete, inner_complete=complete)
     if own.named is not None:
         return {"type": "object", "additionalProperties": field_schema(own.named)}
-    value: Schema = _value_schema(own)
+    value: Schema = _value_schema(own, complete)
     if own.several is not None and own.several.count:
         value = {"type": "array", "items": value, "minItems": own.several.count, "maxItems": own.several.count}
     elif own.several is not None:
@@ -81,7 +81,7 @@ def quantity_schema(dimension: Dimension) -> Schema:
     return {"type": "string", "pattern": QUANTITY, "examples": [dimension.example]}
 
 
-def _value_schema(own: FieldType) -> Schema:
+def _value_schema(own: FieldType, complete: bool) -> Schema:
     if own.forms:
         alone: list[Schema] = [{"enum": [member.value for member in own.choices]}] if own.choices else []
         alone += [{"type": "string", "minLength": 1}] if own.file else []
@@ -92,7 +92,8 @@ def _value_schema(own: FieldType) -> Schema:
         return quantity_schema(own.dimension)
     if own.layouts:
         rows = [_rows_schema(layout, own.limits.fewest) for layout in own.layouts]
-        return {"anyOf": [{"type": "string"}, *rows]}
+        table = [section_schema(own.from_table.section, complete=complete)] if own.from_table else []
+        return {"anyOf": [{"type": "string"}, *rows, *table]}
     if own.choices:
         return {"enum": [member.value for member in own.choices]}
     if own.unit is not None and own.unit.dimension is None:

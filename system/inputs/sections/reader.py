@@ -9,7 +9,7 @@ from typing import Any
 
 from reynolds.errors import InputError
 from system.inputs.faults import Fault, InputFaults, nearest_choice, stated
-from system.inputs.sections.fields import AnySection, FieldType, FormulaOf, fields_of
+from system.inputs.sections.fields import AnySection, FieldType, FormulaOf, FromTable, fields_of
 from system.inputs.sections.values import HERE, broken_limit, names_of, read_value, wanted
 from system.inputs.toml_table import Table
 from system.inputs.units import QuantityError, to_gauge
@@ -190,6 +190,8 @@ def read_entry(path: str, own: FieldType, raw: object, reading: Reading) -> obje
         found = _named(path, own.named, raw, reading)
     elif own.forms and isinstance(raw, dict):
         found = read_form(path, own, raw, reading)
+    elif own.from_table is not None and isinstance(raw, dict):
+        found = _from_table(path, own.from_table, raw, reading)
     else:
         return _value(path, own, raw, reading)
     _note_inner_faults(path, reading)
@@ -207,6 +209,19 @@ def _value(path: str, own: FieldType, raw: object, reading: Reading) -> object:
     except InputFaults as reason:
         for fault in reason.faults:
             reading.fault(path, f"{fault.path}: {fault.found}", fault.expected, fault.nearest)
+    return None
+
+
+def _from_table(path: str, made: FromTable, table: Mapping[str, object], reading: Reading) -> object:
+    """Return the value that a table stands for, or None with its faults noted."""
+    section = read_section(path, made.section, table, reading)
+    if _note_inner_faults(path, reading):
+        return None
+    try:
+        return made.value(section)
+    except InputFaults as reason:
+        for fault in reason.faults:
+            reading.fault(under(path, fault.path), fault.found, fault.expected, fault.nearest)
     return None
 
 

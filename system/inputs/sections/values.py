@@ -95,7 +95,8 @@ def _wanted_one(field: FieldType) -> str:
     if field.dimension is not None:
         return f"{field.dimension.noun} with its unit, such as '{field.dimension.example}'"
     if field.layouts:
-        return f"{_wanted_rows(field.layouts)}; or {wanted_file(field.layouts)}"
+        table = f"; or {_wanted_form(field.from_table.section)}" if field.from_table else ""
+        return f"{_wanted_rows(field.layouts)}; or {wanted_file(field.layouts)}{table}"
     if field.formula is not None:
         return _wanted_formula(field.formula.dimension)
     alone = f"one of {names_of(field.choices)}" if field.choices else field.text.value if field.text else ""

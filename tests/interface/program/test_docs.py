@@ -160,7 +160,7 @@ def test_documented_cases_load(tmp_path):
 
 @pytest.mark.parametrize(("section", "model"), list(section_models()), ids=[name for name, _ in section_models()])
 def test_pump_file_tables_are_the_description(section, model):
-    section = re.sub(r"^\w+\.body$", "PART.body", section).replace("ports.delivery.grooves", "ports.grooves")
+    section = re.sub(r"^\w+\.(body|profile)$", r"PART.\1", section).replace("ports.delivery.grooves", "ports.grooves")
     section = re.sub(rf"^(physics\.\w+)\.({GAPS})$", r"\1.GAP", section)
     heading = re.sub(r"^materials\..*", "materials.PART", re.sub(r"^surfaces\..*", "surfaces.PAIR", section))
     rows = [[cell.strip() for cell in line.split("|")[1:4]] for line in _part(f"### [{heading}]").splitlines()

@@ -48,7 +48,7 @@ def test_wear_around_a_part_in_columns_of_any_order(pump_file, tmp_path):
     pump = load_pump(path)
     assert pump.valve_plate.profile is not None
     assert pump.valve_plate.profile[1] == pytest.approx((26e-3, np.radians(90.0), 3.5e-6), rel=1e-14)
-    face = floating_parts(pump).block.plate
+    face = floating_parts(pump).block.faces
     found = face(np.array([36e-3, 46e-3]), np.radians([45.0, 280.0])).depth
     assert found == pytest.approx([4.05e-6, 5.6e-6], rel=1e-12)  # 280 deg: half the way from 200 round to 0
     path.write_text(resolved_toml(pump), "utf-8")
@@ -62,9 +62,9 @@ def test_wear_around_a_part_in_columns_of_any_order(pump_file, tmp_path):
         ("", "which is empty", "a CSV file"),
         ("0,1\n", "the head '0, 1'", "a CSV file with the head"),
         ("place,material taken off [um]\n0,1\n", "the head 'place, material", "place [mm]"),
-        (HEAD + "0,1\n45\n", "1 values in line 3 of worn.csv", "2 values"),
-        (HEAD + "0,1\n45,x\n", "as material taken off in line 3 of worn.csv", "a number; the head says [um]"),
-        ("place [bar],material taken off [um]\n0,1\n", "as place in line 2", "the head says [bar]"),
+        (HEAD + "0,1\n45\n", "line 3 of worn.csv: 1 values", "2 values"),
+        (HEAD + "0,1\n45,x\n", "line 3 of worn.csv, material taken off: 'x um'", "a number; the head says [um]"),
+        ("place [bar],material taken off [um]\n0,1\n", "line 2 of worn.csv, place: '0 bar'", "the head says [bar]"),
         (HEAD + "0,1\n", "worn.csv", "at least 2 rows"),
         (HEAD + "0,1\n44,1\n", "places from 0 mm to 44 mm", "45 mm or more"),
         ("place [mm],angle [deg],material taken off [um]\n0,0,1\n0,9,1\n45,0,1\n", "0 rows at 45 mm, 9 deg", "once"),

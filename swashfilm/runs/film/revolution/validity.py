@@ -10,6 +10,7 @@ from gaps.films.slipper import retainer_force
 from gaps.revolution.march import GapRevolution
 from swashfilm.case.gap.revolution import GapOverTurn
 from swashfilm.output.gap_names import LARGEST_RIGID_PRESSURE
+from swashfilm.runs.film.solve.profiles import unresolved_profiles
 from system.description.gap import Gap
 from system.films.drives import slipper_retainer
 from system.films.parts import FloatingParts
@@ -35,6 +36,8 @@ def revolution_warnings(
     warnings += [*_contact(case, parts, found), *_pressures(case, found), *_motion(case, found, balance)]
     if case.gap is Gap.SLIPPER:
         warnings += pulled_together(case, parts, found)
+    if case.gap is Gap.PISTON:
+        warnings += unresolved_profiles(case.rotor, parts, next(iter(found.turn.films.values())))
     return [{"name": name, "text": text} for name, text in warnings]
 
 

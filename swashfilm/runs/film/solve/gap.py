@@ -16,6 +16,7 @@ from reynolds.floating.stage import FloatingStage
 from reynolds.numerics.arrays import Array
 from swashfilm.case.gap.instant import GapCase
 from swashfilm.case.gap.position import FaceLoad, PistonLoad, rim
+from swashfilm.runs.film.solve.profiles import unresolved_profiles
 from system.description.gap import Gap
 from system.films.drives import Drives
 from system.films.places import place_of
@@ -41,11 +42,15 @@ class PositionSource(Enum):
 
 @dataclass(frozen=True)
 class GapStudy:
-    """A gap's film and the origin of its position; assumptions: neglected forces and assumed values."""
+    """A gap's film and the origin of its position.
+
+    assumptions: neglected forces and assumed values; doubts: name and text of warnings of what is solved.
+    """
 
     film: GapFilm
     source: PositionSource
     assumptions: tuple[str, ...]
+    doubts: tuple[tuple[str, str], ...] = ()
 
 
 def solve_gap(case: GapCase) -> GapStudy:
@@ -59,7 +64,8 @@ def solve_gap(case: GapCase) -> GapStudy:
     stage = _at_rest(gap, case) if case.position is None else gap.held_at(case.shaft_angle, case.position)
     found = gap.report(stage)
     source = PositionSource.REST if case.position is None else PositionSource.GIVEN
-    return GapStudy(found, source, (NO_RUBBING, *(str(one) for one in case.parts.taken)))
+    doubts = unresolved_profiles(case.rotor, case.parts, found.solution) if case.gap is Gap.PISTON else ()
+    return GapStudy(found, source, (NO_RUBBING, *(str(one) for one in case.parts.taken)), tuple(doubts))
 
 
 def _at_rest(gap: StandingGap[Any, Any], case: GapCase) -> FloatingStage:
@@ -117,9 +123,9 @@ def gap_summary(study: GapStudy) -> dict[str, Any]:
 
 
 def gap_warnings(study: GapStudy) -> list[dict[str, str]]:
-    """Return a warning, name and text, where the film does not support its load at the given position."""
-    film = study.film
+    """Return the study's doubts, and a warning where the film does not support its load at the given position."""
+    film, found = study.film, [{"name": name, "text": text} for name, text in study.doubts]
     if study.source is PositionSource.REST or film.holds_its_load:
-        return []
+        return found
     text = f"the film supports {film.carried_load:.0f} N of {film.required_load:.0f} N at the given position"
-    return [{"name": "load_not_carried", "text": text}]
+    return [*found, {"name": "load_not_carried", "text": text}]

@@ -7,7 +7,7 @@ import pytest
 
 from gaps import DepthPoints, EdgeRelief, Effect, FilmLaws, PeriodicCurve, Physics, Profile, Waviness, constant
 from gaps.films.physics import laws_left
-from gaps.shapes.profiles import PLAIN, Barrel, Crown, PointsAround, RingGroove, ring_grooves
+from gaps.shapes.profiles import PLAIN, Barrel, Crown, PointsAround, RingGroove
 from reynolds import CONSTANT, Asperities, Cavitation, FilmInputError, Surface
 
 LENGTH = 40e-3
@@ -75,17 +75,11 @@ def test_sum_of_shapes():
 
 
 def test_shapes_join_without_a_jump():
-    """At a knee depth is continuous, and at the inner end of an edge relief its slope too."""
-    for shape, knee in ((SHAPES[6], 13.3e-3), (WORN, 15e-3), (SHAPES[2], 30e-3)):
-        before, after = (shape(np.array([knee + side]), np.array([0.7])) for side in (-1e-12, 1e-12))
+    """At a measured point depth is continuous, and at the inner end of an edge relief its slope too."""
+    for shape, place in ((SHAPES[6], 13.3e-3), (WORN, 15e-3), (SHAPES[2], 30e-3)):
+        before, after = (shape(np.array([place + side]), np.array([0.7])) for side in (-1e-12, 1e-12))
         assert after.depth == pytest.approx(before.depth, abs=1e-14)
     assert after.along == pytest.approx(before.along, abs=1e-12)
-
-
-def test_knees():
-    profile = Profile((*ring_grooves([(10e-3, 1e-3, 3e-4)]).shapes, Barrel(LENGTH, 1e-6), SHAPES[6], WORN))
-    assert profile.knees == pytest.approx((9.5e-3, 10.5e-3, 13.3e-3, 15e-3))
-    assert PLAIN.knees == ()
 
 
 @pytest.mark.parametrize(

@@ -81,18 +81,25 @@ def test_power_is_accounted_for(found):
     assert worn.mass_balance_error < 1e-9
 
 
-def test_a_worn_pump_comes_to_its_end():
-    """Gaps and chambers agree at rated pressure, the worn piston's wear as measured points beside more clearance.
+def test_a_worn_pump_comes_to_its_end(tmp_path):
+    """Gaps and chambers agree at rated pressure, the worn piston's wear as a trace, askew, beside more clearance.
 
-    Its chambers cavitate about 180 deg, where their slippers leave the plate: what holds them there decides
-    whether the chambers' pressure settles.
+    Only its own film leaks more. Its chambers cavitate about 180 deg, where their slippers leave the plate: what
+    holds them there decides whether the chambers' pressure settles.
     """
-    wear = [["0 mm", "6 um"], ["4 mm", "2 um"], ["12 mm", "0 um"], ["45 mm", "0 um"]]
-    worn = load_pump("ref90", {"piston.3": {"radial_clearance": "18 um", "profile": wear}})
+    places = np.arange(0.0, 70.01, 0.1)  # mm
+    heights = 40.0 - 0.2 * places - 6.0 * np.maximum(1.0 - places / 12.0, 0.0) ** 2  # um
+    rows = "\n".join(f"{place},{height}" for place, height in zip(places, heights, strict=True))
+    (tmp_path / "worn.csv").write_text(f"place [mm],height [um]\n{rows}\n", "utf-8")
+    trace = {"trace": str(tmp_path / "worn.csv"), "level": "line", "unworn": [["20 mm", "70 mm"]], "cutoff": "6 mm"}
+    worn = load_pump("ref90", {"piston.3": {"radial_clearance": "18 um", "profile": trace}})
     found = floating_point(worn, operating_point(worn), FloatingOptions(RIGID, steps=36, finer=0.25))
     assert [len(kind.chambers) for kind in found.kinds] == [8, 1]
     assert found.rounds[-1].pressure_change <= PRESSURE_TOLERANCE
     assert found.pump_point.checks.energy_balance_error < 1e-3
+    flows = leaked(found)
+    assert np.delete(flows, WORN) == pytest.approx(np.full(8, flows[0]), rel=1e-3)
+    assert 1.5 * flows[0] < flows[WORN] < 4.0 * flows[0]
     for kind in found.kinds:
         rise = max(at.position[0] + np.hypot(*at.position[1:]) for at in kind.gaps.slipper.turn.instants)
         assert rise < 2.0 * kind.parts.slipper.retainer.clearance
