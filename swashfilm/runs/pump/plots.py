@@ -147,7 +147,7 @@ def _thinnest(data: xarray.Dataset, gap: str, k: int) -> str:
     """Return the place of the least film at the k-th angle in words."""
     at = int(np.argmin(data[f"{gap}_film_thickness"].values[k]))
     (x, y), _ = gap_place(data, gap, k)
-    return f"{x[at]:.0f} deg, {y[at]:.1f} mm" if gap == "piston" else f"x {x[at]:.1f} mm, y {y[at]:.1f} mm"
+    return f"{x[at]:.0f} deg around, {y[at]:.1f} mm along" if gap == "piston" else f"x {x[at]:.1f} mm, y {y[at]:.1f} mm"
 
 
 def pictured(data: xarray.Dataset, gap: str) -> int:
