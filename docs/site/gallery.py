@@ -48,6 +48,7 @@ EXAMPLES = (
     Example("warm", "Film that warms along its way", "film examples/films/warm_slider.toml"),
     Example("slipper", "Slipper of a pump", "film examples/films/ref90_slipper.toml"),
     Example("valve-plate", "Valve plate, block tilted", "film examples/films/ref90_valve_plate.toml"),
+    Example("pump", "Pump with its films", "run ref90", "Pump in the middle", (0.22, 0.0, 1.0, 1.0)),
     Example("losses", "Losses of the friction pairs", "run ref90", "Mean loss"),
     Example("chamber", "Chamber pressure over a turn", "run ref90 --fidelity lumped", "One chamber"),
     Example("map", "Efficiency map", "map ref90 --fidelity lumped", part=(0.0, 0.0, 0.36, 1.0)),

@@ -27,7 +27,8 @@ class GapInstant(Generic[Value]):
     Forces of film, contact, outside and inertia, -M q'', add up to zero.
 
     least_gap m is the least distance of the mean planes, negative where rough walls overlap; film_thickness_min
-    and mean_film m the least and the area mean of the film's thickness; pressure_max Pa; cavitated_area_fraction;
+    and mean_film m the least and the area mean of the film's thickness; thinnest m, place in the film's plane of
+    its thinnest vertex (between known angles that of the later one); pressure_max Pa; cavitated_area_fraction;
     report: of the gap at the instant; passed: its mean since the angle before, in which flows balance as in the
     march; pushed: power (W) of the film on the outer forces, such a mean too.
     """
@@ -42,6 +43,7 @@ class GapInstant(Generic[Value]):
     least_gap: float
     film_thickness_min: float
     mean_film: float
+    thinnest: tuple[float, float]
     pressure_max: float
     cavitated_area_fraction: float
     report: Value
@@ -98,7 +100,9 @@ class Course(Generic[Value]):
 
 def instant_of_stage(angle: float, stage: FloatingStage, report: Value) -> GapInstant[Value]:
     """The instant of a stage; what passes is what its report has."""
-    area, film = stage.solution.problem.space.area, stage.solution.film
+    space, film = stage.solution.problem.space, stage.solution.film
+    area, at_vertices = space.area, vertex_thickness(stage.solution)
+    x, y = space.vertices[int(np.argmin(at_vertices))]
     return GapInstant(
         angle=angle,
         position=stage.q,
@@ -108,8 +112,9 @@ def instant_of_stage(angle: float, stage: FloatingStage, report: Value) -> GapIn
         outer_force=stage.outer.force,
         inertia_force=stage.inertia_force,
         least_gap=stage.least_gap,
-        film_thickness_min=float(min(vertex_thickness(stage.solution).min(), film.thickness.min())),
+        film_thickness_min=float(min(at_vertices.min(), film.thickness.min())),
         mean_film=float(np.sum(film.thickness * area) / np.sum(area)),
+        thinnest=(float(x), float(y)),
         pressure_max=float(stage.solution.pressure.max()),
         cavitated_area_fraction=cavitated_fraction(stage.solution),
         report=report,

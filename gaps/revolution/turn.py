@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections import deque
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Generic
 
 import numpy as np
@@ -33,7 +33,7 @@ FARTHEST = 2e-2  # of the film's length, by which a wall may leave its shape: th
 
 @dataclass(frozen=True)
 class GapTurn(Generic[Value]):
-    """One turn: its start q, its instants, kept films by angle, its end, and what it cost.
+    """One turn: its start q, its instants, kept films by angle with the deformation that is in their shape, its end.
 
     oil: (size,) m3 of each unknown at each reported angle; times (s) of its steps; step_error: largest error of a
     step over what was allowed, jumps left out; accuracy: that allowance, share of the film; allowed, reach, repeats: as
@@ -248,7 +248,7 @@ class _Gathered(Generic[Value]):
         self.instants.append(instant)
         self.oil.append(oil[: stage.instant.shape.space.size])
         if kept:
-            self.films[instant.angle] = stage.solution
+            self.films[instant.angle] = replace(stage.solution, deformation=stage.deformation)
 
     def meets(self, before: GapTurn[Value], closed: float) -> bool:
         """True if part and oil at the last reported angle are those of the turn before."""

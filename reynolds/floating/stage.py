@@ -62,9 +62,19 @@ class FloatingStage:
 
         It follows the shift along its slopes, and so do its flows: oil is conserved to the square of the shift.
         """
+        return as_shaped(self._balanced)
+
+    @property
+    def deformation(self) -> Array:
+        """Opening of the film by its elastic walls, (vertices,) m; zero between rigid ones."""
+        return self._balanced.deformation
+
+    @cached_property
+    def _balanced(self) -> FilmSolution:
+        """The film in balance, between elastic walls if they are."""
         if not self.shift.any():
-            return as_shaped(self.trial.solution)
-        return as_shaped(self.instant.moved(self.trial, self.shift, self.by_position))
+            return self.trial.solution
+        return self.instant.moved(self.trial, self.shift, self.by_position)
 
     @cached_property
     def gap(self) -> Array:

@@ -8,22 +8,43 @@ import numpy as np
 
 from reynolds.equation.rough_overlap import vertex_thickness
 from reynolds.fem.space import FilmSpace
+from reynolds.laws.contact import contact_pressure
 from reynolds.numerics.arrays import Array
 from reynolds.problem import FilmSolution
 from reynolds.solve.loads import point_fields
 
+Fields = Mapping[str, tuple[Array, str]]
+"""Values by name, each with its unit."""
+
+
+def vertex_fields(solution: FilmSolution) -> dict[str, tuple[Array, str]]:
+    """Fields at the vertices (vertices,) with their units: pressure, thickness and film fraction of a film.
+
+    Between elastic walls also deformation (opening of the film), also of a film of the deformed shape between rigid
+    ones; between rough ones contact_pressure.
+    """
+    problem, at = solution.problem, solution.problem.space.vertex_dofs
+    thickness = vertex_thickness(solution)
+    found = {
+        "film_pressure": (solution.pressure[at], "Pa"),
+        "film_thickness": (thickness, "m"),
+        "film_fraction": (solution.film_fraction[at], "1"),
+    }
+    if problem.walls is not None or solution.deformation.any():
+        found["deformation"] = (solution.deformation, "m")
+    if problem.asperities is not None:
+        found["contact_pressure"] = (np.asarray(contact_pressure(problem.asperities, thickness).value), "Pa")
+    return found
+
 
 def write_vtu(
-    path: Path,
-    solution: FilmSolution,
-    place: Callable[[Array], Array] | None = None,
-    more: Mapping[str, Array] | None = None,
+    path: Path, solution: FilmSolution, place: Callable[[Array], Array] | None = None, more: Fields | None = None
 ) -> None:
-    """Write one film as a surface: film_pressure (Pa), film_thickness (m), wall_shear (Pa, moving wall).
+    """Write one film as a surface with its `vertex_fields` and wall_shear (moving wall); heads are `name [unit]`.
 
-    `more` are further fields at the vertices (vertices,), by name. `place` maps vertices (n, 2) m of the film
-    plane to their true place (n, 3) m: a cylinder for a piston. film_thickness is given at the vertices
-    (averaged where it jumps) and, exact, as the mean of each cell.
+    `more` are further fields at the vertices. `place` maps vertices (n, 2) m of the film plane to their true place
+    (n, 3) m: a cylinder for a piston. film_thickness is given at the vertices (averaged where it jumps) and, exact,
+    as the mean of each cell.
     """
     import meshio
 
@@ -36,16 +57,21 @@ def write_vtu(
         path,
         surface_points(space, place),
         [("triangle" if space.cells.shape[1] == 3 else "quad", space.cells)],
-        point_data={
-            "film_pressure": solution.pressure[space.vertex_dofs],
-            "film_thickness": vertex_thickness(solution),
-            **(more or {}),
-        },
+        point_data=_headed({**vertex_fields(solution), **(more or {})}),
         cell_data={
-            "film_thickness_cell": [(thickness * space.area).sum(axis=1) / cell_area],
-            "wall_shear": [np.hypot(*(shear * space.area).sum(axis=2)) / cell_area],
+            name: [values]
+            for name, values in _headed(
+                {
+                    "film_thickness_cell": ((thickness * space.area).sum(axis=1) / cell_area, "m"),
+                    "wall_shear": (np.hypot(*(shear * space.area).sum(axis=2)) / cell_area, "Pa"),
+                }
+            ).items()
         },
     )
+
+
+def _headed(fields: Fields) -> dict[str, Array]:
+    return {f"{name} [{unit}]": values for name, (values, unit) in fields.items()}
 
 
 def surface_points(space: FilmSpace, place: Callable[[Array], Array] | None = None) -> Array:

@@ -11,14 +11,14 @@ from dataclasses import dataclass
 from importlib.metadata import PackageNotFoundError, requires, version
 from pathlib import Path
 
-from swashfilm.output.picture3d import REMEDY, draw
+from swashfilm.output.picture3d import REMEDY, Frame, draw
 from system.work.processes import cores
 
 LEAST_MEMORY = 2e9  # bytes; a run with films needs half of it
 _NEEDED = re.compile(r"[A-Za-z0-9_.\-]+")
 _TRIANGLE = """<VTKFile type="UnstructuredGrid" version="0.1"><UnstructuredGrid>
-<Piece NumberOfPoints="3" NumberOfCells="1"><PointData Scalars="film_pressure">
-<DataArray type="Float64" Name="film_pressure" format="ascii">0 1 2</DataArray></PointData>
+<Piece NumberOfPoints="3" NumberOfCells="1"><PointData Scalars="film_pressure [Pa]">
+<DataArray type="Float64" Name="film_pressure [Pa]" format="ascii">0 1 2</DataArray></PointData>
 <Points><DataArray type="Float64" NumberOfComponents="3" format="ascii">0 0 0 1 0 0 0 1 0</DataArray></Points>
 <Cells><DataArray type="Int64" Name="connectivity" format="ascii">0 1 2</DataArray>
 <DataArray type="Int64" Name="offsets" format="ascii">3</DataArray>
@@ -107,7 +107,7 @@ def _graphics() -> list[Finding]:
     with tempfile.TemporaryDirectory() as folder:
         film = Path(folder, "film.vtu")
         film.write_text(_TRIANGLE, encoding="utf-8")
-        pictures = draw({Path(folder, "film.png"): [film]})
+        pictures = draw({Path(folder, "film.png"): [Frame([film])]})
     drawn = "drawn" if pictures.paths else pictures.reason.removesuffix(f"; {REMEDY}")
     return [
         Finding("graphics libraries", ", ".join(libraries) or "none"),

@@ -1,33 +1,51 @@
-"""3D picture of a film, drawn by pyvista in a child process.
+"""3D pictures of films between translucent solids, drawn by pyvista in a child process.
 
 VTK ends the whole process with a segmentation fault where the machine lacks graphics libraries. In a child process
-only the picture is lost. The child runs this module as a program.
+only the picture is lost. The child is `swashfilm.output.plotter3d`.
 """
 
 import json
-import os
 import signal
 import subprocess
 import sys
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from pathlib import Path
 
 REMEDY = "install the graphics libraries (Debian: apt-get install libegl1 libgl1-mesa-dri) and run it again"
-PATIENCE = 120.0  # s; drawing takes about 2 s, software rendering of a large mesh about 10 s
+PATIENCE = 120.0  # s; a picture takes about 2 s, a turn about 8 s, software rendering of a large mesh longer
 
 
 @dataclass(frozen=True)
 class PictureField:
-    """A field of a VTU file in a picture: its name, the factor to the unit of the picture, and that unit."""
+    """A field of a VTU file in a picture: its head there, the factor to the unit of the picture, and its title."""
 
-    name: str
+    head: str
     factor: float
-    unit: str
+    title: str
 
 
-PRESSURE = PictureField("film_pressure", 1e-6, "MPa")
-THICKNESS = PictureField("film_thickness", 1e6, "um")
+PRESSURE = PictureField("film_pressure [Pa]", 1e-6, "film pressure / MPa")
+THICKNESS = PictureField("film_thickness [m]", 1e6, "film thickness / um")
+
+
+@dataclass(frozen=True)
+class Solid:
+    """A VTU file of a body, its colour and its opacity."""
+
+    path: Path
+    colour: str
+    opacity: float
+
+
+@dataclass(frozen=True)
+class Frame:
+    """A view: VTU films in the colours of a field, translucent solids, marks (a text, and the film it stands at)."""
+
+    films: Sequence[Path]
+    solids: Sequence[Solid] = ()
+    marks: Sequence[tuple[str, Path]] = ()
+    title: str = ""
 
 
 @dataclass(frozen=True)
@@ -39,21 +57,22 @@ class Pictures:
 
 
 def draw(
-    drawings: Mapping[Path, Sequence[Path]],
+    drawings: Mapping[Path, Sequence[Frame]],
     field: PictureField = PRESSURE,
     *,
     patience: float = PATIENCE,
-    child: Sequence[str] = (sys.executable, "-m", "swashfilm.output.picture3d"),
+    child: Sequence[str] = (sys.executable, "-m", "swashfilm.output.plotter3d"),
 ) -> Pictures:
-    """Draw PNGs, each of some VTU films, coloured by a field with its unit; raise nothing.
+    """Draw pictures of one frame (PNG) or of several (animated WebP) with films in the colours of a field.
 
-    Afterwards all pictures exist, or none exists and `reason` names the cause: the child process died (no graphics
-    libraries), took longer than `patience` s, or could not read the files. `child` is the program that draws.
+    Raises nothing. Afterwards all pictures exist, or none exists and `reason` names the cause: the child process died
+    (no graphics libraries), took longer than `patience` s, or could not read the files. `child` is the program that
+    draws.
     """
-    jobs = json.dumps({str(picture): [str(film) for film in films] for picture, films in drawings.items()})
-    words = [*child, field.name, repr(field.factor), field.unit, jobs]
+    jobs = json.dumps({str(path): [asdict(one) for one in frames] for path, frames in drawings.items()}, default=str)
+    words = [*child, field.head, repr(field.factor), field.title]
     try:
-        done = subprocess.run(words, capture_output=True, text=True, timeout=patience, check=False)
+        done = subprocess.run(words, input=jobs, capture_output=True, text=True, timeout=patience, check=False)
     except subprocess.TimeoutExpired:
         return _none(drawings, f"drawing took longer than {patience:g} s")
     if done.returncode == 0 and all(picture.is_file() for picture in drawings):
@@ -67,43 +86,3 @@ def _none(drawings: Iterable[Path], why: str) -> Pictures:
     for picture in drawings:
         picture.unlink(missing_ok=True)
     return Pictures((), f"no 3D picture: {why}; {REMEDY}")
-
-
-def _draw_here(picture: Path, field: PictureField, films: Sequence[Path]) -> None:
-    """Draw in this process; VTK may end it."""
-    import pyvista
-
-    pyvista.OFF_SCREEN = True
-    plotter = pyvista.Plotter(off_screen=True, window_size=(1000, 760))
-    meshes = [pyvista.read(film) for film in films]
-    for mesh in meshes:
-        mesh[field.name] = mesh[field.name] * field.factor
-    lowest = min(float(mesh[field.name].min()) for mesh in meshes)
-    highest = max(float(mesh[field.name].max()) for mesh in meshes)
-    title = f"{field.name.replace('_', ' ')} / {field.unit}"
-    for number, mesh in enumerate(meshes):
-        plotter.add_mesh(
-            mesh, scalars=field.name, clim=(lowest, highest), cmap="viridis", show_scalar_bar=number == 0,
-            lighting=False,  # a shadow would look like another value
-            scalar_bar_args={
-                "title": title, "vertical": True, "fmt": "%.3g", "color": "black", "title_font_size": 18,
-                "label_font_size": 16, "position_x": 0.82, "position_y": 0.2, "height": 0.6, "width": 0.08,
-            },
-        )  # fmt: skip
-    plotter.background_color = "white"
-    plotter.add_axes(color="black")
-    plotter.view_isometric()
-    plotter.camera.zoom(0.8)  # room for the scale beside the films
-    plotter.screenshot(str(picture))
-    plotter.close()
-
-
-def _main(words: Sequence[str]) -> None:
-    name, factor, unit, jobs = words
-    os.environ.setdefault("PYVISTA_OFF_SCREEN", "true")
-    for picture, films in json.loads(jobs).items():
-        _draw_here(Path(picture), PictureField(name, float(factor), unit), [Path(film) for film in films])
-
-
-if __name__ == "__main__":
-    _main(sys.argv[1:])

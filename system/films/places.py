@@ -89,3 +89,7 @@ class Frame:
         """Points (n, 2) m of an unwrapped film (arc, axial) -> (n, 3) m on the cylinder about z in the pump."""
         angle = points[:, :1] / radius
         return self.origin + radius * (np.cos(angle) * self.x + np.sin(angle) * self.y) + points[:, 1:] * self.z
+
+    def space(self, points: Array) -> Array:
+        """Points (n, 3) m of a body in these axes -> (n, 3) m in the pump."""
+        return self.origin + points @ np.stack([self.x, self.y, self.z])

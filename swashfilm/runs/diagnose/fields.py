@@ -12,8 +12,8 @@ from diagnosis.procedure.pump_comparison import OF_FILMS
 from swashfilm.output.field_maps import MapField, draw_map
 from swashfilm.output.figures import figure_of
 from swashfilm.runs.pump.data import GAPS, films_dataset
-from swashfilm.runs.pump.fields import write_fields
 from swashfilm.runs.pump.plots import GAP_FIELDS, gap_place, pictured
+from swashfilm.runs.pump.scene.given_films import write_fields
 from system.effects.effect import EffectId
 from system.points.films import FilmsPoint
 

@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from reynolds.equation.rough_overlap import vertex_thickness
 from reynolds.laws.contact import boundary_shear, contact_area, contact_pressure, lambda_ratio
 from reynolds.laws.roughness import beyond_range
 from swashfilm.output.headline import titled
@@ -110,18 +109,13 @@ def write_history(path: Path, history: Sequence[Moment]) -> None:
     write_csv(path, [titled(key) for key in columns], zip(*columns.values(), strict=True))
 
 
-def vertex_fields(study: FilmStudy) -> dict[str, tuple[np.ndarray, str]]:
-    """Return fields at the vertices with their units: film fraction, temperatures, deformation of the walls."""
-    solution = study.solution
-    at = solution.problem.space.vertex_dofs
-    found = {"film_fraction": (solution.film_fraction[at], "1")}
-    if study.heat:
-        found["temperature"] = (study.heat.mean[at], "K")
-        found["temperature_fixed_wall"] = (study.heat.fixed_wall[at], "K")
-        found["temperature_moving_wall"] = (study.heat.moving_wall[at], "K")
-    if solution.problem.walls is not None:
-        found["deformation"] = (solution.deformation, "m")
-    if solution.problem.asperities is not None:
-        pressed = contact_pressure(solution.problem.asperities, vertex_thickness(solution)).value
-        found["contact_pressure"] = (pressed, "Pa")
-    return found
+def temperatures(study: FilmStudy) -> dict[str, tuple[np.ndarray, str]]:
+    """Return the temperatures at the vertices with their units, none of a film without heat."""
+    if not study.heat:
+        return {}
+    at, heat = study.solution.problem.space.vertex_dofs, study.heat
+    return {
+        "temperature": (heat.mean[at], "K"),
+        "temperature_fixed_wall": (heat.fixed_wall[at], "K"),
+        "temperature_moving_wall": (heat.moving_wall[at], "K"),
+    }

@@ -14,7 +14,7 @@ from swashfilm.output.refinement import Refinement, refinement_summary, write_re
 from swashfilm.output.run_folder import write_json
 from swashfilm.runs.film.history import at_moment, fields_over_time, last_of, written
 from swashfilm.runs.film.page import write_film_page
-from swashfilm.runs.film.physics import vertex_fields, write_history
+from swashfilm.runs.film.physics import temperatures, write_history
 from swashfilm.runs.film.refine import check_refinement, refine_study
 from swashfilm.runs.film.result import FilmRun
 from swashfilm.runs.film.solve.gap import true_place
@@ -78,7 +78,7 @@ def _write_table(path: Path, fields: xarray.Dataset) -> None:
 
 def _write_films(folder: Path, study: FilmStudy, place: Callable[[Array], Array] | None) -> None:
     """Write film.vtu; for a transient film_NNNN.vtu over time, film.pvd and history.csv of its steps."""
-    write_vtu(folder / "film.vtu", study.solution, place, {k: v for k, (v, _) in vertex_fields(study).items()})
+    write_vtu(folder / "film.vtu", study.solution, place, temperatures(study))
     entries = [(0.0, 0, "film.vtu")]
     if study.history:
         write_history(folder / "history.csv", study.history)
@@ -86,5 +86,5 @@ def _write_films(folder: Path, study: FilmStudy, place: Callable[[Array], Array]
         entries = [(moment.time, 0, f"film_{number:04d}.vtu") for number, moment in enumerate(kept, start=1)]
         for (_, _, name), moment in zip(entries, kept, strict=True):
             now = at_moment(study, moment)
-            write_vtu(folder / name, now.solution, None, {k: v for k, (v, _) in vertex_fields(now).items()})
+            write_vtu(folder / name, now.solution, None, temperatures(now))
     write_pvd(folder / "film.pvd", entries)

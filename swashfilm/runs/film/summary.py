@@ -6,10 +6,10 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from reynolds.equation.rough_overlap import vertex_thickness
 from reynolds.problem import FilmSolution
+from reynolds.solve.export import vertex_fields
 from reynolds.solve.loads import Loads, point_fields
-from swashfilm.runs.film.physics import physics_summary, vertex_fields
+from swashfilm.runs.film.physics import physics_summary, temperatures
 from swashfilm.runs.film.solve.gap import gap_summary
 from swashfilm.runs.film.solve.loaded import load_summary
 from swashfilm.runs.film.solve.study import FilmStudy
@@ -99,12 +99,10 @@ def film_dataset(study: FilmStudy) -> xarray.Dataset:
     def mean(field: np.ndarray) -> np.ndarray:
         return (np.broadcast_to(field, space.area.shape) * space.area).sum(axis=1) / cell_area
 
-    pressure = study.solution.pressure[space.vertex_dofs]
+    at_vertices = vertex_fields(study.solution) | temperatures(study)
     return xarray.Dataset(
         {
-            "film_pressure": ("vertex", pressure, {"units": "Pa"}),
-            "film_thickness": ("vertex", vertex_thickness(study.solution), {"units": "m"}),
-            **{name: ("vertex", values, {"units": unit}) for name, (values, unit) in vertex_fields(study).items()},
+            **{name: ("vertex", values, {"units": unit}) for name, (values, unit) in at_vertices.items()},
             "film_thickness_cell": ("cell", mean(thickness), {"units": "m"}),
             "wall_shear_x": ("cell", mean(shear[0]), {"units": "Pa", "wall": "moving"}),
             "wall_shear_y": ("cell", mean(shear[1]), {"units": "Pa", "wall": "moving"}),

@@ -9,10 +9,9 @@ import numpy as np
 
 from gaps.films.physics import Effect
 from gaps.revolution.march import GapRevolution, Leg
-from reynolds.solve.export import write_pvd
 from swashfilm.case.gap.physics import PHYSICS_HEAD, effect_rows
 from swashfilm.console.fidelity import Fidelity
-from swashfilm.output.gap_names import FIELDS, TITLES, vtu_name
+from swashfilm.output.gap_names import TITLES
 from swashfilm.output.page import inlined
 from swashfilm.output.result import read_netcdf
 from swashfilm.output.tables import read_csv
@@ -24,7 +23,8 @@ from swashfilm.runs.film.revolution.data import (
 )
 from swashfilm.runs.film.revolution.plots import film_text, revolution_plots
 from swashfilm.runs.film.revolution.solve import RevolutionStudy, revolution_summary
-from swashfilm.runs.pump.data import GAPS, PICTURED_TURN
+from swashfilm.runs.pump.data import GAPS
+from swashfilm.runs.pump.scene.blocks import Blocks, ChamberKind, Scene, write_pump
 from swashfilm.runs.pump.summary import effect_lists, pump_summary
 from system.description.assumptions import Assumption
 from system.description.gap import Gap
@@ -36,15 +36,13 @@ from system.points.floating import FloatingKind, FloatingPoint
 from system.points.floating_gaps import FloatingOptions
 
 RESULTS = "results.nc"
-Kept = dict[tuple[str, str], np.ndarray]
-"""Shaft angles (rad) of the kept films, by path in the run folder and gap."""
 _OF_PUMP = ("format", "kind", "name", "gap", "physics_left_out", "physics_seconds", "assumptions", "warnings")
 
 
 SHOWN = ("film", "path", "temperature", "contact", "maps")
 SHOWN_UNLIKE = ("film", "path")
 CAPTIONS = {
-    "film": "film over the shaft angle, chamber pressure (dashed), and the limits of the film",
+    "film": "film and pressure over the shaft angle, the least film with its place, and the limits of the film",
     "path": "position of the part; the colour is the shaft angle",
     "temperature": "temperature of film and walls",
     "contact": "contact, cavitation and the largest film pressure",
@@ -151,34 +149,36 @@ def _taken(kind: FloatingKind) -> tuple[Assumption, ...]:
     return all_taken(kind.rotor, kind.parts, warm)
 
 
-def write_floating(folder: Path, found: FloatingPoint) -> dict[Path, list[Path]]:
-    """Write <gap>.csv, <gap>_convergence.csv, a group <gap> of results.nc, fields/ and PVDs; return the pictures.
+def write_floating(folder: Path, found: FloatingPoint) -> tuple[Blocks, ...]:
+    """Write <gap>.csv, <gap>_convergence.csv, a group <gap> of results.nc, fields/, and PVDs of gaps and pump.
 
     results.nc must exist with the pump's series. A gap's PVD follows one piston or slipper over the turn, or the
-    block over one period; pump.pvd shows all of them. Chambers of the less common kinds have the same files in
-    chamber_<number>. Returned: fields of each 3D picture, by its path.
+    block over one period. Chambers of the less common kinds have the same files in chamber_<number>. Returns the
+    blocks of the whole pump at each angle (`write_pump`).
     """
-    kept: Kept = {}
     for place, studies in floating_studies(found).items():
         (folder / place).mkdir(exist_ok=True)
         for study in studies:
-            gap, path = study.case.gap.value, Path(place) / study.case.gap.value
-            _write_gap(folder, path, study)
-            kept[place, gap] = np.array(list(study.revolution.turn.films))
-    of_chamber = [""] * found.rotor.pump.pump.pistons
-    for kind in found.kinds[1:]:
-        for k in kind.chambers:
-            of_chamber[k] = _place(kind)
-    whole = [
-        (float(np.degrees(angle)), part, path)
-        for angle in kept["", "piston"]
-        for part, path in enumerate(_in_pump(kept, float(angle), of_chamber))
-    ]
-    write_pvd(folder / "pump.pvd", whole)
-    pictured = 2.0 * np.pi * PICTURED_TURN
-    drawings = {folder / place / f"{gap}.png": [folder / _nearest(kept, place, gap, pictured)] for place, gap in kept}
-    drawings[folder / "pump.png"] = [folder / path for path in _in_pump(kept, pictured, of_chamber)]
-    return drawings
+            _write_gap(folder, Path(place) / study.case.gap.value, study)
+    return write_pump(folder, scene_of(found))
+
+
+def scene_of(found: FloatingPoint) -> Scene:
+    """Return the pump over the turn, at the angles whose films are kept."""
+    (first, *others), block = found.kinds, found.kinds[0].gaps.block
+    if not others:
+        first = replace(first, chambers=tuple(range(found.pump.pump.pistons)))
+    kinds = _chambers(first, ""), *(_chambers(kind, _place(kind)) for kind in others)
+    return Scene(kinds, np.array(list(block.turn.films)), float(block.angles[-1]))
+
+
+def _chambers(kind: FloatingKind, place: str) -> ChamberKind:
+    """Return the chambers of a kind with the shaft angles of their kept films."""
+    pressure = kind.drives.piston.chamber_pressure
+    piston, slipper = (np.array(list(gap.turn.films)) for gap in (kind.gaps.piston, kind.gaps.slipper))
+    return ChamberKind(
+        place, kind.chambers, kind.rotor, kind.parts, piston, slipper, lambda angle: float(pressure(angle))
+    )
 
 
 def _write_gap(folder: Path, path: Path, study: RevolutionStudy) -> None:
@@ -188,26 +188,6 @@ def _write_gap(folder: Path, path: Path, study: RevolutionStudy) -> None:
     write_series(folder / f"{path}.csv", data)
     write_convergence(folder / f"{path}_convergence.csv", study)
     write_revolution_fields(folder / path.parent, study)
-
-
-def _in_pump(kept: Kept, shaft_angle: float, of_chamber: list[str]) -> list[str]:
-    """Return the fields of the block, all pistons and all slippers at the kept angles nearest to one (rad)."""
-    chambers = shaft_angle + 2.0 * np.pi / len(of_chamber) * np.arange(len(of_chamber))
-    return [
-        _nearest(kept, "", "valve_plate", shaft_angle),
-        *(
-            _nearest(kept, place, gap, angle)
-            for gap in ("piston", "slipper")
-            for place, angle in zip(of_chamber, chambers, strict=True)
-        ),
-    ]
-
-
-def _nearest(kept: Kept, place: str, gap: str, angle: float) -> str:
-    """Return the field of a gap at the kept angle nearest to one, with the turn periodic."""
-    angles = kept[place, gap]
-    away = (angles - angle + 0.5 * angles[-1]) % angles[-1] - 0.5 * angles[-1]
-    return (Path(place) / FIELDS / vtu_name(gap, int(np.argmin(np.abs(away))))).as_posix()
 
 
 def floating_view(folder: Path, summary: Mapping[str, Any]) -> dict[str, Any]:

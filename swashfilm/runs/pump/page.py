@@ -15,12 +15,12 @@ from swashfilm.runs.pump import plots as pump_plots
 from swashfilm.runs.pump.data import GAPS
 from swashfilm.runs.pump.floating import floating_view
 from swashfilm.runs.pump.forces import forces_view
+from swashfilm.runs.pump.scene.views import PICTURE, TURNING
 from swashfilm.runs.pump.summary import ABBREVIATION
 from swashfilm.runs.table.summary import TABLE_POINT_HEAD, table_point_rows
 from system.inputs.units import LPM
 from system.pump.laws.friction_pairs import Pair
 
-PICTURES = (*GAPS, "pump")
 Rows = list[tuple[str, ...]]
 
 
@@ -51,7 +51,9 @@ def write_pump_page(folder: Path) -> Path:
         forces=forces_view(folder, summary),
         pictures=_pictures(data, summary),
         gap_maps={map_caption(data, gap): inlined(png) for gap, png in pump_plots.gap_maps(data).items()},
-        solid=[(name.replace("_", " "), inlined(path.read_bytes())) for name, path in _drawn(folder)],
+        solid=[(gap.replace("_", " "), png) for gap in GAPS if (png := _kept(folder / f"{gap}.png"))],
+        pump=_kept(folder / PICTURE),
+        turning=_kept(folder / TURNING),
         resolved=(folder / "resolved.toml").read_text("utf-8"),
     )
 
@@ -186,5 +188,6 @@ def _pictures(data: Any, summary: Mapping[str, Any]) -> dict[str, str]:
     return {name: inlined(png) for name, png in pictures.items()}
 
 
-def _drawn(folder: Path) -> list[tuple[str, Path]]:
-    return [(name, path) for name in PICTURES if (path := folder / f"{name}.png").is_file()]
+def _kept(picture: Path) -> str:
+    """Return a picture of the folder as a page embeds it; empty where this machine could not draw it."""
+    return inlined(picture.read_bytes()) if picture.is_file() else ""

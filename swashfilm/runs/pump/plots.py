@@ -111,25 +111,43 @@ def gap_maps(data: xarray.Dataset) -> dict[str, Figure]:
 
 
 def film_series(data: xarray.Dataset) -> Figure:
-    """Draw minimum film, load ratio and friction power of one piston and one slipper over the turn."""
-    figure = figure_of(10.0, 3.4)
-    left, middle, right = figure.subplots(1, 3)
-    for gap in ("piston", "slipper"):
+    """Draw film, largest pressure, load ratio and friction power of one piston and one slipper over the turn.
+
+    The least film of the turn is marked; the legend tells its angle and its place in the gap's map.
+    """
+    figure = figure_of(10.0, 6.6)
+    (films, pressures), (ratio, power) = figure.subplots(2, 2)
+    for gap, colour in (("piston", "#3c7a8c"), ("slipper", "#b8862b")):
         angle = np.degrees(data[f"{gap}_angle"].values)
-        film = data[f"{gap}_film_thickness_min"].values * 1e6
-        left.plot(angle, film, label=gap)
+        least, mean = (data[f"{gap}_film_thickness_{name}"].values * 1e6 for name in ("min", "mean"))
+        k = int(np.argmin(least))
+        films.plot(angle, mean, color=colour, linestyle=":")
+        films.plot(angle, least, color=colour, label=f"{gap}, least {least[k]:.3g} um at {angle[k]:.0f} deg: "
+                   f"{_thinnest(data, gap, k)}")  # fmt: skip
+        films.plot(angle[k], least[k], "v", color=colour)
+        pressures.plot(angle, data[f"{gap}_pressure_max"].values * 1e-6, color=colour, label=f"{gap} film, largest")
         required = data[f"{gap}_required_load"].values
         supported = np.full_like(required, np.nan)
         np.divide(data[f"{gap}_carried_load"].values, required, out=supported, where=required > 0.0)
-        middle.plot(angle, np.clip(100.0 * supported, 0.0, 200.0), label=gap)
-        right.plot(angle, data[f"{gap}_friction_power"].values, label=gap)
-    left.set(ylabel="minimum film / um", title="given position", ylim=(0, None))
-    middle.set(ylabel="supported load over required load / %", title="shown up to 200 %")
-    right.set(ylabel="friction power / W", title="one piston, one slipper")
-    for axes in (left, middle, right):
+        ratio.plot(angle, np.clip(100.0 * supported, 0.0, 200.0), color=colour, label=gap)
+        power.plot(angle, data[f"{gap}_friction_power"].values, color=colour, label=gap)
+    shaft = np.degrees(data["shaft_angle"].values)
+    pressures.plot(shaft, data["chamber_pressure"].values * 1e-6, "--", color="#1c2328", label="chamber")
+    films.set(ylabel="film / um", title="least film, mean film (dotted), given position", ylim=(0, None))
+    pressures.set(ylabel="pressure, gauge / MPa", title="pressure")
+    ratio.set(ylabel="supported over required load / %", title="shown up to 200 %")
+    power.set(ylabel="friction power / W", title="one piston, one slipper")
+    for axes in (films, pressures, ratio, power):
         axes.set(xlabel="shaft angle / deg", xlim=(0, 360))
-        axes.legend()
+        axes.legend(fontsize="small")
     return figure
+
+
+def _thinnest(data: xarray.Dataset, gap: str, k: int) -> str:
+    """Return the place of the least film at the k-th angle in words."""
+    at = int(np.argmin(data[f"{gap}_film_thickness"].values[k]))
+    (x, y), _ = gap_place(data, gap, k)
+    return f"{x[at]:.0f} deg around, {y[at]:.1f} mm along" if gap == "piston" else f"x {x[at]:.1f} mm, y {y[at]:.1f} mm"
 
 
 def pictured(data: xarray.Dataset, gap: str) -> int:

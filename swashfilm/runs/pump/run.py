@@ -8,25 +8,24 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, assert_never
 
 from swashfilm.console.fidelity import Fidelity
-from swashfilm.output.gap_names import FIELDS, vtu_name
-from swashfilm.output.picture3d import draw
 from swashfilm.output.refinement import refinement_summary, write_refinement
 from swashfilm.output.run_folder import write_json
-from swashfilm.runs.pump.data import GAPS, PICTURED_TURN, films_dataset, point_dataset, write_tables
+from swashfilm.runs.pump.data import films_dataset, point_dataset, write_tables
 from swashfilm.runs.pump.edge_losses import loss_warnings, losses_left_out
-from swashfilm.runs.pump.fields import write_fields
-from swashfilm.runs.pump.floating import floating_summary, write_floating
+from swashfilm.runs.pump.floating import floating_summary, scene_of, write_floating
 from swashfilm.runs.pump.flow_coefficients import coefficient_warnings
 from swashfilm.runs.pump.forces import force_warnings, forces_summary, write_forces
 from swashfilm.runs.pump.page import write_pump_page
 from swashfilm.runs.pump.refine import refine_point
 from swashfilm.runs.pump.result import PumpRun
+from swashfilm.runs.pump.scene.given_films import films_scene, write_fields
+from swashfilm.runs.pump.scene.views import draw_pump
 from swashfilm.runs.pump.summary import films_warnings, pump_summary
 from swashfilm.runs.table.summary import point_by_table, table_point_summary, table_point_warnings
 from system.description.pump import PumpDescription
 from system.multibody.floating_group import floating_joint_forces
 from system.multibody.rotating_group import JointForces, joint_forces
-from system.points.films import FilmsPoint, films_point
+from system.points.films import films_point
 from system.points.floating import FloatingPoint, floating_point
 from system.points.floating_gaps import FloatingOptions
 from system.points.lumped import lumped_point
@@ -86,8 +85,7 @@ def _films(case: PumpCase, report: Report) -> PumpRun:
     summary = pump_summary(pump, point, films, warnings)
 
     def fields(folder: Path) -> list[str]:
-        write_fields(folder, films)
-        return draw_gaps(folder, films)
+        return draw_pump(folder, films_scene(films), write_fields(folder, films))
 
     return _run(case, point, summary, joint_forces(pump, point), lambda: films_dataset(films), fields)
 
@@ -109,8 +107,7 @@ def _floating(case: PumpCase, report: Report) -> PumpRun:
     def fields(folder: Path) -> list[str]:
         if refinement is not None:
             write_refinement(folder / "refinement.csv", refinement)
-        reason = draw(write_floating(folder, found)).reason
-        return [reason] if reason else []
+        return draw_pump(folder, scene_of(found), write_floating(folder, found))
 
     return _run(case, point, summary, floating_joint_forces(found), None, fields)
 
@@ -163,20 +160,6 @@ def _warnings(pump: PumpDescription, point: PumpPoint) -> list[str]:
     """Return the warnings of the pump and of its point that hold for every fidelity."""
     stated = [*check_pump(pump).warnings, *point.warnings]
     return [*(str(warning) for warning in stated), *coefficient_warnings(pump, point)]
-
-
-def draw_gaps(folder: Path, films: FilmsPoint) -> list[str]:
-    """Draw each gap and the whole pump in 3D (piston.png .. pump.png); return the reason of a missing picture."""
-    count, positions = len(films.gaps.shaft_angle), len(films.gaps.valve_plate)
-    k = round(PICTURED_TURN * count)
-    chambers = [(k + shift) % count for shift in range(0, count, positions)]
-    one = {"piston": k, "slipper": k, "valve_plate": k % positions}
-    drawings = {folder / f"{gap}.png": [folder / FIELDS / vtu_name(gap, one[gap])] for gap in GAPS}
-    drawings[folder / "pump.png"] = drawings[folder / "valve_plate.png"] + [
-        folder / FIELDS / vtu_name(gap, j) for gap in ("piston", "slipper") for j in chambers
-    ]
-    reason = draw(drawings).reason
-    return [reason] if reason else []
 
 
 def write_pair_table(path: Path, point: PumpPoint, summary: dict[str, Any]) -> None:

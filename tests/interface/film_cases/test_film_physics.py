@@ -222,7 +222,8 @@ def test_a_long_series_is_thinned_and_told(read, monkeypatch):
 def test_fields_of_every_switch_are_written(tmp_path):
     for name, fields in (("warm_slider", {"temperature", "film_fraction"}), ("soft_channel", {"deformation"})):
         assert main(["film", str(EXAMPLES / f"{name}.toml"), "-o", str(tmp_path / name), "--csv"]) == 0
-        assert fields <= set(meshio.read(tmp_path / name / "film.vtu").point_data)
+        heads = {head.partition(" [")[0] for head in meshio.read(tmp_path / name / "film.vtu").point_data}
+        assert fields <= heads
         header = (tmp_path / name / "fields.csv").read_text("utf-8").splitlines()[0]
         assert fields | {"x", "y", "film_pressure"} <= {head.split(" / ")[0] for head in header.split(",")}
 

@@ -5,8 +5,9 @@ import sys
 import meshio
 import numpy as np
 import pytest
+from PIL import Image
 
-from swashfilm.output.picture3d import THICKNESS, draw
+from swashfilm.output.picture3d import THICKNESS, Frame, Solid, draw
 
 
 @pytest.fixture
@@ -16,7 +17,7 @@ def film(tmp_path):
         path,
         np.array([[0.0, 0, 0], [1, 0, 0], [1, 1, 0.2], [0, 1, 0.2]]) * 1e-2,
         [("quad", np.array([[0, 1, 2, 3]]))],
-        point_data={"film_pressure": np.array([0.0, 1e6, 2e6, 1e6]), "film_thickness": np.full(4, 1e-5)},
+        point_data={"film_pressure [Pa]": np.array([0.0, 1e6, 2e6, 1e6]), "film_thickness [m]": np.full(4, 1e-5)},
     )
     return path
 
@@ -27,22 +28,27 @@ def child(program: str) -> list[str]:
 
 def test_a_picture_is_drawn_or_missed_for_a_reason_with_its_remedy(film, tmp_path):
     """Both are right: a machine without graphics libraries has no picture."""
-    wanted = {tmp_path / "one.png": [film], tmp_path / "two.png": [film, film]}
+    turn = [Frame([film], [Solid(film, "#9aa4ab", 0.3)], [("1", film)], f"{angle} deg") for angle in (0, 10)]
+    wanted = {
+        tmp_path / "one.png": [Frame([film])], tmp_path / "two.png": [Frame([film, film])],
+        tmp_path / "turn.webp": turn,
+    }  # fmt: skip
     pictures = draw(wanted, THICKNESS)
     if not pictures.paths:
         assert "libegl1" in pictures.reason
     else:
         assert pictures.paths == tuple(wanted)
-        assert all(path.read_bytes().startswith(b"\x89PNG") for path in wanted)
+        assert all(path.read_bytes().startswith(b"\x89PNG") for path in wanted if path.suffix == ".png")
+        assert Image.open(tmp_path / "turn.webp").n_frames == 2
         assert pictures.reason == ""
 
 
 def test_a_child_that_dies_is_told_with_its_signal_and_remedy(film, tmp_path):
     half = (
-        "import json, os, signal, sys; open(list(json.loads(sys.argv[-1]))[0], 'wb').write(b'half'); "
+        "import json, os, signal, sys; open(list(json.load(sys.stdin))[0], 'wb').write(b'half'); "
         "os.kill(os.getpid(), signal.SIGSEGV)"
     )
-    picture = draw({tmp_path / "film.png": [film]}, child=child(half))
+    picture = draw({tmp_path / "film.png": [Frame([film])]}, child=child(half))
     assert picture.paths == ()
     for word in ("SIGSEGV", "libegl1", "libgl1-mesa-dri"):
         assert word in picture.reason
@@ -50,16 +56,16 @@ def test_a_child_that_dies_is_told_with_its_signal_and_remedy(film, tmp_path):
 
 
 def test_a_child_that_hangs_is_ended(film, tmp_path):
-    picture = draw({tmp_path / "film.png": [film]}, patience=0.5, child=child("import time; time.sleep(60)"))
+    picture = draw({tmp_path / "film.png": [Frame([film])]}, patience=0.5, child=child("import time; time.sleep(60)"))
     assert picture.paths == ()
     assert "longer than 0.5 s" in picture.reason
 
 
 def test_a_child_that_fails_is_quoted(film, tmp_path):
-    picture = draw({tmp_path / "film.png": [film]}, child=child("raise SystemExit('no such field')"))
+    picture = draw({tmp_path / "film.png": [Frame([film])]}, child=child("raise SystemExit('no such field')"))
     assert picture.paths == ()
     assert "no such field" in picture.reason
 
 
 def test_a_child_that_ends_well_without_a_picture_is_no_success(film, tmp_path):
-    assert draw({tmp_path / "film.png": [film]}, child=child("pass")).paths == ()
+    assert draw({tmp_path / "film.png": [Frame([film])]}, child=child("pass")).paths == ()

@@ -68,7 +68,7 @@ def test_results_and_fields_for_paraview_hold_the_oils_state(run):
         viscosity, resting * np.exp(BARUS * (pressure - CASE)), rtol=0.02
     )  # between a cell's points
     mesh = pyvista.read(next((run / "fields").glob("slipper_*.vtu")))
-    assert {"film_pressure", "film_thickness", "film_viscosity"} <= set(mesh.point_data)
+    assert {"film_pressure [Pa]", "film_thickness [m]", "film_viscosity [Pa s]"} <= set(mesh.point_data)
 
 
 def test_oil_of_a_cold_film_has_the_cases_state():

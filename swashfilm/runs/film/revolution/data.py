@@ -30,6 +30,16 @@ POSITIONS = {
     Gap.VALVE_PLATE: ("film_thickness_on_axis", "rise_x", "rise_y"),
 }
 """Names of a gap's coordinates, m; rises at the outer radius of the last land."""
+PLACES = {
+    Gap.PISTON: ("least_film_around", "least_film_along"),
+    Gap.SLIPPER: ("least_film_around", "least_film_radius"),
+    Gap.VALVE_PLATE: ("least_film_around", "least_film_radius"),
+}
+"""Names of the place where a gap's film is thinnest: angle around, rad, and along the bore or from the middle, m.
+
+Around: of a piston from the inner dead centre's side, of a slipper from the plate's steepest line, of the block
+from the inner dead centre; along: from the guide's inner end.
+"""
 PISTON_END = ("eccentricity_x_end", "eccentricity_y_end")
 """Eccentricity of the piston's axis at the inner end of its film, m."""
 
@@ -52,6 +62,8 @@ SHOWN = {
     "N": Shown("N"), "Pa": Shown("MPa", 1e-6), "K": Shown("degC", 1.0, 273.15), "1": Shown("-"),
 }  # fmt: skip
 """Units in tables and pictures by SI unit."""
+SHOWN_PLACE = {"m": Shown("mm", 1e3), "rad": Shown("deg", 180.0 / np.pi)}
+"""The same of places in a film."""
 Instant = GapInstant[Any]
 
 
@@ -87,6 +99,8 @@ def revolution_dataset(study: RevolutionStudy) -> xarray.Dataset:
     numbers |= {name: ([one.value(at) for at in instants], one.unit) for name, one in SERIES.items()}
     if study.case.gap is Gap.PISTON:
         numbers |= {name: (values, "m") for name, values in zip(PISTON_END, piston_end(study), strict=True)}
+    where = zip(PLACES[study.case.gap], thinnest(study), ("rad", "m"), strict=True)
+    numbers |= {name: (values, unit) for name, values, unit in where}
     numbers |= {
         "tilt": (tilt(study), "rad"),
         "friction_power": ([friction_power(study, at.report) for at in instants], "W"),
@@ -120,6 +134,22 @@ def _walls(study: RevolutionStudy) -> dict[str, float]:
     if warmth is None:
         return {}
     return {f"{wall}_wall_temperature_K": float(at) for wall, at in zip(("fixed", "moving"), warmth.walls, strict=True)}
+
+
+def thinnest(study: RevolutionStudy) -> tuple[Array, Array]:
+    """Return the places (n,) rad and (n,) m of the least film, see `PLACES`."""
+    x, y = np.array([instant.thinnest for instant in study.revolution.turn.instants]).T
+    if study.case.gap is Gap.PISTON:
+        return 2.0 * x / study.case.rotor.pump.pump.piston_diameter, y
+    if study.case.gap is Gap.VALVE_PLATE:
+        x, y, _ = study.case.rotor.pump.valve_plate.sphere.place(x, y)
+    return np.arctan2(y, x) % (2.0 * np.pi), np.hypot(x, y)
+
+
+def how_shown(data: xarray.Dataset, name: str) -> Shown:
+    """Return the customary unit of a series."""
+    places = PLACES[Gap(data.attrs["gap"])]
+    return (SHOWN_PLACE if name in places else SHOWN)[data[name].attrs["units"]]
 
 
 def piston_end(study: RevolutionStudy) -> Array:
@@ -161,7 +191,7 @@ def write_series(path: Path, data: xarray.Dataset) -> None:
     """Write a CSV of the series: one line per shaft angle, units in the heads; `active` names the limits."""
     names = [str(name) for name in data.data_vars if data[name].dims == ("shaft_angle",)]
     numbers = [name for name in names if not name.startswith("active_")]
-    shown = {name: SHOWN[data[name].attrs["units"]] for name in numbers}
+    shown = {name: how_shown(data, name) for name in numbers}
     columns = [np.degrees(data["shaft_angle"].values), *(how.of(data[name].values) for name, how in shown.items())]
     active = {kind.value: data[f"active_{kind.value}"].values for kind in Active}
     rows = [
@@ -192,6 +222,6 @@ def write_revolution_fields(folder: Path, study: RevolutionStudy) -> None:
     for k, (angle, film) in enumerate(study.revolution.turn.films.items()):
         name = f"{FIELDS}/{vtu_name(gap, k)}"
         place = place_of(study.case.gap, study.case.rotor, study.parts, angle)
-        write_vtu(folder / name, film, place, None if warm is None else {"film_temperature": warm[k]})
+        write_vtu(folder / name, film, place, None if warm is None else {"film_temperature": (warm[k], "K")})
         entries.append((float(np.degrees(angle)), 0, name))
     write_pvd(folder / f"{gap}.pvd", entries)

@@ -9,14 +9,14 @@ import numpy as np
 from gaps.films.reports import Active
 from swashfilm.output.field_maps import draw_map
 from swashfilm.output.figures import figure_of
-from swashfilm.runs.film.revolution.data import PISTON_END, POSITIONS, SHOWN
+from swashfilm.runs.film.revolution.data import PISTON_END, PLACES, POSITIONS, SHOWN, how_shown
 from system.description.gap import Gap
 
 if TYPE_CHECKING:
     import xarray
     from matplotlib.figure import Figure
 
-EDGES = (0.15, 0.85)  # of the span; beyond, a label is beside its point
+WHOLE = 359.0  # deg; shorter spans are a pitch
 THINNEST = 0.01  # um; a thinner film has no figures in its label
 MAPS = 4  # kept films shown as maps
 TEMPERATURE = "film_temperature"
@@ -28,6 +28,10 @@ MAPPED = {
 LEAST_SHOWN = {"contact_load": 1.0, "cavitated_area_fraction": 0.01, "film_pressure_max": 0.1}
 """Least upper ends of axes, so that negligible values look negligible."""
 INK, FILM, SECOND, THIRD = "#1c2328", "#3c7a8c", "#b8862b", "#8c5a3c"
+PLACED = {
+    Gap.PISTON: "from the guide's inner end", Gap.SLIPPER: "from the middle", Gap.VALVE_PLATE: "from the shaft's axis",
+}  # fmt: skip
+"""Meaning of the second coordinate of a place."""
 BANDS = {
     Active.CONTACT: "#b33a3a", Active.CAVITATION: "#7fb2d6", Active.RETAINER: "#b8862b", Active.LIFT: "#5b9a5b",
 }  # fmt: skip
@@ -54,25 +58,36 @@ def film_text(thickness: float) -> str:
     return f"{thickness:.3g} um" if thickness >= THINNEST else f"under {THINNEST:g} um"
 
 
+def place_text(data: xarray.Dataset, k: int) -> str:
+    """Return the place of the least film at the k-th reported angle in words."""
+    around, along = (float(how_shown(data, name).of(data[name].values[k])) for name in PLACES[Gap(data.attrs["gap"])])
+    return f"{around:.0f} deg around, {along:.1f} mm {PLACED[Gap(data.attrs['gap'])]}"
+
+
 def film_plot(data: xarray.Dataset) -> Figure:
-    """Draw least and mean film (um) over the shaft angle with chamber pressure, and the limits of the film."""
-    figure = figure_of(9.0, 4.6)
-    axes, bands = figure.subplots(2, 1, sharex=True, height_ratios=(5, 1))
+    """Draw least and mean film (um), largest and chamber pressure (MPa), and the limits of the film over the angle.
+
+    The least film of the turn is marked with its angle and its place.
+    """
+    figure = figure_of(9.0, 6.2)
+    axes, pressures, bands = figure.subplots(3, 1, sharex=True, height_ratios=(5, 3, 1))
     angle = degrees(data)
     least, mean = (shown(data, name) for name in ("film_thickness_min", "film_thickness_mean"))
     axes.fill_between(angle, least, mean, color=FILM, alpha=0.2, linewidth=0.0)
     axes.plot(angle, mean, color=FILM, label="mean film")
     axes.plot(angle, least, color=INK, label="least film")
-    at = int(np.argmin(least))
+    at = int(np.argmin(least[1:])) + 1  # the first is the last
     axes.plot(angle[at], least[at], "v", color=INK)
-    side = ("left", "center", "right")[np.searchsorted(EDGES, angle[at] / span(data))]
-    axes.annotate(f"{film_text(least[at])} at {angle[at]:.0f} deg", (angle[at], least[at]), (0, 8), ha=side,
-                  fontsize=8, textcoords="offset points")  # fmt: skip
+    marked = f"{film_text(least[at])} at {angle[at]:.0f} deg of the shaft; {place_text(data, at - 1)}"
+    axes.set_title(f"least film (triangle): {marked}", loc="left", fontsize=9)
     axes.set(ylabel="film / um", ylim=(0.0, None))
-    beside = axes.twinx()
-    beside.plot(angle, shown(data, "chamber_pressure"), color=SECOND, linewidth=0.9, linestyle="--")
-    beside.set_ylabel("chamber pressure, gauge / MPa", color=SECOND)
-    figure.legend(loc="outside upper right", fontsize=8, ncols=2)
+    chamber, name = shown(data, "chamber_pressure"), "chamber pressure"
+    if span(data) < WHOLE:
+        chamber[0], name = np.nan, "pressure of chamber 1"  # after a pitch another one is in its place
+    pressures.plot(angle, shown(data, "film_pressure_max"), color=THIRD, label="largest film pressure")
+    pressures.plot(angle, chamber, color=SECOND, linestyle="--", label=name)
+    pressures.set(ylabel="pressure, gauge / MPa", ylim=(min(0.0, float(np.nanmin(chamber))), None))
+    figure.legend(loc="outside upper right", fontsize=8, ncols=4)
     draw_bands(bands, data)
     bands.set(xlabel="shaft angle from inner dead centre / deg", xlim=(0.0, span(data)))
     return figure

@@ -39,7 +39,7 @@ from reynolds import (
     winkler,
 )
 from reynolds.bodies.compliance import ElasticWalls
-from reynolds.equation.rough_overlap import as_shaped
+from reynolds.equation.rough_overlap import as_shaped, vertex_thickness
 
 LENGTH, WIDE, VISCOSITY, STIFFNESS = 10e-3, 2.5e-3, 0.03, 1e13
 HIGH, LOW = 30e6, 5e6
@@ -130,6 +130,16 @@ def test_rough_plate_rests_on_springs(surface, validation):
     assert stage.contact_force[0] == pytest.approx(pressed * LENGTH * WIDE, rel=1e-6)
     assert stage.solution.problem.walls is None
     assert stage.solution.film.thickness.min() > 0.0
+
+
+def test_a_stage_tells_how_its_walls_deform():
+    """Springs side by side give way by p/k, which its film of that shape between rigid walls already has."""
+    space = channel(16)
+    stage = at_rest(plate(space, winkler(space, STIFFNESS), (HIGH, LOW), lambda t: 19e6 * LENGTH * WIDE), space, 3e-6)
+    gives = stage.solution.pressure[space.vertex_dofs] / STIFFNESS
+    assert stage.deformation == pytest.approx(gives, rel=1e-6)
+    assert vertex_thickness(stage.solution) == pytest.approx(stage.q[0] + gives, rel=1e-6)
+    assert not stage.solution.deformation.any()
 
 
 def turned(load: float, asperities: Asperities | None) -> tuple[FilmSpace, list[FloatingStage]]:

@@ -1,24 +1,26 @@
-"""Films of a pump for ParaView: surfaces in their position in the pump, series over the shaft angle."""
+"""Films of a pump at given positions for ParaView: surfaces in the pump, series over the shaft angle."""
 
 from pathlib import Path
 
 import numpy as np
 
+from gaps.films.over_turn import TURN, PeriodicCurve
 from gaps.standing.gap_film import GapFilm
 from reynolds.solve.export import write_pvd, write_vtu
 from swashfilm.output.gap_names import FIELDS, vtu_name
 from swashfilm.runs.pump.data import GAPS
-from swashfilm.runs.pump.oil_fields import oil_state
+from swashfilm.runs.pump.oil_fields import UNITS, oil_state
+from swashfilm.runs.pump.scene.blocks import Blocks, ChamberKind, Scene, write_pump
 from system.description.gap import Gap
 from system.films.places import place_of
 from system.points.films import FilmsPoint
 
 
-def write_fields(folder: Path, films: FilmsPoint) -> None:
-    """Write fields/*.vtu and, beside them, piston.pvd, slipper.pvd, valve_plate.pvd and pump.pvd.
+def write_fields(folder: Path, films: FilmsPoint) -> tuple[Blocks, ...]:
+    """Write fields/*.vtu with piston.pvd, slipper.pvd, valve_plate.pvd, and the whole pump (`write_pump`).
 
     A gap's PVD follows one piston or slipper, or the valve plate's ring, over the turn (time = shaft angle in
-    degrees); pump.pvd shows all of them. All pistons repeat one piston at shifted angles and share its files.
+    degrees). Returns the blocks of the pump at each angle.
     """
     place = folder / FIELDS
     place.mkdir()
@@ -31,8 +33,21 @@ def write_fields(folder: Path, films: FilmsPoint) -> None:
         for k, film in enumerate(films_of_gap):
             at = place_of(gap, films.rotor, films.parts, films.gaps.shaft_angle[k])
             oil = oil_state(films.rotor.pump, getattr(films.physics, gap.value), film.solution, viscosity)
-            write_vtu(place / vtu_name(gap.value, k), film.solution, at, oil)
+            heads = {name: (values, UNITS[name]) for name, values in oil.items()}
+            write_vtu(place / vtu_name(gap.value, k), film.solution, at, heads)
     _write_series(folder, films)
+    return write_pump(folder, films_scene(films))
+
+
+def films_scene(films: FilmsPoint) -> Scene:
+    """Return the pump over the turn: all chambers alike, the block's films over a pitch."""
+    at = films.gaps
+    pressure = PeriodicCurve(at.shaft_angle, at.chamber_pressure)
+    pistons = tuple(range(films.rotor.pump.pump.pistons))
+    kind = ChamberKind(
+        "", pistons, films.rotor, films.parts, at.shaft_angle, at.shaft_angle, lambda a: float(pressure(a))
+    )
+    return Scene((kind,), at.shaft_angle[: len(at.valve_plate)], TURN / len(pistons))
 
 
 def _write_series(folder: Path, films: FilmsPoint) -> None:
@@ -44,9 +59,3 @@ def _write_series(folder: Path, films: FilmsPoint) -> None:
     }
     for gap in GAPS:
         write_pvd(folder / f"{gap}.pvd", [(degrees[k], 0, names[gap][k]) for k in range(count)])
-    whole = []
-    for k in range(count):
-        chambers = [(k + shift) % count for shift in range(0, count, positions)]
-        parts = [names["valve_plate"][k], *(names[gap][j] for gap in ("piston", "slipper") for j in chambers)]
-        whole += [(degrees[k], part, name) for part, name in enumerate(parts)]
-    write_pvd(folder / "pump.pvd", whole)

@@ -1,0 +1,1 @@
+"""The whole pump in space: solids of its parts with the films on them, as blocks for ParaView and for pictures."""
