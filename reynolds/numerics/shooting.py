@@ -19,6 +19,7 @@ from reynolds.numerics.arrays import Array
 
 MOST_TURNS = 30
 MOST_DOUBLINGS = 40  # of the linearised turns taken at once: 1e12 of them
+CIRCLING = 0.999  # magnitude of a multiplier from which turns hardly come nearer: round-off decides whether they do
 INWARDS = 3.0  # times the reach, for a start inside the circles that turns draw
 RETREAT = 0.25  # of the reach, after a step too far
 
@@ -136,10 +137,10 @@ def _too_far(last_start: Array, last: Turn, start: Array, turn: Turn) -> bool:
 
 
 def _circles(slopes: Array) -> bool:
-    """True if turns lead round and away from a periodic motion, none straight away: Newton's step leads to it."""
+    """True if turns lead round a periodic motion and not to it, none straight away: Newton's step leads to it."""
     multipliers = np.linalg.eigvals(slopes)
-    straight = multipliers.real - 1.0 >= np.abs(multipliers.imag)
-    return bool(np.abs(multipliers).max() >= 1.0 and not straight.any())
+    leading = multipliers[np.abs(multipliers) >= CIRCLING]
+    return bool(len(leading) and np.all(np.abs(leading.imag) > np.abs(leading.real - 1.0)))
 
 
 def _next(start: Array, turn: Turn, share: float) -> Array:
