@@ -10,16 +10,16 @@ from swashfilm.console.fidelity import Fidelity
 from swashfilm.console.inputs import option_value
 from system.description.pump import SINGLE_PARTS, PumpDescription
 from system.inputs.faults import Fault
-from system.points.floating_gaps import FloatingOptions
+from system.points.floating_gaps import FloatingOptions, usual_options
 from system.pump.chamber_kinds import kinds
 
 ALIKE = "identical chambers; with differing ones: swashfilm run with --fidelity lumped or floating"
 FEWEST_STEPS, MOST_STEPS = 24, 7200
 
 
-def floating_options(options: argparse.Namespace) -> FloatingOptions:
-    """Return the options of the floating gaps by a command line without faults; defaults where it states none."""
-    usual = FloatingOptions()
+def floating_options(options: argparse.Namespace, pump: PumpDescription) -> FloatingOptions:
+    """Return the options of the floating gaps by a command line without faults; the pump's where it states none."""
+    usual = usual_options(pump.pump.pistons)
     steps = usual.steps if options.steps is None else int(options.steps)
     physics = usual.physics.without(*effects_of(switched_keys(options)))
     finer = usual.finer if options.finer is None else float(options.finer)

@@ -35,7 +35,7 @@ from system.points.floating_exchange import (
     spin_torques,
     with_floating_gaps,
 )
-from system.points.floating_gaps import FloatingOptions
+from system.points.floating_gaps import FloatingOptions, usual_options
 from system.points.floating_kinds import (
     Group,
     RoundDrives,
@@ -139,7 +139,7 @@ def floating_point(
     where a film does not, ValueError for steps that do not divide among the pistons, InputError for a film that
     warmth closes.
     """
-    options = options or FloatingOptions()
+    options = options or usual_options(pump.pump.pistons)
     group, asked = _beginning(pump, point, options)
     left = at_the_ports(point, group.by_chamber)
     gaps: tuple[FloatingGaps, ...] | None = None

@@ -90,6 +90,12 @@ class FloatingOptions:
         return max(least, round(self.finer * cells[0])), max(least, round(self.finer * cells[1]))
 
 
+def usual_options(pistons: int) -> FloatingOptions:
+    """Options of a pump where nothing else is stated: steps near the usual that divide among its pistons."""
+    usual = FloatingOptions()
+    return replace(usual, steps=round(usual.steps / pistons) * pistons)
+
+
 def piston_revolution(
     rotor: Rotor,
     parts: FloatingParts,

@@ -19,7 +19,7 @@ from system.inputs.sections.reader import table_section
 from system.inputs.sections.writer import section_rows
 from system.inputs.toml_table import Table, quoted
 from system.points.film_effects import floating_effects
-from system.points.floating_gaps import MARCHED, FloatingOptions
+from system.points.floating_gaps import MARCHED, FloatingOptions, usual_options
 
 FILMS, RING_FILMS = 36, 180  # kept films of a turn; those of the valve plate repeat with the pitch
 MOST = 7200  # steps or films of a turn
@@ -30,7 +30,7 @@ FINER = (0.25, 8.0)
 class RevolutionSection(SwitchesSection):
     """[revolution]: steps, accuracy, mesh and physics of a gap over the turn."""
 
-    steps: Annotated[int, Limits(least=24, most=MOST)] = 360  # of a turn
+    steps: Annotated[int, Limits(least=24, most=MOST)] | None = None  # of a turn
     tolerance: Annotated[float, Limits(above=0.0, most=0.1)] = MARCHED.step  # error of a step over the least film
     finer: Annotated[float, Limits(least=FINER[0], most=FINER[1])] | None = None  # times the usual cells each way
     films: Annotated[int, Limits(least=1, most=MOST)] | None = None  # kept of a turn
@@ -79,8 +79,8 @@ class RevolutionCase:
 def read_revolution_case(name: str, text: str, top: Table, film: Table, folder: Path) -> RevolutionCase | None:
     """Return the case of a file whose [film] has `gap` and `revolution = true`; None with its faults listed.
 
-    Defaults: the pump's operating point, the lumped cycle of its chamber, all physics, 360 steps per turn. Films solve
-    what the pump's [physics] states of them.
+    Defaults: the pump's operating point, the lumped cycle of its chamber, all physics, 360 steps per turn
+    (or the nearest number that divides among the pistons). Films solve what the pump's [physics] states of them.
     """
     gap = film.choice("gap", Gap)
     if film.get("revolution") is not True:
@@ -115,10 +115,11 @@ def _options(top: Table, gap: Gap | None, pump: CasePump | None) -> FloatingOpti
     stated = table_section(top, "revolution", RevolutionSection, left_out=True)
     if stated is None:
         return None
-    usual = FloatingOptions()
-    steps, ring, physics = stated.steps, gap is Gap.VALVE_PLATE, stated.physics(usual.physics)
-    finer = usual.finer if stated.finer is None else stated.finer
     pistons = pump.rotor.pump.pump.pistons if pump else 1
+    usual, ring = usual_options(pistons), gap is Gap.VALVE_PLATE
+    physics = stated.physics(usual.physics)
+    finer = usual.finer if stated.finer is None else stated.finer
+    steps = usual.steps if stated.steps is None else stated.steps
     if ring and steps % pistons:
         nearest = max(1, round(steps / pistons)) * pistons
         top.fault("revolution.steps", str(steps), f"a multiple of the {pistons} pistons", str(nearest))

@@ -52,7 +52,9 @@ def add_map_options(command: argparse.ArgumentParser) -> None:
     )  # fmt: skip
     command.add_argument("--table", type=Path, metavar="FILE.json", help="--fidelity table: file of the table")
     command.add_argument("--direct", action="store_true", help="--fidelity fixed, floating: solve each point, no table")
-    command.add_argument("--steps", metavar="N", help="floating gaps: reported angles per turn (360)")
+    command.add_argument(
+        "--steps", metavar="N", help="floating gaps: angles per turn, a multiple of the pistons (about 360)"
+    )
     command.add_argument("--finer", metavar="X", help="floating gaps: factor on the cells (.5)")
     add_switches(command)
     command.add_argument("--check", metavar="N", help="fresh points that measure the error between levels (40)")
@@ -125,7 +127,7 @@ def map_case(options: argparse.Namespace) -> MapCase:
     checks = None if options.check is None else int(options.check)
     fidelity = Fidelity(options.fidelity)
     given = given_text(options.pump, {})
-    floating = floating_options(options)
+    floating = floating_options(options, pump)
     return MapCase(plan, fidelity, given, options.table, options.direct, checks, options.resume, floating)
 
 

@@ -44,7 +44,9 @@ def add_run_options(command: argparse.ArgumentParser) -> None:
     command.add_argument("--fidelity", metavar=metavar, default=Fidelity.FLOATING.value, help=what)
     what = "response table in place of the stored one of this pump"
     command.add_argument("--table", type=Path, metavar="FILE.json", help=what)
-    command.add_argument("--steps", metavar="N", help="floating gaps: reported angles per turn (360)")
+    command.add_argument(
+        "--steps", metavar="N", help="floating gaps: angles per turn, a multiple of the pistons (about 360)"
+    )
     command.add_argument("--finer", metavar="X", help="floating gaps: factor on the cells each way (.5)")
     what = "floating gaps: solve N times, cells, angles and steps each twice finer; report order and limit"
     command.add_argument("--refine", metavar="N", help=what)
@@ -102,7 +104,7 @@ def pump_case(options: argparse.Namespace) -> PumpCase:
     if faults:
         raise InputFaults(COMMAND_LINE, faults)
     given, fidelity = given_text(options.pump, stated), Fidelity(options.fidelity)
-    return PumpCase(pump, given, fidelity, options.table, floating_options(options), cores() > 1, levels)
+    return PumpCase(pump, given, fidelity, options.table, floating_options(options, pump), cores() > 1, levels)
 
 
 def pump_faults(options: argparse.Namespace, words: Sequence[str]) -> list[Fault]:

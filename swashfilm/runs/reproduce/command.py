@@ -39,7 +39,9 @@ def add_reproduce_options(command: argparse.ArgumentParser) -> None:
     )  # fmt: skip
     command.add_argument("--page", type=Path, metavar="FILE.md", help="write the page to this file as Markdown too")
     command.add_argument("--workers", metavar="N", help="processes that solve points side by side (1)")
-    command.add_argument("--steps", metavar="N", help="floating gaps: reported angles per turn (360)")
+    command.add_argument(
+        "--steps", metavar="N", help="floating gaps: angles per turn, a multiple of the pistons (about 360)"
+    )
     command.add_argument("--finer", metavar="X", help="floating gaps: factor on the cells (.5)")
     add_switches(command)
 
@@ -106,7 +108,7 @@ def reproduce_case(options: argparse.Namespace) -> tuple[ReproduceCase, int]:
         raise InputFaults(COMMAND_LINE, faults)
     fidelity, recording = PaperFidelity(options.fidelity), _recording_of(options)
     figures = tuple(Figure) if options.figure == ALL else tuple(map(Figure.named, _named(options)))
-    asked = ReproduceCase(pump, figures, fidelity, floating_options(options), recording)
+    asked = ReproduceCase(pump, figures, fidelity, floating_options(options, pump), recording)
     return asked, int(options.workers or 1)
 
 

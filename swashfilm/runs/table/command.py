@@ -54,7 +54,9 @@ def add_table_options(command: argparse.ArgumentParser) -> None:
     command.add_argument(
         "--source", metavar="{fixed,floating}", default=_SOURCE, help="fidelity of the solved points (fixed)"
     )
-    command.add_argument("--steps", metavar="N", help="floating gaps: steps per turn (360)")
+    command.add_argument(
+        "--steps", metavar="N", help="floating gaps: angles per turn, a multiple of the pistons (about 360)"
+    )
     command.add_argument("--finer", metavar="X", help="floating gaps: factor on the cells (.5)")
     add_switches(command)
     command.add_argument(
@@ -150,7 +152,7 @@ def _case(options: argparse.Namespace) -> tuple[TableCase, int]:
     pump = _pump(options, faults, single)
     if faults := [*floating_faults(options, pump, options.source, "--source"), *alike_faults(pump)]:
         raise InputFaults(COMMAND_LINE, faults)
-    solver = table_sources.solver_of(Source(options.source), floating_options(options))
+    solver = table_sources.solver_of(Source(options.source), floating_options(options, pump))
     held = [name for name, option in zip(INPUTS, RANGES, strict=True) if option in single]
     speeds, pressures, ratios, temperatures = ranges
     axes = table_axes(pump, speeds, pressures, ratios, temperatures, held)

@@ -1,5 +1,7 @@
 """`swashfilm run --fidelity floating`: what the command line may say of gaps that float."""
 
+from dataclasses import replace
+
 import pytest
 
 from gaps import Effect
@@ -39,18 +41,20 @@ def test_bad_options_end_with_2_and_say_what_to_do(words, told, capsys, tmp_path
 
 def test_options_of_the_command_line():
     """All physics goes by switches, oil that stiffens with elastic walls; fewer steps keep as many films."""
-    usual = FloatingOptions()
+    usual, pump = FloatingOptions(), load_pump("ref90")
     words = [*FLOATING, "--rigid", "--isothermal", "--smooth", "--no-cavitation", "--steps", "72", "--finer", "2"]
     given = build_parser().parse_args(words)
-    assert floating_faults(given, load_pump("ref90"), given.fidelity) == []
-    found = floating_options(given)
+    assert floating_faults(given, pump, given.fidelity) == []
+    found = floating_options(given, pump)
     assert found.physics.left_out == tuple(Effect)
-    rigid = floating_options(build_parser().parse_args([*FLOATING, "--rigid"]))
+    rigid = floating_options(build_parser().parse_args([*FLOATING, "--rigid"]), pump)
     assert rigid.physics.left_out == (Effect.PRESSURE_VISCOSITY, Effect.ELASTIC_WALLS)
     assert (found.steps, found.keep) == (72, usual.keep * 72 // usual.steps)
     assert found.piston_cells == tuple(4 * cells for cells in usual.piston_cells)
-    assert floating_options(build_parser().parse_args(FLOATING)) == usual
+    assert floating_options(build_parser().parse_args(FLOATING), pump) == usual
     assert usual.physics.left_out == ()
+    seven = replace(pump, pump=replace(pump.pump, pistons=7))
+    assert floating_options(build_parser().parse_args(FLOATING), seven).steps == 357
 
 
 def test_physics_is_told_with_its_switches_and_what_it_took():
