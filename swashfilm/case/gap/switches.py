@@ -24,6 +24,14 @@ def add_switches(command: argparse.ArgumentParser) -> None:
         command.add_argument(switch, action="store_true", help=f"floating gaps: {what}")
 
 
+def add_floating_options(command: argparse.ArgumentParser) -> None:
+    """Add angles, cells and switches of floating gaps to a command."""
+    what = "floating gaps: angles per turn, a multiple of the pistons (about 360)"
+    command.add_argument("--steps", metavar="N", help=what)
+    command.add_argument("--finer", metavar="X", help="floating gaps: factor on the cells each way (.5)")
+    add_switches(command)
+
+
 def switched_keys(options: argparse.Namespace) -> dict[str, str]:
     """Return the keys of `physics.SwitchesSection` that the command line sets, such as `walls` to "rigid".
 

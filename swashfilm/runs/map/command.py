@@ -8,7 +8,7 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from swashfilm.case.gap.switches import add_switches
+from swashfilm.case.gap.switches import add_floating_options
 from swashfilm.console.command import Command
 from swashfilm.console.fidelity import Fidelity
 from swashfilm.console.inputs import COMMAND_LINE, expect, given_text, option_value
@@ -52,11 +52,7 @@ def add_map_options(command: argparse.ArgumentParser) -> None:
     )  # fmt: skip
     command.add_argument("--table", type=Path, metavar="FILE.json", help="--fidelity table: file of the table")
     command.add_argument("--direct", action="store_true", help="--fidelity fixed, floating: solve each point, no table")
-    command.add_argument(
-        "--steps", metavar="N", help="floating gaps: angles per turn, a multiple of the pistons (about 360)"
-    )
-    command.add_argument("--finer", metavar="X", help="floating gaps: factor on the cells (.5)")
-    add_switches(command)
+    add_floating_options(command)
     command.add_argument("--check", metavar="N", help="fresh points that measure the error between levels (40)")
     command.add_argument("--workers", metavar="N", help="processes that solve points side by side (all cores)")
     command.add_argument("--cluster", metavar="ADDRESS", help="Dask scheduler; its workers solve points")

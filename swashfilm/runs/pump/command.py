@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from swashfilm.case.gap.switches import add_switches
+from swashfilm.case.gap.switches import add_floating_options
 from swashfilm.console.command import Command
 from swashfilm.console.fidelity import Fidelity
 from swashfilm.console.inputs import COMMAND_LINE, expect, given_text, option_value, whole
@@ -44,15 +44,11 @@ def add_run_options(command: argparse.ArgumentParser) -> None:
     command.add_argument("--fidelity", metavar=metavar, default=Fidelity.FLOATING.value, help=what)
     what = "response table in place of the stored one of this pump"
     command.add_argument("--table", type=Path, metavar="FILE.json", help=what)
-    command.add_argument(
-        "--steps", metavar="N", help="floating gaps: angles per turn, a multiple of the pistons (about 360)"
-    )
-    command.add_argument("--finer", metavar="X", help="floating gaps: factor on the cells each way (.5)")
     what = "floating gaps: solve N times, cells, angles and steps each twice finer; report order and limit"
     command.add_argument("--refine", metavar="N", help=what)
     what = "another value of a key of the pump file, such as valve_plate.film_thickness=10um; may be repeated"
     command.add_argument("--set", action="append", default=[], metavar="KEY=VALUE", help=what)
-    add_switches(command)
+    add_floating_options(command)
 
 
 def run_pump_command(options: argparse.Namespace) -> int:

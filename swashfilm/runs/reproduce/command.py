@@ -6,7 +6,7 @@ import argparse
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from swashfilm.case.gap.switches import SWITCHES, add_switches
+from swashfilm.case.gap.switches import SWITCHES, add_floating_options
 from swashfilm.console.command import Command
 from swashfilm.console.inputs import COMMAND_LINE, option_value, whole
 from swashfilm.console.terminal import show, show_result, show_table
@@ -39,11 +39,7 @@ def add_reproduce_options(command: argparse.ArgumentParser) -> None:
     )  # fmt: skip
     command.add_argument("--page", type=Path, metavar="FILE.md", help="write the page to this file as Markdown too")
     command.add_argument("--workers", metavar="N", help="processes that solve points side by side (1)")
-    command.add_argument(
-        "--steps", metavar="N", help="floating gaps: angles per turn, a multiple of the pistons (about 360)"
-    )
-    command.add_argument("--finer", metavar="X", help="floating gaps: factor on the cells (.5)")
-    add_switches(command)
+    add_floating_options(command)
 
 
 def run_reproduce_command(options: argparse.Namespace) -> int:

@@ -9,7 +9,7 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from swashfilm.case.gap.switches import add_switches, switched_keys
+from swashfilm.case.gap.switches import add_floating_options, switched_keys
 from swashfilm.console.command import Command
 from swashfilm.console.inputs import COMMAND_LINE, option_value, whole
 from swashfilm.console.terminal import show_result
@@ -54,11 +54,7 @@ def add_table_options(command: argparse.ArgumentParser) -> None:
     command.add_argument(
         "--source", metavar="{fixed,floating}", default=_SOURCE, help="fidelity of the solved points (fixed)"
     )
-    command.add_argument(
-        "--steps", metavar="N", help="floating gaps: angles per turn, a multiple of the pistons (about 360)"
-    )
-    command.add_argument("--finer", metavar="X", help="floating gaps: factor on the cells (.5)")
-    add_switches(command)
+    add_floating_options(command)
     command.add_argument(
         "--points", metavar="N", help="points to fit, with the corners of the box (120 for four inputs)"
     )
