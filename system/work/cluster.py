@@ -36,6 +36,11 @@ class Cluster:
         """Threads of all workers now: parts done at a time."""
         return max(1, sum(self._client.nthreads().values()))
 
+    @property
+    def here(self) -> bool:
+        """False: workers are anywhere."""
+        return False
+
     def attempts(self, task: Callable[[Part], Result], parts: Sequence[Part]) -> Iterator[Attempt[Part, Result]]:
         """Result of each part, in the order of completion; no part's failure ends the others.
 

@@ -96,15 +96,17 @@ def run_kept(
     under way.
 
     Outcomes in `store` or `earlier` are taken from there. `batch` parts go to a process at a time, as a row where the
-    work has rows. No part's
-    failure ends the others; parts of a batch whose process dies are tried one by one.
+    work has rows; on this machine each is kept as soon as it is solved. No part's failure ends the others; parts of a
+    batch whose process dies are tried one by one.
     """
     found = {index: outcome for index, part in enumerate(parts) if (outcome := _known(work, part, store, earlier))}
     known, todo = len(found), [index for index in range(len(parts)) if index not in found]
     report(0, len(todo), f"{known} points kept" if known else "solving")
-    for index, outcome in _outcomes(work, parts, todo, executor, batch):
+    keeper = store if executor.here else None
+    for index, outcome in _outcomes(work, parts, todo, executor, batch, keeper):
         found[index] = outcome
-        store.put(outcome)
+        if keeper is None:
+            store.put(outcome)
         report(len(found) - known, len(todo), described(parts[index], outcome))
     return KeptOutcomes(tuple(found[index] for index in range(len(parts))), known)
 
@@ -125,24 +127,53 @@ def _known(work: Work[Part], part: Part, store: KeptPoints, earlier: KeptPoints 
 
 
 def _outcomes(
-    work: Work[Part], parts: Sequence[Part], todo: Sequence[int], executor: Executor, batch: int
+    work: Work[Part],
+    parts: Sequence[Part],
+    todo: Sequence[int],
+    executor: Executor,
+    batch: int,
+    keeper: KeptPoints | None,
 ) -> Iterator[tuple[int, PartOutcome]]:
-    """Index and outcome of the parts that are to do, as they are done."""
+    """Index and outcome of the parts that are to do, as they are done and, with a keeper, kept."""
     groups = [[(k, parts[k]) for k in todo[at : at + batch]] for at in range(0, len(todo), batch)]
+    if executor.here and executor.workers == 1:  # in this process, which tells of every part of a row
+        for group in groups:
+            yield from _row(work, keeper, group)
+        return
     again: list[list[tuple[int, Part]]] = []
     for single in (False, True):
-        for attempt in executor.attempts(partial(_done, work), again if single else groups):
+        for attempt in executor.attempts(partial(_done, work, keeper), again if single else groups):
             if attempt.result is not None:
                 yield from attempt.result
             elif isinstance(attempt.fault, WorkerDied) and len(attempt.part) > 1:
                 again.extend([one] for one in attempt.part)
             else:
-                yield from ((index, _lost(attempt.fault)) for index, _ in attempt.part)
+                for index, _ in attempt.part:
+                    lost = _lost(attempt.fault)
+                    if keeper is not None:
+                        keeper.put(lost)
+                    yield index, lost
 
 
-def _done(work: Work[Part], group: list[tuple[int, Part]]) -> list[tuple[int, PartOutcome]]:
+def _done(work: Work[Part], keeper: KeptPoints | None, group: list[tuple[int, Part]]) -> list[tuple[int, PartOutcome]]:
+    return list(_row(work, keeper, group))
+
+
+def _row(
+    work: Work[Part], keeper: KeptPoints | None, group: list[tuple[int, Part]]
+) -> Iterator[tuple[int, PartOutcome]]:
+    """Outcomes of parts one after the other, each kept at once by the keeper, if any.
+
+    What it has of a row whose process died is taken from there.
+    """
     own = work.row() if isinstance(work, WorkInRows) else work
-    return [(index, done_part(own, part)) for index, part in group]
+    for index, part in group:
+        outcome = None if keeper is None else _known(work, part, keeper, None)
+        if outcome is None:
+            outcome = done_part(own, part)
+            if keeper is not None:
+                keeper.put(outcome)
+        yield index, outcome
 
 
 def _lost(fault: Exception | None) -> PartOutcome:

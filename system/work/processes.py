@@ -44,6 +44,11 @@ class ProcessPool:
         self.workers = workers
         self._pool: ProcessPoolExecutor | None = None
 
+    @property
+    def here(self) -> bool:
+        """True: all processes are on this machine."""
+        return True
+
     def do(self, task: Callable[[Part], Result], parts: Sequence[Part]) -> Iterator[Result]:
         """The results of `task` in the order of completion; raises the exception of the first part that fails.
 

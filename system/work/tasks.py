@@ -72,6 +72,10 @@ class Executor(Protocol):
     def workers(self) -> int:
         """Number of parts that run at a time."""
 
+    @property
+    def here(self) -> bool:
+        """True if parts run on this machine, whose files they see."""
+
     def attempts(self, task: Callable[[Part], Result], parts: Sequence[Part]) -> Iterator[Attempt[Part, Result]]:
         """Result of each part, in the order of completion."""
 

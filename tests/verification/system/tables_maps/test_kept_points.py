@@ -120,6 +120,32 @@ def test_a_process_that_dies_costs_its_part_only(solves, tmp_path):
 
 
 @pytest.mark.slow
+@dataclass(frozen=True)
+class InRows(Squares):
+    """Squares done in rows."""
+
+    def row(self):
+        return self
+
+
+@pytest.mark.parametrize("workers", [1, 2])
+def test_a_part_of_a_row_is_kept_before_the_row_ends(solves, tmp_path, workers):
+    """A row whose fourth part kills its process leaves three; alone, a row tells of each part as it is done."""
+    store, told = KeptPoints(tmp_path / "kept"), []
+    work = InRows(solves, kills=3 if workers == 2 else -1)
+    with process_pool(workers) as pool:
+        outcomes = run_kept(work, PARTS, store, pool, batch=4, report=lambda *said: told.append(said[0])).outcomes
+    kept = {part for part in PARTS if store.get(f"square-{part}") is not None}
+    if workers == 1:
+        assert told == list(range(9))
+        assert kept == set(PARTS)
+    else:
+        assert kept == set(PARTS) - {3}
+        assert outcomes[3].status is PartStatus.WORKER_DIED
+        # The first three were kept as they were done; the fourth is tried twice in its row and twice alone.
+        assert [len(list(solves.glob(f"{part}-*"))) for part in range(4)] == [1, 1, 1, 4]
+
+
 def test_do_raises_what_a_part_raised():
     with process_pool(2) as executor:
         with pytest.raises(ZeroDivisionError):
