@@ -95,15 +95,15 @@ def run_kept(
     """Every part's outcome. Each is in `store` as soon as it is known here: an interruption loses only the parts
     under way.
 
-    Outcomes in `store` or `earlier` are taken from there. `batch` parts go to a process at a time, as a row where the
+    Outcomes in `store` or `earlier` are taken from there. At most `batch` parts go to a process at a time, as a row where the
     work has rows; on this machine each is kept as soon as it is solved. No part's failure ends the others; parts of a
     batch whose process dies are tried one by one.
     """
     found = {index: outcome for index, part in enumerate(parts) if (outcome := _known(work, part, store, earlier))}
     known, todo = len(found), [index for index in range(len(parts)) if index not in found]
     report(0, len(todo), f"{known} points kept" if known else "solving")
-    keeper = store if executor.here else None
-    for index, outcome in _outcomes(work, parts, todo, executor, batch, keeper):
+    keeper, shared = store if executor.here else None, max(1, -(-len(todo) // executor.workers))
+    for index, outcome in _outcomes(work, parts, todo, executor, min(batch, shared), keeper):
         found[index] = outcome
         if keeper is None:
             store.put(outcome)

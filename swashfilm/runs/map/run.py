@@ -134,7 +134,7 @@ def _solved(
     order, batch = list(range(len(points))), max(1, round(PART / work.solver.cost))
     if isinstance(work.solver, DirectSolver) and work.solver.solver.source is Source.FLOATING:
         order.sort(key=lambda k: _place_in_rows(points[k]))
-        batch = min(ROW, math.ceil(len(points) / executor.workers))
+        batch = ROW
     kept = run_kept(
         work, [points[k] for k in order], store, executor, earlier=earlier, batch=batch, described=_progress_text,
         report=report,
