@@ -95,9 +95,9 @@ def run_kept(
     """Every part's outcome. Each is in `store` as soon as it is known here: an interruption loses only the parts
     under way.
 
-    Outcomes in `store` or `earlier` are taken from there. At most `batch` parts go to a process at a time, as a row where the
-    work has rows; on this machine each is kept as soon as it is solved. No part's failure ends the others; parts of a
-    batch whose process dies are tried one by one.
+    Outcomes in `store` or `earlier` are taken from there. At most `batch` parts go to a process at a time, as a row
+    where the work has rows; on this machine each is kept as soon as it is solved. No part's failure ends the others;
+    parts of a batch whose process dies are tried one by one.
     """
     found = {index: outcome for index, part in enumerate(parts) if (outcome := _known(work, part, store, earlier))}
     known, todo = len(found), [index for index in range(len(parts)) if index not in found]
