@@ -1,21 +1,26 @@
-"""Time floating gaps over a turn: `python benchmarks/revolution.py [--gap GAP] [--growth] [--save DIR]`.
+"""Time floating gaps over a turn: `python benchmarks/revolution.py [--gap GAP] [--growth] [--before COMMIT] ..`.
 
 Prints for each gap of ref90 at 35 MPa (rigid, isothermal, JFO, rough) what the periodic turn costs (of
 the block the pitch after which all repeats) and where the time goes; with --growth how that grows with reported
 angles, and with the mesh at 72 of them. --save keeps positions and loads of the periodic turn as DIR/<gap>.npz,
-against which a change of the program can be held. Nothing in it runs in parallel; times are those of the process,
+against which a change of the program can be held. --before runs the program of another commit (of this file's history)
+first, with the same pump and meshes. Nothing in it runs in parallel; times are those of the process,
 the first turn of a smaller mesh having compiled everything.
 """
 
 import argparse
 import cProfile
+import os
 import pstats
+import subprocess
+import sys
 import time
 from collections import Counter
 from collections.abc import Callable
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
+from tempfile import TemporaryDirectory
 
 import numpy as np
 from rich.console import Console
@@ -38,7 +43,7 @@ from system.films.rotor import rotor, valve_plate_geometry
 from system.points.floating_gaps import MARCHED
 from system.points.lumped import lumped_point
 from system.pump.operating import operating_point
-from system.pump_file.file import load_pump
+from system.pump_file.file import load_pump, resolved_toml
 
 PUMP, PRESSURE = "ref90", "35 MPa"
 CELLS = {"slipper": (12, 40), "piston": (48, 16), "block": (4, 16)}
@@ -145,6 +150,28 @@ def save(found: GapRevolution[GapReport], file: Path) -> None:
     )
 
 
+def time_before(commit: str, words: list[str]) -> None:
+    """Print the same tables by the program of another commit, in a process of its own."""
+    with TemporaryDirectory() as folder:
+        checkout, pump = Path(folder) / "checkout", Path(folder) / f"{PUMP}.toml"
+        pump.write_text(resolved_toml(load_pump(PUMP)), "utf-8")
+        subprocess.run(["git", "worktree", "add", "--detach", "--quiet", checkout, commit], check=True)
+        run = (
+            "import benchmarks.revolution as old\n"
+            f"old.PUMP, old.CELLS, old.COARSE = {str(pump)!r}, {CELLS!r}, {COARSE!r}\n"
+            "old.main()"
+        )
+        try:
+            subprocess.run(
+                [sys.executable, "-c", run, *words],
+                cwd=checkout,
+                check=True,
+                env=os.environ | {"PYTHONPATH": str(checkout)},
+            )
+        finally:
+            subprocess.run(["git", "worktree", "remove", "--force", checkout], check=True)
+
+
 def main() -> None:
     """Time the gaps named, all without one, and print them."""
     parser = argparse.ArgumentParser(description="Time the floating gaps of a pump over a turn.")
@@ -153,7 +180,11 @@ def main() -> None:
     parser.add_argument("--step", type=float, default=1e-2, help="error a step may make, of the least film")
     parser.add_argument("--growth", action="store_true", help="also other meshes and angles")
     parser.add_argument("--save", type=Path, help="folder for the periodic turns")
+    parser.add_argument("--before", metavar="COMMIT", help="the program of another commit first")
     asked = parser.parse_args()
+    if asked.before:
+        words = [word for gap in asked.gap or () for word in ("--gap", gap)]
+        time_before(asked.before, [*words, "--angles", str(asked.angles), "--step", str(asked.step)])
     gaps, console = asked.gap or list(CELLS), Console()
     costs = Table(title=f"{PUMP} at {PRESSURE}: the periodic turn")
     for head in HEADS:
