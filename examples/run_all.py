@@ -59,6 +59,7 @@ def commands() -> Iterator[list[str]]:
     yield ["swashfilm", "reproduce", "fig13", "--recording", "examples/recordings/paper_points"]
     yield ["examples/own_simulator/valve.py"]
     yield ["examples/hst196/band.py"]
+    yield ["examples/hst196/floating.py", "--rigid"]
 
 
 def run(words: list[str], folder: Path) -> Outcome:

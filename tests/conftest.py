@@ -41,6 +41,7 @@ class Row:
     order: float | None
     note: str
     missed: str
+    discussion: str
 
 
 @dataclass(frozen=True)
@@ -127,7 +128,7 @@ def validation(request: pytest.FixtureRequest) -> Callable[..., None]:
     the literals in the tests with the committed page); what varies goes into `quantity`. `order` is the
     observed order of convergence. `missed="reason"` records an out-of-tolerance result openly instead of
     failing, for a claim that physics contradicts, and fails if the claim is met after all. The chapter is the
-    first line of the test module's docstring.
+    first line of the test module's docstring, the text under its table the module's DISCUSSION, where it has one.
     """
     chapter = (request.module.__doc__ or "").strip().splitlines()[0].rstrip(".")
     rows = request.config.stash[ROWS]
@@ -162,6 +163,7 @@ def validation(request: pytest.FixtureRequest) -> Callable[..., None]:
             None if order is None else float(order),
             note,
             missed,
+            getattr(request.module, "DISCUSSION", ""),
         )
         rows.append(row)
         met = abs(row.obtained - row.expected) <= row.tolerance
@@ -273,8 +275,9 @@ def validation_page(rows: Sequence[Row]) -> str:
         "of convergence observed.",
     ]
     for chapter in dict.fromkeys(row.chapter for row in rows):
-        lines += ["", f"## {chapter}", "", HEADER, RULE]
-        lines += [_line(row) for row in rows if row.chapter == chapter]
+        own = [row for row in rows if row.chapter == chapter]
+        lines += ["", f"## {chapter}", "", HEADER, RULE, *map(_line, own)]
+        lines += [f"\n{text}" for text in dict.fromkeys(row.discussion for row in own) if text]
     missed = [row for row in rows if row.missed]
     if missed:
         lines += ["", "## Missed", ""]

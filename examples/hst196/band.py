@@ -88,7 +88,7 @@ def efficiency(value: Mapping[str, float]) -> float:
 
     `value` holds every column of DRAWING and NOT_GIVEN.
     """
-    pump, motor = (load_pump(PUMP, _machine(value, name)) for name in MACHINES)
+    pump, motor = (load_pump(PUMP, keys_of(value, name)) for name in MACHINES)
     droop = 1.0 - value["swash droop at 35 MPa"] * LOAD
     point = operating_point(pump, displacement_ratio=droop)
     point = replace(point, viscosity=point.viscosity * value["viscosity factor"])
@@ -152,7 +152,7 @@ def _names(unknown: Unknown) -> list[str]:
     return [f"{unknown.name}, {machine}" for machine in MACHINES] if unknown.each else [unknown.name]
 
 
-def _machine(value: Mapping[str, float], machine: str) -> dict[str, object]:
+def keys_of(value: Mapping[str, float], machine: str) -> dict[str, object]:
     """Return keys of the pump file for one of the two machines."""
     piston, bore = value[f"piston diameter, {machine}"], value[f"bore diameter, {machine}"]
     films = {

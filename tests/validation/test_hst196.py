@@ -31,14 +31,40 @@ from system import (
     slipper_revolution,
     valve_plate_conductance,
 )
+from system.points.floating_gaps import block_revolution
 
 PUMP = Path(__file__).resolve().parents[2] / "examples" / "pumps" / "hst196.toml"
 SOURCE = "ivanokhotnikov/effmap, 399 units"
+DISCUSSION = """\
+Floating films do not close the gap between 94.1 % and 88.4 %; they widen it. By
+
+    python examples/hst196/floating.py --isothermal hst196_production_tests.csv
+
+the transmission has 94.26 % with the films given, all unknown values in the middle, and 95.67 % with floating films
+between elastic walls in oil of 60 degC; with --rigid in place of --isothermal 95.33 %. The measured mean lies 5.83,
+7.24 and 6.90 points below. Of the 4.33 points that the machines lose with elastic walls, the oil's compression and the
+ports take 3.71, the droop of the swash plates 0.35 and all six gaps 0.28: pistons 0.34, valve plates 0.04, slippers
+-0.10, since they drag oil in from the case. The films given leak 2.13. Floating films would have to leak more than
+twenty times as much to meet the measurement. So what is left, 7.24 points, is not in the gaps as far as they are known,
+at that temperature. Worn or distorted lands, hotter oil and what the circuit takes (flushing and relief valves, charge
+pump, control) remain. Nothing is given of them.
+
+With all physics the machine does not converge. On the flat valve plate of its file (`swashfilm run
+examples/pumps/hst196.toml --fidelity floating`) the block's film between elastic walls does not settle at 0 s;
+between rigid walls the block lies on its asperities, less than 1 um away. The flat plate is an assumption of that
+file, as is the wavy one of the command above, REF90's. On the wavy plate (the command without an option) the pump's
+slipper fails at 15 deg: its lands lift 117 % of what presses at low pressure, and the film warms beyond the 150 degC
+to which its viscosity holds."""
 
 
 @pytest.fixture(scope="module")
 def band(example: Callable[[str], ModuleType]) -> ModuleType:
     return example("hst196/band.py")
+
+
+@pytest.fixture(scope="module")
+def floating(example: Callable[[str], ModuleType]) -> ModuleType:
+    return example("hst196/floating.py")
 
 
 @pytest.fixture(scope="module")
@@ -155,3 +181,39 @@ def test_band(band, measured, validation):
     parts = band.shares(values, found)
     assert 0.8 < parts.sum() <= 1.0 + 1e-9
     assert found.max() < 1.0
+
+
+@pytest.mark.long
+def test_floating_films_do_not_close_the_gap(band, floating, measured, validation):
+    """Rigid walls; the tolerance is that of the band, whose films are given."""
+    _, found = band.sample(count=64)
+    low, high = 100.0 * np.quantile(found, (0.05, 0.95))
+    floats = floating.floating_losses(RIGID)
+    assert sum(floats.shares.values()) == pytest.approx(1.0 - floats.speed_ratio)
+    validation(
+        case="Hydrostatic transmission HST 196 with floating films, 1780 rpm, 207 against 14 bar",
+        source=SOURCE,
+        quantity="volumetric efficiency",
+        unit="%",
+        expected=100.0 * measured.mean(),
+        obtained=100.0 * floats.speed_ratio,
+        tolerance=0.5 * (high - low),
+        note="losses in % of the pump's flow: "
+        + ", ".join(f"{name} {100.0 * share:.2f}" for name, share in floats.shares.items()),
+        missed="floating films leak less than those given, so that the gap is wider with them; see the text of "
+        "the chapter for what is left",
+    )
+
+
+@pytest.mark.slow
+def test_flat_plate_bears_no_film():
+    """Why the floating machines have a wavy plate: on a flat one the block sinks to its asperities."""
+    pump = load_pump(PUMP)
+    point, parts = operating_point(pump), floating_parts(pump)
+    cycle = lumped_point(pump, point).cycle
+    group = rotor(pump, point)
+    driven = drives(group, parts, cycle.shaft_angle, cycle.pressure, no_rubbing(cycle.shaft_angle.size))
+    options = FloatingOptions(RIGID, steps=36, accuracy=Accuracy(step=3e-2), finer=0.5)
+    turn = block_revolution(group, parts, driven.block, options)
+    assert turn.mean_film < 1e-6
+    assert min(instant.report.contact_load for instant in turn.turn.instants) > 0.0

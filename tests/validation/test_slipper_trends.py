@@ -7,64 +7,19 @@ tolerances.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from functools import cache
 from itertools import pairwise
 
 import numpy as np
 import pytest
+from floating_ref90 import COARSE, At, driven
 
-from gaps import Accuracy, Active, GapRevolution, SlipperReport
-from system import (
-    RIGID,
-    Drives,
-    FloatingOptions,
-    FloatingParts,
-    Rotor,
-    drives,
-    floating_parts,
-    load_pump,
-    lumped_point,
-    no_rubbing,
-    operating_point,
-    rotor,
-    slipper_revolution,
-)
+from gaps import Active, GapRevolution, SlipperReport
+from system import slipper_revolution
 
 PAPER, ESTIMATE = ("Xu, Hu, Zhang and Mao 2017, Fig. 9", "estimates of size, docs/theory.md, Physics left out, as laws")
 PISTONS, LITRES_A_MINUTE = 9, 6e4
-COARSE = FloatingOptions(RIGID, steps=36, accuracy=Accuracy(step=3e-2), finer=0.5)
 COARSE_TORQUE = 0.06  # that coarse the torque is off by so much; films by 2 %
-
-
-@dataclass(frozen=True)
-class At:
-    """An operating point in the units of the paper: MPa, r/min, 1, degC; pressures gauge."""
-
-    pressure: float = 35.0
-    speed: float = 2100.0
-    ratio: float = 1.0
-    temperature: float = 50.0
-    inlet: float = 2.5
-    case: float = 0.15
-
-
-def driven(at: At) -> tuple[Rotor, FloatingParts, Drives]:
-    pump = load_pump(
-        "ref90",
-        {
-            "operating.pressure": f"{at.pressure} MPa",
-            "operating.speed": f"{at.speed} rpm",
-            "operating.displacement_ratio": at.ratio,
-            "operating.temperature": f"{at.temperature} degC",
-            "operating.inlet_pressure": f"{at.inlet} MPa",
-            "operating.case_pressure": f"{at.case} MPa",
-        },
-    )
-    point = operating_point(pump)
-    cycle = lumped_point(pump, point).cycle
-    group, parts = rotor(pump, point), floating_parts(pump)
-    return (group, parts, drives(group, parts, cycle.shaft_angle, cycle.pressure, no_rubbing(cycle.shaft_angle.size)))
 
 
 @cache
