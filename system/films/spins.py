@@ -1,7 +1,9 @@
 """Spins of piston and slipper about their own axes: stated, or free between ball joint and films."""
 
+from __future__ import annotations
+
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -15,6 +17,7 @@ from system.pump.lumped import piston_area, piston_stand_out
 from system.pump.operating import OperatingPoint
 
 FLATTEST = 0.1  # of the estimated drag: the least change of a film's torque with spin
+NEAREST = 0.5  # of a spin: less is left only where the line through rest says so
 REMEMBERED = 5  # rounds, whose films set the next spins
 ESTIMATED = 36  # shaft angles at which the joint's axes swing before films are solved
 
@@ -33,12 +36,14 @@ class SpinTorques:
     both films, and torques (N m) of the films on parts without spin.
 
     tried: the films of the last rounds at this point, the latest last; empty: estimated, or films of another point.
+    careful: the same by lines through rest, for spins that `drags` lead far towards rest; None where they are these.
     """
 
     friction: Array
     drags: tuple[float, float]
     driven: tuple[float, float] = (0.0, 0.0)
     tried: tuple[SpunFilms, ...] = ()
+    careful: SpinTorques | None = None
 
 
 def spins(pump: PumpDescription, point: OperatingPoint, drive: SwashDrive, torques: SpinTorques) -> Spins:
@@ -51,6 +56,22 @@ def spins(pump: PumpDescription, point: OperatingPoint, drive: SwashDrive, torqu
     piston, slipper = (None if ratio is None else ratio * speed for ratio in ratios)
     if piston is not None and slipper is not None:
         return Spins(piston, slipper)
+    found = _balanced(speed, drive, torques, (piston, slipper))
+    if torques.careful is not None and _far(torques.tried[-1].turned, found):
+        return _balanced(speed, drive, torques.careful, (piston, slipper))
+    return found
+
+
+def _far(last: Spins, found: Spins) -> bool:
+    """True if a spin leaves less than NEAREST of the last, or turns round: lines of two spins do not hold so far."""
+    both = (last.piston, found.piston), (last.slipper, found.slipper)
+    return any(before != 0.0 and after / before < NEAREST for before, after in both)
+
+
+def _balanced(
+    speed: float, drive: SwashDrive, torques: SpinTorques, stated: tuple[float | None, float | None]
+) -> Spins:
+    """The spins at which friction and films balance at a shaft speed (rad/s)."""
     angles = TURN * np.arange(len(torques.friction)) / len(torques.friction)
     return free_spins(
         bore_axis=np.array([bore_axis(drive, angle) for angle in angles]),
@@ -59,7 +80,7 @@ def spins(pump: PumpDescription, point: OperatingPoint, drive: SwashDrive, torqu
         friction=torques.friction,
         piston_drag=torques.drags[0],
         slipper_drag=torques.drags[1],
-        stated=(piston, slipper),
+        stated=stated,
         driven=torques.driven,
     )
 
@@ -91,17 +112,29 @@ def torques_of_films(
     exceeds the estimated one; what is left of it the film drives), else by `_drag`. friction as `SpinTorques` has it.
     """
     tried = (*before, spun)[-REMEMBERED:]
-    lines = []
-    for part, least in enumerate(estimated.drags):
-        places = [(one.turned.piston, one.turned.slipper)[part] for one in tried]
-        torques = [one.torques[part] for one in tried]
-        drag = _drag(places, torques, least)
-        lines.append((drag, torques[-1] + drag * places[-1]))
-    (piston, by_piston), (slipper, by_slipper) = lines
-    return SpinTorques(friction, (piston, slipper), (by_piston, by_slipper), tried)
+    spins = [[one.turned.piston for one in tried], [one.turned.slipper for one in tried]]
+    torques = [[one.torques[part] for one in tried] for part in range(2)]
+    rest = [_through_rest(spins[k][-1], torques[k][-1], estimated.drags[k]) for k in range(2)]
+    careful = _by_lines(friction, rest, spun, tried)
+    if len(tried) == 1:
+        return careful
+    drags = [_drag(spins[k], torques[k], estimated.drags[k], rest[k]) for k in range(2)]
+    return replace(_by_lines(friction, drags, spun, tried), careful=careful)
 
 
-def _drag(spins: list[float], torques: list[float], least: float) -> float:
+def _by_lines(friction: Array, drags: list[float], spun: SpunFilms, tried: tuple[SpunFilms, ...]) -> SpinTorques:
+    """Torques on lines of these drags (N m s) through those of films just solved."""
+    piston, slipper = drags
+    driven = spun.torques[0] + piston * spun.turned.piston, spun.torques[1] + slipper * spun.turned.slipper
+    return SpinTorques(friction, (piston, slipper), driven, tried)
+
+
+def _through_rest(spin: float, torque: float, least: float) -> float:
+    """Drag (N m s) by one spin (rad/s) with its torque (N m), at least `least`."""
+    return max(least, -torque / spin) if spin else least
+
+
+def _drag(spins: list[float], torques: list[float], least: float, through_rest: float) -> float:
     """Drag (N m s) of a film by its torques (N m) at the spins (rad/s) tried: how the torque falls with spin.
 
     By the last two, between FLATTEST of the estimated drag `least` and the line through rest. A film that warms and
@@ -109,8 +142,7 @@ def _drag(spins: list[float], torques: list[float], least: float) -> float:
     the line is at least as steep as that to the nearest spins from which the balance lay on either side.
     """
     last, torque = spins[-1], torques[-1]
-    through_rest = max(least, -torque / last) if last else least
-    if len(spins) == 1 or spins[-2] == last:
+    if spins[-2] == last:
         return through_rest
     slopes = [_slope(spin, other, last, torque) for spin, other in zip(spins[:-1], torques[:-1], strict=True)]
     return max(min(through_rest, slopes[-1]), FLATTEST * least, *(slopes[k] for k in _around(spins)))
