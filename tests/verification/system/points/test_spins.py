@@ -96,6 +96,20 @@ def test_a_peak_of_torque_over_spin_is_no_trap():
     assert -20.0 < spin < 0.0
 
 
+def test_spins_do_not_leap_past_rest(free):
+    """A film that drags more the slower it turns: its line says that the spin turns round, not that to rest."""
+    point = operating_point(free)
+    drive, speed = rotor(free, point).drive, point.shaft_speed
+    estimated, friction = SpinTorques(np.array([0.1]), (1e-4, 1e-4)), np.array([0.05])
+    first = (_films(-0.1 * speed, 0.9 * speed, 0.04, -0.01),)
+    found = torques_of_films(estimated, friction, _films(-0.05 * speed, 0.95 * speed, 0.08, -0.01), first)
+    assert found.careful is not None
+    far = spins(free, point, drive, replace(found, careful=None))
+    assert far.piston > 0.0
+    assert spins(free, point, drive, found) == spins(free, point, drive, found.careful)
+    assert -0.05 * speed < spins(free, point, drive, found).piston < 0.0
+
+
 def test_a_film_that_drives_turns_what_no_joint_holds(free):
     """Without friction in the joint: spin = torque/drag."""
     point = operating_point(free)
