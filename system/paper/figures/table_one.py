@@ -2,7 +2,7 @@
 
 from system.paper.figure import Figure
 from system.paper.judge import FigureResult, Range, judge
-from system.paper.points import FULL, PRESSURES, RATED, LossReading, PaperPoints
+from system.paper.points import FULL, PRESSURES, RATED, LossReading, PaperFidelity, PaperPoints
 from system.paper.statements import CLAIMS
 from system.pump.laws.friction_pairs import Pair
 from system.pump.laws.kinematics import displacement, stroke
@@ -21,8 +21,7 @@ def table1(points: PaperPoints) -> FigureResult:
         "speed": pump.pump.rated_speed,
         "swash_angle": pump.pump.swash_angle_max,
         "spring": block_spring(pump),
-        "piston_film": pump.piston.radial_clearance,
-        "plate_film": pump.valve_plate.film_thickness,
+        **_films(points),
         "bearings": friction.front_bearing,
     }
     found |= {pair.value: getattr(friction, pair.value) for pair in Pair if f"table1.{pair.value}" in CLAIMS}
@@ -38,6 +37,15 @@ def table1(points: PaperPoints) -> FigureResult:
     return FigureResult(Figure.TABLE1, (), judged, (remark,))
 
 
+def _films(points: PaperPoints) -> dict[str, float]:
+    """Mean films (m) of piston and valve plate: as the pump states them, or as rated floating films have them."""
+    if points.fidelity is PaperFidelity.FLOATING:
+        films = points.at(RATED, PRESSURES[-1], FULL).films
+        assert films is not None
+        return {"piston_film": films["piston"]["mean"], "plate_film": films["valve_plate"]["mean"]}
+    return {"piston_film": points.pump.piston.radial_clearance, "plate_film": points.pump.valve_plate.film_thickness}
+
+
 def _holding_shear(points: PaperPoints, pair: Pair) -> str:
     """A pair's coefficient with the film's shear in it, as in the paper."""
     text = "the paper's value is a start value for its fit"
@@ -47,6 +55,8 @@ def _holding_shear(points: PaperPoints, pair: Pair) -> str:
     )
     if mixed == alone:
         return text
+    if points.fidelity is PaperFidelity.FLOATING:
+        return f"{text}. Floating films have no coefficient: oil is sheared, and asperities rub where they touch"
     stated = getattr(points.pump.friction, pair.value)
     held = [stated * both / own for both, own in zip(mixed, alone, strict=True)]
     return (
