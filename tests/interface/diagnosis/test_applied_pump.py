@@ -56,5 +56,5 @@ def test_each_fidelity_is_named_with_what_it_does_of_the_effects():
 
 
 def test_what_refuses_effects_names_the_remedy():
-    with pytest.raises(InputError, match=r"churning.*swashfilm run, map, table and film read them.*without \[physics\]"):
+    with pytest.raises(InputError, match=r"churning.*run, map, table and film read them.*without \[physics\]"):
         hold_plain(_with(EffectId.CHURNING))
