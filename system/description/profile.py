@@ -36,7 +36,7 @@ DIGITS = 12
 
 
 class Levelling(Enum):
-    """What is taken out of a trace before it is smoothed."""
+    """Correction of a trace before it is smoothed."""
 
     LINE = "line"
     NONE = "none"

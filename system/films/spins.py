@@ -137,9 +137,9 @@ def _through_rest(spin: float, torque: float, least: float) -> float:
 def _drag(spins: list[float], torques: list[float], least: float, through_rest: float) -> float:
     """Drag (N m s) of a film by its torques (N m) at the spins (rad/s) tried: how the torque falls with spin.
 
-    By the last two, between FLATTEST of the estimated drag `least` and the line through rest. A film that warms and
-    lifts as it turns drags less when it turns faster: then steps grow, until they pass the balance. From there on
-    the line is at least as steep as that to the nearest spins from which the balance lay on either side.
+    The slope between the last two spins, at least FLATTEST of the estimated drag `least` and at most that of the line
+    through rest. A film that warms and lifts drags less as it turns faster; spins then move farther each round, until
+    they pass the balance. Once the balance lies between two tried spins, the slope is at least that to either of them.
     """
     last, torque = spins[-1], torques[-1]
     if spins[-2] == last:

@@ -1,4 +1,4 @@
-"""Balance of forces on a gap that finds no film: what presses, what its lands lift, the dimension that would lift it.
+"""Balance of forces on a gap that finds no film: the press on it, the lift of its lands, a dimension that mends it.
 
 Pressed, a film rises by the pressure that its lands take from the chamber; the rest is left to wedge and squeeze. A
 part whose lands lift far less than presses sinks, one whose lands lift more flies off.
@@ -26,7 +26,7 @@ TRIED = 500  # radii up to that
 
 @dataclass(frozen=True)
 class Shortfall:
-    """What a film would have to bear, and what would relieve it, each as a clause of a sentence."""
+    """Force that a film lacks, and the remedy, each as a clause of a sentence."""
 
     what: str
     remedy: str
@@ -100,7 +100,9 @@ def block_shortfall(rotor: Rotor, drive: BlockDrive, angle: float) -> Shortfall:
     if force <= 0.0:
         return Shortfall(f"{what}: it lifts off", f"a spring stronger by {_force(-force)}, or narrower lands")
     if place <= rim:
-        return Shortfall(f"{what} {_length(place)} from the shaft", f"lands that lift more, {_length(now)} wide now")
+        return Shortfall(
+            f"{what} {_length(place)} from the shaft", f"a larger valve_plate.land_radius_4 than {_length(now)}"
+        )
     spring = balance.force_within(rim, moment) - force
     remedies = [f"ball_guide.spring_preload larger by {_force(spring)}"]
     for radius in np.linspace(now, WIDEST * now, TRIED)[1:]:

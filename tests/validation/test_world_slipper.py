@@ -79,35 +79,30 @@ def test_orifice_and_clamping(validation):
     wide = slipper(UNDERCLAMPED, WIDE)
     blanked, pressed = slipper(UNDERCLAMPED, BLANKED), slipper(OVERCLAMPED, BLANKED)
     note = f"mean film {wide.film:.1f}, "
-    validation(
-        case="Orifice and clamping of the floating slipper, ref90 at 35 MPa",
-        source=KOC,
-        quantity="sign of the change of clearance by the orifice, underclamped",
-        unit="1",
-        expected=1.0,
-        obtained=np.sign(wide.film - blanked.film),
-        tolerance=1e-9,
-        note=f"{note}blanked {blanked.film:.1f} um",
-    )
-    validation(
-        case="Orifice and clamping of the floating slipper, ref90 at 35 MPa",
-        source=KOC_HOOKE,
-        quantity="sign of clearance, underclamped with orifice less overclamped without",
-        unit="1",
-        expected=1.0,
-        obtained=np.sign(wide.film - pressed.film),
-        tolerance=1e-9,
-        note=f"{note}overclamped {pressed.film:.1f} um",
-    )
-    validation(
-        case="Orifice and clamping of the floating slipper, ref90 at 35 MPa",
-        source=KOC_HOOKE,
-        quantity="sign of tilt, underclamped with orifice less overclamped without",
-        unit="1",
-        expected=1.0,
-        obtained=np.sign(wide.tilt - pressed.tilt),
-        tolerance=1e-9,
-        note=f"largest tilt {wide.tilt:.2e} and {pressed.tilt:.2e} rad",
-        missed="the measured slippers were loaded off their middle, by how much is not given; here friction and "
-        "inertia do that, alike in both",
-    )
+    for source, quantity, obtained, told, missed in (
+        (
+            KOC, "sign of the change of clearance by the orifice, underclamped",
+            wide.film - blanked.film, f"{note}blanked {blanked.film:.1f} um", "",
+        ),
+        (
+            KOC_HOOKE, "sign of clearance, underclamped with orifice less overclamped without",
+            wide.film - pressed.film, f"{note}overclamped {pressed.film:.1f} um", "",
+        ),
+        (
+            KOC_HOOKE, "sign of tilt, underclamped with orifice less overclamped without",
+            wide.tilt - pressed.tilt, f"largest tilt {wide.tilt:.2e} and {pressed.tilt:.2e} rad",
+            "the measured slippers were loaded off their middle, by how much is not given; here friction and "
+            "inertia do that, alike in both",
+        ),
+    ):  # fmt: skip
+        validation(
+            case="Orifice and clamping of the floating slipper, ref90 at 35 MPa",
+            source=source,
+            quantity=quantity,
+            unit="1",
+            expected=1.0,
+            obtained=np.sign(obtained),
+            tolerance=1e-9,
+            note=told,
+            missed=missed,
+        )

@@ -1,4 +1,4 @@
-"""What is said of a gap that finds no film: forces there, and a dimension that mends it."""
+"""Report of a gap that finds no film: forces there, and a dimension that mends it."""
 
 from dataclasses import replace
 
