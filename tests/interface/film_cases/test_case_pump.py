@@ -84,3 +84,14 @@ def test_films_of_a_case_solve_what_its_pump_states_of_them(here):
     assert case.options.physics.heat
     with pytest.raises(InputFaults, match=r"(?s)film_heating.*depends on the whole turn"):
         loaded(here, warm)
+
+
+def test_clearances_change_from_the_temperature_of_the_pumps_own_file(here):
+    """An [operating] of the case moves the film away from it, not the law's own temperature with it."""
+    law = '[pump.physics.thermal_clearance.piston]\nrate = "0.01 1/K"\n'
+    films = {}
+    for celsius in (50, 70):
+        case = loaded(here, f'{law}[operating]\ntemperature = "{celsius} degC"\n')
+        assert isinstance(case, GapCase)
+        films[celsius] = case.rotor.pump.piston.radial_clearance
+    assert films[70] == pytest.approx(1.2 * films[50], rel=1e-9)  # ref90 states 50 degC
