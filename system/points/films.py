@@ -123,9 +123,10 @@ def films_point(
             f"positions per pitch: found {positions_per_pitch}, expected an even divisor of {SAMPLES_PER_PITCH}"
         )
     every, work = SAMPLES_PER_PITCH // positions_per_pitch, _work(pump, point, physics)
-    group, cycles = work.group, work.cycles
+    group, cycles, rounds = work.group, work.cycles, 0
     limit = tolerance * (abs(point.delivery_pressure - point.inlet_pressure) + 1e5)
-    for rounds in range(1, ROUND_LIMIT + 1):
+    while rounds < ROUND_LIMIT:
+        rounds += 1
         try:
             gaps = gap_cycles(
                 group, cycles[0].shaft_angle[::every], [one[::every] for one in work.pressures(cycles)], report,
@@ -137,9 +138,7 @@ def films_point(
         met = met_point(work.point, ported)
         group = tuple(replace(one, rotor=rotor(one.rotor.pump, met)) for one in group)
         before, cycles = cycles, ported.cycles
-        change = float(
-            max(np.max(np.abs(one.pressure - old.pressure)) for one, old in zip(cycles, before, strict=True))
-        )
+        change = max(float(np.abs(one.pressure - old.pressure).max()) for one, old in zip(cycles, before, strict=True))
         if change <= limit:
             break
     else:
