@@ -13,7 +13,7 @@ from system.pump.chamber.problem import LeakTable
 from system.pump.laws.friction_pairs import FrictionPairs, Pair, PairLoss
 from system.pump.laws.kinematics import Number
 from system.pump.lumped import PistonMotion, Pressed, lumped_leaks, lumped_pairs
-from system.pump.operating import OperatingPoint, flat
+from system.pump.operating import OperatingPoint
 
 Means = Mapping[str, Any]
 """Outputs of a response table by name, at one point (float) or at N (N,)."""
@@ -77,7 +77,7 @@ def gap_losses(
 
 def port_draws(pump: PumpDescription, point: OperatingPoint[Number], means: Means) -> PortDraws:
     """What the valve plate's film takes from the ports."""
-    scale = plate_flow(pump, flat(point))
+    scale = plate_flow(pump, point)
     return PortDraws(scale * means["valve_plate.delivery_draw"], scale * means["valve_plate.suction_draw"])
 
 
