@@ -168,6 +168,10 @@ class LumpedBench:
         joining = tuple(parameter for parameter in parameters if parameter.name not in own)
         return self._like(parameters=(*self.parameters, *joining), drifts={**self.drifts, **courses})
 
+    def with_own_laws(self, laws: tuple[tuple[Law, Values], ...]) -> LumpedBench:
+        """The same bench with other laws of its own."""
+        return self._like(own_laws=laws)
+
     def only(self, parameters: tuple[Parameter, ...]) -> LumpedBench:
         """The same bench with these parameters alone; the pump states the others."""
         return self._like(parameters=parameters)

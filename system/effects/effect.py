@@ -40,6 +40,8 @@ class EffectId(Enum):
     SQUEEZE_PUMPING = "squeeze_pumping"
     SLIPPER_LIFT = "slipper_lift"
     BLOCK_TIPPING = "block_tipping"
+    FILM_RUPTURE = "film_rupture"
+    WORN_PROFILE = "worn_profile"
     CHURNING = "churning"
     SEAL_DRAG = "seal_drag"
     CHARGE_PUMP_DRAG = "charge_pump_drag"
