@@ -5,8 +5,9 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from pathlib import Path
 
+from diagnosis.procedure.compared import PumpComparison
 from diagnosis.procedure.next_test import with_next_point
-from diagnosis.procedure.pump_comparison import PumpComparison, claimed_pump, compare_pumps
+from diagnosis.procedure.pump_comparison import claimed_pump, compare_pumps
 from diagnosis.procedure.recorded import diagnose_recording
 from diagnosis.recording.model import Recording
 from diagnosis.study.acceptance import accepted_recording, refuse_too_few, refuse_too_smooth
@@ -81,8 +82,8 @@ def diagnose(
         study=study,
         diagnosis=found,
         assumptions=tuple(str(one) for one in (*known.assumptions, *assumed)),
-        extended_pump=claimed_pump(described, found) if found.effects else None,
-        comparison=compare_pumps(described, study, found, report),
+        extended_pump=claimed_pump(described, found, films) if found.effects else None,
+        comparison=compare_pumps(described, study, found, report, films),
     )
 
 

@@ -79,7 +79,7 @@ def film_model_of(
     if asked is None:
         return None
     from diagnosis.study.film_box import film_box
-    from system.points.table.film_physics import film_cases, film_counts, film_model
+    from system.points.table.film_physics import FilmTask, film_counts, film_model
     from system.work.processes import process_pool
 
     box = film_box(pump, recording)
@@ -88,9 +88,9 @@ def film_model_of(
         expected = f"at least {2 ** (len(box.axes) + 1)}: the recording varies {len(box.axes)} inputs"
         raise InputFaults(COMMAND_LINE, [Fault("--points", str(asked.learnt), expected)])
     counts = asked.learnt or learnt, asked.held_out or held_out
-    cases = film_cases(box.pump, asked.floating, box.axes, counts, asked.variants)
+    task = FilmTask(box.pump, asked.floating, box.axes, *counts, asked.variants)
     with process_pool(workers) as executor:
-        return film_model(cases, executor, report)
+        return film_model(task, executor=executor, report=report)
 
 
 def _of_fidelity(options: argparse.Namespace, known: KnownPump) -> Iterator[Fault]:

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, assert_never
 
 from swashfilm.console.fidelity import Fidelity
-from swashfilm.output.refinement import refinement_summary, write_refinement
+from swashfilm.output.refinement import Refinement, refinement_summary, write_refinement
 from swashfilm.output.run_folder import write_json
 from swashfilm.runs.pump.data import films_dataset, point_dataset, write_tables
 from swashfilm.runs.pump.edge_losses import loss_warnings, losses_left_out
@@ -98,9 +98,13 @@ def _floating(case: PumpCase, report: Report) -> PumpRun:
         return floating_point(pump, at, options, near=near, side_by_side=case.side_by_side, report=told)
 
     found = solve(case.options, None, report)
+    return floating_run(case, found, refine_point(found, case.levels, solve, report) if case.levels > 1 else None)
+
+
+def floating_run(case: PumpCase, found: FloatingPoint, refinement: Refinement | None = None) -> PumpRun:
+    """Return the run of a solved floating point of the case's pump, with its refinement."""
     point = found.pump_point
-    summary = floating_summary(found, _warnings(pump, point) + losses_left_out(pump))
-    refinement = refine_point(found, case.levels, solve, report) if case.levels > 1 else None
+    summary = floating_summary(found, _warnings(case.pump, point) + losses_left_out(case.pump))
     if refinement is not None:
         summary["refinement"] = refinement_summary(refinement)
 

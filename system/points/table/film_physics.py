@@ -4,9 +4,10 @@ Every part that is left out is a hypothesis, solved by films: response tables of
 with it, and with every two of them, built once and kept.
 """
 
-from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass, field, replace
 from itertools import combinations
+from pathlib import Path
 
 import numpy as np
 
@@ -25,7 +26,7 @@ from system.points.floating_gaps import FloatingOptions
 from system.points.table.build import TableCase, build_table
 from system.points.table.film_law import SolvedFilms, share_name
 from system.points.table.response_table import ResponseTable
-from system.points.table.sources import FloatingSolver, films_alone
+from system.points.table.sources import FloatingSolver, PointSolver, films_alone
 from system.work.processes import HERE
 from system.work.progress import Report, silent
 from system.work.tasks import Executor
@@ -55,18 +56,61 @@ NOTHING: Parts = frozenset()
 
 
 @dataclass(frozen=True)
+class FilmTask:
+    """The films to solve for a diagnosis.
+
+    options: of the simulation's films, with the physics that they leave out; axes: the box of operating points; learnt,
+    held_out: points of each table; variants: the pump with an effect of VARIANTS; solver: of a table's points, by the
+    options of its films.
+    """
+
+    pump: PumpDescription
+    options: FloatingOptions
+    axes: tuple[Axis, ...]
+    learnt: int
+    held_out: int
+    variants: Mapping[EffectId, PumpDescription] = field(default_factory=dict)
+    solver: Callable[[FloatingOptions], PointSolver] = FloatingSolver
+
+    @property
+    def switched(self) -> dict[EffectId, Effect]:
+        """The parts that a switch of the physics leaves out."""
+        return {NAMED[effect]: effect for effect in self.options.physics.left_out}
+
+    @property
+    def sets(self) -> list[Parts]:
+        """The parts that each table has: none, one, or two that are switched."""
+        single = [frozenset({one}) for one in (*self.switched, *self.variants)]
+        return [NOTHING, *single, *map(frozenset, combinations(self.switched, 2))]
+
+    def options_with(self, parts: Parts) -> FloatingOptions:
+        """The options of films that have these parts too."""
+        on = [effect for part, effect in self.switched.items() if part in parts]
+        return replace(self.options, physics=self.options.physics.including(*on))
+
+    def pump_with(self, parts: Parts) -> PumpDescription:
+        """The pump of films that have these parts: the variant among them."""
+        return next((own for part, own in self.variants.items() if part in parts), self.pump)
+
+    def case(self, parts: Parts) -> TableCase:
+        """The table of films that have these parts."""
+        solver = self.solver(self.options_with(parts))
+        return TableCase(self.pump_with(parts), solver, self.axes, self.learnt, self.held_out)
+
+
+@dataclass(frozen=True)
 class FilmModel:
     """Films of a pump in a diagnosis.
 
     law: what the simulation's films leak and rub, and by their shares the parts that it left out; entries: these parts
     as hypotheses; error: by output, the largest rms error of the tables at held-out points, as the output's measure is;
-    cases: what the tables were built from.
+    task: what the tables were built from.
     """
 
     law: SolvedFilms
     entries: tuple[Entry, ...]
     error: Mapping[str, float]
-    cases: Mapping[Parts, TableCase]
+    task: FilmTask
 
     def own_laws(self, pump: PumpDescription) -> tuple[tuple[Law, Values], ...]:
         """The laws of a bench with these films: theirs, and those of [physics] that no film solves."""
@@ -81,42 +125,19 @@ class FilmModel:
         return (*self.entries, *outside)
 
 
-def film_cases(
-    pump: PumpDescription,
-    options: FloatingOptions,
-    axes: tuple[Axis, ...],
-    counts: tuple[int, int],
-    variants: Mapping[EffectId, PumpDescription],
-) -> dict[Parts, TableCase]:
-    """The tables of a diagnosis by the parts that they have beyond the simulation: none, one or two.
-
-    options: of the simulation, with what it leaves out; variants: the pump with an effect of VARIANTS; counts: of
-    learnt and held-out points.
-    """
-    switched = {NAMED[effect]: effect for effect in options.physics.left_out}
-    sets: list[tuple[EffectId, ...]] = [(), *((one,) for one in (*switched, *variants)), *combinations(switched, 2)]
-
-    def case(parts: Sequence[EffectId]) -> TableCase:
-        physics = options.physics.including(*(switched[one] for one in parts if one in switched))
-        own = next((variants[one] for one in parts if one in variants), pump)
-        return TableCase(own, FloatingSolver(replace(options, physics=physics)), axes, *counts)
-
-    return {frozenset(parts): case(parts) for parts in sets}
-
-
-def film_model(cases: Mapping[Parts, TableCase], executor: Executor = HERE, report: Report = silent) -> FilmModel:
+def film_model(
+    task: FilmTask, *, executor: Executor = HERE, report: Report = silent, folder: Path | None = None
+) -> FilmModel:
     """The model from its tables, built where they are not kept; raises as `build_table`."""
-    whole = sum(case.learnt + case.held_out for case in cases.values())
+    each = task.learnt + task.held_out
     tables: dict[Parts, ResponseTable] = {}
-    done = 0
-    for parts, case in cases.items():
-        what = "films with " + " and ".join(part.value for part in sorted(parts, key=_name)) if parts else "films"
-        tables[parts] = build_table(case, executor=executor, report=_of_whole(report, done, whole, what))
-        done += case.learnt + case.held_out
+    for parts in task.sets:
+        told = _of_whole(report, len(tables) * each, len(task.sets) * each, _text(parts))
+        tables[parts] = build_table(task.case(parts), executor=executor, report=told, folder=folder)
     single = {next(iter(parts)): table for parts, table in tables.items() if len(parts) == 1}
     pairs = {parts: table for parts, table in tables.items() if len(parts) == 2}
-    law = SolvedFilms(films_alone(cases[NOTHING].pump), tables[NOTHING], single, pairs)
-    return FilmModel(law, tuple(map(_entry, single)), _errors(law.base, tables.values()), cases)
+    law = SolvedFilms(films_alone(task.pump), tables[NOTHING], single, pairs)
+    return FilmModel(law, tuple(map(_entry, single)), _errors(law.base, tables.values()), task)
 
 
 def film_counts(inputs: int) -> tuple[int, int]:
@@ -153,5 +174,5 @@ def _of_whole(report: Report, begun: int, whole: int, what: str) -> Report:
     return lambda done, total, text: report(begun + done, whole, f"{what}: {text}")
 
 
-def _name(part: EffectId) -> str:
-    return part.value
+def _text(parts: Parts) -> str:
+    return " and ".join(["films", *sorted(part.value for part in parts)]).replace(" and ", " with ", 1)

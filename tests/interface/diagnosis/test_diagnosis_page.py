@@ -12,14 +12,8 @@ from made_diagnosis import LPM, PRESSURE, Q, agreeing
 from diagnosis import Diagnosis, Study
 from diagnosis.detect.time_scan import TimeKind, TimeMark
 from diagnosis.explain.ranked import HeldOut
-from diagnosis.procedure.pump_comparison import (
-    NO_COMPARISON,
-    Change,
-    FilmChange,
-    FilmComparison,
-    PumpComparison,
-    compare_pumps,
-)
+from diagnosis.procedure.compared import NO_COMPARISON, Change, FilmChange, FilmComparison, PumpComparison
+from diagnosis.procedure.pump_comparison import compare_pumps
 from diagnosis.report.json_file import diagnosis_record
 from diagnosis.report.tables import pull_sums
 from diagnosis.verdict.diagnosis import ClaimedEffect
