@@ -57,11 +57,8 @@ def write_diagnose_page(folder: Path) -> Path:
         next_head=tuple(next(iter(tables["next_points"]), {})),
         changes=list(change_rows(tables["changes"])),
         films=list(film_rows(tables["films"])),
-        film_head=(
-            "all gaps of a kind",
-            *(f"{FILM_HEADS[kind]}, without -> with" for kind in film_kinds(tables["films"])),
-        ),
-        floating="lumped" not in film_kinds(tables["films"]) and bool(tables["films"]),
+        film_head=("all gaps of a kind", *(f"{FILM_HEADS[kind]}, without -> with" for kind in kinds)),
+        floating=kinds == ["films"],
         film_pictures={name: inlined(png) for name, png in film_pictures(folder, (WITHOUT, WITH), found).items()},
         remarks=remarks(found, summary),
         next_point=next_point_words(found),
