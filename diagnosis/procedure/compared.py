@@ -45,9 +45,9 @@ class FilmComparison:
     """
 
     points: Mapping[str, FilmsPoint] = field(default_factory=dict)
-    floating: Mapping[str, FloatingPoint] = field(default_factory=dict)
     changes: tuple[FilmChange, ...] = ()
     text: str = ""
+    floating: Mapping[str, FloatingPoint] = field(default_factory=dict)
 
 
 @dataclass(frozen=True)
