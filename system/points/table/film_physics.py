@@ -137,7 +137,7 @@ def film_model(
     single = {next(iter(parts)): table for parts, table in tables.items() if len(parts) == 1}
     pairs = {parts: table for parts, table in tables.items() if len(parts) == 2}
     law = SolvedFilms(films_alone(task.pump), tables[NOTHING], single, pairs)
-    return FilmModel(law, tuple(map(_entry, single)), _errors(law.base, tables.values()), task)
+    return FilmModel(law, tuple(map(film_entry, single)), _errors(law.base, tables.values()), task)
 
 
 def film_counts(inputs: int) -> tuple[int, int]:
@@ -158,7 +158,7 @@ def _errors(base: ResponseTable, tables: Iterable[ResponseTable]) -> dict[str, f
     return {output.name: float(error) for output, error in zip(base.response.outputs, largest, strict=True)}
 
 
-def _entry(part: EffectId) -> Entry:
+def film_entry(part: EffectId) -> Entry:
     """The hypothesis of a part: its share, which acts in the films' own law."""
     source = "1: as drawing, material and oil make it; films solved"
     own = Extension(part, None, _in_the_films, (half(share_name(part), *SIZE, None, source),), of_films=True)

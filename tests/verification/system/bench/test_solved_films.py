@@ -14,6 +14,7 @@ from system.bench.simulator import LumpedBench
 from system.effects.effect import EffectId
 from system.points.table.build import TableCase, point_at, table_axes
 from system.points.table.film_law import SolvedFilms, share_name
+from system.points.table.film_physics import film_entry
 from system.points.table.sources import films_alone
 
 PUMP = load_pump(BENCH)
@@ -53,11 +54,10 @@ def bench(places, law) -> LumpedBench:
 
 
 def readings(places, law, shares=None):
-    """Readings (N, 4) with given shares, which act as parameters of a fit do."""
-    own = bench(places, law)
+    """Readings (N, 4) with given shares."""
+    own = bench(places, law).with_extensions(tuple(film_entry(part).extensions[0] for part in PARTS))
     named = {share_name(part): share for part, share in (shares or {}).items()}
-    own._named = lambda values: named
-    return own.predict(np.zeros(0))
+    return own.predict(np.array([named.get(one.name, 0.0) for one in own.parameters]))
 
 
 def by_table(places, table):
