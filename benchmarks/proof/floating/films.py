@@ -6,8 +6,10 @@ from dataclasses import replace
 from functools import cache
 from pathlib import Path
 
+from diagnosis.study.film_box import STEPS
 from gaps.films.physics import Effect
 from system.description.pump import PumpDescription
+from system.inputs.channels import ChannelName
 from system.points.floating_gaps import usual_options
 from system.points.table.build import table_axes
 from system.points.table.film_physics import FilmModel, FilmTask, film_model
@@ -15,11 +17,9 @@ from system.pump_file.file import load_pump
 from system.work.processes import process_pool
 from system.work.progress import Report, silent
 
-from ..plant.settings import RPM
-
 PUMP = "ref90"
-SPEEDS, PRESSURES = (300.0 * RPM, 2200.0 * RPM), (4e6, 37e6)
-"""Box of the tables, SI: full displacement, oil at the pump's own temperature."""
+SPEEDS, PRESSURES = (3.0 * STEPS[ChannelName.SPEED], 22.0 * STEPS[ChannelName.SPEED]), (4e6, 37e6)
+"""Box of the tables, SI, as `film_box` rounds that of the campaign: full displacement, oil at the pump's temperature."""
 LEARNT, HELD_OUT = 16, 5
 OFF: tuple[tuple[Effect, ...], ...] = (
     (Effect.ELASTIC_WALLS,),
