@@ -19,7 +19,7 @@ from system.work.progress import Report, silent
 
 PUMP = "ref90"
 SPEEDS, PRESSURES = (3.0 * STEPS[ChannelName.SPEED], 22.0 * STEPS[ChannelName.SPEED]), (4e6, 37e6)
-"""Box of the tables, SI, as `film_box` rounds that of the campaign: full displacement, oil at the pump's temperature."""
+"""Box of the tables, SI, as `film_box` rounds that of the campaign, at full displacement and the pump's temperature."""
 LEARNT, HELD_OUT = 16, 5
 OFF: tuple[tuple[Effect, ...], ...] = (
     (Effect.ELASTIC_WALLS,),
