@@ -56,14 +56,15 @@ def run_pump_command(options: argparse.Namespace) -> int:
     case = pump_case(options)
     from swashfilm.console.progress import progress
     from swashfilm.output.run_folder import run_folder
-    from swashfilm.runs.pump.run import solve_pump
+    from swashfilm.runs.pump.run import solve_pump, unfinished_kept
     from system.points.floating_kinds import work_of
 
     name = case.pump.name
     if case.fidelity is Fidelity.FLOATING and (times := work_of(case.pump)) > 1.0:
         show(f"chambers differ: their floating gaps take about {times:.0f} times as long as identical ones")
     with run_folder(name, options.output) as folder, progress(1, f"run {name}") as report:
-        found = solve_pump(case, report)
+        with unfinished_kept(case, folder) as solved:
+            found = solve_pump(case, report, solved)
         added = found.write(folder)
     show_result(found, folder, added)
     return 0
