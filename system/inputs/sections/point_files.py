@@ -27,8 +27,8 @@ def read_rows(path: Path, layouts: tuple[Points, ...]) -> tuple[tuple[float, ...
     """Return the rows of a CSV file in SI, columns in the order of that layout whose heads the file has.
 
     Any order and any fitting unit; empty lines and those that begin with # do not count. A last column by its
-    opposite name changes its sign. Raises QuantityError where the file or its head is no such one, InputFaults with
-    every faulty line, each with its number and column.
+    opposite name changes its sign. Raises QuantityError for a file that cannot be read or has another head,
+    InputFaults with every faulty line, each with its number and column.
     """
     text = read_csv_text(path, wanted_file(layouts))
     order = _order(path, text.head, layouts)
@@ -55,7 +55,7 @@ def _example_heads(layout: Points) -> list[str]:
 
 
 def _order(path: Path, head: list[str], layouts: tuple[Points, ...]) -> _Order:
-    """The columns that a head names; raises QuantityError where they are none of the layouts'."""
+    """The columns that a head names; raises QuantityError where they match no layout."""
     columns = head_columns(head)
     names = [column.name for column in columns]
     for layout in layouts:

@@ -1,4 +1,4 @@
-"""Traces of a profilometer in pump files and gap cases, worn parts of one chamber, and what is told of wrong ones."""
+"""Traces of a profilometer in pump files and gap cases, worn parts of one chamber, and the faults of wrong ones."""
 
 from __future__ import annotations
 
