@@ -89,9 +89,10 @@ def pump_case(options: argparse.Namespace) -> PumpCase:
         pump = load_pump(options.pump, stated)
     except InputFaults as reason:
         raise _at_options(reason, stated, faults) from None
+    own = pump
     if _TEMPERATURE in stated and pump.physics.thermal_clearance is not None:
-        own = {path: value for path, value in stated.items() if path != _TEMPERATURE}
-        pump = moved_to(load_pump(options.pump, own), pump.operating)
+        own = load_pump(options.pump, {path: value for path, value in stated.items() if path != _TEMPERATURE})
+        pump = moved_to(own, pump.operating)
     faults += floating_faults(options, pump, options.fidelity)
     levels = whole(faults, "--refine", options.refine, 1, (2, 4), "a number of levels")
     if levels > 1 and options.fidelity != Fidelity.FLOATING.value:
@@ -101,7 +102,7 @@ def pump_case(options: argparse.Namespace) -> PumpCase:
     if faults:
         raise InputFaults(COMMAND_LINE, faults)
     given, fidelity = given_text(options.pump, stated), Fidelity(options.fidelity)
-    return PumpCase(pump, given, fidelity, options.table, floating_options(options, pump), cores() > 1, levels)
+    return PumpCase(pump, given, fidelity, options.table, floating_options(options, pump), cores() > 1, levels, own)
 
 
 def pump_faults(options: argparse.Namespace, words: Sequence[str]) -> list[Fault]:

@@ -46,7 +46,8 @@ class PumpCase:
     """One operating point to solve: the pump, the text of its file, and the fidelity of its films.
 
     table: file of a response table in place of the stored one; options: of floating gaps; side_by_side: a second
-    process solves the piston of floating gaps; levels: of refinement, the first being that of the options.
+    process solves the piston of floating gaps; levels: of refinement, the first being that of the options; own: the
+    pump at its own temperature, where that of the point has changed its films (`moved_to`): response tables are its.
     """
 
     pump: PumpDescription
@@ -56,6 +57,7 @@ class PumpCase:
     options: FloatingOptions | None = None
     side_by_side: bool = False
     levels: int = 1
+    own: PumpDescription | None = None
 
 
 @contextmanager
@@ -131,7 +133,7 @@ def _floating(case: PumpCase, report: Report, solved: Solved | None) -> PumpRun:
 
 
 def _by_table(case: PumpCase) -> PumpRun:
-    pump, found = case.pump, point_by_table(case.pump, operating_point(case.pump), case.table)
+    pump, found = case.pump, point_by_table(case.own or case.pump, operating_point(case.pump), case.table)
     point = found.pump_point
     floats = found.table.origin.source is Source.FLOATING
     of_lands = losses_left_out(pump) if floats else loss_warnings(pump, point)
