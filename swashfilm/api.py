@@ -64,7 +64,7 @@ def run(
     temperature: Quantity | None = None,
     inlet_pressure: Quantity | None = None,
     case_pressure: Quantity | None = None,
-    fidelity: str = "films",
+    fidelity: str = "floating",
     table: str | Path | None = None,
     set: Mapping[str, object] | None = None,
     report: Report = silent,
@@ -145,7 +145,7 @@ def map(
     displacements: str | Sequence[float] | None = None,
     temperatures: str | Sequence[Quantity] | None = None,
     inlet_pressures: str | Sequence[Quantity] | None = None,
-    fidelity: str = "films",
+    fidelity: str = "floating",
     report: Report = silent,
     **options: object,
 ) -> MapRun:

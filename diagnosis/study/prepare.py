@@ -37,7 +37,6 @@ from system.inputs.channels import INPUTS, OUTPUTS, ChannelName
 from system.points.table.film_physics import FilmModel
 
 LEAST_ACROSS = 1e6  # Pa
-TOLD_EXCESS = 1.2  # of the noise of a channel's points over that of its samples, from which a note gives it
 LAG = 1.0  # s, one sigma of a flow meter's lag where none is stated
 
 
@@ -88,7 +87,9 @@ def prepare(
     if found.correlation:  # of a series: its noise is an estimate
         excess = noise_excess(bare, thresholds.mismatch)
         found = replace(found, sigma=found.sigma * excess)
-        usable = replace(usable, notes=(*usable.notes, *_excess_notes(channels, excess)))
+        usable = replace(
+            usable, notes=(*usable.notes, *_excess_notes(channels, excess, thresholds.mismatch.told_excess))
+        )
         bare = study_of(usable, bench, found, axes, (), thresholds)
     memory = () if found.correlation else noise_correlation(bare, thresholds.mismatch)
     if memory:
@@ -109,6 +110,7 @@ def prepare(
     return replace(study, events=port_events(pump), scant=scant)
 
 
+<<<<<<< HEAD
 def _uncertain(pump: PumpDescription, tolerances: Tolerances, films: FilmModel | None) -> tuple[Parameter, ...]:
     """The pump's uncertain parameters; of films that balance forces, those that are no results."""
     found = base_parameters(pump, tolerances)
@@ -116,9 +118,12 @@ def _uncertain(pump: PumpDescription, tolerances: Tolerances, films: FilmModel |
 
 
 def _excess_notes(channels: tuple[ChannelName, ...], excess: Array) -> Iterator[DataNote]:
+=======
+def _excess_notes(channels: tuple[ChannelName, ...], excess: Array, least: float) -> Iterator[DataNote]:
+>>>>>>> mending
     """A note on each channel whose means scatter clearly more than their samples' noise tells."""
     for channel, factor in zip(channels, excess, strict=True):
-        if factor > TOLD_EXCESS:
+        if factor > least:
             text = f"the points scatter {factor:.2g} times as much as the samples' noise allows: this scatter is used"
             yield DataNote(NoteKind.NOTED, channel, (), text)
 

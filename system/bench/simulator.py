@@ -225,7 +225,7 @@ class LumpedBench:
             raise NotConverged(f"bench map: no pump has these values: {void}") from void
 
     def _solve(self, at: Setting) -> Courses:
-        """The courses of a setting, remembered by all that they hang on."""
+        """The courses of a setting, remembered by all on which they depend."""
         key = blake2b(at.problem.key).digest()
         if key not in self._kept:
             self._kept[key] = solve_map(self.pump, at.problem, self.tolerance)
