@@ -39,7 +39,6 @@ from system.points.films import FilmsPoint, films_point
 from system.points.lumped import lumped_point
 from system.points.table.film_physics import FilmModel, Parts
 from system.pump.assembly import PumpPoint
-from system.pump.chamber_kinds import kinds
 from system.pump.film_thickness import moved_to
 from system.pump.laws.friction_pairs import Pair
 from system.pump.operating import OperatingPoint, operating_point
@@ -117,8 +116,6 @@ def compare_films(
     """
     if not any(effect in OF_FILMS for effect in found):
         return FilmComparison(text="The finding does not act on the films: their fields are unchanged.")
-    if not kinds(next(iter(pumps.values()))).alike:
-        return FilmComparison(text="Chambers differ: films at given positions are solved for equal chambers only.")
     solved = {}
     try:
         for name, pump in pumps.items():

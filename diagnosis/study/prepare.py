@@ -110,17 +110,13 @@ def prepare(
     return replace(study, events=port_events(pump), scant=scant)
 
 
-<<<<<<< HEAD
 def _uncertain(pump: PumpDescription, tolerances: Tolerances, films: FilmModel | None) -> tuple[Parameter, ...]:
     """The pump's uncertain parameters; of films that balance forces, those that are no results."""
     found = base_parameters(pump, tolerances)
     return found if films is None else tuple(one for one in found if one.name not in BALANCED_NAMES)
 
 
-def _excess_notes(channels: tuple[ChannelName, ...], excess: Array) -> Iterator[DataNote]:
-=======
 def _excess_notes(channels: tuple[ChannelName, ...], excess: Array, least: float) -> Iterator[DataNote]:
->>>>>>> mending
     """A note on each channel whose means scatter clearly more than their samples' noise tells."""
     for channel, factor in zip(channels, excess, strict=True):
         if factor > least:

@@ -13,7 +13,7 @@ from system.inputs.faults import Fault
 from system.points.floating_gaps import FloatingOptions, usual_options
 from system.pump.chamber_kinds import kinds
 
-ALIKE = "identical chambers; with differing ones: swashfilm run with --fidelity lumped or floating"
+ALIKE = "identical chambers; with differing ones: swashfilm run with --fidelity lumped, fixed or floating"
 FEWEST_STEPS, MOST_STEPS = 24, 7200
 
 

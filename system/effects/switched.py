@@ -3,7 +3,6 @@
 from collections.abc import Iterator, Mapping, Sequence
 from functools import reduce
 
-from reynolds.errors import InputError
 from system.description.gap import Gap
 from system.description.pump import PumpDescription
 from system.effects.catalogue.entries import EXTENSIONS
@@ -33,14 +32,6 @@ def _law(pump: PumpDescription, extension: Extension, values: Values) -> Law:
     if extension.id is EffectId.ELASTIC_OPENING and COMPLIANCE in values and extension.pair is not None:
         return SolvedOpening(opening_table(pump, extension.pair))
     return extension.law
-
-
-def hold_plain(pump: PumpDescription) -> None:
-    """Raise InputError where a pump has effects switched on that a computation does not read."""
-    if pump.physics.on:
-        found = ", ".join(dict.fromkeys(extension.id.value for extension, _ in switched_on(pump)))
-        expected = "no effects: swashfilm run, map, table and film read them"
-        raise InputError("physics", found, f"{expected}; try the file without [physics]")
 
 
 def stated_effects(laws: Sequence[tuple[Law, Values]], courses: Mapping[Gap, GapCourse], state: BenchState) -> Effects:

@@ -16,18 +16,18 @@ from system.description.pump import PumpDescription
 from system.effects.applied import affected_leaks
 from system.effects.effect import Effects
 from system.effects.friction import rubbed
-from system.films.cycle import PLAIN, GapCycle, GapPhysics, gap_cycle
+from system.films.cycle import PLAIN, GapCycle, GapKind, GapPhysics, gap_cycles
 from system.films.parts import FloatingParts, floating_parts
 from system.films.rotor import Rotor, rotor
 from system.inputs.units import TURN
 from system.points.effects import affected_problem, at_the_ports, mean_outside
-from system.points.film_effects import FilmEffects, closed_laws, film_effects
+from system.points.film_effects import closed_laws, film_effects
 from system.points.lumped import point_and_effects
 from system.pump.assembly import PumpPoint, assemble, met_point
 from system.pump.chamber.cycle import ChamberCycle, solve_cycle
 from system.pump.chamber.port_coupling import PortedCycle, ported_cycle
-from system.pump.chamber.problem import ChamberProblem, LeakTable
-from system.pump.chamber_kinds import kinds
+from system.pump.chamber.problem import LeakTable
+from system.pump.chamber_kinds import Kinds, kinds
 from system.pump.film_thickness import at_temperature, unpressed
 from system.pump.land_losses import creeping_film_leaks, land_losses, with_inertia
 from system.pump.laws.friction_pairs import FrictionPairs
@@ -42,6 +42,7 @@ from system.pump.lumped import (
 )
 from system.pump.operating import OperatingPoint
 from system.pump.power import GapExchange, chamber_exchange
+from system.work.means import mean_of
 from system.work.progress import Report, silent
 
 POSITIONS_PER_PITCH = 4
@@ -54,22 +55,46 @@ ROUND_LIMIT = 40
 
 
 @dataclass(frozen=True)
+class FilmsKind:
+    """Equal chambers: the rotor with their pump, its films at their positions; parts: with every assumed value; the
+    films over the turn. chambers, from 0; of a pump whose chambers are all equal the first alone."""
+
+    chambers: tuple[int, ...]
+    rotor: Rotor
+    parts: FloatingParts
+    gaps: GapCycle
+
+
+@dataclass(frozen=True)
 class FilmsPoint:
     """One coupled operating point: the pump, its films over the revolution, and the evidence of convergence.
 
-    rotor: of the pump with its films at their positions; parts: with every assumed value, physics of their films;
-    rounds of films and chamber; pressure_change: the last round's largest, Pa; sampling_error: relative change of
-    the leakage when the chamber uses only every second film angle.
+    kinds: of chambers, the most common first; their ring is one. physics of their films; rounds of films and chamber;
+    pressure_change: the last round's largest, Pa; sampling_error: relative change of the leakage when the chamber uses
+    only every second film angle.
     """
 
-    rotor: Rotor
-    parts: FloatingParts
+    kinds: tuple[FilmsKind, ...]
     physics: GapPhysics
     pump_point: PumpPoint
-    gaps: GapCycle
     rounds: int
     pressure_change: float
     sampling_error: float
+
+    @property
+    def rotor(self) -> Rotor:
+        """The rotor with the pump of the most common kind."""
+        return self.kinds[0].rotor
+
+    @property
+    def parts(self) -> FloatingParts:
+        """The parts of the most common kind."""
+        return self.kinds[0].parts
+
+    @property
+    def gaps(self) -> GapCycle:
+        """The films of the most common kind."""
+        return self.kinds[0].gaps
 
 
 def films_point(
@@ -85,34 +110,38 @@ def films_point(
     """One periodic operating point with films solved over the revolution, on meshes `finer` times the usual.
 
     Chamber pressure repeats to `tolerance` of the ports' difference. The effects of [physics] that films solve
-    are on in addition to `physics`. With heat the pairs' Coulomb loss warms their walls too.
+    are on in addition to `physics`. With heat the pairs' Coulomb loss warms their walls too. Chambers that differ have
+    the films of their kind, at the mean pressure of its chambers, and a ring over the turn.
 
     Raises NotConverged when chamber pressure and films do not converge within ROUND_LIMIT rounds, or viscosity
-    grows without bound, ValueError when `positions_per_pitch` is no even divisor of SAMPLES_PER_PITCH or chambers
-    differ, InputError where parts touch at a given position. Films have no history; they are smooth, and
-    rigid and isothermal except for [physics].
+    grows without bound, ValueError when `positions_per_pitch` is no even divisor of SAMPLES_PER_PITCH, InputError where
+    parts touch at a given position. Films have no history; they are smooth, and rigid and isothermal except for
+    [physics].
     """
-    kinds(pump).hold_alike()
     if positions_per_pitch % 2 or SAMPLES_PER_PITCH % positions_per_pitch:
         raise ValueError(
             f"positions per pitch: found {positions_per_pitch}, expected an even divisor of {SAMPLES_PER_PITCH}"
         )
     every, work = SAMPLES_PER_PITCH // positions_per_pitch, _work(pump, point, physics)
-    at, cycle, rounds = work.rotor, work.cycle, 0
+    group, cycles = work.group, work.cycles
     limit = tolerance * (abs(point.delivery_pressure - point.inlet_pressure) + 1e5)
-    while rounds < ROUND_LIMIT:
+    rounds = 0
+    for _ in range(ROUND_LIMIT):
         rounds += 1
         try:
-            gaps = gap_cycle(
-                at, work.films.parts, cycle.shaft_angle[::every], cycle.pressure[::every], report,
-                physics=work.films.physics, rubbing=_rubbing(work.losses(cycle)), finer=finer,
+            gaps = gap_cycles(
+                group, cycles[0].shaft_angle[::every], [one[::every] for one in work.pressures(cycles)], report,
+                physics=work.physics, rubbing=work.rubbing(cycles), finer=finer,
             )  # fmt: skip
         except InputError as reason:
             raise _run_away(pump, reason) from None
-        ported, leaks = _ported(work, gaps, at.point)
-        at = rotor(at.pump, met_point(work.point, ported))
-        before, cycle = cycle, ported.cycle
-        change = float(np.max(np.abs(cycle.pressure - before.pressure)))
+        ported, leaks = _ported(work, gaps, group[0].rotor.point)
+        met = met_point(work.point, ported)
+        group = tuple(replace(one, rotor=rotor(one.rotor.pump, met)) for one in group)
+        before, cycles = cycles, ported.cycles
+        change = float(
+            max(np.max(np.abs(one.pressure - old.pressure)) for one, old in zip(cycles, before, strict=True))
+        )
         if change <= limit:
             break
     else:
@@ -120,9 +149,9 @@ def films_point(
             f"films and chamber pressure: after {ROUND_LIMIT} rounds the pressure still changes by {change:.3g} "
             f"Pa, expected at most {limit:.3g} Pa; try the lumped fidelity, more film angles, stiffer walls"
         )
-    sampled = _sampling_error(ported.problem, leaks, work.effects, cycle)
-    whole, films = _pump_point(work, point, gaps, ported), work.films
-    return FilmsPoint(at, films.parts, films.physics, whole, gaps, rounds, change, sampled)
+    sampled, whole = _sampling_error(work, ported, leaks), _pump_point(work, point, gaps, ported)
+    kinds_found = [FilmsKind(one.chambers, one.rotor, one.parts, films) for one, films in zip(group, gaps, strict=True)]
+    return FilmsPoint(tuple(kinds_found), work.physics, whole, rounds, change, sampled)
 
 
 def _run_away(pump: PumpDescription, reason: InputError) -> InputError | NotConverged:
@@ -143,63 +172,101 @@ def _run_away(pump: PumpDescription, reason: InputError) -> InputError | NotConv
 
 @dataclass(frozen=True)
 class _Coupling:
-    """Constants of the rounds, and their start: rotor and cycle of the lumped pump without effects.
+    """Constants of the rounds, and their start: films and cycles of the lumped pump without effects.
 
-    pump: with only those effects that films do not solve; point: with the stroke after effects.
+    pump: with only those effects that films do not solve; kinds: of its chambers; point: with the stroke after
+    effects; motions, effects (none where no law acts) and films by kind, cycles by chamber.
     """
 
     pump: PumpDescription
+    kinds: Kinds
     point: OperatingPoint
-    motion: PistonMotion
+    motions: tuple[PistonMotion, ...]
     effects: tuple[Effects[float], ...]
-    films: FilmEffects
-    rotor: Rotor
-    cycle: ChamberCycle
+    group: tuple[GapKind, ...]
+    physics: GapPhysics
+    cycles: tuple[ChamberCycle, ...]
 
-    def losses(self, cycle: ChamberCycle, gaps: GapCycle | None = None) -> FrictionPairs:
-        """The pairs' losses at a cycle's pressures, with the shear of these films and the contributions of
-        effects.
+    @property
+    def acting(self) -> tuple[tuple[Effects[float], ...], ...]:
+        """The effects of each kind, one or none."""
+        return tuple(self.effects[kind : kind + 1] for kind in range(len(self.kinds.pumps)))
+
+    @property
+    def by_chamber(self) -> tuple[Effects[float], ...]:
+        """The effects of each chamber, of one where all are equal; none where no law acts."""
+        return self.kinds.by_chamber(self.effects) if self.effects else ()
+
+    def pressures(self, cycles: Sequence[ChamberCycle]) -> list[Array]:
+        """Pressure (N,) Pa of each kind, the mean of its chambers."""
+        return [np.mean([cycles[k].pressure for k in one.chambers], axis=0) for one in self.group]
+
+    def losses(self, cycles: Sequence[ChamberCycle], gaps: Sequence[GapCycle] | None = None) -> list[FrictionPairs]:
+        """The pairs' losses of each chamber at its cycle's pressures, with the shear of these films and the
+        contributions of effects.
         """
-        found = lumped_pairs(self.pump, self.point, self.motion, cycle)
-        if gaps is not None:
-            found = with_film_shear(found, gaps, self.point.case_pressure)
-        for one in self.effects:
-            found = rubbed(found, one)
+        found = []
+        for kind, cycle in zip(self.kinds.of_chamber, cycles, strict=True):
+            loss = lumped_pairs(self.kinds.pumps[kind], self.point, self.motions[kind], cycle)
+            if gaps is not None:
+                loss = with_film_shear(loss, gaps[kind], self.point.case_pressure)
+            for one in self.acting[kind]:
+                loss = rubbed(loss, one)
+            found.append(loss)
         return found
+
+    def rubbing(self, cycles: Sequence[ChamberCycle]) -> list[tuple[float, float, float]]:
+        """Mean Coulomb loss (W) of one piston and one slipper of each kind, and of the ring."""
+        losses = self.losses(cycles)
+        each = [mean_of([losses[k] for k in one.chambers]) for one in self.group]
+        ring = mean_of(losses).valve_plate_cylinder.mean_coulomb
+        one_of = [(one.piston_cylinder, one.slipper_swash_plate) for one in each]
+        return [
+            (piston.mean_coulomb / piston.count, slipper.mean_coulomb / slipper.count, ring)
+            for piston, slipper in one_of
+        ]
 
 
 def _work(pump: PumpDescription, point: OperatingPoint, physics: GapPhysics) -> _Coupling:
     warm = at_temperature(pump, point.temperature)
-    own, described = closed_laws(warm), unpressed(warm, point.case_pressure)
+    own, found = closed_laws(warm), kinds(warm)
     plain, effects = point_and_effects(own, point)
-    asked, at = at_the_ports(point, effects), rotor(described, at_the_ports(plain.point, effects))
-    films = film_effects(at, floating_parts(described), warm, physics)
-    return _Coupling(own, asked, piston_motion(own, asked), effects, films, at, plain.cycle)
+    by_chamber = found.by_chamber(effects) if effects else ()
+    asked, left = at_the_ports(point, by_chamber), at_the_ports(plain.point, by_chamber)
+    group = []
+    for kind, one in enumerate(found.pumps):
+        described = unpressed(one, point.case_pressure)
+        at = rotor(described, left)
+        films = film_effects(at, floating_parts(described), one, physics)
+        group.append(GapKind(at, films.parts, found.chambers(kind)))
+    closed = replace(found, pumps=tuple(closed_laws(one) for one in found.pumps))
+    motions = tuple(piston_motion(one, asked) for one in closed.pumps)
+    return _Coupling(own, closed, asked, motions, effects, tuple(group), films.physics, plain.chambers)
 
 
-def _ported(work: _Coupling, gaps: GapCycle, met: OperatingPoint) -> tuple[PortedCycle, LeakTable]:
-    """Chambers and ports with the films' leaks, ports as `met` before; and these leaks without closed-form laws."""
-    leaks = edged_leaks(work.pump, work.point, gaps)
-    problem = affected_problem(work.pump, work.point, work.motion, leaks, work.effects)
-    lines, draws = port_lines(work.pump, work.point), port_draws(gaps, met, work.pump.oil.bulk_modulus)
-    samples = work.motion.shaft_angle.size
-    return ported_cycle((problem,), lines, work.pump.pump.pistons, samples, draws=draws), leaks
+def _ported(work: _Coupling, gaps: Sequence[GapCycle], met: OperatingPoint) -> tuple[PortedCycle, list[LeakTable]]:
+    """Chambers and ports with the films' leaks, ports as `met` before; and these leaks by kind, without closed-form
+    laws."""
+    leaks = [edged_leaks(one, work.point, films) for one, films in zip(work.kinds.pumps, gaps, strict=True)]
+    problems = [
+        affected_problem(one, work.point, motion, leak, acting)
+        for one, motion, leak, acting in zip(work.kinds.pumps, work.motions, leaks, work.acting, strict=True)
+    ]
+    lines, draws = port_lines(work.pump, work.point), port_draws(gaps[0], met, work.pump.oil.bulk_modulus)
+    samples = work.motions[0].shaft_angle.size
+    found = ported_cycle(work.kinds.by_chamber(problems), lines, work.pump.pump.pistons, samples, draws=draws)
+    return found, leaks
 
 
-def _pump_point(work: _Coupling, asked: OperatingPoint, gaps: GapCycle, ported: PortedCycle) -> PumpPoint:
+def _pump_point(work: _Coupling, asked: OperatingPoint, gaps: Sequence[GapCycle], ported: PortedCycle) -> PumpPoint:
     """The pump whose films and chambers agree."""
     pump, pistons = work.pump, work.pump.pump.pistons
-    exchange = gap_exchange(gaps, ported.cycle, pistons, work.point)
-    losses, derived = work.losses(ported.cycle, gaps), swept_displacement(pump, work.motion.drive)
-    outside = mean_outside(pump, met_point(asked, ported), work.effects)
-    return assemble(asked, ported, (losses,), pistons, derived, exchange, (group_masses(pump),), outside)
-
-
-def _rubbing(losses: FrictionPairs) -> tuple[float, float, float]:
-    """Mean Coulomb loss (W) of one piston, one slipper and the ring."""
-    pairs = losses.piston_cylinder, losses.slipper_swash_plate, losses.valve_plate_cylinder
-    piston, slipper, ring = (pair.mean_coulomb / pair.count for pair in pairs)
-    return piston, slipper, ring
+    exchange = gap_exchange(gaps[0], ported.cycle, pistons, work.point)
+    each = [swept_displacement(one, motion.drive) for one, motion in zip(work.kinds.pumps, work.motions, strict=True)]
+    derived, masses = float(np.mean(work.kinds.by_chamber(each))), [group_masses(one) for one in work.kinds.pumps]
+    outside = mean_outside(pump, met_point(asked, ported), work.by_chamber)
+    losses, of_chamber = work.losses(ported.cycles, gaps), work.kinds.by_chamber(masses)
+    return assemble(asked, ported, losses, pistons, derived, exchange, of_chamber, outside)
 
 
 def leak_table(gaps: GapCycle, case_pressure: float) -> LeakTable:
@@ -270,13 +337,16 @@ def _refine(periodic: Array, samples: int) -> Array:
     return np.interp(turns, np.arange(periodic.size) / periodic.size, periodic, period=1.0)
 
 
-def _sampling_error(
-    problem: ChamberProblem, leaks: LeakTable, effects: Sequence[Effects[float]], cycle: ChamberCycle
-) -> float:
-    """Relative change of the leakage when the chamber knows only every second angle of the films' leaks."""
-    halved = LeakTable(leaks.conductance[:, ::2].copy(), leaks.drag_flow[:, ::2].copy())
-    for one in effects:
-        halved = affected_leaks(halved, one)
-    coarse = solve_cycle(replace(problem, leaks=halved), cycle.shaft_angle.size)
-    fine, rough = (float(c.outflow.piston + c.outflow.slipper + c.outflow.valve_plate) for c in (cycle, coarse))
+def _sampling_error(work: _Coupling, ported: PortedCycle, leaks: Sequence[LeakTable]) -> float:
+    """Relative change of the leakage when the chambers know only every second angle of the films' leaks."""
+    fine, rough = 0.0, 0.0
+    for one, leak, acting in zip(work.group, leaks, work.acting, strict=True):
+        halved = LeakTable(leak.conductance[:, ::2].copy(), leak.drag_flow[:, ::2].copy())
+        for effects in acting:
+            halved = affected_leaks(halved, effects)
+        first = one.chambers[0]
+        cycle, problem = ported.cycles[first], replace(ported.problems[first], leaks=halved)
+        coarse = solve_cycle(problem, cycle.shaft_angle.size)
+        fine += len(one.chambers) * float(cycle.outflow.gaps)
+        rough += len(one.chambers) * float(coarse.outflow.gaps)
     return abs(rough - fine) / abs(fine)

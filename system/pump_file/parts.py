@@ -293,6 +293,6 @@ def _not_alike(single: str) -> CheckWarning:
     return CheckWarning(
         single,
         "a part unlike the others",
-        "alike parts in the fidelities fixed and table, diagnose, calibrate and transient, which refuse this pump",
-        "run the fidelity lumped or floating; or give every chamber that part to see what it does",
+        "alike parts in the fidelity table, diagnose, calibrate and transient, which refuse this pump",
+        "run the fidelity lumped, fixed or floating; or give every chamber that part to see what it does",
     )

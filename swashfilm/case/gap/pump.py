@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -14,19 +14,25 @@ from system.inputs.faults import Fault, InputFaults
 from system.inputs.sections.fields import fields_of
 from system.inputs.sections.json_schema import Schema, section_schema
 from system.inputs.toml_table import Table
-from system.pump.film_thickness import at_temperature, unpressed
+from system.pump.film_thickness import moved_to, unpressed
 from system.pump.operating import operating_point
 from system.pump_file.file import builtin_pumps, load_pump
 
 OPERATING = "operating"
+TEMPERATURE = f"{OPERATING}.temperature"
 FILE_KEYS = (".body.mesh", ".profile.trace")
 
 
 @dataclass(frozen=True)
 class CasePump:
-    """A pump at its operating point, its source, and the values that the case sets, by path (`piston.mass`)."""
+    """A pump at its operating point, its source, and the values that the case sets, by path (`piston.mass`).
+
+    rotor: with the films of the point's temperature and case pressure; pump: as described, its [operating] temperature
+    that of its file, at which its films have the thickness stated.
+    """
 
     rotor: Rotor
+    pump: PumpDescription
     source: str
     stated: Mapping[str, Any]
 
@@ -52,12 +58,21 @@ def read_case_pump(top: Table, film: Table, folder: Path) -> CasePump | None:
     place = source if source in builtin_pumps() else str(folder / source)
     try:
         pump = load_pump(place, stated | at_point)
+        described = _at_own_temperature(pump, place, stated | at_point)
     except InputFaults as reason:
         top.faults += [_at_case(fault, stated, film.name("pump")) for fault in reason.faults]
         return None
     point = operating_point(pump)
-    warm = at_temperature(pump, point.temperature)
-    return CasePump(rotor(unpressed(warm, point.case_pressure), point), place, stated)
+    warm = moved_to(described, pump.operating)
+    return CasePump(rotor(unpressed(warm, point.case_pressure), point), described, place, stated)
+
+
+def _at_own_temperature(pump: PumpDescription, place: str, values: Mapping[str, Any]) -> PumpDescription:
+    """The pump with the temperature that its file states; [physics.thermal_clearance] counts from it."""
+    if TEMPERATURE not in values or pump.physics.thermal_clearance is None:
+        return pump
+    own = load_pump(place, {path: value for path, value in values.items() if path != TEMPERATURE})
+    return replace(pump, operating=replace(pump.operating, temperature=own.operating.temperature))
 
 
 def own_rows(stated: Mapping[str, Any]) -> list[str]:

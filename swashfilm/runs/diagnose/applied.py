@@ -41,7 +41,7 @@ def _origin(found: DiagnosisResult, title: str, day: date) -> Iterator[str]:
 def _fidelities(pump: PumpDescription) -> Iterator[str]:
     """Fidelities that run the pump, and the remedy for those that do not."""
     if not kinds(pump).alike:
-        yield "Its chambers differ: --fidelity lumped and floating run it."
+        yield "Its chambers differ: --fidelity lumped, fixed and floating run it."
     solved, closed = effects_in_films(pump)
     if not solved and not closed:
         if kinds(pump).alike:

@@ -97,7 +97,7 @@ def pump_case(options: argparse.Namespace) -> PumpCase:
     levels = whole(faults, "--refine", options.refine, 1, (2, 4), "a number of levels")
     if levels > 1 and options.fidelity != Fidelity.FLOATING.value:
         faults.append(Fault("--refine", f"beside --fidelity {options.fidelity}", "--fidelity floating"))
-    if options.fidelity in (Fidelity.FIXED.value, Fidelity.TABLE.value):
+    if options.fidelity == Fidelity.TABLE.value:
         faults += alike_faults(pump)
     if faults:
         raise InputFaults(COMMAND_LINE, faults)

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from gaps.standing.gap_film import GapFilm
+from swashfilm.output.gap_names import kind_folder
 from swashfilm.runs.pump.oil_fields import UNITS, oil_state
 from system.points.films import FilmsPoint
 from system.pump.assembly import PumpPoint
@@ -18,6 +19,9 @@ if TYPE_CHECKING:
     import xarray
 
 GAPS = ("piston", "slipper", "valve_plate")
+PARTS = ("piston", "slipper")
+"""The gaps that each kind of chambers has for itself."""
+RESULTS = "results.nc"
 PICTURED_TURN = 0.75
 """Fraction of the turn at which gaps are drawn: the middle of delivery, largest piston speed."""
 _GAP_SERIES = {
@@ -33,9 +37,12 @@ _GAP_SERIES = {
 }
 
 
-def gap_films(films: FilmsPoint) -> dict[str, tuple[GapFilm, ...]]:
-    """Return the films of each gap in the order of its shaft angles, by the gap's name."""
-    return {"piston": films.gaps.piston, "slipper": films.gaps.slipper, "valve_plate": films.gaps.valve_plate}
+def named_films(films: FilmsPoint) -> Iterator[tuple[str, str, tuple[GapFilm, ...]]]:
+    """Yield a gap's name in words, its own name, and its films: of the most common kind, then of the others."""
+    for number, kind in enumerate(films.kinds):
+        place = [kind_folder(kind.chambers)] if number else []
+        for gap in PARTS if number else GAPS:
+            yield " ".join([*place, gap]).replace("_", " "), gap, getattr(kind.gaps, gap)
 
 
 def point_dataset(point: PumpPoint, name: str) -> xarray.Dataset:
@@ -79,15 +86,19 @@ def point_dataset(point: PumpPoint, name: str) -> xarray.Dataset:
     )
 
 
-def films_dataset(films: FilmsPoint) -> xarray.Dataset:
-    """Return series and fields of the three gaps over their film angles; vertices in the film plane (m)."""
+def films_dataset(films: FilmsPoint, number: int = 0) -> xarray.Dataset:
+    """Return series and fields of a kind's gaps over their film angles; vertices in the film plane (m).
+
+    The most common kind, 0, has all three gaps; another its piston and its slipper.
+    """
     import xarray
 
     data: dict[str, tuple[object, ...]] = {}
     coords: dict[str, tuple[object, ...]] = {}
-    for gap, series in gap_films(films).items():
-        angle = f"{gap}_angle"
-        coords[angle] = (angle, films.gaps.shaft_angle[: len(series)], {"units": "rad"})
+    kind = films.kinds[number]
+    for gap in PARTS if number else GAPS:
+        angle, series = f"{gap}_angle", getattr(kind.gaps, gap)
+        coords[angle] = (angle, kind.gaps.shaft_angle[: len(series)], {"units": "rad"})
         for name, (unit, value) in _GAP_SERIES.items():
             data[f"{gap}_{name}"] = (angle, np.array([value(film) for film in series]), {"units": unit})
         data |= _fields(gap, angle, series) | _oil_fields(gap, angle, films, series)
@@ -117,13 +128,27 @@ def _oil_fields(gap: str, angle: str, films: FilmsPoint, series: Sequence[GapFil
 
 
 def write_tables(folder: Path, data: xarray.Dataset) -> None:
-    """Write revolution.csv and, for solved films, one table per gap, with units in the heads."""
+    """Write revolution.csv and, for solved films, `write_gap_tables`."""
     revolution = data.drop_dims(set(data.dims) - {"shaft_angle"})
     _write_csv(folder / "revolution.csv", revolution, "shaft_angle")
+    write_gap_tables(folder, data)
+
+
+def write_gap_tables(folder: Path, data: xarray.Dataset) -> None:
+    """Write one table per gap of the data, with units in the heads."""
     for gap in GAPS:
         if f"{gap}_angle" in data.dims:
             series = data.drop_dims(set(data.dims) - {f"{gap}_angle"})
             _write_csv(folder / f"{gap}.csv", series, f"{gap}_angle")
+
+
+def write_unlike(folder: Path, films: FilmsPoint) -> None:
+    """Write chamber_N/ of the less common kinds: tables of piston and slipper, and a group of results.nc."""
+    for number, kind in enumerate(films.kinds[1:], start=1):
+        place, data = kind_folder(kind.chambers), films_dataset(films, number)
+        (folder / place).mkdir()
+        write_gap_tables(folder / place, data)
+        data.to_netcdf(folder / RESULTS, mode="a", group=place, engine="h5netcdf")
 
 
 def _write_csv(path: Path, data: xarray.Dataset, angle: str) -> None:

@@ -11,7 +11,7 @@ from gaps.films.physics import Effect
 from gaps.revolution.march import GapRevolution, Leg
 from swashfilm.case.gap.physics import PHYSICS_HEAD, effect_rows
 from swashfilm.console.fidelity import Fidelity
-from swashfilm.output.gap_names import TITLES
+from swashfilm.output.gap_names import TITLES, kind_folder
 from swashfilm.output.page import inlined
 from swashfilm.output.result import read_netcdf
 from swashfilm.output.run_folder import FAILED, write_json
@@ -26,7 +26,7 @@ from swashfilm.runs.film.revolution.plots import film_text, revolution_plots
 from swashfilm.runs.film.revolution.solve import RevolutionStudy, revolution_summary
 from swashfilm.runs.pump.data import GAPS
 from swashfilm.runs.pump.scene.blocks import Blocks, ChamberKind, Scene, write_pump
-from swashfilm.runs.pump.summary import effect_lists, pump_summary
+from swashfilm.runs.pump.summary import chamber_numbers, effect_lists, pump_summary
 from system.description.assumptions import Assumption
 from system.description.gap import Gap
 from system.films.heat import all_taken
@@ -77,12 +77,8 @@ def floating_studies(found: FloatingPoint) -> dict[str, tuple[RevolutionStudy, .
     studies = {"": tuple(_study_of(found, most, *gap) for gap in here)}
     for kind in others:
         own = (Gap.PISTON, kind.gaps.piston), (Gap.SLIPPER, kind.gaps.slipper)
-        studies[_place(kind.chambers)] = tuple(_study_of(found, kind, *gap) for gap in own)
+        studies[kind_folder(kind.chambers)] = tuple(_study_of(found, kind, *gap) for gap in own)
     return studies
-
-
-def _place(chambers: tuple[int, ...]) -> str:
-    return f"chamber_{chambers[0] + 1}"
 
 
 def _study_of(found: FloatingPoint, kind: FloatingKind, gap: Gap, revolution: GapRevolution[Any]) -> RevolutionStudy:
@@ -139,7 +135,7 @@ def floating_summary(found: FloatingPoint, warnings: list[str]) -> dict[str, Any
         "gaps": here,
         "spin_ratio": {part: spin / at.point.shaft_speed for part, spin in asdict(at.spins).items()},
         "unlike": {
-            _place(kind.chambers): {"chambers": [k + 1 for k in kind.chambers], "gaps": gaps}
+            kind_folder(kind.chambers): {"chambers": [k + 1 for k in kind.chambers], "gaps": gaps}
             for kind, gaps in zip(found.kinds[1:], others, strict=True)
         },
         "checks": summary["checks"] | checks,
@@ -178,7 +174,7 @@ def scene_of(found: FloatingPoint) -> Scene:
     (first, *others), block = found.kinds, found.kinds[0].gaps.block
     if not others:
         first = replace(first, chambers=tuple(range(found.pump.pump.pistons)))
-    kinds = _chambers(first, ""), *(_chambers(kind, _place(kind.chambers)) for kind in others)
+    kinds = _chambers(first, ""), *(_chambers(kind, kind_folder(kind.chambers)) for kind in others)
     return Scene(kinds, np.array(list(block.turn.films)), float(block.angles[-1]))
 
 
@@ -208,7 +204,7 @@ def write_unfinished(folder: Path, name: str, solved: Solved, reason: BaseExcept
     """
     gaps = {}
     for (kind, gap), one in solved.gaps.items():
-        path = Path(_place(one.of.chambers) if kind else "") / gap.value
+        path = Path(kind_folder(one.of.chambers) if kind else "") / gap.value
         study = _study(name, one)
         _write_gap(folder, path, study)
         gaps[path.as_posix()] = {"round": one.number} | revolution_summary(study)
@@ -243,7 +239,7 @@ def floating_view(folder: Path, summary: Mapping[str, Any]) -> dict[str, Any]:
     pictures = []
     shown: list[tuple[str, str, tuple[str, ...]]] = [(gap, TITLES[gap], SHOWN) for gap in GAPS]
     for place, kind in summary["unlike"].items():
-        shown += [(f"{place}/{gap}", f"{TITLES[gap]}, {_numbers(kind)}", SHOWN_UNLIKE) for gap in kind["gaps"]]
+        shown += [(f"{place}/{gap}", f"{TITLES[gap]}, {chamber_numbers(kind)}", SHOWN_UNLIKE) for gap in kind["gaps"]]
     for group, title, names in shown:
         drawn = revolution_plots(read_netcdf(folder / RESULTS, group))
         pictures += [(inlined(drawn[name]), f"{title}: {CAPTIONS[name]}") for name in names if name in drawn]
@@ -259,7 +255,7 @@ def floating_rows(summary: Mapping[str, Any]) -> list[tuple[str, ...]]:
     """Return a row per gap: films, leakage, friction, contact, convergence; then those of differing chambers."""
     named = [(TITLES[gap], of) for gap, of in summary["gaps"].items()]
     for kind in summary["unlike"].values():
-        named += [(f"{TITLES[gap]}, {_numbers(kind)}", of) for gap, of in kind["gaps"].items()]
+        named += [(f"{TITLES[gap]}, {chamber_numbers(kind)}", of) for gap, of in kind["gaps"].items()]
     return [
         (
             name,
@@ -273,7 +269,3 @@ def floating_rows(summary: Mapping[str, Any]) -> list[tuple[str, ...]]:
         )
         for name, of in named
     ]
-
-
-def _numbers(kind: Mapping[str, Any]) -> str:
-    return "chamber " + ", ".join(str(number) for number in kind["chambers"])

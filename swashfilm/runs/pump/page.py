@@ -16,7 +16,7 @@ from swashfilm.runs.pump.data import GAPS
 from swashfilm.runs.pump.floating import floating_view
 from swashfilm.runs.pump.forces import forces_view
 from swashfilm.runs.pump.scene.views import PICTURE, TURNING
-from swashfilm.runs.pump.summary import ABBREVIATION
+from swashfilm.runs.pump.summary import ABBREVIATION, chamber_numbers
 from swashfilm.runs.table.summary import TABLE_POINT_HEAD, table_point_rows
 from system.inputs.units import LPM
 from system.pump.laws.friction_pairs import Pair
@@ -139,16 +139,19 @@ def power_rows(summary: Mapping[str, Any]) -> Rows:
 
 
 def gap_rows(summary: Mapping[str, Any]) -> Rows:
-    """Return (gap, given film, leakage, friction power, statement)."""
+    """Return (gap, given film, leakage, friction power, statement); then those of differing chambers."""
+    named = [(TITLES[gap], report) for gap, report in summary["gaps"].items()]
+    for kind in summary["unlike"].values():
+        named += [(f"{TITLES[gap]}, {chamber_numbers(kind)}", report) for gap, report in kind["gaps"].items()]
     return [
         (
-            TITLES[gap],
+            name,
             f"{report['film_thickness_mean_m'] * 1e6:.2f} um (least {report['film_thickness_min_m'] * 1e6:.2f} um)",
             f"{report['leakage_flow_mean_m3_per_s'] * LPM:.4f} L/min",
             f"{report['friction_power_mean_W']:.1f} W",
             report["statement"],
         )
-        for gap, report in summary["gaps"].items()
+        for name, report in named
     ]
 
 

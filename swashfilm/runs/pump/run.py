@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any, assert_never
 from swashfilm.console.fidelity import Fidelity
 from swashfilm.output.refinement import Refinement, refinement_summary, write_refinement
 from swashfilm.output.run_folder import write_json
-from swashfilm.runs.pump.data import films_dataset, point_dataset, write_tables
+from swashfilm.runs.pump.data import films_dataset, point_dataset, write_tables, write_unlike
 from swashfilm.runs.pump.edge_losses import loss_warnings, losses_left_out
 from swashfilm.runs.pump.floating import floating_summary, scene_of, write_floating, write_unfinished
 from swashfilm.runs.pump.flow_coefficients import coefficient_warnings
@@ -105,6 +105,7 @@ def _films(case: PumpCase, report: Report) -> PumpRun:
     summary = pump_summary(pump, point, films, warnings)
 
     def fields(folder: Path) -> list[str]:
+        write_unlike(folder, films)
         return draw_pump(folder, films_scene(films), write_fields(folder, films))
 
     return _run(case, point, summary, joint_forces(pump, point), lambda: films_dataset(films), fields)

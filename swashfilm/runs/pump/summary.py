@@ -1,6 +1,6 @@
 """Summary of an operating point, summary.json: headline numbers in SI with units in the keys, checks, warnings."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import asdict, fields
 from typing import Any
 
@@ -8,14 +8,14 @@ import numpy as np
 
 from gaps.standing.gap_film import GapFilm
 from swashfilm.console.fidelity import Fidelity
-from swashfilm.output.gap_names import LARGEST_RIGID_PRESSURE
-from swashfilm.runs.pump.data import gap_films
+from swashfilm.output.gap_names import LARGEST_RIGID_PRESSURE, kind_folder
+from swashfilm.runs.pump.data import GAPS, PARTS, named_films
 from swashfilm.runs.pump.edge_losses import loss_records
 from swashfilm.runs.pump.flow_coefficients import coefficient_records
 from system.description.pump import PumpDescription
 from system.effects.effect import EffectId
 from system.points.film_effects import effects_in_films
-from system.points.films import FilmsPoint
+from system.points.films import FilmsKind, FilmsPoint
 from system.pump.assembly import PumpPoint
 from system.pump.bench import Efficiency, energy_split, ideal_flow, ideal_torque, paper_losses
 from system.pump.laws.friction_pairs import Pair
@@ -72,7 +72,8 @@ def pump_summary(
         "pair_loss": {pair.value: _pair(point, pair) for pair in Pair},
         "power_balance": _power(point),
         "physics": _physics(pump, films),
-        "gaps": {gap: gap_report(series) for gap, series in gap_films(films).items()} if films else {},
+        "gaps": _gaps(films.kinds[0], GAPS) if films else {},
+        "unlike": _unlike(films) if films else {},
         "checks": _checks(point, films),
         "coefficients": [*coefficient_records(pump), *loss_records(pump)],
         "assumptions": [str(one) for one in films.parts.taken] if films else [],
@@ -89,6 +90,23 @@ def _physics(pump: PumpDescription, films: FilmsPoint | None) -> dict[str, list[
 def effect_lists(solved: Sequence[EffectId], laws: Sequence[EffectId]) -> dict[str, list[str]]:
     """Return the names of effects that films solve, and of those of closed-form laws."""
     return {"films_solve": [one.value for one in solved], "closed_laws": [one.value for one in laws]}
+
+
+def _gaps(kind: FilmsKind, gaps: Sequence[str]) -> dict[str, Any]:
+    return {gap: gap_report(getattr(kind.gaps, gap)) for gap in gaps}
+
+
+def _unlike(films: FilmsPoint) -> dict[str, Any]:
+    """Return the gaps of chambers of the less common kinds."""
+    return {
+        kind_folder(kind.chambers): {"chambers": [k + 1 for k in kind.chambers], "gaps": _gaps(kind, PARTS)}
+        for kind in films.kinds[1:]
+    }
+
+
+def chamber_numbers(kind: Mapping[str, Any]) -> str:
+    """Return the chambers of a less common kind by name."""
+    return "chamber " + ", ".join(str(number) for number in kind["chambers"])
 
 
 def gap_report(series: Sequence[GapFilm]) -> dict[str, Any]:
@@ -212,9 +230,9 @@ def films_warnings(films: FilmsPoint) -> list[str]:
 def unsupported_loads(films: FilmsPoint) -> list[str]:
     """Return a warning for each gap whose film, at some angle, does not support its load at the given position."""
     return [
-        f"load_not_carried: {gap.replace('_', ' ')}: {gap_statement(series)}; contact, squeeze or another "
+        f"load_not_carried: {name}: {gap_statement(series)}; contact, squeeze or another "
         "position supplies the difference: --fidelity floating computes it"
-        for gap, series in gap_films(films).items()
+        for name, _, series in named_films(films)
         if not all(film.holds_its_load for film in series)
     ]
 
@@ -222,14 +240,14 @@ def unsupported_loads(films: FilmsPoint) -> list[str]:
 def impossible_pressures(films: FilmsPoint) -> list[str]:
     """Return a warning for each gap whose film pressure exceeds the limit of rigid walls and isoviscous oil."""
     found = []
-    for gap, series in gap_films(films).items():
+    for name, gap, series in named_films(films):
         physics = getattr(films.physics, gap)
         if physics.elastic_walls and physics.pressure_viscosity:
             continue
         peak = max(film.loads.pressure_max for film in series)
         if peak > LARGEST_RIGID_PRESSURE:
             found.append(
-                f"film_pressure_beyond_rigid: {gap.replace('_', ' ')}: film pressure up to {peak * 1e-6:.0f} MPa "
+                f"film_pressure_beyond_rigid: {name}: film pressure up to {peak * 1e-6:.0f} MPa "
                 f"(limit {LARGEST_RIGID_PRESSURE * 1e-6:.0f} MPa: walls deform and viscosity rises before); state "
                 "a smaller eccentricity or tilt, a larger clearance, or both effects in [physics]: "
                 f"compliance in [physics.elastic_opening.{gap}] and [physics.viscosity_pressure]"

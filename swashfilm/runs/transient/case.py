@@ -8,7 +8,6 @@ from typing import Annotated
 import numpy as np
 
 from swashfilm.case.gap.pump import CasePump, own_rows, pump_tables_schema, read_case_pump
-from system.effects.switched import switched_on
 from system.inputs.faults import InputFaults
 from system.inputs.sections.fields import Points, Positive, Text
 from system.inputs.sections.json_schema import Schema, quantity_schema, section_schema, tables_schema
@@ -60,9 +59,6 @@ def load_transient(path: Path) -> StatedTransient:
         top.fault("format", repr(tables.get("format")), f"format = {FORMAT}")
     table = top.table("transient", needed="with pump, end and control_pressure")
     pump = read_case_pump(top, table, path.parent) if table else None
-    if table and pump and (on := dict.fromkeys(one.id.value for one, _ in switched_on(pump.rotor.pump))):
-        expected = "none: swashfilm run, map, table and film read them"
-        table.fault("pump", f"effects of [physics], {', '.join(on)}", expected)
     section = _section(table) if table else None
     top.close()
     if table and section and pump:
@@ -111,12 +107,12 @@ def _control_pressure(raw: object, _: Mapping[str, object], reading: Reading) ->
 def _asked(section: TransientSection, pump: CasePump) -> TransientCase:
     times, values = np.array(section.control_pressure).T
     schedule = ControlPressure(times, values, section.course)
-    return TransientCase(pump.rotor.pump, pump.rotor.point, schedule, section.end, section.step)
+    return TransientCase(pump.pump, pump.rotor.point, schedule, section.end, section.step)
 
 
 def _hold_pump(table: Table, pump: CasePump, section: TransientSection) -> None:
     """List faults of pump and operating point that a transient excludes."""
-    whole, point = pump.rotor.pump, pump.rotor.point
+    whole, point = pump.pump, pump.rotor.point
     if not kinds(whole).alike:
         table.fault("pump", "chambers that differ", "identical chambers")
     stop = whole.swash_plate.angle_min or 0.0

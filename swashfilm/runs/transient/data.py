@@ -11,12 +11,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from reynolds.numerics.arrays import Array
+from swashfilm.runs.pump.summary import effect_lists
+from system.effects.switched import switched_on
 from system.multibody.transient import kernels as kernel
-from system.multibody.transient.solver import Transient
-from system.multibody.transient.torque import drive_torque
+from system.multibody.transient.pistons import stroke_ratio
+from system.multibody.transient.solver import Transient, flows
 from system.pump.chamber.layout import CAVITY_PRESSURE
-from system.pump.laws.kinematics import SwashDrive, stroke
-from system.pump.lumped import full_drive
 
 if TYPE_CHECKING:
     import xarray
@@ -34,35 +34,28 @@ MOMENTS = {
 """Moments on the swash plate by cause, positive where they increase the swash angle."""
 
 
-def displacement_ratio(found: Transient) -> Array:
-    """Return the stroke over the full stroke (N,), negative over centre."""
-    full = full_drive(found.case.pump)
-    whole = np.hypot(np.tan(found.swash_angle), np.tan(found.case.pump.pump.cross_angle or 0.0))
-    drive = SwashDrive(full.pitch_radius, full.bore_cone_angle, np.arctan(whole))
-    return np.asarray(np.where(found.swash_angle < 0.0, -1.0, 1.0) * stroke(drive) / stroke(full))
-
-
 def transient_dataset(found: Transient, name: str) -> xarray.Dataset:
     """Return series over `time` (s), units in the attributes; chamber pressures also over `chamber`.
 
-    Flows are means over the step that ends at the time, at the pressure of their port, the drain at case pressure.
+    Flows are means over the step that ends at the time, at the pressure of their port, the drain at case pressure, with
+    what effects of [physics] let pass the chambers, and as their meters read them.
     """
     import xarray
 
-    rows, point, bulk = found.rows, found.case.point, found.case.pump.oil.bulk_modulus
-    specific = {p: np.exp(-max(p, CAVITY_PRESSURE) / bulk) for p in vars(point).values()}
+    rows = found.rows
+    delivery, inlet, drain = flows(found)
     columns = {
         "shaft_angle": (found.shaft_angle, "rad"),
         "swash_angle": (rows[:, kernel.ANGLE], "rad"),
         "swash_rate": (rows[:, kernel.RATE], "rad/s"),
-        "displacement_ratio": (displacement_ratio(found), "1"),
+        "displacement_ratio": (stroke_ratio(found.case.pump, found.swash_angle), "1"),
         "control_pressure": (rows[:, kernel.CONTROL], "Pa"),
         "actuator_pressure": (rows[:, kernel.ACTUATOR], "Pa"),
         **{name: (rows[:, column], "N m") for name, column in MOMENTS.items()},
-        "delivery_flow": (rows[:, kernel.DELIVERY] * specific[point.delivery_pressure], "m3/s"),
-        "inlet_flow": (-rows[:, kernel.SUCTION] * specific[point.inlet_pressure], "m3/s"),
-        "drain_flow": (rows[:, kernel.CASE] * specific[point.case_pressure], "m3/s"),
-        "shaft_torque": (drive_torque(found), "N m"),
+        "delivery_flow": (delivery, "m3/s"),
+        "inlet_flow": (inlet, "m3/s"),
+        "drain_flow": (drain, "m3/s"),
+        "shaft_torque": (found.torque, "N m"),
     }
     chambers = np.arange(1, found.pressure.shape[1] + 1)
     return xarray.Dataset(
@@ -115,6 +108,7 @@ def transient_summary(found: Transient, name: str, data: xarray.Dataset) -> dict
         "plate_frequency_Hz": found.swing / (2.0 * np.pi),
         "step_s": found.step,
         "steps": int(found.time.size - 1),
+        "physics": effect_lists((), tuple(dict.fromkeys(one.id for one, _ in switched_on(found.case.pump)))),
         "checks": asdict(found.checks),
         "assumptions": [str(one) for one in found.mechanism.taken],
         "warnings": _warnings(found),

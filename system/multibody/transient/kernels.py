@@ -7,8 +7,12 @@ over a step the plate is known to second order, g + g' t + g'' t^2/2. The plate 
     (I + m sum s_g^2) g'' = sum s_g [A (p - p_case) + f - m (s_phiphi w^2 + 2 s_phig w g' + s_gg g'^2
                             - w^2 sin b (R + s sin b))] + M_actuator - M_spring - c g' - M_t g'/(g'^2 + r^2)^(1/2)
 
-by velocity Verlet, order 2. f is the nominal friction of a piston in its bore. Stops are plastic: while the
-moment presses the plate on one, it rests, and the moment on the stop is reported.
+by velocity Verlet, order 2. f is the friction of a piston in its bore. Stops are plastic: while the moment presses
+the plate on one, it rests, and the moment on the stop is reported.
+
+Effects of [physics] come as a table over a piston's own angle, (ACTING, M) at M equidistant angles from 0: factors on
+the conductances of the gaps, on Coulomb friction and shear of the piston, and its additional friction in W. The plate
+under the pistons may tilt less than the plate at its actuator, by a droop (rad) that changes evenly over a step.
 """
 
 # mypy: allow-untyped-defs, allow-incomplete-defs, no-check-untyped-defs
@@ -69,11 +73,17 @@ the plate up, -1 down.
 ATTEMPTS = 10
 """Newton's method may swing about a narrow port's laminar range and converge slowly: an attempt starts at the
 last iterate of the one before."""
-COLUMNS = 16
+COLUMNS = 18
 TIME, ANGLE, RATE, ACCELERATION, CONTROL, ACTUATOR, MOMENT_PRESSURE, MOMENT_INERTIA = range(8)
 MOMENT_FRICTION, MOMENT_ACTUATOR, MOMENT_SPRING, MOMENT_DRAG, MOMENT_STOP, DELIVERY, SUCTION, CASE = range(8, 16)
+DROOP, DROOP_RATE = range(16, 18)
 """Columns of the course: s, rad, rad/s, rad/s2, Pa, Pa, N m; the flows out of the chambers over the step that ends
-there, m3/s at zero gauge pressure."""
+there, m3/s at zero gauge pressure; the droop, rad, and its rate over that step, rad/s."""
+ACTING = 6
+COULOMB, VISCOUS, ADDED = 3, 4, 5
+"""Rows of the effects behind those of the conductances."""
+FROM, TO, STEP, DROOPED, DROOPS = range(5)
+"""What is imposed on a step: control pressure at begin and end Pa, its length s, droop at its begin rad, rad/s."""
 
 
 @numba.njit(cache=True, error_model="numpy")
@@ -89,14 +99,26 @@ def tilt_at(plate, tilt, time):
 
 
 @numba.njit(cache=True, error_model="numpy")
-def piston_at(chamber, plate, shaft_angle, angle, rate, ways):
-    """Content (m3) of a chamber and its growth (m3/rad); fills ways as `openings` of the chamber does."""
+def acting_at(acting, row, shaft_angle):
+    """A row of the effects at a piston's own angle (rad), linear between the table's angles."""
+    count = acting.shape[1]
+    place = shaft_angle / (2.0 * np.pi) * count
+    cell = np.floor(place)
+    share, k = place - cell, int(cell) % count
+    return acting[row, k] + share * (acting[row, (k + 1) % count] - acting[row, k])
+
+
+@numba.njit(cache=True, error_model="numpy")
+def piston_at(chamber, plate, acting, shaft_angle, angle, rate, ways):
+    """Content (m3) of a chamber and its growth (m3/rad) under a plate; fills ways as `openings` of the chamber does."""
     c, p = chamber[0], plate[0]
     place, by_phi, by_g, _, _, _ = axial(shaft_angle, angle, p.pitch_radius, p.cone, p.cross, p.pivot_offset)
     out = place - p.inner_place
     way = by_phi + by_g * rate / c.shaft_speed
     ways[col.CONDUCTANCE] = p.piston_leak / (p.engaged_length - out)
     ways[col.CONDUCTANCE + 1], ways[col.CONDUCTANCE + 2] = p.slipper_leak, p.ring_leak
+    for gap in range(col.GAPS):
+        ways[col.CONDUCTANCE + gap] *= acting_at(acting, gap, shaft_angle)
     ways[col.DRAG_FLOW] = p.drag_area * way * c.shaft_speed
     ways[col.DRAG_FLOW + 1], ways[col.DRAG_FLOW + 2] = 0.0, 0.0
     ports = section_area(shaft_angle, c.delivery_port), section_area(shaft_angle, c.suction_port)
@@ -129,39 +151,39 @@ def actuator_at(chamber, plate, angle, rate, control, ways):
 
 
 @numba.njit(cache=True, error_model="numpy")
-def content_at(chamber, plate, which, shaft_angle, tilt, time, control, ways):
+def content_at(chamber, plate, acting, which, shaft_angle, tilt, time, imposed, ways):
     """Content and growth of compartment `which` at a time into a step: a chamber, or the actuator after them
     all."""
     angle, rate = tilt_at(plate, tilt, time)
     if which == plate[0].pistons:
-        at = time / control[2]
-        return actuator_at(chamber, plate, angle, rate, control[0] + at * (control[1] - control[0]), ways)
+        control = imposed[FROM] + time / imposed[STEP] * (imposed[TO] - imposed[FROM])
+        return actuator_at(chamber, plate, angle, rate, control, ways)
     own = shaft_angle + time * chamber[0].shaft_speed + 2.0 * np.pi * which / plate[0].pistons
-    return piston_at(chamber, plate, own, angle, rate, ways)
+    angle -= imposed[DROOPED] + time * imposed[DROOPS]
+    return piston_at(chamber, plate, acting, own, angle, rate - imposed[DROOPS], ways)
 
 
 @numba.njit(cache=True, error_model="numpy")
-def advance(chamber, plate, which, shaft_angle, tilt, control, state, stages, totals):
+def advance(chamber, plate, acting, which, shaft_angle, tilt, imposed, state, stages, totals):
     """One step of a compartment's oil: state (2,) mass m3 and pressure Pa; False where a stage finds no pressure.
 
-    control: pressure before the actuator's orifice at begin and end of the step (Pa), and the step (s). stages as
-    `step` of the chamber has them; totals (INTEGRALS,) gains what `integral_rates` counts.
+    stages as `step` of the chamber has them; totals (INTEGRALS,) gains what `integral_rates` counts.
     """
-    length = control[2] * chamber[0].shaft_speed
+    length = imposed[STEP] * chamber[0].shaft_speed
     ways, flows = np.empty(WAYS), np.empty(PATHS)
-    _, swell = content_at(chamber, plate, which, shaft_angle, tilt, 0.0, control, ways)
+    _, swell = content_at(chamber, plate, acting, which, shaft_angle, tilt, 0.0, imposed, ways)
     pressure = state[1]
     outflows(chamber, pressure, ways, flows)
     fill_stage(chamber, pressure, oil_volume(pressure, oil_of(chamber))[0], swell, ways, flows, stages[0])
     for stage in range(1, STAGES):
-        time = NODES[stage] * control[2]
-        content, swell = content_at(chamber, plate, which, shaft_angle, tilt, time, control, ways)
+        time = NODES[stage] * imposed[STEP]
+        content, swell = content_at(chamber, plate, acting, which, shaft_angle, tilt, time, imposed, ways)
         base = state[0]
         for earlier in range(stage):
             base -= length * TABLEAU[stage, earlier] * stages[earlier, LEFT]
         for _ in range(ATTEMPTS):
             pressure, specific, _s, found = stage_pressure(
-                chamber, pressure, content, base, GAMMA * control[2], 0.0, ways, flows
+                chamber, pressure, content, base, GAMMA * imposed[STEP], 0.0, ways, flows
             )
             if found:
                 break
@@ -177,28 +199,31 @@ def advance(chamber, plate, which, shaft_angle, tilt, control, state, stages, to
 
 
 @numba.njit(cache=True, error_model="numpy")
-def moments(chamber, plate, shaft_angle, angle, rate, states, row):
+def moments(chamber, plate, acting, shaft_angle, angle, rate, states, row):
     """Fill the row's moments (N m) on the plate; return their sum and the inertia they accelerate (kg m2)."""
     c, p = chamber[0], plate[0]
     speed, out = c.shaft_speed, np.sin(p.cone)
-    lean = np.sqrt(np.tan(angle) ** 2 + np.tan(p.cross) ** 2)
+    under, swings = angle - row[DROOP], rate - row[DROOP_RATE]
+    lean = np.sqrt(np.tan(under) ** 2 + np.tan(p.cross) ** 2)
     row[MOMENT_PRESSURE : MOMENT_STOP + 1] = 0.0
     turned = p.inertia
     for k in range(p.pistons):
         own = shaft_angle + 2.0 * np.pi * k / p.pistons
         place, by_phi, by_g, by_phi_phi, by_phi_g, by_g_g = axial(
-            own, angle, p.pitch_radius, p.cone, p.cross, p.pivot_offset
+            own, under, p.pitch_radius, p.cone, p.cross, p.pivot_offset
         )
-        gain = by_phi_phi * speed**2 + 2.0 * by_phi_g * speed * rate + by_g_g * rate**2
+        gain = by_phi_phi * speed**2 + 2.0 * by_phi_g * speed * swings + by_g_g * swings**2
         gain -= speed**2 * out * (p.pitch_radius + place * out)
         push = c.piston_area * (states[k, 1] - c.case_pressure)
         moved = place - p.inner_place
-        engaged, way = p.engaged_length - moved, by_phi * speed + by_g * rate
+        engaged, way = p.engaged_length - moved, by_phi * speed + by_g * swings
         lever = 1.0 + 2.0 * (p.overhang + moved) / engaged
-        drag = p.friction * abs(push - p.mass * gain) * lean * lever / np.sqrt(way**2 + p.slide**2)
+        sliding = np.sqrt(way**2 + p.slide**2)
+        drag = p.friction * acting_at(acting, COULOMB, own) * abs(push - p.mass * gain) * lean * lever / sliding
+        drag += acting_at(acting, ADDED, own) / sliding**2 + p.shear * acting_at(acting, VISCOUS, own) * engaged
         row[MOMENT_PRESSURE] += by_g * push
         row[MOMENT_INERTIA] -= by_g * p.mass * gain
-        row[MOMENT_FRICTION] -= by_g * (drag + p.shear * engaged) * way
+        row[MOMENT_FRICTION] -= by_g * drag * way
         turned += p.mass * by_g**2
     lever, reach = p.sense * p.arm * np.cos(angle), actuator_reach(plate, angle)
     row[MOMENT_ACTUATOR] = lever * p.actuator_area * (states[p.pistons, 1] - c.case_pressure)
@@ -215,7 +240,7 @@ def resting(plate, angle, moment):
 
 
 @numba.njit(cache=True, error_model="numpy")
-def swing(chamber, plate, shaft_angle, tilt, step, states, row):
+def swing(chamber, plate, acting, shaft_angle, tilt, step, states, row):
     """Move the plate over a step (s) of Verlet's rule; tilt (3,) is that of its end, the row filled.
 
     Returns the loss of momentum at a stop, kg m2/s.
@@ -225,7 +250,7 @@ def swing(chamber, plate, shaft_angle, tilt, step, states, row):
     met = min(max(angle, p.angle_min), p.angle_max)
     rate = tilt[1] + step * tilt[2]
     struck = met != angle
-    moment, turned = moments(chamber, plate, shaft_angle, met, 0.0 if struck else rate, states, row)
+    moment, turned = moments(chamber, plate, acting, shaft_angle, met, 0.0 if struck else rate, states, row)
     taken, gain = 0.0, moment / turned
     if struck:
         taken, rate = turned * rate, 0.0
@@ -251,54 +276,64 @@ def contents(chamber, states):
 
 
 @numba.njit(cache=True, error_model="numpy")
-def let_go(chamber, plate, shaft_angle, tilt, states, row, free):
+def let_go(chamber, plate, acting, shaft_angle, tilt, states, row, free):
     """Fill the row of a plate that is held; tilt (3,) gets no rate and, if it is `free` now, its acceleration."""
-    moment, turned = moments(chamber, plate, shaft_angle, tilt[0], 0.0, states, row)
+    moment, turned = moments(chamber, plate, acting, shaft_angle, tilt[0], 0.0, states, row)
     tilt[1] = 0.0
     tilt[2] = moment / turned if free and not resting(plate, tilt[0], moment) else 0.0
     row[MOMENT_STOP] = 0.0 if tilt[2] else -moment
 
 
 @numba.njit(cache=True, error_model="numpy")
-def pass_step(chamber, plate, shaft_angle, tilt, control, states, stages, totals):
-    """Take all oil over a step, totals (INTEGRALS,) being the chambers'; False where a stage finds no pressure."""
-    totals[:] = 0.0
-    aside = np.zeros(INTEGRALS)
-    for k in range(states.shape[0]):
-        into = totals if k < plate[0].pistons else aside
-        if not advance(chamber, plate, k, shaft_angle, tilt, control, states[k], stages, into):
+def pass_step(chambers, plate, acting, shaft_angle, tilt, imposed, states, stages, totals):
+    """Take all oil over a step, totals (INTEGRALS,) gaining the chambers'; False where a stage finds no pressure."""
+    pistons, aside = plate[0].pistons, np.zeros(INTEGRALS)
+    for k in range(pistons):
+        if not advance(chambers[:1], plate, acting, k, shaft_angle, tilt, imposed, states[k], stages, totals):
             return False
-    return True
+    return advance(chambers[1:], plate, acting, pistons, shaft_angle, tilt, imposed, states[pistons], stages, aside)
 
 
 @numba.njit(cache=True, error_model="numpy")
-def course(chamber, plate, held, step, controls, tilt, states, rows, pressures, totals, impulses, before):
-    """Fill rows (N + 1, COLUMNS), pressures (N + 1, z) from states (z + 1, 2) at the begin; 0, or a failed step.
+def place(chambers, plate, acting, at, tilt, states, row, pressures):
+    """Fill the row of an instant and its pressures (z,); return the momentum that a stop took, kg m2/s.
 
-    The plate is held for the first `held` steps. controls (N, 2): pressure before the actuator's orifice at begin
-    and end of each step; totals (INTEGRALS,) of all chambers after the held steps; impulses (N,) N m s on stops;
-    before (2,): `contents` of the chambers as the plate is let go.
+    at: number of the instant, of that at which the plate is let go, and the step (s).
     """
-    pistons, stages, one = plate[0].pistons, np.empty((STAGES, INTEGRALS + 2)), np.zeros(INTEGRALS)
-    control = np.array([0.0, 0.0, step])
-    for n in range(rows.shape[0]):
-        row, angle = rows[n], (n - held) * step * chamber[0].shaft_speed
-        if n <= held:
-            let_go(chamber, plate, angle, tilt, states, row, n == held)
-            before[:] = contents(chamber, states[:pistons])
-        else:
-            impulses[n - 1] = swing(chamber, plate, angle, tilt, step, states, row)
-        row[TIME], row[ANGLE], row[RATE], row[ACCELERATION] = (n - held) * step, tilt[0], tilt[1], tilt[2]
-        row[ACTUATOR] = states[pistons, 1]
-        pressures[n] = states[:pistons, 1]
-        if n + 1 == rows.shape[0]:
-            return 0
-        row[CONTROL], rows[n + 1, CONTROL] = controls[n, 0], controls[n, 1]
-        control[:2] = controls[n]
-        if not pass_step(chamber, plate, angle, tilt, control, states, stages, one):
+    number, free, step = at
+    chamber, pistons, taken = chambers[:1], plate[0].pistons, 0.0
+    angle = (number - free) * step * chamber[0].shaft_speed
+    if number <= free:
+        let_go(chamber, plate, acting, angle, tilt, states, row, number == free)
+    else:
+        taken = swing(chamber, plate, acting, angle, tilt, step, states, row)
+    row[TIME], row[ANGLE], row[RATE], row[ACCELERATION] = (number - free) * step, tilt[0], tilt[1], tilt[2]
+    row[ACTUATOR] = states[pistons, 1]
+    pressures[:] = states[:pistons, 1]
+    return taken
+
+
+@numba.njit(cache=True, error_model="numpy")
+def course(chambers, plate, acting, begin, end, held, step, controls, tilt, states, rows, pressures, impulses, totals):
+    """Fill rows (N + 1, COLUMNS) and pressures (N + 1, z) behind row `begin` up to row `end`; 0, or a failed step.
+
+    tilt and states (z + 1, 2) go along. chambers (2,): records of the pump's and of the actuator's oil. The plate is
+    held for the first `held` steps. controls (N, 2): pressure before the actuator's orifice at begin and end of each
+    step; the rows bring their droop. impulses (N,) N m s on stops; totals (INTEGRALS,) of all chambers.
+    """
+    stages, imposed, one = np.empty((STAGES, INTEGRALS + 2)), np.empty(5), np.empty(INTEGRALS)
+    totals[:] = 0.0
+    for n in range(begin, end):
+        angle = (n - held) * step * chambers[0].shaft_speed
+        after = rows[n + 1]
+        imposed[FROM], imposed[TO], imposed[STEP] = controls[n, 0], controls[n, 1], step
+        imposed[DROOPED], imposed[DROOPS] = rows[n, DROOP], after[DROOP_RATE]
+        rows[n, CONTROL], after[CONTROL] = controls[n, 0], controls[n, 1]
+        one[:] = 0.0
+        if not pass_step(chambers, plate, acting, angle, tilt, imposed, states, stages, one):
             return n + 1
-        if n >= held:
-            totals += one
-        rows[n + 1, DELIVERY], rows[n + 1, SUCTION] = one[col.OUTFLOW] / step, one[col.OUTFLOW + 1] / step
-        rows[n + 1, CASE] = (one[col.PISTON] + one[col.SLIPPER] + one[col.VALVE_PLATE]) / step
+        totals += one
+        after[DELIVERY], after[SUCTION] = one[col.OUTFLOW] / step, one[col.OUTFLOW + 1] / step
+        after[CASE] = (one[col.PISTON] + one[col.SLIPPER] + one[col.VALVE_PLATE]) / step
+        impulses[n] = place(chambers, plate, acting, (n + 1, held, step), tilt, states, after, pressures[n + 1])
     return 0

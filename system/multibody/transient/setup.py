@@ -13,7 +13,8 @@ from system.multibody.plate_motion import Actuator, Mechanism
 from system.multibody.transient.kernels import PLATE, actuator_at
 from system.pump.chamber.layout import CAVITY_PRESSURE, WAYS
 from system.pump.chamber.problem import ChamberProblem
-from system.pump.chamber.state_kernels import oil_volume
+from system.pump.chamber.setup import ported_record
+from system.pump.chamber.state_kernels import oil_of, oil_volume
 from system.pump.laws import friction_pairs as pairs
 from system.pump.laws.leakage import piston_conductance, piston_drag_flow
 from system.pump.lumped import chamber_problem, full_drive, lumped_leaks, piston_area, piston_motion, port_openings
@@ -47,6 +48,11 @@ def plate_problem(pump: PumpDescription, point: OperatingPoint) -> ChamberProble
     suction, delivery = port_openings(pump)
     found = chamber_problem(pump, at_full, motion, lumped_leaks(pump, at_full, motion))
     return replace(found, suction_port=suction, delivery_port=delivery)
+
+
+def chamber_pair(acting: ChamberProblem, plain: ChamberProblem) -> np.ndarray:
+    """Records (2,) that `kernels` reads: a chamber as effects leave it, and the oil of the actuator."""
+    return np.concatenate([ported_record(acting), ported_record(plain)])
 
 
 def plate_record(pump: PumpDescription, point: OperatingPoint, parts: Mechanism, step: float) -> np.ndarray:
@@ -107,23 +113,22 @@ def _actuator_values(actuator: Actuator) -> dict[str, float]:
 
 
 def start_states(
-    pump: PumpDescription, parts: Mechanism, records: tuple[np.ndarray, np.ndarray], angle: float, shift: float,
+    pump: PumpDescription, parts: Mechanism, records: tuple[np.ndarray, np.ndarray], angle: float, droop: float,
     pressure: Array, control: float,
 ) -> Array:  # fmt: skip
     """Mass (m3) and pressure (Pa) of each chamber and, last, of the actuator, at shaft angle 0 and a tilt (rad).
 
-    pressure (N,): of a chamber over the turn, from a dead centre `shift` (rad) before the plate's own.
+    records: `chamber_pair` and the plate's; droop rad, by which the plate tilts less under the pistons; pressure (z,)
+    Pa of the chambers, no less than in a cavity.
     """
-    record, plate = records
+    chambers, plate = records
     own = TURN * np.arange(pump.pump.pistons) / pump.pump.pistons
-    turn = TURN * np.arange(pressure.size) / pressure.size
-    found = np.maximum(np.interp(own + shift, turn, pressure, period=TURN), CAVITY_PRESSURE)
-    place = axial_rates(bore_circle(pump, parts), Plate(angle), own).place - inner_place(pump, parts)
+    place = axial_rates(bore_circle(pump, parts), Plate(angle - droop), own).place - inner_place(pump, parts)
     content = pump.pump.dead_volume + piston_area(pump) * place
-    reach, _ = actuator_at(record, plate, angle, 0.0, control, np.zeros(WAYS))
-    contents, pressures = np.append(content, reach), np.append(found, control)
-    oil = pump.oil.bulk_modulus, 0.0, 1.0
-    specific = np.array([oil_volume(float(one), oil)[0] for one in pressures])
+    reach, _ = actuator_at(chambers[1:], plate, angle, 0.0, control, np.zeros(WAYS))
+    oils = [oil_of(chambers[:1])] * own.size + [oil_of(chambers[1:])]
+    contents, pressures = np.append(content, reach), np.append(np.maximum(pressure, CAVITY_PRESSURE), control)
+    specific = np.array([oil_volume(float(one), oil)[0] for one, oil in zip(pressures, oils, strict=True)])
     return np.ascontiguousarray(np.stack([contents / specific, pressures], axis=1))
 
 

@@ -1,24 +1,27 @@
 """A pump in time while its swash plate swings: a control pressure that steps or ramps, at the lumped fidelity."""
 
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from enum import Enum
 
 import numpy as np
 
-from reynolds.errors import NotConverged
 from reynolds.numerics.arrays import Array
 from system.description.pump import PumpDescription
-from system.effects.switched import hold_plain
+from system.effects.switched import stated_laws
 from system.inputs.units import TURN
 from system.multibody.kinematics import swash_angle
 from system.multibody.plate_motion import Mechanism, mechanism
 from system.multibody.transient import kernels as kernel
-from system.multibody.transient.setup import natural_frequency, plate_problem, plate_record, start_states, steps_a_pitch
+from system.multibody.transient.march import Course, Setting, march
+from system.multibody.transient.pistons import Group
+from system.multibody.transient.setup import natural_frequency, plate_problem, plate_record, steps_a_pitch
 from system.points.lumped import lumped_point
-from system.pump.chamber.cycle import flow_energy
-from system.pump.chamber.layout import INTEGRALS
+from system.pump.bench import Outside
+from system.pump.chamber.cycle import bubbly_volume, specific_volume
+from system.pump.chamber.layout import CAVITY_PRESSURE
 from system.pump.chamber.problem import ChamberProblem
-from system.pump.chamber.setup import constants
+from system.pump.chamber.setup import chamber_records
+from system.pump.chamber.state_kernels import energy_at, oil_of
 from system.pump.chamber.turn import turn_totals
 from system.pump.chamber_kinds import kinds
 from system.pump.laws.kinematics import drive_at_ratio
@@ -80,8 +83,9 @@ class TransientChecks:
 class Transient:
     """The course from time 0 on at N times, step s apart.
 
-    rows (N, COLUMNS) of `transient_kernels`; pressure (N, z) of the chambers in Pa; shaft_angle (N,) rad; impulses
-    (N - 1,) N m s that stops took; swing rad/s, natural frequency of the plate on its oil at the start.
+    rows (N, COLUMNS) of `kernels`; pressure (N, z) of the chambers in Pa; shaft_angle (N,) rad; torque (N,) N m of the
+    drive; outside (N,), what effects let pass the chambers; chamber: as effects leave one; impulses (N - 1,) N m s that
+    stops took; swing rad/s, natural frequency of the plate on its oil at the start.
     """
 
     case: TransientCase
@@ -90,6 +94,9 @@ class Transient:
     shaft_angle: Array
     rows: Array
     pressure: Array
+    torque: Array
+    outside: Outside[Array]
+    chamber: ChamberProblem
     impulses: Array
     swing: float
     checks: TransientChecks
@@ -101,82 +108,67 @@ class Transient:
 
     @property
     def swash_angle(self) -> Array:
-        """rad."""
+        """rad, at the actuator."""
         return self.rows[:, kernel.ANGLE]
 
 
-@dataclass(frozen=True)
-class _Filled:
-    """Arrays that the compiled solution fills, of so many steps in all."""
-
-    steps: int
-    pistons: int
-    rows: Array = field(init=False)
-    pressures: Array = field(init=False)
-    totals: Array = field(init=False)
-    impulses: Array = field(init=False)
-    before: Array = field(init=False)
-
-    def __post_init__(self) -> None:
-        for name, shape in (
-            ("rows", (self.steps + 1, kernel.COLUMNS)),
-            ("pressures", (self.steps + 1, self.pistons)),
-            ("totals", INTEGRALS),
-            ("impulses", self.steps),
-            ("before", 2),
-        ):
-            object.__setattr__(self, name, np.zeros(shape))
-
-
 def run_transient(case: TransientCase) -> Transient:
-    """The solution of a case, at held ports and shaft speed, films of given thickness, equal chambers.
+    """The solution of a case, at held ports and shaft speed, films of given thickness, equal chambers; effects of
+    [physics] act by their laws.
 
-    Raises InputError for a step too long and for [physics], ValueError for chambers that differ, NotConverged
-    where a chamber finds no pressure.
+    Raises InputError for a step too long, ValueError for chambers that differ, NotConverged where a chamber finds no
+    pressure or an effect's films have no solution.
     """
     pump, point = case.pump, case.point
-    hold_plain(pump)
     kinds(pump).hold_alike()
     highest = float(np.max(case.control_pressure.values))
     parts = mechanism(pump, replace(point, displacement_ratio=1.0), highest)
     drive, pistons = drive_at_ratio(full_drive(pump), point.displacement_ratio), pump.pump.pistons
     angle = swash_angle(drive)
     swing = natural_frequency(pump, parts, angle)
-    a_turn = pistons * steps_a_pitch(case.step, point.shaft_speed, pistons, swing, parts)
-    step = TURN / a_turn / point.shaft_speed
-    problem = plate_problem(pump, point)
-    records = constants(problem)[0], plate_record(pump, point, parts, step)
-    held, count = HELD_TURNS * a_turn, max(1, round(case.end / step))
+    a_pitch = steps_a_pitch(case.step, point.shaft_speed, pistons, swing, parts)
+    step = TURN / (a_pitch * pistons) / point.shaft_speed
+    held, count = HELD_TURNS * a_pitch * pistons, max(1, round(case.end / step))
     controls = case.control_pressure.over(step, count)
     controls = np.concatenate([np.full((held, 2), controls[0, 0]), controls])
-    cycle = lumped_point(pump, point).cycle
-    shift = float(drive.dead_centre_shift)
-    states = start_states(pump, parts, records, angle, shift, cycle.pressure, controls[0, 0])
-    filled = _Filled(held + count, pistons)
-    failed = kernel.course(
-        *records, held, step, controls, np.array([angle, 0.0, 0.0]), states, filled.rows, filled.pressures,
-        filled.totals, filled.impulses, filled.before,
+    problem, record = plate_problem(pump, point), plate_record(pump, point, parts, step)
+    setting = Setting(Group(pump, point, parts), stated_laws(pump), problem, record, a_pitch, step, held, controls)
+    pressure = lumped_point(pump, point).cycle.pressure
+    turn = TURN * np.arange(pressure.size) / pressure.size
+    at_plate = np.interp(turn + float(drive.dead_centre_shift), turn, pressure, period=TURN)
+    found = march(setting, angle, at_plate)
+    return Transient(
+        case, parts, step, TURN / (a_pitch * pistons) * np.arange(count + 1, dtype=float), found.rows[held:],
+        found.pressure[held:], found.torque[held:],
+        Outside(*(one[held:] for one in vars(found.outside).values())), found.chamber, found.impulses[held:], swing,
+        _checks(found),
     )  # fmt: skip
-    if failed:
-        at = 1e3 * step * (failed - 1 - held)
-        raise NotConverged(
-            f"transient: a chamber or the actuator finds no pressure at {at:.4g} ms; "
-            "check dead volumes, bulk modulus, the orifice's area and the step"
-        )
-    turned = TURN / a_turn * np.arange(count + 1, dtype=float)
-    checks = _checks(problem, filled, kernel.contents(records[0], states[:-1]))
-    rows, pressure, impulses = filled.rows[held:], filled.pressures[held:], filled.impulses[held:]
-    return Transient(case, parts, step, turned, rows, pressure, impulses, swing, checks)
 
 
-def _checks(problem: ChamberProblem, filled: _Filled, after: Array) -> TransientChecks:
+def flows(found: Transient) -> tuple[Array, Array, Array]:
+    """Delivery, inlet and drain flow (N,) m3/s as a bench reads them: means over the step that ends at each time.
+
+    Volumes at the pressure of the port, with their bubbles, which leave the drain's oil.
+    """
+    rows, outside, point, chamber = found.rows, found.outside, found.case.point, found.chamber
+    pressures = np.maximum([point.delivery_pressure, point.inlet_pressure, point.case_pressure], CAVITY_PRESSURE)
+    delivery, inlet = (bubbly_volume(float(one), chamber) for one in pressures[:2])
+    case = specific_volume(float(pressures[2]), chamber.bulk_modulus)
+    return (
+        (rows[:, kernel.DELIVERY] * delivery + outside.delivery) * outside.delivery_reading,
+        outside.inlet - rows[:, kernel.SUCTION] * inlet,
+        rows[:, kernel.CASE] * case + outside.drain,
+    )
+
+
+def _checks(found: Course) -> TransientChecks:
     """Balance errors of oil and energy of the chambers from time 0 on."""
-    totals, gained = turn_totals(filled.totals), after - filled.before
-    out, work = totals.outflow, totals.indicated_work
-    to_case = float(out.gaps * flow_energy(problem.case_pressure, problem.bulk_modulus))
+    totals, gained = turn_totals(found.totals), found.gained
+    out, work, oil = totals.outflow, totals.indicated_work, found.chamber
+    to_case = float(out.gaps * energy_at(oil.case_pressure, oil_of(chamber_records(oil))))
     taken = float(totals.path_energy.total + totals.port_energy.sum()) + to_case + float(gained[1])
     passed = float(abs(out.delivery) + abs(out.suction))
     return TransientChecks(
         mass_balance_error=abs(float(out.total + gained[0])) / passed,
-        energy_balance_error=abs(work - taken) / max(abs(work), passed * problem.pressure_span),
+        energy_balance_error=abs(work - taken) / max(abs(work), passed * oil.pressure_span),
     )

@@ -1,74 +1,38 @@
 """Drive torque of a transient: pressure and inertia by virtual work on the shaft, friction by the nominal losses.
 
-    T w = sum [m A . dX/dphi w - Ap (p - p_case) s_phi w - q_drag (p - p_case)] + losses of the pairs
+    T w = sum [m A . dX/dphi w - Ap (p - p_case) s_phi w - q_drag (p - p_case)] + losses of the pairs + T_outside w
 
 over the chambers; X the ball's place, A its acceleration, q_drag the drag flow of the piston through its gap.
-Losses are those of `system.pump.lumped` at each instant's tilt, sliding and pressure.
+Losses are those of `system.pump.lumped` at each instant's tilt, sliding and pressure, with the effects of [physics]
+there; T_outside is what acts on the shaft beside the pairs.
 """
-
-from collections.abc import Iterator
 
 import numpy as np
 
 from reynolds.numerics.arrays import Array
-from system.inputs.units import TURN
-from system.multibody.kinematics import SHAFT, Plate, axial_rates, ball_motion, bore_axes, cross, dot
-from system.multibody.transient import kernels as kernel
-from system.multibody.transient.setup import bore_circle, inner_place
-from system.multibody.transient.solver import Transient
+from system.effects.friction import rubbed
+from system.multibody.transient.effects import Acting
+from system.multibody.transient.pistons import Group, Instants, pistons_at
 from system.pump.laws.friction_pairs import FrictionPairs, Pair
-from system.pump.laws.kinematics import SwashDrive
 from system.pump.laws.leakage import piston_drag_flow
-from system.pump.lumped import PistonMotion, Pressures, lumped_pairs, piston_area
+from system.pump.lumped import Pressures, lumped_pairs, piston_area
 from system.pump.operating import columns
 
-INSTANTS = 1000  # at once, so that long courses fit in memory
 
-
-def drive_torque(found: Transient) -> Array:
-    """Torque (N,) N m of the shaft over the course."""
-    return np.concatenate([_torque(found, part) for part in _parts(found.time.size)])
-
-
-def _parts(count: int) -> Iterator[slice]:
-    return (slice(start, start + INSTANTS) for start in range(0, count, INSTANTS))
-
-
-def _torque(found: Transient, part: slice) -> Array:
-    pump, point, circle = found.case.pump, found.case.point, bore_circle(found.case.pump, found.mechanism)
-    speed, pistons = point.shaft_speed, pump.pump.pistons
-    rows, pressure = found.rows[part], found.pressure[part]
-    shape = pressure.shape
-    angle = found.shaft_angle[part, None] + TURN * np.arange(pistons) / pistons
-    tilt = Plate(*(np.repeat(rows[:, k], pistons) for k in (kernel.ANGLE, kernel.RATE, kernel.ACCELERATION)))
-    flat = angle.ravel()
-    rates, ball = axial_rates(circle, tilt, flat), ball_motion(circle, tilt, flat, speed)
-    mass, area = pump.piston.mass + pump.slipper.mass, piston_area(pump)
-    turning = rates.phi * bore_axes(circle.cone, flat) + cross(SHAFT, ball.place)
-    inertia = mass * dot(ball.acceleration, turning).reshape(shape)
-    above = pressure - point.case_pressure
+def drive_torque(group: Group, instants: Instants, acting: Acting) -> Array:
+    """Torque (T,) N m of the shaft at instants with the effects of their turn."""
+    pump, point = group.pump, group.point
+    pistons, above = pistons_at(group, instants), instants.pressure - point.case_pressure
     clearance, diameter = pump.piston.radial_clearance, pump.pump.piston_diameter
-    dragged = piston_drag_flow(diameter, clearance, ball.way.reshape(shape)) * above
-    pushed = inertia - area * above * rates.phi.reshape(shape) - dragged / speed
-    normal = np.stack([np.sin(tilt.angle), -np.tan(circle.cross) * np.cos(tilt.angle), np.cos(tilt.angle)])
-    sliding = cross(ball.velocity, normal / np.sqrt(dot(normal, normal)))
-    out = rates.place.reshape(shape) - inner_place(pump, found.mechanism)
-    whole = np.hypot(np.tan(rows[:, kernel.ANGLE]), np.tan(circle.cross))
-    motion: PistonMotion[Array] = PistonMotion(
-        SwashDrive(circle.pitch_radius, circle.cone, np.arctan(whole)[:, None]),
-        angle,
-        ball.way.reshape(shape),
-        dot(ball.acceleration, ball.axis).reshape(shape),
-        np.linalg.norm(sliding, axis=0).reshape(shape),
-        pump.piston.engaged_length - out,
-        pump.piston.overhang + out,
-    )
-    losses = lumped_pairs(pump, columns(point), motion, Pressures(pressure))
-    return np.asarray(pushed.sum(axis=1) + _power(losses) / speed)
+    dragged = piston_drag_flow(diameter, clearance, pistons.motion.velocity) * above
+    pushed = pistons.inertia - piston_area(pump) * above * pistons.way_by_angle - dragged / point.shaft_speed
+    losses = lumped_pairs(pump, columns(point), pistons.motion, Pressures(instants.pressure))
+    power = _power(rubbed(losses, acting.at_instants(instants)))
+    return np.asarray(pushed.sum(axis=1) + power / point.shaft_speed + acting.outside.torque)
 
 
 def _power(losses: FrictionPairs[Array]) -> Array:
-    """All losses (M,) W at each instant."""
+    """All losses (T,) W at each instant."""
     total = np.zeros(losses.piston_cylinder.coulomb.shape[0])
     for pair in Pair:
         own = losses.loss(pair)

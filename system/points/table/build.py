@@ -29,6 +29,7 @@ from system.points.table.response_table import (
 )
 from system.points.table.sources import PointSolver, films_alone
 from system.points.table.store import KEY_LENGTH, keep_table, pump_key
+from system.pump.chamber_kinds import kinds
 from system.pump.operating import OperatingPoint, operating_point
 from system.work.processes import HERE
 from system.work.progress import Report, silent
@@ -72,7 +73,11 @@ class TableCase:
         return content_key(pump_key(self.pump), TABLE_FORMAT, solver.source.value, sorted(solver.stated.items()), place)
 
     def solve(self, x: Array) -> Array:
-        """The gaps' means over the turn, by their ratios to the lumped law; after them the pump's numbers."""
+        """The gaps' means over the turn, by their ratios to the lumped law; after them the pump's numbers.
+
+        Raises as the solver, ValueError where chambers differ.
+        """
+        kinds(self.pump).hold_alike()
         pump = films_alone(self.pump)
         solved = self.solver.solve(pump, point_at(self, x))
         return np.concatenate([mean_ratios(pump, solved), pump_numbers(solved.pump_point)])

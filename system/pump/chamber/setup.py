@@ -22,9 +22,14 @@ PORT_NAMES = ("delivery_port", "suction_port")
 
 def constants(problem: ChamberProblem) -> Constants:
     """A chamber problem as `kernels` reads it."""
+    return ported_record(problem), gap_cubics(problem.leaks, problem.growth), _port_cubics(problem)
+
+
+def ported_record(problem: ChamberProblem) -> np.ndarray:
+    """The record (1,) of a chamber's constants with its ports."""
     record = chamber_records(problem)
     record["delivery_port"], record["suction_port"] = (as_array(problem.delivery_port), as_array(problem.suction_port))
-    return record, gap_cubics(problem.leaks, problem.growth), _port_cubics(problem)
+    return record
 
 
 def turn_nodes(suction: PortOpening, delivery: PortOpening, samples: int) -> tuple[Array, np.ndarray]:

@@ -3,16 +3,13 @@
 from dataclasses import replace
 from datetime import date
 
-import pytest
 from made_diagnosis import its_study, named_diagnosis
 
 from diagnosis import DiagnosisResult
 from diagnosis.procedure.compared import NO_COMPARISON
-from reynolds import InputError
 from swashfilm.runs.diagnose.applied import applied_toml
 from system import entry_of, extended_pump, load_pump
 from system.effects.effect import EffectId
-from system.effects.switched import hold_plain
 
 PUMP = load_pump("ref90")
 NAMED = named_diagnosis()
@@ -53,8 +50,3 @@ def test_each_fidelity_is_named_with_what_it_does_of_the_effects():
     assert "fixed has slipper_lift as closed-form laws" in lifted
     assert "floating solves slipper_lift in the films" in lifted
     assert "It runs in every fidelity" in _applied(PUMP)
-
-
-def test_what_refuses_effects_names_the_remedy():
-    with pytest.raises(InputError, match=r"churning.*run, map, table and film read them.*without \[physics\]"):
-        hold_plain(_with(EffectId.CHURNING))

@@ -11,7 +11,7 @@ import pyvista
 import xarray
 
 from swashfilm.__main__ import main
-from system import load_pump
+from system import load_pump, resolved_toml
 
 TURN = 2.0 * np.pi
 
@@ -223,3 +223,51 @@ def test_forces_between_the_parts_are_told(lumped):
     page = (lumped / "report.html").read_text("utf-8")
     assert "Forces between the parts" in page
     assert "bearings.front_position" in page
+
+
+@pytest.fixture(scope="module")
+def worn(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("worn") / "run"
+    stated = ["--set", "piston.3.radial_clearance=22um"]
+    assert main(["run", "ref90", "--fidelity", "fixed", *stated, "-o", str(folder)]) == 0
+    return folder
+
+
+@pytest.mark.slow
+def test_a_worn_piston_stands_beside_the_others(worn):
+    found = summary(worn)
+    assert found["unlike"]["chamber_3"]["chambers"] == [3]
+    leaks = [of["gaps"]["piston"]["leakage_flow_mean_m3_per_s"] for of in (found["unlike"]["chamber_3"], found)]
+    assert leaks[0] > 2.0 * leaks[1]
+    names = {path.name for path in (worn / "chamber_3").iterdir()}
+    assert names >= {"piston.csv", "slipper.csv", "piston.pvd", "slipper.pvd", "fields"}
+    assert "valve_plate.csv" not in names
+    assert len(pandas.read_csv(worn / "chamber_3" / "piston.csv")) == 36
+    assert len(pandas.read_csv(worn / "valve_plate.csv")) == 36  # over the turn
+    films = []
+    for group in ("chamber_3", None):
+        with xarray.open_dataset(worn / "results.nc", group=group, engine="h5netcdf") as data:
+            films.append(data["piston_film_thickness_mean"].values)
+    wider = 22e-6 - load_pump("ref90").piston.radial_clearance
+    assert films[0] - films[1] == pytest.approx(np.full(36, wider), rel=0.02)
+    blocks = (worn / "pump" / "pump_000.vtm").read_text("utf-8")
+    for block, place in (("piston 3 film", "fields"), ("piston 3", "pump")):
+        assert f'name="{block}" file="../chamber_3/{place}/piston' in blocks
+    assert "piston-cylinder, chamber 3" in (worn / "report.html").read_text("utf-8")
+
+
+@pytest.mark.parametrize(
+    "words",
+    [
+        ["run", "worn.toml", "--fidelity", "table"],
+        ["map", "worn.toml", "--fidelity", "fixed"],
+        ["table", "worn.toml", "--source", "fixed"],
+    ],
+)
+def test_what_needs_identical_chambers_names_the_part_and_the_remedy(words, tmp_path, capsys):
+    pump = tmp_path / "worn.toml"
+    pump.write_text(resolved_toml(load_pump("ref90", {"piston.3.radial_clearance": "22 um"})), "utf-8")
+    assert main([str(pump) if word == "worn.toml" else word for word in words]) == 2
+    told = capsys.readouterr().err
+    assert "piston.3" in told
+    assert "swashfilm run with --fidelity lumped, fixed or floating" in told

@@ -28,7 +28,7 @@ def film(pressure, load=0.0):
 def films(piston, other, physics=PLAIN):
     """The part of a FilmsPoint that is looked at: `piston` in the piston gap, `other` in the two others."""
     gaps = SimpleNamespace(piston=(piston,), slipper=(other,), valve_plate=(other,))
-    return SimpleNamespace(gaps=gaps, physics=physics)
+    return SimpleNamespace(kinds=(SimpleNamespace(chambers=(0,), gaps=gaps),), physics=physics)
 
 
 @pytest.mark.parametrize(("share", "count"), [(0.5, 1), (1.0, 0), (2.0, 1)])

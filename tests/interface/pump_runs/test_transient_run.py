@@ -76,6 +76,21 @@ def test_resolved_case_gives_the_same_case(folder):
     assert again.resolved == first.resolved
 
 
+def test_effects_of_the_pump_act_and_are_named(tmp_path):
+    """Also one that [operating] makes act: clearances count from the temperature of the pump's own file."""
+    effects = '[pump.physics.churning]\nfactor = 1.0\n[pump.physics.thermal_clearance.piston]\nrate = "0.01 1/K"\n'
+    warm = '[operating]\ntemperature = "70 degC"\n'
+    drained = {}
+    for name, text in (("plain", SHORT + warm), ("affected", SHORT + effects + warm)):
+        (tmp_path / f"{name}.toml").write_text(text, "utf-8")
+        assert run_command(["transient", str(tmp_path / f"{name}.toml"), "-o", str(tmp_path / name)]) == 0
+        drained[name] = pandas.read_csv(tmp_path / name / "course.csv")["drain_flow [m3/s]"].iloc[1:100].mean()
+    found = json.loads((tmp_path / "affected" / "summary.json").read_text("utf-8"))
+    assert found["physics"]["closed_laws"] == ["thermal_clearance", "churning"]
+    assert "thermal clearance, churning" in (tmp_path / "affected" / "report.html").read_text("utf-8")
+    assert drained["affected"] > 1.1 * drained["plain"]
+
+
 def test_every_fault_is_told_at_once(tmp_path):
     text = """format = 2
 [transient]

@@ -5,57 +5,63 @@ from pathlib import Path
 import numpy as np
 
 from gaps.films.over_turn import TURN, PeriodicCurve
-from gaps.standing.gap_film import GapFilm
 from reynolds.solve.export import write_pvd, write_vtu
-from swashfilm.output.gap_names import FIELDS, vtu_name
-from swashfilm.runs.pump.data import GAPS
+from swashfilm.output.gap_names import FIELDS, kind_folder, vtu_name
+from swashfilm.runs.pump.data import GAPS, PARTS
 from swashfilm.runs.pump.oil_fields import UNITS, oil_state
 from swashfilm.runs.pump.scene.blocks import Blocks, ChamberKind, Scene, write_pump
 from system.description.gap import Gap
 from system.films.places import place_of
-from system.points.films import FilmsPoint
+from system.points.films import FilmsKind, FilmsPoint
 
 
 def write_fields(folder: Path, films: FilmsPoint) -> tuple[Blocks, ...]:
     """Write fields/*.vtu with piston.pvd, slipper.pvd, valve_plate.pvd, and the whole pump (`write_pump`).
 
     A gap's PVD follows one piston or slipper, or the valve plate's ring, over the turn (time = shaft angle in
-    degrees). Returns the blocks of the pump at each angle.
+    degrees). Pistons and slippers of the less common kinds have the same files in chamber_N. Returns the blocks of the
+    pump at each angle.
     """
-    place = folder / FIELDS
-    place.mkdir()
-    viscosity = films.rotor.point.viscosity
-    gaps = films.gaps
-    series: dict[Gap, tuple[GapFilm, ...]] = {
-        Gap.PISTON: gaps.piston, Gap.SLIPPER: gaps.slipper, Gap.VALVE_PLATE: gaps.valve_plate,
-    }  # fmt: skip
-    for gap, films_of_gap in series.items():
-        for k, film in enumerate(films_of_gap):
-            at = place_of(gap, films.rotor, films.parts, films.gaps.shaft_angle[k])
-            oil = oil_state(films.rotor.pump, getattr(films.physics, gap.value), film.solution, viscosity)
-            heads = {name: (values, UNITS[name]) for name, values in oil.items()}
-            write_vtu(place / vtu_name(gap.value, k), film.solution, at, heads)
-    _write_series(folder, films)
+    for number, kind in enumerate(films.kinds):
+        place = folder / _place(number, kind)
+        (place / FIELDS).mkdir(parents=True)
+        for gap in PARTS if number else GAPS:
+            _write_gap(place, films, kind, Gap(gap))
     return write_pump(folder, films_scene(films))
 
 
 def films_scene(films: FilmsPoint) -> Scene:
-    """Return the pump over the turn: all chambers alike, the block's films over a pitch."""
-    at = films.gaps
-    pressure = PeriodicCurve(at.shaft_angle, at.chamber_pressure)
-    pistons = tuple(range(films.rotor.pump.pump.pistons))
-    kind = ChamberKind(
-        "", pistons, films.rotor, films.parts, at.shaft_angle, at.shaft_angle, lambda a: float(pressure(a))
+    """Return the pump over the turn: its kinds of chambers, the block's films over a pitch, or the turn."""
+    most = films.gaps
+    angles, known = most.shaft_angle, len(most.valve_plate)
+    pistons = films.rotor.pump.pump.pistons
+    kinds = tuple(
+        _chambers(_place(number, kind), kind, kind.chambers if len(films.kinds) > 1 else tuple(range(pistons)))
+        for number, kind in enumerate(films.kinds)
     )
-    return Scene((kind,), at.shaft_angle[: len(at.valve_plate)], TURN / len(pistons))
+    return Scene(kinds, angles[:known], TURN * known / len(angles))
 
 
-def _write_series(folder: Path, films: FilmsPoint) -> None:
-    count, positions = len(films.gaps.shaft_angle), len(films.gaps.valve_plate)
-    degrees = np.degrees(films.gaps.shaft_angle)
-    names = {
-        gap: [f"{FIELDS}/{vtu_name(gap, k % positions if gap == 'valve_plate' else k)}" for k in range(count)]
-        for gap in GAPS
-    }
-    for gap in GAPS:
-        write_pvd(folder / f"{gap}.pvd", [(degrees[k], 0, names[gap][k]) for k in range(count)])
+def _chambers(place: str, kind: FilmsKind, chambers: tuple[int, ...]) -> ChamberKind:
+    at = kind.gaps
+    pressure = PeriodicCurve(at.shaft_angle, at.chamber_pressure)
+    return ChamberKind(
+        place, chambers, kind.rotor, kind.parts, at.shaft_angle, at.shaft_angle, lambda angle: float(pressure(angle))
+    )
+
+
+def _place(number: int, kind: FilmsKind) -> str:
+    return kind_folder(kind.chambers) if number else ""
+
+
+def _write_gap(place: Path, films: FilmsPoint, kind: FilmsKind, gap: Gap) -> None:
+    """Write the films of a gap and their series; the ring's repeat after those that are known."""
+    series, angles, rotor = getattr(kind.gaps, gap.value), kind.gaps.shaft_angle, kind.rotor
+    for k, film in enumerate(series):
+        at = place_of(gap, rotor, kind.parts, angles[k])
+        oil = oil_state(rotor.pump, getattr(films.physics, gap.value), film.solution, rotor.point.viscosity)
+        heads = {name: (values, UNITS[name]) for name, values in oil.items()}
+        write_vtu(place / FIELDS / vtu_name(gap.value, k), film.solution, at, heads)
+    names = [f"{FIELDS}/{vtu_name(gap.value, k % len(series))}" for k in range(len(angles))]
+    degrees = np.degrees(angles)
+    write_pvd(place / f"{gap.value}.pvd", [(float(degrees[k]), 0, names[k]) for k in range(len(angles))])

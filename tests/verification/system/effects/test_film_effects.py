@@ -26,7 +26,7 @@ from system import (
 from system.description.effects import PhysicsSection
 from system.effects.friction import OF_GAP
 from system.effects.laws.film import barus_flow, opening_flow
-from system.films.cycle import PLAIN, GapPhysics, gap_cycle
+from system.films.cycle import PLAIN, GapKind, GapPhysics, gap_cycles
 from system.inputs.sections.reader import section_of
 from system.points.film_effects import SOLVED, effects_in_films, even_rise, film_effects, resisting
 from system.points.films import leak_table
@@ -61,7 +61,8 @@ def slow_flow(tables, case_pressure):
     at = rotor(stands, point)
     films = film_effects(at, floating_parts(stands), pump, PLAIN)
     angles = 2.0 * np.pi * np.arange(18) / 18
-    return gap_cycle(at, films.parts, angles, np.full(18, FULL), physics=films.physics, finer=0.5).flow[0]
+    kind = GapKind(at, films.parts)
+    return gap_cycles((kind,), angles, (np.full(18, FULL),), physics=films.physics, finer=0.5)[0].flow[0]
 
 
 def worst(found, expected):

@@ -29,7 +29,7 @@ from system import (
     rotor,
     slipper_sliding_velocity,
 )
-from system.films.cycle import gap_cycle
+from system.films.cycle import GapKind, gap_cycles
 from system.films.positions import given_slipper
 from system.points.films import TOLERANCE, film_shear, leak_table
 
@@ -306,7 +306,8 @@ def test_meshes_doubled(rated, validation):
 def _on_both_meshes(point: FilmsPoint) -> dict[tuple[str, str], tuple[float, float]]:
     """(quantity, unit) -> mean over the film angles on the default mesh and on the doubled one."""
     gaps = point.gaps
-    again = gap_cycle(point.rotor, point.parts, gaps.shaft_angle, gaps.chamber_pressure, finer=2)
+    kind = GapKind(point.rotor, point.parts)
+    again = gap_cycles((kind,), gaps.shaft_angle, (gaps.chamber_pressure,), finer=2)[0]
     coarse, fine = ({"piston": c.piston, "slipper": c.slipper, "valve plate": c.valve_plate} for c in (gaps, again))
     found = {}
     for gap in coarse:

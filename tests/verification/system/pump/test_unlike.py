@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from bench_pump import BENCH
 
-from system import PumpDescription, films_point, load_pump, lumped_point, operating_point
+from system import PumpDescription, load_pump, lumped_point, operating_point
 from system.pump.chamber_kinds import kinds
 from system.pump.laws.friction_pairs import over_chambers
 
@@ -73,9 +73,3 @@ def test_a_worn_piston_leaks_by_the_cube_and_pulses_once_a_turn():
     assert orders[0, 1] < 1e-9 * orders[0, 0] < orders[1, 1]
     assert worn.checks.energy_balance_error < 1e-4
     assert worn.checks.mass_balance_error < 1e-9
-
-
-def test_films_at_given_positions_need_chambers_that_are_alike():
-    worn = with_clearances({3: 2.0 * CLEARANCE})
-    with pytest.raises(ValueError, match="single pistons"):
-        films_point(worn, operating_point(worn))
