@@ -171,25 +171,11 @@ def test_a_finding_beside_the_films_solves_none():
 
 
 def test_films_that_cannot_be_solved_tell_why():
-    """Single parts, and a part that stands in a wall."""
-    single = load_pump("ref90", {"piston.3.radial_clearance": "25 um"})
-    told = compare_films({"without": single}, {}, {EffectId.FILM_HEATING}, silent)
-    assert told.text.startswith("Chambers differ")
+    """A part that stands in a wall."""
     touching = replace(REF90, slipper=replace(REF90.slipper, tilt_radial=2e-3))
     told = compare_films({"without": touching}, {}, {EffectId.FILM_HEATING}, silent)
     assert told.text.startswith("The films could not be solved: ")
     assert told.points == {}
-
-
-def test_a_transient_does_not_read_them_and_says_so(pump_file, tmp_path, monkeypatch, capsys):
-    monkeypatch.chdir(tmp_path)
-    transient = tmp_path / "transient.toml"
-    transient.write_text(f'format = 1\n[transient]\npump = "{pump_file}"\n', encoding="utf-8")
-    assert main(["transient", str(transient)]) == 2
-    said = capsys.readouterr().err
-    assert "none: swashfilm run, map, table and film read them" in said
-    assert "viscosity_pressure" in said
-    assert not list(tmp_path.glob("runs/*"))
 
 
 def test_a_maps_points_are_kept_by_the_temperature_that_clearances_change_from():
