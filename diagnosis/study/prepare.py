@@ -10,7 +10,7 @@ import numpy as np
 from diagnosis.recording.model import DataNote, NoteKind, Recording
 from diagnosis.study.drift_course import course_departures, drift_courses, drift_parameters
 from diagnosis.study.felt import felt
-from diagnosis.study.film_noise import BALANCED_NAMES, table_noise
+from diagnosis.study.films.noise import BALANCED_NAMES, table_noise
 from diagnosis.study.inputs import assumed_parameters, bench_points, complete, measured
 from diagnosis.study.map_axes import scaled_axes, smooth_shapes
 from diagnosis.study.model import Study, study_of

@@ -6,7 +6,7 @@ from dataclasses import replace
 from functools import cache
 from pathlib import Path
 
-from diagnosis.study.film_box import STEPS
+from diagnosis.study.films.box import STEPS
 from gaps.films.physics import Effect
 from system.description.pump import PumpDescription
 from system.inputs.channels import ChannelName

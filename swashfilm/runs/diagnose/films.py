@@ -78,7 +78,7 @@ def film_model_of(
     """
     if asked is None:
         return None
-    from diagnosis.study.film_box import film_box
+    from diagnosis.study.films.box import film_box
     from system.points.table.film_physics import FilmTask, film_counts, film_model
     from system.work.processes import process_pool
 

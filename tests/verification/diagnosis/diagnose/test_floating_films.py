@@ -13,8 +13,8 @@ from stand_in_films import ThinningFilms
 from diagnosis import Circuit, RecordedChannel, Recording, SteadyTable, Study, load_thresholds
 from diagnosis.procedure.floating_comparison import varied_pump
 from diagnosis.procedure.recorded import diagnose_recording
-from diagnosis.study.film_box import film_box
-from diagnosis.study.film_noise import BALANCED_NAMES, table_noise
+from diagnosis.study.films.box import film_box
+from diagnosis.study.films.noise import BALANCED_NAMES, table_noise
 from diagnosis.study.prepare import prepare
 from diagnosis.verdict.diagnosis import Diagnosis
 from gaps.films.physics import Effect
