@@ -22,7 +22,7 @@ from .films import pump
 
 KEPT = Path(__file__).resolve().parent / "truth.csv"
 POINTS, SEED = 40, 11
-SPEED, PRESSURE = (320.0, 2150.0), (4.5, 36.0)  # r/min, MPa
+SPEED, PRESSURE = (1030.0, 2140.0), (5.3, 24.3)  # r/min, MPa
 INLET_COOLER = 2.0  # K
 
 
