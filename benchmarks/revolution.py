@@ -26,28 +26,38 @@ import numpy as np
 from rich.console import Console
 from rich.table import Table
 
-from gaps.films.block import BlockFilm, floating_block
+from gaps.films.block import floating_block
 from gaps.films.physics import Physics
-from gaps.films.piston import PistonFilm, floating_piston
+from gaps.films.piston import floating_piston
 from gaps.films.reports import GapReport, block_report, piston_report, slipper_report
-from gaps.films.slipper import SlipperFilm, floating_slipper
+from gaps.films.slipper import floating_slipper
 from gaps.revolution.march import GapRevolution, run_revolution
 from gaps.revolution.schedule import evenly
 from reynolds.floating.problem import Floating
 from reynolds.floating.stage import FloatingStage
 from reynolds.numerics.arrays import Array
 from reynolds.solve.solver import FilmSolver
-from system.films.drives import drives, no_rubbing, piston_shape, slipper_shape
+from system.films.drives import drives, no_rubbing
 from system.films.parts import floating_parts
-from system.films.rotor import rotor, valve_plate_geometry
-from system.points.floating_gaps import MARCHED
+from system.films.problems import block_film, piston_film, slipper_film
+from system.films.rotor import rotor
+from system.points.floating_gaps import FINER, MARCHED, FloatingOptions
 from system.points.lumped import lumped_point
 from system.pump.operating import operating_point
 from system.pump_file.file import load_pump, resolved_toml
 
 PUMP, PRESSURE = "ref90", "35 MPa"
-CELLS = {"slipper": (12, 40), "piston": (48, 16), "block": (4, 16)}
-COARSE = {"slipper": (6, 20), "piston": (24, 8), "block": (2, 8)}
+Cells = tuple[int, int]
+
+
+def cells_by_gap(finer: float) -> dict[str, Cells]:
+    """Return the cells of each gap's film, `finer` times the usual both ways."""
+    options = FloatingOptions(finer=finer)
+    return {"slipper": options.slipper_cells, "piston": options.piston_cells, "block": options.block_cells}
+
+
+CELLS, COARSE, FINE = (cells_by_gap(times * FINER) for times in (1.0, 0.5, 2.0))
+"""Meshes of floating gaps where nothing else is stated, half and twice as fine."""
 FEW_ANGLES = 72  # a turn: for what is timed on several meshes
 REPEATS = {"slipper": 1, "piston": 1, "block": 9}  # a turn: with chambers alike the block's film does every pitch
 HEADS = ("gap", "cells", "held", "angles", "turns", "steps", "films", "film / ms", "process / s")
@@ -64,7 +74,7 @@ PARTS = {
 Look = Callable[[FloatingStage], GapReport]
 
 
-def floating_gap(gap: str, cells: tuple[int, int]) -> tuple[Floating, Look, Array, float]:
+def floating_gap(gap: str, cells: Cells) -> tuple[Floating, Look, Array, float]:
     """A gap of the pump, its report, the start (k,) m of its search, and the shaft's speed rad/s."""
     pump = load_pump(PUMP, {"operating.pressure": PRESSURE})
     point = operating_point(pump)
@@ -73,18 +83,17 @@ def floating_gap(gap: str, cells: tuple[int, int]) -> tuple[Floating, Look, Arra
     drive = drives(shaft, parts, cycle.shaft_angle, cycle.pressure, no_rubbing(len(cycle.shaft_angle)))
     physics = Physics(elastic_walls=False, pressure_viscosity=False)
     if gap == "slipper":
-        slipper = SlipperFilm(slipper_shape(shaft, parts), drive.slipper, parts.slipper.laws, physics, cells=cells)
+        slipper = slipper_film(shaft, parts, drive.slipper, physics, cells)
         start = np.array([10e-6, 0.0, 0.0])
         return floating_slipper(slipper), partial(slipper_report, slipper), start, point.shaft_speed
     if gap == "piston":
-        piston = PistonFilm(piston_shape(shaft, parts), drive.piston, parts.piston.laws, physics, cells=cells)
+        piston = piston_film(shaft, parts, drive.piston, physics, cells)
         return floating_piston(piston), partial(piston_report, piston), np.zeros(4), point.shaft_speed
-    plate = parts.block
-    block = BlockFilm(valve_plate_geometry(pump), drive.block, plate.plate, plate.laws, physics, cells=cells)
+    block = block_film(shaft, parts, drive.block, physics, cells)
     return floating_block(block), partial(block_report, block), np.array([8e-6, 0.0, 0.0]), point.shaft_speed
 
 
-def turned(gap: str, cells: tuple[int, int], angles: int, step: float) -> Callable[[], GapRevolution[GapReport]]:
+def turned(gap: str, cells: Cells, angles: int, step: float) -> Callable[[], GapRevolution[GapReport]]:
     """The search of the gap's periodic turn, ready to run."""
     floating, look, start, speed = floating_gap(gap, cells)
     solver = FilmSolver(floating.shape_at(0.0).space)
@@ -125,7 +134,7 @@ def part_of(place: str) -> str | None:
     return next((part for part, marks in PARTS.items() if any(mark in place for mark in marks)), None)
 
 
-def row_of(gap: str, cells: tuple[int, int], found: GapRevolution[GapReport], seconds: float) -> list[str]:
+def row_of(gap: str, cells: Cells, found: GapRevolution[GapReport], seconds: float) -> list[str]:
     """One line of the table of costs."""
     unknowns = len(found.turn.last.held)
     steps, turns = len(found.turn.times), found.closing.turns
@@ -197,8 +206,7 @@ def main() -> None:
         turned(gap, COARSE[gap], 4 * REPEATS[gap], 0.1)()
         series = [(CELLS[gap], asked.angles)]
         if asked.growth:
-            a, b = CELLS[gap]
-            series += [(cells, FEW_ANGLES) for cells in (COARSE[gap], CELLS[gap], (3 * a // 2, 3 * b // 2))]
+            series += [(cells, FEW_ANGLES) for cells in (COARSE[gap], CELLS[gap], FINE[gap])]
         for cells, angles in series:
             found, seconds = timed(turned(gap, cells, angles, asked.step))
             row = row_of(gap, cells, found, seconds)

@@ -5,8 +5,9 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from pathlib import Path
 
+from diagnosis.procedure.compared import PumpComparison
 from diagnosis.procedure.next_test import with_next_point
-from diagnosis.procedure.pump_comparison import PumpComparison, claimed_pump, compare_pumps
+from diagnosis.procedure.pump_comparison import claimed_pump, compare_pumps
 from diagnosis.procedure.recorded import diagnose_recording
 from diagnosis.recording.model import Recording
 from diagnosis.study.acceptance import accepted_recording, refuse_too_few, refuse_too_smooth
@@ -23,6 +24,7 @@ from system.description.tolerances import tolerances
 from system.effects.catalogue.entries import CATALOGUE
 from system.effects.effect import Kind
 from system.effects.extension import Entry
+from system.points.table.film_physics import FilmModel
 from system.work.progress import Report, silent
 
 NO_NEXT_POINT = "no next point can be proposed"
@@ -51,20 +53,24 @@ def diagnose(
     report: Report = silent,
     workers: int = 1,
     catalogue: tuple[Entry, ...] = CATALOGUE,
+    films: FilmModel | None = None,
 ) -> DiagnosisResult:
     """Diagnose a recording of a pump; `workers` processes fit hypotheses side by side.
+
+    films: floating ones of the simulation, whose `catalogue` of hypotheses it takes.
 
     recording: a path, or what `checked_recording` returns. Raises InputFaults for a recording with faults, too few
     or too smooth readings; NotConverged where no fit converges.
     """
     known, thresholds = known_pump(pump), load_thresholds()
+    candidates = catalogue if films is None else films.catalogue
     allowed, assumed = tolerances(known.pump)
     accepted = accepted_recording(recording, known)
     known = levelled(known, accepted, allowed)
     described = known.pump
 
     def prepared(usable: Recording) -> Study:
-        study = prepare(described, usable, allowed, thresholds, catalogue, known.scant)
+        study = prepare(described, usable, allowed, thresholds, candidates, known.scant, films)
         refuse_too_few(study)
         refuse_too_smooth(study, thresholds.data.least_chi2)
         return study
@@ -76,8 +82,8 @@ def diagnose(
         study=study,
         diagnosis=found,
         assumptions=tuple(str(one) for one in (*known.assumptions, *assumed)),
-        extended_pump=claimed_pump(described, found) if found.effects else None,
-        comparison=compare_pumps(described, study, found, report),
+        extended_pump=claimed_pump(described, found, films) if found.effects else None,
+        comparison=compare_pumps(described, study, found, report, films),
     )
 
 

@@ -31,6 +31,7 @@ class MismatchLimits:
     memory_most: float
     memory_clip: float
     excess: float
+    told_excess: float
     flag_rate: float
     pull: float
 
@@ -61,7 +62,7 @@ class LocateLimits:
 
 @dataclass(frozen=True)
 class RefitLimits:
-    """Explanations that are refitted, priors of their parameters, and where a fit is given up (nats)."""
+    """Explanations that are refitted, priors of their parameters, and start, end and giving up (nats) of a fit."""
 
     shortlisted_parameters: int
     additions: int
@@ -76,6 +77,14 @@ class RefitLimits:
     hopeless: float
     felt: float
     redundant: float
+    start_sizes: tuple[float, ...]
+    look_sizes: tuple[float, ...]
+    beside: tuple[float, ...]
+    way: tuple[float, ...]
+    change: float
+    patience: int
+    gross_patience: int
+    at_bound: float
     held_out: int
 
 

@@ -32,9 +32,10 @@ def main(arguments: Sequence[str] | None = None) -> int:
     try:
         return run_command(words)
     except (InputFaults, InputError) as reason:
-        return _end(str(reason), EXIT_BAD_INPUT)
+        return _end("\n".join([str(reason), *_notes(reason)]), EXIT_BAD_INPUT)
     except NotConverged as reason:
-        return _end(f"not converged: {reason}\nNo result was written.", EXIT_NOT_CONVERGED)
+        notes = _notes(reason) or ["No result was written."]
+        return _end("\n".join([f"not converged: {reason}", *notes]), EXIT_NOT_CONVERGED)
     except Interrupted as stop:
         if stop.again:
             return _end(f"interrupted: {stop.again}", EXIT_INTERRUPTED)
@@ -59,6 +60,11 @@ def _resuming(words: list[str], kept: Path) -> str:
     return " ".join(["swashfilm", *before, "--resume", str(kept)])
 
 
+def _notes(reason: BaseException) -> list[str]:
+    """Return what a run has added to its error: where the solved part is kept."""
+    return getattr(reason, "__notes__", [])
+
+
 def _end(message: str, code: int) -> int:
     sys.stderr.write(f"swashfilm: {message}\n")
     return code
@@ -69,8 +75,9 @@ def _internal_error(kind: type[BaseException], error: BaseException, trace: Trac
     while where is not None and where.tb_next is not None:
         where = where.tb_next
     place = f" ({where.tb_frame.f_code.co_filename}:{where.tb_lineno})" if where else ""
+    notes = "".join(f"{note}\n" for note in _notes(error))
     sys.stderr.write(
-        f"swashfilm: internal error, not in your input: {kind.__name__}: {error}{place}\n"
+        f"swashfilm: internal error, not in your input: {kind.__name__}: {error}{place}\n{notes}"
         "Please report it to the source of your copy of Swashfilm, with the command, its input file and the\n"
         "output of `swashfilm doctor`. The same command with --debug shows the whole traceback.\n"
     )

@@ -64,7 +64,7 @@ def run(
     temperature: Quantity | None = None,
     inlet_pressure: Quantity | None = None,
     case_pressure: Quantity | None = None,
-    fidelity: str = "films",
+    fidelity: str = "floating",
     table: str | Path | None = None,
     set: Mapping[str, object] | None = None,
     report: Report = silent,
@@ -145,7 +145,7 @@ def map(
     displacements: str | Sequence[float] | None = None,
     temperatures: str | Sequence[Quantity] | None = None,
     inlet_pressures: str | Sequence[Quantity] | None = None,
-    fidelity: str = "films",
+    fidelity: str = "floating",
     report: Report = silent,
     **options: object,
 ) -> MapRun:
@@ -238,13 +238,15 @@ def diagnose(
     """Compare a recording with the simulation of its pump, as `swashfilm diagnose`.
 
     pump: name, file (which may be incomplete) or description; recording: folder, or table beside a recording.toml.
-    options: workers, film_tables. Raises InputFaults and NotConverged.
+    options: workers, film_tables; fidelity, steps, finer, rigid, isoviscous, isothermal, smooth, no_cavitation,
+    variant, points, held_out. Raises InputFaults and NotConverged.
     """
     with _door("diagnose"), _pump_file(pump) as name:
         from diagnosis.finding import diagnose as found_by
         from diagnosis.study.acceptance import checked_recording
         from diagnosis.study.scaled_pump import load_known_pump
         from swashfilm.runs.diagnose.command import workers_and_file
+        from swashfilm.runs.diagnose.films import film_model_of, film_options_of
         from swashfilm.runs.diagnose.result import DiagnosisRun
         from swashfilm.runs.diagnose.run import write_finding
         from system.effects.catalogue.entries import CATALOGUE, with_films_solved
@@ -252,9 +254,11 @@ def diagnose(
         words = _words("diagnose", [name, recording], options)
         workers, _ = workers_and_file(words)
         known = load_known_pump(name)
+        film_options = film_options_of(words, known)
         readings = checked_recording(words.recording, known)
         catalogue = with_films_solved(known.pump, report) if words.film_tables else CATALOGUE
-        finding = found_by(known, readings, report, workers, catalogue)
+        films = film_model_of(known.pump, readings, film_options, workers, report)
+        finding = found_by(known, readings, report, workers, catalogue, films)
         return DiagnosisRun.ran(lambda folder: write_finding(folder, finding))
 
 

@@ -56,6 +56,7 @@ from .points.floating_gaps import (
     piston_revolution as piston_revolution,
     slipper_revolution as slipper_revolution,
 )
+from .points.floating_solved import Solved as Solved
 from .points.lumped import lumped_point as lumped_point
 from .points.table.build import build_table as build_table
 from .points.table.point import table_point as table_point

@@ -1,4 +1,4 @@
-"""What came out of a case: the truth beside what was told of it, as plain values that a file keeps."""
+"""Outcome of a case: the truth beside the verdict, as plain values that a file keeps."""
 
 from __future__ import annotations
 
@@ -53,7 +53,7 @@ class Worth:
 
 @dataclass(frozen=True)
 class Outcome:
-    """The truth and what was told of it.
+    """The truth and the verdict on it.
 
     score: reached; effects, pairs: of the truth; beside: ids of faults beside it, which may be named too; shares: of
     the channels in the square of the truth's shift, which is in sigma of a reading. true_turn, turn: shaft angles in

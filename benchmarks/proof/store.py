@@ -54,14 +54,14 @@ def name_of_folder(folder: Path) -> str:
 
 @cache
 def counted() -> frozenset[str]:
-    """The modules that a verdict hangs on."""
+    """The modules on which a verdict depends."""
     graph = grimp.build_graph(*PACKAGES)
     return frozenset(ASKED).union(*(graph.find_upstream_modules(name) for name in ASKED)) - set(PACKAGES)
 
 
 @cache
 def program() -> str:
-    """Of what an outcome hangs on, thresholds and pump with it: one made by another program is told as such."""
+    """Of all on which an outcome depends, thresholds and pump with it: one made by another program is told as such."""
     root = HERE.parents[1]
     modules = [root.joinpath(*name.split(".")).with_suffix(".py") for name in sorted(counted())]
     data = [path for name in PACKAGES for path in sorted((root / name).rglob("*.toml"))]

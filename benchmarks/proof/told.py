@@ -1,4 +1,4 @@
-"""What is told of recordings that are no cases: a table of its own, kept beside the outcomes."""
+"""Sections on recordings that are no cases: tables of their own, kept beside the outcomes."""
 
 from __future__ import annotations
 

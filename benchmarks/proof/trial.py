@@ -1,4 +1,4 @@
-"""One case put to the diagnosis as a user would: a folder with a recording, the pump's name, and what is told."""
+"""One case put to the diagnosis as a user would: a folder with a recording, the pump's name, and the verdict."""
 
 from __future__ import annotations
 

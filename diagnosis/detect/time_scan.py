@@ -40,8 +40,8 @@ def scan_time(study: Study, thresholds: Thresholds) -> TimeMark | None:
 
     Contrasts of a straight line and of steps (Page 1954) along the rows. A smooth mismatch over the map is fitted
     too, so that an effect of pressure is no drift if pressure rose with time; contrasts are in units of the
-    remaining scatter of the channel, so that an effect of no smooth law is none either. p: the greatest contrast
-    against that of drawn readings (Westfall and Young 1993), or Bonferroni's bound where it is less.
+    remaining scatter of the channel, so that an effect without a smooth law is no drift either. p: the greatest
+    contrast against that of drawn readings (Westfall and Young 1993), or Bonferroni's bound where it is less.
     """
     limits = thresholds.locate
     patterns = _patterns(len(study.observations.values), limits.ends)

@@ -14,7 +14,7 @@ from scipy.special import logsumexp
 from diagnosis.explain.hypotheses import Hypothesis, candidates_of, simulator_of
 from diagnosis.explain.ranked import Explanation
 from diagnosis.explain.screen import joint_evidence
-from diagnosis.explain.starts import Expansion, lent_slopes, nearest_start, start
+from diagnosis.explain.starts import Expansion, Trials, lent_slopes, nearest_start, start
 from diagnosis.study.model import Study
 from diagnosis.thresholds import Thresholds
 from reynolds.errors import NotConverged
@@ -25,12 +25,6 @@ from system.estimation.parameters import Parameter
 from system.estimation.posterior import Posterior, settled, values_at
 from system.work.processes import ProcessPool
 from system.work.progress import Report
-
-SIZES = (0.1, 0.3, 1.0, 2.0)  # trial sizes of a start, in spreads
-ROUGHLY = (0.3, 1.0)  # trial sizes of a first look
-AT_BOUND = 0.999  # of a bound: a fit ends so near to it
-GROSS_PATIENCE = 8  # trials before a fit of a gross mismatch may be hopeless: its first slopes say little
-LIMITS = FitLimits(change=0.1)  # of the objective: a twentieth of a nat decides nothing, and costs sixfold less
 
 
 def refit(
@@ -47,7 +41,7 @@ def refit(
     limits = thresholds.fit
     near = _begun(study, replace(hypothesis, reach=1.0), thresholds, part)
     far: Explanation | None = None
-    if near.strain(study, thresholds) >= SIZES[-1] or _is_far(part):
+    if near.strain(study, thresholds) >= limits.start_sizes[-1] or _is_far(part):
         far = _far(study, hypothesis, thresholds, hopeless, part)
         if far is not None and limits.farther * _strain(far) > limits.reach:
             return replace(far, log_evidence=far.log_evidence - log(limits.farther))
@@ -76,10 +70,10 @@ def within_tolerance(study: Study, null: Explanation, thresholds: Thresholds) ->
     simulator = simulator.with_parameters(tuple(each.held(pull) for each in simulator.parameters))
     start = Bounds.of(simulator.parameters).within(fit.xi)
     try:
-        held = maximum_posterior(simulator, study.observations, start, LIMITS)
+        held = maximum_posterior(simulator, study.observations, start, _fit_limits(thresholds))
     except NotConverged:
         return fit
-    return _of_free(held, np.abs(held.xi) < AT_BOUND * pull)
+    return _of_free(held, np.abs(held.xi) < thresholds.fit.at_bound * pull)
 
 
 def _of_free(fit: Posterior, free: NDArray[np.bool_]) -> Posterior:
@@ -125,14 +119,15 @@ def _refitted(study: Study, begun: _Begun, thresholds: Thresholds, hopeless: flo
     Members of a grid that are not refitted count as 0, so that their average is never too high. A member that stays
     hopelessly behind one that is fitted already stops early.
     """
-    patience = GROSS_PATIENCE if _gross(begun.about, thresholds) else LIMITS.patience
-    limits = replace(LIMITS, hopeless=hopeless, patience=patience)
+    limits = replace(_fit_limits(thresholds), hopeless=hopeless)
+    if _gross(begun.about, thresholds):
+        limits = replace(limits, patience=thresholds.fit.gross_patience)
     failed = list(begun.failed)
     found: list[tuple[Hypothesis, Posterior]] = []
     for member, begin in begun.members[: thresholds.fit.grid_members]:
         simulator = simulator_of(study, member, thresholds)
         try:
-            begin = nearest_start(study, simulator, begun.about, begin)
+            begin = nearest_start(study, simulator, begun.about, begin, thresholds.fit.way)
             lent = lent_slopes(simulator, begun.about, begun.fresh, begin)
             found.append((member, maximum_posterior(simulator, study.observations, begin, limits, lent)))
             behind = found[-1][1].objective + 2.0 * thresholds.fit.hopeless
@@ -144,6 +139,15 @@ def _refitted(study: Study, begun: _Begun, thresholds: Thresholds, hopeless: flo
     best, posterior = max(found, key=lambda each: each[1].log_evidence)
     evidence = float(logsumexp([each.log_evidence for _, each in found])) - log(len(begun.hypothesis.members))
     return Explanation(best, evidence, False, posterior, _size_over_sigma(posterior, best), 0.0, None)
+
+
+def _fit_limits(thresholds: Thresholds) -> FitLimits:
+    own = thresholds.fit
+    return FitLimits(change=own.change, patience=own.patience, gross=own.gross)
+
+
+def _trials(thresholds: Thresholds, sizes: tuple[float, ...]) -> Trials:
+    return Trials(sizes, thresholds.fit.beside, thresholds.fit.reach)
 
 
 def _about(study: Study, hypothesis: Hypothesis, part: Explanation | None) -> tuple[Expansion, tuple[str, ...]]:
@@ -248,7 +252,7 @@ def _begun(study: Study, hypothesis: Hypothesis, thresholds: Thresholds, part: E
     for member in members:
         simulator = simulator_of(study, member, thresholds)
         try:
-            promised, begin = start(study, simulator, about, fresh, SIZES, thresholds.fit.reach)
+            promised, begin = start(study, simulator, about, fresh, _trials(thresholds, thresholds.fit.start_sizes))
             begun.append((promised, member, begin))
         except NotConverged as reason:
             failed.append(reason)
@@ -286,7 +290,8 @@ def first_look(study: Study, hypothesis: Hypothesis, thresholds: Thresholds) -> 
     For parameters whose slope is no measure of a large change.
     """
     simulator = simulator_of(study, hypothesis, thresholds)
-    promised, xi = start(study, simulator, _prior_mean(study), hypothesis.open_names, ROUGHLY, thresholds.fit.reach)
+    trials = _trials(thresholds, thresholds.fit.look_sizes)
+    promised, xi = start(study, simulator, _prior_mean(study), hypothesis.open_names, trials)
     predicted = simulator.predict(values_at(simulator.parameters, xi))
     left = study.base.whitening.whiten(study.observations.values - predicted)
     return FirstLook(promised, float(left @ left + xi @ xi))

@@ -15,9 +15,6 @@ from system.estimation.parameters import Parameter
 from system.estimation.posterior import Posterior, values_at
 from system.estimation.simulator import Simulator
 
-WAY = (1.0, 0.3, 0.0)  # shares of the way of known parameters at which a start is tried
-BESIDE = (0.75, 0.9)  # factors on the best size, and their inverses
-
 
 @dataclass(frozen=True)
 class Expansion:
@@ -27,8 +24,17 @@ class Expansion:
     xi: Array
 
 
+@dataclass(frozen=True)
+class Trials:
+    """Sizes at which free parameters are tried (spreads), factors on the best of them, and reach of the nuisances."""
+
+    sizes: tuple[float, ...]
+    beside: tuple[float, ...]
+    reach: float
+
+
 def start(
-    study: Study, simulator: Simulator, about: Expansion, names: tuple[str, ...], sizes: tuple[float, ...], reach: float
+    study: Study, simulator: Simulator, about: Expansion, names: tuple[str, ...], trials: Trials
 ) -> tuple[float, Array]:
     """The objective and xi where a fit starts: the best of the trial sizes, with linear nuisances.
 
@@ -37,22 +43,23 @@ def start(
     may be no measure of them (a threshold, a film twice as thick). The best size is tried again a little smaller and
     larger.
     """
-    nuisances = _Nuisances(study, simulator, about, names, reach)
+    nuisances = _Nuisances(study, simulator, about, names, trials.reach)
     least, found = nuisances.settled(nuisances.centre)
     for name in names:
         at = [parameter.name for parameter in simulator.parameters].index(name)
         rest = np.where(nuisances.free, nuisances.centre, found)
-        for size in _signed(sizes, simulator.parameters[at]):
+        for size in _signed(trials.sizes, simulator.parameters[at]):
             least, found = _better(nuisances, _with(rest, at, size), least, found)
-        for beside in BESIDE if found[at] != rest[at] else ():
+        for beside in trials.beside if found[at] != rest[at] else ():
             for size in (beside * found[at], found[at] / beside):
                 least, found = _better(nuisances, _with(rest, at, size), least, found)
     return least, found
 
 
-def nearest_start(study: Study, simulator: Simulator, about: Expansion, begin: Array) -> Array:
+def nearest_start(study: Study, simulator: Simulator, about: Expansion, begin: Array, way: tuple[float, ...]) -> Array:
     """Of the way (k,) from the linear model's own place to a start the point of least objective, by predictions.
 
+    way: shares of it that are tried.
     A linear model promises more than it keeps far from its place, or where readings have kinks. Where its own place
     is the best, the parameters that are new to it are off. Raises NotConverged where nothing can be simulated.
     """
@@ -68,7 +75,7 @@ def nearest_start(study: Study, simulator: Simulator, about: Expansion, begin: A
         left = own.whitening.whiten(study.observations.values - predicted)
         return float(left @ left + xi @ xi)
 
-    tried = [np.where(known, place + share * (begin - place), begin) for share in WAY]
+    tried = [np.where(known, place + share * (begin - place), begin) for share in way]
     found: list[tuple[float, Array]] = []
     failed: list[NotConverged] = []
     for xi in (*tried, place):

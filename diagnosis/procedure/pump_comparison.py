@@ -3,10 +3,20 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Iterator, Mapping
-from dataclasses import dataclass, field, fields, replace
+from dataclasses import fields, replace
 
 import numpy as np
 
+from diagnosis.procedure.compared import (
+    NO_COMPARISON,
+    WITH,
+    WITHOUT,
+    Change,
+    FilmChange,
+    FilmComparison,
+    PumpComparison,
+)
+from diagnosis.procedure.floating_comparison import compare_floating, varied_pump
 from diagnosis.recording.units import channel_unit, reading
 from diagnosis.report.tables import added_by_claim
 from diagnosis.study.inputs import bench_points
@@ -27,14 +37,13 @@ from system.inputs.units import LPM
 from system.points.film_effects import SOLVED
 from system.points.films import FilmsPoint, films_point
 from system.points.lumped import lumped_point
+from system.points.table.film_physics import FilmModel, Parts
 from system.pump.assembly import PumpPoint
 from system.pump.film_thickness import moved_to
 from system.pump.laws.friction_pairs import Pair
 from system.pump.operating import OperatingPoint, operating_point
 from system.work.progress import Report
 
-WITHOUT, WITH = "without", "with"
-"""Names of the two pumps, and of their run folders."""
 OF_FILMS = (*SOLVED, EffectId.FILM_THICKNESS, EffectId.VISCOSITY_GRADE)
 """Effects that change the films themselves."""
 POSITIONS, FINER, AGREED = 2, 0.5, 0.05
@@ -45,59 +54,22 @@ PERCENT = 100.0
 SHAFT, HYDRAULIC = "shaft power", "hydraulic power"
 
 
-@dataclass(frozen=True)
-class Change:
-    """A quantity of both pumps, in its unit."""
+def claimed_pump(pump: PumpDescription, found: Diagnosis, films: FilmModel | None = None) -> PumpDescription:
+    """The pump with the parameters of the claimed explanation's fit, their sigmas as tolerances, its effects on.
 
-    quantity: str
-    unit: str
-    without: float
-    found: float
-
-
-@dataclass(frozen=True)
-class FilmChange:
-    """A quantity of a gap by name of the pump, in its unit: by closed laws and by the solved films."""
-
-    quantity: str
-    unit: str
-    lumped: Mapping[str, float]
-    films: Mapping[str, float]
+    films: those of a diagnosis by floating films, whose variants change the pump.
+    """
+    own = pump if films is None else varied_pump(pump, films.task, _parts(found, films))
+    return calibrated_pump(own, found.after, found.hypotheses[0].hypothesis.laws)
 
 
-@dataclass(frozen=True)
-class FilmComparison:
-    """Films of both pumps by name, empty where none is solved; text: settings and accuracy, or the reason."""
-
-    points: Mapping[str, FilmsPoint] = field(default_factory=dict)
-    changes: tuple[FilmChange, ...] = ()
-    text: str = ""
-
-
-@dataclass(frozen=True)
-class PumpComparison:
-    """Both pumps and their lumped points by name, empty where none is solved; text: the point, or the reason."""
-
-    pumps: Mapping[str, PumpDescription] = field(default_factory=dict)
-    points: Mapping[str, PumpPoint] = field(default_factory=dict)
-    changes: tuple[Change, ...] = ()
-    text: str = ""
-    films: FilmComparison = FilmComparison()
-
-
-NO_COMPARISON = PumpComparison()
-
-
-def claimed_pump(pump: PumpDescription, found: Diagnosis) -> PumpDescription:
-    """The pump with the parameters of the claimed explanation's fit, their sigmas as tolerances, its effects on."""
-    return calibrated_pump(pump, found.after, found.hypotheses[0].hypothesis.laws)
-
-
-def compare_pumps(pump: PumpDescription, study: Study, found: Diagnosis, report: Report) -> PumpComparison:
+def compare_pumps(
+    pump: PumpDescription, study: Study, found: Diagnosis, report: Report, films: FilmModel | None = None
+) -> PumpComparison:
     """Both pumps of the claimed fit, solved at the recorded point where the claim adds most to the readings.
 
-    Without: its effects off, its wrong values as stated, all else as fitted. Nothing is solved where nothing is
-    claimed, or a sensor's fault only.
+    Without: its effects off, its wrong values as stated, all else as fitted. films: floating ones, by which both are
+    solved. Nothing is solved where nothing is claimed, or a sensor's fault only.
     """
     if not found.effects:
         return NO_COMPARISON
@@ -111,17 +83,27 @@ def compare_pumps(pump: PumpDescription, study: Study, found: Diagnosis, report:
     stated = values_at(found.after.parameters, np.where(closed, 0.0, found.after.xi))
     fitted = {
         WITHOUT: extended_pump(pump, values_by_name(found.after.parameters, stated), ()),
-        WITH: claimed_pump(pump, found),
+        WITH: claimed_pump(pump, found, films),
     }
+    where = f"Point {number}, where the finding adds most: {_setting(point)}."
+    if films is not None:
+        pumps = {name: _at(each, point) for name, each in fitted.items()}
+        by_films = compare_floating(films, pumps, _parts(found, films), report)
+        own_points = {name: one.pump_point for name, one in by_films.floating.items()}
+        return PumpComparison(pumps, own_points, tuple(_changes(own_points)) if own_points else (), where, by_films)
     try:
         pumps = {name: _at(each, point) for name, each in fitted.items()}
         points = {name: lumped_point(each, operating_point(each)) for name, each in pumps.items()}
     except (NotConverged, InputError) as reason:
         text = f"Point {number}, where the finding adds most, could not be run: {reason}"
         return replace(NO_COMPARISON, text=text)
-    films = compare_films(pumps, points, {claim.effect for claim in found.effects}, report)
-    where = f"Point {number}, where the finding adds most: {_setting(point)}."
-    return PumpComparison(pumps, points, tuple(_changes(points)), where, films)
+    by_films = compare_films(pumps, points, {claim.effect for claim in found.effects}, report)
+    return PumpComparison(pumps, points, tuple(_changes(points)), where, by_films)
+
+
+def _parts(found: Diagnosis, films: FilmModel) -> Parts:
+    """The parts of the film physics among the claimed effects."""
+    return frozenset(claim.effect for claim in found.effects if claim.effect in films.law.single)
 
 
 def compare_films(
@@ -143,7 +125,7 @@ def compare_films(
             )  # fmt: skip
     except (InputError, NotConverged) as reason:
         return FilmComparison(text=f"The films could not be solved: {reason}")
-    return FilmComparison(solved, tuple(_film_changes(points, solved)), _accuracy(solved))
+    return FilmComparison(solved, changes=tuple(_film_changes(points, solved)), text=_accuracy(solved))
 
 
 def _of(report: Report, name: str) -> Report:

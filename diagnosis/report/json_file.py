@@ -176,7 +176,7 @@ def _next_test(found: NextPoint) -> dict[str, Any]:
         "chance": found.chance,
         "readings": found.limits.readings,
         "gain_nats": found.gain,
-        "log_odds": {"now": found.before, "foretold": found.after},
+        "log_odds": {"now": found.before, "predicted": found.after},
         "beyond_recorded": found.beyond,
         "repeats": found.repeats,
         "why": found.why,

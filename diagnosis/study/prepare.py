@@ -10,6 +10,7 @@ import numpy as np
 from diagnosis.recording.model import DataNote, NoteKind, Recording
 from diagnosis.study.drift_course import course_departures, drift_courses, drift_parameters
 from diagnosis.study.felt import felt
+from diagnosis.study.films.noise import BALANCED_NAMES, table_noise
 from diagnosis.study.inputs import assumed_parameters, bench_points, complete, measured
 from diagnosis.study.map_axes import scaled_axes, smooth_shapes
 from diagnosis.study.model import Study, study_of
@@ -33,9 +34,9 @@ from system.effects.extension import Entry
 from system.estimation.parameters import Parameter
 from system.estimation.posterior import values_at
 from system.inputs.channels import INPUTS, OUTPUTS, ChannelName
+from system.points.table.film_physics import FilmModel
 
 LEAST_ACROSS = 1e6  # Pa
-TOLD_EXCESS = 1.2  # of the noise of a channel's points over that of its samples, from which a note gives it
 LAG = 1.0  # s, one sigma of a flow meter's lag where none is stated
 
 
@@ -46,8 +47,12 @@ def prepare(
     thresholds: Thresholds,
     catalogue: tuple[Entry, ...] = CATALOGUE,
     scant: bool = False,
+    films: FilmModel | None = None,
 ) -> Study:
     """The study of a recording of a pump, by the lumped fidelity, with the whole catalogue as candidates.
+
+    films: solved ones in place of the lumped law's; what they leave out are candidates of the catalogue, and the
+    error of their tables is noise of the readings.
 
     Chamber traces are readings like the steady ones, some tens of numbers each (`TracedBench`). Inputs that the
     recording lacks are assumed, with notes in the study's recording. Raises InputError for a recording without
@@ -66,11 +71,15 @@ def prepare(
     )
     usable = replace(usable, notes=(*usable.notes, *taken, *unused))
     parameters = (
-        *base_parameters(pump, tolerances), *_sensors(usable, channels), *assumed_parameters(usable, pump),
+        *_uncertain(pump, tolerances, films), *_sensors(usable, channels), *assumed_parameters(usable, pump),
         *trace_parameters(usable),
     )  # fmt: skip
-    bench = LumpedBench(pump, points, channels, parameters, inputs=inputs)
+    bench = LumpedBench(
+        pump, points, channels, parameters, inputs=inputs, own_laws=None if films is None else films.own_laws(pump)
+    )
     found, axes = observations(usable, channels, inputs), scaled_axes(usable)
+    if films is not None:
+        found = replace(found, sigma=np.hypot(found.sigma, table_noise(bench, films)))
     if scant:
         bench = _of_another_make(bench, axes, found.sigma, thresholds.form)
     traces = usable.channel(ChannelName.P_CHAMBER) if usable.traces else None
@@ -78,7 +87,9 @@ def prepare(
     if found.correlation:  # of a series: its noise is an estimate
         excess = noise_excess(bare, thresholds.mismatch)
         found = replace(found, sigma=found.sigma * excess)
-        usable = replace(usable, notes=(*usable.notes, *_excess_notes(channels, excess)))
+        usable = replace(
+            usable, notes=(*usable.notes, *_excess_notes(channels, excess, thresholds.mismatch.told_excess))
+        )
         bare = study_of(usable, bench, found, axes, (), thresholds)
     memory = () if found.correlation else noise_correlation(bare, thresholds.mismatch)
     if memory:
@@ -99,10 +110,16 @@ def prepare(
     return replace(study, events=port_events(pump), scant=scant)
 
 
-def _excess_notes(channels: tuple[ChannelName, ...], excess: Array) -> Iterator[DataNote]:
+def _uncertain(pump: PumpDescription, tolerances: Tolerances, films: FilmModel | None) -> tuple[Parameter, ...]:
+    """The pump's uncertain parameters; of films that balance forces, those that are no results."""
+    found = base_parameters(pump, tolerances)
+    return found if films is None else tuple(one for one in found if one.name not in BALANCED_NAMES)
+
+
+def _excess_notes(channels: tuple[ChannelName, ...], excess: Array, least: float) -> Iterator[DataNote]:
     """A note on each channel whose means scatter clearly more than their samples' noise tells."""
     for channel, factor in zip(channels, excess, strict=True):
-        if factor > TOLD_EXCESS:
+        if factor > least:
             text = f"the points scatter {factor:.2g} times as much as the samples' noise allows: this scatter is used"
             yield DataNote(NoteKind.NOTED, channel, (), text)
 

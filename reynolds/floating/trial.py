@@ -31,7 +31,7 @@ DEEPEST = 3.0  # standard deviations of the summits by which a step may press th
 NEXT = 1e-2  # of the least film or of the summits' height
 SOFT_TOLERANCE = 1e-6  # of slopes between elastic walls, which only steer the turn's closure
 TOUCHING = "asperities that bear where walls touch, an edge relief, a finer mesh, or less load"
-ROUNDING = 1e-6  # share of the largest magnitude below which another one is none
+ROUNDING = 1e-6  # share of the largest magnitude below which another counts as zero
 
 
 @dataclass(frozen=True)

@@ -7,7 +7,6 @@ import json
 import os
 import re
 import shutil
-import sys
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from itertools import count
@@ -17,6 +16,8 @@ from typing import Any
 from system.inputs.faults import Fault, InputFaults
 
 RUNS = Path("runs")
+FAILED = "failed.json"
+"""What a run that stopped has solved, in its `.partial` folder."""
 
 
 class Interrupted(KeyboardInterrupt):
@@ -35,9 +36,10 @@ class Interrupted(KeyboardInterrupt):
 def run_folder(name: str, wanted: Path | None = None) -> Iterator[Path]:
     """Yield a folder for a run's files; at the end it becomes `wanted`, or `runs/<name>-<n>` with the next free n.
 
-    After an error or Interrupted only solved points are kept, and their folder is printed. After Ctrl-C the `.partial`
-    folder is kept if it holds results, and Interrupted names it. Raises InputFaults for a `wanted` that holds files or
-    cannot be created, and where another run has filled it meanwhile (the results then remain in the `.partial` folder).
+    After an error or Interrupted the `.partial` folder is kept if it holds solved points or FAILED; the error has a
+    note that names it. After Ctrl-C it is kept if it holds results, and Interrupted names it. Raises InputFaults for a
+    `wanted` that holds files or cannot be created, and where another run has filled it meanwhile (the results then
+    remain in the `.partial` folder).
     """
     final, partial = _claim(name, wanted)
     try:
@@ -50,11 +52,13 @@ def run_folder(name: str, wanted: Path | None = None) -> Iterator[Path]:
             raise Interrupted(partial) from None
         shutil.rmtree(partial)
         raise Interrupted(None) from None
-    except BaseException:
+    except BaseException as reason:
         from system.work.kept_results import POINTS
 
         if any((partial / POINTS).glob("*.json")):
-            sys.stderr.write(f"swashfilm: solved points are kept in {partial}: --resume {partial}\n")
+            reason.add_note(f"Solved points are kept in {partial}: --resume {partial}")
+        elif (partial / FAILED).is_file():
+            reason.add_note(f"What was solved until then is kept in {partial} ({FAILED}).")
         else:
             shutil.rmtree(partial)
         raise

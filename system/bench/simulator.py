@@ -23,7 +23,7 @@ from system.bench.setting import Setting, affected, setting
 from system.description.pump import PumpDescription
 from system.effects.applied import effects_at
 from system.effects.components import Component
-from system.effects.extension import Extension
+from system.effects.extension import Extension, Law, Values
 from system.effects.switched import stated_laws
 from system.estimation.parameters import Parameter, Role, Scale
 from system.inputs.channels import INPUTS, ChannelName
@@ -60,10 +60,11 @@ class LumpedBench:
 
     channels: the C outputs of SIMULATED that are read, inputs: the M measured inputs, both in the order of the
     observations. Parameters: of `base_parameters`, `sensor_parameters` and those of the extensions in `physics`,
-    which join where they are not among them. All else is as the pump states it, its own [physics] too. Ports are
-    held at their mean pressures: lines behind them and their ripple are left out. Raises InputError for a channel
-    it does not know, another parameter, chambers that differ, and points at which the oil's law is void. departures:
-    (N, C, k) of its laws and meters; drifts: course (N,) of a meter's drift, even in time for meters without one.
+    which join where they are not among them. All else is as the pump states it, its own [physics] too, unless
+    `own_laws` stand in its place (those of solved films), which see all parameters by name. Ports are held at their
+    mean pressures: lines behind them and their ripple are left out. Raises InputError for a channel it does not
+    know, another parameter, chambers that differ, and points at which the oil's law is void. departures: (N, C, k)
+    of its laws and meters; drifts: course (N,) of a meter's drift, even in time for meters without one.
     """
 
     def __init__(
@@ -78,6 +79,7 @@ class LumpedBench:
         tolerance: float = TOLERANCE,
         departures: Array | None = None,
         drifts: Mapping[ChannelName, Array] | None = None,
+        own_laws: tuple[tuple[Law, Values], ...] | None = None,
     ) -> None:
         for channel in channels:
             if channel not in SIMULATED:
@@ -95,7 +97,7 @@ class LumpedBench:
         self._columns = [SIMULATED.index(channel) for channel in channels]
         setting(pump, points, {}, samples_per_pitch)
         self._kept: dict[bytes, Courses] = {}
-        self._stated = stated_laws(pump)
+        self.own_laws = stated_laws(pump) if own_laws is None else own_laws
 
     def __getstate__(self) -> dict[str, object]:
         """State for another process: all but the courses that are remembered."""
@@ -166,6 +168,10 @@ class LumpedBench:
         joining = tuple(parameter for parameter in parameters if parameter.name not in own)
         return self._like(parameters=(*self.parameters, *joining), drifts={**self.drifts, **courses})
 
+    def with_own_laws(self, laws: tuple[tuple[Law, Values], ...]) -> LumpedBench:
+        """The same bench with other laws of its own."""
+        return self._like(own_laws=laws)
+
     def only(self, parameters: tuple[Parameter, ...]) -> LumpedBench:
         """The same bench with these parameters alone; the pump states the others."""
         return self._like(parameters=parameters)
@@ -219,7 +225,7 @@ class LumpedBench:
             raise NotConverged(f"bench map: no pump has these values: {void}") from void
 
     def _solve(self, at: Setting) -> Courses:
-        """The courses of a setting, remembered by all that they hang on."""
+        """The courses of a setting, remembered by all on which they depend."""
         key = blake2b(at.problem.key).digest()
         if key not in self._kept:
             self._kept[key] = solve_map(self.pump, at.problem, self.tolerance)
@@ -246,10 +252,13 @@ class LumpedBench:
         self, plain: Setting, courses: Callable[[], Courses], values: Array, solve: Callable[[Setting], Courses]
     ) -> Solved:
         """Laws at the pressures of chambers without them, then chambers with them: leakage moves these little."""
-        if not (self.physics or plain.pump.physics.on):
+        if not (self.physics or self.own_laws):
             return Solved(plain, courses, plain, courses(), None)
         named = self._named(values)
-        laws = *self._stated, *((one.law, one.stated(named)) for one in self.physics)
+        laws = (
+            *((law, {**own, **named}) for law, own in self.own_laws),
+            *((one.law, one.stated(named)) for one in self.physics),
+        )
         found = effects_at(plain.pump, plain.point, plain.motion, courses, laws, self.points.hours)
         changed = affected(plain, found.effects)
         return Solved(plain, courses, changed, solve(changed), found)
@@ -287,6 +296,7 @@ class LumpedBench:
             "tolerance",
             "departures",
             "drifts",
+            "own_laws",
         )
         return LumpedBench(**{name: getattr(self, name) for name in names} | changed)
 

@@ -9,8 +9,8 @@ import numpy as np
 
 from gaps.shapes.traces import grid, levelled, smoothed
 from reynolds.numerics.arrays import Array
-from system.inputs.faults import Fault, InputFaults
-from system.inputs.sections.fields import FromTable, Length, Limits, Points
+from system.inputs.faults import Fault
+from system.inputs.sections.fields import Check, FromTable, Length, Limits, Points
 from system.inputs.units import Dimension, format_quantity
 
 ALONG = Points(
@@ -55,14 +55,9 @@ class TraceSection:
 def profile_of_trace(section: TraceSection) -> Rows:
     """Rows of a profile (place, (angle,) material taken off) of a trace, a tenth of the cutoff apart.
 
-    Raises InputFaults with everything that is wrong with the trace, by the section's keys.
+    The section passes all `CHECKS`.
     """
-    faults = [*_unworn_faults(section)]
     lines = _by_angle(section.trace)
-    for angle, line in lines.items():
-        faults += _line_faults(section, angle, np.array(line))
-    if faults:
-        raise InputFaults("trace", faults)
     first = max(line[0][0] for line in lines.values())
     last = min(line[-1][0] for line in lines.values())
     places = np.round(grid(first, last, section.cutoff), DIGITS)
@@ -98,27 +93,51 @@ def _unworn_faults(section: TraceSection) -> Iterator[Fault]:
             yield Fault("unworn", f"from {_length(start)} to {_length(end)}", "a start before the end")
 
 
-def _line_faults(section: TraceSection, angle: tuple[float, ...], line: Array) -> Iterator[Fault]:
-    """Yield what is wrong with one trace: places that do not rise, points too few for the cutoff or the line."""
-    where = f" at {format_quantity(angle[0], Dimension.ANGLE, digits=4)}" if angle else ""
-    places, steps = line[:, 0], np.diff(line[:, 0])
-    if len(places) < 2 or not (steps > 0.0).all():
-        yield Fault("trace", *_order(places, steps, where))
-        return
-    widest = int(np.argmax(steps))
-    if steps[widest] > FINEST * section.cutoff:
-        found = f"{_length(section.cutoff)}, points up to {_length(steps[widest])} apart at {_length(places[widest])}"
-        yield Fault("cutoff", found + where, f"at least {_length(steps[widest] / FINEST)}, twice that distance")
-    if section.cutoff > places[-1] - places[0]:
-        found = f"{_length(section.cutoff)}, a trace{where} from {_length(places[0])} to {_length(places[-1])}"
-        yield Fault("cutoff", found, f"at most the trace's length, {_length(places[-1] - places[0])}")
-    for start, end in section.unworn or ():
-        if start < end and np.count_nonzero((places >= start) & (places <= end)) < 2:
-            found = f"{_length(start)} to {_length(end)}, a trace{where} from {_length(places[0])} to "
-            yield Fault("unworn", found + _length(places[-1]), "a range with two points of the trace or more")
+def _order_faults(section: TraceSection) -> Iterator[Fault]:
+    """Yield a fault of each trace whose places do not rise."""
+    for where, places in _lines(section):
+        if not _rising((where, places)):
+            yield Fault("trace", *_order(places, where))
 
 
-def _order(places: Array, steps: Array, where: str) -> tuple[str, str, str]:
+def _cutoff_faults(section: TraceSection) -> Iterator[Fault]:
+    """Yield a fault of each trace with points too few for the cutoff, or shorter than it."""
+    for where, places in filter(_rising, _lines(section)):
+        steps = np.diff(places)
+        widest = int(np.argmax(steps))
+        if steps[widest] > FINEST * section.cutoff:
+            apart = f"points up to {_length(steps[widest])} apart at {_length(places[widest])}"
+            least = f"at least {_length(steps[widest] / FINEST)}, twice that distance"
+            yield Fault("cutoff", f"{_length(section.cutoff)}, {apart}{where}", least)
+        if section.cutoff > places[-1] - places[0]:
+            found = f"{_length(section.cutoff)}, a trace{where} from {_length(places[0])} to {_length(places[-1])}"
+            yield Fault("cutoff", found, f"at most the trace's length, {_length(places[-1] - places[0])}")
+
+
+def _range_faults(section: TraceSection) -> Iterator[Fault]:
+    """Yield a fault of each range in which a trace has fewer than two points for the line."""
+    for where, places in filter(_rising, _lines(section)):
+        for start, end in section.unworn or ():
+            if start < end and np.count_nonzero((places >= start) & (places <= end)) < 2:
+                found = f"{_length(start)} to {_length(end)}, a trace{where} from {_length(places[0])} to "
+                yield Fault("unworn", found + _length(places[-1]), "a range with two points of the trace or more")
+
+
+def _lines(section: TraceSection) -> Iterator[tuple[str, Array]]:
+    """Yield the angle in words and the places (n,) m of each trace."""
+    for angle, line in _by_angle(section.trace).items():
+        where = f" at {format_quantity(angle[0], Dimension.ANGLE, digits=4)}" if angle else ""
+        yield where, np.array(line)[:, 0]
+
+
+def _rising(line: tuple[str, Array]) -> bool:
+    """True for a trace of two places or more that rise."""
+    steps = np.diff(line[1])
+    return bool(steps.size and (steps > 0.0).all())
+
+
+def _order(places: Array, where: str) -> tuple[str, str, str]:
+    steps = np.diff(places)
     if len(places) < 2:
         return f"{len(places)} point{where}", "two or more", ""
     k = int(np.argmax(steps <= 0.0))
@@ -132,5 +151,12 @@ def _length(value: float) -> str:
     return format_quantity(value, Dimension.LENGTH, digits=4)
 
 
-Profile = Annotated[Rows, ALONG, AROUND, Limits(fewest=2), FromTable(TraceSection, profile_of_trace)]
+CHECKS = (
+    Check(("level", "unworn"), _unworn_faults),
+    Check(("trace",), _order_faults),
+    Check(("trace", "cutoff"), _cutoff_faults),
+    Check(("trace", "unworn"), _range_faults),
+)
+"""What the keys of a trace have to be together; a key with a fault of its own hides none of another."""
+Profile = Annotated[Rows, ALONG, AROUND, Limits(fewest=2), FromTable(TraceSection, CHECKS, profile_of_trace)]
 """Of a part: rows of place, (angle,) material taken off, in SI, however its file states them."""

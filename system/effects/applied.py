@@ -59,12 +59,12 @@ def left_over(point: OperatingPoint[Number], ideal: Number, suction_loss: Number
 
 
 def affected_leaks(leaks: LeakTable, effects: Effects[Value]) -> LeakTable:
-    """Leaks with the effects' factors at the effects' angles; of fewer angles, by a periodic spline."""
-    factor, count = np.moveaxis(effects.conductance, 0, -2), effects.conductance.shape[-1]
-    if leaks.conductance.shape[-1] == count:
-        return LeakTable(leaks.conductance * factor, leaks.drag_flow)
-    conductance, drag_flow = (_at_angles(table, count) for table in (leaks.conductance, leaks.drag_flow))
-    return LeakTable(np.maximum(conductance, 0.0) * factor, drag_flow)
+    """Leaks with the effects' factors and flows at the effects' angles; of fewer angles, by a periodic spline."""
+    factor, dragged = (np.moveaxis(each, 0, -2) for each in (effects.conductance, effects.gap_flow))
+    conductance, drag_flow, count = leaks.conductance, leaks.drag_flow, factor.shape[-1]
+    if conductance.shape[-1] != count:
+        conductance, drag_flow = np.maximum(_at_angles(conductance, count), 0.0), _at_angles(drag_flow, count)
+    return LeakTable(conductance * factor, drag_flow + dragged)
 
 
 def affected_wear(wear: PortWear[Value], effects: Effects[Value]) -> PortWear[Value]:

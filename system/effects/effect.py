@@ -40,6 +40,8 @@ class EffectId(Enum):
     SQUEEZE_PUMPING = "squeeze_pumping"
     SLIPPER_LIFT = "slipper_lift"
     BLOCK_TIPPING = "block_tipping"
+    FILM_RUPTURE = "film_rupture"
+    WORN_PROFILE = "worn_profile"
     CHURNING = "churning"
     SEAL_DRAG = "seal_drag"
     CHARGE_PUMP_DRAG = "charge_pump_drag"
@@ -114,21 +116,23 @@ class BenchState(Generic[Value]):
 class Effects(Generic[Value]):
     """Changes by a law at N points and M angles; ones and zeros change nothing.
 
-    conductance, viscous, coulomb: (3, N, M), factors on leakage, shear and Coulomb friction of the gaps in the order of
-    `Gap`; extra_coulomb: (5, N, M), W, of one piston, one slipper, the valve plate, one socket, the ball guide. Then
-    (N,) each, flows in m3/s of volume at the port they leave: cross_flow (delivery to inlet), drain_flow (delivery to
+    conductance, viscous, coulomb: (3, N, M), factors on leakage, shear and Coulomb friction of the gaps in the
+    order of `Gap`; gap_flow: (3, N, M), m3/s, of oil that walls drag out of one chamber into each gap;
+    extra_coulomb: (5, N, M), W, of one piston, one slipper, the valve plate, one socket, the ball guide. Then (N,)
+    each, flows in m3/s of volume at the port they leave: cross_flow (delivery to inlet), drain_flow (delivery to
     case), drain_from_inlet; torque in N m on the shaft; ideal: factor on the displacement; intake: share of the
     displaced volume that is filled with oil; delivery_reading: factor on the reading of the delivery's meter;
     groove_advance in rad and groove_area, factor: earlier and wider opening of the relief grooves ahead of both
-    kidneys; suction_area: factor on the kidney of the suction side; suction_loss: Pa that the inlet loses ahead of the
-    suction port; free_air, of the oil's volume at one atmosphere: bubbles in the chambers, whose volume goes with the
-    absolute pressure to the power -air_exponent; carried_off: W, power of the flows and the torque, a sink of the power
-    balance. Effects[float]: one point, its arrays (3, M) and (5, M).
+    kidneys; suction_area: factor on the kidney of the suction side; suction_loss: Pa that the inlet loses ahead of
+    the suction port; free_air, of the oil's volume at one atmosphere: bubbles in the chambers, whose volume goes
+    with the absolute pressure to the power -air_exponent; carried_off: W, power of the flows and the torque, a sink
+    of the power balance. Effects[float]: one point, its arrays (3, M) and (5, M).
     """
 
     conductance: Array
     viscous: Array
     coulomb: Array
+    gap_flow: Array
     extra_coulomb: Array
     cross_flow: Value
     drain_flow: Value
@@ -162,8 +166,8 @@ FACTORS = (
 
 def neutral(points: int, angles: int) -> Effects:
     """The effects of no law at all."""
-    shapes = {"conductance": (3, points, angles), "viscous": (3, points, angles), "coulomb": (3, points, angles),
-              "extra_coulomb": (5, points, angles)}  # fmt: skip
+    of_gaps = dict.fromkeys(("conductance", "viscous", "coulomb", "gap_flow"), (3, points, angles))
+    shapes = {**of_gaps, "extra_coulomb": (5, points, angles)}
     return Effects(
         **{
             field.name: np.full(shapes.get(field.name, (points,)), 1.0 if field.name in FACTORS else 0.0)

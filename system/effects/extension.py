@@ -25,7 +25,7 @@ class Extension:
     about the member's values. Values are those of the grid's first member and the parameters'.
 
     `forms` are other published laws of the same effect. Each has the sizes of this one, and a key of its own in its
-    grid, by which a pump file states it.
+    grid, by which a pump file states it. of_films: solved with the films, by no table of a pump file.
     """
 
     id: EffectId
@@ -35,6 +35,7 @@ class Extension:
     grid: tuple[Values, ...] = ({},)
     scales: tuple[Parameter, ...] = ()
     forms: tuple[Extension, ...] = ()
+    of_films: bool = False
 
     @property
     def members(self) -> tuple[Extension, ...]:

@@ -28,9 +28,6 @@ GOOD = 0.5  # share of the promised fall: below it the slopes are asked for anew
 TRUE, LONGER = 0.75, 2.0  # share of the promised fall from which the next step may be so many times as long
 STEP = 0.05  # in xi, of slopes by predictions: over shorter ones steps that the solver takes otherwise would count
 NEAR = 0.02  # in xi: slopes taken no farther away are valid for a peak and its covariance
-GROSS, COARSE = 3.0, 1e-2  # objective per reading of a model that is wrong, share of it that decides nothing then
-LEVEL = 8  # trials in which a wrong model has to gain that share
-STUCK = 6  # trials after which a fit that has gained less than its `change` goes no farther by these slopes
 SAME_NOISE = 1e-2  # relative change of the whitening below which it is not renewed
 
 
@@ -42,6 +39,9 @@ class FitLimits:
     change it is in units of the objective per reading where that is above one. Half a nat suits smooth models;
     models with kinks predict more than they achieve. hopeless: an objective above which a fit is of no use. After
     `patience` trials a fit whose predicted objective is not lower ends, with the evidence of the predicted peak.
+    gross: objective per reading of a model that is wrong; its fit ends where `level` trials gain less than the share
+    `coarse` of the objective. stuck: trials after which a fit that gained less than `change` goes no farther by its
+    slopes.
     """
 
     steps: int = 100
@@ -51,6 +51,10 @@ class FitLimits:
     stall: float = 1.0
     hopeless: float = inf
     patience: int = 4
+    gross: float = 3.0
+    coarse: float = 1e-2
+    level: int = 8
+    stuck: int = 6
 
 
 LIMITS = FitLimits()
@@ -92,7 +96,7 @@ class _Fit:
         self.simulator, self.observations, self.limits = simulator, observations, limits
         self.bounds = Bounds.of(simulator.parameters)
         self.predictions = self.slope_maps = 0
-        self.failed_at = -LEVEL  # predictions when the simulator failed last
+        self.failed_at = -limits.level  # predictions when the simulator failed last
         self.taken, self.raw = np.full(len(simulator.parameters), np.inf), np.zeros(0)  # the last slopes, where
         self.exact = False  # slopes by predictions: those of the simulator may be approximate
 
@@ -158,19 +162,21 @@ class _Fit:
         return whitener(self.observations, self.simulator.input_slopes(values))
 
     def is_level(self, objectives: Sequence[float]) -> bool:
-        """True for a model that is wrong and gains little: LEVEL trials together brought a share COARSE at most.
+        """True for a model that is wrong and gains little: `level` trials brought a share `coarse` at most.
 
         Not where the simulator failed in these trials.
         """
-        if len(objectives) <= LEVEL or objectives[-1] <= GROSS * self.observations.measured.sum():
+        limits = self.limits
+        if len(objectives) <= limits.level or objectives[-1] <= limits.gross * self.observations.measured.sum():
             return False
-        if self.predictions - self.failed_at <= 2 * LEVEL:
+        if self.predictions - self.failed_at <= 2 * limits.level:
             return False
-        return objectives[-1 - LEVEL] < (1.0 + COARSE) * objectives[-1]
+        return objectives[-1 - limits.level] < (1.0 + limits.coarse) * objectives[-1]
 
     def is_stuck(self, objectives: Sequence[float], place: _Iterate) -> bool:
-        """True if the last STUCK trials together brought less than a change that counts."""
-        gained = objectives[-1 - STUCK] - objectives[-1] if len(objectives) > STUCK else inf
+        """True if the last `stuck` trials together brought less than a change that counts."""
+        back = self.limits.stuck
+        gained = objectives[-1 - back] - objectives[-1] if len(objectives) > back else inf
         return gained < self.limits.change * _excess(place)
 
     def promised(self, walk: _Walk) -> float:
@@ -222,8 +228,8 @@ def is_peak(posterior: Posterior, limits: FitLimits = LIMITS) -> bool:
 
 def _stall(place: _Iterate | Posterior, limits: FitLimits) -> float:
     """The fall promised with which a place that no step betters is a peak."""
-    gross = place.objective > GROSS * place.residual.size
-    return max(limits.stall * _excess(place), COARSE * place.objective if gross else 0.0)
+    gross = place.objective > limits.gross * place.residual.size
+    return max(limits.stall * _excess(place), limits.coarse * place.objective if gross else 0.0)
 
 
 def _excess(place: _Iterate | Posterior) -> float:

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import csv
 import re
-from collections.abc import Mapping
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
@@ -17,6 +17,26 @@ from system.inputs.units import Dimension, QuantityError, parse_quantity
 Heads = Mapping[str, Dimension | None]
 """Names of the columns a table must have, and what each measures; None: a bare number, `[1]`."""
 _HEAD = re.compile(r"\s*(.+?)\s*\[(.+)\]\s*")
+Line = tuple[int, list[str]]
+"""Number of a line in its file, from 1, and its cells."""
+
+
+@dataclass(frozen=True)
+class CsvText:
+    """A CSV file as text: cells of its head, the lines below it, and the comments without their sign."""
+
+    head: list[str]
+    rows: tuple[Line, ...]
+    comments: tuple[str, ...]
+
+
+@dataclass(frozen=True)
+class Column:
+    """A column of a CSV file: its name, the unit in its head (None without one), and what it measures."""
+
+    name: str
+    unit: str | None
+    kind: Dimension | None = None
 
 
 @dataclass(frozen=True)
@@ -40,24 +60,64 @@ def read_table(path: Path, heads: Heads) -> CsvTable:
     none, each with its line.
     """
     try:
-        text = path.read_text("utf-8-sig")
-    except FileNotFoundError:
-        fault = Fault("file", "no such file", _wanted(heads), nearest_path(path))
-        raise InputFaults(str(path), [fault]) from None
-    except (OSError, UnicodeDecodeError) as reason:
-        raise InputFaults(str(path), [Fault("file", f"cannot be read: {reason}", _wanted(heads))]) from None
-    rows = [(number, cells) for number, cells in enumerate(csv.reader(text.splitlines()), start=1) if any(cells)]
-    comments = [",".join(cells).lstrip(" #").strip() for _, cells in rows if cells[0].lstrip().startswith("#")]
-    rows = [(number, cells) for number, cells in rows if not cells[0].lstrip().startswith("#")]
-    if len(rows) < 2:
+        text = read_csv_text(path, _wanted(heads))
+    except QuantityError as reason:
+        raise InputFaults(str(path), [Fault("file", reason.found, reason.expected, reason.nearest)]) from None
+    if not text.rows:
         raise InputFaults(str(path), [Fault("file", "no rows of numbers", _wanted(heads))])
-    units = _units(path, rows[0][1], heads)
+    columns = _columns(path, text.head, heads)
     faults: list[Fault] = []
-    numbers = [_numbers(number, cells, units, heads, faults) for number, cells in rows[1:]]
+    rows = [row_numbers(f"line {number}", cells, columns, faults) for number, cells in text.rows]
     if faults:
         raise InputFaults(str(path), faults)
-    columns = dict(zip(units, np.array(numbers).T, strict=True))
-    return CsvTable(path, columns, tuple(number for number, _ in rows[1:]), tuple(comments))
+    named = zip((column.name for column in columns), np.array(rows).T, strict=True)
+    return CsvTable(path, dict(named), tuple(number for number, _ in text.rows), text.comments)
+
+
+def read_csv_text(path: Path, wanted: str) -> CsvText:
+    """The lines of a CSV file without those that are empty or begin with #.
+
+    Raises QuantityError for what is no file, cannot be read or has no head; `wanted` says in words what it should be.
+    """
+    try:
+        text = path.read_text("utf-8-sig")
+    except FileNotFoundError:
+        raise QuantityError(f"'{path}', which is no file", wanted, nearest_path(path)) from None
+    except (OSError, UnicodeDecodeError) as reason:
+        raise QuantityError(f"'{path}', which cannot be read: {reason}", wanted) from None
+    lines = [line for line in enumerate(csv.reader(text.splitlines()), start=1) if "".join(line[1]).strip()]
+    comments = tuple(",".join(cells).lstrip(" #").strip() for _, cells in lines if _is_comment(cells))
+    lines = [line for line in lines if not _is_comment(line[1])]
+    if not lines:
+        raise QuantityError(f"'{path}', which is empty", wanted)
+    return CsvText(lines[0][1], tuple(lines[1:]), comments)
+
+
+def _is_comment(cells: list[str]) -> bool:
+    return cells[0].lstrip().startswith("#")
+
+
+def head_columns(head: list[str]) -> list[Column]:
+    """The columns that a head names: `Place_x [mm]` is `place x` in mm; a cell without a unit keeps its text."""
+    matches = [_HEAD.fullmatch(cell) for cell in head]
+    return [
+        Column(match[1].replace("_", " ").lower(), match[2].strip()) if match else Column(cell.strip(), None)
+        for match, cell in zip(matches, head, strict=True)
+    ]
+
+
+def row_numbers(where: str, cells: list[str], columns: Sequence[Column], faults: list[Fault]) -> list[float]:
+    """One line in SI; each fault with `where`, the line's name, and its column."""
+    if len(cells) != len(columns):
+        faults.append(Fault(where, f"{len(cells)} values", f"{len(columns)} values"))
+        return []
+    found = []
+    for cell, column in zip(cells, columns, strict=True):
+        try:
+            found.append(_number(cell.strip(), column))
+        except QuantityError as reason:
+            faults.append(Fault(f"{where}, {column.name}", reason.found, reason.expected, reason.nearest))
+    return found
 
 
 def write_table(path: Path, comments: Mapping[str, str], columns: Mapping[str, Array]) -> None:
@@ -76,16 +136,14 @@ def _wanted(heads: Heads) -> str:
     return f"a CSV file with the head '{', '.join(shown)}'"
 
 
-def _units(path: Path, head: list[str], heads: Heads) -> dict[str, str]:
-    """The unit of each column by name, in the file's order; raises InputFaults for other columns than wanted."""
-    matches = [_HEAD.fullmatch(cell) for cell in head]
-    names = [
-        match[1].replace(" ", "_").lower() if match else cell.strip() for match, cell in zip(matches, head, strict=True)
-    ]
+def _columns(path: Path, head: list[str], heads: Heads) -> list[Column]:
+    """The columns in the file's order; raises InputFaults for other columns than wanted."""
+    columns = [replace(column, name=column.name.replace(" ", "_")) for column in head_columns(head)]
+    names = [column.name for column in columns]
     faults = [
-        Fault(f"column '{cell.strip()}'", "no unit" if name in heads else "unknown column", _wanted(heads),
-              f"'{name} [..]'" if name in heads else nearest_choice(name, heads))
-        for name, match, cell in zip(names, matches, head, strict=True) if not match or name not in heads
+        Fault(f"column '{cell.strip()}'", "no unit" if column.name in heads else "unknown column", _wanted(heads),
+              f"'{column.name} [..]'" if column.name in heads else nearest_choice(column.name, heads))
+        for column, cell in zip(columns, head, strict=True) if column.unit is None or column.name not in heads
     ]  # fmt: skip
     faults += [
         Fault(f"column '{name}'", f"{n} columns of this name" if n else "missing", "one")
@@ -94,29 +152,19 @@ def _units(path: Path, head: list[str], heads: Heads) -> dict[str, str]:
     ]
     if faults:
         raise InputFaults(str(path), faults)
-    return {name: match[2].strip() for name, match in zip(names, matches, strict=True) if match}
+    return [replace(column, kind=heads[column.name]) for column in columns]
 
 
-def _numbers(number: int, cells: list[str], units: Mapping[str, str], heads: Heads, faults: list[Fault]) -> list[float]:
-    """One line in SI; what is wrong with it goes to the faults."""
-    if len(cells) != len(units):
-        faults.append(Fault(f"line {number}", f"{len(cells)} values", f"{len(units)} values"))
-        return []
-    found = []
-    for cell, (name, unit) in zip(cells, units.items(), strict=True):
-        try:
-            found.append(_number(cell.strip(), unit, heads[name]))
-        except QuantityError as reason:
-            faults.append(Fault(f"line {number}, {name}", reason.found, reason.expected, reason.nearest))
-    return found
-
-
-def _number(cell: str, unit: str, kind: Dimension | None) -> float:
+def _number(cell: str, column: Column) -> float:
     """One cell in SI; raises QuantityError."""
-    if kind is not None:
-        return parse_quantity(f"{cell} {unit}", kind)
-    if unit != "1":
-        raise QuantityError(f"the unit [{unit}]", "a bare number, [1]")
+    if column.kind is not None:
+        try:
+            return parse_quantity(f"{cell} {column.unit}", column.kind)
+        except QuantityError as reason:
+            expected = f"a number; the head says [{column.unit}]"
+            raise QuantityError(reason.found, expected, reason.nearest) from None
+    if column.unit != "1":
+        raise QuantityError(f"the unit [{column.unit}]", "a bare number, [1]")
     try:
         value = float(cell)
     except ValueError:

@@ -7,7 +7,6 @@ ball joint rubs by its forces and spins; the other pairs are the lumped fidelity
 them (`film_effects`); its other effects act by their laws, at the pump's chambers without any.
 """
 
-from collections.abc import Mapping
 from contextlib import nullcontext
 from dataclasses import dataclass, replace
 from time import perf_counter
@@ -46,6 +45,7 @@ from system.points.floating_kinds import (
     group_of,
 )
 from system.points.floating_progress import WholeRun
+from system.points.floating_solved import Round, Solved
 from system.points.lumped import point_and_effects
 from system.points.piston_process import PistonBeside, piston_beside
 from system.pump.assembly import PumpPoint, met_point, put_together
@@ -71,23 +71,6 @@ NEARLY = 20.0
 CLOSING = 0.5
 """The same of later rounds, over what the round before changed."""
 ROUND_LIMIT = 20
-
-
-@dataclass(frozen=True)
-class Round:
-    """One round of gaps and chamber.
-
-    Changes by the round (as the tolerances count them), closure of its turns (share of the mean film), films solved,
-    time s; time of its gaps on each leg, s, with that of pistons in their own process.
-    """
-
-    pressure_change: float
-    friction_change: float
-    spin_change: float
-    closed: float
-    films_solved: int
-    seconds: float
-    spent: Mapping[Leg, float]
 
 
 @dataclass(frozen=True)
@@ -131,10 +114,12 @@ def floating_point(
     near: FloatingPoint | None = None,
     side_by_side: bool = False,
     report: Report = silent,
+    solved: Solved | None = None,
 ) -> FloatingPoint:
     """One periodic operating point with the three gaps floating; side by side: the pistons in a second process.
 
     near: a point of the same pump with the same options, whose motion, temperatures and spins this one starts from.
+    solved: is filled with rounds and gaps as they are solved, and keeps them where a later one fails.
     Raises NotConverged where gaps and chamber pressure do not settle within ROUND_LIMIT rounds, FilmNotConverged
     where a film does not, ValueError for steps that do not divide among the pistons, InputError for a film that
     warmth closes.
@@ -143,7 +128,8 @@ def floating_point(
     group, asked = _beginning(pump, point, options)
     left = at_the_ports(point, group.by_chamber)
     gaps: tuple[FloatingGaps, ...] | None = None
-    rounds: list[Round] = []
+    solved = solved or Solved()
+    rounds = solved.rounds
     if near is not None:
         gaps = tuple(_begun(kind.gaps) for kind in near.kinds)
         asked = _rubbed_as(asked, near)
@@ -154,7 +140,7 @@ def floating_point(
             if len(rounds) == ROUND_LIMIT:
                 raise _not_settled(rounds[-1])
             closing = replace(asked, options=_loosened(options, rounds))
-            found = _round(closing, group, left, gaps, beside, whole.begun())
+            found = _round(closing, group, left, gaps, beside, whole.begun(), solved)
             asked, gaps = found.asked, found.gaps
             rounds.append(found.taken)
             whole.ended(max(change / tolerance for change, tolerance in _changes(found.taken)))
@@ -207,11 +193,12 @@ def _round(
     before: tuple[FloatingGaps, ...] | None,
     beside: PistonBeside | None,
     report: Report,
+    solved: Solved,
 ) -> _Found:
     """The gaps at the pressure and friction of the round before, then the chambers with these gaps."""
     began, pump, pistons = perf_counter(), asked.rotor.pump, asked.rotor.pump.pump.pistons
     driven = drives_of(asked, group)
-    gaps = gap_revolutions(asked, group, driven, before, beside, report)
+    gaps = gap_revolutions(asked, group, driven, before, beside, report, solved)
     problems = chamber_problems(asked, group, point, piston_motion(pump, point), gaps)
     pressures = asked.rotor.point.delivery_pressure, asked.rotor.point.inlet_pressure
     samples = asked.shaft_angle.size

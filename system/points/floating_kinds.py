@@ -13,9 +13,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from gaps.films.physics import Physics
-from gaps.films.reports import PistonReport
-from gaps.revolution.march import GapRevolution
 from reynolds.numerics.arrays import Array
+from system.description.gap import Gap
 from system.description.pump import PumpDescription
 from system.effects.effect import Effects
 from system.films.cycle import GapPhysics
@@ -27,6 +26,7 @@ from system.points.effects import affected_problem
 from system.points.film_effects import floating_effects
 from system.points.floating_exchange import FloatingGaps, growth, leak_table
 from system.points.floating_gaps import FloatingOptions, block_revolution, piston_revolution, slipper_revolution
+from system.points.floating_solved import GapsOfKind, Solved
 from system.points.piston_process import Driven, PistonBeside
 from system.pump.chamber.problem import ChamberProblem
 from system.pump.chamber_kinds import Kinds, kinds
@@ -120,34 +120,49 @@ def gap_revolutions(
     before: Sequence[FloatingGaps] | None,
     beside: PistonBeside | None,
     report: Report,
+    solved: Solved,
 ) -> tuple[FloatingGaps, ...]:
-    """The gaps of each kind over the revolution, on from those before; pistons in their own process, if any."""
-    block_before = None if before is None else before[0].block
-    on_piston, on_slipper, on_block = (
+    """The gaps of each kind over the revolution, on from those before; pistons in their own process, if any.
+
+    Each is kept in `solved` as soon as it is found.
+    """
+    options = [
         replace(asked.options, physics=own)
         for own in (group.physics.piston, group.physics.slipper, group.physics.valve_plate)
-    )
+    ]
     last_of: Sequence[FloatingGaps | None] = [None] * len(driven) if before is None else before
-    each = list(zip(group.rotors(asked), group.parts, driven, last_of, strict=True))
-    pistons: Sequence[GapRevolution[PistonReport]] = ()
+    kinds = _kinds_driven(asked, group, driven)
+    each = list(zip(kinds, last_of, strict=True))
     if beside is not None:
         beside.start(driven_by(asked, group))
     else:
-        pistons = [
-            piston_revolution(rotor, parts, of.piston, on_piston, last.piston if last else None, report)
-            for rotor, parts, of, last in each
-        ]
-    slippers = [
-        slipper_revolution(rotor, parts, of.slipper, on_slipper, last.slipper if last else None, report)
-        for rotor, parts, of, last in each
-    ]
-    block = block_revolution(asked.rotor, group.parts[0], driven[0].block, on_block, block_before, report)
-    if beside is not None:
-        pistons = beside.fetch(report)
-    return tuple(
-        FloatingGaps(piston, slipper, block, group.kinds.chambers(kind)[0])
-        for kind, (piston, slipper) in enumerate(zip(pistons, slippers, strict=True))
+        turning = (
+            piston_revolution(of.rotor, of.parts, of.drives.piston, options[0], last.piston if last else None, report)
+            for of, last in each
+        )
+        pistons = solved.keep(Gap.PISTON, kinds, options[0], turning)
+    sliding = (
+        slipper_revolution(of.rotor, of.parts, of.drives.slipper, options[1], last.slipper if last else None, report)
+        for of, last in each
     )
+    slippers = solved.keep(Gap.SLIPPER, kinds, options[1], sliding)
+    block_before = None if before is None else before[0].block
+    block = block_revolution(asked.rotor, group.parts[0], driven[0].block, options[2], block_before, report)
+    solved.keep(Gap.VALVE_PLATE, kinds, options[2], [block])
+    if beside is not None:
+        pistons = solved.keep(Gap.PISTON, kinds, options[0], beside.fetch(report))
+    return tuple(
+        FloatingGaps(piston, slipper, block, of.chambers[0])
+        for piston, slipper, of in zip(pistons, slippers, kinds, strict=True)
+    )
+
+
+def _kinds_driven(asked: RoundDrives, group: Group, driven: Sequence[Drives]) -> list[GapsOfKind]:
+    """The kinds of chambers with the drives of a round."""
+    return [
+        GapsOfKind(group.kinds.chambers(kind), *own)
+        for kind, own in enumerate(zip(group.rotors(asked), group.parts, driven, strict=True))
+    ]
 
 
 def by_chamber(group: Group, gaps: Sequence[FloatingGaps]) -> tuple[FloatingGaps, ...]:

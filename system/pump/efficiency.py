@@ -37,8 +37,8 @@ class EfficiencyDefinition(Enum):
 class EfficiencyBasis:
     """Input of every definition: a reading, the oil's bulk modulus (Pa), and derived displacements (m3/rev).
 
-    swept: by the geometry of pistons and ports (`lumped.swept_displacement`); toet: by readings, None where there
-    are none.
+    swept: by the geometry of pistons and ports (`lumped.swept_displacement`); toet: by readings, None
+    without them.
     """
 
     reading: BenchReading

@@ -51,7 +51,7 @@ def _diaphragm(along: int, beside: int, across: int, outside: int) -> BodyMesh:
     """Half of the bore's innermost millimetre, `backed` by the shell but for the diaphragm.
 
     The diaphragm narrows from 128 mm at the slot (0 deg, a free edge) to 15 mm at 132 deg. The shell behind
-    (49 mm of steel, held outside) gives way by less than a micrometre and is taken as rigid.
+    (49 mm of steel, held outside) deforms by less than a micrometre and is taken as rigid.
     """
     around, tall = along + beside, across + outside
     mesh = hollow_cylinder((BORE, BORE + SHEET), 1.0, (1, around, tall), angles=(0.1, 1.1)).mesh

@@ -1,4 +1,4 @@
-"""A floating gap between walls that give way, over the revolution: it closes, and yields to the pressure."""
+"""A floating gap between elastic walls, over the revolution: it closes, and opens under the pressure."""
 
 from dataclasses import replace
 

@@ -86,7 +86,7 @@ def test_measured_speeds(measured):
 
 
 def test_what_both_ways_share(band, tmp_path):
-    """Units that differ by 1 % both ways and by 0.1 % in each; one reading that is none."""
+    """Units that differ by 1 % both ways and by 0.1 % in each; one row without a reading."""
     random = np.random.default_rng(196)
     unit, own = 0.01 * random.standard_normal(4000), 0.001 * random.standard_normal((2, 4000))
     forward, reverse = 1780.0 * (0.9 + unit + own)

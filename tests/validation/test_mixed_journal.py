@@ -160,7 +160,7 @@ def _torque(bearing: Bearing) -> float:
 
 
 BODIES = (
-    "here two thirds (300 rpm) to 93 % (150) of the torque is boundary friction, which hangs on how evenly the "
+    "here two thirds (300 rpm) to 93 % (150) of the torque is boundary friction, which depends on how evenly the "
     "bodies spread the load: a ring and a cylinder stand for the rod, shaft and blocks that the source models. "
     "Rigid ones would give 1.6 to 3.3 N m"
 )

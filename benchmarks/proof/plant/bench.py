@@ -61,7 +61,7 @@ def run(machine: Machine, at: Settings, hidden: Hidden = NOTHING, steps: int = S
 
 
 def _drooped(hidden: Hidden, at: Settings) -> Array:
-    """The stroke that the plate's moment leaves: its stop gives way by an angle, whatever the angle."""
+    """The stroke that the plate's moment leaves: its stop deflects by the same angle at every stroke."""
     return at.ratio - hidden.droop * at.p_out * (1.0 + 0.15 * at.speed / RATED_SPEED)
 
 

@@ -51,7 +51,7 @@ def _short_circuit(machine: Machine, hidden: Hidden, at: Settings, viscosity: Ar
 
 
 def _cross_leak(hidden: Hidden, at: Settings, viscosity: Array) -> Array:
-    """A slit whose walls give way a little."""
+    """A slit whose walls deform a little."""
     drop = at.p_out - at.p_in
     return np.asarray(hidden.cross_leak * drop / viscosity * (1.0 + drop / 4.0e8))
 

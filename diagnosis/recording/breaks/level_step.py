@@ -22,6 +22,8 @@ PER_TERM = 4  # points a term of the law
 LEAST_PART = 5  # points before and behind a step
 WIDE = 2.0  # largest over least reading of a channel whose logarithm is a term
 HELD = 0.8  # of the points at which a channel has to be read, to take part
+CERTAIN = 10.0  # standard errors of a step
+LEFT = 0.4  # of the sum of squares that a step leaves
 TINY = 1e-9  # of |h|^2, below which a step is a combination of the other channels
 
 
@@ -36,6 +38,11 @@ class LevelStep:
     squares: float
     of_law: float
     error: float
+
+    @property
+    def is_certain(self) -> bool:
+        """True for a step of `CERTAIN` standard errors that leaves `LEFT` of the squares at most."""
+        return abs(self.size) >= CERTAIN * self.error and self.squares <= LEFT * self.of_law
 
 
 def level_step(values: Array, law: Array) -> LevelStep | None:

@@ -14,8 +14,6 @@ from system.inputs.channels import INPUTS, ChannelName
 
 JUMP = np.log(1.1)  # of the flow a turn that torque confirms: more than any two states of one pump
 JUMP_ALONE = np.log(1.15)  # of the flow alone
-CERTAIN = 10.0  # standard errors
-LEFT = 0.4  # of the sum of squares that a step leaves
 LIKE = 0.5  # of the flow's jump, to which torque jumps alike
 LEAST_ROWS = 2  # of each name
 NAMED = 4  # names that a text lists
@@ -47,7 +45,7 @@ def _listed(rows: Mapping[str, Sequence[int]]) -> str:
 def pump_changes(readings: Array, names: Sequence[ChannelName]) -> Iterator[str]:
     """Yield the row from which on the flow a turn is another while the inputs do not jump; readings (N, C) in SI.
 
-    Certain by `CERTAIN` standard errors of a smooth law of the inputs, more than `JUMP` where torque jumps alike, more
+    Certain beside a smooth law of the inputs (`LevelStep.is_certain`), more than `JUMP` where torque jumps alike, more
     than `JUMP_ALONE` where no torque is measured; a flow that jumps without the torque is its meter's.
     """
     if ChannelName.Q_OUT not in names:
@@ -78,6 +76,4 @@ def _step(values: Array, law: Array) -> LevelStep | None:
     """The step of the logarithm of values (N,), None where it is not certain."""
     positive = np.isfinite(values) & (np.where(np.isfinite(values), values, -1.0) > 0.0)
     found = level_step(np.log(np.where(positive, values, 1.0)) + np.where(positive, 0.0, np.nan), law)
-    if found is None or abs(found.size) < CERTAIN * found.error or found.squares > LEFT * found.of_law:
-        return None
-    return found
+    return found if found is not None and found.is_certain else None

@@ -7,14 +7,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from diagnosis.recording.breaks.level_step import LevelStep, law_of, level_step
+from diagnosis.recording.breaks.level_step import LEFT, LevelStep, law_of, level_step
 from diagnosis.recording.channel_form import ChannelForm
 from diagnosis.recording.units import OTHER_UNITS
 from reynolds.numerics.arrays import Array
 from system.inputs.units import Dimension, unit_scale
 
-CERTAIN = 10.0  # standard errors of the step
-LEFT = 0.4  # of the sum of squares that readings with their unit corrected leave
 AGREES = 1.5  # times what a free step leaves
 POSITIVE = 0.98  # of readings whose logarithm is taken
 
@@ -40,9 +38,8 @@ class UnitChange:
 def unit_changes(readings: Array, channels: Sequence[ChannelForm]) -> Iterator[UnitChange]:
     """Yield the channel whose unit changes: readings (N, C) in SI as stated, rows in the order of their table.
 
-    The step of its logarithm (of a temperature the step itself) is certain by `CERTAIN` standard errors, and conversion
-    of one part from another unit (`OTHER_UNITS`) takes it away. Of several the one whose law is mended most: the others
-    follow it.
+    The step of its logarithm (of a temperature the step itself) is certain, and conversion of one part from another
+    unit (`OTHER_UNITS`) takes it away. Of several the one whose law is mended most: the others follow it.
     """
     found = [change for k in range(len(channels)) for change in _changes(k, readings, channels)]
     if found:
@@ -58,7 +55,7 @@ def _changes(k: int, readings: Array, channels: Sequence[ChannelForm]) -> Iterat
     law = law_of(readings, np.flatnonzero(np.arange(len(channels)) != k))
     numbers = (readings[:, k] - form.offset) / form.factor
     step = level_step(_level(form.factor * numbers + _zero(form), dimension), law)
-    if step is None or abs(step.size) < CERTAIN * step.error or step.squares > LEFT * step.of_law:
+    if step is None or not step.is_certain:
         return
     for unit in OTHER_UNITS[dimension]:
         factor, offset = unit_scale(unit, dimension)

@@ -30,7 +30,7 @@ LAGS = (0.5, 1.0, 2.0, 4.0, 8.0, 16.0, 32.0, 64.0, 128.0)  # samples
 LOW = 0.3  # share of the least readings by which a dead band is sought
 LEAST_PILE = 0.005  # share of readings in it
 MOST_BAND = 0.3  # of the largest reading
-NEARER = 0.995  # of the misfit without lag: a lag that does not better it is none
+NEARER = 0.995  # of the misfit without lag: a lag that does not improve it counts as zero
 CLEAR = 2.0  # sigma above the dead band from which a reading counts
 
 

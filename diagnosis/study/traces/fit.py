@@ -18,7 +18,7 @@ MOVING = frozenset({
     "bulk_modulus", "dead_volume", "flow_coefficient", "stand_out_share", "p_out.zero", "film_thickness.piston",
     "film_thickness.slipper", "film_thickness.valve_plate", "viscosity", *GROOVE_NAMES, *TRACE_NAMES,
 })  # fmt: skip
-"""Parameters that a chamber's pressure over the turn hangs on, as it is read."""
+"""Parameters on which a chamber's recorded pressure over the turn depends."""
 LIMITS = FitLimits(change=0.1)  # of the objective
 
 

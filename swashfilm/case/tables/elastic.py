@@ -41,7 +41,7 @@ class ElasticSection:
 
 @dataclass(frozen=True)
 class ElasticStatement:
-    """The table, and its bodies under the film by wall; half-spaces are none of these."""
+    """The table, and its bodies under the film by wall; half-spaces are not among them."""
 
     stated: ElasticSection
     bodies: Mapping[str, Body]

@@ -54,7 +54,7 @@ def summary(found: Calibration, title: str) -> dict[str, Any]:
         "undetermined": len(found.undetermined),
         "hersey": None
         if found.hersey is None
-        else {"evidence_nats": found.hersey.evidence, "carried": found.hersey.supported},
+        else {"evidence_nats": found.hersey.evidence, "supported": found.hersey.supported},
         "notes": list(found.notes),
         "assumptions": list(found.assumptions),
         "seconds": found.seconds,

@@ -49,9 +49,9 @@ def headline(folder: Path) -> tuple[str, ...]:
     law = own["hersey"]
     if law is not None:
         odds = f"{law['evidence_nats']:+.1f} nats in favour"
-        words = "the data support" if law["carried"] else "the data do not support"
+        words = "the data support" if law["supported"] else "the data do not support"
         sentences.append(f"{words} a friction that depends on the Hersey number: {odds}.")
-        if law["carried"]:
+        if law["supported"]:
             constant = f"{own['chi2_constant_friction']:.3f}"
             sentences.append(f"with constant coefficients chi-square per reading is {constant}.")
     for row in read_rows(folder / "parameters.csv"):

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 from swashfilm.console.command import Command
 from swashfilm.console.inputs import COMMAND_LINE, RECORDING, whole
 from swashfilm.console.terminal import show, show_at_once, show_table
+from swashfilm.runs.diagnose.films import FLOATING, add_film_options
 from system.inputs.faults import Fault, InputFaults
 
 if TYPE_CHECKING:
@@ -30,6 +31,7 @@ def add_diagnose_options(command: argparse.ArgumentParser) -> None:
     command.add_argument("--workers", metavar="N", help=what)
     what = "elastic walls by solved films, which take about a minute, once for each pump"
     command.add_argument("--film-tables", action="store_true", help=what)
+    add_film_options(command)
     what = "diagnose again whenever a file of the folder RECORDING arrives or changes, until Ctrl-C; a line each time"
     command.add_argument("--watch", action="store_true", help=what)
 
@@ -44,18 +46,24 @@ def run_diagnose_command(options: argparse.Namespace) -> int:
     from diagnosis.study.acceptance import checked_recording, other_pump
     from diagnosis.study.scaled_pump import load_known_pump
     from swashfilm.console.progress import progress
-    from swashfilm.output.run_folder import final_folder, run_folder
+    from swashfilm.output.run_folder import Interrupted, final_folder, run_folder
+    from swashfilm.runs.diagnose.films import film_model_of, film_options_of
     from swashfilm.runs.diagnose.result import DiagnosisRun
     from swashfilm.runs.diagnose.run import EXTENDED, write_finding
     from system.effects.catalogue.entries import CATALOGUE, with_films_solved
     from system.effects.effect import Kind
 
     known = load_known_pump(options.pump)
+    film_options = film_options_of(options, known)
     recording = checked_recording(options.recording, known)
     name = f"diagnose-{recording.title or options.recording.stem}"
     with run_folder(name, options.output) as folder, progress(1, "diagnosis") as report:
         catalogue = with_films_solved(known.pump, report) if options.film_tables else CATALOGUE
-        finding = diagnose(known, recording, report, workers, catalogue)
+        try:
+            films = film_model_of(known.pump, recording, film_options, workers, report)
+        except KeyboardInterrupt:
+            raise Interrupted(None, "solved points are kept; the same command continues from them") from None
+        finding = diagnose(known, recording, report, workers, catalogue, films)
         write_finding(folder, finding)
         found = DiagnosisRun.opened(folder)
     for text in (*(note.text for note in other_pump(recording, known)), *found.paragraphs):
@@ -167,6 +175,8 @@ def _of_watch(options: argparse.Namespace) -> Iterator[Fault]:
     """Faults of a watch: it needs a folder, and writes neither one file nor one run folder."""
     if not options.recording.is_dir():
         yield Fault("--watch", f"{options.recording}, which is no folder", "the folder of a recording")
+    if options.fidelity == FLOATING:
+        yield Fault("--watch", "--fidelity floating", "the same command without --watch: tables belong to a recording")
     for name, given in (("--apply", options.apply), ("-o", options.output)):
         if given is not None:
             expected = "a run folder of its own for every diagnosis of a watch, in runs"

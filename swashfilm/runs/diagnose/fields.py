@@ -11,6 +11,7 @@ import numpy as np
 from diagnosis.procedure.pump_comparison import OF_FILMS
 from swashfilm.output.field_maps import MapField, draw_map
 from swashfilm.output.figures import figure_of
+from swashfilm.runs.diagnose.floating_fields import floating_pictures
 from swashfilm.runs.pump.data import GAPS, films_dataset
 from swashfilm.runs.pump.plots import GAP_FIELDS, gap_place, pictured
 from swashfilm.runs.pump.scene.given_films import write_fields
@@ -43,7 +44,7 @@ def film_pictures(folder: Path, names: tuple[str, str], found: Mapping[str, Any]
     import xarray
 
     if not all((folder / name / FIELDS_FILE).is_file() for name in names):
-        return {}
+        return floating_pictures([folder / name for name in names], names)
     effects = [EffectId(one["id"]) for one in found["effects"] if EffectId(one["id"]) in OF_FILMS]
     pairs = [one["pair"] for one in found["effects"] if EffectId(one["id"]) in OF_FILMS]
     fields = dict.fromkeys(["film_pressure", *(_FIELD_OF.get(effect, "film_thickness") for effect in effects)])

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from diagnosis.checks.notes import note_text
-from diagnosis.procedure.pump_comparison import NO_COMPARISON, WITH, WITHOUT, FilmComparison, PumpComparison
+from diagnosis.procedure.compared import NO_COMPARISON, WITH, WITHOUT, FilmComparison, PumpComparison
 from diagnosis.recording.units import reading
 from diagnosis.report.json_file import write_diagnosis
 from diagnosis.report.tables import (

@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from diagnosis.finding import NO_NEXT_POINT
-from diagnosis.procedure.pump_comparison import HYDRAULIC, SHAFT, WITH, WITHOUT
+from diagnosis.procedure.compared import WITH, WITHOUT
+from diagnosis.procedure.pump_comparison import HYDRAULIC, SHAFT
 from diagnosis.report.format import chance
 from diagnosis.report.json_file import read_diagnosis
 from reynolds.numerics.arrays import Array
@@ -39,6 +40,7 @@ def write_diagnose_page(folder: Path) -> Path:
     summary = read_summary(folder, FILES, "a diagnosis's run folder")
     found = read_diagnosis(folder / "diagnosis.json")
     tables = {name: read_rows(folder / f"{name}.csv") for name in TABLES}
+    kinds = film_kinds(tables["films"])
     if (folder / TRACES).is_file():
         tables["traces"] = read_rows(folder / TRACES)
     return write_page(
@@ -55,6 +57,8 @@ def write_diagnose_page(folder: Path) -> Path:
         next_head=tuple(next(iter(tables["next_points"]), {})),
         changes=list(change_rows(tables["changes"])),
         films=list(film_rows(tables["films"])),
+        film_head=("all gaps of a kind", *(f"{FILM_HEADS[kind]}, without -> with" for kind in kinds)),
+        floating=kinds == ["films"],
         film_pictures={name: inlined(png) for name, png in film_pictures(folder, (WITHOUT, WITH), found).items()},
         remarks=remarks(found, summary),
         next_point=next_point_words(found),
@@ -136,11 +140,20 @@ def change_rows(rows: Sequence[Mapping[str, str]]) -> Iterator[tuple[str, ...]]:
         yield row["quantity"], *both, moved, " -> ".join(shares)
 
 
+FILM_HEADS = {"lumped": "closed-form laws", "films": "films"}
+"""What a gap's quantities are given by, by the first part of their columns."""
+
+
+def film_kinds(rows: Sequence[Mapping[str, str]]) -> list[str]:
+    """What films.csv gives quantities by: floating films have no closed-form laws beside them."""
+    return [kind for kind in FILM_HEADS if rows and f"{kind}_{WITHOUT}" in rows[0]]
+
+
 def film_rows(rows: Sequence[Mapping[str, str]]) -> Iterator[tuple[str, ...]]:
-    """(quantity, by closed-form laws, by films): without -> with the finding, and the factor."""
+    """(quantity, by closed-form laws where films.csv has them, by films): without -> with the finding, the factor."""
     for row in rows:
         films = []
-        for kind in ("lumped", "films"):
+        for kind in film_kinds(rows):
             one, other = (float(row[f"{kind}_{name}"]) for name in (WITHOUT, WITH))
             times = f" (x {other / one:.3g})" if one else ""
             films.append(f"{_plain(one, 4)} -> {_plain(other, 4)} {row['unit']}{times}")

@@ -55,18 +55,11 @@ def residual_maps(rows: Sequence[Row]) -> Figure:
 
 def held_out_bars(held_out: Mapping[str, Mapping[str, Any]]) -> Figure:
     """RMS of held-out residuals before and after, in units of each channel's noise."""
-    names = list(held_out)
-    figure = figure_of(WIDTH, 1.2 + 0.5 * len(names))
-    axes, places = figure.subplots(), np.arange(len(names))
-    for shift, (key, colour) in enumerate((("before", BEFORE), ("after", AFTER))):
-        sizes = [held_out[name][key] / held_out[name]["noise"] for name in names]
-        axes.barh(places + 0.38 * shift - 0.19, sizes, 0.36, color=colour, label=key)
+    sizes = {key: [one[key] / one["noise"] for one in held_out.values()] for key in ("before", "after")}
+    figure = figure_of(WIDTH, 1.2 + 0.5 * len(held_out))
+    axes = figure.subplots()
     axes.axvline(1.0, color=NOISE, linestyle="--", label="noise")
-    axes.set_yticks(places, names)
-    axes.set_xlabel("rms of held-out residuals / noise")
-    axes.invert_yaxis()
-    _legend_above(axes)
-    axes.grid(visible=True, axis="x", alpha=0.3)
+    _paired_bars(axes, list(held_out), sizes, "rms of held-out residuals / noise")
     return figure
 
 
@@ -132,15 +125,21 @@ def loss_bars(rows: Sequence[Row], whole: Mapping[str, float]) -> Figure:
     shares = {row["quantity"]: [100.0 * float(row[run]) / whole[run] for run in runs] for row in rows}
     shown = {name: both for name, both in shares.items() if max(map(abs, both)) >= LEAST_LOSS}
     figure = figure_of(WIDTH, 1.0 + 0.36 * len(shown))
-    axes, places = figure.subplots(), np.arange(len(shown))
-    for at, (run, colour) in enumerate(zip(runs, (BEFORE, AFTER), strict=True)):
-        axes.barh(places + 0.38 * at - 0.19, [both[at] for both in shown.values()], 0.36, color=colour, label=run)
-    axes.set_yticks(places, list(shown), fontsize=8)
-    axes.set_xlabel("share of the shaft power / %")
+    sizes = {run: [both[at] for both in shown.values()] for at, run in enumerate(runs)}
+    _paired_bars(figure.subplots(), list(shown), sizes, "share of the shaft power / %")
+    return figure
+
+
+def _paired_bars(axes: Axes, names: Sequence[str], sizes: Mapping[str, Sequence[float]], label: str) -> None:
+    """Draw two bars for each name, those before and those after, by the text of their legend."""
+    places = np.arange(len(names))
+    for at, ((text, own), colour) in enumerate(zip(sizes.items(), (BEFORE, AFTER), strict=True)):
+        axes.barh(places + 0.38 * at - 0.19, own, 0.36, color=colour, label=text)
+    axes.set_yticks(places, names, fontsize=8)
+    axes.set_xlabel(label)
     axes.invert_yaxis()
     _legend_above(axes)
     axes.grid(visible=True, axis="x", alpha=0.3)
-    return figure
 
 
 def _legend_above(axes: Axes) -> None:

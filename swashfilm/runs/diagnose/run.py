@@ -4,12 +4,13 @@ from datetime import date
 from pathlib import Path
 
 from diagnosis.finding import DiagnosisResult
+from diagnosis.procedure.compared import PumpComparison
 from swashfilm.console.fidelity import Fidelity
 from swashfilm.runs.diagnose.applied import applied_toml
 from swashfilm.runs.diagnose.fields import write_film_fields
 from swashfilm.runs.diagnose.files import write_diagnosis_files
 from swashfilm.runs.diagnose.page import write_diagnose_page
-from swashfilm.runs.pump.run import PumpCase, lumped_run
+from swashfilm.runs.pump.run import PumpCase, floating_run, lumped_run
 from system.pump_file.file import resolved_toml
 
 EXTENDED = "pump_extended.toml"
@@ -22,11 +23,19 @@ def write_finding(folder: Path, found: DiagnosisResult) -> None:
     if found.extended_pump is not None:
         text = applied_toml(found, found.extended_pump, date.today())
         (folder / EXTENDED).write_text(text, encoding="utf-8")
-    for name, pump in found.comparison.pumps.items():
-        (folder / name).mkdir()
-        case = PumpCase(pump, resolved_toml(pump), Fidelity.LUMPED)
-        lumped_run(case, found.comparison.points[name]).write(folder / name)
-    for name, films in found.comparison.films.points.items():
-        write_film_fields(folder / name, films)
+    _write_pumps(folder, found.comparison)
     write_diagnosis_files(folder, found.study, found.diagnosis, found.assumptions, found.comparison)
     write_diagnose_page(folder)
+
+
+def _write_pumps(folder: Path, compared: PumpComparison) -> None:
+    """Write a run folder for each pump that is solved: by floating films, or lumped with films at given positions."""
+    for name, point in compared.points.items():
+        (folder / name).mkdir()
+        pump, floating = compared.pumps[name], compared.films.floating.get(name)
+        if floating is None:
+            lumped_run(PumpCase(pump, resolved_toml(pump), Fidelity.LUMPED), point).write(folder / name)
+        else:
+            floating_run(PumpCase(pump, resolved_toml(pump), Fidelity.FLOATING), floating).write(folder / name)
+    for name, films in compared.films.points.items():
+        write_film_fields(folder / name, films)

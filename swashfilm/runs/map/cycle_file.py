@@ -1,16 +1,15 @@
 """Duty cycle of a CSV file: time and operating point of the pump, one column each, units in the head."""
 
-import csv
 import math
-import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 
 import numpy as np
 
 from reynolds.errors import InputError
 from reynolds.numerics.arrays import Array
-from system.inputs.faults import Fault, InputFaults, nearest_choice, nearest_path
+from system.inputs.csv_table import Line, head_columns, read_csv_text
+from system.inputs.faults import Fault, InputFaults, nearest_choice
 from system.inputs.units import Dimension, QuantityError, unit_scale, with_point
 from system.maps.duty import Cycle
 from system.maps.plan import MapAxis, MapInput
@@ -33,7 +32,6 @@ UNITS = {
 }
 """Example unit of each column, for messages."""
 EXAMPLE = "time [s], speed [rpm], pressure [bar], displacement ratio [1]"
-_HEAD = re.compile(r"\s*(.+?)\s*\[(.+)\]\s*")
 _RATIO_UNITS = {"1": 1.0, "-": 1.0, "%": 0.01}
 
 
@@ -43,18 +41,16 @@ def read_cycle(path: Path, axes: tuple[MapAxis, ...]) -> Cycle:
     Inputs with one level in the map may be left out. Raises InputFaults with every fault.
     """
     try:
-        lines = path.read_text("utf-8-sig").splitlines()
-    except (OSError, UnicodeDecodeError) as reason:
-        fault = Fault("cycle", f"'{path}', which cannot be read: {reason}", "a CSV file", nearest_path(path))
-        raise InputFaults("command line", [fault]) from None
-    rows = [(number, cells) for number, cells in enumerate(csv.reader(lines), start=1) if _counts(cells)]
-    if rows and ";" in "".join(rows[0][1]):
-        fault = Fault("head", f"'{','.join(rows[0][1])}'", f"commas between columns: {EXAMPLE}", "decimals as 1.5")
+        text = read_csv_text(path, f"a CSV file with columns {EXAMPLE}")
+    except QuantityError as reason:
+        raise InputFaults("command line", [Fault("cycle", reason.found, reason.expected, reason.nearest)]) from None
+    if ";" in "".join(text.head):
+        fault = Fault("head", f"'{','.join(text.head)}'", f"commas between columns: {EXAMPLE}", "decimals as 1.5")
         raise InputFaults(str(path), [fault])
-    if len(rows) < 3:
-        raise InputFaults(str(path), [Fault("rows", str(max(0, len(rows) - 1)), f"at least two, under {EXAMPLE}")])
+    if len(text.rows) < 2:
+        raise InputFaults(str(path), [Fault("rows", str(len(text.rows)), f"at least two, under {EXAMPLE}")])
     faults: list[Fault] = []
-    columns = dict(_columns(rows[0][1], faults))
+    columns = dict(_columns(text.head, faults))
     needed = [TIME, *(head for head, given in HEADS.items() if _levels(axes, given) > 1)]
     lacking = [name for name in needed if name not in columns]
     if lacking and not faults:
@@ -63,17 +59,13 @@ def read_cycle(path: Path, axes: tuple[MapAxis, ...]) -> Cycle:
         faults.append(Fault("head", found, f"columns {heads} too: a cycle has a time, and the inputs of its map"))
     if faults:
         raise InputFaults(str(path), faults)
-    values = dict(_values(rows[1:], len(rows[0][1]), columns, faults))
+    values = dict(_values(text.rows, len(text.head), columns, faults))
     if faults:
         raise InputFaults(str(path), faults)
     try:
         return Cycle(values[TIME], {HEADS[name]: array for name, array in values.items() if name != TIME})
     except InputError as reason:
         raise InputFaults(str(path), [Fault(TIME, reason.found, reason.expected)]) from None
-
-
-def _counts(cells: list[str]) -> bool:
-    return bool("".join(cells).strip()) and not cells[0].lstrip().startswith("#")
 
 
 def _levels(axes: tuple[MapAxis, ...], given: MapInput) -> int:
@@ -83,11 +75,10 @@ def _levels(axes: tuple[MapAxis, ...], given: MapInput) -> int:
 def _columns(head: list[str], faults: list[Fault]) -> Iterator[tuple[str, tuple[int, float, float]]]:
     """Yield the name of each column, its index, and factor and offset to SI."""
     known, named = [TIME, *HEADS], set[str]()
-    for place, cell in enumerate(head):
-        match = _HEAD.fullmatch(cell)
-        name = (match[1] if match else cell).strip().replace("_", " ").lower()
-        if match is None or name not in known:
-            near = nearest_choice(name, known)
+    for place, (cell, column) in enumerate(zip(head, head_columns(head), strict=True)):
+        name, unit = column.name, column.unit
+        if unit is None or name not in known:
+            near = nearest_choice(name.lower(), known)
             faults.append(Fault("head", f"'{cell.strip()}'", EXAMPLE, f"{near} [{UNITS[near]}]" if near else ""))
             continue
         if name in named:
@@ -96,7 +87,7 @@ def _columns(head: list[str], faults: list[Fault]) -> Iterator[tuple[str, tuple[
         named.add(name)
         dimension = Dimension.TIME if name == TIME else HEADS[name].dimension
         try:
-            yield name, (place, *_scale(match[2].strip(), dimension))
+            yield name, (place, *_scale(unit, dimension))
         except QuantityError as reason:
             faults.append(Fault(f"head {name}", reason.found, reason.expected, reason.nearest))
 
@@ -110,7 +101,7 @@ def _scale(unit: str, dimension: Dimension | None) -> tuple[float, float]:
 
 
 def _values(
-    rows: list[tuple[int, list[str]]], width: int, columns: Mapping[str, tuple[int, float, float]], faults: list[Fault]
+    rows: Sequence[Line], width: int, columns: Mapping[str, tuple[int, float, float]], faults: list[Fault]
 ) -> Iterator[tuple[str, Array]]:
     """Return each column in SI; list a fault for rows with another number of cells than the head."""
     uneven = [(number, len(cells)) for number, cells in rows if len(cells) != width]

@@ -56,14 +56,15 @@ def run_pump_command(options: argparse.Namespace) -> int:
     case = pump_case(options)
     from swashfilm.console.progress import progress
     from swashfilm.output.run_folder import run_folder
-    from swashfilm.runs.pump.run import solve_pump
+    from swashfilm.runs.pump.run import solve_pump, unfinished_kept
     from system.points.floating_kinds import work_of
 
     name = case.pump.name
     if case.fidelity is Fidelity.FLOATING and (times := work_of(case.pump)) > 1.0:
         show(f"chambers differ: their floating gaps take about {times:.0f} times as long as identical ones")
     with run_folder(name, options.output) as folder, progress(1, f"run {name}") as report:
-        found = solve_pump(case, report)
+        with unfinished_kept(case, folder) as solved:
+            found = solve_pump(case, report, solved)
         added = found.write(folder)
     show_result(found, folder, added)
     return 0
@@ -88,9 +89,10 @@ def pump_case(options: argparse.Namespace) -> PumpCase:
         pump = load_pump(options.pump, stated)
     except InputFaults as reason:
         raise _at_options(reason, stated, faults) from None
+    own = pump
     if _TEMPERATURE in stated and pump.physics.thermal_clearance is not None:
-        own = {path: value for path, value in stated.items() if path != _TEMPERATURE}
-        pump = moved_to(load_pump(options.pump, own), pump.operating)
+        own = load_pump(options.pump, {path: value for path, value in stated.items() if path != _TEMPERATURE})
+        pump = moved_to(own, pump.operating)
     faults += floating_faults(options, pump, options.fidelity)
     levels = whole(faults, "--refine", options.refine, 1, (2, 4), "a number of levels")
     if levels > 1 and options.fidelity != Fidelity.FLOATING.value:
@@ -100,7 +102,7 @@ def pump_case(options: argparse.Namespace) -> PumpCase:
     if faults:
         raise InputFaults(COMMAND_LINE, faults)
     given, fidelity = given_text(options.pump, stated), Fidelity(options.fidelity)
-    return PumpCase(pump, given, fidelity, options.table, floating_options(options, pump), cores() > 1, levels)
+    return PumpCase(pump, given, fidelity, options.table, floating_options(options, pump), cores() > 1, levels, own)
 
 
 def pump_faults(options: argparse.Namespace, words: Sequence[str]) -> list[Fault]:

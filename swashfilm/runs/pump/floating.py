@@ -14,6 +14,7 @@ from swashfilm.console.fidelity import Fidelity
 from swashfilm.output.gap_names import TITLES, kind_folder
 from swashfilm.output.page import inlined
 from swashfilm.output.result import read_netcdf
+from swashfilm.output.run_folder import FAILED, write_json
 from swashfilm.output.tables import read_csv
 from swashfilm.runs.film.revolution.data import (
     revolution_dataset,
@@ -34,6 +35,7 @@ from system.inputs.units import LPM
 from system.points.film_effects import effects_in_films
 from system.points.floating import FloatingKind, FloatingPoint
 from system.points.floating_gaps import FloatingOptions
+from system.points.floating_solved import GapsOfKind, Round, Solved, SolvedGap
 
 RESULTS = "results.nc"
 _OF_PUMP = ("format", "kind", "name", "gap", "physics_left_out", "physics_seconds", "assumptions", "warnings")
@@ -72,18 +74,26 @@ def floating_studies(found: FloatingPoint) -> dict[str, tuple[RevolutionStudy, .
     """
     most, *others = found.kinds
     here = (Gap.PISTON, most.gaps.piston), (Gap.SLIPPER, most.gaps.slipper), (Gap.VALVE_PLATE, most.gaps.block)
-    studies = {"": tuple(_study(found, most, *gap) for gap in here)}
+    studies = {"": tuple(_study_of(found, most, *gap) for gap in here)}
     for kind in others:
         own = (Gap.PISTON, kind.gaps.piston), (Gap.SLIPPER, kind.gaps.slipper)
-        studies[kind_folder(kind.chambers)] = tuple(_study(found, kind, *gap) for gap in own)
+        studies[kind_folder(kind.chambers)] = tuple(_study_of(found, kind, *gap) for gap in own)
     return studies
 
 
-def _study(found: FloatingPoint, kind: FloatingKind, gap: Gap, revolution: GapRevolution[Any]) -> RevolutionStudy:
-    chamber = kind.drives.piston.chamber_pressure
+def _study_of(found: FloatingPoint, kind: FloatingKind, gap: Gap, revolution: GapRevolution[Any]) -> RevolutionStudy:
+    of = GapsOfKind(kind.chambers, kind.rotor, kind.parts, kind.drives)
+    options = replace(found.options, physics=getattr(kind.physics, gap.value))
+    return _study(found.pump.name, SolvedGap(gap, of, options, revolution, len(found.rounds)))
+
+
+def _study(name: str, solved: SolvedGap) -> RevolutionStudy:
+    """Return a gap of a pump of that name as a separate case."""
+    of, revolution = solved.of, solved.revolution
+    chamber = of.drives.piston.chamber_pressure
     return RevolutionStudy(
-        FloatingGap(found.pump.name, gap, kind.rotor, replace(found.options, physics=getattr(kind.physics, gap.value))),
-        kind.parts,
+        FloatingGap(name, solved.gap, of.rotor, solved.options),
+        of.parts,
         revolution,
         np.array([float(chamber(angle)) for angle in revolution.angles]),
         revolution.seconds,
@@ -153,9 +163,9 @@ def write_floating(folder: Path, found: FloatingPoint) -> tuple[Blocks, ...]:
     blocks of the whole pump at each angle (`write_pump`).
     """
     for place, studies in floating_studies(found).items():
-        (folder / place).mkdir(exist_ok=True)
         for study in studies:
             _write_gap(folder, Path(place) / study.case.gap.value, study)
+            write_revolution_fields(folder / place, study)
     return write_pump(folder, scene_of(found))
 
 
@@ -178,12 +188,50 @@ def _chambers(kind: FloatingKind, place: str) -> ChamberKind:
 
 
 def _write_gap(folder: Path, path: Path, study: RevolutionStudy) -> None:
-    """Write series, turns and fields of one gap to folder/path."""
+    """Write series, kept films and turns of one gap to folder/path and its group of results.nc."""
     data = revolution_dataset(study)
     data.to_netcdf(folder / RESULTS, mode="a", group=path.as_posix(), engine="h5netcdf")
+    (folder / path.parent).mkdir(exist_ok=True)
     write_series(folder / f"{path}.csv", data)
     write_convergence(folder / f"{path}_convergence.csv", study)
-    write_revolution_fields(folder / path.parent, study)
+
+
+def write_unfinished(folder: Path, name: str, solved: Solved, reason: BaseException) -> None:
+    """Write what a point that stopped has solved: failed.json, and of each gap its CSVs and group of results.nc.
+
+    failed.json: `state` (failed, or interrupted by Ctrl-C), `error`, the complete `rounds`, and `gaps` with the
+    number of the round that solved them and their summary.
+    """
+    gaps = {}
+    for (kind, gap), one in solved.gaps.items():
+        path = Path(kind_folder(one.of.chambers) if kind else "") / gap.value
+        study = _study(name, one)
+        _write_gap(folder, path, study)
+        gaps[path.as_posix()] = {"round": one.number} | revolution_summary(study)
+    stopped = isinstance(reason, KeyboardInterrupt)
+    failed = {
+        "format": 1,
+        "kind": "pump_unfinished",
+        "name": name,
+        "state": "interrupted" if stopped else "failed",
+        "error": "interrupted" if stopped else f"{reason}",
+        "rounds": [_round(one) for one in solved.rounds],
+        "gaps": gaps,
+    }
+    write_json(folder / FAILED, failed)
+
+
+def _round(one: Round) -> dict[str, Any]:
+    spent = {leg.value: time for leg, time in one.spent.items() if time > 0.0}
+    return {
+        "pressure_change": one.pressure_change,
+        "friction_change": one.friction_change,
+        "spin_change": one.spin_change,
+        "closed": one.closed,
+        "films_solved": one.films_solved,
+        "seconds": one.seconds,
+        "physics_seconds": spent,
+    }
 
 
 def floating_view(folder: Path, summary: Mapping[str, Any]) -> dict[str, Any]:

@@ -2,17 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, assert_never
 
 from swashfilm.console.fidelity import Fidelity
-from swashfilm.output.refinement import refinement_summary, write_refinement
+from swashfilm.output.refinement import Refinement, refinement_summary, write_refinement
 from swashfilm.output.run_folder import write_json
 from swashfilm.runs.pump.data import films_dataset, point_dataset, write_tables, write_unlike
 from swashfilm.runs.pump.edge_losses import loss_warnings, losses_left_out
-from swashfilm.runs.pump.floating import floating_summary, scene_of, write_floating
+from swashfilm.runs.pump.floating import floating_summary, scene_of, write_floating, write_unfinished
 from swashfilm.runs.pump.flow_coefficients import coefficient_warnings
 from swashfilm.runs.pump.forces import force_warnings, forces_summary, write_forces
 from swashfilm.runs.pump.page import write_pump_page
@@ -28,6 +29,7 @@ from system.multibody.rotating_group import JointForces, joint_forces
 from system.points.films import films_point
 from system.points.floating import FloatingPoint, floating_point
 from system.points.floating_gaps import FloatingOptions
+from system.points.floating_solved import Solved
 from system.points.lumped import lumped_point
 from system.points.table.sources import Source
 from system.pump.assembly import PumpPoint
@@ -44,7 +46,8 @@ class PumpCase:
     """One operating point to solve: the pump, the text of its file, and the fidelity of its films.
 
     table: file of a response table in place of the stored one; options: of floating gaps; side_by_side: a second
-    process solves the piston of floating gaps; levels: of refinement, the first being that of the options.
+    process solves the piston of floating gaps; levels: of refinement, the first being that of the options; own: the
+    pump at its own temperature, where that of the point has changed its films (`moved_to`): response tables are its.
     """
 
     pump: PumpDescription
@@ -54,17 +57,34 @@ class PumpCase:
     options: FloatingOptions | None = None
     side_by_side: bool = False
     levels: int = 1
+    own: PumpDescription | None = None
 
 
-def solve_pump(case: PumpCase, report: Report = silent) -> PumpRun:
-    """Solve a pump at its operating point; raise NotConverged and FilmNotConverged."""
+@contextmanager
+def unfinished_kept(case: PumpCase, folder: Path) -> Iterator[Solved]:
+    """Yield the record of a floating point; if its solution stops, write what was solved to the folder."""
+    solved = Solved()
+    try:
+        yield solved
+    except BaseException as reason:
+        if solved.gaps:
+            _write_input(folder, case)
+            write_unfinished(folder, case.pump.name, solved, reason)
+        raise
+
+
+def solve_pump(case: PumpCase, report: Report = silent, solved: Solved | None = None) -> PumpRun:
+    """Solve a pump at its operating point; raise NotConverged and FilmNotConverged.
+
+    solved: is filled with rounds and gaps of floating films (of the first level of a refinement) as they are solved.
+    """
     match case.fidelity:
         case Fidelity.LUMPED:
             return lumped_run(case, lumped_point(case.pump, operating_point(case.pump)))
         case Fidelity.FIXED:
             return _films(case, report)
         case Fidelity.FLOATING:
-            return _floating(case, report)
+            return _floating(case, report, solved)
         case Fidelity.TABLE:
             return _by_table(case)
         case _:
@@ -91,17 +111,21 @@ def _films(case: PumpCase, report: Report) -> PumpRun:
     return _run(case, point, summary, joint_forces(pump, point), lambda: films_dataset(films), fields)
 
 
-def _floating(case: PumpCase, report: Report) -> PumpRun:
+def _floating(case: PumpCase, report: Report, solved: Solved | None) -> PumpRun:
     pump = case.pump
-    at = operating_point(pump)
+    at, beside = operating_point(pump), case.side_by_side
 
     def solve(options: FloatingOptions | None, near: FloatingPoint | None, told: Report) -> FloatingPoint:
-        return floating_point(pump, at, options, near=near, side_by_side=case.side_by_side, report=told)
+        return floating_point(pump, at, options, near=near, side_by_side=beside, report=told)
 
-    found = solve(case.options, None, report)
+    found = floating_point(pump, at, case.options, side_by_side=beside, report=report, solved=solved)
+    return floating_run(case, found, refine_point(found, case.levels, solve, report) if case.levels > 1 else None)
+
+
+def floating_run(case: PumpCase, found: FloatingPoint, refinement: Refinement | None = None) -> PumpRun:
+    """Return the run of a solved floating point of the case's pump, with its refinement."""
     point = found.pump_point
-    summary = floating_summary(found, _warnings(pump, point) + losses_left_out(pump))
-    refinement = refine_point(found, case.levels, solve, report) if case.levels > 1 else None
+    summary = floating_summary(found, _warnings(case.pump, point) + losses_left_out(case.pump))
     if refinement is not None:
         summary["refinement"] = refinement_summary(refinement)
 
@@ -114,7 +138,7 @@ def _floating(case: PumpCase, report: Report) -> PumpRun:
 
 
 def _by_table(case: PumpCase) -> PumpRun:
-    pump, found = case.pump, point_by_table(case.pump, operating_point(case.pump), case.table)
+    pump, found = case.pump, point_by_table(case.own or case.pump, operating_point(case.pump), case.table)
     point = found.pump_point
     floats = found.table.origin.source is Source.FLOATING
     of_lands = losses_left_out(pump) if floats else loss_warnings(pump, point)
@@ -142,8 +166,7 @@ def _run(
         return of_point if films is None else of_point.merge(films())
 
     def write(folder: Path) -> list[str]:
-        (folder / "input.toml").write_text(case.given, encoding="utf-8")
-        (folder / "resolved.toml").write_text(resolved_toml(case.pump), encoding="utf-8")
+        _write_input(folder, case)
         arrays = data()
         arrays.to_netcdf(folder / "results.nc", engine="h5netcdf")
         write_tables(folder, arrays)
@@ -155,6 +178,11 @@ def _run(
         return added
 
     return PumpRun(summary, write, data)
+
+
+def _write_input(folder: Path, case: PumpCase) -> None:
+    (folder / "input.toml").write_text(case.given, encoding="utf-8")
+    (folder / "resolved.toml").write_text(resolved_toml(case.pump), encoding="utf-8")
 
 
 def _warnings(pump: PumpDescription, point: PumpPoint) -> list[str]:

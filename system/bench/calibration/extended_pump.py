@@ -32,16 +32,16 @@ def extended_pump(
 ) -> PumpDescription:
     """The pump with `base_parameters` and the extensions' parameters at values (SI) by name.
 
-    extensions: each with a grid of one; an effect that the pump has switched on already is stated anew, Barus'
-    coefficient in [oil] too. Names of sensors do not matter. `system.pump_file.file.resolved_toml` writes it as a
-    file that runs to the readings of a `LumpedBench` at these values. Raises ValueError for values outside the
-    effects' limits.
+    extensions: each with a grid of one, without those of solved films, which no file states; an effect that the
+    pump has switched on already is stated anew, Barus' coefficient in [oil] too. Names of sensors do not matter.
+    `system.pump_file.file.resolved_toml` writes it as a file that runs to the readings of a `LumpedBench` at these
+    values. Raises ValueError for values outside the effects' limits.
     """
     own = pump_with(pump, values)
     stated: dict[str, Any] = {
         key: _stated(section) for key in vars(pump.physics) if (section := getattr(pump.physics, key)) is not None
     }
-    for extension in extensions:
+    for extension in (one for one in extensions if not one.of_films):
         table = extension.stated(values)
         if extension.pair is None:
             stated[extension.id.value] = table

@@ -139,4 +139,4 @@ T_L = C1 y + C2 eps y + C3 x + C4 eps x + C5 eps^2 x^2 + C6 x y + C7; x = w/w_ra
 LOSS_MODELS: Mapping[LossModelName, LossModel] = {
     model.name: model for model in (WILSON, SCHLOSSER, MCCANDLISH_DOREY, ZAROTTI_NEVEGNA, ivantysyn())
 }
-"""All but Polymod, whose orders hang on the readings: `orders.polymod_for`."""
+"""All but Polymod, whose orders depend on the readings: `orders.polymod_for`."""

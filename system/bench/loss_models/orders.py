@@ -27,7 +27,7 @@ def polymod_for(
 
     Each level of speed, pressure difference and displacement is left out in turn; the orders' misfits there, in sigma,
     are compared. An axis of m levels allows m - 2 at most: with one more a level left out is predicted by a polynomial
-    that passes through all others. `observations` are those of `modelled`; points without a reading are none.
+    that passes through all others. `observations` are those of `modelled`; points without a reading do not count.
     """
     used = np.asarray(np.any(observations.measured, axis=1))
     axes = (points.speed, points.p_out - points.p_in, points.displacement_ratio)

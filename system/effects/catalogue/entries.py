@@ -7,6 +7,7 @@ from system.description.pump import PumpDescription
 from system.effects.catalogue.films import FILM_ENTRIES
 from system.effects.catalogue.pump import PUMP_ENTRIES
 from system.effects.catalogue.readings import PARAMETER_ENTRIES, SENSOR_ENTRIES
+from system.effects.catalogue.solved import SOLVED_ENTRIES
 from system.effects.effect import EffectId
 from system.effects.extension import Entry, Extension
 from system.effects.opening_tables import COMPLIANCE, OpeningTable, SolvedOpening, opening_table
@@ -37,7 +38,7 @@ def _solved(table: OpeningTable) -> Extension:
 
 def entry_of(effect: EffectId) -> Entry:
     """The entry of an effect; raises ValueError for unknown physics, which has none."""
-    for entry in CATALOGUE:
+    for entry in (*CATALOGUE, *SOLVED_ENTRIES):
         if entry.id is effect:
             return entry
     raise ValueError(f"{effect.value}: not in the catalogue")

@@ -149,8 +149,8 @@ FILM_ENTRIES = (
     missing_physics(
         whole(
             E.BLOCK_TIPPING, block_tipping,
-            size_of(E.BLOCK_TIPPING, "wedge", 5e-6, 20e-6, Dimension.LENGTH,
-                    "1.2e-4 to 4.3e-4 rad over the plate's radius"),
+            size_of(E.BLOCK_TIPPING, "wedge", 1e-5, 20e-6, Dimension.LENGTH,
+                    "1.2e-4 rad by balance of forces, across a plate of 80 to 110 mm; Zhang et al. 2020"),
         ),
         (Component.PLATE_LEAKAGE, Component.CROSS_FLOW), FILM_CHANNELS, (E.INCOMPLETE_FILLING, E.SLIPPER_LIFT),
         "high speed and low pressure", "the block tips on the valve plate", "Manring 2000",

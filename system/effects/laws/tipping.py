@@ -98,6 +98,8 @@ def block_ratio(state: BenchState, course: GapCourse) -> Array:
 def block_tipping(values: Values, courses: Courses, state: BenchState) -> Effects:
     """A block that tips open by `wedge` m on one side: more flow over the lands, and between the kidneys.
 
+    `wedge` is the tilt by the balance of forces times the plate's diameter. The tilts of 1.65e-4 to 4.3e-4 rad that
+    Zhang et al. (2020) measure are larger: they belong to an error of coaxiality, which opens the film at any speed.
     A wedge 0 .. w over a film h has the mean conductance (h + w/2)^3 + 3/2 (h + w/2)(w/2)^2 round the plate. Of
     the plate between the kidneys, two webs as long as a chamber's pitch, the same additional flow goes from
     delivery to inlet.

@@ -9,7 +9,7 @@ from __future__ import annotations
 import inspect
 import math
 import re
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from contextlib import suppress
 from dataclasses import MISSING, Field, dataclass, fields, is_dataclass
 from enum import Enum
@@ -20,6 +20,7 @@ from typing import Annotated, Any, ClassVar, Literal, Protocol, TypeVar, Union, 
 from system.inputs.body_file import BodyFile, read_body_file
 from system.inputs.coefficients.flow_files import FlowCoefficients, read_flow_coefficients
 from system.inputs.coefficients.loss_files import LossFactors, read_groove_losses, read_step_losses
+from system.inputs.faults import Fault
 from system.inputs.units import Dimension
 
 
@@ -113,10 +114,19 @@ class FromFile:
 
 
 @dataclass(frozen=True)
+class Check:
+    """A check of several keys of a table together: where all of them are good, their faults, by key."""
+
+    keys: tuple[str, ...]
+    faults: Callable[[Any], Iterable[Fault]]
+
+
+@dataclass(frozen=True)
 class FromTable:
-    """Marks a field whose entry may be a table: its section, and its value; that raises InputFaults by its keys."""
+    """Marks a field whose entry may be a table: its section, the checks of its keys, and its value without faults."""
 
     section: type[Any]
+    checks: tuple[Check, ...]
     value: Callable[[Any], Any]
 
 

@@ -2,27 +2,23 @@
 
 from __future__ import annotations
 
-import csv
-import re
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
-from system.inputs.faults import Fault, InputFaults, nearest_choice, nearest_path
+from system.inputs.csv_table import Column, head_columns, read_csv_text, row_numbers
+from system.inputs.faults import Fault, InputFaults, nearest_choice
 from system.inputs.sections.fields import Points
-from system.inputs.units import QuantityError, parse_quantity
+from system.inputs.units import QuantityError
 
-_HEAD = re.compile(r"\s*(.+?)\s*\[(.+)\]\s*")
 SHOWN = 10
 """Faults of one file that are told; the rest are counted."""
 
 
 @dataclass(frozen=True)
-class _Columns:
-    """Layout of a file: heads as written there, units and indices in the file, and the sign of the last column."""
+class _Order:
+    """Columns of a file in its own order, their places in the layout's order, and the sign of the layout's last."""
 
-    layout: Points
-    heads: tuple[str, ...]
-    units: tuple[str, ...]
+    columns: tuple[Column, ...]
     places: tuple[int, ...]
     sign: float
 
@@ -31,25 +27,13 @@ def read_rows(path: Path, layouts: tuple[Points, ...]) -> tuple[tuple[float, ...
     """Return the rows of a CSV file in SI, columns in the order of that layout whose heads the file has.
 
     Any order and any fitting unit; empty lines and those that begin with # do not count. A last column by its
-    opposite name changes its sign. Raises QuantityError for what is no such file, InputFaults with every line that is
-    none, each with its number and column.
+    opposite name changes its sign. Raises QuantityError for a file that cannot be read or has another head,
+    InputFaults with every faulty line, each with its number and column.
     """
-    try:
-        text = path.read_text("utf-8-sig")
-    except FileNotFoundError:
-        raise QuantityError(f"'{path}', which is no file", wanted_file(layouts), nearest_path(path)) from None
-    except (OSError, UnicodeDecodeError) as reason:
-        raise QuantityError(f"'{path}', which cannot be read: {reason}", wanted_file(layouts)) from None
-    lines = [
-        (number, cells)
-        for number, cells in enumerate(csv.reader(text.splitlines()), start=1)
-        if "".join(cells).strip() and not cells[0].lstrip().startswith("#")
-    ]
-    if not lines:
-        raise QuantityError(f"'{path}', which is empty", wanted_file(layouts))
-    columns = _columns(path, lines[0][1], layouts)
+    text = read_csv_text(path, wanted_file(layouts))
+    order = _order(path, text.head, layouts)
     faults: list[Fault] = []
-    rows = tuple(_row(f"line {number} of {path.name}", cells, columns, faults) for number, cells in lines[1:])
+    rows = tuple(_row(f"line {number} of {path.name}", cells, order, faults) for number, cells in text.rows)
     if len(faults) > SHOWN:
         rest = Fault(path.name, f"{len(faults) - SHOWN} more faults", "numbers in every line")
         faults = [*faults[:SHOWN], rest]
@@ -70,18 +54,16 @@ def _example_heads(layout: Points) -> list[str]:
     return [f"{head} [{unit}]" for head, unit in zip(layout.heads, units, strict=True)]
 
 
-def _columns(path: Path, head: list[str], layouts: tuple[Points, ...]) -> _Columns:
-    """The columns that a head names; raises QuantityError where they are none of the layouts'."""
-    matches = [_HEAD.fullmatch(cell) for cell in head]
-    names = [
-        match[1].replace("_", " ").lower() if match else cell.strip() for match, cell in zip(matches, head, strict=True)
-    ]
+def _order(path: Path, head: list[str], layouts: tuple[Points, ...]) -> _Order:
+    """The columns that a head names; raises QuantityError where they match no layout."""
+    columns = head_columns(head)
+    names = [column.name for column in columns]
     for layout in layouts:
         for heads, sign in ((layout.heads, 1.0), ((*layout.heads[:-1], layout.opposite), -1.0)):
-            if all(matches) and sorted(names) == sorted(heads):
-                places = tuple(names.index(name) for name in heads)
-                units = tuple(match[2] for match in (matches[place] for place in places) if match)
-                return _Columns(layout, heads, units, places, sign)
+            if all(column.unit for column in columns) and sorted(names) == sorted(heads):
+                kinds = dict(zip(heads, layout.columns, strict=True))
+                typed = tuple(replace(column, kind=kinds[column.name]) for column in columns)
+                return _Order(typed, tuple(names.index(name) for name in heads), sign)
     found = f"the head '{', '.join(cell.strip() for cell in head)}' of {path.name}"
     known = sorted({name for layout in layouts for name in (*layout.heads, layout.opposite) if name})
     unknown = [near for name in names if name not in known and (near := nearest_choice(name, known))]
@@ -89,19 +71,10 @@ def _columns(path: Path, head: list[str], layouts: tuple[Points, ...]) -> _Colum
     raise QuantityError(found, wanted_file(layouts), f"'{unknown[0]}'" if unknown else parted)
 
 
-def _row(where: str, cells: list[str], columns: _Columns, faults: list[Fault]) -> tuple[float, ...]:
+def _row(where: str, cells: list[str], order: _Order, faults: list[Fault]) -> tuple[float, ...]:
     """One line in SI, in the layout's order; what is wrong with it goes to the faults."""
-    if len(cells) != len(columns.places):
-        faults.append(Fault(where, f"{len(cells)} values", f"{len(columns.places)} values"))
+    numbers = row_numbers(where, cells, order.columns, faults)
+    if len(numbers) != len(order.places):
         return ()
-    found = []
-    for head, dimension, unit, place in zip(
-        columns.heads, columns.layout.columns, columns.units, columns.places, strict=True
-    ):
-        try:
-            found.append(parse_quantity(f"{cells[place].strip()} {unit}", dimension))
-        except QuantityError as reason:
-            expected = f"a number; the head says [{unit}]"
-            faults.append(Fault(f"{where}, {head}", reason.found, expected, reason.nearest))
-            return ()
-    return (*found[:-1], found[-1] if columns.sign > 0.0 else 0.0 - found[-1])
+    *first, last = (numbers[place] for place in order.places)
+    return (*first, last if order.sign > 0.0 else 0.0 - last)

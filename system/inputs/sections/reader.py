@@ -215,14 +215,12 @@ def _value(path: str, own: FieldType, raw: object, reading: Reading) -> object:
 def _from_table(path: str, made: FromTable, table: Mapping[str, object], reading: Reading) -> object:
     """Return the value that a table stands for, or None with its faults noted."""
     section = read_section(path, made.section, table, reading)
-    if _note_inner_faults(path, reading):
-        return None
-    try:
-        return made.value(section)
-    except InputFaults as reason:
-        for fault in reason.faults:
-            reading.fault(under(path, fault.path), fault.found, fault.expected, fault.nearest)
-    return None
+    faulty = set(reading.faulty)
+    for check in made.checks:
+        if not any(under(path, key) in faulty for key in check.keys):
+            for fault in check.faults(section):
+                reading.fault(under(path, fault.path), fault.found, fault.expected, fault.nearest)
+    return None if _note_inner_faults(path, reading) else made.value(section)
 
 
 def _several(path: str, own: FieldType, count: int, raw: object, reading: Reading) -> tuple[object, ...] | None:

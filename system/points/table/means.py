@@ -5,6 +5,7 @@ taken at the solved point's own chamber pressure, so that they describe the gap 
 """
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
@@ -18,8 +19,9 @@ from system.pump.chamber.setup import periodic_values
 from system.pump.chamber.turn import Gaps
 from system.pump.film_thickness import given_film
 from system.pump.laws.friction_pairs import Pair
+from system.pump.laws.kinematics import Number
 from system.pump.lumped import lumped_leaks, lumped_pairs, piston_motion
-from system.pump.operating import OperatingPoint
+from system.pump.operating import OperatingPoint, flat
 
 TABLE_FORMAT = 4
 """Raised when solved points give other numbers in a table: by what is kept of them, or by the laws behind it."""
@@ -80,7 +82,7 @@ class SolvedPoint:
 
 @dataclass(frozen=True)
 class LawMoments:
-    """One chamber by the lumped law at a given pressure, means over the turn, of the gaps (3,).
+    """One chamber by the lumped law at a given pressure, means over the turn, of the gaps (3,), or (N, 3) at N points.
 
     flow: of the pressure flow G (p - p_case), m3/s; drag_flow, one: of the law's drag flow, m3/s (only in the piston's
     gap), and of a flow of 1 m3/s; all three by mass, at case pressure. power: scale of the drag power, W: the oil
@@ -89,23 +91,23 @@ class LawMoments:
 
     flow: Array
     drag_flow: Array
-    one: float
+    one: Array
     power: Array
-    above: float
+    above: Array
 
 
-def law_moments(law: LeakTable, pump: PumpDescription, point: OperatingPoint, pressure: Array) -> LawMoments:
-    """Moments of the lumped law at a chamber's pressure (N,) Pa at the law's N shaft angles."""
-    above = pressure - point.case_pressure
-    dense = np.exp(above / pump.oil.bulk_modulus)
-    power = np.mean(law.conductance * above**2, axis=1)
-    power[0] = np.mean(law.drag_flow[0] * above)
+def law_moments(law: LeakTable, pump: PumpDescription, point: OperatingPoint[Number], pressure: Array) -> LawMoments:
+    """Moments of the lumped law at a chamber's pressure (M,) Pa at the law's M shaft angles, (N, M) at N points."""
+    over = pressure - point.case_pressure
+    above, dense = over[..., None, :], np.exp(over / pump.oil.bulk_modulus)[..., None, :]
+    power = np.mean(law.conductance * above**2, axis=-1)
+    power[..., 0] = np.mean(law.drag_flow[..., 0, :] * over, axis=-1)
     return LawMoments(
-        flow=np.mean(law.conductance * above * dense, axis=1),
-        drag_flow=np.mean(law.drag_flow * dense, axis=1),
-        one=float(np.mean(dense)),
+        flow=np.mean(law.conductance * above * dense, axis=-1),
+        drag_flow=np.mean(law.drag_flow * dense, axis=-1),
+        one=np.mean(dense[..., 0, :], axis=-1),
         power=power,
-        above=float(np.mean(above)),
+        above=np.mean(over, axis=-1),
     )
 
 
@@ -147,7 +149,7 @@ def given_films(pump: PumpDescription) -> Gaps:
     return Gaps(*(given_film(pump, gap) for gap in Gap))
 
 
-def plate_flow(pump: PumpDescription, point: OperatingPoint) -> float:
-    """Leakage of the valve plate by the lumped law, m3/s, were half of the chambers at delivery pressure."""
-    one = float(lumped_leaks(pump, point, piston_motion(pump, point)).conductance[2, 0])
-    return 0.5 * pump.pump.pistons * one * (point.delivery_pressure - point.case_pressure)
+def plate_flow(pump: PumpDescription, point: OperatingPoint[Number]) -> Any:
+    """Leakage of the valve plate by the lumped law, m3/s or (N,), were half of the chambers at delivery pressure."""
+    one, at = lumped_leaks(pump, point, piston_motion(pump, point)).conductance[..., 2, 0], flat(point)
+    return 0.5 * pump.pump.pistons * one * (at.delivery_pressure - at.case_pressure)

@@ -9,12 +9,13 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from gaps.response import Response, unit_places
+from gaps.response import Measure, Response, unit_places
 from reynolds.errors import InputError
+from reynolds.numerics.arrays import Array
 from system.inputs.units import Dimension, format_quantity
 from system.points.table.pump_numbers import NumbersError
 from system.points.table.sources import Source
-from system.pump.operating import OperatingPoint
+from system.pump.operating import OperatingPoint, flat
 
 LARGE_ERROR = 0.03
 """Error of a held-out point from which a table is warned of."""
@@ -78,9 +79,29 @@ class ResponseTable:
         Raises InputError for a point outside the box or at another value of a held input.
         """
         self._check_held(point)
-        values = self.response.at(np.array([[getattr(point, axis.name) for axis in self.response.axes]]))[0]
-        found = {output.name: float(value) for output, value in zip(self.response.outputs, values, strict=True)}
-        shares = {name: min(max(found[name], 0.0), 1.0) for name in found if name.endswith("contact_share")}
+        found = self._means(np.array([[getattr(point, axis.name) for axis in self.response.axes]]))
+        return {name: float(values[0]) for name, values in found.items()}
+
+    def nearest(self, point: OperatingPoint[Array], off: Mapping[str, float]) -> dict[str, Array]:
+        """The outputs (N,) by name at N points, given as columns (N, 1) or arrays (N,): outside the box those at its
+        nearest face.
+
+        off: outputs by name that are too large by so much, relative or absolute as their measure is. Held
+        inputs, inlet and case pressure act by the lumped law that the outputs are ratios to.
+        """
+        at = flat(point)
+        places = [np.clip(getattr(at, axis.name), axis.lower, axis.upper) for axis in self.response.axes]
+        found = self._means(np.stack(places, axis=1))
+        for output in self.response.outputs:
+            if (error := off.get(output.name, 0.0)) != 0.0:
+                relative = output.measure is Measure.RELATIVE
+                found[output.name] = found[output.name] * (1.0 + error) if relative else found[output.name] + error
+        return found
+
+    def _means(self, places: Array) -> dict[str, Array]:
+        values = self.response.at(places)
+        found = {output.name: values[:, k] for k, output in enumerate(self.response.outputs)}
+        shares = {name: np.clip(own, 0.0, 1.0) for name, own in found.items() if name.endswith("contact_share")}
         return found | shares
 
     def holds(self, point: OperatingPoint) -> bool:

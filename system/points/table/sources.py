@@ -109,7 +109,7 @@ class FloatingSolver:
 
     def solve(self, pump: PumpDescription, point: OperatingPoint) -> SolvedPoint:
         """The point by `floating_point`; least film: of the mean planes, below 0 where rough walls overlap."""
-        return _of_floating(floating_point(pump, point, self.options))
+        return solved_means(floating_point(pump, point, self.options))
 
     def row(self) -> FloatingRow:
         """A solver whose points start from the motion, the temperatures and the spins of the one before."""
@@ -131,7 +131,7 @@ class FloatingRow:
 
     def solve(self, pump: PumpDescription, point: OperatingPoint) -> SolvedPoint:
         """As `FloatingSolver.solve`, by `floating`."""
-        return _of_floating(self.floating(pump, point))
+        return solved_means(self.floating(pump, point))
 
     def floating(self, pump: PumpDescription, point: OperatingPoint) -> FloatingPoint:
         """The point itself; where the neighbour's motion leads nowhere, without a start."""
@@ -149,7 +149,8 @@ class FloatingRow:
         return FloatingRow(self.solver)
 
 
-def _of_floating(found: FloatingPoint) -> SolvedPoint:
+def solved_means(found: FloatingPoint) -> SolvedPoint:
+    """What a table keeps of a floating point; least film: of the mean planes, below 0 where rough walls overlap."""
     own, point = found.kinds[0].gaps, found.pump_point.point
     gaps: tuple[GapRevolution[Any], ...] = (own.piston, own.slipper, own.block)
     mean = (gap.mean_film for gap in gaps)

@@ -76,7 +76,7 @@ def read_response(path: Path, table_format: int, made: Callable[[Mapping[str, An
 
 
 def read_table(path: Path) -> ResponseTable:
-    """The table that `keep_table` wrote, by its .json or .npz; raises InputFaults where it is none."""
+    """The table that `keep_table` wrote, by its .json or .npz; raises InputFaults for any other file."""
     return read_response(path, TABLE_FORMAT, _pump_table)
 
 

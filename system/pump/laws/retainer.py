@@ -63,7 +63,7 @@ def relative_velocity(
     """Sliding velocity of the retainer on the ball guide in m/s, shape (3, ...); paper Eq. (11).
 
     dV = d(op')/dt - w x op' with dpsi/dt = k w. RIGID takes k = 1, the motion of a rigid body; PRINTED takes k of
-    Eq. (12), which is none. The signs garbled in the print follow from the cross product.
+    Eq. (12), which no rigid body has. The signs garbled in the print follow from the cross product.
     """
     sl, cl = np.sin(guide.contact_latitude), np.cos(guide.contact_latitude)
     sg, cg = np.sin(swash_angle), np.cos(swash_angle)

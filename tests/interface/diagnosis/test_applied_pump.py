@@ -6,7 +6,7 @@ from datetime import date
 from made_diagnosis import its_study, named_diagnosis
 
 from diagnosis import DiagnosisResult
-from diagnosis.procedure.pump_comparison import NO_COMPARISON
+from diagnosis.procedure.compared import NO_COMPARISON
 from swashfilm.runs.diagnose.applied import applied_toml
 from system import entry_of, extended_pump, load_pump
 from system.effects.effect import EffectId

@@ -92,7 +92,7 @@ def test_from_files_to_files(tmp_path: Path, capsys: pytest.CaptureFixture[str])
     mean = float(found["friction.slipper_swash_plate"]["mean"])
     assert calibrated.friction.slipper_swash_plate == pytest.approx(mean, rel=1e-5)
     summary = json.loads((out / "summary.json").read_text("utf-8"))
-    assert not summary["hersey"]["carried"]
+    assert not summary["hersey"]["supported"]
     assert main(["report", str(out)]) == 0
 
 
@@ -103,7 +103,7 @@ def test_friction_over_the_hersey_number_is_found_where_it_is(tmp_path: Path) ->
     recording, out = _made(tmp_path / "made", law), tmp_path / "out"
     assert main(["calibrate", "ref90", str(recording), "-o", str(out), "--models", "none"]) == 0
     summary = json.loads((out / "summary.json").read_text("utf-8"))
-    assert summary["hersey"]["carried"]
+    assert summary["hersey"]["supported"]
     assert _table(out, "heldout.csv") == []
     slipper = [float(row["friction [1]"]) for row in _table(out, "hersey.csv") if row["gap"] == "slipper"]
     assert slipper[0] > 1.5 * slipper[-1]

@@ -12,14 +12,8 @@ from made_diagnosis import LPM, PRESSURE, Q, agreeing
 from diagnosis import Diagnosis, Study
 from diagnosis.detect.time_scan import TimeKind, TimeMark
 from diagnosis.explain.ranked import HeldOut
-from diagnosis.procedure.pump_comparison import (
-    NO_COMPARISON,
-    Change,
-    FilmChange,
-    FilmComparison,
-    PumpComparison,
-    compare_pumps,
-)
+from diagnosis.procedure.compared import NO_COMPARISON, Change, FilmChange, FilmComparison, PumpComparison
+from diagnosis.procedure.pump_comparison import compare_pumps
 from diagnosis.report.json_file import diagnosis_record
 from diagnosis.report.tables import pull_sums
 from diagnosis.verdict.diagnosis import ClaimedEffect
@@ -161,7 +155,7 @@ def test_maps_are_drawn_without_an_axis(study: Study, named: Diagnosis, tmp_path
 
 
 def test_what_is_added_is_drawn_over_an_axis_that_is_there(study: Study, named: Diagnosis, tmp_path: Path) -> None:
-    """A constant goes with no axis, a delivery pressure that was not recorded is none."""
+    """A constant has no axis, nor has a delivery pressure that was not recorded."""
     write_diagnosis_files(tmp_path, study, named)
     write_diagnose_page(tmp_path)
     rows = read_rows(tmp_path / "residuals.csv")
@@ -190,7 +184,7 @@ def test_where_is_told_by_what_shows_there(named: Diagnosis) -> None:
 
 
 def test_a_page_says_why_no_point_is_asked_for(named: Diagnosis) -> None:
-    """That none could be foretold, or that no rival stands; nothing where nothing is claimed."""
+    """That none could be predicted, or that no rival stands; nothing where nothing is claimed."""
     alone = replace(named, next_point=None)
     assert next_point_words(diagnosis_record(alone)).startswith("No fitted rival remains")
     failed = replace(alone, notes=("no next point can be proposed: fit of the leak: it stalled",))

@@ -64,7 +64,7 @@ def test_the_next_point_is_told_with_what_it_promises(named: Diagnosis) -> None:
     )
     record = diagnosis_record(replace(named, next_point=poor))["next_test"]
     assert (record["settles"], record["chance"], record["readings"]) == (False, 0.1, 3)
-    assert record["log_odds"] == {"now": pytest.approx(np.log(15.5)), "foretold": 4.3}
+    assert record["log_odds"] == {"now": pytest.approx(np.log(15.5)), "predicted": 4.3}
     assert (record["instead"], record["repeats"]) == ("The leak would.", None)
 
 
@@ -234,7 +234,7 @@ def test_agreement_claims_nothing(named: Diagnosis, tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("text", "fault"), [("{}", "format"), ('{"format": 1}', "verdict"), ("[", "file"), ("[]", "list")]
 )
-def test_a_file_that_is_none_is_refused(tmp_path: Path, text: str, fault: str) -> None:
+def test_a_file_without_a_diagnosis_is_refused(tmp_path: Path, text: str, fault: str) -> None:
     path = tmp_path / "diagnosis.json"
     path.write_text(text, encoding="utf-8")
     with pytest.raises(InputFaults, match=fault):

@@ -1,4 +1,4 @@
-"""What a stranger gets wrong in a film case, and numbers that are none: told where and as what they are."""
+"""What a stranger gets wrong in a film case, and numbers that cannot be read: the message names place and value."""
 
 import json
 from pathlib import Path

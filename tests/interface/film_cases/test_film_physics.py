@@ -1,4 +1,4 @@
-"""Switches of a film case: oil laws, temperature, walls that give way, time; their faults and their round trip."""
+"""Switches of a film case: oil laws, temperature, elastic walls, time; their faults and their round trip."""
 
 import csv
 import json

@@ -1,4 +1,4 @@
-"""Mesh convergence: what is told of numbers on finer meshes, and that finer meshes are the same film."""
+"""Mesh convergence: the report of numbers on finer meshes, and that finer meshes are the same film."""
 
 import csv
 import json

@@ -3,6 +3,7 @@
 import json
 import subprocess
 import sys
+from inspect import signature
 from pathlib import Path
 
 import numpy as np
@@ -10,6 +11,7 @@ import pytest
 
 import swashfilm as sf
 from swashfilm.__main__ import main
+from swashfilm.cli.app import parse
 
 ROOT = Path(__file__).parents[3]
 PAD = """
@@ -57,6 +59,11 @@ def test_a_point_has_numbers_tables_and_data(point):
     assert "flow_delivery" in dir(point)
     with pytest.raises(AttributeError, match="torque"):
         point.flow_deliverd  # noqa: B018
+
+
+@pytest.mark.parametrize("name", ["run", "map"])
+def test_a_function_has_the_fidelity_of_its_command_unless_told(name):
+    assert signature(getattr(sf, name)).parameters["fidelity"].default == parse([name]).fidelity
 
 
 def test_numbers_are_in_si_or_text_with_a_unit(point):

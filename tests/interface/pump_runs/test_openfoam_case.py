@@ -1,4 +1,4 @@
-"""OpenFOAM cases: a small one written here, Poiseuille flow in a channel, and what is told of bad ones."""
+"""OpenFOAM cases: a small one written here, Poiseuille flow in a channel, and the faults of bad ones."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Traces of a profilometer in pump files and gap cases, worn parts of one chamber, and what is told of wrong ones."""
+"""Traces of a profilometer in pump files and gap cases, worn parts of one chamber, and the faults of wrong ones."""
 
 from __future__ import annotations
 
@@ -221,6 +221,17 @@ def test_levelling_and_cutoff_that_the_trace_does_not_bear(folder):
     assert faults_of(cutoff="50 mm")["piston.profile.cutoff"][0][1] == "at most the trace's length, 45 mm"
     assert "missing beside level = 'line'" in faults_of(unworn=None)["piston.profile.unworn"][0][0]
     assert faults_of(level="none")["piston.profile.unworn"][0][1] == "level = 'line', or no ranges"
+
+
+def test_a_missing_file_hides_no_fault_of_the_other_keys(folder):
+    told = faults_of(trace="nowhere.csv", unworn=[["3 mm", "1 mm"]], cutoff="0 mm")
+    assert "which is no file" in told["piston.profile.trace"][0][0]
+    assert told["piston.profile.unworn"] == [("from 3 mm to 1 mm", "a start before the end", "")]
+    assert told["piston.profile.cutoff"][0][1] == "more than 0 mm"
+    assert set(faults_of(trace="nowhere.csv", unworn=None)) == {"piston.profile.trace", "piston.profile.unworn"}
+    assert set(faults_of(unworn=[["50 mm", "60 mm"]], level="plane")) == {
+        "piston.profile.level", "piston.profile.unworn",
+    }  # fmt: skip
 
 
 def test_nothing_is_taken_where_a_key_is_missing(folder):

@@ -4,14 +4,16 @@ The points are a stand-in's, written into the cache as solved ones: what the com
 """
 
 import json
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 import pytest
 
 from swashfilm.__main__ import main
 from swashfilm.runs.table.command import HELD, RANGES
-from system import load_pump, lumped_point, operating_point
+from system import load_pump, lumped_point, operating_point, resolved_toml
+from system.description.effects import PhysicsSection
+from system.inputs.sections.reader import section_of
 from system.points.table import sources as table_sources
 from system.points.table.means import GAP_PAIRS, MEANINGS, SolvedPoint, given_films
 from system.points.table.pump_numbers import NUMBERS
@@ -92,6 +94,20 @@ def test_a_table_is_built_told_and_run(stand_in, tmp_path, capsys):
     assert found["torque"]["shaft_Nm"] == pytest.approx(truth.bench.shaft_torque, rel=1e-3)
     for gap in GAP_PAIRS:
         assert found["leakage"][f"{gap}_m3_per_s"] == pytest.approx(getattr(truth.leakage_flow, gap), rel=1e-3)
+
+
+def test_a_table_serves_every_temperature_of_a_pump_whose_clearances_change_with_it(stand_in, tmp_path):
+    grown = replace(PUMP, physics=section_of(PhysicsSection, {"thermal_clearance": {"piston": {"rate": 1e-2}}}))
+    file, run = tmp_path / "grown.toml", tmp_path / "run"
+    file.write_text(resolved_toml(grown), encoding="utf-8")
+    assert main(["table", str(file), *FEW, "-o", str(tmp_path / "table")]) == 0
+    words = ["run", str(file), "--temperature", "70 degC"]
+    leakage = []
+    for fidelity in ("table", "lumped"):
+        assert main([*words, "--fidelity", fidelity, "-o", str(run / fidelity)]) == 0
+        leakage.append(json.loads((run / fidelity / "summary.json").read_text())["leakage"]["piston_m3_per_s"])
+    assert leakage[0] == pytest.approx(leakage[1], rel=5e-2)  # 32 points learn the growth to some per cent
+    assert leakage[0] > 1.5 * lumped_point(PUMP, operating_point(PUMP, temperature=343.15)).leakage_flow.piston
 
 
 def test_ctrl_c_keeps_what_is_solved(stand_in, tmp_path, capsys):

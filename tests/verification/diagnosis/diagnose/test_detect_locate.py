@@ -215,7 +215,7 @@ def test_an_effect_of_eight_sigma_is_detected_and_leads() -> None:
 
 
 def test_a_size_of_the_wrong_sign_is_no_evidence() -> None:
-    """Churning that takes torque away is none: its p is above one half, whatever its size."""
+    """Churning cannot take torque away: the p of this sign is above one half, whatever its size."""
     found = detect(_study(_sized(EffectId.CHURNING, -8.0), seed=3), LIMITS)
     place = [candidate.entry.id for candidate, _ in found.strongest].index(EffectId.CHURNING)
     assert found.strongest[place][0].sign is Sign.POSITIVE

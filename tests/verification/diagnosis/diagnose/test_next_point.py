@@ -173,7 +173,7 @@ def test_next_point_leaves_the_line_that_the_campaign_ran_along() -> None:
     assert "elastic_opening" in found.why
 
 
-def test_ln_odds_have_the_mean_and_scatter_that_is_foretold() -> None:
+def test_ln_odds_have_the_mean_and_scatter_that_is_predicted() -> None:
     """Draw readings from one forecast and weigh them by both: the mean of ln odds is the divergence."""
     rng = np.random.default_rng(3)
     factors = [rng.normal(size=(3, 3)) + 2 * np.eye(3) for _ in range(2)]
@@ -202,7 +202,7 @@ def test_readings_with_memory_are_worth_fewer() -> None:
 
 def test_what_the_point_promises_comes_about() -> None:
     """Of pairs fitted to drawn recordings, as many settle by drawn readings as the chance says."""
-    settled, foretold, reached = [], [], []
+    settled, predicted, reached = [], [], []
     for seed in range(24):
         study, first, second = _rivals(_square, seed, size=0.03)
         found = next_point(study, load_pump("ref90"), _box(study), first, second, LIMITS)
@@ -212,12 +212,12 @@ def test_what_the_point_promises_comes_about() -> None:
         flow = place.p_out / PRESSURE * LPM + 0.03 * LPM * _square(place) + SIGMA * rng.normal(size=LIMITS.readings)
         odds = log_density(study, first, place, flow[:, None]) - log_density(study, second, place, flow[:, None])
         settled.append(found.before + odds >= LIMITS.settled)
-        foretold.append(one.chance(LIMITS.settled - found.before))
+        predicted.append(one.chance(LIMITS.settled - found.before))
         reached.append((odds - one.mean) / one.sigma)
     assert abs(np.mean(reached)) < 3 / np.sqrt(24)
-    spread = np.sqrt(np.sum(np.array(foretold) * (1 - np.array(foretold)))) / 24
-    assert abs(np.mean(settled) - np.mean(foretold)) < 3 * spread
-    assert 0.1 < np.mean(foretold) < 0.95
+    spread = np.sqrt(np.sum(np.array(predicted) * (1 - np.array(predicted)))) / 24
+    assert abs(np.mean(settled) - np.mean(predicted)) < 3 * spread
+    assert 0.1 < np.mean(predicted) < 0.95
 
 
 def test_readings_speak_by_the_forecast_of_each_law() -> None:

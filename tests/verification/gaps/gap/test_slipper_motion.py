@@ -229,7 +229,7 @@ def test_orifice_law(drop):
 @pytest.mark.parametrize(("limit", "rate"), [(np.inf, 0.0), (60.0, 2e7), (60.0, 0.0)])
 def test_retainer_has_a_potential(limit, rate):
     """Force and slopes against differences of k/2 mean <rise - clearance - u>^2 + limit u + rate/2 u^2, least over
-    how far the plate gives way; nothing below the clearance."""
+    the deflection u of the plate; nothing below the clearance."""
     retainer = Retainer(30e-6, 1e8, limit, rate)
     angle = 2.0 * np.pi * np.arange(48) / 48
 

@@ -205,7 +205,7 @@ def rim_deflection(inner: float, outer: float, thick: float, elastic: Elastic) -
 def test_slipper_bends_about_its_socket(validation, refine):
     """The rim of a thin flange under a uniform film, as an annular plate clamped at the socket's edge.
 
-    The socket holds only the back: of a thicker flange more gives way, in proportion to its thickness.
+    The socket holds only the back: a thicker flange deforms more there, in proportion to its thickness.
     """
     socket, rim = 8e-3, 14e-3
     film = film_space(annulus(socket, rim, (6, 48)))

@@ -5,11 +5,9 @@ On equations of one line, stiff and not, whose solutions are known.
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import dataclass
-
 import numpy as np
 import pytest
+from known_rates import Rate, Stage, stages
 
 from reynolds import (
     ALEXANDER_2,
@@ -24,39 +22,6 @@ from reynolds import (
 from reynolds.numerics.dirk import State, StateTangent, within
 
 METHODS = pytest.mark.parametrize("tableau", [BACKWARD_EULER, ALEXANDER_2], ids=["euler", "alexander"])
-Rate = Callable[[float, np.ndarray], tuple[np.ndarray, np.ndarray]]
-
-
-@dataclass(frozen=True)
-class Stage:
-    """y = before + step rate(t, y), and dy/dbefore."""
-
-    q: np.ndarray
-    slope: np.ndarray
-
-    @property
-    def holds(self) -> np.ndarray:
-        return self.q
-
-    def propagated(self, before: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        return self.slope @ before, self.slope @ before
-
-
-def _stages(rate: Rate):
-    """Stages of y' = rate(t, y)[0], by Newton's method with rate(t, y)[1] = d rate/dy."""
-
-    def solve(time: float, before: np.ndarray, step: float, guess: np.ndarray, last: Stage | None) -> Stage:
-        y = guess
-        for _ in range(30):
-            value, slope = rate(time, y)
-            matrix = np.eye(len(y)) - step * slope
-            move = np.linalg.solve(matrix, before + step * value - y)
-            y = y + move
-            if np.abs(move).max() <= 1e-13 * (1.0 + np.abs(y).max()):
-                return Stage(y, np.linalg.inv(np.eye(len(y)) - step * rate(time, y)[1]))
-        raise FilmNotConverged("no root", "a smaller step")
-
-    return solve
 
 
 def _start(*y: float, rate: float = 0.0) -> State[Stage]:
@@ -66,7 +31,7 @@ def _start(*y: float, rate: float = 0.0) -> State[Stage]:
 
 def _last(tableau: Tableau, rate: Rate, start: State[Stage], end: float, steps: int) -> np.ndarray:
     nodes = end * np.arange(1, steps + 1) / steps
-    *_, taken = integrate(tableau, _stages(rate), start, nodes, nodes_only)
+    *_, taken = integrate(tableau, stages(rate), start, nodes, nodes_only)
     return taken.state.q
 
 
@@ -96,7 +61,7 @@ def test_order_of_the_error_estimate(tableau):
     """One step on y' = y: the estimate is the true local error but for one order more."""
     gaps = []
     for step in (0.02, 0.01):
-        taken = advance(tableau, _stages(lambda t, y: (y, np.eye(1))), _start(1.0, rate=1.0), step)
+        taken = advance(tableau, stages(lambda t, y: (y, np.eye(1))), _start(1.0, rate=1.0), step)
         true = np.exp(step) - taken.state.q[0]
         assert taken.error[0] == pytest.approx(true, rel=5.0 * step)
         gaps.append(abs(taken.error[0] - true))
@@ -106,7 +71,7 @@ def test_order_of_the_error_estimate(tableau):
 def test_error_estimate_of_a_quadrature():
     """y' = t^2: seven times the true local error, as the method says of itself."""
     step = 0.1
-    taken = advance(ALEXANDER_2, _stages(lambda t, y: (np.array([t**2]), np.zeros((1, 1)))), _start(0.0), step)
+    taken = advance(ALEXANDER_2, stages(lambda t, y: (np.array([t**2]), np.zeros((1, 1)))), _start(0.0), step)
     true = step**3 / 3.0 - taken.state.q[0]
     assert taken.error[0] / true == pytest.approx(4.0 + 2.0 * np.sqrt(2.0), rel=1e-9)
 
@@ -118,9 +83,9 @@ def test_stable_and_forgetful(tableau):
         for size in (1e-2, 1.0, 1e2, 1e4):
             re, im = size * np.cos(angle), size * np.sin(angle)
             turning = np.array([[re, -im], [im, re]])
-            after = advance(tableau, _stages(lambda t, y, m=turning: (m @ y, m)), _start(1.0, 0.0), 1.0).state.q
+            after = advance(tableau, stages(lambda t, y, m=turning: (m @ y, m)), _start(1.0, 0.0), 1.0).state.q
             assert np.hypot(*after) <= 1.0 + 1e-12
-    stiff = advance(tableau, _stages(lambda t, y: (-1e9 * y, np.array([[-1e9]]))), _start(1.0), 1.0).state.q
+    stiff = advance(tableau, stages(lambda t, y: (-1e9 * y, np.array([[-1e9]]))), _start(1.0), 1.0).state.q
     assert abs(stiff[0]) < 1e-8
 
 
@@ -169,7 +134,7 @@ def test_error_control(tableau, relaxed):
     """Van der Pol, eps = 1e-3: each step keeps its tolerance, and the end that of all of them."""
     errors, steps = [], []
     for tolerance in (1e-4, 1e-5):
-        taken = list(integrate(tableau, _stages(_van_der_pol), _start(2.0, -0.66), [0.5], within(tolerance)))
+        taken = list(integrate(tableau, stages(_van_der_pol), _start(2.0, -0.66), [0.5], within(tolerance)))
         errors.append(np.abs(taken[-1].state.q - relaxed).max())
         steps.append(len(taken))
         assert all(step.largest_error <= tolerance for step in taken)
@@ -185,7 +150,7 @@ def test_steps_grow_and_shrink():
         return np.array([np.exp(-(((t - 5.0) / 0.05) ** 2))]), np.zeros((1, 1))
 
     nodes = np.arange(1.0, 10.5)
-    taken = list(integrate(ALEXANDER_2, _stages(rate), _start(0.0), nodes, within(1e-6)))
+    taken = list(integrate(ALEXANDER_2, stages(rate), _start(0.0), nodes, within(1e-6)))
     short = [step.step for step in taken if abs(step.state.time - 5.0) < 0.1]
     beside = [step.step for step in taken if step.state.time < 4.0]
     assert max(short) < 0.02
@@ -211,7 +176,7 @@ def test_a_jump_is_taken_by_the_shortest_step():
 @METHODS
 def test_nodes_are_met(tableau):
     nodes = [0.1, 0.1001, 0.7, 1.3]
-    taken = integrate(tableau, _stages(_swinging), _start(2.0), nodes, within(1e-4))
+    taken = integrate(tableau, stages(_swinging), _start(2.0), nodes, within(1e-4))
     assert set(nodes) <= {step.state.time for step in taken}
 
 
@@ -222,12 +187,12 @@ def test_tangent(tableau):
     nodes = np.linspace(0.0, 0.3, 31)[1:]
 
     def end(first: np.ndarray) -> np.ndarray:
-        *_, taken = integrate(tableau, _stages(_van_der_pol), State(0.0, first, first, start.rate), nodes, nodes_only)
+        *_, taken = integrate(tableau, stages(_van_der_pol), State(0.0, first, first, start.rate), nodes, nodes_only)
         return taken.state.q
 
     tangent = StateTangent(np.eye(2), np.eye(2))
     begin = State(0.0, start.q, start.q, start.rate, tangent=tangent)
-    *_, taken = integrate(tableau, _stages(_van_der_pol), begin, nodes, nodes_only)
+    *_, taken = integrate(tableau, stages(_van_der_pol), begin, nodes, nodes_only)
     differences = np.column_stack([(end(start.q + d) - end(start.q - d)) / 2e-5 for d in 1e-5 * np.eye(2)])
     assert taken.state.tangent is not None
     np.testing.assert_allclose(taken.state.tangent.q, differences, rtol=1e-6, atol=1e-9)
@@ -235,12 +200,12 @@ def test_tangent(tableau):
 
 
 def test_a_stage_without_solution_halves_the_step():
-    stages = _stages(_swinging)
+    swinging = stages(_swinging)
 
     def solve(time, before, step, guess, last):
         if step > 0.01:
             raise FilmNotConverged("walls overlap", "a smaller step")
-        return stages(time, before, step, guess, last)
+        return swinging(time, before, step, guess, last)
 
     taken = list(integrate(BACKWARD_EULER, solve, _start(2.0), [0.1], nodes_only))
     assert max(step.step for step in taken) <= 0.01
@@ -258,4 +223,4 @@ def test_no_step_short_enough():
 @pytest.mark.parametrize("nodes", [[], [0.0], [0.2, 0.1], [np.nan]])
 def test_nodes_that_do_not_rise(nodes):
     with pytest.raises(FilmInputError, match="times that rise from 0 s on"):
-        next(integrate(BACKWARD_EULER, _stages(_swinging), _start(2.0), nodes, nodes_only))
+        next(integrate(BACKWARD_EULER, stages(_swinging), _start(2.0), nodes, nodes_only))

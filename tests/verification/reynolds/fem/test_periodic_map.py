@@ -10,27 +10,13 @@ from dataclasses import dataclass
 
 import numpy as np
 import pytest
+from known_rates import stages
 
 from reynolds import ALEXANDER_2, FilmNotConverged, integrate, nodes_only
 from reynolds.numerics.dirk import State, StateTangent
 from reynolds.numerics.shooting import approached, periodic
 
 DAMPING, LOAD, TURN = 3.0e5, 40.0, 2.0 * np.pi / 220.0  # N s/m, N, s: REF90's slipper at 10 um and 2100 1/min
-
-
-@dataclass(frozen=True)
-class Stage:
-    """y = before + step rate(t, y), and dy/dbefore."""
-
-    q: np.ndarray
-    slope: np.ndarray
-
-    @property
-    def holds(self) -> np.ndarray:
-        return self.q
-
-    def propagated(self, before: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        return self.slope @ before, self.slope @ before
 
 
 @dataclass(frozen=True)
@@ -49,15 +35,7 @@ class Turn:
 def _turn(rate: Callable, period: float, steps: int, *, reach: float = 1.0, allowed: float = 1e-12):
     """Turns of y' = rate(t, y)[0]."""
 
-    def solve(time, before, step, guess, last):
-        y = guess
-        for _ in range(50):
-            value, slope = rate(time, y)
-            move = np.linalg.solve(np.eye(len(y)) - step * slope, before + step * value - y)
-            y = y + move
-            if np.abs(move).max() <= 1e-15 + 1e-13 * np.abs(y).max():
-                break
-        return Stage(y, np.linalg.inv(np.eye(len(y)) - step * rate(time, y)[1]))
+    solve = stages(rate)
 
     def run(start: np.ndarray, before: Turn | None) -> Turn:
         one = np.eye(len(start))

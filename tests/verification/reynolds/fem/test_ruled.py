@@ -1,4 +1,4 @@
-"""Formulas sampled by rows and columns: the same values as point by point, and refused where they are none."""
+"""Formulas sampled by rows and columns: the same values as point by point; others are refused."""
 
 import numpy as np
 import pytest

@@ -87,7 +87,7 @@ def test_a_squeezed_film_settles_where_it_bears_its_load(validation, refine):
 @pytest.mark.parametrize("stiffness", [None, 1e13, 1e15])
 @pytest.mark.parametrize("h", [0.2e-6, 1e-6])
 def test_rough_walls_settle_where_their_contact_bears_the_load(h, stiffness, validation):
-    """No film pressure: F = A p_c(h), and springs give way by p_c/k."""
+    """No film pressure: F = A p_c(h), and springs deform by p_c/k."""
     space = _space(8)
     bears = float(contact_pressure(ASPERITIES, h).value)
     problem = replace(
@@ -105,7 +105,7 @@ def test_rough_walls_settle_where_their_contact_bears_the_load(h, stiffness, val
         tolerance=1e6 * (1e-6 / slope + (1e-6 * bears / stiffness if stiffness else 0.0)),
         note="1e-6 of the load over the contact's stiffness",
     )  # fmt: skip
-    # Below the range of the flow factors walls that give way keep a film of their own between the summits.
+    # Below the range of the flow factors elastic walls keep a film of their own between the summits.
     film = h if stiffness is None else float(film_between(problem, np.array(h)).value)
     assert found.solution.film.thickness.min() == pytest.approx(film, rel=1e-4)
 

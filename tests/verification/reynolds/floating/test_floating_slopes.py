@@ -8,28 +8,22 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from functools import partial
 
 import numpy as np
 import pytest
+from floating_journal import CLEARANCE, OIL, RADIUS, STEP, SUMMITS, Journal, floating_journal, marched
 from scipy.sparse import csr_array
 
 from reynolds import (
-    ZERO,
     Array,
-    Asperities,
     Cell,
-    Film,
-    FilmProblem,
     FilmSolver,
     FilmSpace,
     Floating,
     FloatingStage,
-    Fluid,
-    Held,
-    Outer,
     Surface,
     film_space,
-    full_film,
     generalised_force,
     modes_on,
     rectangle,
@@ -40,101 +34,45 @@ from reynolds.floating.coordinates import contact_force
 from reynolds.floating.sensitivity import oil_slopes, response, thickness_load
 from reynolds.laws.roughness import mean_thickness
 
-RADIUS, WIDTH, CLEARANCE, SPEED, VISCOSITY = 0.02, 0.02, 20e-6, 5.0, 0.03
-STEP, STEPS = 2e-4, 12
+STEPS = 12
 NUDGE = 1e-6  # of the clearance: films of more or less cavitated unknowns would be another film
-ROUGH = Asperities(density=1e10, radius=1e-5, height=4e-7, modulus=8e10, friction_coefficient=0.1)
-ALPHA, BULK = 2e-8, 2e9
-OIL = Fluid(
-    viscosity=lambda p, mu: (mu * np.exp(ALPHA * p), ALPHA * mu * np.exp(ALPHA * p)),
-    density=lambda p: (1.0 + p / BULK, np.full_like(p, 1.0 / BULK)),
-)
-
-
-@dataclass(frozen=True)
-class Case:
-    """A journal film: load N, pressure at both sides Pa, what its oil and walls are; whether it cavitates."""
-
-    load: float
-    sides: float = 0.0
-    fluid: Fluid | None = None
-    surface: Surface | None = None
-    asperities: Asperities | None = None
-    inertia: Array | None = None
-    softness: float = 0.0  # opening of the walls by the pressure above them, m/Pa
-    cell: Cell = Cell.QUADRILATERAL
-    cavitates: bool = True
-
-
-CASES = {
-    "full": Case(2e2, 5e6, cavitates=False),
-    "cavity": Case(3e3),
-    "triangles": Case(3e3, cell=Cell.TRIANGLE),
-    "inertia": Case(3e3, inertia=np.eye(2)),
-    "oil": Case(9e3, fluid=OIL),
-    "soft walls": Case(2e2, 5e6, softness=2e-12, cavitates=False),
-    "contact": Case(3e5, asperities=ROUGH),
-    "soft contact": Case(2e4, 5e6, softness=2e-13, asperities=ROUGH, cavitates=False),
-    "soft rough": Case(
-        2e4,
-        5e6,
-        softness=2e-13,
-        surface=Surface(4e-7, 3e-7, 3.0, 1.0 / 3.0, 0.3),
-        asperities=ROUGH,
-        fluid=OIL,
-        cavitates=False,
-    ),
-    "rough": Case(6e5, surface=Surface(4e-7, 3e-7, 3.0, 1.0 / 3.0, 0.3), asperities=ROUGH),
-}
+HEIGHTS = Surface(4e-7, 3e-7, 3.0, 1.0 / 3.0, 0.3)
+HIGH = (5e6, 5e6)  # Pa at the sides: the film does not cavitate
 
 
 @dataclass(frozen=True)
 class Springs:
-    """Walls of which each place gives way to the pressure above it."""
+    """Walls of which each place opens by the pressure above it."""
 
     matrix: csr_array
 
 
-def _own_pressure(space: FilmSpace) -> csr_array:
+def springs(space: FilmSpace, softness: float) -> Springs:
+    """Walls that open by `softness` (m/Pa) times the pressure above."""
     count = len(space.vertices)
     places = (np.arange(count), space.vertex_dofs)
-    return csr_array((np.ones(count), places), shape=(count, space.size))
+    return Springs(csr_array((np.full(count, softness), places), shape=(count, space.size)))
 
 
-def _journal(case: Case) -> tuple[FilmSpace, Floating]:
-    """h = c - ex cos - ey sin, pressed by a load that turns to and fro, a spring and a damper."""
-    space = film_space(rectangle((2.0 * np.pi * RADIUS, WIDTH), (32, 6), cell=case.cell, periodic_x=True))
-    oil = Film(
-        np.full((1, 1), CLEARANCE), np.full((1, 1), VISCOSITY), (np.full((1, 1), SPEED), ZERO), (ZERO, ZERO), ZERO,
-        thickness_at_vertices=np.full(len(space.vertices), CLEARANCE),
-    )  # fmt: skip
-    held = {"bottom": Held(case.sides), "top": Held(case.sides)}
-    problem = FilmProblem(space, oil, held, surface=case.surface, asperities=case.asperities)
-    problem = problem if case.fluid is None else replace(problem, fluid=case.fluid)
-    if case.softness:
-        problem = replace(problem, walls=Springs(_own_pressure(space) * case.softness))
-    angle = space.vertices[:, 0] / RADIUS
-    modes = -np.column_stack([np.cos(angle), np.sin(angle)])
-    spring, damper = np.array([[1e6, 2e5], [0.0, 1e6]]), np.array([[1e4, 0.0], [3e3, 1e4]])
-
-    def outer(time: float, q: Array, rate: Array) -> Outer:
-        load = case.load * np.array([1.0, 0.3 * np.sin(300.0 * time)])
-        return Outer(load - spring @ q - damper @ rate, -spring, -damper)
-
-    return space, Floating("journal", lambda t: problem, lambda t: modes, outer, case.sides, inertia=case.inertia)
+CASES = {
+    "full": Journal(2e2, HIGH),
+    "cavity": Journal(3e3),
+    "triangles": Journal(3e3, cell=Cell.TRIANGLE),
+    "inertia": Journal(3e3, inertia=np.eye(2)),
+    "oil": Journal(9e3, fluid=OIL),
+    "soft walls": Journal(2e2, HIGH, walls=partial(springs, softness=2e-12)),
+    "contact": Journal(3e5, asperities=SUMMITS),
+    "soft contact": Journal(2e4, HIGH, asperities=SUMMITS, walls=partial(springs, softness=2e-13)),
+    "soft rough": Journal(2e4, HIGH, OIL, HEIGHTS, SUMMITS, walls=partial(springs, softness=2e-13)),
+    "rough": Journal(6e5, surface=HEIGHTS, asperities=SUMMITS),
+}
 
 
-def _marched(case: Case) -> tuple[Floating, FilmSolver, FloatingStage, Array]:
+def _marched(case: Journal) -> tuple[Floating, FilmSolver, FloatingStage, Array]:
     """After some steps from rest: the last stage and what was held before it."""
-    space, floating = _journal(case)
-    solver, stage, q = FilmSolver(space), None, np.array([0.5 * CLEARANCE, 0.0])
-    held, rate = full_film(floating, 0.0, q), np.zeros(2)
-    for k in range(STEPS):
-        before = held
-        stage = solve_stage(solver, floating, STEP * (k + 1), before, STEP, q + STEP * rate, stage)
-        held, q, rate = stage.holds, stage.q, stage.trial.rate
-    assert stage is not None
-    assert stage.solution.cavity.any() == case.cavitates
+    space, floating = floating_journal(case)
+    solver, stage, before = marched(space, floating, np.array([0.5 * CLEARANCE, 0.0]), STEPS)
+    assert stage.solution.cavity.any() == (case.sides != HIGH)
     assert (np.abs(stage.contact_force).max() > 1.0) == (case.asperities is not None)
     return floating, solver, stage, before
 
@@ -164,7 +102,7 @@ def test_forces_by_position(name):
 
 def test_soft_walls_of_a_cavity():
     """Left out there: that a cavity's upwinding changes as the pressure beside it opens the film."""
-    _, _, stage, _ = _marched(replace(CASES["cavity"], softness=2e-12))
+    _, _, stage, _ = _marched(replace(CASES["cavity"], walls=partial(springs, softness=2e-12)))
 
     def missing(nudge: Array) -> Array:
         return stage.instant.tried(stage.q + nudge, stage.solution).missing
@@ -242,22 +180,22 @@ def test_generalised_force_is_work():
 
 
 def test_contact_slopes():
-    space, _ = _journal(CASES["contact"])
+    space, _ = floating_journal(CASES["contact"])
     angle = space.vertices[:, 0] / RADIUS
     modes = modes_on(space, np.column_stack([np.ones_like(angle), np.cos(angle)]))
 
     gap = np.full(space.area.shape, 2e-7)
 
     def force(nudge: Array) -> Array:
-        return contact_force(ROUGH, gap + modes.at_points @ nudge, modes).force
+        return contact_force(SUMMITS, gap + modes.at_points @ nudge, modes).force
 
-    _same(contact_force(ROUGH, gap, modes).slopes, _differences(force, 2, 1e-12), 1e-6)
+    _same(contact_force(SUMMITS, gap, modes).slopes, _differences(force, 2, 1e-12), 1e-6)
 
 
 @pytest.mark.parametrize("surface", [None, Surface(4e-7, 3e-7), Surface(4e-7, 0.0, 3.0)])
 def test_film_between_overlapping_walls(surface):
     """Positive, rising with the gap, with its slope; the gap itself where walls are far apart or do not touch."""
-    _, floating = _journal(replace(CASES["contact"], surface=surface))
+    _, floating = floating_journal(replace(CASES["contact"], surface=surface))
     problem = floating.shape_at(0.0)
     gap = np.linspace(-2e-6, 4e-6, 601)
     h, slope = film_between(problem, gap)
@@ -267,7 +205,7 @@ def test_film_between_overlapping_walls(surface):
     assert slope.min() > 0.0
     assert h[-1] == pytest.approx(gap[-1], rel=1e-12)
     if surface is None:
-        assert h == pytest.approx(mean_thickness(ROUGH.height, gap).value)
+        assert h == pytest.approx(mean_thickness(SUMMITS.height, gap).value)
     else:
         within = gap >= surface.lowest_ratio * surface.composite_roughness
         assert np.array_equal(h[within], gap[within])

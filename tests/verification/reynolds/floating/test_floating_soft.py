@@ -133,7 +133,7 @@ def test_rough_plate_rests_on_springs(surface, validation):
 
 
 def test_a_stage_tells_how_its_walls_deform():
-    """Springs side by side give way by p/k, which its film of that shape between rigid walls already has."""
+    """Independent springs deform by p/k, which its film of that shape between rigid walls already has."""
     space = channel(16)
     stage = at_rest(plate(space, winkler(space, STIFFNESS), (HIGH, LOW), lambda t: 19e6 * LENGTH * WIDE), space, 3e-6)
     gives = stage.solution.pressure[space.vertex_dofs] / STIFFNESS

@@ -6,15 +6,16 @@ and without cavity, contact, pocket, inertia and oil under pressure.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 import pytest
+from floating_journal import CLEARANCE, OIL, STEP, SUMMITS, VISCOSITY, Journal, floating_journal, marched
 
 from reynolds import (
     ZERO,
     Array,
-    Asperities,
     Cavitation,
     Cell,
     Film,
@@ -23,16 +24,12 @@ from reynolds import (
     FilmSpace,
     Floating,
     FloatingStage,
-    Fluid,
     Held,
     Outer,
     Pocket,
     Surface,
     film_space,
-    full_film,
-    rectangle,
     ring,
-    solve_stage,
     steady,
 )
 from reynolds.compiled.gap_table import gap_table
@@ -42,48 +39,11 @@ from reynolds.floating.joint import JointStage
 from reynolds.floating.step import films_in_balance
 from reynolds.floating.trial import instant_of
 from reynolds.laws.contact import LOWEST_RATIO, contact_pressure
-from reynolds.laws.fluid import CONSTANT
 from reynolds.laws.roughness import flow_factors
 
-RADIUS, WIDTH, CLEARANCE, SPEED, VISCOSITY = 0.02, 0.02, 20e-6, 5.0, 0.03
-STEP, STEPS = 2e-4, 10
-SUMMITS = Asperities(density=1e10, radius=1e-5, height=4e-7, modulus=8e10, friction_coefficient=0.1)
+STEPS = 10
 HEIGHTS = Surface(4e-7, 3e-7)
-ALPHA, BULK = 2e-8, 2e9
-OIL = Fluid(
-    viscosity=lambda p, mu: (mu * np.exp(ALPHA * p), ALPHA * mu * np.exp(ALPHA * p)),
-    density=lambda p: (1.0 + p / BULK, np.full_like(p, 1.0 / BULK)),
-)
-
-
-@dataclass(frozen=True)
-class Case:
-    """A journal film: load N; its oil and walls; whether it cavitates, and by which cells it is solved."""
-
-    load: float
-    fluid: Fluid = CONSTANT
-    surface: Surface | None = None
-    asperities: Asperities | None = None
-    inertia: Array | None = None
-    softness: float = 0.0  # opening of the walls by the pressure above them, m/Pa
-    cell: Cell = Cell.QUADRILATERAL
-    cavitation: Cavitation = Cavitation.JFO
-
-
-CASES = {
-    "full": Case(2e2, cavitation=Cavitation.NONE),
-    "cavity": Case(3e3),
-    "triangles": Case(3e3, cell=Cell.TRIANGLE),
-    "inertia": Case(3e3, inertia=np.eye(2)),
-    "oil": Case(9e3, fluid=OIL),
-    "contact": Case(3e5, asperities=SUMMITS),
-    "rough": Case(3e4, surface=HEIGHTS),
-    "soft": Case(2e2, softness=2e-12, cavitation=Cavitation.NONE),
-    "soft cavity": Case(3e3, softness=2e-13),
-    "soft contact": Case(4e4, softness=2e-13, asperities=SUMMITS),
-    "soft rough oil": Case(4e4, OIL, HEIGHTS, SUMMITS, softness=2e-13),
-    "rough contact": Case(6e5, surface=HEIGHTS, asperities=SUMMITS),
-}
+SIDES = (0.0, 1e5)
 
 
 @dataclass(frozen=True)
@@ -100,28 +60,21 @@ def springs(space: FilmSpace, softness: float) -> Springs:
     return Springs(softness * matrix)
 
 
-def journal(case: Case) -> tuple[FilmSpace, Floating]:
-    """h = c - ex cos - ey sin, pressed by a load that turns to and fro, a spring and a damper."""
-    space = film_space(rectangle((2.0 * np.pi * RADIUS, WIDTH), (32, 6), cell=case.cell, periodic_x=True))
-    oil = Film(
-        np.full((1, 1), CLEARANCE), np.full((1, 1), VISCOSITY), (np.full((1, 1), SPEED), ZERO), (ZERO, ZERO), ZERO,
-        thickness_at_vertices=np.full(len(space.vertices), CLEARANCE),
-    )  # fmt: skip
-    held = {"bottom": Held(0.0), "top": Held(1e5)}
-    problem = FilmProblem(
-        space, oil, held, case.cavitation, fluid=case.fluid, surface=case.surface, asperities=case.asperities
-    )
-    if case.softness:
-        problem = replace(problem, walls=springs(space, case.softness))
-    angle = space.vertices[:, 0] / RADIUS
-    modes = -np.column_stack([np.cos(angle), np.sin(angle)])
-    spring, damper = np.array([[1e6, 2e5], [0.0, 1e6]]), np.array([[1e4, 0.0], [3e3, 1e4]])
-
-    def outer(time: float, q: Array, rate: Array) -> Outer:
-        load = case.load * np.array([1.0, 0.3 * np.sin(300.0 * time)])
-        return Outer(load - spring @ q - damper @ rate, -spring, -damper)
-
-    return space, Floating("journal", lambda t: problem, lambda t: modes, outer, inertia=case.inertia)
+SOFT = partial(springs, softness=2e-13)
+CASES = {
+    "full": Journal(2e2, SIDES, cavitation=Cavitation.NONE),
+    "cavity": Journal(3e3, SIDES),
+    "triangles": Journal(3e3, SIDES, cell=Cell.TRIANGLE),
+    "inertia": Journal(3e3, SIDES, inertia=np.eye(2)),
+    "oil": Journal(9e3, SIDES, OIL),
+    "contact": Journal(3e5, SIDES, asperities=SUMMITS),
+    "rough": Journal(3e4, SIDES, surface=HEIGHTS),
+    "soft": Journal(2e2, SIDES, walls=partial(springs, softness=2e-12), cavitation=Cavitation.NONE),
+    "soft cavity": Journal(3e3, SIDES, walls=SOFT),
+    "soft contact": Journal(4e4, SIDES, asperities=SUMMITS, walls=SOFT),
+    "soft rough oil": Journal(4e4, SIDES, OIL, HEIGHTS, SUMMITS, walls=SOFT),
+    "rough contact": Journal(6e5, SIDES, surface=HEIGHTS, asperities=SUMMITS),
+}
 
 
 def pad() -> tuple[FilmSpace, Floating]:
@@ -144,18 +97,6 @@ def pad() -> tuple[FilmSpace, Floating]:
     return space, Floating(
         "pad", lambda t: problem, lambda t: modes, press, pockets={"inner": np.array([np.pi * 0.008**2, 0.0, 0.0])}
     )
-
-
-def marched(space: FilmSpace, floating: Floating, start: Array) -> tuple[FloatingStage, Array]:
-    """After some steps from rest: the last stage and what was held before it."""
-    solver, stage, q = FilmSolver(space), None, start
-    held, rate = full_film(floating, 0.0, q), np.zeros(len(q))
-    for k in range(STEPS):
-        before = held
-        stage = solve_stage(solver, floating, STEP * (k + 1), before, STEP, q + STEP * rate, stage)
-        held, q, rate = stage.holds, stage.q, stage.trial.rate
-    assert stage is not None
-    return stage, before
 
 
 def same(floating: Floating, stage: FloatingStage, before: Array) -> None:
@@ -181,8 +122,8 @@ def same(floating: Floating, stage: FloatingStage, before: Array) -> None:
 
 @pytest.mark.parametrize("case", CASES.values(), ids=CASES)
 def test_film_and_position_together(case):
-    space, floating = journal(case)
-    stage, before = marched(space, floating, np.array([0.5 * CLEARANCE, 0.0]))
+    space, floating = floating_journal(case)
+    _, stage, before = marched(space, floating, np.array([0.5 * CLEARANCE, 0.0]), STEPS)
     assert stage.solution.cavity.any() == (case.cavitation is Cavitation.JFO)
     assert (np.abs(stage.contact_force).max() > 1.0) == (case.asperities is not None)
     same(floating, stage, before)
@@ -190,14 +131,14 @@ def test_film_and_position_together(case):
 
 def test_pad_with_a_pocket():
     space, floating = pad()
-    stage, before = marched(space, floating, np.array([20e-6, 0.0, 0.0]))
+    _, stage, before = marched(space, floating, np.array([20e-6, 0.0, 0.0]), STEPS)
     same(floating, stage, before)
 
 
 def test_what_is_not_in_balance_is_not_lost():
     """The oil of a stage is what its flows leave, to round-off, however loosely the film is solved."""
-    space, floating = journal(CASES["cavity"])
-    stage, before = marched(space, floating, np.array([0.5 * CLEARANCE, 0.0]))
+    space, floating = floating_journal(CASES["cavity"])
+    _, stage, before = marched(space, floating, np.array([0.5 * CLEARANCE, 0.0]), STEPS)
     free = ~stage.solution.held
     through = stage.solution.outflow[stage.solution.held].sum() * STEP
     grown = stage.holds[: space.size].sum() - before[: space.size].sum()

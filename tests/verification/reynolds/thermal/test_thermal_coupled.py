@@ -247,7 +247,7 @@ class Grown:
 
 
 def test_wall_that_opens_by_its_heat(validation):
-    """An endless film heats a wall that gives way by g q: q = mu U^2/(h0 + g q), a quadratic in q."""
+    """An endless film heats a wall that expands away from it by g q: q = mu U^2/(h0 + g q), a quadratic in q."""
     space = endless()
     count = len(space.vertices)
     gain = 0.5 * GAP / (VISCOSITY * SPEED**2 / GAP)

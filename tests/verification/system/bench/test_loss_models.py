@@ -123,8 +123,8 @@ def test_polymod_is_bounded_by_the_levels() -> None:
     assert all(term.name[1] == "0" for term in polymod_for(PUMP, POINTS, INPUTS, one).torque)
 
 
-def test_levels_left_out_are_foretold_without_them() -> None:
-    """Of a model's own readings everything left out is foretold; a wild level spoils only its own fold."""
+def test_levels_left_out_are_predicted_without_them() -> None:
+    """Of a model's own readings everything left out is predicted; a wild level spoils only its own fold."""
     bench = _bench(LOSS_MODELS[LossModelName.WILSON])
     readings = _readings(bench.predict(_made(bench)))
     rows = model_rows(LossModelName.WILSON, PUMP, POINTS, INPUTS, readings)

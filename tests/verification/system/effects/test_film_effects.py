@@ -197,7 +197,7 @@ NAMES = ("piston", "slipper", "valve plate")
 
 
 def in_unit_of(reason):
-    """m2 K/W at the end of what is told of a wall."""
+    """m2 K/W at the end of the assumption on a wall."""
     return float(reason.rpartition("material ")[2].partition(" ")[0])
 
 

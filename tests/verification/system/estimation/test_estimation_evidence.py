@@ -220,23 +220,23 @@ def test_what_is_left_open() -> None:
 def test_odds_mean_what_they_say() -> None:
     """Effects of one sign drawn in half of 300 records: posterior odds of 1 in p are right one time in p.
 
-    Where odds lean to an effect and where they lean away the number of effects is as foretold, to 3 sigma.
+    Where odds lean to an effect and where they lean away the number of effects is as predicted, to 3 sigma.
     """
     rng = np.random.default_rng(31)
     columns = _columns(19, 3) / 2.0
     nuisances = (_parameter("a"), _parameter("b"))
     null, effect = Columns(nuisances, columns[:, :2]), Columns((*nuisances, _parameter("c", POSITIVE)), columns)
     present = rng.random(300) < 0.5
-    foretold = np.empty(present.size)
+    predicted = np.empty(present.size)
     for at, there in enumerate(present):
         truth = np.append(rng.normal(size=2), abs(rng.normal()) * there)
         observed = _observed(columns @ truth + rng.normal(size=POINTS))
         evidences = [maximum_posterior(model, observed).log_evidence for model in (null, effect)]
-        foretold[at] = 1.0 / (1.0 + np.exp(evidences[0] - evidences[1]))
-    for leaning in (foretold > 0.5, foretold <= 0.5):
-        expected, spread = foretold[leaning].sum(), np.sqrt((foretold * (1.0 - foretold))[leaning].sum())
+        predicted[at] = 1.0 / (1.0 + np.exp(evidences[0] - evidences[1]))
+    for leaning in (predicted > 0.5, predicted <= 0.5):
+        expected, spread = predicted[leaning].sum(), np.sqrt((predicted * (1.0 - predicted))[leaning].sum())
         assert present[leaning].sum() == pytest.approx(expected, abs=3.0 * spread)
-    assert np.ptp(foretold) > 0.5
+    assert np.ptp(predicted) > 0.5
 
 
 def test_a_fit_beside_its_peak_is_settled_before_columns_are_weighed() -> None:

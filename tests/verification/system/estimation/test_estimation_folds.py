@@ -1,4 +1,4 @@
-"""Levels of scattered set points, and points foretold by fits without them."""
+"""Levels of scattered set points, and points predicted by fits without them."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Operating maps: what names a point, what is made of its numbers, and what is told between the levels."""
+"""Operating maps: what names a point, what is made of its numbers, and interpolation between the levels."""
 
 from dataclasses import is_dataclass, replace
 from functools import cache

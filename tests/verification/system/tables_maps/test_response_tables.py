@@ -15,29 +15,19 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 from bench_pump import BENCH
+from stand_in_films import ThinningFilms
 
 from gaps.response import Measure
 from reynolds import FilmNotConverged, InputError, NotConverged
-from system import (
-    InputFaults,
-    Pair,
-    PumpPoint,
-    build_table,
-    find_table,
-    load_pump,
-    lumped_point,
-    operating_point,
-    table_point,
-)
+from system import InputFaults, Pair, PumpPoint, build_table, find_table, load_pump, operating_point, table_point
 from system.description.effects import PhysicsSection
 from system.inputs.sections.reader import section_of
 from system.points.table.build import TableCase, point_at, table_axes
-from system.points.table.means import GAP_PAIRS, MEANINGS, SolvedPoint, mean_ratios
+from system.points.table.means import GAP_PAIRS, MEANINGS, mean_ratios
 from system.points.table.point import TablePoint
 from system.points.table.pump_numbers import numbers_error, pump_numbers
 from system.points.table.sources import FilmsSolver, Source, films_alone
 from system.points.table.store import keep_table, own_table, pump_key, read_table, table_record
-from system.pump.chamber.turn import Gaps
 from system.work.processes import process_pool
 from system.work.sampled_points import points_of
 
@@ -46,43 +36,15 @@ NAMES = list(MEANINGS)
 
 
 @dataclass(frozen=True)
-class Thinning:
-    """Films of (Hersey number)^exponent times the given ones; `broken`: none converges at high pressure."""
-
-    exponent: float = 0.1
-    broken: bool = False
-    source = Source.FIXED
-
-    @property
-    def stated(self):
-        return {"physics": f"thinning films, {self.exponent}", "mesh": "none", "accuracy": "that of lumped"}
-
-    def solve(self, pump, point):
-        if self.broken and point.delivery_pressure > 35e6:
-            raise FilmNotConverged("made to fail", "nothing")
-        hersey = point.viscosity / 0.03 * point.shaft_speed / 220.0 * 35e6 / point.delivery_pressure
-        thin = hersey**self.exponent
-        films = {
-            "slipper": replace(pump.slipper, film_thickness=thin * pump.slipper.film_thickness),
-            "valve_plate": replace(pump.valve_plate, film_thickness=thin * pump.valve_plate.film_thickness),
-        }
-        found = lumped_point(replace(pump, **films), point)
-        clearance = pump.piston.radial_clearance
-        mean = Gaps(clearance, films["slipper"].film_thickness, films["valve_plate"].film_thickness)
-        least = Gaps(*(0.5 * value for value in asdict(mean).values()))
-        return SolvedPoint(found, mean, least, Gaps(40.0 / thin, 20.0 / thin, 30.0 / thin))
-
-
-@dataclass(frozen=True)
-class NeverCalled(Thinning):
-    """The same content as `Thinning`, but solving is a fault."""
+class NeverCalled(ThinningFilms):
+    """The same content as `ThinningFilms`, but solving is a fault."""
 
     def solve(self, pump, point):
         raise AssertionError("a kept point was solved again")
 
 
 @dataclass(frozen=True)
-class Stops(Thinning):
+class Stops(ThinningFilms):
     """Breaks off with Ctrl-C at the points of full displacement, the upper half of the corners."""
 
     def solve(self, pump, point):
@@ -92,7 +54,7 @@ class Stops(Thinning):
 
 
 def case(solver=None, learnt=48, held_out=12, pump=PUMP):
-    return TableCase(pump, solver or Thinning(), table_axes(pump), learnt, held_out)
+    return TableCase(pump, solver or ThinningFilms(), table_axes(pump), learnt, held_out)
 
 
 @pytest.fixture(scope="module")
@@ -116,7 +78,7 @@ def test_a_learnt_point_comes_back(table):
     """Ratios and their inverse: only the pressure's own small change by other leakage is left."""
     x = table.response.learnt.points[20]
     point = point_at(case(), x)
-    direct, told = Thinning().solve(PUMP, point), table_point(PUMP, point, table)
+    direct, told = ThinningFilms().solve(PUMP, point), table_point(PUMP, point, table)
     assert numbers(told.pump_point) == pytest.approx(numbers(direct.pump_point), rel=1e-3)
     assert asdict(told.film_mean) == pytest.approx(asdict(direct.film_mean), rel=1e-9)
     assert asdict(told.film_least) == pytest.approx(asdict(direct.film_least), rel=1e-9)
@@ -128,7 +90,7 @@ def test_an_unseen_point_is_within_the_stated_error(table):
     largest = dict(zip(NAMES, table.response.held_out_error.largest, strict=True))
     for x in table.response.held_out.points:
         point = point_at(case(), x)
-        direct, told = Thinning().solve(PUMP, point).pump_point, table_point(PUMP, point, table).pump_point
+        direct, told = ThinningFilms().solve(PUMP, point).pump_point, table_point(PUMP, point, table).pump_point
         for gap, pair in GAP_PAIRS.items():
             flow, friction = (
                 (getattr(p.leakage_flow, gap) for p in (told, direct)),
@@ -143,7 +105,7 @@ def test_a_table_states_what_its_runs_miss(table):
     direct, told = [], []
     for x in table.response.held_out.points:
         point = point_at(case(), x)
-        direct.append(pump_numbers(Thinning().solve(PUMP, point).pump_point))
+        direct.append(pump_numbers(ThinningFilms().solve(PUMP, point).pump_point))
         told.append(pump_numbers(table_point(PUMP, point, table).pump_point))
     off = np.abs(np.array(told) / np.array(direct) - 1.0).max(axis=0)
     assert list(table.numbers.largest().values()) == pytest.approx(list(off), rel=1e-6)
@@ -171,7 +133,7 @@ def test_the_stand_in_is_learnt(table):
 def test_kept_points_are_not_solved_again(table, folder):
     again = build_table(case(NeverCalled()), folder=folder)
     assert np.array_equal(again.response.learnt.values, table.response.learnt.values)
-    more = build_table(case(Thinning(), learnt=60), folder=folder)  # the held-out 12 are the next to learn
+    more = build_table(case(ThinningFilms(), learnt=60), folder=folder)  # the held-out 12 are the next to learn
     assert len(list((folder / "tables" / "points").glob("*.json"))) == 72
     assert np.array_equal(more.response.learnt.values[48:], table.response.held_out.values)
 
@@ -206,7 +168,7 @@ def test_an_interrupted_table_goes_on(tmp_path):
 
 
 def test_points_that_fail_are_told(tmp_path):
-    table = build_table(case(Thinning(broken=True)), folder=tmp_path)
+    table = build_table(case(ThinningFilms(broken=True)), folder=tmp_path)
     assert table.origin.failed
     assert all("made to fail" in one.reason for one in table.origin.failed)
     assert all(one.at[1] > 35e6 for one in table.origin.failed)
@@ -218,7 +180,7 @@ def test_a_table_of_failures_is_none(tmp_path):
     """Nothing to learn from is no table, and the first reason is told; failures are tried again."""
 
     @dataclass(frozen=True)
-    class Fails(Thinning):
+    class Fails(ThinningFilms):
         def solve(self, pump, point):
             raise FilmNotConverged("made to fail", "nothing")
 
@@ -259,7 +221,7 @@ def test_effects_outside_the_films_act_beside_a_table(table, folder):
     pump = replace(PUMP, physics=section_of(PhysicsSection, tables))
     point = point_at(case(), table.response.learnt.points[20])
     assert pump_key(pump) == pump_key(PUMP)
-    told, direct = table_point(pump, point, table).pump_point, Thinning().solve(pump, point).pump_point
+    told, direct = table_point(pump, point, table).pump_point, ThinningFilms().solve(pump, point).pump_point
     plain = table_point(PUMP, point, table).pump_point
     assert numbers(told) == pytest.approx(numbers(direct), rel=2e-3)
     drains = [one.bench.drain_flow - plain.bench.drain_flow for one in (told, direct)]

@@ -1,0 +1,140 @@
+"""A recording of the plant put to the diagnosis, whose simulation leaves a part of the film physics out."""
+
+from __future__ import annotations
+
+import tempfile
+from dataclasses import asdict, dataclass
+from pathlib import Path
+from time import process_time
+
+import numpy as np
+
+from diagnosis.procedure.recorded import diagnose_recording
+from diagnosis.recording.model import Recording
+from diagnosis.study.acceptance import checked_recording
+from diagnosis.study.model import Study
+from diagnosis.study.prepare import prepare
+from diagnosis.study.scaled_pump import known_pump
+from diagnosis.thresholds import Thresholds, load_thresholds
+from diagnosis.verdict.diagnosis import Diagnosis, Estimate
+from gaps.films.physics import Effect
+from system.description.tolerances import tolerances
+from system.estimation.posterior import values_at
+from system.points.table.film_law import share_name
+from system.points.table.film_physics import NAMED, FilmModel
+
+from ..writing import write_recording
+from .films import OFF, model, pump
+from .plant import readings
+
+SEEDS = (61, 62, 63, 64)
+VISIBLE = 8.0
+"""Sigma from which a case is counted: what is concealed, less what the pump's own tolerances make of it."""
+
+
+@dataclass(frozen=True)
+class Case:
+    """A simulation without `off`, and the draw of calibrations and noise."""
+
+    off: tuple[Effect, ...]
+    seed: int
+
+    @property
+    def name(self) -> str:
+        """Name of its file."""
+        return "-".join([*(one.value for one in self.off), str(self.seed)]) if self.off else f"nothing-{self.seed}"
+
+    @property
+    def concealed(self) -> list[str]:
+        """The effects to be named."""
+        return sorted(NAMED[one].value for one in self.off)
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """What was said of a case.
+
+    claims: effect, probability, share with its sigma (none of effects outside the films); score: sigma of what is
+    concealed; chi2: per reading, before and after; held_out: rms over noise by channel, before and after.
+    """
+
+    name: str
+    concealed: list[str]
+    kind: str
+    status: str
+    claims: list[tuple[str, float, str]]
+    score: float
+    chi2: tuple[float, float]
+    held_out: dict[str, tuple[float, float]]
+    seconds: float
+
+    @property
+    def is_right(self) -> bool:
+        """True if exactly the concealed effects are named."""
+        return sorted(effect for effect, *_ in self.claims) == self.concealed
+
+    @property
+    def worst(self) -> float:
+        """The largest held-out rms over noise after the finding."""
+        return max(after for _, after in self.held_out.values())
+
+    def record(self) -> dict[str, object]:
+        """As JSON."""
+        return asdict(self)
+
+
+def all_cases() -> list[Case]:
+    """Forty: ten simulations, four draws each."""
+    return [Case(off, seed) for off in OFF for seed in SEEDS]
+
+
+def try_case(case: Case, tables: Path | None = None) -> Outcome:
+    """The diagnosis of a case; tables are kept in the cache, or in a folder."""
+    begun, thresholds, films = process_time(), load_thresholds(), model(case.off, folder=tables)
+    allowed, _ = tolerances(pump())
+
+    def prepared(usable: Recording) -> Study:
+        return prepare(pump(), usable, allowed, thresholds, films.catalogue, films=films)
+
+    with tempfile.TemporaryDirectory() as folder:
+        campaign, read = readings(case.seed)
+        write_recording(Path(folder), case.name, read, campaign.circuit)
+        recording = checked_recording(Path(folder), known_pump(pump()))
+    _, found = diagnose_recording(pump(), recording, prepared, thresholds)
+    return _outcome(case, found, score(prepared(recording), films, thresholds), process_time() - begun)
+
+
+def score(study: Study, films: FilmModel, thresholds: Thresholds) -> float:
+    """Sigma of all concealed parts together, at their whole size, beyond what the parameters can take up."""
+    extended = study.simulator.with_extensions(tuple(entry.extensions[0] for entry in films.entries))
+    names = [parameter.name for parameter in extended.parameters]
+    off = values_at(extended.parameters, np.zeros(len(names)))
+    on = off.copy()
+    for part in films.law.single:
+        on[names.index(share_name(part))] = 1.0
+    change = study.base.whitening.whiten(extended.predict(on) - extended.predict(off))
+    slopes = study.base.slopes
+    taken = slopes.T @ change
+    return float(np.sqrt(change @ change - taken @ np.linalg.solve(np.eye(len(taken)) + slopes.T @ slopes, taken)))
+
+
+def _outcome(case: Case, found: Diagnosis, reached: float, seconds: float) -> Outcome:
+    claims = [
+        (
+            one.effect.value,
+            one.probability,
+            ", ".join(f"{size.value:.2f} +- {size.sigma:.2f}" for size in one.parameters),
+        )
+        for one in found.effects
+    ]
+    fit = found.fit
+    return Outcome(
+        case.name, case.concealed, found.kind.value, found.status.value, claims, reached,
+        (found.before.objective / found.before.residual.size, found.after.objective / found.after.residual.size),
+        {name.value: (fit.before[name] / fit.noise[name], fit.after[name] / fit.noise[name]) for name in fit.before},
+        seconds,
+    )  # fmt: skip
+
+
+def _size(size: Estimate) -> str:
+    return f"{size.value:.2g} +- {size.sigma:.1g}"
