@@ -20,20 +20,24 @@ from system.work.progress import Report, silent
 PUMP = "ref90"
 SPEEDS, PRESSURES = (10.0 * STEPS[ChannelName.SPEED], 22.0 * STEPS[ChannelName.SPEED]), (5e6, 25e6)
 """Box of the tables, SI, as `film_box` rounds that of the campaign, at full displacement and the pump's temperature."""
-LEARNT, HELD_OUT = 16, 5
+LEARNT, HELD_OUT = 8, 3
 OFF: tuple[tuple[Effect, ...], ...] = (
+    (),
     (Effect.ELASTIC_WALLS,),
     (Effect.HEAT,),
     (Effect.PRESSURE_VISCOSITY,),
     (Effect.ROUGHNESS,),
-    (Effect.CAVITATION,),
     (Effect.ELASTIC_WALLS, Effect.HEAT),
     (Effect.HEAT, Effect.PRESSURE_VISCOSITY),
     (Effect.ELASTIC_WALLS, Effect.ROUGHNESS),
-    (Effect.CAVITATION, Effect.HEAT),
     (Effect.PRESSURE_VISCOSITY, Effect.ROUGHNESS),
 )
-"""What the simulations leave out."""
+"""What the simulations leave out. Without cavitation the block's film has no solution: it would bear tension."""
+
+
+def off_text(off: tuple[Effect, ...]) -> str:
+    """Name of what a simulation leaves out."""
+    return "-".join(one.value for one in off) or "nothing"
 
 
 @cache
