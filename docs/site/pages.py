@@ -11,7 +11,7 @@ PACKAGES = ("reynolds", "gaps", "system", "diagnosis", "swashfilm")
 CONTENTS = {
     "Start": ("/README", "tutorial", "gallery", "notebooks/film", "notebooks/pump", "wrong_results"),
     "Reference": ("files", "conventions", "/examples/README", "/meshes/README", "cluster", "api/index"),
-    "Background": ("theory", "architecture", "validation", "proof", "Reproduction <reproduction>",
+    "Background": ("theory", "architecture", "validation", "proof", "proof_floating", "Reproduction <reproduction>",
                    "Reproduction with films <reproduction_fixed>",
                    "Reproduction with floating films <reproduction_floating>", "benchmarks", "/CHANGELOG"),
 }  # fmt: skip

@@ -64,7 +64,8 @@ def _of_sets(outcomes: Sequence[Outcome], models: dict[str, FilmModel]) -> str:
 
 def _of_cases(outcomes: Sequence[Outcome]) -> str:
     head = (
-        "case", "concealed", "sigma", "", "verdict", "named, probability (share)", "held out over noise, before / after",
+        "case", "concealed", "sigma", "", "verdict", "named, probability (share)",
+        "held out over noise: before, after",
         "chi2 per reading", "s",
     )  # fmt: skip
     return "\n## Cases\n\n" + table(head, [_row(one) for one in outcomes])
