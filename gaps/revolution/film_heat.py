@@ -18,7 +18,7 @@ from gaps.films.reports import Reported
 from gaps.revolution.march import GapRevolution, Leg, TurnReport, no_report, run_revolution
 from gaps.revolution.schedule import Accuracy, Schedule
 from gaps.revolution.stopped import TurnStopped
-from gaps.revolution.warmth import GapTemperatures, HeatFlows, ViscosityRatios, thinned
+from gaps.revolution.warmth import Found, GapTemperatures, HeatFlows, ViscosityRatios, thinned
 from reynolds.equation.coefficients import at_points
 from reynolds.errors import FilmNotConverged, InputError
 from reynolds.floating.problem import Floating
@@ -41,8 +41,6 @@ AGREED, ROUGHLY = 1e-3, 1e-2  # relative change of viscosity within an angle, at
 THINS = 3e-3  # 1/K: a tenth of what oils thin by
 WALL_SETTLED = 0.05  # K
 MOST_WALL_ROUNDS = 40
-
-Found = Coupled[FilmTemperature]
 
 
 @dataclass(frozen=True)
@@ -105,10 +103,11 @@ def warm_revolution(
 ) -> GapRevolution[Reported]:
     """The periodic motion of a gap and its temperatures that agree, with `warmth`; else as `run_revolution`.
 
-    Afterwards one more round would change viscosity by CLOSE at most (root mean square). Raises as
-    `run_revolution`, FilmInputError where the oil's law ends, and FilmNotConverged.
+    Afterwards one more round would change viscosity by CLOSE at most (root mean square), where `accuracy` is settled.
+    Raises as `run_revolution`, FilmInputError where the oil's law ends, and FilmNotConverged.
     """
     began, films, found, spent = perf_counter(), 0, before, {}
+    accuracy = accuracy or Accuracy()
     warmed = _warmed_angles(schedule.angles)
     schedule = replace(schedule, breaks=np.union1d(schedule.breaks, warmed))  # their films are needed
     warm = _Warming(floating, schedule.speed, warmed, report_of, heat, None if before is None else before.warmth)
@@ -122,7 +121,7 @@ def warm_revolution(
         if warm.shares is None:  # the motion without heat, which any way to it has
             spent = dict(found.spent)
         warmth = warm.of(found, rounds)
-        if warmth.change <= CLOSE:
+        if warmth.change <= CLOSE or not accuracy.settled:
             spent[Leg.HEAT] = perf_counter() - began - sum(spent.values())
             return replace(found, films_solved=films, spent=spent, warmth=warmth)
     raise FilmNotConverged(
@@ -154,6 +153,8 @@ class _Warming(Generic[Reported]):
         self._gathered: dict[float, FilmSolution] = {}
         self._solver = FilmSolver(floating.shape_at(0.0).space)
         self._warm: dict[float, Found] = {}
+        if last is not None and len(last.films) == len(angles):
+            self._warm = dict(zip(self._times, last.films, strict=True))
         self._walls = heat.outside if last is None else last.walls
         self.shares = None if last is None else last.shares
 
@@ -181,10 +182,11 @@ class _Warming(Generic[Reported]):
             flows=self._flows(rubbing),
             change=float(np.sqrt(np.mean(change**2))),
             rounds=rounds,
+            films=tuple(films),
         )
 
     def _settle(self, rubbing: float) -> None:
-        """Warm all films, and the walls by what they take over the turn.
+        """Warm all films, and the walls by what they take over the turn until they stay.
 
         Films need not agree better with their viscosity than walls that still change leave it.
         """
