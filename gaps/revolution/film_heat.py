@@ -7,6 +7,8 @@ its resistance. Rounds of motion with the viscosity so found, and of temperature
 rates and cavities of that motion, until viscosity stays.
 """
 
+from __future__ import annotations
+
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from time import perf_counter
@@ -37,10 +39,21 @@ from reynolds.thermal.walls import GivenTemperature
 WARMED, FEWEST = 24, 4  # angles of a turn with their own temperatures, and of a pitch at least
 CLOSE = 0.01  # relative change of viscosity by one more round, root mean square
 MOST_ROUNDS = 12
-AGREED, ROUGHLY = 1e-3, 1e-2  # relative change of viscosity within an angle, at the end and at first
+ROUGHLY = 1e-2  # relative change of viscosity within an angle, at first
 THINS = 3e-3  # 1/K: a tenth of what oils thin by
-WALL_SETTLED = 0.05  # K
 MOST_WALL_ROUNDS = 40
+
+
+@dataclass(frozen=True)
+class HeatTolerance:
+    """Changes at which temperatures count as settled: of walls, K, and relative of viscosity within an angle."""
+
+    walls: float
+    viscosity: float
+
+
+SETTLED, NEARLY = HeatTolerance(0.05, 1e-3), HeatTolerance(0.1, 2e-3)
+"""Of a motion that settles with its temperatures, and of one turn on the way there."""
 
 
 @dataclass(frozen=True)
@@ -120,7 +133,7 @@ def warm_revolution(
         films += found.films_solved
         if warm.shares is None:  # the motion without heat, which any way to it has
             spent = dict(found.spent)
-        warmth = warm.of(found, rounds)
+        warmth = warm.of(found, rounds, SETTLED if accuracy.settled else NEARLY)
         if warmth.change <= CLOSE or not accuracy.settled:
             spent[Leg.HEAT] = perf_counter() - began - sum(spent.values())
             return replace(found, films_solved=films, spent=spent, warmth=warmth)
@@ -164,10 +177,10 @@ class _Warming(Generic[Reported]):
             self._gathered[stage.time] = stage.solution
         return self._report_of(stage)
 
-    def of(self, found: GapRevolution[Reported], rounds: int) -> GapTemperatures:
-        """The temperatures of the films gathered over the turn just passed."""
+    def of(self, found: GapRevolution[Reported], rounds: int, enough: HeatTolerance) -> GapTemperatures:
+        """The temperatures of the films gathered over the turn just passed, as near as is enough."""
         rubbing = float(np.mean([instant.report.heat.rubbing for instant in found.turn.instants]))
-        self._settle(rubbing)
+        self._settle(rubbing, enough)
         films = [self._warm[time] for time in self._times]
         logs = self._over_turn([np.log(one.share) for one in films])
         shares, before = ViscosityRatios(np.concatenate([[0.0], self._angles]), logs), self.shares
@@ -185,7 +198,7 @@ class _Warming(Generic[Reported]):
             films=tuple(films),
         )
 
-    def _settle(self, rubbing: float) -> None:
+    def _settle(self, rubbing: float, enough: HeatTolerance) -> None:
         """Warm all films, and the walls by what they take over the turn until they stay.
 
         Films need not agree better with their viscosity than walls that still change leave it.
@@ -196,9 +209,9 @@ class _Warming(Generic[Reported]):
                 self._warm[time] = self._warmed(time, agreed)
             image = self._wall_image(rubbing)
             change = float(np.abs(image - self._walls).max())
-            if change < WALL_SETTLED and agreed == AGREED:
+            if change < enough.walls and agreed <= enough.viscosity:
                 return
-            agreed = min(ROUGHLY, max(AGREED, THINS * change))
+            agreed = min(ROUGHLY, max(enough.viscosity, THINS * change))
             self._walls = history.extrapolate(self._walls, image)
         raise FilmNotConverged(
             f"{self._floating.name}: temperature of the walls not settled after {MOST_WALL_ROUNDS} rounds",

@@ -41,8 +41,10 @@ class Accuracy:
     def rough(self) -> Accuracy:
         """The same for turns of wide steps that only lead near to the periodic motion.
 
-        Their steps are more exact, so that the first turn that stops at all angles closes.
+        Their steps are more exact, so that the first turn that stops at all angles closes, if it is to.
         """
+        if not self.settled:
+            return self
         return replace(self, step=max(self.step / MORE_EXACT, min(self.step, self.closed)))
 
 
