@@ -52,8 +52,8 @@ class HeatTolerance:
     viscosity: float
 
 
-SETTLED, NEARLY = HeatTolerance(0.05, 1e-3), HeatTolerance(0.1, 2e-3)
-"""Of a motion that settles with its temperatures, and of one turn on the way there."""
+SETTLED, NEARLY, COLD = HeatTolerance(0.05, 1e-3), HeatTolerance(0.1, 2e-3), HeatTolerance(1.0, ROUGHLY)
+"""Of a motion that settles with its temperatures; of one turn on the way there, and of one without heat."""
 
 
 @dataclass(frozen=True)
@@ -133,7 +133,8 @@ def warm_revolution(
         films += found.films_solved
         if warm.shares is None:  # the motion without heat, which any way to it has
             spent = dict(found.spent)
-        warmth = warm.of(found, rounds, SETTLED if accuracy.settled else NEARLY)
+        on_the_way = COLD if warm.shares is None else NEARLY
+        warmth = warm.of(found, rounds, SETTLED if accuracy.settled else on_the_way)
         if warmth.change <= CLOSE or not accuracy.settled:
             spent[Leg.HEAT] = perf_counter() - began - sum(spent.values())
             return replace(found, films_solved=films, spent=spent, warmth=warmth)
@@ -203,10 +204,10 @@ class _Warming(Generic[Reported]):
 
         Films need not agree better with their viscosity than walls that still change leave it.
         """
-        history, agreed = History(), ROUGHLY
+        history, agreed, near = History(), ROUGHLY, None
         for _ in range(MOST_WALL_ROUNDS):
             for time in self._times:
-                self._warm[time] = self._warmed(time, agreed)
+                near = self._warm[time] = self._warmed(time, agreed, self._warm.get(time, near))
             image = self._wall_image(rubbing)
             change = float(np.abs(image - self._walls).max())
             if change < enough.walls and agreed <= enough.viscosity:
@@ -227,8 +228,10 @@ class _Warming(Generic[Reported]):
         taken = np.array([flows.to_fixed, flows.to_moving]) / area
         return wall_image(heat, self._walls, taken, self._mean(passing) / area)
 
-    def _warmed(self, time: float, agreed: float) -> Found:
+    def _warmed(self, time: float, agreed: float, near: Found | None) -> Found:
         """The film of a time, of the viscosity that its own temperature makes to within `agreed`, its shape as it is.
+
+        It starts from a film near it, if any.
 
         Oil is as stiff as the motion's pressure makes it, to which that of a film of given shape comes back as
         both agree: under its own a thin one between walls then rigid would stiffen without bound.
@@ -240,7 +243,7 @@ class _Warming(Generic[Reported]):
         problem = replace(film.problem, film=resting, fluid=Fluid(isoviscous, cold.fluid.density))
         posed = ThermalCase(problem, local_law(problem, heat), heat.of(problem, self._walls), at_once=True)
         try:
-            return _with_heat(agree(posed, levels(), agreed, self._solver, self._warm.get(time)))
+            return _with_heat(agree(posed, levels(), agreed, self._solver, near))
         except (InputError, FilmNotConverged) as reason:
             angle = float(self._angles[self._times == time][0])
             why = reason.what if isinstance(reason, FilmNotConverged) else str(reason)
