@@ -151,7 +151,7 @@ def floating_point(
         while not rounds or not (rounds[-1].settled and _agree(rounds[-1])):
             if len(rounds) == ROUND_LIMIT:
                 raise _not_settled(rounds[-1])
-            closing = replace(asked, options=_approaching(options, rounds))
+            closing = replace(asked, options=_approaching(options, rounds, cold=near is None))
             found = _round(closing, group, left, gaps, beside, whole.begun())
             asked, gaps = found.asked, found.gaps
             rounds.append(found.taken)
@@ -253,11 +253,14 @@ def _spin_change(one: Rotor, other: Rotor) -> float:
     return change / one.point.shaft_speed
 
 
-def _approaching(options: FloatingOptions, rounds: list[Round]) -> FloatingOptions:
-    """Accuracy of a round's gaps: one turn of each until they nearly agree with the chambers, the first one roughly."""
+def _approaching(options: FloatingOptions, rounds: list[Round], *, cold: bool) -> FloatingOptions:
+    """Accuracy of a round's gaps: one turn of each until they nearly agree with the chambers.
+
+    The first one of `cold` gaps, which have no start, has wide steps.
+    """
     exact = options.accuracy
     if not rounds:
-        return replace(options, accuracy=replace(exact, step=max(exact.step, FIRST_STEP), settled=False))
+        return replace(options, accuracy=replace(exact, step=max(exact.step, FIRST_STEP * cold), settled=False))
     settled = rounds[-1].settled or _agree(rounds[-1], NEARLY)
     return replace(options, accuracy=replace(exact, settled=settled))
 
