@@ -7,6 +7,8 @@ its resistance. Rounds of motion with the viscosity so found, and of temperature
 rates and cavities of that motion, until viscosity stays.
 """
 
+from __future__ import annotations
+
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from time import perf_counter
@@ -18,7 +20,7 @@ from gaps.films.reports import Reported
 from gaps.revolution.march import GapRevolution, Leg, TurnReport, no_report, run_revolution
 from gaps.revolution.schedule import Accuracy, Schedule
 from gaps.revolution.stopped import TurnStopped
-from gaps.revolution.warmth import GapTemperatures, HeatFlows, ViscosityRatios, thinned
+from gaps.revolution.warmth import Found, GapTemperatures, HeatFlows, ViscosityRatios, thinned
 from reynolds.equation.coefficients import at_points
 from reynolds.errors import FilmNotConverged, InputError
 from reynolds.floating.problem import Floating
@@ -37,12 +39,21 @@ from reynolds.thermal.walls import GivenTemperature
 WARMED, FEWEST = 24, 4  # angles of a turn with their own temperatures, and of a pitch at least
 CLOSE = 0.01  # relative change of viscosity by one more round, root mean square
 MOST_ROUNDS = 12
-AGREED, ROUGHLY = 1e-3, 1e-2  # relative change of viscosity within an angle, at the end and at first
+ROUGHLY = 1e-2  # relative change of viscosity within an angle, at first
 THINS = 3e-3  # 1/K: a tenth of what oils thin by
-WALL_SETTLED = 0.05  # K
 MOST_WALL_ROUNDS = 40
 
-Found = Coupled[FilmTemperature]
+
+@dataclass(frozen=True)
+class HeatTolerance:
+    """Changes at which temperatures count as settled: of walls, K, and relative of viscosity within an angle."""
+
+    walls: float
+    viscosity: float
+
+
+SETTLED, NEARLY, COLD = HeatTolerance(0.05, 1e-3), HeatTolerance(0.1, 2e-3), HeatTolerance(1.0, ROUGHLY)
+"""Of a motion that settles with its temperatures; of one turn on the way there, and of one without heat."""
 
 
 @dataclass(frozen=True)
@@ -105,10 +116,11 @@ def warm_revolution(
 ) -> GapRevolution[Reported]:
     """The periodic motion of a gap and its temperatures that agree, with `warmth`; else as `run_revolution`.
 
-    Afterwards one more round would change viscosity by CLOSE at most (root mean square). Raises as
-    `run_revolution`, FilmInputError where the oil's law ends, and FilmNotConverged.
+    Afterwards one more round would change viscosity by CLOSE at most (root mean square), where `accuracy` is settled.
+    Raises as `run_revolution`, FilmInputError where the oil's law ends, and FilmNotConverged.
     """
     began, films, found, spent = perf_counter(), 0, before, {}
+    accuracy = accuracy or Accuracy()
     warmed = _warmed_angles(schedule.angles)
     schedule = replace(schedule, breaks=np.union1d(schedule.breaks, warmed))  # their films are needed
     warm = _Warming(floating, schedule.speed, warmed, report_of, heat, None if before is None else before.warmth)
@@ -121,8 +133,9 @@ def warm_revolution(
         films += found.films_solved
         if warm.shares is None:  # the motion without heat, which any way to it has
             spent = dict(found.spent)
-        warmth = warm.of(found, rounds)
-        if warmth.change <= CLOSE:
+        on_the_way = COLD if warm.shares is None else NEARLY
+        warmth = warm.of(found, rounds, SETTLED if accuracy.settled else on_the_way)
+        if warmth.change <= CLOSE or not accuracy.settled:
             spent[Leg.HEAT] = perf_counter() - began - sum(spent.values())
             return replace(found, films_solved=films, spent=spent, warmth=warmth)
     raise FilmNotConverged(
@@ -154,6 +167,8 @@ class _Warming(Generic[Reported]):
         self._gathered: dict[float, FilmSolution] = {}
         self._solver = FilmSolver(floating.shape_at(0.0).space)
         self._warm: dict[float, Found] = {}
+        if last is not None and len(last.films) == len(angles):
+            self._warm = dict(zip(self._times, last.films, strict=True))
         self._walls = heat.outside if last is None else last.walls
         self.shares = None if last is None else last.shares
 
@@ -163,10 +178,10 @@ class _Warming(Generic[Reported]):
             self._gathered[stage.time] = stage.solution
         return self._report_of(stage)
 
-    def of(self, found: GapRevolution[Reported], rounds: int) -> GapTemperatures:
-        """The temperatures of the films gathered over the turn just passed."""
+    def of(self, found: GapRevolution[Reported], rounds: int, enough: HeatTolerance) -> GapTemperatures:
+        """The temperatures of the films gathered over the turn just passed, as near as is enough."""
         rubbing = float(np.mean([instant.report.heat.rubbing for instant in found.turn.instants]))
-        self._settle(rubbing)
+        self._settle(rubbing, enough)
         films = [self._warm[time] for time in self._times]
         logs = self._over_turn([np.log(one.share) for one in films])
         shares, before = ViscosityRatios(np.concatenate([[0.0], self._angles]), logs), self.shares
@@ -181,22 +196,23 @@ class _Warming(Generic[Reported]):
             flows=self._flows(rubbing),
             change=float(np.sqrt(np.mean(change**2))),
             rounds=rounds,
+            films=tuple(films),
         )
 
-    def _settle(self, rubbing: float) -> None:
-        """Warm all films, and the walls by what they take over the turn.
+    def _settle(self, rubbing: float, enough: HeatTolerance) -> None:
+        """Warm all films, and the walls by what they take over the turn until they stay.
 
         Films need not agree better with their viscosity than walls that still change leave it.
         """
-        history, agreed = History(), ROUGHLY
+        history, agreed, near = History(), ROUGHLY, None
         for _ in range(MOST_WALL_ROUNDS):
             for time in self._times:
-                self._warm[time] = self._warmed(time, agreed)
+                near = self._warm[time] = self._warmed(time, agreed, self._warm.get(time, near))
             image = self._wall_image(rubbing)
             change = float(np.abs(image - self._walls).max())
-            if change < WALL_SETTLED and agreed == AGREED:
+            if change < enough.walls and agreed <= enough.viscosity:
                 return
-            agreed = min(ROUGHLY, max(AGREED, THINS * change))
+            agreed = min(ROUGHLY, max(enough.viscosity, THINS * change))
             self._walls = history.extrapolate(self._walls, image)
         raise FilmNotConverged(
             f"{self._floating.name}: temperature of the walls not settled after {MOST_WALL_ROUNDS} rounds",
@@ -212,8 +228,10 @@ class _Warming(Generic[Reported]):
         taken = np.array([flows.to_fixed, flows.to_moving]) / area
         return wall_image(heat, self._walls, taken, self._mean(passing) / area)
 
-    def _warmed(self, time: float, agreed: float) -> Found:
+    def _warmed(self, time: float, agreed: float, near: Found | None) -> Found:
         """The film of a time, of the viscosity that its own temperature makes to within `agreed`, its shape as it is.
+
+        It starts from a film near it, if any.
 
         Oil is as stiff as the motion's pressure makes it, to which that of a film of given shape comes back as
         both agree: under its own a thin one between walls then rigid would stiffen without bound.
@@ -225,7 +243,7 @@ class _Warming(Generic[Reported]):
         problem = replace(film.problem, film=resting, fluid=Fluid(isoviscous, cold.fluid.density))
         posed = ThermalCase(problem, local_law(problem, heat), heat.of(problem, self._walls), at_once=True)
         try:
-            return _with_heat(agree(posed, levels(), agreed, self._solver, self._warm.get(time)))
+            return _with_heat(agree(posed, levels(), agreed, self._solver, near))
         except (InputError, FilmNotConverged) as reason:
             angle = float(self._angles[self._times == time][0])
             why = reason.what if isinstance(reason, FilmNotConverged) else str(reason)

@@ -20,7 +20,7 @@ from reynolds.floating.problem import Floating
 from reynolds.floating.stage import FloatingStage
 from reynolds.numerics.arrays import Array
 from reynolds.numerics.dirk import ALEXANDER_2, Tableau
-from reynolds.numerics.shooting import PeriodicTurn, approached, periodic
+from reynolds.numerics.shooting import PeriodicTurn, approached, one_turn, periodic
 from reynolds.solve.solver import FilmSolver
 
 TurnReport = Callable[[str, float], None]
@@ -70,9 +70,10 @@ class GapRevolution(Generic[Value]):
 
     @property
     def bare(self) -> GapRevolution[Value]:
-        """The same without its last film and oil: a march from it starts as a full film at its end."""
+        """The same without its last film and oil and its warmed films: a march from it starts as a full film."""
         turn = replace(self.turn, oil=(), last=replace(self.turn.last, stage=None))
-        return replace(self, turn=turn, closing=replace(self.closing, turn=turn))
+        warmth = None if self.warmth is None else replace(self.warmth, films=())
+        return replace(self, turn=turn, closing=replace(self.closing, turn=turn), warmth=warmth)
 
     @property
     def mean_film(self) -> float:
@@ -102,22 +103,26 @@ def run_revolution(
     Starts as a full film at rest at `start` (k,) m, from which turns of wide steps lead next to the periodic
     motion, or goes on from a revolution `before` it, of a full film where that has no last one; `report_of` gives
     the report of each angle. The steps of the first turn that stops at all angles are those of all that follow, so
-    that the map of a turn is smooth. Afterwards each coordinate is as near to the periodic motion as
-    `closed` says, and the oil in the film repeats as well. Raises FilmInputError for a schedule that does not rise
-    from 0, FilmNotConverged with part and time where a step or the turn does not settle.
+    that the map of a turn is smooth. Afterwards each coordinate is as near to the periodic motion as `closed` says,
+    and the oil in the film repeats as well; where `accuracy` is not settled, one turn more has been run. Raises
+    FilmInputError for a schedule that does not rise from 0, FilmNotConverged with part and time where a step or the
+    turn does not settle.
     """
     angles = np.concatenate([[0.0], schedule.angles])
     if len(angles) < 2 or not np.all(np.diff(angles) > 0.0) or not schedule.speed > 0.0:
         raise FilmInputError("revolution", f"angles {schedule.angles[:5]} rad at {schedule.speed:g} rad/s", "rising")
     began, accuracy = perf_counter(), accuracy or Accuracy()
-    films, opening = 0, None if before is None else before.turn
-    if opening is None:
+    films = 0
+    if before is None:
         approach = _numbered(report, "approach, turn")
         first = Turns(solver, floating, schedule.wide, report_of, accuracy.rough, method, None, approach)
-        opening = approached(first.turn, start)
+        near = (approached if accuracy.settled else one_turn)(first.turn, start)
         films = first.films_solved
+    else:
+        near = before.closing
+    opening = near.turn
     run = Turns(solver, floating, schedule, report_of, accuracy, method, opening, _numbered(report, "turn"))
-    closing = periodic(run.turn, opening.end)
+    closing = (periodic if accuracy.settled else one_turn)(run.turn, near.onward)
     leg = Leg.RIGID if floating.shape_at(0.0).walls is None else Leg.ELASTIC
     spent = {leg: perf_counter() - began}
     return GapRevolution(closing.turn, closing, films + run.films_solved, spent)

@@ -21,7 +21,8 @@ class Accuracy:
     step, floor: largest error of the film by one step, share of it in each place and m beside it; balance: share
     of that error within which forces are taken along their slopes; closed: distance from the periodic motion,
     share of the mean film, and oil that differs in place after a turn, share of all; reach: distance of the next
-    start from a turn's end, share of the least film there.
+    start from a turn's end, share of the least film there. settled: turns and temperatures until both agree; else one
+    turn and its temperatures, on the way to a motion whose drive is still to change.
     """
 
     step: float = 1e-3
@@ -29,6 +30,7 @@ class Accuracy:
     balance: float = 1e-2
     closed: float = 1e-3
     reach: float = 0.25
+    settled: bool = True
 
     @property
     def closeness(self) -> Closeness:
@@ -39,8 +41,10 @@ class Accuracy:
     def rough(self) -> Accuracy:
         """The same for turns of wide steps that only lead near to the periodic motion.
 
-        Their steps are more exact, so that the first turn that stops at all angles closes.
+        Their steps are more exact, so that the first turn that stops at all angles closes, if it is to.
         """
+        if not self.settled:
+            return self
         return replace(self, step=max(self.step / MORE_EXACT, min(self.step, self.closed)))
 
 

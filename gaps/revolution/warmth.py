@@ -6,8 +6,11 @@ import numpy as np
 
 from reynolds.floating.problem import Floating
 from reynolds.numerics.arrays import Array
-from reynolds.thermal.coupling import with_profile
+from reynolds.thermal.coupling import Coupled, with_profile
+from reynolds.thermal.energy import FilmTemperature
 from reynolds.thermal.film_profile import dowson, levels
+
+Found = Coupled[FilmTemperature]
 
 
 @dataclass(frozen=True)
@@ -73,7 +76,7 @@ class GapTemperatures:
     shares: the viscosity at these temperatures; film (n + 1, size) K, mean over the thickness at the angles
     of `shares`; walls (2,) K of the fixed and the moving part; mean and hottest (n,) K of the film at its angles;
     flows: means over the turn; change: root mean square relative change of viscosity by one more round; rounds of
-    motion and temperature.
+    motion and temperature; films: those warmed, from which the next ones start.
     """
 
     shares: ViscosityRatios
@@ -84,6 +87,7 @@ class GapTemperatures:
     flows: HeatFlows
     change: float
     rounds: int
+    films: tuple[Found, ...] = field(repr=False, default=())
 
     @property
     def angles(self) -> Array:

@@ -9,7 +9,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from gaps.revolution.film_heat import AGREED, MOST_WALL_ROUNDS, WALL_SETTLED, GapHeat, local_law, wall_image
+from gaps.revolution.film_heat import MOST_WALL_ROUNDS, SETTLED, GapHeat, local_law, wall_image
 from reynolds.errors import FilmNotConverged
 from reynolds.floating.problem import Floating
 from reynolds.floating.rest import held_at
@@ -41,7 +41,7 @@ def warm_turn(
         warm = [_agreed(solver, each, heat, walls, before) for each, before in pairs]
         taken = np.mean([_to_walls(one) for one in warm], axis=0) + 0.5 * rubbing
         image = wall_image(heat, walls, taken / area, conductance)
-        if np.abs(image - walls).max() < WALL_SETTLED:
+        if np.abs(image - walls).max() < SETTLED.walls:
             return [_held_warm(solver, floating, one, of) for one, of in zip(cold, warm, strict=True)]
         walls, found = history.extrapolate(walls, image), list(warm)
     raise FilmNotConverged(
@@ -54,7 +54,7 @@ def _agreed(solver: FilmSolver, cold: FloatingStage, heat: GapHeat, walls: Array
     """Film and temperature that agree, started from a film warmed before."""
     problem = cold.solution.problem
     posed = ThermalCase(problem, local_law(problem, heat), heat.of(problem, walls), at_once=True)
-    return agree(posed, levels(), AGREED, solver, before)
+    return agree(posed, levels(), SETTLED.viscosity, solver, before)
 
 
 def _held_warm(solver: FilmSolver, floating: Floating, cold: FloatingStage, found: Warm) -> FloatingStage:

@@ -18,6 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gaps.walls.parts import Pose
+from gaps.walls.piston_kernels import add_turned
 from gaps.walls.user_mesh import CHAMBER
 from reynolds.bodies.foundation import Compliance
 from reynolds.bodies.wall import Body, FacePressure, body_wall, load_deformation
@@ -54,6 +55,11 @@ class FaceGrid:
         return int(self.influence.shape[1])
 
     @cached_property
+    def by_row(self) -> Array:
+        """Deformation at a row and column by pressure all along a row, (n, period, n) m/Pa."""
+        return np.asarray(self.influence.sum(axis=2))
+
+    @cached_property
     def mass(self) -> Array:
         """Integrals of the products of the rows' hats, (n, n) m."""
         return _products(self.rows, self.rows, self.rows[0], self.rows[-1])
@@ -85,35 +91,12 @@ def _of_one_period(influence: Array) -> Array:
     return np.ascontiguousarray(influence[:, :columns])
 
 
-def _turned(influence: Array, angle: float) -> Array:
-    """The influence of a part turned by an angle (rad) around its axis, at fixed columns.
-
-    Between two columns the mean of the part turned to either: as good as columns are fine, and force and work stay
-    the same on both sides.
-    """
-    period, columns = influence.shape[1:3]
-    if period == 1:
-        return influence
-    whole = _all_around(influence)[:, :-1]
-    after, share = divmod(angle / (2.0 * np.pi) * columns, 1.0)
-    one, two = (np.roll(whole, (int(after) + k, int(after) + k), axis=(1, 2)) for k in (0, 1))
-    return np.asarray((1.0 - share) * one + share * two)
-
-
 def _around(opened: Array, angle: float) -> Array:
     """Deformation by a part turned by an angle (rad), (n, columns + 1), the seam's column twice."""
     after, share = divmod(angle / (2.0 * np.pi) * (opened.shape[1] - 1), 1.0)
     one, two = (np.roll(opened[:, :-1], int(after) + k, axis=1) for k in (0, 1))
     turned = (1.0 - share) * one + share * two
     return np.column_stack([turned, turned[:, 0]])
-
-
-def _all_around(influence: Array) -> Array:
-    """The influence on every column, (n, columns + 1, columns, m), from that of a period."""
-    period, columns = influence.shape[1:3]
-    column = np.arange(columns + 1)
-    turned = (np.arange(columns) - (column - column % period)[:, None]) % columns
-    return influence[:, (column % period)[:, None], turned]
 
 
 @dataclass(frozen=True)
@@ -127,6 +110,9 @@ class ChamberInfluence:
     deformation: Array
     piston: Array
     chamber_growth: float
+
+
+_Placed = tuple[FaceGrid, float, float]  # a part, the place (m) in the film plane from which its rows count, its angle
 
 
 @dataclass(frozen=True)
@@ -143,14 +129,11 @@ class PistonWalls:
         The film plane is that of `gaps.films.piston`. Raises FilmInputError for a film with other columns than
         the faces have, and for one that reaches beyond a part.
         """
-        one, two = (_turned(_on_film_rows(grid, film, start), angle) for grid, start, angle in self._parts(pose))
-        total = _all_around(one + two) if one.shape == two.shape else _all_around(one) + _all_around(two)
-        return _placed(total, film)
+        return _compliance(film, self._parts(pose))
 
     def piston_at(self, film: FilmSpace, pose: Pose) -> Compliance:
         """The piston alone; raises as `at`."""
-        grid, start, angle = self._parts(pose)[1]
-        return _placed(_all_around(_turned(_on_film_rows(grid, film, start), angle)), film)
+        return _compliance(film, self._parts(pose)[1:])
 
     def by_chamber(self, film: FilmSpace, pose: Pose) -> ChamberInfluence:
         """Influence of the chamber's pressure on faces outside the film."""
@@ -161,35 +144,42 @@ class PistonWalls:
             rows = film.vertices[vertices[:, 0], 1] - start
             _, back = _between(grid, rows)
             bare = _bare(grid, float(rows[0]))
-            loaded = (grid.influence @ bare).sum(axis=2)[:, np.arange(grid.columns + 1) % grid.period]
+            loaded = (grid.by_row @ bare)[:, np.arange(grid.columns + 1) % grid.period]
             part[vertices] = back @ _around(grid.by_chamber + loaded, angle)
             both = (loaded + 2.0 * grid.by_chamber)[:, :-1].mean(axis=1)  # faces and bare rows deform each other
             swollen += width * float(bare @ grid.mass @ both)
         return ChamberInfluence(opened.sum(axis=0), opened[1], swollen)
 
-    def _parts(self, pose: Pose) -> tuple[tuple[FaceGrid, float, float], tuple[FaceGrid, float, float]]:
+    def _parts(self, pose: Pose) -> tuple[_Placed, _Placed]:
         """Each part with the place (m) in the film plane from which its rows count, and its angle."""
         start = self.guide_length - pose.reach
         return (self.bushing, 0.0, pose.fixed), (self.piston, start, pose.moving)
 
 
-def _placed(influence: Array, film: FilmSpace) -> Compliance:
-    """An influence on every column (rows, columns + 1, columns, rows) by the film's own numbering."""
+def _compliance(film: FilmSpace, parts: tuple[_Placed, ...]) -> Compliance:
+    """Parts together by the film's own numbering.
+
+    Between two columns the mean of the part turned to either: as good as columns are fine, and force and work stay
+    the same on both sides.
+    """
     vertices, unknowns = _numbers(film)
-    matrix = np.empty((len(film.vertices), film.size))
-    matrix[np.ix_(vertices.ravel(), unknowns.T.ravel())] = influence.reshape(matrix.shape)
+    matrix, rows = np.zeros((len(film.vertices), film.size)), film.vertices[vertices[:, 0], 1]
+    for grid, start, angle in parts:
+        if unknowns.shape[1] != grid.columns:
+            found = f"{unknowns.shape[1]} cells around a film"
+            raise FilmInputError("piston walls", found, f"{grid.columns}, as around the parts' faces")
+        after, share = divmod(angle / (2.0 * np.pi) * grid.columns, 1.0)
+        influence = _on_film_rows(grid, tuple((rows - start).tolist()))
+        add_turned(influence, int(after), share, vertices, unknowns, matrix)
     return Compliance(matrix)
 
 
-def _on_film_rows(grid: FaceGrid, film: FilmSpace, start: float) -> Array:
-    """The part's compliance on the film's rows, (rows, period, columns, rows) m/Pa."""
-    vertices, unknowns = _numbers(film)
-    if unknowns.shape[1] != grid.columns:
-        found = f"{unknowns.shape[1]} cells around a film"
-        raise FilmInputError("piston walls", found, f"{grid.columns}, as around the parts' faces")
-    there, back = _between(grid, film.vertices[vertices[:, 0], 1] - start)
+@lru_cache(maxsize=8)
+def _on_film_rows(grid: FaceGrid, rows: tuple[float, ...]) -> Array:
+    """The part's compliance on a film's rows, (rows, period, columns, rows) m/Pa, kept for the films of an instant."""
+    there, back = _between_rows(grid, rows)
     opened = back @ grid.influence.reshape(len(grid.rows), -1)
-    shape = (len(vertices), grid.period, grid.columns, len(vertices))
+    shape = (len(rows), grid.period, grid.columns, len(rows))
     return np.asarray(opened.reshape(-1, len(grid.rows)) @ there).reshape(shape)
 
 

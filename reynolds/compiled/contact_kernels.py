@@ -22,14 +22,10 @@ def _touched(table, compliance, seats, shares, given, alone, found, bears, slope
             knot, share, steep = place(table, given[v] + found[v])
             bears[v], slopes[v] = read(table, knot, share, steep, CONTACT)
             pressed[seats[v]] += shares[v] * bears[v]
-    total = 0.0
-    for v in range(len(found)):
-        opened = 0.0
-        for i in range(len(pressed)):
-            opened += compliance[v, i] * pressed[i]
-        rest[v] = found[v] - alone[v] - opened
-        total += rest[v] * rest[v]
-    return np.sqrt(total)
+    rest[:] = found - alone
+    if pressed.any():
+        rest -= np.dot(compliance, pressed)
+    return np.sqrt(np.dot(rest, rest))
 
 
 @njit(**_FAST)

@@ -132,7 +132,7 @@ class FilmSpace:
         return _ONE if self.sphere.is_plane else self.sphere.normal(*self.points)[2]
 
     def _places(self, shares: Array) -> Array:
-        return np.moveaxis(np.einsum("qv,evd->eqd", shares, self.vertices[self.cells]), 2, 0)
+        return np.stack([along[self.cells] @ shares.T for along in self.vertices.T])
 
     @cached_property
     def edge_share(self) -> dict[str, Array]:

@@ -31,6 +31,8 @@ MOST_HALVINGS, FEW_HALVINGS = 8, 3  # of a step where a law ends, and where flow
 TOLERANCE = 1e-8  # of the magnitudes that balance in a generalised force
 FILM_TOLERANCE = 1e-11  # of the flows that meet at an unknown
 LOOSE_FILM = 1e-5  # the same where the next step would be within the closeness
+KEPT = 1e-3  # the same below which slopes serve once more
+KEPT_GAIN = 0.1  # of a step's imbalance, that the step before may have left for its slopes to serve
 
 
 @dataclass(frozen=True)
@@ -129,11 +131,11 @@ class JointSearch:
     def stage(self, q: Array, warm: FilmSolution) -> JointStage | None:
         """The stage reached from a position (k,) m and a film near it; None where the way is not plain."""
         try:
-            at = self._at(q, warm.pressure, warm.film_fraction, warm.cavity, warm.deformation)
+            at, slopes = self._at(q, warm.pressure, warm.film_fraction, warm.cavity, warm.deformation), None
             for _ in range(MOST_STEPS):
                 if at is None:
                     return None
-                slopes, film_step = self._linearised(at)
+                slopes, film_step = self._linearised(at) if slopes is None else self._kept(slopes, at)
                 new = self._moved(slopes, film_step)
                 if new is not None and self._settled(new, slopes):
                     if self._close == EXACT:
@@ -184,6 +186,14 @@ class JointSearch:
         by = FilmSensitivity(*film.parted(changes[:, 1:]))
         stiff = self._instant.stiffness(self._pressed(at, by.pressure), at.contact, at.outer)
         return JointSlopes(at, film, by, growth, stiff), changes[:, :1]
+
+    def _kept(self, slopes: JointSlopes, at: JointState) -> tuple[JointSlopes, Array]:
+        """The same by the slopes of the step before, near balance and of the same cavity; else at the state."""
+        last, imbalance = slopes.at.film, at.film.imbalance
+        if imbalance > min(KEPT, KEPT_GAIN * last.imbalance) or not np.array_equal(at.film.cavity, last.cavity):
+            return self._linearised(at)
+        kept = replace(slopes, at=at, film=replace(slopes.film, balance=at.film))
+        return kept, kept.film.changes(-at.film.fed[0][:, None])
 
     def _pressed(self, at: JointState, pressure: Array) -> Array:
         """Change of the forces of film and contact, (k, m) N, by that of the film's pressure (size, m) Pa."""

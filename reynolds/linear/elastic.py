@@ -24,7 +24,7 @@ from reynolds.numerics.arrays import Array
 from reynolds.numerics.gmres import gmres
 
 DENSE_LIMIT = 1500  # free pressures up to which a dense factor is as fast as GMRES on two loads
-SMALL = 600  # unknowns up to which the whole matrix is factorised as fast as it is reduced
+SMALL = 600  # coupled unknowns up to which the whole matrix is factorised as fast as it is reduced
 KEPT_LIMIT = 4000  # unknowns up to which a dense factor is kept: 128 MB
 MOST_STEPS = 150  # of GMRES; one that needs more is cheaper with the dense factor
 WORTH = 1.0 / 80.0  # steps over unknowns that cost as much as the dense factor
@@ -77,7 +77,8 @@ def compliant_answer(balance: WallBalance, near: NearFactor | None = None) -> An
     if isinstance(balance.wider, csr_array):
         return _sparse(csc_array(balance.rigid + balance.slope @ (balance.wider * balance.pressures[None, :])))
     if np.count_nonzero(balance.pressures) <= DENSE_LIMIT:
-        return _small_answer(balance) if size <= SMALL else reduced_answer(balance)
+        alone = _alone(balance)
+        return reduced_answer(balance) if size - np.count_nonzero(alone) > SMALL else _coupled_answer(balance, alone)
     return _Iterated(balance, NearFactor() if near is None or size > KEPT_LIMIT else near)
 
 
@@ -172,13 +173,13 @@ class _Reduced:
 
 def _alone(balance: WallBalance) -> NDArray[np.bool_]:
     """Held unknowns, which couple to no other, (size,)."""
-    rigid, slope = balance.rigid.tocoo(), balance.slope.tocoo()
-    row, column = rigid.coords
-    off = (row != column) & (rigid.data != 0.0)
-    meets = np.zeros(len(balance.pressures), dtype=bool)
-    meets[row[off]] = meets[column[off]] = True
-    meets[slope.coords[0][slope.data != 0.0]] = True
-    return np.asarray((balance.pressures == 0.0) & ~meets & (balance.rigid.diagonal() != 0.0))
+    alone, rigid, slope = np.empty(len(balance.pressures), dtype=bool), balance.rigid, balance.slope
+    kernels.mark_alone(_parts(rigid), _parts(slope), balance.pressures, alone)
+    return alone
+
+
+def _parts(matrix: csc_array | csr_array) -> tuple[NDArray[np.int32], NDArray[np.int32], Array]:
+    return matrix.indptr, matrix.indices, matrix.data
 
 
 def _add(dense: Array, sparse: csr_array) -> None:
@@ -187,18 +188,13 @@ def _add(dense: Array, sparse: csr_array) -> None:
     np.add.at(dense, entries.coords, entries.data)
 
 
-def _small_answer(balance: WallBalance) -> Answer:
-    """The answer of J by the dense factor of its unknowns but for held ones, which couple to no other."""
-    alone = _alone(balance)
-    number = np.where(alone, -1, np.cumsum(~alone) - 1)
-    coupled, size = np.flatnonzero(~alone), int(np.count_nonzero(~alone))
-    matrix, rigid, slope = np.empty((size, size)), balance.rigid, balance.slope
-    wider = columns_of(balance.wider, np.arange(len(alone)))
-    kernels.assemble(
-        number, (rigid.indptr, rigid.indices, rigid.data), (slope.indptr, slope.indices, slope.data),
-        np.ascontiguousarray(wider), balance.pressures, matrix,
-    )  # fmt: skip
-    inner, diagonal = dense_answer(matrix), rigid.diagonal()
+def _coupled_answer(balance: WallBalance, alone: NDArray[np.bool_]) -> Answer:
+    """The answer of J by the dense factor of its unknowns but for held ones, `alone`, which couple to no other."""
+    number, coupled = np.where(alone, -1, np.cumsum(~alone) - 1), np.flatnonzero(~alone)
+    wider = columns_of(balance.wider, coupled) * balance.pressures[coupled]
+    matrix = np.empty((len(coupled), len(coupled)))
+    kernels.assemble(number, _parts(balance.rigid), _parts(balance.slope), wider, matrix)
+    inner, diagonal = dense_answer(matrix), balance.rigid.diagonal()
 
     def answer(load: Array, tolerance: float) -> Array:
         change = (load.T / diagonal).T
@@ -238,13 +234,17 @@ def _sparse(matrix: csc_array) -> Answer:
 
 
 def dense_answer(matrix: Array) -> Answer:
-    """The answer of a dense matrix, for loads of any number of columns. Raises FilmNotConverged if singular."""
+    """The answer of a dense matrix, for loads of any number of columns. Raises FilmNotConverged if singular.
+
+    A matrix by rows is factorised as the transpose that it is by columns, in its place.
+    """
     if not matrix.size:
         return lambda load, tolerance: load
-    factor, pivots, fault = lapack.dgetrf(matrix)
+    by_rows = matrix.flags.c_contiguous
+    factor, pivots, fault = lapack.dgetrf(matrix.T if by_rows else matrix, overwrite_a=by_rows)
     if fault:
         raise singular("a pivot is zero")
-    return lambda load, tolerance: np.asarray(lapack.dgetrs(factor, pivots, load)[0])
+    return lambda load, tolerance: np.asarray(lapack.dgetrs(factor, pivots, load, trans=by_rows)[0])
 
 
 def singular(reason: str) -> FilmNotConverged:

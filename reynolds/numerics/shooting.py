@@ -73,6 +73,11 @@ class PeriodicTurn(Generic[T]):
         """Factor of a small disturbance of q over a turn; above one it grows, and the motion is unstable."""
         return float(np.abs(self.multipliers).max())
 
+    @property
+    def onward(self) -> Array:
+        """Where linearised turns after it lead within its reach, (k,) m: the start of the next one."""
+        return _next(self.start, self.turn, 1.0)
+
 
 def periodic(turn_from: TurnFrom[T], start: Array) -> PeriodicTurn[T]:
     """The periodic motion reached by turns from `start` (k,) m.
@@ -87,11 +92,21 @@ def periodic(turn_from: TurnFrom[T], start: Array) -> PeriodicTurn[T]:
         changes.append(float(np.abs(turn.end - at).max()))
         away = np.abs(_next(at, turn, 1.0) - at).max()
         if max(away, changes[-1]) <= turn.allowed and turn.repeats:
-            return PeriodicTurn(turn, at, tuple(changes), np.linalg.eigvals(turn.slopes).astype(complex))
+            return _turned(turn, at, changes)
     raise _never_closed(changes)
 
 
-def approached(turn_from: TurnFrom[T], start: Array) -> T:
+def one_turn(turn_from: TurnFrom[T], start: Array) -> PeriodicTurn[T]:
+    """One turn from `start` (k,) m, closed or not: for a motion whose drive is still to change."""
+    turn = turn_from(start, None)
+    return _turned(turn, start, [float(np.abs(turn.end - start).max())])
+
+
+def _turned(turn: T, start: Array, changes: list[float]) -> PeriodicTurn[T]:
+    return PeriodicTurn(turn, start, tuple(changes), np.linalg.eigvals(turn.slopes).astype(complex))
+
+
+def approached(turn_from: TurnFrom[T], start: Array) -> PeriodicTurn[T]:
     """The first turn whose end is next to the periodic motion, however far away its start `start` (k,) m was.
 
     Afterwards all linearised turns after it lead no further than `allowed` from its end. Cheaper than `periodic`
@@ -101,7 +116,7 @@ def approached(turn_from: TurnFrom[T], start: Array) -> T:
     for at, turn in _turns(turn_from, start):
         changes.append(float(np.abs(turn.end - at).max()))
         if np.abs(_next(at, turn, 1.0) - turn.end).max() <= turn.allowed:
-            return turn
+            return _turned(turn, at, changes)
     raise _never_closed(changes)
 
 

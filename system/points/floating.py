@@ -64,12 +64,10 @@ FRICTION_TOLERANCE = 2e-3
 """Largest change of a film's friction between two rounds, of the largest force on a slipper."""
 SPIN_TOLERANCE = 2e-3
 """Largest change of a spin between two rounds, of the shaft's."""
-FIRST_CLOSED = 0.05
-"""Distance from the periodic motion at which the first round lets its turns be, share of the mean film."""
-NEARLY = 20.0
+FIRST_STEP = 0.05
+"""Error that the first round's steps may make, share of the film."""
+NEARLY = 3.0
 """Times as large as their tolerances may the changes of a round be for gaps and chambers to nearly agree."""
-CLOSING = 0.5
-"""The same of later rounds, over what the round before changed."""
 ROUND_LIMIT = 20
 
 
@@ -136,10 +134,10 @@ def floating_point(
     whole = WholeRun(report, ROUND_LIMIT)
     pistons = [None] * len(group.parts) if gaps is None else [own.piston for own in gaps]
     with piston_beside(group.parts, pistons) if side_by_side else nullcontext() as beside:
-        while not rounds or not (_exact(rounds[-1], options) and _agree(rounds[-1])):
+        while not rounds or not (rounds[-1].settled and _agree(rounds[-1])):
             if len(rounds) == ROUND_LIMIT:
                 raise _not_settled(rounds[-1])
-            closing = replace(asked, options=_loosened(options, rounds))
+            closing = replace(asked, options=_approaching(options, rounds, cold=near is None))
             found = _round(closing, group, left, gaps, beside, whole.begun(), solved)
             asked, gaps = found.asked, found.gaps
             rounds.append(found.taken)
@@ -222,7 +220,7 @@ def _round(
         max(map(_rubbing_change, asked.rubbing, following.rubbing))
         / max(at.forces.lift for one in driven for at in one.group),
         max(map(_spin_change, turning, group.rotors(following))),
-        asked.options.accuracy.closed,
+        asked.options.accuracy.settled,
         sum(gap.films_solved for gap in turned),
         perf_counter() - began,
         {leg: sum(gap.spent.get(leg, 0.0) for gap in turned) for leg in Leg},
@@ -242,15 +240,16 @@ def _spin_change(one: Rotor, other: Rotor) -> float:
     return change / one.point.shaft_speed
 
 
-def _loosened(options: FloatingOptions, rounds: list[Round]) -> FloatingOptions:
-    """Accuracy of a round's gaps: reduced before they nearly agree with the chambers."""
-    if rounds and (_agree(rounds[-1], NEARLY) or _exact(rounds[-1], options)):
-        return options
-    last = rounds[-1] if rounds else None
-    unknown = max(last.pressure_change, last.friction_change, last.spin_change) if last else FIRST_CLOSED
-    closed = max(options.accuracy.closed, min(FIRST_CLOSED, CLOSING * unknown))
-    accuracy = replace(options.accuracy, closed=closed, step=max(options.accuracy.step, closed))
-    return replace(options, accuracy=accuracy)
+def _approaching(options: FloatingOptions, rounds: list[Round], *, cold: bool) -> FloatingOptions:
+    """Accuracy of a round's gaps: one turn of each until they nearly agree with the chambers.
+
+    The first one of `cold` gaps, which have no start, has wide steps.
+    """
+    exact = options.accuracy
+    if not rounds:
+        return replace(options, accuracy=replace(exact, step=max(exact.step, FIRST_STEP * cold), settled=False))
+    settled = rounds[-1].settled or _agree(rounds[-1], NEARLY)
+    return replace(options, accuracy=replace(exact, settled=settled))
 
 
 def _agree(taken: Round, times: float = 1.0) -> bool:
@@ -265,10 +264,6 @@ def _changes(taken: Round) -> tuple[tuple[float, float], ...]:
         (taken.friction_change, FRICTION_TOLERANCE),
         (taken.spin_change, SPIN_TOLERANCE),
     )
-
-
-def _exact(taken: Round, options: FloatingOptions) -> bool:
-    return taken.closed == options.accuracy.closed
 
 
 def _not_settled(taken: Round) -> NotConverged:

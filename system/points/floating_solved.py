@@ -19,14 +19,14 @@ from system.points.floating_gaps import FloatingOptions
 class Round:
     """One round of gaps and chamber.
 
-    Changes by the round (as the tolerances count them), closure of its turns (share of the mean film), films solved,
-    time s; time of its gaps on each leg, s, with that of pistons in their own process.
+    Changes by the round (as the tolerances count them), whether its turns close and agree with their temperatures,
+    films solved, time s; time of its gaps on each leg, s, with that of pistons in their own process.
     """
 
     pressure_change: float
     friction_change: float
     spin_change: float
-    closed: float
+    settled: bool
     films_solved: int
     seconds: float
     spent: Mapping[Leg, float]

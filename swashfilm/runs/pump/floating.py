@@ -227,7 +227,7 @@ def _round(one: Round) -> dict[str, Any]:
         "pressure_change": one.pressure_change,
         "friction_change": one.friction_change,
         "spin_change": one.spin_change,
-        "closed": one.closed,
+        "settled": one.settled,
         "films_solved": one.films_solved,
         "seconds": one.seconds,
         "physics_seconds": spent,

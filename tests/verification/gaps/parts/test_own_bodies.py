@@ -238,6 +238,14 @@ def test_a_bushing_that_turns_is_the_turned_bushing(columns, tolerance, tmp_path
         assert np.abs(turned - as_built).max() < tolerance * np.abs(as_built).max()
 
 
+def test_plates_are_meshed_once_for_films_of_the_same_mesh():
+    walls = PlateWalls((PlatePart(20e-3, 50e-3, 10e-3, STEEL), PlatePart(20e-3, 50e-3, 10e-3, STEEL)))
+    first, again, finer = (film_space(annulus(25e-3, 45e-3, (3, around))) for around in (24, 24, 36))
+    found = walls.at(first, Pose())
+    assert walls.at(again, Pose()) is found
+    assert walls.at(finer, Pose()).matrix.shape != found.matrix.shape
+
+
 @pytest.mark.parametrize(("columns", "tolerance"), [(3.0, 1e-3), (2.5, 0.11)])
 def test_plates_turn_in_their_film(columns, tolerance, tmp_path):
     """A moving plate turned one way is a film and its pressure turned the other; between columns nearly so.

@@ -14,7 +14,7 @@ from known_rates import stages
 
 from reynolds import ALEXANDER_2, FilmNotConverged, integrate, nodes_only
 from reynolds.numerics.dirk import State, StateTangent
-from reynolds.numerics.shooting import approached, periodic
+from reynolds.numerics.shooting import approached, one_turn, periodic
 
 DAMPING, LOAD, TURN = 3.0e5, 40.0, 2.0 * np.pi / 220.0  # N s/m, N, s: REF90's slipper at 10 um and 2100 1/min
 
@@ -199,6 +199,19 @@ def test_motion_that_never_closes():
         periodic(turn, np.array([1e-5]))
 
 
+def test_one_turn_leads_on():
+    """One turn, however far from closed, tells where all linearised ones after it lead: here to the fixed point."""
+    slopes, middle = np.array([[0.9, 0.1], [0.0, 0.5]]), np.array([3.0, -2.0])
+
+    def turn(start: np.ndarray, before: Turn | None) -> Turn:
+        return Turn(start, middle + slopes @ (start - middle), slopes, np.zeros((0, 2)), reach=10.0)
+
+    found = one_turn(turn, np.zeros(2))
+    assert found.turns == 1
+    assert np.array_equal(found.start, np.zeros(2))
+    assert found.onward == pytest.approx(middle, rel=1e-9)
+
+
 def test_next_to_the_periodic_motion():
     """A turn that forgets its start is next to the periodic motion by its end, though its start was far away."""
     forgets = _turn(_hydrostatic(10.0 * DAMPING / TURN), TURN, 40, allowed=1e-8)
@@ -206,9 +219,9 @@ def test_next_to_the_periodic_motion():
     assert np.array_equal(approached(forgets, far).start, far)
     closed = periodic(forgets, far)
     assert closed.turns == 2
-    assert approached(forgets, far).end == pytest.approx(closed.turn.end, abs=1e-8)
+    assert approached(forgets, far).turn.end == pytest.approx(closed.turn.end, abs=1e-8)
     slow = _turn(_hydrostatic(0.1 * DAMPING / TURN), TURN, 40, allowed=1e-8)
-    assert approached(slow, far).end == pytest.approx(periodic(slow, far).turn.end, abs=1e-8)
+    assert approached(slow, far).turn.end == pytest.approx(periodic(slow, far).turn.end, abs=1e-8)
     pushed = _turn(lambda t, h: (np.array([-1e-3]), np.zeros((1, 1))), TURN, 4, reach=1e-6)
     with pytest.raises(FilmNotConverged, match="not periodic after 30 turns"):
         approached(pushed, far)

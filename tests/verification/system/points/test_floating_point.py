@@ -28,7 +28,7 @@ def test_gaps_and_chambers_agree(found):
     last = found.rounds[-1]
     assert last.pressure_change <= PRESSURE_TOLERANCE
     assert last.friction_change <= FRICTION_TOLERANCE
-    assert last.closed == found.options.accuracy.closed
+    assert last.settled
     assert len(found.kinds[0].gaps.piston.turn.instants) == STEPS
     assert len(found.kinds[0].gaps.block.turn.instants) == STEPS // found.rotor.pump.pump.pistons
     table = leak_table(found.kinds[0].gaps)
