@@ -13,7 +13,7 @@ from time import perf_counter
 
 from diagnosis.finding import diagnose
 from diagnosis.study.acceptance import checked_recording
-from diagnosis.study.scaled_pump import load_known_pump
+from system.pump_file.file import load_known_pump
 
 BENCH = Path(__file__).parents[1] / "examples" / "recordings" / "bench_pump.toml"
 

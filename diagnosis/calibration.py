@@ -17,7 +17,6 @@ from diagnosis.study.acceptance import accepted_recording, refuse_too_few
 from diagnosis.study.inputs import bench_points
 from diagnosis.study.model import Study, study_of
 from diagnosis.study.prepare import prepare
-from diagnosis.study.scaled_pump import KnownPump, known_pump
 from diagnosis.thresholds import Thresholds, load_thresholds
 from diagnosis.verdict.suspects import unexplained
 from reynolds.errors import InputError, NotConverged
@@ -36,6 +35,7 @@ from system.effects.extension import Extension
 from system.estimation.determined import Combination, undetermined
 from system.estimation.posterior import Posterior
 from system.inputs.channels import ChannelName
+from system.pump_file.file import KnownPump, known_pump
 from system.work.progress import Report, silent
 
 

@@ -14,7 +14,6 @@ from diagnosis.study.acceptance import accepted_recording, refuse_too_few, refus
 from diagnosis.study.levels import levelled
 from diagnosis.study.model import Study
 from diagnosis.study.prepare import prepare
-from diagnosis.study.scaled_pump import KnownPump, known_pump
 from diagnosis.thresholds import Thresholds, load_thresholds
 from diagnosis.verdict.diagnosis import Diagnosis, VerdictStatus
 from diagnosis.verdict.row_numbers import by_table_rows
@@ -25,6 +24,7 @@ from system.effects.catalogue.entries import CATALOGUE
 from system.effects.effect import Kind
 from system.effects.extension import Entry
 from system.points.table.film_physics import FilmModel
+from system.pump_file.file import KnownPump, known_pump
 from system.work.progress import Report, silent
 
 NO_NEXT_POINT = "no next point can be proposed"

@@ -244,12 +244,12 @@ def diagnose(
     with _door("diagnose"), _pump_file(pump) as name:
         from diagnosis.finding import diagnose as found_by
         from diagnosis.study.acceptance import checked_recording
-        from diagnosis.study.scaled_pump import load_known_pump
         from swashfilm.runs.diagnose.command import workers_and_file
         from swashfilm.runs.diagnose.films import film_model_of, film_options_of
         from swashfilm.runs.diagnose.result import DiagnosisRun
         from swashfilm.runs.diagnose.run import write_finding
         from system.effects.catalogue.entries import CATALOGUE, with_films_solved
+        from system.pump_file.file import load_known_pump
 
         words = _words("diagnose", [name, recording], options)
         workers, _ = workers_and_file(words)
@@ -272,10 +272,10 @@ def calibrate(
     with _door("calibrate"), _pump_file(pump) as name:
         from diagnosis.calibration import calibrate as found_by
         from diagnosis.study.acceptance import checked_recording
-        from diagnosis.study.scaled_pump import load_known_pump
         from swashfilm.runs.calibrate.command import LAWS, loss_models
         from swashfilm.runs.calibrate.files import write_calibration_files
         from swashfilm.runs.calibrate.result import CalibrationRun
+        from system.pump_file.file import load_known_pump
 
         words = _words("calibrate", [name, recording], options)
         models = loss_models(words)

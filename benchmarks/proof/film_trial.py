@@ -8,9 +8,9 @@ from pathlib import Path
 from time import process_time
 
 from diagnosis.finding import diagnose
-from diagnosis.study.scaled_pump import load_known_pump
 from diagnosis.verdict.diagnosis import ClaimedEffect, Diagnosis
 from system.effects.catalogue.entries import CATALOGUE, with_films_solved
+from system.pump_file.file import load_known_pump
 
 from .film_plant import FilmPlant, readings
 from .writing import BENCH, write_recording

@@ -28,7 +28,7 @@ ASKED = (
     "diagnosis.study.inputs",
     "diagnosis.study.levels",
     "diagnosis.study.prepare",
-    "diagnosis.study.scaled_pump",
+    "system.pump_file.file",
     "system.description.tolerances",
 )
 """Modules that a diagnosis is made of; all that they import counts, too."""

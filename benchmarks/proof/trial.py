@@ -19,7 +19,6 @@ from diagnosis.study.levels import levelled
 from diagnosis.study.map_axes import axis_values, inside
 from diagnosis.study.model import Study
 from diagnosis.study.prepare import prepare
-from diagnosis.study.scaled_pump import load_known_pump
 from diagnosis.thresholds import load_thresholds
 from diagnosis.verdict.diagnosis import ClaimedEffect, Diagnosis
 from diagnosis.verdict.locate import Location
@@ -28,6 +27,7 @@ from system.description.pump import PumpDescription
 from system.description.tolerances import tolerances
 from system.effects.effect import EffectId, Kind
 from system.inputs.faults import InputFaults
+from system.pump_file.file import load_known_pump
 
 from .campaigns import campaigns
 from .cases import Case, Part

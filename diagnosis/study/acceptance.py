@@ -11,10 +11,9 @@ from diagnosis.checks.notes import point_ranges
 from diagnosis.recording.model import DataNote, NoteKind, Recording
 from diagnosis.recording.reader import read_recording
 from diagnosis.study.model import Study
-from diagnosis.study.scaled_pump import KnownPump, load_known_pump
 from diagnosis.thresholds import load_thresholds
 from system.inputs.faults import Fault, InputFaults
-from system.pump_file.file import builtin_pumps
+from system.pump_file.file import KnownPump, builtin_pumps, load_known_pump
 
 
 def accepted_recording(source: Recording | Path, known: KnownPump) -> Recording:

@@ -21,7 +21,6 @@ from scipy.optimize import least_squares
 
 from diagnosis.recording.model import Recording
 from diagnosis.study.inputs import bench_points, complete, measured
-from diagnosis.study.scaled_pump import KnownPump
 from reynolds.errors import NotConverged
 from reynolds.numerics.arrays import Array
 from system.bench.outputs import SIMULATED
@@ -32,6 +31,7 @@ from system.description.gap import Gap
 from system.description.tolerances import Tolerances
 from system.inputs.channels import ChannelName
 from system.inputs.units import Dimension, format_quantity
+from system.pump_file.file import KnownPump
 
 SHARES = {ChannelName.Q_OUT: 0.003, ChannelName.Q_IN: 0.003}
 """Scale s of a channel's residuals, share of its median; the others SHARE."""

@@ -50,19 +50,18 @@ def _show_file(file: str) -> None:
 
 def _show_pump(file: str) -> None:
     """Show a pump with all that it assumes, and its warnings."""
-    from diagnosis.study.scaled_pump import load_known_pump
+    from swashfilm.console.assumed import scaled_warning
     from system.multibody.assumed import assumptions
-    from system.pump_file.file import check_pump, resolved_toml
+    from system.pump_file.file import check_pump, load_known_pump, resolved_toml
 
     known = load_known_pump(file)
     show(resolved_toml(known.pump))
-    for one in assumptions(known.pump):
+    for one in (*known.assumptions, *assumptions(known.pump)):
         show(f"# {one}")
     for warning in check_pump(known.pump).warnings:
         show(f"warning: {warning}")
-    if known.scant:
-        show("an incomplete pump file: values that it leaves out are those of ref90, scaled, as above;")
-        show("diagnose and calibrate accept it, all other commands need a complete file")
+    for text in scaled_warning(known.assumptions):
+        show(f"warning: {text}")
 
 
 def _checked_film(path: Path, tables: Mapping[str, Any]) -> str:

@@ -2,52 +2,44 @@
 
 import json
 from collections.abc import Mapping
-from dataclasses import asdict
-from importlib.resources import files
-from importlib.resources.abc import Traversable
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from reynolds.laws.oil import ISO_GRADES
-from system.description.ports import PortsSection
+from system.description.assumptions import Assumption
 from system.description.pump import FORMAT, SINGLE_PARTS, PumpDescription
-from system.inputs.coefficients.flow_files import FlowCoefficients
 from system.inputs.faults import Fault, InputFaults, key_lines, nearest_choice, nearest_path, stated
-from system.inputs.sections.fields import fields_of
-from system.inputs.sections.reader import (
-    ABSOLUTE,
-    Reading,
-    Special,
-    is_number,
-    left_out_section,
-    read_entry,
-    read_section,
-)
+from system.inputs.sections.reader import ABSOLUTE
 from system.inputs.sections.values import HERE
 from system.inputs.sections.writer import section_rows
 from system.inputs.toml_table import toml_tables
-from system.pump.ports.flow_coefficients import file_law
-from system.pump_file import bodies, films, geometry, losses, operating, parts, ports, values
-from system.pump_file.check import CheckReport, checks_in, run_checks
+from system.pump_file.check import CheckReport, run_checks
 from system.pump_file.parts import single_parts_checked
-
-_CHECKS = tuple(
-    check
-    for module in (geometry, ports, losses, films, operating, parts, bodies, values)
-    for check in checks_in(vars(module))
-)
-GRADE_KEYS = ("kinematic_viscosity_40C", "kinematic_viscosity_100C")
-LAW_KEYS = ("flow_coefficient", "critical_reynolds")
-_TABLES = {name: model for name, own in fields_of(PumpDescription).items() if (model := own.table)}
+from system.pump_file.scaled.completed import completed, is_scant
+from system.pump_file.tables import BUILT_IN, CHECKS, TABLES, pump_of_tables
 
 
-def _built_in() -> Traversable:
-    return files("system.description") / "pumps"
+@dataclass(frozen=True)
+class KnownPump:
+    """A pump with the `stated` paths of its file, and the `assumptions` for the others.
+
+    scant: most of it is scaled; its [tolerance] is then wide where the file does not state it.
+    """
+
+    pump: PumpDescription
+    scant: bool
+    stated: frozenset[str]
+    assumptions: tuple[Assumption, ...]
+
+
+def known_pump(pump: PumpDescription | KnownPump) -> KnownPump:
+    """Return the pump itself if it is partly known, else a pump that is stated in full."""
+    return pump if isinstance(pump, KnownPump) else KnownPump(pump, False, frozenset(), ())
 
 
 def builtin_pumps() -> tuple[str, ...]:
     """Return the names of the pumps that come with the program."""
-    names = (item.name for item in _built_in().iterdir())
+    names = (item.name for item in BUILT_IN.iterdir())
     return tuple(sorted(name.removesuffix(".toml") for name in names if name.endswith(".toml")))
 
 
@@ -56,43 +48,44 @@ def load_pump(source: str | Path, overrides: Mapping[str, object] | None = None)
 
     `overrides` puts values in place of the file's, as written there: {"operating.speed": "1500 rpm"}.
     A file that a value names is looked for beside the pump file; with a built-in pump, in the working directory.
-    Raises InputFaults with everything that is wrong: in the file's form, its units, its values and its
-    geometry. Doubtful values raise nothing; `check_pump` reports them.
+    A scant file is completed; `load_known_pump` says with what. Raises InputFaults with everything that is wrong: in
+    the file's form, its units, its values and its geometry. Doubtful values raise nothing; `check_pump` reports them.
+    """
+    return load_known_pump(source, overrides).pump
+
+
+def load_known_pump(source: str | Path, overrides: Mapping[str, object] | None = None) -> KnownPump:
+    """Return a pump as `load_pump` does, with what its file states and what is assumed.
+
+    A file is scant if it lacks one of the tables [slipper], [valve_plate], [ports]: it states little more than
+    displacement, pistons and oil, and the rest is REF90's, scaled. Raises InputFaults as `load_pump`; for a scant file
+    also if pump.displacement, pump.pistons or the oil's viscosity is not stated.
     """
     label, text = _read(source)
-    tables = _parse(label, text)
+    tables = toml_tables(label, text)
     lines: dict[str, int | None] = {**key_lines(text)}
-    for path, value in (overrides or {}).items():
-        *within, key = path.split(".")
-        table = tables
-        for name in within:
-            if not isinstance(table.get(name), dict):
-                table[name] = {}
-            table = table[name]
-        table.pop(key + ABSOLUTE, None)
-        table[key] = value
-        lines[path] = None
-    folder = HERE if str(source) in builtin_pumps() else Path(source).parent
-    return _describe(label, tables, lines, folder)
-
-
-def pump_of_tables(label: str, tables: Mapping[str, Any], folder: Path = HERE) -> PumpDescription:
-    """Return the description of a pump file's tables, as TOML gives them; files are looked for from the folder.
-
-    Raises InputFaults, under the name `label`, with everything that is wrong with them.
-    """
-    return _describe(label, tables, {}, folder)
+    _replace(tables, overrides or {}, lines)
+    built_in = str(source) in builtin_pumps()
+    scant = not built_in and is_scant(tables)
+    if not scant or "format" in tables:
+        _check_format(label, tables, lines)
+    folder = HERE if built_in else Path(source).parent
+    if not scant:
+        return known_pump(pump_of_tables(label, tables, folder, lines))
+    whole = completed(label, tables, Path(source).stem, lines)
+    pump = pump_of_tables(label, whole.tables, folder, lines)
+    return KnownPump(pump, True, whole.stated, whole.assumptions)
 
 
 def check_pump(pump: PumpDescription) -> CheckReport:
     """Return what is impossible and what is doubtful about a description and its own operating point."""
-    return single_parts_checked(_CHECKS, pump, run_checks(_CHECKS, pump))
+    return single_parts_checked(CHECKS, pump, run_checks(CHECKS, pump))
 
 
 def resolved_toml(pump: PumpDescription) -> str:
     """Return a pump file that loads to this very description: every value, with its unit, to the last bit."""
     rows = [f"name = {json.dumps(pump.name, ensure_ascii=False)}", f"format = {pump.format}"]
-    for name in _TABLES:
+    for name in TABLES:
         rows += section_rows(name, getattr(pump, name))
     for name in SINGLE_PARTS:
         for chamber, part in getattr(pump, f"single_{name}s"):
@@ -104,7 +97,7 @@ def _read(source: str | Path) -> tuple[str, str]:
     """Return what to call the source, and its text."""
     name = str(source)
     if name in builtin_pumps():
-        return f"built-in pump {name}", _built_in().joinpath(f"{name}.toml").read_text("utf-8")
+        return f"built-in pump {name}", BUILT_IN.joinpath(f"{name}.toml").read_text("utf-8")
     path = Path(source)
     try:
         return name, path.read_text("utf-8-sig")  # some editors put a byte order mark first
@@ -126,76 +119,23 @@ def _not_there(path: Path) -> Fault:
     )
 
 
-def _parse(label: str, text: str) -> dict[str, Any]:
-    """Return the tables of a TOML text of the known format."""
-    tables = toml_tables(label, text)
+def _replace(tables: dict[str, Any], values: Mapping[str, object], lines: dict[str, int | None]) -> None:
+    """Put values by their paths in place of the file's; they have no line."""
+    for path, value in values.items():
+        *within, key = path.split(".")
+        table = tables
+        for name in within:
+            if not isinstance(table.get(name), dict):
+                table[name] = {}
+            table = table[name]
+        table.pop(key + ABSOLUTE, None)
+        table[key] = value
+        lines[path] = None
+
+
+def _check_format(label: str, tables: Mapping[str, Any], lines: Mapping[str, int | None]) -> None:
+    """Raise InputFaults for another format than that of this version."""
     number = tables.get("format")
     if isinstance(number, bool) or number != FORMAT:
         fault = Fault("format", stated(number), f"format = {FORMAT}, the pump file format of this version")
-        raise InputFaults(label, [fault], key_lines(text))
-    return tables
-
-
-def _describe(label: str, tables: Mapping[str, Any], lines: Mapping[str, int | None], folder: Path) -> PumpDescription:
-    """Return the description of the tables, or raise all their faults, those of the checks included."""
-    reading = Reading(folder, _SPECIAL, SINGLE_PARTS)
-    name = tables.get("name")
-    known = ["name", "format", *_TABLES]
-    for key in tables:
-        if key not in known:
-            reading.unknown("", key, known)
-    if "name" not in reading.faulty and not (isinstance(name, str) and name.isprintable() and name):
-        reading.fault("name", stated(name), "the pump's name, one line of text")
-    sections: dict[str, Any] = {
-        key: read_section(key, model, tables[key], reading)
-        if key in tables
-        else left_out_section(key, model, reading, required=fields_of(PumpDescription)[key].required)
-        for key, model in _TABLES.items()
-    }
-    singles: dict[str, Any] = {
-        f"single_{key}s": _singles(key, sections[key], tables.get(key), reading) for key in SINGLE_PARTS
-    }
-    pump = PumpDescription(name=str(name), format=FORMAT, **sections, **singles)
-    report = run_checks(_CHECKS, pump, reading.trusted)
-    reading.faults += [fault for fault in report.faults if fault.path not in reading.faulty]
-    if not reading.faults:
-        reading.faults += single_parts_checked(_CHECKS, pump, report).faults
-    if reading.faults:
-        raise InputFaults(label, reading.faults, lines)
-    return pump
-
-
-def _singles(name: str, base: Any, table: object, reading: Reading) -> tuple[tuple[int, Any], ...]:
-    """Return the single parts of a table by chamber, each complete: [piston.3] over [piston]."""
-    numbered = {key: part for key, part in table.items() if is_number(key)} if isinstance(table, dict) else {}
-    return tuple(
-        (int(key), read_section(f"{name}.{key}", type(base), part, reading, base)) for key, part in numbered.items()
-    )
-
-
-def _file_law(raw: object, table: Mapping[str, object], reading: Reading) -> dict[str, object]:
-    """Return [ports] coefficient_file and, where the table does not state them, the law nearest to the file."""
-    field = fields_of(PortsSection)["coefficient_file"]
-    found = read_entry("ports.coefficient_file", field, raw, reading)
-    if not isinstance(found, FlowCoefficients):
-        reading.faulty |= {f"ports.{key}" for key in LAW_KEYS}
-        return {}
-    law = file_law(found)
-    return {"coefficient_file": found} | {key: getattr(law, key) for key in LAW_KEYS if key not in table}
-
-
-def grade_viscosities(grade: object, table: Mapping[str, object], reading: Reading) -> dict[str, float]:
-    """Return the two viscosities of an ISO grade in m2/s, or none with the fault noted."""
-    if stated := [key for key in GRADE_KEYS if key in table]:
-        reading.fault("oil.grade", f"grade beside {' and '.join(stated)}", "the grade or the two viscosities")
-    elif not isinstance(grade, str) or grade not in ISO_GRADES:
-        expected = f"one of {', '.join(ISO_GRADES)}, or {' and '.join(GRADE_KEYS)} in its place"
-        reading.fault("oil.grade", repr(grade), expected, nearest_choice(str(grade), ISO_GRADES))
-    else:
-        return asdict(ISO_GRADES[grade])
-    reading.faulty |= {f"oil.{key}" for key in GRADE_KEYS}
-    return {}
-
-
-_SPECIAL: Mapping[str, Special] = {"oil.grade": grade_viscosities, "ports.coefficient_file": _file_law}
-"""Keys that set others too."""
+        raise InputFaults(label, [fault], lines)

@@ -7,7 +7,7 @@ from reynolds.laws.oil import ISO_GRADES
 from system.description.pump import FORMAT, SINGLE_PARTS, PumpDescription
 from system.inputs.sections.fields import fields_of
 from system.inputs.sections.json_schema import Schema, section_schema, tables_schema
-from system.pump_file.file import GRADE_KEYS, LAW_KEYS
+from system.pump_file.tables import GRADE_KEYS, LAW_KEYS
 
 
 def pump_schema() -> Schema:

@@ -15,7 +15,6 @@ from diagnosis.recording.model import Recording
 from diagnosis.study.acceptance import checked_recording
 from diagnosis.study.model import Study
 from diagnosis.study.prepare import prepare
-from diagnosis.study.scaled_pump import known_pump
 from diagnosis.thresholds import Thresholds, load_thresholds
 from diagnosis.verdict.diagnosis import Diagnosis, Estimate
 from gaps.films.physics import Effect
@@ -23,6 +22,7 @@ from system.description.tolerances import tolerances
 from system.estimation.posterior import values_at
 from system.points.table.film_law import share_name
 from system.points.table.film_physics import NAMED, FilmModel
+from system.pump_file.file import known_pump
 
 from ..writing import write_recording
 from .films import OFF, off_text, pump

@@ -34,7 +34,7 @@ from system.inputs.sections.reader import Reading, read_section
 from system.inputs.sections.values import wanted
 from system.inputs.toml_table import Table
 from system.inputs.units import Dimension
-from system.pump_file.file import GRADE_KEYS, grade_viscosities
+from system.pump_file.tables import GRADE_KEYS, grade_viscosities
 
 PerKelvin = Annotated[float, Dimension.TEMPERATURE_COEFFICIENT, Positive]
 Stress = Annotated[float, Dimension.PRESSURE, Span.OF_TWO, Positive]

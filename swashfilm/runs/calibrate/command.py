@@ -34,11 +34,11 @@ def run_calibrate_command(options: argparse.Namespace) -> int:
     from diagnosis.calibration import calibrate
     from diagnosis.recording.model import NoteKind
     from diagnosis.study.acceptance import checked_recording, other_pump
-    from diagnosis.study.scaled_pump import load_known_pump
     from swashfilm.console.progress import progress
     from swashfilm.output.run_folder import final_folder, run_folder
     from swashfilm.runs.calibrate.files import CALIBRATED, write_calibration_files
     from swashfilm.runs.calibrate.result import CalibrationRun
+    from system.pump_file.file import load_known_pump
 
     known = load_known_pump(options.pump)
     recording = checked_recording(options.recording, known)

@@ -44,7 +44,6 @@ def run_diagnose_command(options: argparse.Namespace) -> int:
     from diagnosis.finding import diagnose
     from diagnosis.recording.model import NoteKind
     from diagnosis.study.acceptance import checked_recording, other_pump
-    from diagnosis.study.scaled_pump import load_known_pump
     from swashfilm.console.progress import progress
     from swashfilm.output.run_folder import Interrupted, final_folder, run_folder
     from swashfilm.runs.diagnose.films import film_model_of, film_options_of
@@ -52,6 +51,7 @@ def run_diagnose_command(options: argparse.Namespace) -> int:
     from swashfilm.runs.diagnose.run import EXTENDED, write_finding
     from system.effects.catalogue.entries import CATALOGUE, with_films_solved
     from system.effects.effect import Kind
+    from system.pump_file.file import load_known_pump
 
     known = load_known_pump(options.pump)
     film_options = film_options_of(options, known)
@@ -88,11 +88,11 @@ def _watch(options: argparse.Namespace, workers: int) -> None:
     """Diagnose a folder again and again, each time into a run folder of its own; ends by KeyboardInterrupt."""
     from diagnosis.finding import diagnose
     from diagnosis.study.acceptance import checked_recording
-    from diagnosis.study.scaled_pump import load_known_pump
     from swashfilm.output.run_folder import run_folder
     from swashfilm.runs.diagnose.run import write_finding
     from swashfilm.runs.diagnose.watch import Answer, answer_of, watch
     from system.effects.catalogue.entries import CATALOGUE, with_films_solved
+    from system.pump_file.file import load_known_pump
     from system.work.progress import silent
 
     known = load_known_pump(options.pump)

@@ -14,11 +14,11 @@ from system.inputs.faults import Fault, InputFaults, nearest_choice
 
 if TYPE_CHECKING:
     from diagnosis.recording.model import Recording
-    from diagnosis.study.scaled_pump import KnownPump
     from system.description.pump import PumpDescription
     from system.effects.effect import EffectId
     from system.points.floating_gaps import FloatingOptions
     from system.points.table.film_physics import FilmModel
+    from system.pump_file.file import KnownPump
     from system.work.progress import Report
 
 LUMPED, FLOATING = FIDELITIES = ("lumped", "floating")

@@ -37,11 +37,13 @@ def run_film(options: argparse.Namespace) -> int:
     """Run `swashfilm film` and return its exit code; raise InputFaults with every fault of options or file."""
     from swashfilm.case.gap.revolution import RevolutionCase
     from swashfilm.case.study import StudyCase
+    from swashfilm.console.assumed import show_assumed_in
     from swashfilm.console.progress import progress
     from swashfilm.output.run_folder import run_folder
     from swashfilm.runs.film.run import solve_film
 
     case, meshes, workers = film_case(options)
+    show_assumed_in(options.case)
     if isinstance(case, StudyCase):
         return _study(case, options, workers)
     if isinstance(case, RevolutionCase):

@@ -61,6 +61,7 @@ def add_map_options(command: argparse.ArgumentParser) -> None:
 
 def run_map_command(options: argparse.Namespace) -> int:
     """Run `swashfilm map` and return its exit code; raise InputFaults with every fault of options and file."""
+    from swashfilm.console.assumed import show_assumed
     from swashfilm.console.points import ended
     from swashfilm.console.progress import progress
     from swashfilm.output.run_folder import run_folder
@@ -68,6 +69,7 @@ def run_map_command(options: argparse.Namespace) -> int:
     from swashfilm.runs.map.run import run_map
 
     asked = map_case(options)
+    show_assumed(options.pump)
     early = [*asked.plan.checked().warnings.values()]
     for warning in early:
         show(f"warning: {warning}")

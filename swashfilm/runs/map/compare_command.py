@@ -29,10 +29,13 @@ def add_compare_options(command: argparse.ArgumentParser) -> None:
 
 def run_compare_command(options: argparse.Namespace) -> int:
     """Run `swashfilm compare` and return its exit code; raise InputFaults with every fault of both."""
+    from swashfilm.console.assumed import show_assumed
     from swashfilm.output.run_folder import run_folder
     from swashfilm.runs.map.result import CompareRun
 
     asked = compare_case(options)
+    for name in asked.names:
+        show_assumed(name)
     with run_folder(asked.name, options.output) as folder:
         asked.run(folder)
         found = CompareRun.opened(folder)

@@ -54,11 +54,13 @@ def add_run_options(command: argparse.ArgumentParser) -> None:
 def run_pump_command(options: argparse.Namespace) -> int:
     """Run `swashfilm run` and return its exit code; raise InputFaults with every fault of pump and options."""
     case = pump_case(options)
+    from swashfilm.console.assumed import show_assumptions
     from swashfilm.console.progress import progress
     from swashfilm.output.run_folder import run_folder
     from swashfilm.runs.pump.run import solve_pump, unfinished_kept
     from system.points.floating_kinds import work_of
 
+    show_assumptions(options.pump, case.assumptions)
     name = case.pump.name
     if case.fidelity is Fidelity.FLOATING and (times := work_of(case.pump)) > 1.0:
         show(f"chambers differ: their floating gaps take about {times:.0f} times as long as identical ones")
@@ -75,7 +77,7 @@ def pump_case(options: argparse.Namespace) -> PumpCase:
     from swashfilm.console.floating_options import alike_faults, floating_faults, floating_options
     from swashfilm.runs.pump.run import PumpCase
     from system.pump.film_thickness import moved_to
-    from system.pump_file.file import load_pump
+    from system.pump_file.file import load_known_pump, load_pump
     from system.work.processes import cores
 
     stated, faults = _overrides(options)
@@ -86,10 +88,10 @@ def pump_case(options: argparse.Namespace) -> PumpCase:
         faults.append(Fault("--table", f"beside --fidelity {options.fidelity}", "no table, or --fidelity table"))
     expect(options.pump, "pump", "film")
     try:
-        pump = load_pump(options.pump, stated)
+        known = load_known_pump(options.pump, stated)
     except InputFaults as reason:
         raise _at_options(reason, stated, faults) from None
-    own = pump
+    own = pump = known.pump
     if _TEMPERATURE in stated and pump.physics.thermal_clearance is not None:
         own = load_pump(options.pump, {path: value for path, value in stated.items() if path != _TEMPERATURE})
         pump = moved_to(own, pump.operating)
@@ -102,7 +104,10 @@ def pump_case(options: argparse.Namespace) -> PumpCase:
     if faults:
         raise InputFaults(COMMAND_LINE, faults)
     given, fidelity = given_text(options.pump, stated), Fidelity(options.fidelity)
-    return PumpCase(pump, given, fidelity, options.table, floating_options(options, pump), cores() > 1, levels, own)
+    return PumpCase(
+        pump, given, fidelity, options.table, floating_options(options, pump), cores() > 1, levels, own,
+        known.assumptions,
+    )  # fmt: skip
 
 
 def pump_faults(options: argparse.Namespace, words: Sequence[str]) -> list[Fault]:

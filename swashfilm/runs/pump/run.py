@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, assert_never
 
+from swashfilm.console.assumed import scaled_warning
 from swashfilm.console.fidelity import Fidelity
 from swashfilm.output.refinement import Refinement, refinement_summary, write_refinement
 from swashfilm.output.run_folder import write_json
@@ -23,6 +24,7 @@ from swashfilm.runs.pump.scene.given_films import films_scene, write_fields
 from swashfilm.runs.pump.scene.views import draw_pump
 from swashfilm.runs.pump.summary import films_warnings, pump_summary
 from swashfilm.runs.table.summary import point_by_table, table_point_summary, table_point_warnings
+from system.description.assumptions import Assumption
 from system.description.pump import PumpDescription
 from system.multibody.floating_group import floating_joint_forces
 from system.multibody.rotating_group import JointForces, joint_forces
@@ -47,7 +49,8 @@ class PumpCase:
 
     table: file of a response table in place of the stored one; options: of floating gaps; side_by_side: a second
     process solves the piston of floating gaps; levels: of refinement, the first being that of the options; own: the
-    pump at its own temperature, where that of the point has changed its films (`moved_to`): response tables are its.
+    pump at its own temperature, where that of the point has changed its films (`moved_to`): response tables are its;
+    assumptions: for the values that the file of a scaled pump leaves out.
     """
 
     pump: PumpDescription
@@ -58,6 +61,7 @@ class PumpCase:
     side_by_side: bool = False
     levels: int = 1
     own: PumpDescription | None = None
+    assumptions: tuple[Assumption, ...] = ()
 
 
 @contextmanager
@@ -157,8 +161,8 @@ def _run(
 ) -> PumpRun:
     """Return the run of a solved point: summary with forces, data with those of films, and files."""
     summary["forces"] = forces_summary(joints, point)
-    summary["warnings"] += force_warnings(joints)
-    places = [str(one) for one in joints.group.places.taken]
+    summary["warnings"] += [*force_warnings(joints), *scaled_warning(case.assumptions)]
+    places = [str(one) for one in (*joints.group.places.taken, *case.assumptions)]
     summary["assumptions"] += [one for one in places if one not in summary["assumptions"]]
 
     def data() -> xarray.Dataset:

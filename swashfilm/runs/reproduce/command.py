@@ -47,6 +47,9 @@ def run_reproduce_command(options: argparse.Namespace) -> int:
     if options.figure == LIST:
         return _list()
     asked, workers = reproduce_case(options)
+    from swashfilm.console.assumed import show_assumed
+
+    show_assumed(options.pump)
     if minutes := asked.minutes:
         show(f"{asked.points} floating points: about {minutes:.0f} min of processor time, less those that are kept")
     from swashfilm.console.progress import progress

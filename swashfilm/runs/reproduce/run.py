@@ -9,7 +9,6 @@ from typing import Any
 from diagnosis.calibration import calibrate
 from diagnosis.recording.model import Recording
 from diagnosis.study.acceptance import checked_recording
-from diagnosis.study.scaled_pump import load_known_pump
 from reynolds.numerics.cache import cache_folder
 from swashfilm.console.fidelity import Fidelity
 from swashfilm.runs.map.run import POINT_COST
@@ -23,7 +22,7 @@ from system.paper.judge import FigureResult
 from system.paper.points import LossReading, PaperFidelity, places_of
 from system.paper.reproduce import Means, reproduce
 from system.points.floating_gaps import FloatingOptions
-from system.pump_file.file import load_pump, resolved_toml
+from system.pump_file.file import load_known_pump, load_pump, resolved_toml
 from system.work.kept_results import KeptPoints
 from system.work.progress import Report
 from system.work.tasks import Executor, PartStatus

@@ -65,10 +65,13 @@ def add_table_options(command: argparse.ArgumentParser) -> None:
 def run_table_command(options: argparse.Namespace) -> int:
     """Run `swashfilm table` and return its exit code; raise InputFaults with every fault of options and file."""
     asked = table_case(options)
+    from swashfilm.console.assumed import show_assumed
     from swashfilm.console.progress import progress
     from swashfilm.output.run_folder import Interrupted, run_folder
     from swashfilm.runs.table.result import TableRun
 
+    if not is_film_case(options.pump):
+        show_assumed(options.pump)
     with (
         run_folder(f"table-{asked.name}", options.output) as folder,
         progress(asked.points, f"table {asked.name}") as report,

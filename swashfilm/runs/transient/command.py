@@ -14,11 +14,13 @@ def add_transient_options(command: argparse.ArgumentParser) -> None:
 
 def run_transient_command(options: argparse.Namespace) -> int:
     """Run `swashfilm transient` and return its exit code; raise InputFaults with every fault of the file."""
+    from swashfilm.console.assumed import show_assumed_in
     from swashfilm.output.run_folder import run_folder
     from swashfilm.runs.transient.case import load_transient
     from swashfilm.runs.transient.run import solve_transient
 
     stated = load_transient(options.case)
+    show_assumed_in(options.case)
     with run_folder(stated.name, options.output) as folder:
         found = solve_transient(stated)
         found.write(folder)

@@ -12,7 +12,6 @@ import numpy as np
 import pytest
 
 from diagnosis import checked_recording
-from diagnosis.study.scaled_pump import load_known_pump
 from swashfilm.__main__ import main
 from swashfilm.runs.reproduce.files import claim_rows
 from swashfilm.runs.reproduce.plots import figure_picture
@@ -36,6 +35,7 @@ from system.paper.points import (
 from system.paper.reproduce import Means, reproduce
 from system.paper.statements import CLAIMS
 from system.pump_file.check import run_checks
+from system.pump_file.file import load_known_pump
 from system.pump_file.floating import slipper_has_a_wedge
 from system.work.kept_results import KeptPoints
 from system.work.processes import HERE

@@ -1,12 +1,14 @@
 """Scaled pumps: missing values by REF90, for every size and number of pistons."""
 
+import json
 import math
 
 import pytest
 
-from diagnosis.study.scaled_pump import load_known_pump
+from swashfilm.cli.app import run_command
 from system import InputFaults, SwashDrive, check_pump, load_pump, stroke, tolerances
 from system.pump.laws.kinematics import displacement
+from system.pump_file.file import load_known_pump
 
 SCANT = '[pump]\ndisplacement = "{}"\npistons = {}\n[oil]\ngrade = "ISO VG 46"\n'
 
@@ -110,3 +112,27 @@ def test_faults_all_at_once(tmp_path, text, faults):
     with pytest.raises(InputFaults) as refused:
         _load(tmp_path, text)
     assert faults <= {fault.path for fault in refused.value.faults}
+
+
+def test_a_scaled_pump_runs_and_every_command_tells_what_it_takes(tmp_path, capsys):
+    path = tmp_path / "scant.toml"
+    path.write_text(SCANT.format("71 cm3", 9), "utf-8")
+    assert run_command(["run", str(path), "--fidelity", "lumped", "--speed", "1500rpm", "-o", str(tmp_path / "a")]) == 0
+    told = " ".join(capsys.readouterr().out.split())
+    for one in load_known_pump(path, {"operating.speed": "1500rpm"}).assumptions:
+        assert f"{one.path} {one.value}" in told
+    assert "operating.speed" not in told
+    summary = json.loads((tmp_path / "a" / "summary.json").read_text("utf-8"))
+    assert any("those of ref90, scaled" in text for text in summary["warnings"])
+    assert any(text.startswith("slipper.mass: taken") for text in summary["assumptions"])
+    case = tmp_path / "gap.toml"
+    case.write_text('format = 1\n[film]\ngap = "slipper"\npump = "scant.toml"\n[position]\nfilm_thickness = "12 um"\n')
+    assert run_command(["film", str(case), "-o", str(tmp_path / "b")]) == 0
+    assert "slipper.mass" in capsys.readouterr().out
+
+
+def test_what_is_stated_as_a_table_is_not_assumed(tmp_path):
+    more = '[piston]\nedge_relief = { width = "5 mm", depth = "9 um" }\n'
+    paths = {one.path for one in _load(tmp_path, SCANT.format("60 cm3", 9) + more).assumptions}
+    assert "bore.edge_relief.width" in paths
+    assert not {path for path in paths if path.startswith("piston.edge_relief")}

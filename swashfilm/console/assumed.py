@@ -1,0 +1,55 @@
+"""What a command assumes of a scaled pump, told before it runs."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Sequence
+from itertools import groupby
+from pathlib import Path
+from textwrap import wrap
+
+from swashfilm.console.terminal import show
+from system.description.assumptions import Assumption
+from system.inputs.toml_table import read_toml
+from system.pump_file.file import builtin_pumps, load_known_pump
+
+WIDTH = 120
+
+
+def scaled_warning(assumptions: Sequence[Assumption]) -> list[str]:
+    """Return the warning of a run whose pump file leaves most values out; none of a pump stated in full."""
+    count = len(assumptions)
+    return [f"{count} values of the pump are not stated: they are those of ref90, scaled"] if count else []
+
+
+def show_assumed(pump: str | Path) -> None:
+    """Print every value that a pump file leaves to ref90, by its reason; nothing of a pump stated in full."""
+    if str(pump) in builtin_pumps() or Path(pump).suffix != ".toml":
+        return
+    show_assumptions(pump, load_known_pump(pump).assumptions)
+
+
+def show_assumptions(pump: str | Path, assumptions: Sequence[Assumption]) -> None:
+    """Print the assumptions for what a pump file leaves out, if there are any."""
+    if assumptions:
+        show(f"{pump} leaves {len(assumptions)} values out, which are assumed:")
+        show("\n".join(_rows(assumptions)))
+
+
+def show_assumed_in(case: Path) -> None:
+    """Print what `show_assumed` does of the pump that a film case or transient names, if it names one."""
+    _, tables = read_toml(case)
+    named = {**tables, **tables.get("film", {}), **tables.get("transient", {})}.get("pump")
+    if isinstance(named, str) and named not in builtin_pumps():
+        show_assumed(case.parent / named)
+
+
+def _rows(assumptions: Iterable[Assumption]) -> Iterator[str]:
+    """Yield lines with the assumptions of each reason together."""
+
+    def reason(one: Assumption) -> str:
+        return one.reason
+
+    for name, alike in groupby(sorted(assumptions, key=reason), reason):
+        yield f"  {name}:"
+        listed = ", ".join(f"{one.path} {one.value}" for one in alike)
+        yield from wrap(listed, WIDTH, initial_indent="    ", subsequent_indent="    ", break_long_words=False)

@@ -1,0 +1,1 @@
+"""Pumps of which little is known: the rest is that of REF90, scaled."""

@@ -1,0 +1,95 @@
+"""Tables of a scant pump file, completed: each value that the file leaves out is REF90's, scaled."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from typing import Any
+
+from system.description.assumptions import Assumption
+from system.description.pump import FORMAT
+from system.inputs.faults import Fault, InputFaults
+from system.inputs.units import Dimension, format_quantity
+from system.pump_file.scaled.facts import facts_of
+from system.pump_file.scaled.scaling import SIZED, scaled_tables
+
+NEEDED = ("slipper", "valve_plate", "ports")
+"""Tables without which a pump file is a scant one."""
+WIDE = "wide, since the pump is scaled from another"
+SCALED = "REF90's, scaled to displacement and pistons"
+TAKEN = "REF90's"
+"""Reasons of assumptions: of a tolerance, of a value that goes with the size, of one that does not."""
+
+_WIDE: dict[str, float | str] = {
+    "film_thickness": 0.5,
+    "eccentricity_ratio": 0.2,
+    "bulk_modulus": 0.1,
+    "friction": 0.6,
+    "guide_friction": 0.6,
+    "bearing_friction": 0.6,
+    "displacement": 0.005,
+    "dead_volume": 0.3,
+    "flow_coefficient": 0.3,
+    "viscosity_slope": "0.0015 1/K",  # a grade leaves the viscosity index open: 95 to 150 is .007 1/K
+    "inlet_share": 0.5,
+}
+"""[tolerance] of what is scaled, which a recording decides: the films of HST 196 are 1.5 to 1.9 times REF90's."""
+
+
+@dataclass(frozen=True)
+class Completed:
+    """Tables of a pump file, complete; the paths that the file itself states, and assumptions for the others."""
+
+    tables: Mapping[str, Any]
+    stated: frozenset[str]
+    assumptions: tuple[Assumption, ...]
+
+
+def is_scant(tables: Mapping[str, Any]) -> bool:
+    """Return True for a pump file that lacks one of the tables NEEDED."""
+    return any(name not in tables for name in NEEDED)
+
+
+def completed(
+    label: str, stated: Mapping[str, Any], name: str, lines: Mapping[str, int | None] | None = None
+) -> Completed:
+    """Return the tables of a scant file with REF90's, scaled, for what it leaves out; `name` is the pump's if unnamed.
+
+    Raises InputFaults under the name `label` if displacement, pistons or oil is not stated.
+    """
+    faults: list[Fault] = []
+    facts = facts_of(stated, faults)
+    if facts is None:
+        raise InputFaults(label, faults, lines)
+    tables: dict[str, Any] = {"name": name, "format": FORMAT, **scaled_tables(facts), "tolerance": dict(_WIDE)}
+    paths = set()
+    for key, table in stated.items():
+        if isinstance(table, dict) and isinstance(tables.get(key, {}), dict):
+            if key == "oil" and "grade" not in table:
+                tables["oil"].pop("grade")
+            tables[key] = {**tables.get(key, {}), **table}
+            paths |= {f"{key}.{own}" for own in table}
+        else:
+            tables[key] = table
+    tables["pump"]["displacement"] = format_quantity(facts.displacement, Dimension.DISPLACEMENT)
+    return Completed(tables, frozenset(paths), _assumptions(tables, paths))
+
+
+def _assumptions(tables: Mapping[str, Any], stated: set[str]) -> tuple[Assumption, ...]:
+    """Values that the file does not state, with their reasons."""
+    return tuple(
+        Assumption(path, str(value), WIDE if path.startswith("tolerance.") else SCALED if path in SIZED else TAKEN)
+        for name, table in tables.items()
+        if isinstance(table, dict)
+        for path, value in _values(name, table, stated)
+    )
+
+
+def _values(path: str, table: Mapping[str, Any], stated: set[str]) -> Iterator[tuple[str, Any]]:
+    """Yield path and value of a table's entries, and of those of the tables in it, but the stated ones."""
+    for key, value in table.items():
+        own = f"{path}.{key}"
+        if own not in stated and isinstance(value, dict):
+            yield from _values(own, value, stated)
+        elif own not in stated:
+            yield own, value
