@@ -8,6 +8,7 @@ from .api import (
     film as film,
     load_pump as load_pump,
     map as map,
+    new as new,
     open as open,
     reference as reference,
     reproduce as reproduce,

@@ -302,6 +302,43 @@ def reproduce(figure: str = "all", *, report: Report = silent, **options: object
             return Reproduction.ran(lambda folder: run_reproduce(asked, executor, folder, report))
 
 
+def new(
+    kind: str,
+    of: str | Path | None = None,
+    *,
+    displacement: Quantity | None = None,
+    pistons: int | None = None,
+    oil: str | None = None,
+    speed: Quantity | None = None,
+    pressure: Quantity | None = None,
+    circuit: str | None = None,
+    part: str | None = None,
+    output: str | Path | None = None,
+) -> Path:
+    """Write a commented file to start from and return its path, as `swashfilm new`; nothing is overwritten.
+
+    kind: "pump" (with displacement to circuit), "recording" (of: its table; part: its sheet, group or variable),
+    "film" (of: its kind). Raises InputFaults.
+    """
+    if isinstance(displacement, float):
+        displacement = f"{displacement!r} m3/rev"
+    given: dict[str, object] = {
+        "displacement": displacement,
+        "pistons": pistons,
+        "oil": oil,
+        "speed": speed,
+        "pressure": pressure,
+        "circuit": circuit,
+        "part": part,
+    }
+    with _door("new"):
+        from swashfilm.cli.new.command import new_file
+
+        words = _words("new", [kind] if of is None else [kind, of], given)
+        words.output = None if output is None else Path(output)
+        return new_file(words).write()
+
+
 def open(folder: str | Path) -> Result:
     """Return the result of a finished run folder, of the class of its kind; raise InputFaults without one."""
     import json

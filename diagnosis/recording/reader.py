@@ -6,6 +6,7 @@ import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -41,13 +42,27 @@ def read_recording(path: Path) -> Recording:
         expected = f"a recording's folder, its {FILE}, or a table beside one"
         raise InputFaults(str(path), [Fault("file", "no such file", expected, nearest_path(path))])
     stated, data = _places(path)
+    if data is not None and not stated.exists():
+        expected = f"a {FILE} beside the table"
+        raise InputFaults(str(path), [Fault("file", f"no {stated}", expected, f"swashfilm new recording {path}")])
     text, tables = read_toml(stated)
-    reading = Reading(stated.parent)
+    try:
+        return recording_of_tables(str(stated), tables, stated.parent, data)
+    except InputFaults as reason:
+        raise InputFaults(reason.source, reason.faults, fault_lines(text, reason.faults)) from None
+
+
+def recording_of_tables(label: str, tables: Mapping[str, Any], folder: Path, data: Path | None = None) -> Recording:
+    """Return the recording of a `recording.toml`'s tables, as `read_recording` does; files are named from the folder.
+
+    data: the file of [steady] or [series] if none is stated. Raises InputFaults under the name `label`.
+    """
+    reading = Reading(folder)
     form = read_form(tables, reading, data)
     reader = ColumnReader(reading.faults)
     recording = None if form is None else _recording(form, reader)
     if recording is None or reading.faults:
-        raise InputFaults(str(stated), reading.faults, fault_lines(text, reading.faults))
+        raise InputFaults(label, reading.faults)
     return recording
 
 

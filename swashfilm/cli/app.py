@@ -8,6 +8,7 @@ from collections.abc import Sequence
 from typing import Any, NoReturn
 
 from swashfilm.cli import check, doctor, report, schema
+from swashfilm.cli.new import command as new
 from swashfilm.console.command import Command
 from swashfilm.console.inputs import COMMAND_LINE
 from swashfilm.console.terminal import show
@@ -24,7 +25,7 @@ from system.inputs.faults import Fault, InputFaults, nearest_choice
 
 _MODULES = (
     run, film, table, transient, operating_map, duty, compare, diagnose, calibrate, reference, coefficients, reproduce,
-    report, check, doctor, schema,
+    report, new, check, doctor, schema,
 )  # fmt: skip
 COMMANDS: dict[str, Command] = {module.COMMAND.name: module.COMMAND for module in _MODULES}
 
@@ -54,6 +55,19 @@ def parse(words: Sequence[str]) -> argparse.Namespace:
 
 class _Parser(argparse.ArgumentParser):
     """Argument parser that raises its errors as InputFaults."""
+
+    def parse_known_args(self, args: Any = None, namespace: Any = None) -> tuple[Any, list[str]]:
+        """Return the options and the unknown words; an argument that may be left out may stand behind options.
+
+        Before Python 3.13 argparse takes such an argument as left out where an option stands before it.
+        """
+        found, unknown = super().parse_known_args(args, namespace)
+        if len(unknown) == 1 and not unknown[0].startswith("-"):
+            for action in self._actions:
+                if action.nargs == "?" and not action.option_strings and getattr(found, action.dest) is None:
+                    setattr(found, action.dest, unknown.pop())
+                    break
+        return found, unknown
 
     def error(self, message: str) -> NoReturn:
         """Raise InputFaults with argparse's message as a fault of the command line."""

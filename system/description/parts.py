@@ -36,16 +36,16 @@ from system.inputs.units import Dimension
 class ReliefSection:
     """An edge taken back: by `depth` at the edge, falling to nothing at `width` from it as a parabola."""
 
-    width: Length
-    depth: Length
+    width: Length  # from the edge inwards
+    depth: Length  # taken off at the edge
 
 
 @dataclass(frozen=True, kw_only=True)
 class WavinessSection:
     """[valve_plate.waviness]: the plate's face rises and falls by `amplitude` around the shaft."""
 
-    waves: Annotated[int, Limits(least=1, most=99)]
-    amplitude: Length
+    waves: Annotated[int, Limits(least=1, most=99)]  # around the shaft
+    amplitude: Length  # half of crest to trough
 
 
 @dataclass(frozen=True, kw_only=True)

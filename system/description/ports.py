@@ -43,12 +43,12 @@ class PortsSection:
 
     groove_start: Angle | None = None  # with groove_area: one groove of that area
     groove_end: Angle  # the kidney begins to open
-    groove_area: Area | None = None
-    kidney_full_start: Angle
-    kidney_full_end: Angle
-    kidney_end: Angle
-    kidney_area: Area
-    flow_coefficient: Annotated[float, Limits(above=0.0, most=1.0)]
+    groove_area: Area | None = None  # of that groove's throat
+    kidney_full_start: Angle  # the block kidney lies within the port
+    kidney_full_end: Angle  # the kidney begins to close
+    kidney_end: Angle  # the port is closed
+    kidney_area: Area  # of the full opening, a chamber
+    flow_coefficient: Annotated[float, Limits(above=0.0, most=1.0)]  # of the orifice law
     critical_reynolds: Annotated[float, Positive]  # laminar-turbulent transition of the orifice law
     coefficient_file: FlowFile | None = None  # over opening and Reynolds number; the two above scale it
     grooves: tuple[GrooveSection, ...] = ()  # in place of groove_start and groove_area

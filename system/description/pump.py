@@ -73,27 +73,27 @@ FORMAT = 1
 class PumpSection:
     """[pump]: the rotating group as a whole."""
 
-    pistons: Annotated[int, Limits(least=3, most=99)]
+    pistons: Annotated[int, Limits(least=3, most=99)]  # number of pistons
     displacement: Displacement | None = None  # checked against the geometry, Eq. (6)
-    swash_angle_max: AcuteAngle
+    swash_angle_max: AcuteAngle  # at full displacement
     cross_angle: Annotated[float, Dimension.ANGLE, Limits(above=-math.pi / 4, below=math.pi / 4)] | None = None
-    bore_cone_angle: Annotated[float, Dimension.ANGLE, Limits(least=0.0, below=math.pi / 2)]
-    piston_diameter: Length
+    bore_cone_angle: Annotated[float, Dimension.ANGLE, Limits(least=0.0, below=math.pi / 2)]  # bores to shaft axis
+    piston_diameter: Length  # outer
     pitch_radius: Length  # of the ball centres at zero swash angle
     dead_volume: Volume  # of one chamber at inner dead centre and full swash angle
-    rated_speed: AngularSpeed
-    rated_pressure: Annotated[float, Dimension.PRESSURE, Positive]
+    rated_speed: AngularSpeed  # above it a run warns
+    rated_pressure: Annotated[float, Dimension.PRESSURE, Positive]  # above it a run warns, gauge
 
 
 @dataclass(frozen=True, kw_only=True)
 class PistonSection:
     """[piston]: one piston in its bore; lengths at inner dead centre and full swash angle."""
 
-    radial_clearance: Length
-    engaged_length: Length
+    radial_clearance: Length  # bore radius less piston radius
+    engaged_length: Length  # of piston in the bore
     overhang: Annotated[float, Dimension.LENGTH, NotNegative]  # ball centre to bore edge
     eccentricity_ratio: Annotated[float, Limits(least=0.0, below=1.0)]  # given; used where no balance is
-    mass: Mass
+    mass: Mass  # piston without slipper
     spin_ratio: float | None = None  # spin relative to the block / shaft speed
     stand_out_share: Annotated[float, Limits(least=0.0, most=1.2)] | None = None  # of (H_max - H)/2 at part stroke
     guide_length: Length | None = None  # of the land in the bore, from the case edge inwards
@@ -110,17 +110,17 @@ class PistonSection:
 class SlipperSection:
     """[slipper]: one slipper; film thickness and tilts are the given ones, used where no balance is."""
 
-    land_inner_radius: Length
-    land_outer_radius: Length
-    orifice_diameter: Length
-    orifice_length: Length
-    film_thickness: Length
-    mass: Mass
-    centre_of_mass_to_ball: Annotated[float, Dimension.LENGTH, NotNegative]
-    ball_joint_radius: Length
+    land_inner_radius: Length  # the pocket's edge
+    land_outer_radius: Length  # the rim
+    orifice_diameter: Length  # of the bore that feeds the pocket
+    orifice_length: Length  # of the same bore
+    film_thickness: Length  # given; used where no balance is
+    mass: Mass  # slipper alone
+    centre_of_mass_to_ball: Annotated[float, Dimension.LENGTH, NotNegative]  # towards the swash plate
+    ball_joint_radius: Length  # of the ball
     spin_ratio: float | None = None  # spin about its own axis / shaft speed
-    tilt_radial: Angle
-    tilt_tangential: Angle
+    tilt_radial: Angle  # given; opens the film outwards
+    tilt_tangential: Angle  # given; opens the film forwards
     ball_height: Length | None = None  # of the ball centre above the sliding face
     orifice_flow_coefficient: Annotated[float, Limits(above=0.0, most=1.0)] | None = None  # of entry and exit
     orifice_file: FlowFile | None = None  # flow coefficients of the whole bore
@@ -131,7 +131,7 @@ class SlipperSection:
     rim_relief: ReliefSection | None = None  # at the outer radius
     grooves: SlipperGrooves | None = None  # closed rings in the land
     vented_grooves: SlipperGrooves | None = None  # rings open to the case
-    flange_thickness: Length | None = None
+    flange_thickness: Length | None = None  # bends outside the socket
     socket_radius: Length | None = None  # up to which the ball holds the flange
     body: BodySection | None = None
 
@@ -146,20 +146,20 @@ class SlipperSection:
 class ValvePlateSection:
     """[valve_plate]: sealing lands 1 .. 2 and 3 .. 4 (inner and outer), the block's kidneys between them."""
 
-    land_radius_1: Length
-    land_radius_2: Length
-    land_radius_3: Length
-    land_radius_4: Length
-    kidney_pitch_radius: Length
-    kidney_width: Length
+    land_radius_1: Length  # inner land, inner radius
+    land_radius_2: Length  # inner land, outer radius
+    land_radius_3: Length  # outer land, inner radius
+    land_radius_4: Length  # outer land, outer radius
+    kidney_pitch_radius: Length  # middle of the kidneys
+    kidney_width: Length  # radial, of a block kidney
     kidney_arc: Annotated[float, Dimension.ANGLE, Positive]  # over all, rounded ends included
-    film_thickness: Length
-    tilt_x: Angle
-    tilt_y: Angle
+    film_thickness: Length  # given, on the shaft axis; used where no balance is
+    tilt_x: Angle  # given; opens towards the inner dead centre
+    tilt_y: Angle  # given; opens a quarter turn on
     residual_clamping: Coefficient  # fraction of the pressure force
     kidney_file: StepFile | None = None  # losses of steps, at the edges of the lands
-    thickness: Length | None = None
-    waviness: WavinessSection | None = None
+    thickness: Length | None = None  # of the plate, its back held
+    waviness: WavinessSection | None = None  # of the face, around the shaft
     profile: Profile | None = None  # over the radius
     pads: tuple[PadSection, ...] = ()  # beyond the outer land
     sphere_radius: Length | None = None  # of a face that bulges into a hollow block; radii are then off the axis
@@ -185,10 +185,10 @@ class ValvePlateSection:
 class BallGuideSection:
     """[ball_guide]: the ball guide under its spring, F = stiffness (compression + displacement), Eq. (13)."""
 
-    radius: Length
-    contact_latitude: AcuteAngle
+    radius: Length  # of the ball guide
+    contact_latitude: AcuteAngle  # of the contact with the retainer
     spring_preload: Force  # at zero relative displacement
-    spring_stiffness: Stiffness
+    spring_stiffness: Stiffness  # of the guide's spring
     spring_compression: Annotated[float, Dimension.LENGTH, NotNegative]  # relative displacement
 
 
@@ -196,7 +196,7 @@ class BallGuideSection:
 class BlockSection:
     """[block]: the cylinder block."""
 
-    mass: Mass
+    mass: Mass  # cylinder block
     spline_position: AnyLength | None = None  # above the valve plate: where the shaft holds the block sideways
     end_thickness: Length | None = None  # between the bores and the face on the valve plate
     profile: Profile | None = None  # of that face over the radius
@@ -207,10 +207,10 @@ class BlockSection:
 class BearingsSection:
     """[bearings]: mean diameters, and the share of the side force that each bearing takes."""
 
-    front_diameter: Length
-    rear_diameter: Length
-    front_share: Fraction
-    rear_share: Fraction
+    front_diameter: Length  # mean diameter
+    rear_diameter: Length  # mean diameter
+    front_share: Fraction  # of the side force
+    rear_share: Fraction  # of the side force
     front_position: AnyLength | None = None  # above the valve plate, of the bearings' middles
     rear_position: AnyLength | None = None
 
@@ -233,24 +233,24 @@ class ActuatorSection:
 class FrictionSection:
     """[friction]: Coulomb coefficient of each of the seven friction pairs."""
 
-    piston_cylinder: Coefficient
-    piston_slipper_socket: Coefficient
-    slipper_swash_plate: Coefficient
-    valve_plate_cylinder: Coefficient
-    ball_guide_retainer: Coefficient
-    front_bearing: Coefficient
-    rear_bearing: Coefficient
+    piston_cylinder: Coefficient  # piston in its bore
+    piston_slipper_socket: Coefficient  # ball joint
+    slipper_swash_plate: Coefficient  # slipper on the plate
+    valve_plate_cylinder: Coefficient  # block on the valve plate
+    ball_guide_retainer: Coefficient  # ball guide in the retainer
+    front_bearing: Coefficient  # shaft bearing
+    rear_bearing: Coefficient  # shaft bearing
 
 
 @dataclass(frozen=True, kw_only=True)
 class OilSection:
     """[oil]: a pump file may say `grade` in place of the two viscosities."""
 
-    kinematic_viscosity_40C: KinematicViscosity
-    kinematic_viscosity_100C: KinematicViscosity
-    density: Density
-    bulk_modulus: Modulus
-    specific_heat: SpecificHeat
+    kinematic_viscosity_40C: KinematicViscosity  # of the data sheet
+    kinematic_viscosity_100C: KinematicViscosity  # of the data sheet
+    density: Density  # of the oil
+    bulk_modulus: Modulus  # with the air that it usually carries
+    specific_heat: SpecificHeat  # of the oil
     pressure_viscosity: PressureCoefficient | None = None  # Barus' coefficient
     thermal_conductivity: Conductivity | None = None
     thermal_expansion: Expansion | None = None
@@ -265,12 +265,12 @@ class OilSection:
 class OperatingSection:
     """[operating]: where the pump runs when nothing else is asked for."""
 
-    speed: AngularSpeed
-    pressure: Pressure
-    displacement_ratio: Annotated[float, Limits(above=0.0, most=1.0)]
-    temperature: Temperature
-    inlet_pressure: Pressure
-    case_pressure: Pressure
+    speed: AngularSpeed  # of the shaft
+    pressure: Pressure  # of delivery, gauge
+    displacement_ratio: Annotated[float, Limits(above=0.0, most=1.0)]  # share of the full displacement
+    temperature: Temperature  # of the oil in the case and films
+    inlet_pressure: Pressure  # gauge
+    case_pressure: Pressure  # gauge
 
 
 SINGLE_PARTS = ("piston", "slipper", "bore")

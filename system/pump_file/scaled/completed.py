@@ -9,7 +9,7 @@ from typing import Any
 from system.description.assumptions import Assumption
 from system.description.pump import FORMAT
 from system.inputs.faults import Fault, InputFaults
-from system.inputs.units import Dimension, format_quantity
+from system.inputs.units import Dimension, format_quantity, parse_quantity
 from system.pump_file.scaled.facts import facts_of
 from system.pump_file.scaled.scaling import SIZED, scaled_tables
 
@@ -18,7 +18,10 @@ NEEDED = ("slipper", "valve_plate", "ports")
 WIDE = "wide, since the pump is scaled from another"
 SCALED = "REF90's, scaled to displacement and pistons"
 TAKEN = "REF90's"
-"""Reasons of assumptions: of a tolerance, of a value that goes with the size, of one that does not."""
+OPEN = "usual in an open circuit"
+"""Reasons of assumptions: of a tolerance, of a value that goes with the size, of one that does not, of a circuit."""
+STIFFER = 2.0
+"""Springs of an open circuit over those of a closed one, whose inlet presses slippers on the plate by itself."""
 
 _WIDE: dict[str, float | str] = {
     "film_thickness": 0.5,
@@ -43,6 +46,22 @@ class Completed:
     tables: Mapping[str, Any]
     stated: frozenset[str]
     assumptions: tuple[Assumption, ...]
+
+    def in_open_circuit(self) -> Completed:
+        """Return the pump with an inlet from a tank, a drain without pressure, and a spring that holds the slippers."""
+        preload = parse_quantity(self.tables["ball_guide"]["spring_preload"], Dimension.FORCE)
+        values = {
+            "operating.inlet_pressure": "0 MPa",
+            "operating.case_pressure": "0.03 MPa",
+            "ball_guide.spring_preload": format_quantity(STIFFER * preload, Dimension.FORCE, digits=4),
+        }
+        tables = {name: dict(own) if isinstance(own, dict) else own for name, own in self.tables.items()}
+        for path, value in values.items():
+            table, _, key = path.partition(".")
+            tables[table][key] = value
+        others = [one for one in self.assumptions if one.path not in values]
+        taken = [Assumption(path, value, OPEN) for path, value in values.items()]
+        return Completed(tables, self.stated, (*others, *taken))
 
 
 def is_scant(tables: Mapping[str, Any]) -> bool:

@@ -43,7 +43,9 @@ def _size(top: Table) -> Facts | None:
     if table is None:
         return None
     own = {key: raw for key, raw in table.values.items() if key in fields_of(Facts)}
-    facts = read_section("pump", Facts, own, Reading(special={"pump.displacement": _displacement}, faults=top.faults))
+    facts = read_section(
+        "pump", Facts, own, Reading(special={"pump.displacement": read_displacement}, faults=top.faults)
+    )
     known = [*fields_of(PumpSection)]
     for key in table.values:
         if key not in known:
@@ -51,8 +53,8 @@ def _size(top: Table) -> Facts | None:
     return None if top.faults else facts
 
 
-def _displacement(raw: object, _: Mapping[str, object], reading: Reading) -> Mapping[str, object]:
-    """A displacement per revolution, also written "60 cm3"; none with its fault added."""
+def read_displacement(raw: object, _: Mapping[str, object], reading: Reading) -> Mapping[str, object]:
+    """Return a displacement per revolution, also written "60 cm3"; none with its fault added."""
     try:
         return {"displacement": parse_quantity(raw, Dimension.VOLUME)}
     except QuantityError:

@@ -1,0 +1,119 @@
+"""Heads of columns, English and German: the quantity, its place on the pump, its unit."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+from enum import Enum
+
+from diagnosis.recording.channel_form import PressureReference
+from diagnosis.recording.guess.unit_text import ReadUnit, read_unit
+from system.inputs.units import Dimension
+
+
+class Quantity(Enum):
+    """What a column measures: the words of a head, whole ones and (four letters or more) parts of words."""
+
+    TIME = (Dimension.TIME, "time zeit t s timestamp uhrzeit zeitstempel")
+    SPEED = (Dimension.ANGULAR_SPEED, "speed n rpm drehzahl rotation")
+    TORQUE = (Dimension.TORQUE, "torque m md trq moment drehmoment")
+    TEMPERATURE = (Dimension.TEMPERATURE, "temperature temp temperatur t")
+    FLOW = (Dimension.VOLUME_FLOW, "flow q strom durchfluss leakage leckage drain")
+    POWER = (Dimension.POWER, "power leistung pel")
+    PRESSURE = (Dimension.PRESSURE, "pressure press druck p hd nd hp lp")
+    RATIO = (None, "displacement ratio schwenk swash alpha verstell beta foerdervolumen vg")
+
+    dimension: Dimension | None
+    words: tuple[str, ...]
+
+    def __new__(cls, dimension: Dimension | None, words: str) -> Quantity:
+        """A member whose value is its words."""
+        member = object.__new__(cls)
+        member._value_ = words
+        member.dimension, member.words = dimension, tuple(words.split())
+        return member
+
+
+class Place(Enum):
+    """Where on the pump a column is measured, by the words of a head."""
+
+    CASE = "case drain leck leak leckage leakage gehaeuse housing casing l"
+    IN = "inlet intake suction saug eingang eintritt zulauf feed charge speise niederdruck low boost tank in nd lp"
+    OUT = "outlet delivery ausgang austritt hochdruck high discharge ablauf foerder out hd hp"
+
+
+@dataclass(frozen=True)
+class Head:
+    """A column's head as read: quantity and place (None: not told), unit, and the zero of a pressure."""
+
+    column: str
+    quantity: Quantity | None
+    place: Place | None
+    unit: ReadUnit | None
+    electric: bool
+
+    @property
+    def reference(self) -> PressureReference | None:
+        """Zero of a pressure, where the head tells it."""
+        return self.unit.reference if self.unit else None
+
+
+_BRACKETS = re.compile(r"[\[(<{].*$")
+_REFERENCE_BEHIND = re.compile(r"(bar|psi|mpa|kpa|pa)\s*\((abs|a|gauge|g|rel)\)[\])]?$", re.IGNORECASE)
+_NUMBERED = re.compile(r".*:\d+")  # a column of a matrix
+_UMLAUTS = str.maketrans({"ä": "ae", "ö": "oe", "ü": "ue", "ß": "ss"})
+_SPLIT = re.compile(r"[A-Z]?[a-z]+|[A-Z]+(?![a-z])|\d+")
+_ELECTRIC = ("elec", "elek", "netz", "mains")
+_PART = 4  # letters from which a word counts inside of another
+
+
+def read_head(column: str, in_table: str = "") -> Head:
+    """Return what the head of a column tells; in_table: the unit that the table states beside it.
+
+    A unit that the table states decides the quantity; one at the end of the head ("p_out_bar") has to fit the words.
+    """
+    if _NUMBERED.fullmatch(column):
+        return Head(column, None, None, None, False)
+    if (told := _REFERENCE_BEHIND.search(column)) and (ending := read_unit(told[0].rstrip("])") + ")")):
+        column_unit, bare = ending, column[: told.start()].strip(" _[(")
+    else:
+        column_unit, bare = None, _BRACKETS.sub("", column).strip()
+    words = [word.lower() for word in _SPLIT.findall(bare.translate(_UMLAUTS))]
+    unit = column_unit or (read_unit(in_table) if in_table else None)
+    spoken = _quantity(bare, words, unit)
+    if unit is None:
+        spoken, unit = _with_ending(bare, words, spoken)
+    place = next((one for one in Place if _among(one.value.split(), words)), None)
+    electric = "el" in words or "pel" in words or any(part in word for part in _ELECTRIC for word in words)
+    return Head(column, spoken, place, unit, electric)
+
+
+def _quantity(bare: str, words: list[str], unit: ReadUnit | None) -> Quantity | None:
+    """Return the quantity of a unit, or of the first words that tell one; a symbol's case counts (T, t)."""
+    able = [one for one in Quantity if unit is None or one.dimension is unit.dimension]
+    if unit is not None and unit.dimension is not None:
+        return able[0] if able else None
+    if unit is None and (bare == "t" or re.match(r"t[_ ]*s?$", bare)):
+        return Quantity.TIME
+    symbols = [one for one in able if one is not Quantity.TIME or "time" in words or "zeit" in words]
+    named = [one for one in (symbols if "t" in words else able) if _among(one.words, words)]
+    longer = [one for one in named if any(len(word) >= _PART and _among([word], words) for word in one.words)]
+    return next(iter([*longer, *named]), None)
+
+
+def _with_ending(bare: str, words: list[str], spoken: Quantity | None) -> tuple[Quantity | None, ReadUnit | None]:
+    """Return quantity and unit of a head that ends with a unit; the unit None where it does not fit the words."""
+    before, _, ending = bare.replace(" ", "_").rpartition("_")
+    unit = read_unit(ending) if before and ending else None
+    if unit is None or (unit.dimension is None and ending not in ("%", "pct")):
+        return spoken, None
+    if spoken is None or spoken.dimension is unit.dimension:
+        return spoken or _quantity(bare, words, unit), unit
+    told = _quantity(before, words[:-1], None)
+    fits = len(ending) > 1 and (told is None or len(before) <= 2 or told.dimension is unit.dimension)
+    return (_quantity(before, words, unit), unit) if fits else (spoken, None)
+
+
+def _among(known: list[str] | tuple[str, ...], words: list[str]) -> bool:
+    """True if one of the known words is among the words, or a longer one a part of one of them."""
+    return any(one in words or (len(one) >= _PART and any(one in word for word in words)) for one in known)

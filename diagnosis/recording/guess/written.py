@@ -1,0 +1,162 @@
+"""A `recording.toml` for a bare table: channels as guessed, each guess marked, and what is missing named."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from diagnosis.recording.channel_form import PressureReference
+from diagnosis.recording.guess.channels import GuessedChannel, GuessedColumns, guessed_columns
+from diagnosis.recording.model import Circuit
+from diagnosis.recording.replicates import FEWEST
+from diagnosis.recording.tables.table import TableColumns, TableSource
+from reynolds.numerics.arrays import Array
+from system.inputs.channels import INPUTS, OUTPUTS, ChannelName
+from system.inputs.toml_table import quoted
+from system.inputs.units import LPM, Dimension, unit_scale
+
+SERIES_ROWS, SERIES_STEP = 100, 10.0
+"""Rows at least, and s between them at most (median), of a table with a time that is taken as a time series."""
+CHARGED = 5e5
+"""Pa gauge: inlet pressure from which a circuit is taken as closed."""
+SIGMA_SHARE = 0.002
+SIGMAS = {Dimension.TEMPERATURE: 0.3, Dimension.PRESSURE: 1e3, Dimension.VOLUME_FLOW: 0.01 / LPM}
+"""One sigma of repeatability where nothing tells it: share of the median reading, and at least this, SI."""
+_COLUMN = 60  # of the comments
+
+
+@dataclass(frozen=True)
+class GuessedRecording:
+    """A recording of a bare table: its text, its channels, what was guessed and what is missing, in words."""
+
+    text: str
+    channels: tuple[GuessedChannel, ...]
+    told: tuple[str, ...]
+
+
+def guessed_recording(source: TableSource, table: TableColumns, circuit: Circuit | None) -> GuessedRecording:
+    """Return the recording of a table; its text is that of a `recording.toml` beside it.
+
+    circuit: None is guessed from the inlet pressure.
+    """
+    columns = guessed_columns(table)
+    series = _is_series(columns, table)
+    absent = _missing(columns)
+    reference = next((one.reference for one in columns.channels if one.reference), None)
+    rows = [
+        f'# Recording of {source.path.name}. What is marked "guessed" or "assumed" the table does not tell: hold it',
+        "# against the bench, correct it and delete the mark. swashfilm check shows the recording as it is read.",
+        "format = 1",
+        _line(f"title = {quoted(source.path.stem)}", "of the report"),
+        _circuit_line(circuit, columns, table.values),
+        _reference_line(reference),
+        *_section(source, columns, table, series),
+        *_channel_rows(columns, table.values, reference, series),
+        *(f"# missing: {line}" for line in absent),
+        *(f"# not used: column {name!r}" for name in columns.others),
+    ]
+    return GuessedRecording("\n".join(rows) + "\n", columns.channels, _told(columns, absent))
+
+
+def _line(entry: str, words: str) -> str:
+    return f"{entry + ' ':{_COLUMN}}# {words}"
+
+
+def _is_series(columns: GuessedColumns, table: TableColumns) -> bool:
+    """True for a table with many rows close to each other in time."""
+    if columns.time is None or table.rows < SERIES_ROWS:
+        return False
+    name, unit = columns.time
+    steps = np.diff(table.values[name]) * unit_scale(unit, Dimension.TIME)[0]
+    return bool(np.all(steps > 0.0) and np.median(steps) <= SERIES_STEP)
+
+
+def _circuit_line(circuit: Circuit | None, columns: GuessedColumns, values: Mapping[str, Array]) -> str:
+    if circuit is not None:
+        return _line(f"circuit = {quoted(circuit.value)}", "or open, closed")
+    inlet = next((one for one in columns.channels if one.name is ChannelName.P_IN), None)
+    if inlet is None:
+        return _line(f"circuit = {quoted(Circuit.OPEN.value)}", "guessed: no inlet pressure; or closed")
+    middle = _median(values[inlet.column]) * unit_scale(inlet.unit, Dimension.PRESSURE)[0]
+    found = Circuit.CLOSED if middle > CHARGED else Circuit.OPEN
+    return _line(f"circuit = {quoted(found.value)}", f"guessed: by the inlet pressure, {middle * 1e-5:.3g} bar")
+
+
+def _reference_line(reference: PressureReference | None) -> str:
+    if reference is not None:
+        return _line(f"pressure_reference = {quoted(reference.value)}", "of all pressures that state no other")
+    return _line(f"pressure_reference = {quoted(PressureReference.GAUGE.value)}", "guessed; or absolute")
+
+
+def _section(source: TableSource, columns: GuessedColumns, table: TableColumns, series: bool) -> list[str]:
+    """Return the table [steady] or [series]."""
+    head = "[series]" if series else "[steady]"
+    words = "a time series: its steady stretches are the points" if series else "a row is a steady point"
+    rows = ["", _line(head, f"guessed: {words}"), f"file = {quoted(source.path.name)}"]
+    parts = {"sheet": source.sheet, "group": source.group, "variable": source.variable}
+    rows += [f"{key} = {quoted(name)}" for key, name in parts.items() if name]
+    if columns.time is not None and (series or _rises(table.values[columns.time[0]])):
+        name, unit = columns.time
+        rows.append(f"time = {{ column = {quoted(name)}, unit = {quoted(unit)} }}")
+    return rows
+
+
+def _rises(times: Array) -> bool:
+    return len(times) > 1 and bool(np.all(np.diff(times) > 0.0))
+
+
+def _channel_rows(
+    columns: GuessedColumns, values: Mapping[str, Array], reference: PressureReference | None, series: bool
+) -> list[str]:
+    """Return the table [channel], an entry a line."""
+    rows = ["", _line("[channel]", "column of the table and its unit")]
+    if not series:
+        rows += [
+            "# sigma: one sigma of repeatability in the channel's unit. Verdicts depend on it: state your bench's, or",
+            f"# name a column that numbers set points ([steady] repeats) where {FEWEST} and more points repeat one.",
+        ]
+    for one in columns.channels:
+        parts = [f"column = {quoted(one.column)}", f"unit = {quoted(one.unit)}"]
+        doubts = [f"guessed: {words}" for words in one.doubts]
+        sigma = None if series else _sigma(one, values[one.column])
+        if sigma is not None:
+            parts += [f"sigma = {sigma:.2g}", 'accuracy_class = "A"']
+            doubts.append("assumed: sigma and class")
+        if one.reference is not None and one.reference is not reference:
+            parts.append(f"reference = {quoted(one.reference.value)}")
+        entry = f"{one.name.value} = {{ {', '.join(parts)} }}"
+        rows.append(_line(entry, "; ".join(doubts)) if doubts else entry)
+    return rows
+
+
+def _sigma(channel: GuessedChannel, readings: Array) -> float | None:
+    """Return an assumed repeatability in the channel's unit; None of a setting, which has none."""
+    dimension = channel.name.dimension
+    if dimension is None:
+        return None
+    share = 0.0 if dimension is Dimension.TEMPERATURE else SIGMA_SHARE * abs(_median(readings))
+    return max(share, SIGMAS.get(dimension, 0.0) / unit_scale(channel.unit, dimension)[0])
+
+
+def _median(readings: Array) -> float:
+    known = readings[np.isfinite(readings)]
+    return float(np.median(known)) if len(known) else 0.0
+
+
+def _missing(columns: GuessedColumns) -> list[str]:
+    """Return what a diagnosis would use and the table does not have."""
+    names = {one.name for one in columns.channels}
+    lines = [f"{name.value}, taken from the pump file" for name in INPUTS if name not in names]
+    return lines + [f"{name.value}, not compared" for name in OUTPUTS if name not in names]
+
+
+def _told(columns: GuessedColumns, absent: Sequence[str]) -> tuple[str, ...]:
+    """Return what the guess is, in lines for the terminal."""
+    shown = [
+        f"  {one.name.value}: column {one.column!r} in {one.unit}" + "".join(f"; {words}" for words in one.doubts)
+        for one in columns.channels
+    ]
+    unused = [f"  not used: {', '.join(map(repr, columns.others))}"] if columns.others else []
+    return (*shown, *unused, *(f"  missing: {line}" for line in absent))

@@ -1,0 +1,45 @@
+"""A file that the command writes: its place, its text, its schema for editors; nothing is overwritten."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import dataclass
+from pathlib import Path
+
+from swashfilm.cli.schema import schema_of
+from system.inputs.faults import Fault
+
+
+@dataclass(frozen=True)
+class NewFile:
+    """A file to write: its place, its kind of schema, its text without the schema line, and what to tell of it."""
+
+    path: Path
+    kind: str
+    text: str
+    told: tuple[str, ...]
+
+    def write(self) -> Path:
+        """Write the file, and the schema of its kind beside it where there is none, and return its path.
+
+        Raises FileExistsError for a file that is there.
+        """
+        schema = self.path.parent / f"{self.kind}.schema.json"
+        if not schema.exists():
+            schema.write_text(json.dumps(schema_of(self.kind), indent=1, ensure_ascii=False) + "\n", encoding="utf-8")
+        with self.path.open("x", encoding="utf-8") as file:
+            file.write(f"#:schema ./{schema.name}\n{self.text}")
+        return self.path
+
+
+def place_faults(path: Path, option: str) -> list[Fault]:
+    """Return the fault of a place that no new file can have."""
+    if path.suffix.lower() != ".toml":
+        return [Fault(option, f"'{path}'", "a name that ends in .toml", f"{path.stem}.toml")]
+    if not path.parent.is_dir():
+        return [Fault(option, f"'{path}'", f"a folder that exists, not '{path.parent}'")]
+    if path.exists():
+        numbered = (path.with_stem(f"{path.stem}-{k}") for k in range(2, 1000))
+        free = next((str(one) for one in numbered if not one.exists()), "")
+        return [Fault(option, f"'{path}', which exists", "a new file: none is overwritten", free)]
+    return []

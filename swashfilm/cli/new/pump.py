@@ -1,0 +1,63 @@
+"""A new pump file: what is told of the pump, and for the rest REF90's values at its size, marked."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from pathlib import Path
+from textwrap import wrap
+
+from diagnosis.recording.model import Circuit
+from swashfilm.cli.new.file import NewFile
+from swashfilm.cli.new.questions import QUESTIONS, ask
+from system.inputs.faults import Fault
+from system.pump_file.file import check_pump
+from system.pump_file.scaled.completed import Completed, completed
+from system.pump_file.scaled.written import written_pump
+from system.pump_file.tables import pump_of_tables
+
+USUAL = "pump.toml"
+_WIDTH = 116
+_HEAD = """A value marked "assumed" is not known of this pump: it is that of the built-in pump ref90, or goes with the
+size ("scaled"). Behind +- is one sigma of it, as [tolerance] states. Replace it by the drawing's value and delete the
+mark; narrow [tolerance] with it. Any unit of the kind will do; pressures are gauge."""
+
+
+def new_pump(given: Mapping[str, str | None], path: Path, faults: list[Fault], asks: bool) -> NewFile | None:
+    """Return the pump file of the options; None with faults added. asks: missing ones are asked for on a terminal."""
+    answers: dict[str, str] = {}
+    stated: dict[str, dict[str, object]] = {}
+    asks = asks and not faults
+    for question in QUESTIONS:
+        text = given[question.option]
+        if text is None and asks:
+            text = ask(question)
+        if text is None:
+            faults.append(question.missing)
+            continue
+        answers[question.option] = text
+        for table, entries in question.answered(text, faults).items():
+            stated.setdefault(table, {}).update(entries)
+    if faults:
+        return None
+    pump = completed(str(path), stated, path.stem)
+    if answers["--circuit"] == Circuit.OPEN.value:
+        pump = pump.in_open_circuit()
+    doubts = check_pump(pump_of_tables(str(path), pump.tables)).warnings
+    return NewFile(path, "pump", written_pump(pump, _head(path, answers)), _told(path, pump, [*map(str, doubts)]))
+
+
+def _head(path: Path, answers: Mapping[str, str]) -> list[str]:
+    """Return the comments above the file."""
+    known = ", ".join(f"{option[2:]} {text}" for option, text in answers.items())
+    return [
+        *wrap(f"{path.stem}: a pump of which this is known: {known}.", _WIDTH),
+        *wrap(_HEAD, _WIDTH),
+        f"swashfilm check {path.name}; swashfilm run {path.name} --fidelity lumped",
+    ]
+
+
+def _told(path: Path, pump: Completed, doubts: list[str]) -> tuple[str, ...]:
+    """Return what the command prints."""
+    count = len(pump.assumptions)
+    told = [f"{count} values are assumed: those of ref90, scaled; {path} marks each"]
+    return (*told, *(f"warning: {one}" for one in doubts), f"next: swashfilm run {path} --fidelity lumped")

@@ -1,0 +1,75 @@
+"""A new recording: `recording.toml` beside a bare table."""
+
+from __future__ import annotations
+
+import tomllib
+from collections.abc import Callable, Mapping
+from dataclasses import replace
+from pathlib import Path
+
+from diagnosis.recording.guess.written import GuessedRecording, guessed_recording
+from diagnosis.recording.model import Circuit
+from diagnosis.recording.reader import recording_of_tables
+from diagnosis.recording.tables.read import read_columns
+from diagnosis.recording.tables.table import TableFault, TableSource
+from swashfilm.cli.new.file import NewFile
+from system.inputs.channels import OUTPUTS
+from system.inputs.faults import Fault, nearest_choice, nearest_path
+
+_PARTS: Mapping[str, Callable[[TableSource, str], TableSource]] = {
+    ".xlsx": lambda source, name: replace(source, sheet=name),
+    ".tdms": lambda source, name: replace(source, group=name),
+    ".mat": lambda source, name: replace(source, variable=name),
+}
+"""A table's named part, by the extension of tables that have several."""
+
+
+def new_recording(
+    table: str | None, part: str | None, circuit: str | None, path: Path, faults: list[Fault]
+) -> NewFile | None:
+    """Return the recording of a table, which lies beside it; None with faults added."""
+    known = [one.value for one in Circuit]
+    if circuit is not None and circuit not in known:
+        near = nearest_choice(circuit, known)
+        faults.append(Fault("--circuit", repr(circuit), f"one of {', '.join(known)}", near))
+    source = _source(table, part, faults)
+    if source is None or faults:
+        return None
+    try:
+        guess = guessed_recording(source, read_columns(source), None if circuit is None else Circuit(circuit))
+    except TableFault as reason:
+        mend = "--part NAME" if part is None and source.path.suffix.lower() in _PARTS else reason.nearest
+        faults.append(Fault("TABLE", reason.found, reason.expected, mend))
+        return None
+    faults += _faults(guess)
+    if faults:
+        return None
+    recording_of_tables(str(path), tomllib.loads(guess.text), path.parent)
+    told = (*guess.told, f"next: swashfilm check {source.path}; swashfilm diagnose PUMP {source.path}")
+    return NewFile(path, "recording", guess.text, told)
+
+
+def _source(table: str | None, part: str | None, faults: list[Fault]) -> TableSource | None:
+    """Return the table and its part; None with the fault added."""
+    if table is None or not Path(table).is_file():
+        found = "missing" if table is None else f"'{table}', no such file"
+        expected = "a table (.csv, .xlsx, .tdms, .mf4, .mat, .parquet)"
+        faults.append(Fault("TABLE", found, expected, nearest_path(Path(table)) if table else ""))
+        return None
+    source = TableSource(Path(table))
+    if part is None:
+        return source
+    extension = source.path.suffix.lower()
+    if extension not in _PARTS:
+        faults.append(Fault("--part", repr(part), f"no part, or a table of {', '.join(_PARTS)}"))
+        return None
+    return _PARTS[extension](source, part)
+
+
+def _faults(guess: GuessedRecording) -> list[Fault]:
+    """Return the fault of a table in which nothing is found that a pump's simulation gives."""
+    if any(one.name in OUTPUTS for one in guess.channels):
+        return []
+    found = ", ".join(one.column for one in guess.channels) or "no column that heads tell"
+    expected = "heads that tell a flow, a torque or a temperature, such as 'Q_out [L/min]', 'torque [N m]'"
+    return [Fault("TABLE", found, expected)]

@@ -1,0 +1,155 @@
+"""`swashfilm new recording`: channels and units by English and German heads, guesses marked, ready to be diagnosed."""
+
+import csv
+from pathlib import Path
+
+import numpy as np
+import openpyxl
+import pytest
+from jsonschema import Draft202012Validator
+
+import swashfilm as sf
+from diagnosis import read_recording
+from diagnosis.recording.guess.channels import guessed_columns
+from diagnosis.recording.tables.table import TableColumns
+from diagnosis.study.acceptance import checked_recording
+from swashfilm.__main__ import main
+from swashfilm.cli.schema import schema_of
+from system.inputs.channels import ChannelName
+from system.inputs.toml_table import read_toml
+from system.pump_file.file import load_known_pump
+
+OPEN06 = Path(__file__).parents[3] / "examples" / "recordings" / "open-06"
+GERMAN = (
+    "Messpunkt", "Drehzahl [U/min]", "Schwenkwinkel [-]", "Hochdruck [bar(a)]", "Speisedruck [bar(a)]",
+    "Öltemperatur Tank [°C]", "Temperatur Gehäuse [°C]", "Gehäusedruck [bar(a)]", "Förderstrom [l/min]",
+    "Saugvolumenstrom [l/min]", "Leckölstrom [l/min]", "Drehmoment [Nm]",
+)  # fmt: skip
+BARE = ("nr", "n", "alpha", "p2", "p1", "T_tank", "T_case", "p_case", "Q", "Q_in", "Q_leak", "M")
+
+
+def _rows():
+    with (OPEN06 / "steady.csv").open(encoding="utf-8") as file:
+        return list(csv.reader(file))
+
+
+def _csv(path, head):
+    lines = [";".join(head), *(";".join(cell.replace(".", ",") for cell in row) for row in _rows()[1:])]
+    path.write_text("\n".join(lines) + "\n", "utf-8")
+    return path
+
+
+def _xlsx(path, head, sheets=1):
+    book = openpyxl.Workbook()
+    for k in range(1, sheets):
+        book.create_sheet(f"more{k}").append(["a"])
+    for row in [head, *([float(cell) for cell in row] for row in _rows()[1:])]:
+        book.active.append(list(row))
+    book.active.title = "Karte"
+    book.save(path)
+    return path
+
+
+@pytest.mark.parametrize("head", [_rows()[0], GERMAN], ids=["English", "German"])
+@pytest.mark.parametrize("write", [_csv, _xlsx])
+def test_a_bare_table_is_read_as_its_recording(tmp_path, write, head):
+    table = write(tmp_path / f"map.{write.__name__[1:]}", head)
+    path = sf.new("recording", table)
+    assert path == tmp_path / "recording.toml"
+    assert path.read_text("utf-8").startswith("#:schema ./recording.schema.json\n")
+    found, known = read_recording(table), read_recording(OPEN06)
+    steady = [name for name in ChannelName if np.any(np.isfinite(known.steady.column(name)))]
+    absolute = "absolute" in path.read_text("utf-8").partition("[steady]")[0].partition("#:")[2].split("guessed; or")[0]
+    for name in steady:
+        shift = 101325.0 if name.dimension and name.dimension.name == "PRESSURE" and not absolute else 0.0
+        np.testing.assert_allclose(found.steady.column(name), known.steady.column(name) + shift, rtol=1e-9, atol=1e-6)
+    assert found.circuit is known.circuit
+    assert not list(Draft202012Validator(schema_of("recording")).iter_errors(read_toml(path)[1]))
+    checked_recording(table, load_known_pump("ref90"))
+
+
+def test_heads_without_units_are_read_by_size_and_every_guess_is_marked(tmp_path):
+    table = _csv(tmp_path / "map.csv", BARE)
+    text = sf.new("recording", table).read_text("utf-8")
+    found, known = read_recording(table), read_recording(OPEN06)
+    for name in (ChannelName.SPEED, ChannelName.Q_OUT, ChannelName.TORQUE, ChannelName.T_IN, ChannelName.Q_CASE):
+        np.testing.assert_allclose(found.steady.column(name), known.steady.column(name), rtol=1e-9)
+    np.testing.assert_allclose(found.steady.column(ChannelName.P_OUT), known.steady.column(ChannelName.P_OUT) + 101325)
+    lines = {line.split(" = ")[0]: line for line in text.splitlines() if "column = " in line}
+    assert "guessed: place, by its size; guessed: unit, by its size" in lines["p_out"]
+    assert all("guessed" in line for line in lines.values())
+    assert "# not used: column 'nr'" in text
+    assert "# missing: T_out" in text
+
+
+def test_a_time_series_is_taken_as_one(tmp_path):
+    time = np.arange(600) * 0.5
+    rows = np.stack([time, 1500 + 0 * time, 200 + 0 * time, 100 + 0.01 * np.sin(time), 300 + 0.05 * np.cos(time)], 1)
+    head = "Zeit [s],Drehzahl [1/min],p_HD [bar],Q [l/min],Drehmoment [Nm]"
+    np.savetxt(tmp_path / "run.csv", rows, delimiter=",", header=head, comments="")
+    text = sf.new("recording", tmp_path / "run.csv", circuit="open").read_text("utf-8")
+    assert 'time = { column = "Zeit [s]", unit = "s" }' in text
+    assert "[series]" in text
+    assert "sigma =" not in text
+    assert 'circuit = "open"' in text
+
+
+@pytest.mark.parametrize(
+    ("head", "channel", "unit"),
+    [
+        ("Outlet Pressure [psi]", "p_out", "psi"),
+        ("p_in [bar abs]", "p_in", "bar"),
+        ("Case Drain Flow (gallon/min)", "Q_case", "gallon/min"),
+        ("Shaft speed [1/min]", "speed", "rpm"),
+        ("nMot", "speed", "rpm"),
+        ("T_Leck_degC", "T_case", "degC"),
+        ("Temp. Austritt [°C]", "T_out", "degC"),
+        ("Elektrische Leistung [kW]", "electric_power", "kW"),
+        ("Moment", "torque", "N m"),
+        ("Saugdruck [mbar]", "p_in", "mbar"),
+        ("Durchfluss Druckseite [l/min]", "Q_out", "l/min"),
+    ],
+)  # fmt: skip
+def test_heads_as_benches_write_them(head, channel, unit):
+    units = {head: head.rpartition("[")[2].rpartition("(")[2].strip("])")} if head.endswith(("]", ")")) else {}
+    found = guessed_columns(TableColumns({head: np.array([100.0, 1500.0])}, units=units)).channels
+    assert [(one.name.value, one.unit) for one in found] == [(channel, unit)]
+
+
+@pytest.mark.parametrize("head", ["point", "Messpunkt", "Leistung [kW]", "M:1", "remark", "id"])
+def test_what_no_head_tells_is_no_channel(head):
+    assert guessed_columns(TableColumns({head: np.array([1.0, 2.0])})).channels == ()
+
+
+def test_a_workbook_of_several_sheets_needs_its_name(tmp_path):
+    table = _xlsx(tmp_path / "map.xlsx", GERMAN, sheets=2)
+    with pytest.raises(sf.InputFaults) as refused:
+        sf.new("recording", table)
+    assert "Karte" in str(refused.value)
+    assert "part" in refused.value.faults[0].nearest
+    assert 'sheet = "Karte"' in sf.new("recording", table, part="Karte").read_text("utf-8")
+    assert len(read_recording(table).steady.values) == 112
+    (tmp_path / "recording.toml").unlink()
+    assert main(["new", "recording", "--part", "Karte", str(table)]) == 0
+
+
+def test_faults_all_at_once_and_nothing_is_overwritten(tmp_path, capsys):
+    table = _csv(tmp_path / "map.csv", GERMAN)
+    path = sf.new("recording", table)
+    before = path.read_text("utf-8")
+    assert main(["new", "recording", str(table), "--circuit", "opn", "--oil", "ISO VG 46"]) == 2
+    told = capsys.readouterr().err
+    assert all(word in told for word in ("exists", "--circuit", "--oil"))
+    assert path.read_text("utf-8") == before
+
+
+def test_a_table_without_an_output_is_a_fault(tmp_path):
+    (tmp_path / "map.csv").write_text("point,remark\n1,2\n3,4\n", "utf-8")
+    with pytest.raises(sf.InputFaults, match="flow, a torque"):
+        sf.new("recording", tmp_path / "map.csv")
+
+
+def test_a_bare_table_is_pointed_to_the_command(tmp_path, capsys):
+    table = _csv(tmp_path / "map.csv", GERMAN)
+    assert main(["diagnose", "ref90", str(table)]) == 2
+    assert f"swashfilm new recording {table}" in capsys.readouterr().err
