@@ -122,7 +122,8 @@ def test_commands_parse(page):
                 known.add(words[-1])
             else:
                 _check_words(words, known)
-                known.update(words[at + 1] for at, word in enumerate(words) if word == "--apply")
+                written = ("--apply", "-o") if words[0] == "new" else ("--apply",)
+                known.update(words[at + 1] for at, word in enumerate(words) if word in written)
 
 
 def _check_words(words: list[str], known: set[str]) -> None:
@@ -154,7 +155,7 @@ def test_documented_cases_load(tmp_path):
             )
             assert read_recording(tmp_path).pump == "ref90"
             continue
-        load = load_gap_table if "[table]" in block else load_film
+        load = load_pump if "[pump]" in block else load_gap_table if "[table]" in block else load_film
         assert load(path).name == path.stem
 
 
