@@ -64,9 +64,9 @@ def load_known_pump(source: str | Path, overrides: Mapping[str, object] | None =
     label, text = _read(source)
     tables = toml_tables(label, text)
     lines: dict[str, int | None] = {**key_lines(text)}
-    _replace(tables, overrides or {}, lines)
     built_in = str(source) in builtin_pumps()
     scant = not built_in and is_scant(tables)
+    _replace(tables, overrides or {}, lines)
     if not scant or "format" in tables:
         _check_format(label, tables, lines)
     folder = HERE if built_in else Path(source).parent

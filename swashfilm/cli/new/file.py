@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from swashfilm.cli.schema import schema_of
-from system.inputs.faults import Fault
+from system.inputs.faults import Fault, InputFaults
 
 
 @dataclass(frozen=True)
@@ -22,13 +22,18 @@ class NewFile:
     def write(self) -> Path:
         """Write the file, and the schema of its kind beside it where there is none, and return its path.
 
-        Raises FileExistsError for a file that is there.
+        Raises InputFaults for a folder that cannot be written to, and for a file that is there by now.
         """
         schema = self.path.parent / f"{self.kind}.schema.json"
-        if not schema.exists():
-            schema.write_text(json.dumps(schema_of(self.kind), indent=1, ensure_ascii=False) + "\n", encoding="utf-8")
-        with self.path.open("x", encoding="utf-8") as file:
-            file.write(f"#:schema ./{schema.name}\n{self.text}")
+        try:
+            if not schema.exists():
+                text = json.dumps(schema_of(self.kind), indent=1, ensure_ascii=False)
+                schema.write_text(text + "\n", encoding="utf-8")
+            with self.path.open("x", encoding="utf-8") as file:
+                file.write(f"#:schema ./{schema.name}\n{self.text}")
+        except OSError as reason:
+            fault = Fault("file", f"cannot be written: {reason}", "a folder that can be written to")
+            raise InputFaults(str(self.path), [fault]) from None
         return self.path
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import tomllib
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import replace
 from pathlib import Path
 
@@ -14,7 +14,7 @@ from diagnosis.recording.tables.read import read_columns
 from diagnosis.recording.tables.table import TableFault, TableSource
 from swashfilm.cli.new.file import NewFile
 from system.inputs.channels import OUTPUTS
-from system.inputs.faults import Fault, nearest_choice, nearest_path
+from system.inputs.faults import Fault, InputFaults, nearest_choice, nearest_path
 
 _PARTS: Mapping[str, Callable[[TableSource, str], TableSource]] = {
     ".xlsx": lambda source, name: replace(source, sheet=name),
@@ -44,9 +44,16 @@ def new_recording(
     faults += _faults(guess)
     if faults:
         return None
-    recording_of_tables(str(path), tomllib.loads(guess.text), path.parent)
-    told = (*guess.told, f"next: swashfilm check {source.path}; swashfilm diagnose PUMP {source.path}")
-    return NewFile(path, "recording", guess.text, told)
+    told = (*guess.told, *_doubts(guess, path), f"next: swashfilm check {source.path}")
+    return NewFile(path, "recording", guess.text, (*told, f"then: swashfilm diagnose PUMP {source.path}"))
+
+
+def _doubts(guess: GuessedRecording, path: Path) -> Iterator[str]:
+    """Yield what is wrong with the readings as guessed: a wrong guess may be the reason, and the file mends it."""
+    try:
+        recording_of_tables(str(path), tomllib.loads(guess.text), path.parent)
+    except InputFaults as reason:
+        yield from (f"warning: {one.path}: {one.found}; expected {one.expected}" for one in reason.faults)
 
 
 def _source(table: str | None, part: str | None, faults: list[Fault]) -> TableSource | None:

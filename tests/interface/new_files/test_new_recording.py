@@ -149,6 +149,26 @@ def test_a_table_without_an_output_is_a_fault(tmp_path):
         sf.new("recording", tmp_path / "map.csv")
 
 
+def test_what_is_wrong_with_the_readings_is_told_and_the_file_is_written(tmp_path, capsys):
+    head, *rows = _rows()
+    lines = [",".join([*head, "pump"]), *(",".join([*row, "AB"[k > 50]]) for k, row in enumerate(rows))]
+    (tmp_path / "map.csv").write_text("\n".join(lines) + "\n", "utf-8")
+    assert main(["new", "recording", str(tmp_path / "map.csv")]) == 0
+    assert "warning: steady.file: several pumps in the column 'pump'" in capsys.readouterr().out
+    assert (tmp_path / "recording.toml").is_file()
+
+
+def test_a_folder_without_permission_is_a_fault(tmp_path, monkeypatch):
+    table = _csv(tmp_path / "map.csv", GERMAN)
+
+    def refused(*_, **__):
+        raise PermissionError(13, "Permission denied")
+
+    monkeypatch.setattr(Path, "write_text", refused)
+    with pytest.raises(sf.InputFaults, match="Permission denied"):
+        sf.new("recording", table)
+
+
 def test_a_bare_table_is_pointed_to_the_command(tmp_path, capsys):
     table = _csv(tmp_path / "map.csv", GERMAN)
     assert main(["diagnose", "ref90", str(table)]) == 2

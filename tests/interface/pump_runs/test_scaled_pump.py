@@ -131,6 +131,16 @@ def test_a_scaled_pump_runs_and_every_command_tells_what_it_takes(tmp_path, caps
     assert "slipper.mass" in capsys.readouterr().out
 
 
+def test_values_set_from_outside_leave_a_file_scant(tmp_path):
+    path = tmp_path / "scant.toml"
+    path.write_text(SCANT.format("71 cm3", 9), "utf-8")
+    values = {"slipper.mass": "50 g", "valve_plate.film_thickness": "9 um", "ports.flow_coefficient": 0.6}
+    known = load_known_pump(path, values)
+    assert known.scant
+    assert known.pump.valve_plate.film_thickness == 9e-6
+    assert set(values) <= known.stated
+
+
 def test_what_is_stated_as_a_table_is_not_assumed(tmp_path):
     more = '[piston]\nedge_relief = { width = "5 mm", depth = "9 um" }\n'
     paths = {one.path for one in _load(tmp_path, SCANT.format("60 cm3", 9) + more).assumptions}
