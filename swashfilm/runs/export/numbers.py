@@ -44,9 +44,7 @@ class Number:
 
 def numbers(data: MapData) -> Iterator[Number]:
     """Yield every number of the map, the loss, and the efficiencies by definition; nan where there is none."""
-    for name, unit, words in columns():
-        yield Number(name, unit, words, data.values[name])
-    yield Number("loss", "W", "shaft power less p Q summed over delivery, inlet and case", data.loss)
+    yield from _read(data)
     for definition in EfficiencyDefinition:
         found = data.efficiency(definition)
         for part in EFFICIENCIES:
@@ -56,8 +54,14 @@ def numbers(data: MapData) -> Iterator[Number]:
 
 def tables(data: MapData) -> tuple[Number, ...]:
     """Return the numbers of `TABLES`, in that order."""
-    known = {number.name: number for number in numbers(data)}
+    known = {number.name: number for number in _read(data)}
     return tuple(known[name] for name in TABLES)
+
+
+def _read(data: MapData) -> Iterator[Number]:
+    for name, unit, words in columns():
+        yield Number(name, unit, words, data.values[name])
+    yield Number("loss", "W", "shaft power less p Q summed over delivery, inlet and case", data.loss)
 
 
 def wide(data: MapData) -> tuple[MapAxis, ...]:

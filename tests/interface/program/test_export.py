@@ -134,6 +134,15 @@ def test_the_modelica_model_takes_each_table_at_its_levels(whole, tmp_path):
         np.testing.assert_array_equal(tables[table][1:, 1:], own)
 
 
+def test_a_modelica_model_of_speed_and_pressure_alone_has_one_table_each(tmp_path):
+    folder = kept_map(tmp_path / "line", {MapInput.PRESSURE: (10e6, 20e6)})
+    assert main(["export", str(folder), "--to", "modelica", "-o", "pump.mo"]) == 0
+    model = (tmp_path / "pump.mo").read_text()
+    assert " weight = {1};" in model
+    assert re.findall(r"RealInput (\w+)\(", model) == ["delivery_pressure"]
+    assert set(read_modelica((tmp_path / "pump.txt").read_text())) == {f"{name.replace('.', '_')}_1" for name in TABLES}
+
+
 def test_matlab_reads_the_map(holed, tmp_path, capsys):
     assert main(["export", str(holed), "--to", "matlab"]) == 0
     assert "2 of 48 points without a result" in capsys.readouterr().out
@@ -235,8 +244,5 @@ def test_a_single_point_is_a_line_of_csv_and_no_table(tmp_path, capsys):
     assert sf.export(folder, "csv") == (Path("ref90.csv"),)
 
 
-def test_a_map_run_is_exported_from_python(whole, tmp_path):
-    found = sf.export(whole, "matlab", tmp_path / "pump.mat")
-    assert found == (tmp_path / "pump.mat",)
-    with pytest.raises(sf.InputFaults, match="matlab"):
-        sf.export(whole, "matlap")
+def test_a_map_is_exported_from_python(whole, tmp_path):
+    assert sf.export(whole, "modelica", tmp_path / "pump.mo") == (tmp_path / "pump.mo", tmp_path / "pump.txt")
