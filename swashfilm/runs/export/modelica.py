@@ -18,7 +18,14 @@ from system.maps.plan import MapAxis, MapInput
 UNITS = {"N m": "N.m"}
 """Units as Modelica writes them, where they differ."""
 SHAFT = TABLES[0]
-IDENTIFIER = re.compile(r"[A-Za-z]\w*", re.ASCII)
+PACKAGE = re.compile(r"(?!(Modelica|Real|Integer|Boolean|String)$)[A-Z]\w*", re.ASCII)
+"""Name of a package: the language's words begin with a small letter, but for its types."""
+
+
+def package_name(text: str) -> str:
+    """Return the name of a package that is next to a text."""
+    name = re.sub(r"\W+", "_", text, flags=re.ASCII).strip("_").capitalize()
+    return name if PACKAGE.fullmatch(name) else f"Map_{name}".rstrip("_")
 
 
 def modelica_files(data: MapData, name: str) -> Mapping[str, bytes]:

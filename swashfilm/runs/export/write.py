@@ -12,7 +12,7 @@ from swashfilm.console.inputs import COMMAND_LINE
 from swashfilm.runs.export.amesim import amesim_files
 from swashfilm.runs.export.long_csv import csv_files
 from swashfilm.runs.export.matlab import matlab_files
-from swashfilm.runs.export.modelica import IDENTIFIER, modelica_files
+from swashfilm.runs.export.modelica import PACKAGE, modelica_files, package_name
 from swashfilm.runs.export.numbers import first_hole, wide
 from swashfilm.runs.map.files import map_file, read_map
 from system.inputs.faults import Fault, InputFaults, nearest_choice
@@ -91,8 +91,7 @@ def export_of(place: Path, to: str, output: Path | None) -> Export:
         faults = [*_map_faults(data, to, place)]
     if faults:
         raise InputFaults(COMMAND_LINE, faults)
-    name = re.sub(r"\W+", "_", data.name, flags=re.ASCII).strip("_") or "map"
-    usual = Path(name if IDENTIFIER.fullmatch(name) else f"map_{name}")
+    usual = Path(package_name(data.name) if to == "modelica" else re.sub(r"[^\w.-]+", "-", data.name))
     return Export(data, FORMATS[to], usual if output is None else output.with_suffix(""))
 
 
@@ -107,9 +106,9 @@ def _word_faults(to: str, output: Path | None) -> Iterator[Fault]:
     if output.suffix != ending:
         near = f"-o {output.with_suffix(ending)}" if output.name else ""
         yield Fault("-o", f"'{output}'", f"a file name that ends in {ending}", near)
-    elif to == "modelica" and not IDENTIFIER.fullmatch(output.stem):
-        expected = "a name of letters, digits and _, a letter first: it names the package"
-        yield Fault("-o", f"'{output.stem}'", expected)
+    elif to == "modelica" and not PACKAGE.fullmatch(output.stem):
+        expected = "letters, digits and _, a capital first: it names the package"
+        yield Fault("-o", f"'{output.stem}'", expected, f"-o {output.with_stem(package_name(output.stem))}")
 
 
 def _map_faults(data: MapData, to: str, place: Path) -> Iterator[Fault]:

@@ -103,8 +103,8 @@ def read_amesim(text):
 
 
 def test_modelica_reads_the_map(whole, tmp_path):
-    assert main(["export", str(whole), "--to", "modelica", "-o", "pump.mo"]) == 0
-    found, known = read_modelica((tmp_path / "pump.txt").read_text()), of_map(whole)
+    assert main(["export", str(whole), "--to", "modelica", "-o", "Pump.mo"]) == 0
+    found, known = read_modelica((tmp_path / "Pump.txt").read_text()), of_map(whole)
     assert len(found) == len(TABLES) * 4
     for name in TABLES:
         for k, index in enumerate(np.ndindex(2, 2, 1), start=1):
@@ -115,11 +115,11 @@ def test_modelica_reads_the_map(whole, tmp_path):
 
 
 def test_the_modelica_model_takes_each_table_at_its_levels(whole, tmp_path):
-    main(["export", str(whole), "--to", "modelica", "-o", "pump.mo"])
-    model, tables = (tmp_path / "pump.mo").read_text(), read_modelica((tmp_path / "pump.txt").read_text())
-    assert model.startswith("package pump ")
-    assert model.endswith("end pump;\n")
-    assert 'fileName = "pump.txt"' in model
+    main(["export", str(whole), "--to", "modelica", "-o", "Pump.mo"])
+    model, tables = (tmp_path / "Pump.mo").read_text(), read_modelica((tmp_path / "Pump.txt").read_text())
+    assert model.startswith("package Pump ")
+    assert model.endswith("end Pump;\n")
+    assert 'fileName = "Pump.txt"' in model
     named = re.findall(r"tableName=\{([^}]*)\}", model)
     assert {name for row in named for name in re.findall(r'"(\w+)"', row)} == set(tables)
     products = re.search(r" weight = \{(.*)\};", model)[1].split(", ")
@@ -136,11 +136,11 @@ def test_the_modelica_model_takes_each_table_at_its_levels(whole, tmp_path):
 
 def test_a_modelica_model_of_speed_and_pressure_alone_has_one_table_each(tmp_path):
     folder = kept_map(tmp_path / "line", {MapInput.PRESSURE: (10e6, 20e6)})
-    assert main(["export", str(folder), "--to", "modelica", "-o", "pump.mo"]) == 0
-    model = (tmp_path / "pump.mo").read_text()
+    assert main(["export", str(folder), "--to", "modelica", "-o", "Pump.mo"]) == 0
+    model = (tmp_path / "Pump.mo").read_text()
     assert " weight = {1};" in model
     assert re.findall(r"RealInput (\w+)\(", model) == ["delivery_pressure"]
-    assert set(read_modelica((tmp_path / "pump.txt").read_text())) == {f"{name.replace('.', '_')}_1" for name in TABLES}
+    assert set(read_modelica((tmp_path / "Pump.txt").read_text())) == {f"{name.replace('.', '_')}_1" for name in TABLES}
 
 
 def test_matlab_reads_the_map(holed, tmp_path, capsys):
@@ -216,7 +216,9 @@ def test_a_format_without_holes_refuses_them(to, holed, tmp_path, capsys):
         ("nowhere --to matlap", ["no such file or folder", "modelica, matlab", "try:      matlab"]),
         ("{whole} --to csv -o pump.txt", ["ends in .csv", "-o pump.csv"]),
         ("{whole} --to csv -o ''", ["ends in .csv"]),
-        ("{whole} --to modelica -o 3-pumps.mo", ["a letter first"]),
+        ("{whole} --to modelica -o 3-pumps.mo", ["a capital first", "-o Map_3_pumps.mo"]),
+        ("{whole} --to modelica -o here/model.mo", ["a capital first", "-o here/Model.mo"]),
+        ("{whole} --to modelica -o Real.mo", ["it names the package"]),
         ("{whole}", ["--to"]),
     ],
 )
@@ -228,13 +230,19 @@ def test_what_is_wrong_is_told_and_nothing_is_written(words, told, whole, tmp_pa
 
 
 def test_nothing_is_overwritten(whole, tmp_path, capsys):
-    (tmp_path / "pump.txt").write_text("mine")
-    (tmp_path / "pump_2.mo").write_text("mine")
-    assert main(["export", str(whole), "--to", "modelica", "-o", "pump.mo"]) == 2
+    (tmp_path / "Pump.txt").write_text("mine")
+    (tmp_path / "Pump_2.mo").write_text("mine")
+    assert main(["export", str(whole), "--to", "modelica", "-o", "Pump.mo"]) == 2
     error = capsys.readouterr().err
-    assert "pump.txt, which exists" in error
-    assert "-o pump_3.mo" in error
-    assert not (tmp_path / "pump.mo").exists()
+    assert "Pump.txt, which exists" in error
+    assert "-o Pump_3.mo" in error
+    assert not (tmp_path / "Pump.mo").exists()
+
+
+def test_a_file_that_cannot_be_written_is_told(whole, tmp_path, capsys):
+    (tmp_path / "there").write_text("")
+    assert main(["export", str(whole), "--to", "csv", "-o", "there/pump.csv"]) == 2
+    assert "a file that can be created" in capsys.readouterr().err
 
 
 def test_a_single_point_is_a_line_of_csv_and_no_table(tmp_path, capsys):
@@ -245,4 +253,4 @@ def test_a_single_point_is_a_line_of_csv_and_no_table(tmp_path, capsys):
 
 
 def test_a_map_is_exported_from_python(whole, tmp_path):
-    assert sf.export(whole, "modelica", tmp_path / "pump.mo") == (tmp_path / "pump.mo", tmp_path / "pump.txt")
+    assert sf.export(whole, "modelica", tmp_path / "Pump.mo") == (tmp_path / "Pump.mo", tmp_path / "Pump.txt")
