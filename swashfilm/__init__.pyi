@@ -5,6 +5,7 @@ from .api import (
     compare as compare,
     diagnose as diagnose,
     duty as duty,
+    export as export,
     film as film,
     load_pump as load_pump,
     map as map,

@@ -212,6 +212,18 @@ def compare(
         return CompareRun.ran(compare_case(_words("compare", [first, second], {"cycle": cycle})).run)
 
 
+def export(of: MapRun | str | Path, to: str, output: str | Path | None = None) -> tuple[Path, ...]:
+    """Write a map as tables of another program and return the files, as `swashfilm export`; raise InputFaults.
+
+    of: a MapRun, its run folder, or its map.nc; to: "modelica", "matlab", "amesim" or "csv"; output: the file, by
+    default the pump's name in the working folder.
+    """
+    with _door("export"), _map_file(of) as path:
+        from swashfilm.runs.export.write import export_of
+
+        return export_of(path, to, None if output is None else Path(output)).write()
+
+
 def transient(case: Case) -> TransientRun:
     """Solve displacement in time, as `swashfilm transient`; raise InputFaults and NotConverged."""
     with _door("transient"), _case_file(case) as path:

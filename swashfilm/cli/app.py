@@ -14,6 +14,7 @@ from swashfilm.console.inputs import COMMAND_LINE
 from swashfilm.console.terminal import show
 from swashfilm.runs.calibrate import command as calibrate
 from swashfilm.runs.diagnose import command as diagnose
+from swashfilm.runs.export import command as export
 from swashfilm.runs.film import command as film
 from swashfilm.runs.map import command as operating_map, compare_command as compare, duty_command as duty
 from swashfilm.runs.pump import command as run
@@ -24,8 +25,8 @@ from swashfilm.runs.transient import command as transient
 from system.inputs.faults import Fault, InputFaults, nearest_choice
 
 _MODULES = (
-    run, film, table, transient, operating_map, duty, compare, diagnose, calibrate, reference, coefficients, reproduce,
-    report, new, check, doctor, schema,
+    run, film, table, transient, operating_map, duty, compare, export, diagnose, calibrate, reference, coefficients,
+    reproduce, report, new, check, doctor, schema,
 )  # fmt: skip
 COMMANDS: dict[str, Command] = {module.COMMAND.name: module.COMMAND for module in _MODULES}
 

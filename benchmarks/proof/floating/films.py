@@ -20,7 +20,7 @@ from system.work.progress import Report, silent
 PUMP = "ref90"
 SPEEDS, PRESSURES = (10.0 * STEPS[ChannelName.SPEED], 22.0 * STEPS[ChannelName.SPEED]), (5e6, 25e6)
 """Box of the tables, SI, as `film_box` rounds that of the campaign, at full displacement and the pump's temperature."""
-LEARNT, HELD_OUT = 8, 3
+LEARNT, HELD_OUT = 8, 2
 OFF: tuple[tuple[Effect, ...], ...] = (
     (),
     (Effect.ELASTIC_WALLS,),

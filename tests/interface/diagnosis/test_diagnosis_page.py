@@ -96,6 +96,19 @@ def test_a_page_says_what_changes_in_the_pump(study: Study, named: Diagnosis, tm
     assert read_rows(tmp_path / "films.csv") == [film]
 
 
+def test_floating_films_stand_alone_on_the_page(study: Study, named: Diagnosis, tmp_path: Path) -> None:
+    """No column of closed-form laws beside them; the page says what both runs are."""
+    films = FilmComparison({}, (FilmChange("mean film, slipper", "um", {}, LEAKAGES[1]),), "Floating films.")
+    compared = PumpComparison(changes=(Change("case drain", "L/min", 1.0, 2.0),), text="Point 3.", films=films)
+    write_diagnosis_files(tmp_path, study, named, (), compared)
+    write_diagnose_page(tmp_path)
+    assert list(read_rows(tmp_path / "films.csv")[0]) == ["quantity", "unit", "films_without", "films_with"]
+    page = (tmp_path / "report.html").read_text("utf-8")
+    assert "Both runs have floating films" in page
+    assert "films, without -&gt; with" in page
+    assert "closed-form laws" not in page
+
+
 def test_a_meters_fault_is_no_change_of_the_pump(study: Study, named: Diagnosis) -> None:
     """Nothing is run, and why is told; nothing is told where nothing is claimed."""
     fault = replace(named, effects=(ClaimedEffect(E.TORQUE_OFFSET, None, 0.99, (), ()),))

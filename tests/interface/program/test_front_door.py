@@ -120,6 +120,7 @@ def test_plots_return_axes(point):
         (lambda: sf.map("ref90", pressures="5..35", **LUMPED), ["pressures"]),
         (lambda: sf.open("nowhere"), ["the folder of a finished run"]),
         (lambda: sf.duty("nowhere", "cycle.csv"), ["nowhere"]),
+        (lambda: sf.export("nowhere", "matlap"), ["to", "try:      matlab", "nowhere"]),
         (lambda: sf.transient("nowhere.toml"), ["no such file"]),
         (lambda: sf.reference("nowhere.toml"), ["no such file"]),
         (lambda: sf.reproduce("fig99"), ["fig99"]),
@@ -180,3 +181,5 @@ def test_maps_duty_and_comparison(tmp_path):
     both = sf.compare(found, found.save(tmp_path / "map"), cycle)
     assert all(row["largest"] == 0.0 for row in both.summary["differences"])
     assert [title for title, _ in both.tables()][1] == "Over the cycle"
+    (exported,) = sf.export(found, "csv", tmp_path / "map.csv")
+    assert len(exported.read_text("utf-8").splitlines()) == 7

@@ -1,0 +1,1 @@
+"""An operating map as tables of other programs: Modelica, MATLAB, Amesim, CSV."""
