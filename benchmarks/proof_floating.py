@@ -6,8 +6,9 @@
     python benchmarks/proof_floating.py --cases N     only the first N cases of each simulation
     python benchmarks/proof_floating.py --write elastic_walls-61 FOLDER    writes a recording, for swashfilm diagnose
 
-Points of the tables are solved where they are not kept, some hours in all: Ctrl-C loses only those under way. A case
-takes a minute of process time.
+Points of the tables are solved where they are not kept, some hours in all: Ctrl-C loses only those under way. Those
+behind the page are kept in benchmarks/proof/floating/points.tar.xz: tar -xf it into ~/.cache/swashfilm/tables. A case
+takes half a minute of process time.
 """
 
 from __future__ import annotations
