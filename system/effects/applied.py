@@ -61,9 +61,9 @@ def left_over(point: OperatingPoint[Number], ideal: Number, suction_loss: Number
 def affected_leaks(leaks: LeakTable, effects: Effects[Value]) -> LeakTable:
     """Leaks with the effects' factors and flows at the effects' angles; of fewer angles, by a periodic spline."""
     factor, dragged = (np.moveaxis(each, 0, -2) for each in (effects.conductance, effects.gap_flow))
-    conductance, drag_flow, count = leaks.conductance, leaks.drag_flow, factor.shape[-1]
-    if conductance.shape[-1] != count:
-        conductance, drag_flow = np.maximum(_at_angles(conductance, count), 0.0), _at_angles(drag_flow, count)
+    conductance, drag_flow = (_at_angles(own, factor.shape[-1]) for own in (leaks.conductance, leaks.drag_flow))
+    if conductance is not leaks.conductance:  # a spline may pass below nothing
+        conductance = np.maximum(conductance, 0.0)
     return LeakTable(conductance * factor, drag_flow + dragged)
 
 
@@ -77,7 +77,9 @@ def affected_wear(wear: PortWear[Value], effects: Effects[Value]) -> PortWear[Va
 
 
 def _at_angles(table: Array, count: int) -> Array:
-    """A table over the turn (..., N) at so many angles."""
+    """A table over the turn (..., N) at so many angles, itself where it has them."""
+    if table.shape[-1] == count:
+        return table
     closed = np.concatenate([table, table[..., :1]], axis=-1)
     spline = CubicSpline(np.linspace(0.0, 1.0, closed.shape[-1]), closed, axis=-1, bc_type="periodic")
     return np.asarray(spline(np.arange(count) / count))

@@ -133,7 +133,7 @@ def test_each_effect_moves_what_its_sheet_says(plant: SimpleNamespace, coarse: N
 
 
 def test_every_effect_has_a_law_and_a_case(proof: SimpleNamespace, plant: SimpleNamespace) -> None:
-    """No field of Hidden is left out; every id of missing physics but a block that tips has cases."""
+    """No field of Hidden is left out; every id of missing physics with a law but a block that tips has cases."""
     from system import EffectId, Kind, entry_of
 
     cases = import_module("proof.other.cases")
@@ -142,7 +142,9 @@ def test_every_effect_has_a_law_and_a_case(proof: SimpleNamespace, plant: Simple
     assert {one.name for one in fields(plant.hidden.Hidden)} - fields_listed <= {"thermal_piston", "thermal_plate"}
     physics = {
         one.value for one in EffectId
-        if one is not EffectId.UNKNOWN_PHYSICS and entry_of(one).verdict is Kind.MISSING_PHYSICS
+        if one is not EffectId.UNKNOWN_PHYSICS
+        and entry_of(one).verdict is Kind.MISSING_PHYSICS
+        and entry_of(one).extensions
     }  # fmt: skip
     assert physics - {one.id for one in listed} == {"block_tipping"}
 

@@ -6,6 +6,7 @@ from bench_pump import BENCH
 
 from reynolds import dynamic_viscosity
 from system import CATALOGUE, EXTENSIONS, BenchState, EffectId, Gap, GapCourse, Kind, entry_of, load_pump
+from system.effects.catalogue.solved import SOLVED_ENTRIES
 from system.effects.effect import both, neutral
 
 REF90 = load_pump(BENCH)
@@ -42,9 +43,10 @@ def _centres(extension):
 
 
 def test_every_effect_that_has_a_name_has_one_entry():
-    assert sorted(entry.id.value for entry in CATALOGUE) == sorted(
-        {one.value for one in EffectId} - {"unknown_physics"}
-    )
+    """Effects of solved films alone have no law, and their entries stand beside the catalogue."""
+    named = [entry.id.value for entry in (*CATALOGUE, *SOLVED_ENTRIES)]
+    assert sorted(named) == sorted({one.value for one in EffectId} - {"unknown_physics"})
+    assert not any(entry.extensions for entry in SOLVED_ENTRIES)
     assert all(bool(entry.extensions) == (entry.verdict is Kind.MISSING_PHYSICS) for entry in CATALOGUE)
     assert entry_of(EffectId.CHURNING).extensions[0].parameters[0].name == "churning.factor"
     with pytest.raises(ValueError, match="not in the catalogue"):

@@ -46,7 +46,7 @@ def test_a_row_starts_from_its_neighbour_and_does_without_one_that_leads_nowhere
         return f"point {point}"
 
     monkeypatch.setattr(sources, "floating_point", solved)
-    monkeypatch.setattr(sources, "_of_floating", lambda found: found)
+    monkeypatch.setattr(sources, "solved_means", lambda found: found)
     row = FloatingSolver(COARSE).row()
     assert [row.solve(PUMP, at) for at in (1, 2, 3)] == ["point 1", "point 2", "point 3"]
     assert asked == [None, "point 1", "point 2", None]
