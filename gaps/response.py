@@ -73,11 +73,16 @@ class Axis:
 
 @dataclass(frozen=True)
 class Output:
-    """One output by its name, the measure of its error, and what errors of the largest are taken of at least."""
+    """One output by its name, the measure of its error, and what errors of the largest are taken of at least.
+
+    powers: of positive inputs by name, with whose product it is learnt: an output that goes as their inverse is then a
+    constant.
+    """
 
     name: str
     measure: Measure
     least: float = 0.0
+    powers: tuple[tuple[str, float], ...] = ()
 
 
 @dataclass(frozen=True, eq=False)
@@ -150,7 +155,7 @@ class Response:
         Raises FilmInputError for a point outside the box: nothing is extrapolated.
         """
         found = np.asarray(self._interpolant(unit_places(self.axes, points)))
-        return np.where(self._logarithmic, np.exp(np.where(self._logarithmic, found, 0.0)), found)
+        return np.where(self._logarithmic, np.exp(np.where(self._logarithmic, found, 0.0)), found) / self._scale(points)
 
     def errors(self, samples: Samples) -> Array:
         """Error (k, m) against samples as each output's measure says; signed."""
@@ -172,6 +177,16 @@ class Response:
         above = self.held_out.points[np.abs(self.errors(self.held_out)[:, column]) > limit]
         return ErrorRegion(len(above), above.min(axis=0), above.max(axis=0)) if len(above) else None
 
+    def _scale(self, points: Array) -> Array:
+        """Products (k, m) of the inputs' powers with which outputs are learnt, over those of the box's middle."""
+        scale = np.ones((len(points), len(self.outputs)))
+        columns = {axis.name: points[:, k] / axis.from_unit(np.array(0.5)) for k, axis in enumerate(self.axes)}
+        for k, output in enumerate(self.outputs):
+            for name, power in output.powers:
+                if name in columns:
+                    scale[:, k] *= columns[name] ** power
+        return scale
+
     @property
     def _logarithmic(self) -> np.ndarray:
         return np.array([output.measure is Measure.RELATIVE for output in self.outputs])
@@ -180,7 +195,7 @@ class Response:
     def _interpolant(self) -> Any:
         from scipy.interpolate import RBFInterpolator
 
-        values = self.learnt.values
+        values = self.learnt.values * self._scale(self.learnt.points)
         learnt = np.where(self._logarithmic, np.log(np.where(self._logarithmic, values, 1.0)), values)
         return RBFInterpolator(unit_places(self.axes, self.learnt.points), learnt, kernel="cubic", degree=1)
 

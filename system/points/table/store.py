@@ -176,7 +176,7 @@ def response_record(response: Response, dimensions: Mapping[str, Dimension]) -> 
             for axis in response.axes
         ],
         "outputs": [
-            {"name": output.name, "measure": output.measure.value, "least": output.least} | _errors(response, error, k)
+            asdict(output) | {"measure": output.measure.value} | _errors(response, error, k)
             for k, output in enumerate(response.outputs)
         ],
         "points": {"learnt": len(response.learnt.points), "held_out": len(response.held_out.points)},
@@ -194,4 +194,7 @@ def _axes(record: Mapping[str, Any]) -> tuple[Axis, ...]:
 
 
 def _outputs(record: Mapping[str, Any]) -> tuple[Output, ...]:
-    return tuple(Output(row["name"], Measure(row["measure"]), row["least"]) for row in record["outputs"])
+    return tuple(
+        Output(row["name"], Measure(row["measure"]), row["least"], tuple(map(tuple, row.get("powers", ()))))
+        for row in record["outputs"]
+    )

@@ -154,3 +154,18 @@ def test_what_cannot_be_learnt_is_refused(learnt):
         Axis("speed", 2.0, 1.0)
     with pytest.raises(FilmInputError, match="above 0"):
         Axis("speed", 0.0, 1.0, Spacing.LOGARITHMIC)
+
+
+def test_an_output_that_goes_as_an_inverse_is_learnt_with_its_powers():
+    """y = (2 + x) / z over a decade of z: exact with the power of z, as a product that is linear; rough without."""
+    axes = (Axis("x", 1.0, 2.0), Axis("z", 1.0, 10.0, Spacing.LOGARITHMIC))
+
+    def samples(points):
+        return Samples(points, ((2.0 + points[:, 0]) / points[:, 1])[:, None])
+
+    def errors(output):
+        learnt, held_out = learnt_points(axes, 8), held_out_points(axes, 8, 4)
+        return Response(axes, (output,), samples(learnt), samples(held_out)).held_out_error.largest[0]
+
+    assert errors(Output("y", Measure.ABSOLUTE, powers=(("z", 1.0), ("no axis", 1.0)))) < 1e-12
+    assert errors(Output("y", Measure.ABSOLUTE)) > 0.02
