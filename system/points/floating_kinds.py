@@ -191,5 +191,6 @@ def _problem(
 ) -> ChamberProblem:
     """A chamber with the leaks of its films; effects change its ports and its oil, but not these leaks."""
     leaks = leak_table(gaps)
-    own = [replace(one, conductance=np.ones_like(leaks.conductance)) for one in effects]
+    ones, zeros = np.ones_like(leaks.conductance), np.zeros_like(leaks.conductance)
+    own = [replace(one, conductance=ones, gap_flow=zeros) for one in effects]
     return affected_problem(pump, point, motion, leaks, own)
