@@ -201,6 +201,7 @@ def test_a_case_can_be_sent_to_another_process():
 
 
 def test_a_table_is_found_by_its_pump(table, folder, tmp_path):
+    build_table(case(learnt=60), folder=folder)
     point = operating_point(PUMP, delivery_pressure=20e6)
     assert len(find_table(PUMP, point, folder).response.learnt.points) == 60  # that of the most points
     with pytest.raises(InputFaults, match="delivery pressure"):
