@@ -75,7 +75,7 @@ class PeriodicTurn(Generic[T]):
 
     @property
     def onward(self) -> Array:
-        """Where linearised turns after it lead within its reach, (k,) m: the start of the next one."""
+        """Start (k,) m of the next turn: the end of linearised turns after this one, within its reach."""
         return _next(self.start, self.turn, 1.0)
 
 

@@ -1,4 +1,4 @@
-"""What a command assumes of a scaled pump, told before it runs."""
+"""Assumptions of a scaled pump, printed before a command runs."""
 
 from __future__ import annotations
 

@@ -17,7 +17,7 @@ from system.inputs.faults import Fault, InputFaults
 
 RUNS = Path("runs")
 FAILED = "failed.json"
-"""What a run that stopped has solved, in its `.partial` folder."""
+"""File of the rounds and gaps that a stopped run has solved, in its `.partial` folder."""
 
 
 class Interrupted(KeyboardInterrupt):

@@ -157,6 +157,6 @@ CHECKS = (
     Check(("trace", "cutoff"), _cutoff_faults),
     Check(("trace", "unworn"), _range_faults),
 )
-"""What the keys of a trace have to be together; a key with a fault of its own hides none of another."""
+"""Conditions between the keys of a trace; a fault of one key does not hide that of another."""
 Profile = Annotated[Rows, ALONG, AROUND, Limits(fewest=2), FromTable(TraceSection, CHECKS, profile_of_trace)]
 """Of a part: rows of place, (angle,) material taken off, in SI, however its file states them."""

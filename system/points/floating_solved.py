@@ -1,4 +1,4 @@
-"""What a floating point has solved: its rounds and the last revolution of each gap, also where a later film fails."""
+"""Solved part of a floating point: its rounds and the last revolution of each gap, also where a later film fails."""
 
 from __future__ import annotations
 

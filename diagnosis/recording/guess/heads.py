@@ -12,7 +12,7 @@ from system.inputs.units import Dimension
 
 
 class Quantity(Enum):
-    """What a column measures: the words of a head, whole ones and (four letters or more) parts of words."""
+    """Quantity of a column by the words of its head: whole words, and parts of words of four letters or more."""
 
     TIME = (Dimension.TIME, "time zeit t s timestamp uhrzeit zeitstempel")
     SPEED = (Dimension.ANGULAR_SPEED, "speed n rpm drehzahl rotation")
@@ -35,7 +35,7 @@ class Quantity(Enum):
 
 
 class Place(Enum):
-    """Where on the pump a column is measured, by the words of a head."""
+    """Place of a column's measurement on the pump, by the words of its head."""
 
     CASE = "case drain leck leak leckage leakage gehaeuse housing casing l"
     IN = "inlet intake suction saug eingang eintritt zulauf feed charge speise niederdruck low boost tank in nd lp"

@@ -27,7 +27,7 @@ class ReadUnit:
 
 
 def read_unit(text: str) -> ReadUnit | None:
-    """Return the unit that a text means, as a bench writes it; None for a text that is none of a channel."""
+    """Return the unit that a text means, as a bench writes it; None for a text that is no unit of a channel."""
     bare = text.strip()
     if bare in PURE_UNITS or bare == "-":
         return ReadUnit(None, "1" if bare == "-" else bare)

@@ -1,4 +1,4 @@
-"""A new pump file: what is told of the pump, and for the rest REF90's values at its size, marked."""
+"""A new pump file: the stated facts of the pump, and for the rest REF90's values at its size, marked."""
 
 from __future__ import annotations
 

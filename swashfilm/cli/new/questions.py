@@ -1,4 +1,4 @@
-"""What a pump file needs to be told: by an option, or by an answer on a terminal."""
+"""Facts that a new pump file needs: by an option, or by an answer on a terminal."""
 
 from __future__ import annotations
 
@@ -62,7 +62,7 @@ def ask(question: Question) -> str:
 
 
 def _hold(path: str, field: FieldType, raw: object, reading: Reading) -> None:
-    """Note the fault of an entry that is none of the field, or beyond its limits."""
+    """Note the fault of an entry that does not fit the field, or is beyond its limits."""
     own = reading.special.get(path)
     value = read_entry(path, field, raw, reading) if own is None else next(iter(own(raw, {}, reading).values()), None)
     if value is not None and (limit := broken_limit(field, value)):
@@ -107,7 +107,7 @@ def _oil(text: str, faults: list[Fault]) -> Tables:
 
 
 def _circuit(text: str, faults: list[Fault]) -> Tables:
-    """Return no entry: a circuit is none of a pump file."""
+    """Return no entry: a pump file has no circuit."""
     if text not in CIRCUITS:
         faults.append(Fault("circuit", repr(text), f"one of {', '.join(CIRCUITS)}", nearest_choice(text, CIRCUITS)))
     return {}

@@ -28,7 +28,7 @@ OF_FLOATING = ("--points", "--held-out", "--variant")
 
 @dataclass(frozen=True)
 class FilmOptions:
-    """What a diagnosis with floating films is asked for.
+    """Request for a diagnosis with floating films.
 
     floating: the films of the simulation, with the physics that they leave out; variants: the pump with an effect in
     its films; learnt, held_out: points of each table, 0 for the usual number.

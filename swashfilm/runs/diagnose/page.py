@@ -141,11 +141,11 @@ def change_rows(rows: Sequence[Mapping[str, str]]) -> Iterator[tuple[str, ...]]:
 
 
 FILM_HEADS = {"lumped": "closed-form laws", "films": "films"}
-"""What a gap's quantities are given by, by the first part of their columns."""
+"""Source of a gap's quantities, by the first part of their columns."""
 
 
 def film_kinds(rows: Sequence[Mapping[str, str]]) -> list[str]:
-    """What films.csv gives quantities by: floating films have no closed-form laws beside them."""
+    """Sources of the quantities in films.csv; floating films have no closed-form laws beside them."""
     return [kind for kind in FILM_HEADS if rows and f"{kind}_{WITHOUT}" in rows[0]]
 
 

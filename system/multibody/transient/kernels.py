@@ -83,7 +83,7 @@ ACTING = 6
 COULOMB, VISCOUS, ADDED = 3, 4, 5
 """Rows of the effects behind those of the conductances."""
 FROM, TO, STEP, DROOPED, DROOPS = range(5)
-"""What is imposed on a step: control pressure at begin and end Pa, its length s, droop at its begin rad, rad/s."""
+"""Inputs of a step: control pressure at begin and end Pa, its length s, droop at its begin rad, rad/s."""
 
 
 @numba.njit(cache=True, error_model="numpy")

@@ -21,7 +21,7 @@ from system.pump.chamber.problem import ChamberProblem
 
 @dataclass(frozen=True)
 class Setting:
-    """What a course needs: the group, its laws of [physics] with their values, a chamber without them, the plate's
+    """Constants of a course: the group, its laws of [physics] with their values, a chamber without them, the plate's
     record; so many steps of `step` s to a pitch, `held` steps before the plate is let go; controls (N, 2) Pa before the
     actuator's orifice at begin and end of each step."""
 

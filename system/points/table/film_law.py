@@ -117,6 +117,7 @@ class _Points:
 
     @classmethod
     def of(cls, pump: PumpDescription, courses: Courses, state: BenchState) -> Self:
+        """Return the points of a state, with the pressures of the courses."""
         point = OperatingPoint(
             shaft_speed=state.speed[:, None],
             delivery_pressure=state.delivery_pressure[:, None],

@@ -76,7 +76,7 @@ def gap_losses(
 
 
 def port_draws(pump: PumpDescription, point: OperatingPoint[Number], means: Means) -> PortDraws:
-    """What the valve plate's film takes from the ports."""
+    """Flow that the valve plate's film takes from the ports."""
     scale = plate_flow(pump, point)
     return PortDraws(scale * means["valve_plate.delivery_draw"], scale * means["valve_plate.suction_draw"])
 

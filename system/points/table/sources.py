@@ -150,7 +150,7 @@ class FloatingRow:
 
 
 def solved_means(found: FloatingPoint) -> SolvedPoint:
-    """What a table keeps of a floating point; least film: of the mean planes, below 0 where rough walls overlap."""
+    """Means of a floating point for a table; least film: of the mean planes, below 0 where rough walls overlap."""
     own, point = found.kinds[0].gaps, found.pump_point.point
     gaps: tuple[GapRevolution[Any], ...] = (own.piston, own.slipper, own.block)
     mean = (gap.mean_film for gap in gaps)

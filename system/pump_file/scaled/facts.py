@@ -1,4 +1,4 @@
-"""What a scant pump file has to state: its size and its oil."""
+"""Facts that a scant pump file states: its size and its oil."""
 
 from __future__ import annotations
 
