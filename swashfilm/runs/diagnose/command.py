@@ -76,7 +76,8 @@ def run_diagnose_command(options: argparse.Namespace) -> int:
     if apply is not None and found.effects:
         shutil.copyfile(final_folder(folder) / EXTENDED, apply)
         what = "without the sensor's fault" if finding.diagnosis.kind is Kind.SENSOR_FAULT else "with it"
-        show(f"the pump as fitted, {what}, is {apply}: swashfilm run {apply} --fidelity lumped")
+        fidelity = " --fidelity lumped" if films is None else ""  # floating films have all physics by default
+        show(f"the pump as fitted, {what}, is {apply}: swashfilm run {apply}{fidelity}")
         show("its head has its origin, and the other fidelities that run it")
     elif apply is not None:
         show(f"nothing is claimed: {apply} is not written")
