@@ -17,6 +17,7 @@ from .api import (
     study as study,
     table as table,
     transient as transient,
+    vary as vary,
 )
 from .runs.table.gap_run import read_gap_table as read_gap_table
 from .version import __version__ as __version__

@@ -45,7 +45,7 @@ def residual_maps(rows: Sequence[Row]) -> Figure:
             own = [row for row in rows if row["channel"] == channel and _of_level(row, level)]
             drawn = _map(axes, own, key, most)
             axes.set_title(f"{key.removeprefix('pull_')}{_title(level)}", fontsize=8, pad=3)
-        line[0].set_ylabel(f"{channel}\np_out / bar", fontsize=8)
+        line[0].set_ylabel(f"{channel}\np_out [bar]", fontsize=8)
     for axes in grid[-1]:
         axes.set_xlabel("speed / rpm", fontsize=8)
     bar = figure.colorbar(drawn, ax=grid.ravel().tolist(), shrink=min(0.8, 6.0 / (1.5 * len(lines))), extend="both")
@@ -126,7 +126,7 @@ def loss_bars(rows: Sequence[Row], whole: Mapping[str, float]) -> Figure:
     shown = {name: both for name, both in shares.items() if max(map(abs, both)) >= LEAST_LOSS}
     figure = figure_of(WIDTH, 1.0 + 0.36 * len(shown))
     sizes = {run: [both[at] for both in shown.values()] for at, run in enumerate(runs)}
-    _paired_bars(figure.subplots(), list(shown), sizes, "share of the shaft power / %")
+    _paired_bars(figure.subplots(), list(shown), sizes, "share of the shaft power [%]")
     return figure
 
 

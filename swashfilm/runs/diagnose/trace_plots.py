@@ -38,12 +38,12 @@ def trace_residuals(rows: Sequence[Row], window: Sequence[float] | None, setting
         own = [row for row in rows if row["point"] == point]
         angle, measured, sigma = (_column(own, key) for key in ("angle [deg]", "measured [bar]", "sigma [bar]"))
         line[0].plot(angle, measured, color="#1c2328", linewidth=1.0)
-        line[0].set_ylabel("p_chamber / bar", fontsize=8)
+        line[0].set_ylabel("p_chamber [bar]", fontsize=8)
         line[0].set_title(settings.get(point, ""), fontsize=8, loc="left")
         line[1].fill_between(angle, -2 * sigma, 2 * sigma, color=NOISE, alpha=0.35, linewidth=0, label="two sigma")
         for key, (colour, label) in FITS.items():
             line[1].plot(angle, _residual(own, key), color=colour, linewidth=1.2, label=label)
-        line[1].set_ylabel("residual / bar", fontsize=8)
+        line[1].set_ylabel("residual [bar]", fontsize=8)
         line[1].set_ylim(-1.1 * most, 1.1 * most)
         for axes in line:
             for start, end in _spans(window):
@@ -53,7 +53,7 @@ def trace_residuals(rows: Sequence[Row], window: Sequence[float] | None, setting
             axes.grid(visible=True, alpha=0.3)
     grid[0, 1].legend(fontsize=8, ncols=4, loc="lower right", bbox_to_anchor=(1.0, 1.0), frameon=False)
     for axes in grid[-1]:
-        axes.set_xlabel("shaft angle from the inner dead centre / deg", fontsize=8)
+        axes.set_xlabel("shaft angle from the inner dead centre [deg]", fontsize=8)
     return figure
 
 

@@ -14,6 +14,7 @@ from swashfilm.output.run_folder import write_json
 from swashfilm.output.tables import write_csv
 from swashfilm.runs.map.duty import duty_summary
 from swashfilm.runs.map.plots import Slice, contours, difference_levels, efficiency_levels, held_words, shown, slice_of
+from system.inputs.shown import shown_in
 from system.maps.compare import MapComparison
 from system.maps.data import LOSSES, MapData
 from system.maps.duty import Cycle, duty
@@ -113,15 +114,17 @@ def duty_rows(summary: Mapping[str, Any]) -> Iterator[tuple[str, ...]]:
 
 
 def _write_table(path: Path, summary: Mapping[str, Any]) -> None:
-    places = [f"at {given.words} [{given.unit}]" for given in MapInput]
+    places = [f"at {given.words} [{given.shown.unit}]" for given in MapInput]
     heads = "number", "unit", "A mean", "B mean", "largest B - A", "interpolation may miss there"
     rows = []
     for row in summary["differences"]:
+        shown = shown_in(row["unit"])
         numbers = [
-            *(row[name] for name in ("one", "other", "largest", "error")),
-            *(row["at"][one.value] for one in MapInput),
+            *(shown.of(row[name]) for name in ("one", "other")),
+            *(shown.difference(row[name]) for name in ("largest", "error")),
+            *(given.shown.of(row["at"][given.value]) for given in MapInput),
         ]
-        rows.append([row["words"], row["unit"], *(f"{number:.8g}" for number in numbers)])
+        rows.append([row["words"], shown.unit, *(f"{number:.8g}" for number in numbers)])
     write_csv(path, [*heads, *places], rows)
 
 
@@ -163,7 +166,7 @@ def _slices(found: MapComparison, piece: Slice) -> Figure:
         levels = efficiency_levels(*(shown(found.one, piece, field) for field in (one, other)))
         for axes, field, words in zip(row, (one, other), "AB", strict=False):
             contours(axes, found.one, piece, field, levels)
-            axes.set_title(f"{words} / %: {definition.label}", fontsize=8)
+            axes.set_title(f"{words} [%]: {definition.label}", fontsize=8)
         apart = other - one
         levels = difference_levels(shown(found.one, piece, apart))
         contours(row[-1], found.one, piece, apart, levels, colours="RdBu", ink=INK)
@@ -184,7 +187,7 @@ def _losses(found: MapComparison) -> Figure:
     axes.barh(rows + 0.2, other, 0.38, color="#8c5a3c", label="B")
     axes.set_yticks(rows, list(sinks))
     axes.invert_yaxis()
-    axes.set_xlabel("mean loss / kW")
+    axes.set_xlabel("mean loss [kW]")
     axes.legend()
     axes.grid(visible=True, axis="x", alpha=0.3)
     return figure

@@ -36,7 +36,7 @@ def run_compare_command(options: argparse.Namespace) -> int:
     asked = compare_case(options)
     for name in asked.names:
         show_assumed(name)
-    with run_folder(asked.name, options.output) as folder:
+    with run_folder(asked.name, options.output, workbook=options.excel) as folder:
         asked.run(folder)
         found = CompareRun.opened(folder)
     show_result(found, folder)

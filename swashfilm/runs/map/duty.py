@@ -11,12 +11,13 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from reynolds.numerics.arrays import Array
+from swashfilm.output.data_files import Column, read_columns, write_columns
 from swashfilm.output.figures import figure_of
 from swashfilm.output.page import keep_pictures, read_summary, write_page
 from swashfilm.output.run_folder import write_json
-from swashfilm.output.tables import read_csv, write_csv
 from swashfilm.runs.map.plots import COLOURS
 from system.inputs.faults import Fault, InputFaults
+from system.inputs.shown import titled
 from system.maps.data import MapData
 from system.maps.duty import Cycle, Duty, duty
 from system.maps.interpolation import MapError, MapInterpolant, left_out_error
@@ -33,11 +34,9 @@ FINE = 400
 """Number of instants in the written and drawn time series."""
 
 
-_INPUTS = {
-    "shaft speed [rad/s]": (30.0 / np.pi, "speed / rpm"),
-    "delivery pressure [Pa]": (1e-6, "pressure / MPa"),
-    "displacement ratio [1]": (1.0, "displacement ratio"),
-}
+_INPUTS = {MapInput.SPEED: "speed", MapInput.PRESSURE: "pressure", MapInput.RATIO: "displacement ratio"}
+"""Inputs that a picture of a cycle shows, with their short names."""
+RATIO = "sum p Q over shaft power"
 
 
 def run_duty(data: MapData, error: MapError | None, cycle: Cycle, given: Path, folder: Path) -> dict[str, Any]:
@@ -116,23 +115,25 @@ def _write_course(path: Path, interpolant: MapInterpolant, cycle: Cycle) -> None
         given: np.insert(values, before, np.interp(even, cycle.time, values)) for given, values in cycle.inputs.items()
     }
     numbers = interpolant.at(inputs)
-    shown = {"time [s]": time}
-    for given, values in inputs.items():
-        shown[f"{given.words} [{given.unit}]"] = values
-    power = {"shaft power [W]": numbers["shaft_power"], "hydraulic power [W]": numbers["hydraulic_power"]}
-    power["loss [W]"] = numbers["shaft_power"] - numbers["hydraulic_power"]
-    power["sum p Q / shaft power [1]"] = numbers["hydraulic_power"] / numbers["shaft_power"]
-    power["delivery flow [m3/s]"] = numbers["delivery_flow"]
-    rows = zip(*(np.broadcast_to(one, time.shape) for one in (shown | power).values()), strict=True)
-    write_csv(path, [*shown, *power], ([f"{value:.8g}" for value in row] for row in rows))
+    shaft, hydraulic = numbers["shaft_power"], numbers["hydraulic_power"]
+    columns = {
+        "time": (time, "s"),
+        **{given.words: (values, given.unit) for given, values in inputs.items()},
+        "shaft power": (shaft, "W"),
+        "hydraulic power": (hydraulic, "W"),
+        "loss": (shaft - hydraulic, "W"),
+        RATIO: (hydraulic / shaft, "1"),
+        "delivery flow": (numbers["delivery_flow"], "m3/s"),
+    }
+    write_columns(
+        path, [Column(name, np.broadcast_to(values, time.shape), unit) for name, (values, unit) in columns.items()]
+    )
 
 
 def write_duty_page(folder: Path) -> Path:
     """Write report.html and plots/ of a duty's run folder from its summary.json and course.csv."""
     summary = read_summary(folder)
-    head, *rows = read_csv(folder / COURSE)
-    course = dict(zip(head, np.array(rows, dtype=float).T, strict=True))
-    pictures = duty_plots(course, summary)
+    pictures = duty_plots(read_columns(folder / COURSE), summary)
     return write_page(
         folder,
         "duty",
@@ -161,23 +162,23 @@ def duty_plots(course: Mapping[str, Array], summary: Mapping[str, Any]) -> dict[
 
 
 def course_of(data: xarray.Dataset) -> dict[str, Array]:
-    """Return the columns of course.csv by head, `name [unit]`."""
-    return {f"{name} [{column.attrs['units']}]": column.values for name, column in data.data_vars.items()}
+    """Return the columns of course.csv by name, SI."""
+    return {str(name): column.values for name, column in data.data_vars.items()}
 
 
 def course_plot(course: Mapping[str, Array]) -> Figure:
     """Draw the cycle over time: inputs, loss, and sum p Q over shaft power."""
-    shown = {head: row for head, row in _INPUTS.items() if head in course}
+    shown = [given for given in _INPUTS if given.words in course]
     figure = figure_of(10.0, 1.7 * (len(shown) + 2))
     panels = figure.subplots(len(shown) + 2, 1, sharex=True)
-    time = course["time [s]"]
-    for axes, (head, (scale, label)) in zip(panels, shown.items(), strict=False):
-        axes.plot(time, course[head] * scale, color="#3c7a8c")
-        axes.set_ylabel(label)
-    panels[-2].plot(time, course["loss [W]"] * 1e-3, color="#8c5a3c")
-    panels[-2].set_ylabel("loss / kW")
-    panels[-1].plot(time, 100.0 * course["sum p Q / shaft power [1]"], color="#5b9a5b")
-    panels[-1].set(ylabel="sum p Q / (w T) / %", xlabel="time / s")
+    time = course["time"]
+    for axes, given in zip(panels, shown, strict=False):
+        axes.plot(time, given.shown.of(course[given.words]), color="#3c7a8c")
+        axes.set_ylabel(titled(_INPUTS[given], given.shown.unit))
+    panels[-2].plot(time, course["loss"] * 1e-3, color="#8c5a3c")
+    panels[-2].set_ylabel("loss [kW]")
+    panels[-1].plot(time, 100.0 * course[RATIO], color="#5b9a5b")
+    panels[-1].set(ylabel="sum p Q / (w T) [%]", xlabel="time [s]")
     for axes in panels:
         axes.grid(visible=True, alpha=0.3)
         axes.set_xlim(time[0], time[-1])
@@ -198,6 +199,6 @@ def _sinks(summary: Mapping[str, Any]) -> Figure:
         color=[COLOURS[k % len(COLOURS)] for k in range(len(names))],
     )
     axes.invert_yaxis()
-    axes.set_xlabel("energy / kJ")
+    axes.set_xlabel("energy [kJ]")
     axes.grid(visible=True, axis="x", alpha=0.3)
     return figure

@@ -12,6 +12,7 @@ import numpy as np
 from reynolds.numerics.arrays import Array
 from swashfilm.output.figures import figure_of
 from swashfilm.runs.map.files import PARTS
+from system.inputs.shown import title_in, titled
 from system.maps.data import MapData
 from system.maps.interpolation import weights
 from system.maps.plan import MapInput, reading_levels
@@ -123,7 +124,7 @@ def efficiency_plot(
             x, y = _grids(data, piece)
             best = np.unravel_index(int(np.nanargmax(field)), field.shape)
             mark(axes, x[best], y[best], "*", "#b55a00", 12.0)
-            axes.set_title(f"{part} / %: {words}\n{100.0 * field[best]:.1f} % at best", fontsize=8)
+            axes.set_title(f"{part} [%]: {words}\n{100.0 * field[best]:.1f} % at best", fontsize=8)
     return figure
 
 
@@ -153,11 +154,11 @@ def loss_plot(data: MapData, piece: Slice) -> Figure:
     panels = _panels(figure, len(largest) + 1)
     axes = next(panels)
     contours(axes, data, piece, whole * 1e-3, levels_of(shown(data, piece, whole * 1e-3)))
-    axes.set_title("loss (shaft power minus p Q) / kW", fontsize=9)
+    axes.set_title("loss (shaft power minus p Q) [kW]", fontsize=9)
     for axes, words in zip(panels, largest, strict=True):
         share = 100.0 * sinks[words] / whole
         contours(axes, data, piece, share, levels_of(shown(data, piece, share)))
-        axes.set_title(f"{words}: share / %", fontsize=9)
+        axes.set_title(f"{words}: share [%]", fontsize=9)
     return figure
 
 
@@ -166,15 +167,15 @@ def share_plot(data: MapData) -> Figure:
     place = _place(data, MapInput.PRESSURE)
     index = _over_pressure(_held(data), place)
     losses = {words: np.maximum(loss[index], 0.0) for words, loss in data.losses.items()}
-    levels, unit = reading_levels(data.axes[place])
+    levels = reading_levels(data.axes[place])
     figure = figure_of(11.0, 4.6)
     left, right = figure.subplots(1, 2)
     rows, total = np.array(list(losses.values())), sum(losses.values())
     colours = [COLOURS[k % len(COLOURS)] for k in range(len(losses))]
     left.stackplot(levels, rows * 1e-3, labels=list(losses), colors=colours)
     right.stackplot(levels, 100.0 * rows / total, colors=colours)
-    for axes, label in ((left, "loss / kW"), (right, "share / %")):
-        axes.set(xlabel=f"delivery pressure / {unit}", ylabel=label, xlim=(levels[0], levels[-1]))
+    for axes, label in ((left, "loss [kW]"), (right, "share [%]")):
+        axes.set(xlabel=title_in("delivery pressure", "Pa"), ylabel=label, xlim=(levels[0], levels[-1]))
     right.set_ylim(0.0, 100.0)
     figure.legend(*(side[::-1] for side in left.get_legend_handles_labels()), loc="outside right upper", fontsize=8)
     return figure
@@ -220,7 +221,7 @@ def mark(axes: Any, x: Array, y: Array, sign: str, colour: str, size: float) -> 
 
 
 def _grids(data: MapData, piece: Slice) -> tuple[Array, Array]:
-    across, up = (reading_levels(data.axes[place])[0] for place in (piece.across, piece.up))
+    across, up = (reading_levels(data.axes[place]) for place in (piece.across, piece.up))
     x, y = np.meshgrid(across, up)
     return x, y
 
@@ -238,8 +239,7 @@ def shown(data: MapData, piece: Slice, field: Array) -> Array:
 
 def _label(data: MapData, place: int) -> str:
     axis = data.axes[place]
-    unit = reading_levels(axis)[1]
-    return f"{axis.input.words} / {unit}" if unit else axis.input.words
+    return titled(axis.input.words, axis.input.shown.unit)
 
 
 def efficiency_levels(*fields: Array) -> Array:

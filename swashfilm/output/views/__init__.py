@@ -1,0 +1,1 @@
+"""3D pictures, drawn in a process of their own."""
