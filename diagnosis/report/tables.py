@@ -13,7 +13,7 @@ import numpy as np
 from diagnosis.explain.explained import explained_mismatch
 from diagnosis.next_point.choose import NextPoint
 from diagnosis.recording.model import Recording
-from diagnosis.recording.units import channel_unit, difference, reading
+from diagnosis.recording.units import channel_head, channel_unit, difference, reading
 from diagnosis.study.model import Study
 from diagnosis.verdict.diagnosis import Diagnosis
 from diagnosis.verdict.row_numbers import table_rows
@@ -35,7 +35,7 @@ def steady_rows(recording: Recording) -> Iterator[Row]:
     for number, values in zip(table_rows(recording), table.values, strict=True):
         row = {"point": str(number)}
         for name in recorded:
-            row[f"{name.value} [{channel_unit(name)}]"] = _reading(name, float(values[names.index(name)]))
+            row[channel_head(name)] = _reading(name, float(values[names.index(name)]))
         yield row
 
 
@@ -60,9 +60,7 @@ def residual_rows(study: Study, diagnosis: Diagnosis) -> Iterator[Row]:
         channel = study.channels[at]
         measured, one = study.observations.values[point, at], sigma[point, at]
         place = {
-            f"{axis.value} [{channel_unit(axis)}]": _reading(
-                axis, float(study.recording.steady.values[point, order.index(axis)])
-            )
+            channel_head(axis): _reading(axis, float(study.recording.steady.values[point, order.index(axis)]))
             for axis in AXES
         }
         yield {
@@ -130,8 +128,8 @@ def next_point_rows(found: NextPoint | None) -> Iterator[Row]:
     for one in () if found is None else found.ranked:
         point = one.point
         yield {
-            "speed [rpm]": _reading(ChannelName.SPEED, point.shaft_speed),
-            "p_out [bar]": _reading(ChannelName.P_OUT, point.delivery_pressure),
+            channel_head(ChannelName.SPEED): _reading(ChannelName.SPEED, point.shaft_speed),
+            channel_head(ChannelName.P_OUT): _reading(ChannelName.P_OUT, point.delivery_pressure),
             "displacement_ratio [1]": _text(point.displacement_ratio),
             "T_in [degC]": _reading(ChannelName.T_IN, one.inlet_temperature),
             "T_case [degC]": _reading(ChannelName.T_CASE, point.temperature),

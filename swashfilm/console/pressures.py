@@ -12,8 +12,8 @@ NAMES = [unit.value for unit in PressureUnit]
 
 def add_units_option(parser: argparse.ArgumentParser) -> None:
     """Add --units to a parser."""
-    what = f"unit of pressures in tables, pictures and CSV files ({NAMES[0]}); inputs state their own"
-    parser.add_argument("--units", metavar=f"{{{','.join(NAMES)}}}", default=NAMES[0], help=what)
+    what = "unit of pressures in tables, pictures and CSV files (MPa; readings of a bench bar); inputs state their own"
+    parser.add_argument("--units", metavar=f"{{{','.join(NAMES)}}}", help=what)
 
 
 def pressures_of(options: argparse.Namespace) -> AbstractContextManager[None]:

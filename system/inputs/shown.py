@@ -34,17 +34,22 @@ class PressureUnit(Enum):
     BAR = "bar"
 
 
-_PRESSURES: ContextVar[PressureUnit] = ContextVar("pressures", default=PressureUnit.MPA)
+_ASKED: ContextVar[PressureUnit | None] = ContextVar("pressures", default=None)
 
 
 @contextmanager
-def pressures_in(unit: PressureUnit) -> Iterator[None]:
-    """Show pressures inside in this unit: in tables, pictures and CSV files."""
-    before = _PRESSURES.set(unit)
+def pressures_in(unit: PressureUnit | None) -> Iterator[None]:
+    """Show pressures inside in this unit: in tables, pictures and CSV files; None: MPa, readings of a bench in bar."""
+    before = _ASKED.set(unit)
     try:
         yield
     finally:
-        _PRESSURES.reset(before)
+        _ASKED.reset(before)
+
+
+def pressure_unit(usual: PressureUnit = PressureUnit.MPA) -> PressureUnit:
+    """Return the unit in which pressures are shown: `usual` where no other is asked for."""
+    return _ASKED.get() or usual
 
 
 @dataclass(frozen=True)
@@ -113,7 +118,7 @@ def shown_in(si_unit: str, quantity: str = "", largest: float = 0.0) -> Shown:
     Lengths are those of films, in um, unless their name or their largest value tells otherwise.
     """
     if si_unit == "Pa":
-        return _PRESSURE[_PRESSURES.get()]
+        return _PRESSURE[pressure_unit()]
     for words, own in _BY_WORDS:
         if own.si == si_unit and words.search(quantity.replace(" ", "_")):
             return own

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from diagnosis.calibration import Calibration
-from diagnosis.recording.units import channel_unit, difference, difference_unit, reading
+from diagnosis.recording.units import channel_head, channel_unit, difference, difference_unit, reading
 from diagnosis.verdict.row_numbers import table_rows
 from swashfilm.output.run_folder import write_json
 from swashfilm.runs.diagnose.files import write_rows
@@ -151,7 +151,7 @@ def residual_rows(found: Calibration) -> Iterator[Row]:
             "channel": channel.value,
             "unit": channel_unit(channel),
             "speed [rpm]": _text(points.speed[point] / RPM),
-            "p_out [bar]": _text(points.p_out[point] * 1e-5),
+            channel_head(ChannelName.P_OUT): _text(reading(ChannelName.P_OUT, points.p_out[point])),
             "displacement_ratio [1]": _text(points.displacement_ratio[point]),
             "measured": _text(reading(channel, measured)),
             "fitted": _text(reading(channel, fitted)),

@@ -103,7 +103,7 @@ def held_out_table(folder: Path) -> list[tuple[str, ...]]:
     for channel, split in cells:
         one = next(row for row in rows if (row["channel"], row["left_out"]) == (channel, split))
         how = "fitted" if split == "none" else f"{split} held out"
-        head.append(f"{channel} / {one['unit']}, {how}")
+        head.append(f"{channel} [{one['unit']}], {how}")
     found = [tuple(head)]
     for model in dict.fromkeys(row["model"] for row in rows):
         own = {(row["channel"], row["left_out"]): row for row in rows if row["model"] == model}

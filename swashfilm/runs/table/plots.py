@@ -12,7 +12,7 @@ from reynolds.numerics.arrays import Array
 from swashfilm.output.figures import figure_of
 from swashfilm.output.headline import named
 from system.inputs.shown import Shown, shown_in, titled
-from system.inputs.units import Dimension, in_unit, reading_unit
+from system.inputs.units import Dimension
 from system.points.table.response_table import LARGE_ERROR
 
 if TYPE_CHECKING:
@@ -130,20 +130,17 @@ def _shown(what: str, members: Sequence[tuple[str, int]], record: Mapping[str, A
 
 
 def _axis_words(axis: Axis, row: Mapping[str, Any]) -> str:
-    words = axis.name.replace("_", " ")
-    return words if row["dimension"] is None else f"{words} / {_unit(row)}"
+    return titled(axis.name.replace("_", " "), _unit(row).unit)
 
 
-def _unit(row: Mapping[str, Any]) -> str:
-    return reading_unit(row["lower"], Dimension[row["dimension"]])
+def _unit(row: Mapping[str, Any]) -> Shown:
+    unit = Dimension[row["dimension"]].si_unit if row["dimension"] else "1"
+    return shown_in(unit, row["name"], row["upper"])
 
 
 def _places(row: Mapping[str, Any], values: Array) -> Array:
     """Return values of an input in the unit of its axis."""
-    if row["dimension"] is None:
-        return values
-    unit, dimension = _unit(row), Dimension[row["dimension"]]
-    return np.array([in_unit(float(value), unit, dimension) for value in values])
+    return np.asarray(_unit(row).of(values))
 
 
 def _legend(figure: Any) -> None:

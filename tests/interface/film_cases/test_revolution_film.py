@@ -92,7 +92,7 @@ def test_a_turn_leaves_tables_fields_pictures_and_a_page(capsys):
     documented(summary)
     turns = table("out/convergence.csv")
     assert len(turns["turn"]) == summary["turns"]
-    assert float(turns["multiplier_1 [-]"][-1]) == pytest.approx(summary["largest_multiplier"], rel=1e-5)
+    assert float(turns["multiplier_1 [1]"][-1]) == pytest.approx(summary["largest_multiplier"], rel=1e-5)
     assert set(turn["active"]) <= {"lift", "contact", "cavitation", "retainer", "contact+cavitation"}
     with xarray.open_dataset("out/results.nc", engine="h5netcdf") as data:
         assert data.sizes["film_angle"] == 3
