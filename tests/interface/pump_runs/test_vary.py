@@ -67,9 +67,9 @@ def test_what_is_wrong_with_a_range_is_told_before_a_point_is_solved(tmp_path, m
     assert "which is not a length" in told([*LUMPED, "--vary", f"{FILM}=6..14bar:3"], capsys)
     assert "a range with a number of levels" in told([*LUMPED, "--vary", f"{FILM}=6..14um"], capsys)
     assert "KEY=LEVELS" in told([*LUMPED, "--vary", FILM], capsys)
-    text = told([*LUMPED, "--vary", "slipper.land_outer_radius=13..18mm:6"], capsys)
-    assert "slipper.land_outer_radius from 13 mm to" in text
-    assert "neighbouring slippers overlap" in text
+    text = told([*LUMPED, "--vary", "operating.displacement_ratio=0.2..1.4:7"], capsys)
+    assert "operating.displacement_ratio from 0.2 to 1.0" in text
+    assert "2 points have such a fault" in text
     assert "--vary" in told([*LUMPED, "--resume", "."], capsys)
     assert "--vary" in told([*LUMPED, "--vary", f"{FILM}=6..14um:3", "--refine", "2"], capsys)
     assert not list(tmp_path.rglob("*"))
@@ -81,7 +81,8 @@ def test_a_map_and_a_case_take_other_values_of_keys(tmp_path, monkeypatch, capsy
     monkeypatch.chdir(tmp_path)
     case = '[film]\nthickness = "10 um"\nviscosity = "30 mPa s"\nvelocity = ["1 m/s", "0 m/s"]\n'
     mesh = 'mesh = { kind = "rectangle", size = ["10 mm", "10 mm"], cells = [2, 2] }\n'
-    (tmp_path / "pad.toml").write_text("format = 1\n" + case + mesh, encoding="utf-8")
+    edges = '[boundary]\nleft = { pressure = "0 bar" }\nright = { pressure = "0 bar" }\n'
+    (tmp_path / "pad.toml").write_text("format = 1\n" + case + mesh + edges, encoding="utf-8")
     assert (
         main(["film", "pad.toml", "--set", "film.thickness=20um", "--set", "film.velocity[0]=2 m/s", "-o", "out"]) == 0
     )
