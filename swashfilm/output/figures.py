@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-_MANY = 3000
+_MANY, _FEW = 3000, 100
 _BY_PYPLOT: ContextVar[bool] = ContextVar("by_pyplot", default=False)
 
 
@@ -44,12 +44,13 @@ def png_of(figure: Figure) -> bytes:
 
 
 def svg_of(figure: Figure) -> bytes:
-    """Return the figure as SVG with text as text; fields and areas of many corners are pictures inside it."""
+    """Return the figure as SVG with text as text; areas are pictures inside it where they have many corners."""
     from matplotlib import rc_context
 
-    for axes in figure.axes:
-        for cells in axes.collections:
-            cells.set_rasterized(sum(len(path.vertices) for path in cells.get_paths()) > _MANY)
+    areas = [cells for axes in figure.axes for cells in axes.collections]
+    corners = [sum(len(path.vertices) for path in cells.get_paths()) for cells in areas]
+    for cells, count in zip(areas, corners, strict=True):
+        cells.set_rasterized(sum(corners) > _MANY and count > _FEW)
     picture = io.BytesIO()
     with rc_context({"svg.fonttype": "none", "svg.hashsalt": "swashfilm"}):
         figure.savefig(picture, format="svg", dpi=110, metadata={"Date": None})
