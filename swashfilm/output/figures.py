@@ -8,6 +8,8 @@ from contextlib import contextmanager
 from contextvars import ContextVar
 from typing import TYPE_CHECKING
 
+import numpy as np
+
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
@@ -48,9 +50,9 @@ def svg_of(figure: Figure) -> bytes:
     from matplotlib import rc_context
 
     areas = [cells for axes in figure.axes for cells in axes.collections]
-    corners = [sum(len(path.vertices) for path in cells.get_paths()) for cells in areas]
+    corners = [sum(np.size(path.vertices) // 2 for path in cells.get_paths()) for cells in areas]
     for cells, count in zip(areas, corners, strict=True):
-        cells.set_rasterized(sum(corners) > _MANY and count > _FEW)
+        cells.set_rasterized(bool(sum(corners) > _MANY and count > _FEW))
     picture = io.BytesIO()
     with rc_context({"svg.fonttype": "none", "svg.hashsalt": "swashfilm"}):
         figure.savefig(picture, format="svg", dpi=110, metadata={"Date": None})
