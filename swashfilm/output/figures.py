@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 if TYPE_CHECKING:
+    from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
 _MANY, _FEW = 3000, 100
@@ -36,6 +37,16 @@ def pyplot_figures() -> Iterator[None]:
         yield
     finally:
         _BY_PYPLOT.reset(before)
+
+
+def legend_below(axes: Axes, columns: int = 2) -> None:
+    """Name the curves below the axes, where the names cover none of them."""
+    axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.22), ncols=columns, fontsize="small", frameon=False)
+
+
+def legend_beside(axes: Axes) -> None:
+    """Name the curves on the right of the axes, where the names cover none of them."""
+    axes.legend(loc="upper left", bbox_to_anchor=(1.01, 1.0), fontsize="small", frameon=False)
 
 
 def png_of(figure: Figure) -> bytes:
