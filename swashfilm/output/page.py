@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 from swashfilm.output.answer import Answer
 from swashfilm.output.figures import svg_of
+from swashfilm.output.warnings import causes, counted
 from system.inputs.faults import Fault, InputFaults
 
 if TYPE_CHECKING:
@@ -20,6 +21,7 @@ PAGE = "report.html"
 PLOTS = "plots"
 _HEADING = re.compile(r"<h2>(.*?)</h2>", re.DOTALL)
 _NUMBER = re.compile(r"[-+<>~]?\d[\d.e+-]*( \+- [\d.e-]+)?( ?[a-zA-Z%/0-9]{1,6}( [a-z/]{1,4})?)?$")
+_TIED = re.compile(r"(?<=\d) (?=\S)|(?<=\+-) (?=\d)|(?<=\bN) (?=m\b)|(?<=\bPa) (?=s\b)|(?<=mPa) (?=s\b)")
 _PICTURES = {b"\x89PNG": "png", b"RIFF": "webp", b"GIF8": "gif", b"<?xm": "svg+xml"}
 
 
@@ -46,15 +48,20 @@ def write_page(folder: Path, template: str, *, answer: Answer | None = None, **c
 
     environment = Environment(loader=PackageLoader("swashfilm.output"), autoescape=True)
     environment.tests["numeric"] = lambda cell: _NUMBER.match(str(cell)) is not None
+    environment.filters["tied"] = tied
+    notes = causes(content.get("warnings", content.get("summary", {}).get("warnings", ())))
     page = environment.get_template(f"{template}.html.jinja").render(
-        answer=answer,
-        files=_files_of(folder),
-        **{"warnings": content.get("summary", {}).get("warnings", ()), **content},
+        answer=answer, files=_files_of(folder), notes=notes, notes_line=counted(notes) if notes else "", **content
     )
     path = folder / PAGE
     path.unlink(missing_ok=True)
     path.write_text(_with_contents(page), encoding="utf-8")
     return path
+
+
+def tied(text: object) -> str:
+    """Return a text in which no line ends between a number and its unit, or inside a unit."""
+    return _TIED.sub("\u00a0", str(text))
 
 
 def _with_contents(page: str) -> str:
