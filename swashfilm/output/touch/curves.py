@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from itertools import count
 from typing import TYPE_CHECKING, Any
 
-from swashfilm.output.touch.panels import Panel, layout_of, panels_of
+from swashfilm.output.touch.panels import Panel, layout_of, panels_of, words
 from swashfilm.output.touch.traces import Untranslated, traces_of
 
 if TYPE_CHECKING:
@@ -33,22 +34,24 @@ def touchable(figure: Figure) -> go.Figure | None:
 
 
 def _legends(figure: Figure, panels: Sequence[Panel], traces: Sequence[dict[str, Any]]) -> Iterator[tuple[str, Any]]:
-    """Yield a legend of the layout for each one of the figure; traces with its names belong to it afterwards."""
+    """Yield a legend of the layout for each column of the figure's ones; its traces name it afterwards."""
     yield "showlegend", True
-    for number, (legend, own) in enumerate(_found(figure, panels), start=1):
-        key = "legend" if number == 1 else f"legend{number}"
-        box = legend.get_window_extent()
-        left, top = figure.transFigure.inverted().transform((box.x0, box.y1))
-        names = [text.get_text() for text in legend.get_texts()]
-        for name in names:
-            alike = [one for one in traces if one.get("name") == name and (own is None or one["yaxis"] in own)]
-            for k, trace in enumerate(alike):
-                trace |= {"legend": key, "legendgroup": f"{key} {name}", "showlegend": k == 0}
-        row = len(names) <= legend._ncols
-        yield key, {
-            "x": min(max(left, 0.0), 1.0), "y": min(max(top, 0.0), 1.0), "xanchor": "left", "yanchor": "top",
-            "bgcolor": "rgba(0,0,0,0)", "orientation": "h" if row else "v", "font": {"size": 11}, "tracegroupgap": 0,
-        }  # fmt: skip
+    keys = ("legend" if number == 1 else f"legend{number}" for number in count(1))
+    for legend, own in _found(figure, panels):
+        box = legend.get_window_extent().transformed(figure.transFigure.inverted())
+        names = [words(text.get_text()) for text in legend.get_texts()]
+        long = -(-len(names) // legend._ncols)
+        columns = [names[k : k + long] for k in range(0, len(names), long)]
+        for number, column in enumerate(columns):
+            key = next(keys)
+            for name in column:
+                alike = [one for one in traces if one["name"] == name and (own is None or one["yaxis"] in own)]
+                for k, trace in enumerate(alike):
+                    trace |= {"legend": key, "legendgroup": f"{key} {name}", "showlegend": k == 0}
+            yield key, {
+                "x": max(0.0, box.x0 + number * box.width / len(columns)), "y": min(box.y1, 1.0), "xanchor": "left",
+                "yanchor": "top", "bgcolor": "rgba(0,0,0,0)", "font": {"size": 11}, "tracegroupgap": 0,
+            }  # fmt: skip
 
 
 def _found(figure: Figure, panels: Sequence[Panel]) -> Iterator[tuple[Any, set[str] | None]]:

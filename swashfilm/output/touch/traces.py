@@ -14,7 +14,8 @@ from swashfilm.output.touch.panels import Panel, tick_texts, words
 
 DASHES = {"-": "solid", "--": "dash", ":": "dot", "-.": "dashdot"}
 SIGNS = {
-    "o": "circle", ".": "circle", ",": "circle", "s": "square", "^": "triangle-up", "v": "triangle-down", "x": "x-thin-open",
+    "o": "circle", ".": "circle", ",": "circle", "s": "square", "^": "triangle-up", "v": "triangle-down",
+    "x": "x-thin-open",
     "+": "cross-thin-open", "*": "star", "D": "diamond", "d": "diamond", "<": "triangle-left", ">": "triangle-right",
     "|": "line-ns-open", "_": "line-ew-open", "P": "cross", "X": "x",
 }  # fmt: skip
@@ -76,8 +77,13 @@ def _hover(panel: Panel, name: str, extra: str = "") -> dict[str, Any]:
     return {"name": name, "showlegend": False, "hovertemplate": f"{'<br>'.join(parts)}{extra}<extra>{name}</extra>"}
 
 
+def _numbers(values: Any) -> Array:
+    """Return values with nan in place of masked ones."""
+    return np.atleast_1d(np.asarray(np.ma.filled(np.ma.asarray(values, dtype=float), np.nan)))
+
+
 def _line(line: Any, panel: Panel) -> dict[str, Any]:
-    x, y = (np.atleast_1d(np.ma.filled(np.ma.asarray(one, dtype=float), np.nan)) for one in line.get_data(orig=False))
+    x, y = (_numbers(one) for one in line.get_data(orig=False))
     for k, inside in enumerate(line.get_transform().contains_branch_seperately(panel.axes.transData)):
         if not inside:  # a line across the panel
             low, high = (panel.axes.get_xlim, panel.axes.get_ylim)[k]()
@@ -150,7 +156,7 @@ def _segments(lines: Any, panel: Panel) -> dict[str, Any]:
 
 
 def _scatter(dots: Any, panel: Panel) -> dict[str, Any]:
-    x, y = np.ma.filled(np.ma.asarray(dots.get_offsets(), dtype=float), np.nan).T
+    x, y = _numbers(dots.get_offsets()).T
     sizes = PIXELS * np.sqrt(dots.get_sizes())
     marker: dict[str, Any] = {"size": short(sizes) if len(sizes) > 1 else float(sizes[0])}
     extra = ""
@@ -219,10 +225,12 @@ def _bars(group: Any, panel: Panel) -> dict[str, Any]:
     faces = [colour(bar.get_facecolor()) for bar in group.patches]
     name, title = _name(group), panel.titles[0 if lying else 1]
     return {
-        "type": "bar", "orientation": "h" if lying else "v", across: short(place), along: short(size), "base": short(base),
-        "width": short(thick), "marker": {"color": faces[0] if len(set(faces)) == 1 else faces},
+        "type": "bar", "orientation": "h" if lying else "v", across: short(place), along: short(size),
+        "base": short(base), "width": short(thick),
+        "marker": {"color": faces[0] if len(set(faces)) == 1 else faces, "line": {"width": 0}},
         "customdata": [[text, value] for text, value in zip(names, short(size), strict=True)], "name": name,
-        "showlegend": False, "hovertemplate": f"%{{customdata[0]}}<br>{title}: %{{customdata[1]:.6~g}}<extra>{name}</extra>",
+        "hovertemplate": f"%{{customdata[0]}}<br>{title}: %{{customdata[1]:.6~g}}<extra>{name}</extra>",
+        "showlegend": False,
     }  # fmt: skip
 
 
