@@ -9,6 +9,7 @@ import numpy as np
 from swashfilm.console.fidelity import Fidelity
 from swashfilm.output.gap_names import TITLES
 from swashfilm.output.page import inlined, read_summary, write_page
+from swashfilm.output.picture import Picture
 from swashfilm.output.refinement import refinement_head, refinement_rows
 from swashfilm.output.result import read_netcdf
 from swashfilm.runs.pump import plots as pump_plots
@@ -189,7 +190,7 @@ def check_rows(summary: Mapping[str, Any]) -> Rows:
     return rows
 
 
-def _pictures(data: Any, summary: Mapping[str, Any]) -> dict[str, str]:
+def _pictures(data: Any, summary: Mapping[str, Any]) -> dict[str, Picture]:
     pictures = {
         "losses": pump_plots.loss_bar(summary),
         "chamber": pump_plots.chamber_plot(data, summary),
@@ -201,6 +202,6 @@ def _pictures(data: Any, summary: Mapping[str, Any]) -> dict[str, str]:
     return {name: inlined(png) for name, png in pictures.items()}
 
 
-def _kept(picture: Path) -> str:
-    """Return a picture of the folder as a page embeds it; empty where this machine could not draw it."""
-    return inlined(picture.read_bytes()) if picture.is_file() else ""
+def _kept(picture: Path) -> Picture | None:
+    """Return a picture of the folder as a page embeds it; None where this machine could not draw it."""
+    return inlined(picture.read_bytes()) if picture.is_file() else None
