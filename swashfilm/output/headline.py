@@ -3,7 +3,7 @@
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from swashfilm.output.data_files import Column, largest_of_units, round_off
+from swashfilm.output.data.files import Column, largest_of_units, round_off
 from system.inputs.shown import DIGITS, Shown, shown_in, significant, titled
 
 CHECK_DIGITS = 2

@@ -46,7 +46,7 @@ def run_folder(name: str, wanted: Path | None = None, *, workbook: bool = False)
     try:
         yield partial
         if workbook:
-            from swashfilm.output.workbook import write_workbook
+            from swashfilm.output.data.workbook import write_workbook
 
             write_workbook(partial, partial / f"{final.name}.xlsx")
     except Interrupted:

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from diagnosis.procedure.pump_comparison import OF_FILMS
-from swashfilm.output.data_files import write_netcdf
+from swashfilm.output.data.files import write_netcdf
 from swashfilm.output.field_maps import MapField, draw_map
 from swashfilm.output.figures import figure_of
 from swashfilm.runs.diagnose.floating_fields import floating_pictures

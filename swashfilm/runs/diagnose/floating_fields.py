@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from swashfilm.output.data_files import read_netcdf
+from swashfilm.output.data.files import read_netcdf
 from swashfilm.output.field_maps import draw_map
 from swashfilm.output.figures import figure_of
 from swashfilm.output.gap_names import TITLES

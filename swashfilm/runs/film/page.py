@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from swashfilm.output.data_files import read_columns, read_netcdf
+from swashfilm.output.data.files import read_columns, read_netcdf
 from swashfilm.output.field_maps import MapField, draw_map
 from swashfilm.output.figures import figure_of
 from swashfilm.output.headline import named, number_text, numbers_text, shown_of, summary_scales, titled_key

@@ -10,7 +10,7 @@ import numpy as np
 
 from reynolds.laws.contact import boundary_shear, contact_area, contact_pressure, lambda_ratio
 from reynolds.laws.roughness import beyond_range
-from swashfilm.output.data_files import write_columns
+from swashfilm.output.data.files import write_columns
 from swashfilm.output.headline import column_of
 from swashfilm.runs.film.solve.transient import Moment
 

@@ -10,7 +10,7 @@ from reynolds.numerics.arrays import Array
 from reynolds.solve.export import write_pvd, write_vtu
 from swashfilm.case.file import FilmCase
 from swashfilm.case.gap.instant import GapCase
-from swashfilm.output.data_files import Column, write_columns, write_netcdf
+from swashfilm.output.data.files import Column, write_columns, write_netcdf
 from swashfilm.output.refinement import Refinement, refinement_summary, write_refinement
 from swashfilm.output.run_folder import write_json
 from swashfilm.runs.film.history import at_moment, fields_over_time, last_of, written

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from reynolds.numerics.arrays import Array
-from swashfilm.output.data_files import Column, read_columns, write_columns
+from swashfilm.output.data.files import Column, read_columns, write_columns
 from swashfilm.output.figures import figure_of
 from swashfilm.output.page import keep_pictures, read_summary, write_page
 from swashfilm.output.run_folder import write_json

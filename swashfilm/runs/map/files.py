@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from swashfilm.output.data_files import Column, read_netcdf, write_columns, write_netcdf
+from swashfilm.output.data.files import Column, read_netcdf, write_columns, write_netcdf
 from system.inputs.faults import Fault, InputFaults, nearest_path
 from system.maps.data import MapData, best_points, objects
 from system.maps.interpolation import MapError

@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING, ClassVar
 
-from swashfilm.output.data_files import read_netcdf
+from swashfilm.output.data.files import read_netcdf
 from swashfilm.output.result import Result, plotted, read_table
 from swashfilm.output.tables import Table
 from swashfilm.runs.map.compare import DIFFERENCE_HEAD, DUTY_HEAD, difference_rows, duty_rows

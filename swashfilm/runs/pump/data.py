@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from gaps.standing.gap_film import GapFilm
-from swashfilm.output.data_files import columns_of, write_columns, write_netcdf
+from swashfilm.output.data.files import columns_of, write_columns, write_netcdf
 from swashfilm.output.gap_names import kind_folder
 from system.films.oil_state import UNITS, oil_state
 from system.points.films import FilmsPoint

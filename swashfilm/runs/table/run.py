@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from gaps.response import ErrorRegion, Response
-from swashfilm.output.data_files import Column, write_columns
+from swashfilm.output.data.files import Column, write_columns
 from swashfilm.output.headline import named
 from swashfilm.output.run_folder import write_json
 from swashfilm.runs.table.page import input_text, place_text

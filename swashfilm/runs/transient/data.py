@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from reynolds.numerics.arrays import Array
-from swashfilm.output.data_files import columns_of, write_columns
+from swashfilm.output.data.files import columns_of, write_columns
 from swashfilm.runs.pump.summary import effect_lists
 from system.effects.switched import switched_on
 from system.multibody.transient import kernels as kernel

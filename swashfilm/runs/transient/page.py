@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from swashfilm.output.data_files import read_netcdf
+from swashfilm.output.data.files import read_netcdf
 from swashfilm.output.page import inlined, read_summary, write_page
 from swashfilm.runs.transient import plots as transient_plots
 from system.inputs.shown import shown_in

@@ -2,7 +2,7 @@
 
 from pathlib import Path
 
-from swashfilm.output.data_files import write_netcdf
+from swashfilm.output.data.files import write_netcdf
 from swashfilm.output.run_folder import write_json
 from swashfilm.runs.transient.case import StatedTransient
 from swashfilm.runs.transient.data import transient_dataset, transient_summary, write_course

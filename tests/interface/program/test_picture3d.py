@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from swashfilm.output.views.picture3d import Frame, Solid, draw, thickness_field
+from swashfilm.output.scenes.picture3d import Frame, Solid, draw, thickness_field
 
 
 @pytest.fixture

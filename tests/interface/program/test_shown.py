@@ -9,10 +9,10 @@ import xarray
 from hypothesis import given, strategies as st
 
 from swashfilm.__main__ import main
-from swashfilm.output.data_files import Column, read_columns, write_columns, write_netcdf
+from swashfilm.output.data.files import Column, read_columns, write_columns, write_netcdf
+from swashfilm.output.data.workbook import write_workbook
 from swashfilm.output.headline import number_text, summary_scales
 from swashfilm.output.result import read_table
-from swashfilm.output.workbook import write_workbook
 from system.inputs.shown import PressureUnit, known_unit, pressures_in, shown_in, significant
 
 CASE = """

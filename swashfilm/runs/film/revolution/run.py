@@ -5,7 +5,7 @@ from typing import Any
 
 from swashfilm.case.gap.revolution import RevolutionCase
 from swashfilm.output.convergence import convergence
-from swashfilm.output.data_files import write_netcdf
+from swashfilm.output.data.files import write_netcdf
 from swashfilm.output.refinement import Refinement, refinement_summary, write_refinement
 from swashfilm.output.run_folder import write_json
 from swashfilm.runs.film.revolution.data import (

@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import Any
 
 from swashfilm.case.study import Study, StudyCase
-from swashfilm.output.data_files import read_netcdf, write_netcdf
+from swashfilm.output.data.files import read_netcdf, write_netcdf
 from swashfilm.output.figures import png_of
 from swashfilm.output.headline import named, number_text, summary_scales
 from swashfilm.output.page import PLOTS, inlined, read_summary, write_page

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, ClassVar
 
-from swashfilm.output.data_files import read_netcdf
+from swashfilm.output.data.files import read_netcdf
 from swashfilm.output.page import expect_files
 from swashfilm.output.result import Result, plotted
 from swashfilm.output.tables import Table

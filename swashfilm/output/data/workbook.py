@@ -8,7 +8,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from swashfilm.output.data_files import CSV_DIGITS
+from swashfilm.output.data.files import CSV_DIGITS
 from swashfilm.output.headline import named
 from swashfilm.output.tables import read_csv
 from system.inputs.shown import shown_in

@@ -1,0 +1,30 @@
+"""The answer of a page: the numbers that its reader came for, a paragraph in plain words, and one picture."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from swashfilm.output.picture import Picture
+
+
+@dataclass(frozen=True)
+class Tile:
+    """A number with its unit, its name, and a note: its error bar, its share or its place."""
+
+    value: str
+    name: str
+    note: str = ""
+
+
+@dataclass(frozen=True)
+class Answer:
+    """What a page says first.
+
+    tiles: three to seven headline numbers. words: a paragraph that can be read out in a meeting. picture: the one
+    picture that shows the answer, None where there is none.
+    """
+
+    tiles: tuple[Tile, ...]
+    words: str
+    picture: Picture | None = None
+    caption: str = ""

@@ -1,1 +1,0 @@
-"""3D pictures, drawn in a process of their own."""
