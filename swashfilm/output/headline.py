@@ -3,8 +3,7 @@
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from swashfilm.output.data.files import Column, largest_of_units, round_off
-from system.inputs.shown import DIGITS, Shown, shown_in, significant, titled
+from system.inputs.shown import DIGITS, Shown, largest_of_units, round_off, shown_in, significant, titled
 
 CHECK_DIGITS = 2
 """Significant digits of balances and effort."""
@@ -69,12 +68,6 @@ def about(key: str) -> dict[str, str]:
     """Return the attributes of the variable of a key in a NetCDF file."""
     words, unit = named(key)
     return {"units": unit or "1", "long_name": words}
-
-
-def column_of(key: str, values: Sequence[float]) -> Column:
-    """Return the numbers of a key as a column of a table."""
-    words, unit = named(key)
-    return Column(words, values, unit or "1")
 
 
 def titled_key(key: str) -> str:

@@ -6,13 +6,13 @@ Files for programs (summary.json, NetCDF) stay in SI.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from contextvars import ContextVar
 from dataclasses import dataclass
 from enum import Enum
 from math import floor, isfinite, log10, pi
-from typing import TYPE_CHECKING, overload
+from typing import TYPE_CHECKING, Any, overload
 
 from system.inputs.units import LPM, RPM
 
@@ -25,6 +25,10 @@ SMALL = 1e-3
 """Size below which a number is shown with a power of ten."""
 THICK = 1e-3
 """Length in m that no film has."""
+
+
+ROUND_OFF = 1e-10
+"""Part of the largest number of a unit below which another number of it is round-off."""
 
 
 class PressureUnit(Enum):
@@ -156,3 +160,23 @@ def significant(value: float, digits: int = DIGITS) -> str:
     if abs(value) < SMALL or size >= 9:
         return f"{value:.{digits - 1}e}".replace("e-0", "e-").replace("e+0", "e+")
     return f"{value:.{max(0, digits - 1 - size)}f}"
+
+
+def largest_of_units(numbers: Iterable[tuple[str, Any]]) -> Mapping[str, float]:
+    """Return the largest magnitude of the finite numbers of each unit, the scale of round-off.
+
+    Bare numbers have no common scale, and neither have temperatures.
+    """
+    import numpy as np
+
+    scales: dict[str, float] = {}
+    for unit, values in numbers:
+        known = np.abs(np.array(values, dtype=float))
+        if unit not in ("", "1", "K") and np.any(np.isfinite(known)):
+            scales[unit] = max(scales.get(unit, 0.0), float(np.max(known[np.isfinite(known)])))
+    return scales
+
+
+def round_off(name: str, unit: str, scales: Mapping[str, float]) -> float:
+    """Return the size below which a number of this name and SI unit is round-off; fractions are of 1."""
+    return ROUND_OFF * scales.get(unit, 1.0 if "fraction" in name else 0.0)

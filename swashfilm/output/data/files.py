@@ -2,23 +2,22 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from swashfilm.output.headline import named
 from swashfilm.output.tables import parted, read_csv, write_csv
-from system.inputs.shown import known_unit, shown_in
+from system.inputs.shown import known_unit, largest_of_units, round_off, shown_in
 
 if TYPE_CHECKING:
     import xarray
 
     from reynolds.numerics.arrays import Array
 
-ROUND_OFF = 1e-10
-"""Part of the largest number of a unit below which another number of it is round-off."""
 CSV_DIGITS = 8
 
 
@@ -29,6 +28,12 @@ class Column:
     name: str
     values: Sequence[Any] | np.ndarray
     unit: str | None = None
+
+
+def column_of(key: str, values: Sequence[float]) -> Column:
+    """Return the numbers of a key as a column of a table."""
+    words, unit = named(key)
+    return Column(words, values, unit or "1")
 
 
 def write_columns(path: Path, columns: Iterable[Column]) -> None:
@@ -69,24 +74,6 @@ def columns_of(data: xarray.Dataset, along: str) -> list[Column]:
     series = data.drop_dims([dim for dim in data.sizes if dim != along])
     names = [along, *(str(name) for name in series.data_vars)]
     return [Column(name, series[name].values, series[name].attrs.get("units", "1")) for name in names]
-
-
-def largest_of_units(numbers: Iterable[tuple[str, Any]]) -> Mapping[str, float]:
-    """Return the largest magnitude of the finite numbers of each unit, the scale of round-off.
-
-    Bare numbers have no common scale, and neither have temperatures.
-    """
-    scales: dict[str, float] = {}
-    for unit, values in numbers:
-        known = np.abs(np.array(values, dtype=float))
-        if unit not in ("", "1", "K") and np.any(np.isfinite(known)):
-            scales[unit] = max(scales.get(unit, 0.0), float(np.max(known[np.isfinite(known)])))
-    return scales
-
-
-def round_off(name: str, unit: str, scales: Mapping[str, float]) -> float:
-    """Return the size below which a number of this name and SI unit is round-off; fractions are of 1."""
-    return ROUND_OFF * scales.get(unit, 1.0 if "fraction" in name else 0.0)
 
 
 def write_netcdf(data: xarray.Dataset, path: Path, group: str | None = None) -> None:

@@ -10,8 +10,7 @@ import numpy as np
 
 from reynolds.laws.contact import boundary_shear, contact_area, contact_pressure, lambda_ratio
 from reynolds.laws.roughness import beyond_range
-from swashfilm.output.data.files import write_columns
-from swashfilm.output.headline import column_of
+from swashfilm.output.data.files import column_of, write_columns
 from swashfilm.runs.film.solve.transient import Moment
 
 if TYPE_CHECKING:

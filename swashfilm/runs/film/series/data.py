@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from swashfilm.case.study import Combine, Study
-from swashfilm.output.data.files import Column, write_columns
-from swashfilm.output.headline import about, column_of, headline_numbers
+from swashfilm.output.data.files import Column, column_of, write_columns
+from swashfilm.output.headline import about, headline_numbers
 from swashfilm.runs.film.series.courses import course_variables
 from swashfilm.runs.film.series.points import StudyOutcome
 from system.work.tasks import PartStatus
