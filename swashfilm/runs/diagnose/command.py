@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import argparse
-import shutil
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from swashfilm.console.command import Command
 from swashfilm.console.inputs import COMMAND_LINE, RECORDING, whole
+from swashfilm.console.schemas import write_new
 from swashfilm.console.settings import add_set_option, set_values_of
 from swashfilm.console.terminal import show, show_at_once, show_table
 from swashfilm.runs.diagnose.films import FLOATING, add_film_options
@@ -76,7 +76,7 @@ def run_diagnose_command(options: argparse.Namespace) -> int:
     for note in (*found.notes, *removed):
         show(note)
     if apply is not None and found.effects:
-        shutil.copyfile(final_folder(folder) / EXTENDED, apply)
+        write_new(apply, "pump", (final_folder(folder) / EXTENDED).read_text("utf-8"))
         what = "without the sensor's fault" if finding.diagnosis.kind is Kind.SENSOR_FAULT else "with it"
         fidelity = " --fidelity lumped" if films is None else ""  # floating films have all physics by default
         show(f"the pump as fitted, {what}, is {apply}: swashfilm run {apply}{fidelity}")
