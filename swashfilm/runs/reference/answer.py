@@ -32,14 +32,19 @@ def reference_words(summary: Mapping[str, Any]) -> str:
         row["pressure_drop_over_film_equation"] for row in rows if row["pressure_drop_over_film_equation"] is not None
     ]
     words = [
-        f"The flow through {len(summary['passages'])} passage{'s' * (len(summary['passages']) > 1)} "
-        f"({summary['passage'].replace('_', ' ')}) is solved at Reynolds numbers from {min(numbers):g} to {max(numbers):g}."
+        f"The flow through {_counted(summary)} is solved at Reynolds numbers from {min(numbers):g} to {max(numbers):g}."
     ]
     if drops:
         words.append(f"The pressure drop is {_span(drops)} times that of the film equation alone.")
     words.append(f"The table {summary['table']} brings the coefficients into a pump file.")
     words.append(f"Valid for {summary['holds_for']}.")
     return " ".join(words)
+
+
+def _counted(summary: Mapping[str, Any]) -> str:
+    """Return the number of passages and their kind."""
+    count, kind = len(summary["passages"]), summary["passage"].replace("_", " ")
+    return f"one passage ({kind})" if count == 1 else f"{count} passages ({kind})"
 
 
 def _rows(summary: Mapping[str, Any]) -> list[Mapping[str, Any]]:

@@ -35,8 +35,8 @@ def transient_words(summary: Mapping[str, Any]) -> str:
         words = [f"The swash plate of {summary['pump']} stays at {start:.2f} deg."]
     else:
         words = [
-            f"The swash plate of {summary['pump']} moves from {start:.2f} to {end + 0.0:.2f} deg; it passes from 10 to 90 % "
-            f"of the way in {travel * 1e3:.0f} ms."
+            f"The swash plate of {summary['pump']} moves from {start:.2f} to {end + 0.0:.2f} deg; it passes from 10 "
+            f"to 90 % of the way in {travel * 1e3:.0f} ms."
         ]
     torque = [summary[f"{turn}_turn"]["shaft_torque_Nm"] for turn in ("first", "last")]
     words.append(f"The mean drive torque changes from {torque[0]:.0f} to {torque[1]:.0f} N m.")

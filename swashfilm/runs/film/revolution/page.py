@@ -19,8 +19,8 @@ from system.description.gap import Gap
 
 ANIMATION = "animation.gif"
 CAPTION = (
-    "Film and pressure over the shaft angle, the least film with its place, and the limits of the film: where it is full, "
-    "cavitates or touches"
+    "Film and pressure over the shaft angle, the least film with its place, and the limits of the film: where it is "
+    "full, cavitates or touches"
 )
 FILES = ("summary.json", "resolved.toml", "results.nc", "convergence.csv")
 _LISTS = ("assumptions", "physics_left_out", "physics_seconds", "gap")
