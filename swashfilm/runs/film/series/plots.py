@@ -32,13 +32,27 @@ def study_plots(data: xarray.Dataset) -> dict[str, Figure]:
     Three keys and more yield lines over the first, one for each value of the others. `stribeck`, where the Hersey
     number varies, is the friction coefficient over it.
     """
-    ordered = data.sortby([dim for dim in data.dims if dim in data.coords and _is_numeric(data[dim].values)])
+    ordered, keys = _ordered(data), _varying(data)
+    stribeck = stribeck_plot(data)
+    first = {} if stribeck is None else {"stribeck": stribeck}
+    return first | {key: number_plot(ordered, key) for key in keys}
+
+
+def stribeck_plot(data: xarray.Dataset) -> Figure | None:
+    """Draw the friction coefficient over the Hersey number; None where one of them does not vary."""
+    return _stribeck(_ordered(data)) if set(STRIBECK) <= set(_varying(data)) else None
+
+
+def _ordered(data: xarray.Dataset) -> xarray.Dataset:
+    return data.sortby([dim for dim in data.dims if dim in data.coords and _is_numeric(data[dim].values)])
+
+
+def _varying(data: xarray.Dataset) -> list[str]:
+    """Return the keys of the numbers that vary."""
     variables = [str(key) for key in data.data_vars if key not in ("status", "reason")]
     numbers = {key: data[key].values for key in variables if not key.startswith(COURSES)}
     size = sizes({key: float(np.nanmax(np.abs(values))) for key, values in numbers.items()}, {})
-    keys = [key for key, values in numbers.items() if np.nanmax(values) - np.nanmin(values) > LEAST_CHANGE * size[key]]
-    first = {"stribeck": _stribeck(ordered)} if set(STRIBECK) <= set(keys) else {}
-    return first | {key: number_plot(ordered, key) for key in keys}
+    return [key for key, values in numbers.items() if np.nanmax(values) - np.nanmin(values) > LEAST_CHANGE * size[key]]
 
 
 def _is_numeric(values: np.ndarray) -> bool:
