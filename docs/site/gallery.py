@@ -58,9 +58,7 @@ EXAMPLES = (
     Example("chamber", "Chamber pressure over a turn", "run ref90 --fidelity lumped", "plot_chamber"),
     Example("map", "Efficiency map", "map ref90 --fidelity lumped", "plot_efficiency", (0.0, 0.0, 0.36, 1.0)),
     Example("destroke", "Swash plate that swings back", "transient examples/transients/destroke.toml", "plot_plate"),
-    Example(
-        "orifice", "Navier-Stokes flow of a bore", "reference examples/references/slipper_orifice.toml", "flow_1.png"
-    ),
+    Example("orifice", "Flow of a slipper bore", "reference examples/references/slipper_orifice.toml", "flow_1.png"),
     Example("diagnose", "Cause of a mismatch", f"diagnose {BENCH} examples/recordings/open-06", "plot_effect"),
     Example("calibrate", "Friction coefficients", f"calibrate {BENCH} examples/recordings/open-01", "plot_friction"),
     Example(
