@@ -101,4 +101,5 @@ def _spans(summary: Mapping[str, Any]) -> Iterator[str]:
 def _failed(summary: Mapping[str, Any]) -> Iterator[str]:
     if count := len(summary["failed"]):
         first = summary["failed"][0]
-        yield f"{count} points have no result; the first at {place(first['values'])}: {first['reason']}."
+        told = "One point has no result, at" if count == 1 else f"{count} points have no result; the first at"
+        yield f"{told} {_at(first['values'])}: {first['reason']}."
