@@ -33,6 +33,8 @@ FIELDS = (
 )
 
 
+LARGEST_STEP = 0.02
+"""Difference, relative to the thickest film, of a cell and its corners above which the film has a step."""
 CAPTION = "Maps of the film over its plane; pressures are gauge"
 HISTORY = ("load / N", "pressure max / Pa", "film thickness min / m", "temperature max / K")
 
@@ -89,9 +91,19 @@ def film_figure(fields: xarray.Dataset) -> Figure:
     figure = figure_of(*((8.0, 3.5 * rows) if wide else (10.0, 4.2 * rows)))
     for number, field in enumerate(shown, start=1):
         axes = figure.add_subplot(rows, columns, number)
-        values = field.in_unit(fields[field.name].values)
+        values = field.in_unit(fields[smooth_name(fields, field.name)].values)
         draw_map(axes, place, fields["cells"].values, values, field.title, colours=field.colours)
     return figure
+
+
+def smooth_name(fields: xarray.Dataset, name: str) -> str:
+    """Return the field at the vertices in place of that of the cells, `name`, where no step lies between the cells."""
+    at_vertices = name.removesuffix("_cell")
+    if at_vertices == name or at_vertices not in fields:
+        return name
+    by_cell = fields[name].values
+    across = fields[at_vertices].values[fields["cells"].values].mean(axis=1)
+    return at_vertices if np.max(np.abs(across - by_cell)) < LARGEST_STEP * np.max(by_cell) else name
 
 
 def history_picture(history: Path) -> Figure:
