@@ -9,12 +9,14 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from swashfilm.output.answer import Answer
 from swashfilm.output.field_maps import MapField, draw_map
 from swashfilm.output.figures import figure_of
 from swashfilm.output.headline import named
 from swashfilm.output.page import inlined, read_summary, write_page
 from swashfilm.output.refinement import refinement_head, refinement_rows
 from swashfilm.output.result import read_netcdf
+from swashfilm.runs.film.answer import film_tiles, film_words
 from swashfilm.runs.film.history import last_of
 
 if TYPE_CHECKING:
@@ -31,6 +33,7 @@ FIELDS = (
 )
 
 
+CAPTION = "Maps of the film over its plane; pressures are gauge"
 HISTORY = ("load / N", "pressure max / Pa", "film thickness min / m", "temperature max / K")
 
 
@@ -40,11 +43,13 @@ def write_film_page(folder: Path) -> Path:
     The page is self-contained. Raises InputFaults where one of the three files is missing.
     """
     summary = read_summary(folder, ("summary.json", "resolved.toml", "results.nc"), "a film's run folder")
+    picture = inlined(film_figure(last_of(read_netcdf(folder / "results.nc"))))
     return write_page(
         folder,
         "film",
+        answer=Answer(tuple(film_tiles(summary)), film_words(summary), picture, CAPTION),
         name=summary["name"],
-        picture=inlined(film_figure(last_of(read_netcdf(folder / "results.nc")))),
+        of_gap="required_load_N" in summary,
         history=inlined(history_picture(history)) if (history := folder / "history.csv").is_file() else "",
         rows=list(summary_rows(summary)),
         warnings=summary["warnings"],

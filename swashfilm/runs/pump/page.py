@@ -51,9 +51,7 @@ def write_pump_page(folder: Path) -> Path:
         table_head=TABLE_POINT_HEAD,
         refinement=[refinement_head(found), *refinement_rows(found)] if (found := summary.get("refinement")) else [],
         ripple=ripple_rows(summary),
-        steady=not any(
-            summary["ripple"][f"{name}_pressure_peak_to_peak_Pa"] > pump_plots.STEADY for name in ("delivery", "inlet")
-        ),
+        steady=is_steady(summary),
         coefficients=[tuple(one[key] for key in ("key", "file", "source", "range")) for one in summary["coefficients"]],
         checks=check_rows(summary),
         forces=forces_view(folder, summary),
@@ -178,6 +176,12 @@ def ripple_rows(summary: Mapping[str, Any]) -> Rows:
         keys = [key for key in ripple if key.startswith(name)]
         rows.append((name.replace("_", " "), *(f"{scale * ripple[key]:.3g} {shown}" for key in keys)))
     return rows
+
+
+def is_steady(summary: Mapping[str, Any]) -> bool:
+    """Return True where both port pressures are constant."""
+    ripple = summary["ripple"]
+    return all(ripple[f"{port}_pressure_peak_to_peak_Pa"] < pump_plots.STEADY for port in ("delivery", "inlet"))
 
 
 def check_rows(summary: Mapping[str, Any]) -> Rows:
