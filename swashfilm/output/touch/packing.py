@@ -1,4 +1,8 @@
-"""Text and figures as a page holds them: gzip in base64, which no `</script>` in a name can end."""
+"""Text and figures as a page holds them: gzip in letters that HTML leaves alone.
+
+The letters are Python's base 85, a fifth fewer bytes of overhead than base 64, with `,.:` in place of `&<>`. So no
+`</script>` in a name ends a figure.
+"""
 
 from __future__ import annotations
 
@@ -15,9 +19,13 @@ DIGITS = 6
 """Significant digits of the numbers, as in the tables of a run folder."""
 
 
+_LETTERS = str.maketrans("&<>", ",.:")
+
+
 def packed(text: str) -> str:
-    """Return a text as base64 of gzip, the same for the same text."""
-    return base64.b64encode(gzip.compress(text.encode("utf-8"), 9, mtime=0)).decode("ascii")
+    """Return a text as letters of its gzip, after a digit, the number of bytes that fill up the last four."""
+    zipped = gzip.compress(text.encode("utf-8"), 9, mtime=0)
+    return f"{-len(zipped) % 4}{base64.b85encode(zipped, pad=True).decode('ascii').translate(_LETTERS)}"
 
 
 def packed_json(values: Any) -> str:

@@ -11,6 +11,7 @@ from swashfilm.output.refinement import refinement_head, refinement_rows
 from swashfilm.output.result import read_netcdf
 from swashfilm.output.tables import read_csv
 from swashfilm.runs.film.page import summary_rows
+from swashfilm.runs.film.revolution.explorer import revolution_explorer
 from swashfilm.runs.film.revolution.plots import revolution_plots
 from system.description.gap import Gap
 
@@ -24,14 +25,15 @@ def write_revolution_page(folder: Path) -> Path:
     The page is self-contained. Raises InputFaults where one of the four files is missing.
     """
     summary = read_summary(folder, FILES, "a film's run folder")
-    pictures = revolution_plots(read_netcdf(folder / "results.nc"))
+    data = read_netcdf(folder / "results.nc")
+    explorers = {"maps": revolution_explorer(data)}
     refinement = summary.get("refinement")
     return write_page(
         folder,
         "revolution",
         summary=summary,
         gap=TITLES[Gap(summary["gap"]).value],
-        pictures={name: inlined(png) for name, png in pictures.items()},
+        pictures={name: inlined(drawn, explorers.get(name)) for name, drawn in revolution_plots(data).items()},
         rows=list(revolution_rows(summary)),
         physics=[PHYSICS_HEAD, *effect_rows(summary["physics_left_out"], summary["physics_seconds"])],
         refinement=[refinement_head(refinement), *refinement_rows(refinement)] if refinement else [],
