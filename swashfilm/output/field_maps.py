@@ -7,6 +7,9 @@ import numpy as np
 
 from swashfilm.output.touch.fields import keep_field, on_grid
 
+UNIFORM = 1e-9
+"""Variation of a field, relative to its size, below which it is uniform."""
+
 
 @dataclass(frozen=True)
 class MapField:
@@ -36,14 +39,18 @@ def draw_map(
 ) -> Any:
     """Draw a field of vertices (smooth) or cells (flat) over `place` with a colour bar; texts name the units.
 
-    `limits`: ends of the colour scale, by default those of the field. Returns the artist.
+    `limits`: ends of the colour scale, by default those of the field. A uniform field has its value in the title in
+    place of the bar. Returns the artist.
     """
     x, y = place
     drawn = paint(axes, place, cells, values, colours, limits)
     axes.set(xlabel=labels[0], ylabel=labels[1], title=title)
     if labels == ("x / mm", "y / mm") and np.ptp(x) < 5.0 * np.ptp(y) and np.ptp(y) < 5.0 * np.ptp(x):
         axes.set_aspect("equal")
-    axes.figure.colorbar(drawn, ax=axes)
+    if np.ptp(values) > UNIFORM * np.max(np.abs(values)):
+        axes.figure.colorbar(drawn, ax=axes)
+    else:
+        axes.set_title(f"{title}: {float(np.mean(values)):.4g} everywhere")
     return drawn
 
 

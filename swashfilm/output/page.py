@@ -15,6 +15,7 @@ from swashfilm.output.picture import Picture
 from swashfilm.output.touch.curves import touchable
 from swashfilm.output.touch.explorer import Explorer
 from swashfilm.output.touch.library import embedded
+from swashfilm.output.warnings import causes, counted
 from system.inputs.faults import Fault, InputFaults
 
 if TYPE_CHECKING:
@@ -27,6 +28,7 @@ TOUCHED = '<script type="text/plain" class="touch">'
 """How the figures begin that the template's pictures hold."""
 _HEADING = re.compile(r"<h2>(.*?)</h2>", re.DOTALL)
 _NUMBER = re.compile(r"[-+<>~]?\d[\d.e+-]*( \+- [\d.e-]+)?( ?[a-zA-Z%/0-9]{1,6}( [a-z/]{1,4})?)?$")
+_TIED = re.compile(r"(?<=\d) (?=\S)|(?<=\+-) (?=\d)|(?<=\bN) (?=m\b)|(?<=\bPa) (?=s\b)|(?<=mPa) (?=s\b)")
 _PICTURES = {b"\x89PNG": "png", b"RIFF": "webp", b"GIF8": "gif", b"<?xm": "svg+xml"}
 
 
@@ -53,15 +55,20 @@ def write_page(folder: Path, template: str, *, answer: Answer | None = None, **c
 
     environment = Environment(loader=PackageLoader("swashfilm.output"), autoescape=True)
     environment.tests["numeric"] = lambda cell: _NUMBER.match(str(cell)) is not None
+    environment.filters["tied"] = tied
+    notes = causes(content.get("warnings", content.get("summary", {}).get("warnings", ())))
     page = environment.get_template(f"{template}.html.jinja").render(
-        answer=answer,
-        files=_files_of(folder),
-        **{"warnings": content.get("summary", {}).get("warnings", ()), **content},
+        answer=answer, files=_files_of(folder), notes=notes, notes_line=counted(notes) if notes else "", **content
     )
     path = folder / PAGE
     path.unlink(missing_ok=True)
     path.write_text(_with_library(_with_contents(page)), encoding="utf-8")
     return path
+
+
+def tied(text: object) -> str:
+    """Return a text in which no line ends between a number and its unit, or inside a unit."""
+    return _TIED.sub("\u00a0", str(text))
 
 
 def _with_contents(page: str) -> str:

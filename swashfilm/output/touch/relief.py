@@ -50,7 +50,7 @@ def relief(place: tuple[Array, Array], cells: Array, fields: Sequence[ReliefFiel
         "hover": [f"{one.title}: %{{z:.4~g}}{PLACE}<extra></extra>" for one in fields],
     }  # fmt: skip
     which = list(range(len(fields)))
-    by_field = [
+    by_field: list[tuple[tuple[str | int, ...], str]] = [
         (("data", 0, "colorbar", "title", "text"), "titles"), (("layout", "scene", "zaxis", "title", "text"), "titles"),
         (("layout", "scene", "zaxis", "range"), "ends"), (("data", 0, "cmin"), "low"), (("data", 0, "cmax"), "high"),
         (("data", 0, "colorscale"), "scales"), (("data", 0, "hovertemplate"), "hover"),

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from reynolds.numerics.arrays import Array
-from swashfilm.output.figures import figure_of
+from swashfilm.output.figures import figure_of, legend_below
 from swashfilm.output.page import inlined
 from swashfilm.output.picture import Picture
 from system.multibody.closure import closure
@@ -235,7 +235,7 @@ def forces_plot(data: Mapping[str, Array]) -> Figure:
     right.set(ylabel="moment / N m", title="swash plate and shaft")
     for axes in (left, middle, right):
         axes.set(xlabel="shaft angle / deg", xlim=(0, 360))
-        axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.2), ncols=2, fontsize="small", frameon=False)
+        legend_below(axes)
     return figure
 
 
