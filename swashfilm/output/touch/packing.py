@@ -9,6 +9,7 @@ from __future__ import annotations
 import base64
 import gzip
 import json
+from math import isfinite
 from typing import Any
 
 import numpy as np
@@ -17,6 +18,8 @@ from reynolds.numerics.arrays import Array
 
 DIGITS = 6
 """Significant digits of the numbers, as in the tables of a run folder."""
+EXACT = 1e15
+"""Size below which whole numbers are written as such."""
 
 
 _LETTERS = str.maketrans("&<>", ",.:")
@@ -29,27 +32,25 @@ def packed(text: str) -> str:
 
 
 def packed_json(values: Any) -> str:
-    """Return values as packed JSON: arrays as lists, numbers with DIGITS figures, nan and inf as null."""
+    """Return values as packed JSON: arrays as lists, nan and inf as null."""
     return packed(json.dumps(_plain(values), separators=(",", ":"), allow_nan=False))
 
 
 def short(values: Any, digits: int = DIGITS) -> Any:
     """Return numbers rounded to significant digits as (nested) lists, nan and inf as None."""
     array: Array = np.ma.filled(np.ma.asarray(values, dtype=float), np.nan)
-    text = np.char.mod(f"%.{digits}g", array)
-    return _plain(text.astype(float), None)
+    return _plain(np.char.mod(f"%.{digits}g", array).astype(float))
 
 
-def _plain(values: Any, digits: int | None = DIGITS) -> Any:
+def _plain(values: Any) -> Any:
     if isinstance(values, dict):
-        return {key: _plain(one, digits) for key, one in values.items()}
+        return {key: _plain(one) for key, one in values.items()}
     if isinstance(values, np.ndarray):
-        return _plain(values.tolist(), digits)
+        return _plain(values.tolist())
     if isinstance(values, (list, tuple)):
-        return [_plain(one, digits) for one in values]
-    if isinstance(values, (float, np.floating)):
-        if not np.isfinite(values):
-            return None
-        number = float(values) if digits is None else float(f"{values:.{digits}g}")
-        return int(number) if number.is_integer() and abs(number) < 1e15 else number
-    return values.item() if isinstance(values, np.generic) else values
+        return [_plain(one) for one in values]
+    if isinstance(values, np.generic):
+        return _plain(values.item())
+    if isinstance(values, float):
+        return None if not isfinite(values) else int(values) if values.is_integer() and abs(values) < EXACT else values
+    return values
