@@ -7,7 +7,7 @@ is held: the derivative is one-sided where it changes (`weakly_active`).
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -117,9 +117,7 @@ def _gradient(film: SolvedFilm, transposed: TransposedFilm, output: Output) -> F
     )
 
 
-def held_gradient(
-    gradient: FilmGradient, supported: Sequence[FilmGradient], growth: Sequence[Array]
-) -> FilmGradient:
+def held_gradient(gradient: FilmGradient, supported: Sequence[FilmGradient], growth: Sequence[Array]) -> FilmGradient:
     """The derivative of an output while the film moves so that it keeps other outputs: a loss at held load.
 
     `supported` (k): gradients of what is kept; `growth` (k) of (cells | 1, points | 1): by how much the film grows with

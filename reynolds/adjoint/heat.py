@@ -52,10 +52,7 @@ def _conductance(film: SolvedFilm) -> tuple[Tensor, Tensor]:
         return isotropic(smooth), isotropic(smooth * steeper)
     factor = pressure_factors(surface, oil.thickness)
     if factor.x is factor.y:
-        return (
-            isotropic(smooth * factor.x.value),
-            isotropic(smooth * (factor.x.slope + steeper * factor.x.value)),
-        )
+        return (isotropic(smooth * factor.x.value), isotropic(smooth * (factor.x.slope + steeper * factor.x.value)))
     x, xy, y = (smooth * part.value for part in factor)
     x_slope, xy_slope, y_slope = (smooth * (part.slope + steeper * part.value) for part in factor)
     return (x, y, xy), (x_slope, y_slope, xy_slope)

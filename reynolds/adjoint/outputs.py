@@ -14,7 +14,8 @@ from reynolds.adjoint.shear import shear_slopes
 from reynolds.adjoint.solved import OutputSlopes, SolvedFilm, slopes_of
 from reynolds.errors import FilmInputError
 from reynolds.laws.contact import contact_pressure
-from reynolds.problem import FilmSolution
+from reynolds.problem import FilmProblem
+from reynolds.solve.loads import point_fields
 
 
 class Wall(Enum):
@@ -116,6 +117,22 @@ class FrictionOutput:
 
 
 @dataclass(frozen=True)
+class FrictionForceOutput:
+    """Magnitude of the force of oil and contact on the moving wall, N; raises FilmInputError where there is none."""
+
+    unit: ClassVar[str] = "N"
+
+    def slopes(self, film: SolvedFilm) -> OutputSlopes:
+        """As `Output`."""
+        stress = point_fields(film.solution).shear_moving
+        x, y = (float(np.sum(part * film.space.area * film.weight)) for part in stress)
+        size = float(np.hypot(x, y))
+        if size == 0.0:
+            raise FilmInputError("friction", "no force on the moving wall", "friction_torque, or a wall that slides")
+        return shear_slopes(film, (np.full((1, 1), x / size), np.full((1, 1), y / size)), on_moving=True)
+
+
+@dataclass(frozen=True)
 class FrictionTorqueOutput:
     """Torque of oil and contact on a wall about the origin, N m."""
 
@@ -139,18 +156,19 @@ class DissipationOutput:
         return heat_slopes(film)
 
 
-def output_names(solution: FilmSolution) -> dict[str, Output]:
+def output_names(problem: FilmProblem) -> dict[str, Output]:
     """The outputs of a film by name.
 
-    load, moment_x, moment_y, friction_x, friction_y and friction_torque (moving wall), friction_fixed_x,
-    friction_fixed_y and friction_fixed_torque, dissipation; contact_load between asperities; flow.NAME of each boundary
-    with a condition.
+    load; contact_load of asperities; moment_x, moment_y; flow.NAME of each boundary with a condition; friction, the
+    magnitude of the force on the moving wall, friction_x, friction_y, friction_torque, and friction_fixed_x,
+    friction_fixed_y, friction_fixed_torque of the fixed wall; dissipation.
     """
     names: dict[str, Output] = {"load": LoadOutput()}
-    if solution.problem.asperities is not None:
+    if problem.asperities is not None:
         names["contact_load"] = ContactLoadOutput()
     names |= {f"moment_{axis.value}": MomentOutput(axis) for axis in Axis}
-    names |= {f"flow.{name}": FlowOutput(name) for name in solution.problem.boundary}
+    names |= {f"flow.{name}": FlowOutput(name) for name in problem.boundary}
+    names["friction"] = FrictionForceOutput()
     for wall, stem in ((Wall.MOVING, "friction"), (Wall.FIXED, "friction_fixed")):
         names |= {f"{stem}_{axis.value}": FrictionOutput(axis, wall) for axis in Axis}
         names[f"{stem}_torque"] = FrictionTorqueOutput(wall)

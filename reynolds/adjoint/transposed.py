@@ -9,7 +9,8 @@ DENSE_LIMIT free pressures and the factor of A beyond. B is exact there: with th
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from functools import cached_property
+from dataclasses import replace
+from functools import cached_property, partial
 
 import numpy as np
 from numpy.typing import NDArray
@@ -36,6 +37,7 @@ from reynolds.solve.solver import FilmSolver
 TOLERANCE = 1e-11  # of the load
 GOOD_ENOUGH = 1e-9  # where round-off allows no less
 MOST_STEPS = 150  # of GMRES with the factor of rigid walls; with one that needs more the dense factor is cheaper
+FELT = 1e-10  # of the steepest contact: less counts as none
 Solve = Callable[[Array], Array]
 
 
@@ -46,8 +48,7 @@ class TransposedFilm:
         """`solver` is that of the film: its last factor is used where it serves."""
         solution, problem = film.solution, film.problem
         self._solver, self._film = solver, film
-        rigid = problem.walls is None or problem.asperities is None
-        self._touch: Touch | None = None if rigid else touch_at(problem, solution.deformation)
+        self._touch = _touch_of(film)
         self._fixed: NDArray[np.bool_] = solution.held.copy()
         if problem.cavitation is Cavitation.REYNOLDS:
             self._fixed |= solution.cavity
@@ -82,7 +83,7 @@ class TransposedFilm:
         return transposed_product(walls.matrix, self.by_given_gap(force))
 
     def multipliers(self, by_pressure: Array, by_fraction: Array) -> Array:
-        """lambda (size,) with F_u^T lambda = J_u, the slopes by pressure and film fraction; zero where unknowns are held.
+        """lambda (size,) with F_u^T lambda = J_u, slopes by pressure and film fraction; zero where an unknown is held.
 
         Raises FilmNotConverged where the balance is singular.
         """
@@ -125,24 +126,26 @@ class TransposedFilm:
 
     def _compliant(self, load: Array) -> Array:
         """The same between elastic walls."""
-        rows = np.abs(self._rigid.diagonal())
+        rows = np.abs(self._rigid.diagonal())  # in a thin film next to nothing flows
         rows = np.where(rows > 0.0, rows, 1.0)
-        for before, most in self._factors():
-            part, left = gmres(lambda one: self._image(before(rows * one)) / rows, load / rows, TOLERANCE, most)
+        for before in self._factors():
+            image = partial(self._image, before, rows)
+            part, left = gmres(image, load / rows, TOLERANCE, MOST_STEPS)
             if left <= GOOD_ENOUGH:
                 return before(rows * part)
         raise FilmNotConverged("the transposed balance between elastic walls not solved", "stiffer walls")
 
-    def _image(self, multiplier: Array) -> Array:
-        unit, film = self._step[3], self._film
+    def _image(self, before: Solve, rows: Array, part: Array) -> Array:
+        """The transposed matrix after a similar inverse, both scaled by rows."""
+        unit, film, multiplier = self._step[3], self._film, before(rows * part)
         swayed = film.on_vertices(film.balance.lever(np.where(self._fixed, 0.0, multiplier)))
-        return np.asarray(self._rigid @ multiplier + self._free * self.by_wall_pressure(swayed) / unit)
+        return np.asarray(self._rigid @ multiplier + self._free * self.by_wall_pressure(swayed) / unit) / rows
 
-    def _factors(self) -> Iterator[tuple[Solve, int]]:
-        """Factors of similar matrices, and the most steps of GMRES with each."""
+    def _factors(self) -> Iterator[Solve]:
+        """Inverses of similar matrices, the cheaper first."""
         if np.count_nonzero(self._free) > DENSE_LIMIT and self._rigid_factor is not None:
-            yield self._rigid_factor, MOST_STEPS
-        yield self._dense_factor, MOST_STEPS
+            yield self._rigid_factor
+        yield self._dense_factor
 
     @cached_property
     def _rigid_factor(self) -> Solve | None:
@@ -162,3 +165,12 @@ class TransposedFilm:
         matrix[free] += np.asarray(slope @ columns_of(wider, free)).T
         answer = dense_answer(matrix)
         return lambda load: answer(load, TOLERANCE)
+
+
+def _touch_of(film: SolvedFilm) -> Touch | None:
+    """Contact of elastic walls, with the faint one that Newton's method leaves out; None where nothing can touch."""
+    if film.problem.walls is None or film.problem.asperities is None:
+        return None
+    touch = touch_at(film.problem, film.solution.deformation)
+    steep = -touch.bears.slope
+    return replace(touch, felt=np.flatnonzero(steep > FELT * steep.max(initial=0.0)))

@@ -1,0 +1,162 @@
+"""Parameters of a film's shape: by how much the film grows with each, for derivatives by the chain rule."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, fields, replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from gaps.films.physics import Effect
+from reynolds.equation.rough_overlap import film_between
+from reynolds.errors import InputError
+from reynolds.floating.stage import FloatingStage
+from reynolds.numerics.arrays import Array
+from reynolds.problem import FilmProblem
+from swashfilm.case.fields.field import Formula
+from swashfilm.case.file import FilmCase
+from swashfilm.case.gap.instant import GapCase
+from swashfilm.runs.film.solve.gap import case_gap
+from system.description.gap import Gap
+from system.films.parts import FloatingParts
+
+if TYPE_CHECKING:
+    from gaps.shapes.profiles import Profile
+
+STEP = 1e-4  # of a parameter: differences of the shape alone, exact where it is linear in the parameter
+SMALLEST = 1e-9  # of a step, in the parameter's SI unit
+POSITIONS = {
+    Gap.PISTON: ("eccentricity_inner_x_m", "eccentricity_inner_y_m", "eccentricity_case_x_m", "eccentricity_case_y_m"),
+    Gap.SLIPPER: ("film_thickness_m", "rise_x_m", "rise_y_m"),
+    Gap.VALVE_PLATE: ("film_thickness_m", "rise_x_m", "rise_y_m"),
+}
+
+
+@dataclass(frozen=True)
+class Growth:
+    """Growth of the film with a parameter: its key with its SI unit, its value (None: zero by definition), and m of
+    film per unit at the points (cells | 1, points | 1) and at the vertices (vertices,)."""
+
+    key: str
+    value: float | None
+    at_points: Array
+    at_vertices: Array
+
+
+def uniform_growth(problem: FilmProblem) -> Growth:
+    """A film that is thicker by the same everywhere."""
+    return Growth("film_thickness_m", None, np.ones((1, 1)), np.ones(len(problem.space.vertices)))
+
+
+def tilts(problem: FilmProblem) -> list[Growth]:
+    """A film that grows along x and along y, from the origin."""
+    space = problem.space
+    return [
+        Growth(f"slope_{axis}_rad", None, space.points[number], space.vertices[:, number])
+        for number, axis in enumerate("xy")
+    ]
+
+
+def case_growth(case: FilmCase) -> list[Growth]:
+    """Uniform film, both tilts, and each constant of [constants] that the thickness depends on."""
+    found = [uniform_growth(case.problem), *tilts(case.problem)]
+    thickness, space = case.stated.film.thickness, case.problem.space
+    if not isinstance(thickness, Formula):
+        return found
+    for name, value in thickness.expression.constants.items():
+        step = max(STEP * abs(value), SMALLEST)
+
+        def changed(by: float, name: str = name, value: float = value) -> Formula:
+            formula = thickness.expression
+            return Formula(replace(formula, constants={**formula.constants, name: value + by}))
+
+        points, vertices = (
+            (one - other) / (2.0 * step)
+            for one, other in (
+                (changed(step).sample(space), changed(-step).sample(space)),
+                (changed(step).at_vertices(space), changed(-step).at_vertices(space)),
+            )
+        )
+        if np.any(points != 0.0) and np.isfinite(points).all():
+            found.append(Growth(name, value, points, vertices))
+    return found
+
+
+def gap_growth(case: GapCase, stage: FloatingStage) -> list[Growth]:
+    """Uniform film (clearance), each coordinate of the position, and each number of the shapes of the faces."""
+    problem, modes = stage.balanced.problem, stage.instant.modes
+    widening = _widening(stage)
+    corners = np.ones(len(problem.space.vertices))
+    uniform = Growth("film_thickness_m", None, widening, corners)
+    found = [
+        Growth(key, float(value), widening * modes.at_points[:, :, number], modes.at_vertices[:, number])
+        for number, (key, value) in enumerate(zip(POSITIONS[case.gap], stage.q, strict=True))
+    ]
+    faces = [uniform, *found] if case.gap is Gap.PISTON else found
+    return [*faces, *_of_shapes(case, stage, widening)]
+
+
+def _widening(stage: FloatingStage) -> Array:
+    """Growth of the film with the gap: below one where rough rigid walls overlap."""
+    shape = stage.instant.shape
+    return np.ones((1, 1)) if shape.walls is not None else np.asarray(film_between(shape, stage.gap).slope)
+
+
+def _of_shapes(case: GapCase, stage: FloatingStage, widening: Array) -> Iterator[Growth]:
+    space = stage.instant.shape.space
+
+    def shape(parts: FloatingParts) -> tuple[Array, Array]:
+        gap = case_gap(replace(case, parts=parts, physics=case.physics.without(Effect.ELASTIC_WALLS)))
+        film = gap.floating.shape_at(gap.time(case.shaft_angle)).film
+        corners = film.thickness_at_vertices
+        points = np.broadcast_to(film.thickness, space.area.shape)
+        return points, space.to_vertices(points) if corners is None else corners
+
+    for key, value, with_value in _numbers(case):
+        step = max(STEP * abs(value), SMALLEST)
+        try:
+            more, less = shape(with_value(value + step)), shape(with_value(value - step))
+        except InputError:  # at the end of the shape's range
+            continue
+        points, vertices = ((one - other) / (2.0 * step) for one, other in zip(more, less, strict=True))
+        if np.any(points != 0.0):
+            yield Growth(key, value, widening * points, vertices)
+
+
+def _numbers(case: GapCase) -> Iterator[tuple[str, float, Callable[[float], FloatingParts]]]:
+    """Key and value of each number of the shapes of the gap's faces, and the parts with another value."""
+    for face, profile, with_profile in _faces(case.gap, case.parts):
+        for place, shape in enumerate(profile.shapes):
+            for one in fields(shape):  # type: ignore[arg-type]
+                value = getattr(shape, one.name)
+                if not isinstance(value, float) or not np.isfinite(value):
+                    continue
+
+                def changed(
+                    to: float, place: int = place, name: str = one.name, old: Profile = profile,
+                    remade: Callable[[Profile], FloatingParts] = with_profile,
+                ) -> FloatingParts:  # fmt: skip
+                    shapes = list(old.shapes)
+                    shapes[place] = replace(shapes[place], **{name: to})  # type: ignore[type-var]
+                    return remade(replace(old, shapes=tuple(shapes)))
+
+                unit = "rad" if one.name == "crest" else "m"
+                yield f"{face}_{type(shape).__name__.lower()}_{one.name}_{unit}", value, changed
+
+
+def _faces(gap: Gap, parts: FloatingParts) -> list[tuple[str, Profile, Callable[[Profile], FloatingParts]]]:
+    """Name and shapes of each face of a gap, and the parts with other shapes."""
+    match gap:
+        case Gap.PISTON:
+            own = parts.piston
+            return [
+                ("piston", own.piston, lambda new: replace(parts, piston=replace(own, piston=new))),
+                ("bore", own.bore, lambda new: replace(parts, piston=replace(own, bore=new))),
+            ]
+        case Gap.SLIPPER:
+            slipper = parts.slipper
+            return [("face", slipper.face, lambda new: replace(parts, slipper=replace(slipper, face=new)))]
+        case Gap.VALVE_PLATE:
+            block = parts.block
+            return [("faces", block.faces, lambda new: replace(parts, block=replace(block, faces=new)))]
