@@ -8,19 +8,19 @@ is held: the derivative is one-sided where it changes (`weakly_active`).
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from reynolds.adjoint.outputs import Output
-from reynolds.adjoint.solved import SolvedFilm
+from reynolds.adjoint.solved import SolvedFilm, summed_at_vertices
 from reynolds.adjoint.transposed import TransposedFilm
 from reynolds.equation.balance import FilmState, operators
 from reynolds.errors import FilmInputError
 from reynolds.fem.space import FilmSpace
 from reynolds.numerics.arrays import Array
-from reynolds.problem import Cavitation, FilmSolution
+from reynolds.problem import ZERO, Cavitation, FilmSolution
 from reynolds.solve.solver import FilmSolver
 
 WEAK = 1e-6  # of the largest pressure above that of the cavity
@@ -32,8 +32,9 @@ class FilmGradient:
     """Derivative of one output by the film thickness; `unit` is that of the output, SI.
 
     value: the output; at_points (cells, points): derivative per area by the thickness there, unit/m3; at_vertices
-    (vertices,): derivative by the gap at a vertex where elastic walls touch, unit/m, else zero. The derivative along a
-    change dh of the film is sum(at_points dh dA) + sum(at_vertices dh).
+    (vertices,): derivative by the gap at a vertex where elastic walls touch, unit/m, else zero; by_squeeze (cells,
+    points): derivative per area by the squeeze velocity there, unit s/m3. The derivative along a change dh of the film
+    at constant squeeze is sum(at_points dh dA) + sum(at_vertices dh).
     """
 
     space: FilmSpace = field(repr=False)
@@ -41,13 +42,15 @@ class FilmGradient:
     value: float
     at_points: Array
     at_vertices: Array
+    by_squeeze: Array
 
-    def along(self, growth: Array, at_vertices: Array | None = None) -> float:
+    def along(self, growth: Array, at_vertices: Array | None = None, squeeze: Array = ZERO) -> float:
         """Derivative by a parameter by which the film grows as `growth` (cells | 1, points | 1), m per its unit.
 
-        `at_vertices` (vertices,): the growth there; None: extrapolated, exact for a linear one.
+        `at_vertices` (vertices,): the growth there; None: extrapolated, exact for a linear one. `squeeze` (cells | 1,
+        points | 1), m/s per its unit: growth of the squeeze velocity, as of a profile that moves along the film.
         """
-        total = float(np.sum(self.at_points * growth * self.space.area))
+        total = float(np.sum((self.at_points * growth + self.by_squeeze * squeeze) * self.space.area))
         if self.at_vertices.any():
             at_vertices = self.space.to_vertices(growth) if at_vertices is None else at_vertices
             total += float(self.at_vertices @ at_vertices)
@@ -61,22 +64,12 @@ class FilmGradient:
     @property
     def nodal(self) -> Array:
         """Derivative by the thickness at each vertex, linear between them, (vertices,) unit/m."""
-        space = self.space
-        local = (self.at_points * space.area) @ space.reference.geometry_value
-        return np.bincount(space.cells.ravel(), weights=local.ravel(), minlength=len(self.at_vertices)) + (
-            self.at_vertices
-        )
+        return summed_at_vertices(self.space, self.at_points * self.space.area) + self.at_vertices
 
     @property
     def density(self) -> Array:
-        """The same per area, (vertices,) unit/m3: independent of the mesh; dJ = sum of density, dh and vertex area."""
-        return self.nodal / vertex_area(self.space)
-
-
-def vertex_area(space: FilmSpace) -> Array:
-    """Area of the film that belongs to each vertex, (vertices,) m2: integral of its linear share."""
-    local = space.area @ space.reference.geometry_value
-    return np.bincount(space.cells.ravel(), weights=local.ravel(), minlength=len(space.vertices))
+        """The same per area, (vertices,) unit/m3: independent of the mesh; dJ is the integral of density times dh."""
+        return self.nodal / summed_at_vertices(self.space, self.space.area)
 
 
 def film_gradients(
@@ -87,9 +80,8 @@ def film_gradients(
     Exact at a constant set of cavitated unknowns, for each cavitation, oil whose viscosity and density depend on
     pressure, rough walls and elastic walls (h is then the gap before deformation). Wall velocities, squeeze velocity,
     viscosity at zero pressure and boundary values stay as they are. `weight` (cells | 1, 1) as in `loads`. Raises
-    FilmInputError for a film in time, for squeezed films between rough walls, whose second slopes the laws do not
-    give, and as the outputs; FilmNotConverged where the balance is singular. Source: Giles and Pierce 2000, An
-    introduction to the adjoint approach to design.
+    FilmInputError for a film in time and as the outputs, FilmNotConverged where the balance is singular. Source: Giles
+    and Pierce 2000, An introduction to the adjoint approach to design.
     """
     _check(solution)
     weight = np.ones((1, 1)) if weight is None else weight
@@ -113,7 +105,12 @@ def _gradient(film: SolvedFilm, transposed: TransposedFilm, output: Output) -> F
     by_gap = by_gap - film.balance.lever(multipliers)
     swayed = film.on_vertices(by_gap)
     return FilmGradient(
-        film.space, output.unit, own.value, by_gap / film.space.area, transposed.by_given_gap(swayed) - swayed
+        film.space,
+        output.unit,
+        own.value,
+        by_gap / film.space.area,
+        transposed.by_given_gap(swayed) - swayed,
+        -film.balance.squeeze_lever(multipliers + own.through) / film.space.area,
     )
 
 
@@ -130,12 +127,12 @@ def held_gradient(gradient: FilmGradient, supported: Sequence[FilmGradient], gro
     except np.linalg.LinAlgError:
         found = "outputs that do not change with the coordinates"
         raise FilmInputError("held gradient", found, "as many coordinates as outputs that they change") from None
-    return FilmGradient(
-        gradient.space,
-        gradient.unit,
-        gradient.value,
-        gradient.at_points - sum(part * one.at_points for part, one in zip(share, supported, strict=True)),
-        gradient.at_vertices - sum(part * one.at_vertices for part, one in zip(share, supported, strict=True)),
+    pairs = list(zip(share, supported, strict=True))
+    return replace(
+        gradient,
+        at_points=gradient.at_points - sum(part * one.at_points for part, one in pairs),
+        at_vertices=gradient.at_vertices - sum(part * one.at_vertices for part, one in pairs),
+        by_squeeze=gradient.by_squeeze - sum(part * one.by_squeeze for part, one in pairs),
     )
 
 
@@ -165,5 +162,3 @@ def _check(solution: FilmSolution) -> None:
     if problem.storage is not None and problem.storage.step < HELD_FOR:
         found = f"one step of {problem.storage.step:.4g} s of a film in time"
         raise FilmInputError("film", found, "a steady film: the derivative of a step depends on the one before")
-    if problem.surface is not None and np.any(problem.film.squeeze != 0.0):
-        raise FilmInputError("film", "a squeezed film between rough walls", "squeeze = 0, or smooth walls")

@@ -6,6 +6,7 @@ from dataclasses import dataclass, field
 from functools import cached_property
 
 import numpy as np
+from numpy.typing import NDArray
 
 from reynolds.equation.balance import FilmState, Operators
 from reynolds.equation.coefficients import at_points
@@ -82,20 +83,28 @@ class SolvedFilm:
         """Sum over the points (cells, points) times the basis there, (size,)."""
         space = self.space
         local = np.broadcast_to(at, space.area.shape) @ space.reference.value
-        return np.bincount(space.dofs.ravel(), weights=local.ravel(), minlength=space.size)
+        return _summed(local, space.dofs, space.size)
 
     def along_gradients(self, x: Array, y: Array) -> Array:
         """Sum over the points (cells, points) times the gradient of the basis there along x and y, (size,)."""
         space, tensors = self.space, self.space.tensors
         both = np.stack([np.broadcast_to(part, space.area.shape) / space.area for part in (x, y)], axis=-1)
         local = np.einsum("eqb,eqib->ei", both, tensors.gradient[tensors.shape])
-        return np.bincount(space.dofs.ravel(), weights=local.ravel(), minlength=space.size)
+        return _summed(local, space.dofs, space.size)
 
     def on_vertices(self, at: Array) -> Array:
         """Sum over the points (cells, points) times the share of each vertex there, (vertices,)."""
-        space = self.space
-        local = np.broadcast_to(at, space.area.shape) @ space.reference.geometry_value
-        return np.bincount(space.cells.ravel(), weights=local.ravel(), minlength=len(space.vertices))
+        return summed_at_vertices(self.space, at)
+
+
+def summed_at_vertices(space: FilmSpace, at: Array) -> Array:
+    """Sum over the points (cells | 1, points | 1) times the linear share of each vertex there, (vertices,)."""
+    local = np.broadcast_to(at, space.area.shape) @ space.reference.geometry_value
+    return _summed(local, space.cells, len(space.vertices))
+
+
+def _summed(local: Array, numbers: NDArray[np.int32], size: int) -> Array:
+    return np.asarray(np.bincount(numbers.ravel(), weights=local.ravel(), minlength=size), dtype=float)
 
 
 @dataclass(frozen=True)

@@ -4,8 +4,10 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from reynolds.equation.balance import FilmState, Operators, cavity_density, density, steep_gradient
 from reynolds.equation.coefficients import along, at_points
@@ -49,8 +51,21 @@ class ThicknessSlopes:
             mixed_levered(*self._mixing[0], weight, *space.reference.loops, *self._mixing[1], out)
         return out
 
+    def squeeze_lever(self, weight: Array) -> Array:
+        """sum_i weight_i dR_i by the squeeze velocity at each quadrature point, (cells, points) m2."""
+        space = self.problem.space
+        return np.asarray(
+            self.parts.transport.content_slope * space.area * at_points(space, weight * self._stored_filling)
+        )
+
     @cached_property
-    def _flows(self) -> tuple[Array, ...]:
+    def _stored_filling(self) -> Array:
+        """Filling of what grows at each unknown, (size,), as `balance.flow_balance` has it."""
+        ratio = density(self.problem, self.state.pressure)[0]
+        return np.where(self.parts.rate > 0.0, self.state.film_fraction * ratio, ratio)
+
+    @cached_property
+    def _flows(self) -> tuple[NDArray[Any], ...]:
         problem, state = self.problem, self.state
         space, terms, tensors = problem.space, self.parts.transport, problem.space.tensors
         filling = state.film_fraction * density(problem, state.pressure)[0]
@@ -58,11 +73,13 @@ class ThicknessSlopes:
         mode = hourglass_slope(space, terms.conductance, terms.conductance_slope, state.pressure)
         full = at_points(space, filling)
         convected = (full * part for part in terms.flux_slope)
-        per_second = 0.0 if problem.storage is None else terms.content_slope / problem.storage.step
-        fields = (space.everywhere(part) for part in (*driven, mode, *convected, np.atleast_2d(per_second)))
+        per_second = terms.squeeze_slope
+        if problem.storage is not None:
+            per_second = per_second + terms.content_slope / problem.storage.step
+        fields = (space.everywhere(part) for part in (*driven, mode, *convected, per_second))
         return (
             space.dofs, tensors.shape, space.reference.value, tensors.steep_gradient, tensors.gradient, signs(space),
-            space.area, *fields, filling,
+            space.area, *fields, self._stored_filling,
         )  # fmt: skip
 
     @property
@@ -71,7 +88,7 @@ class ThicknessSlopes:
         return self.problem.cavitation is Cavitation.JFO and bool(np.any(self.state.film_fraction != 1.0))
 
     @cached_property
-    def _mixing(self) -> tuple[tuple[Array, ...], tuple[Array, ...]]:
+    def _mixing(self) -> tuple[tuple[NDArray[Any], ...], tuple[NDArray[Any], ...]]:
         space, parts = self.problem.space, self.parts
         slope = (space.everywhere(part) for part in parts.transport.flux_slope)
         cells = space.dofs, space.pattern.slots, space.tensors.shape, space.reference.value, space.tensors.gradient

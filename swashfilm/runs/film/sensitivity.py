@@ -33,7 +33,7 @@ def sensitivity_summary(study: FilmStudy) -> dict[str, Any]:
     outputs = {
         _key(name, one.unit): {
             "value": one.value,
-            **{f"by_{grown.key}": one.along(grown.at_points, grown.at_vertices) for grown in found.growth},
+            **{f"by_{by.key}": one.along(by.at_points, by.at_vertices, by.squeeze) for by in found.growth},
         }
         for name, one in found.gradients.items()
     }
@@ -78,7 +78,7 @@ def _rows(found: Mapping[str, Any]) -> Iterator[tuple[str, ...]]:
                 continue
             parameter = by.removeprefix("by_")
             value = found["parameters"].get(parameter)
-            change = "" if value is None else f"{0.01 * value * slope:.4g} {unit}"
+            change = "" if not value else f"{0.01 * value * slope:.4g} {unit}"
             yield words, *_derivative(parameter, slope, unit), change
 
 

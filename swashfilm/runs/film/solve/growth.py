@@ -3,17 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass, fields, replace
+from dataclasses import dataclass, field, fields, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from gaps.films.physics import Effect
 from reynolds.equation.rough_overlap import film_between
 from reynolds.errors import InputError
 from reynolds.floating.stage import FloatingStage
 from reynolds.numerics.arrays import Array
-from reynolds.problem import FilmProblem
+from reynolds.problem import ZERO, FilmProblem
 from swashfilm.case.fields.field import Formula
 from swashfilm.case.file import FilmCase
 from swashfilm.case.gap.instant import GapCase
@@ -35,13 +34,17 @@ POSITIONS = {
 
 @dataclass(frozen=True)
 class Growth:
-    """Growth of the film with a parameter: its key with its SI unit, its value (None: zero by definition), and m of
-    film per unit at the points (cells | 1, points | 1) and at the vertices (vertices,)."""
+    """Growth of the film with a parameter: its key with its SI unit, and its value (None: zero by definition).
+
+    m of film per unit at the points (cells | 1, points | 1) and at the vertices (vertices,); squeeze (cells | 1, points
+    | 1): m/s of squeeze velocity per unit, of a shape that moves along the film.
+    """
 
     key: str
     value: float | None
     at_points: Array
     at_vertices: Array
+    squeeze: Array = field(default_factory=lambda: ZERO)
 
 
 def uniform_growth(problem: FilmProblem) -> Growth:
@@ -64,23 +67,23 @@ def case_growth(case: FilmCase) -> list[Growth]:
     thickness, space = case.stated.film.thickness, case.problem.space
     if not isinstance(thickness, Formula):
         return found
-    for name, value in thickness.expression.constants.items():
-        step = max(STEP * abs(value), SMALLEST)
+    formula = thickness.expression
+    for name, value in formula.constants.items():
 
-        def changed(by: float, name: str = name, value: float = value) -> Formula:
-            formula = thickness.expression
-            return Formula(replace(formula, constants={**formula.constants, name: value + by}))
+        def shape(to: float, name: str = name) -> tuple[Array, Array]:
+            changed = replace(formula, constants={**formula.constants, name: to})
+            return Formula(changed).sample(space), changed(*space.vertices.T)
 
-        points, vertices = (
-            (one - other) / (2.0 * step)
-            for one, other in (
-                (changed(step).sample(space), changed(-step).sample(space)),
-                (changed(step).at_vertices(space), changed(-step).at_vertices(space)),
-            )
-        )
+        points, vertices = _differences(shape, value)
         if np.any(points != 0.0) and np.isfinite(points).all():
             found.append(Growth(name, value, points, vertices))
     return found
+
+
+def _differences(shape: Callable[[float], tuple[Array, ...]], value: float) -> list[Array]:
+    """Slopes of a shape's fields at a value of a parameter, by central differences of the shape alone."""
+    step = max(STEP * abs(value), SMALLEST)
+    return [(more - less) / (2.0 * step) for more, less in zip(shape(value + step), shape(value - step), strict=True)]
 
 
 def gap_growth(case: GapCase, stage: FloatingStage) -> list[Growth]:
@@ -106,22 +109,19 @@ def _widening(stage: FloatingStage) -> Array:
 def _of_shapes(case: GapCase, stage: FloatingStage, widening: Array) -> Iterator[Growth]:
     space = stage.instant.shape.space
 
-    def shape(parts: FloatingParts) -> tuple[Array, Array]:
-        gap = case_gap(replace(case, parts=parts, physics=case.physics.without(Effect.ELASTIC_WALLS)))
+    def shape(parts: FloatingParts) -> tuple[Array, Array, Array]:
+        gap = case_gap(replace(case, parts=parts))
         film = gap.floating.shape_at(gap.time(case.shaft_angle)).film
-        corners = film.thickness_at_vertices
-        points = np.broadcast_to(film.thickness, space.area.shape)
-        return points, space.to_vertices(points) if corners is None else corners
+        points, corners = np.broadcast_to(film.thickness, space.area.shape), film.thickness_at_vertices
+        return points, space.to_vertices(points) if corners is None else corners, film.squeeze
 
     for key, value, with_value in _numbers(case):
-        step = max(STEP * abs(value), SMALLEST)
         try:
-            more, less = shape(with_value(value + step)), shape(with_value(value - step))
+            points, vertices, squeeze = _differences(lambda to, made=with_value: shape(made(to)), value)  # type: ignore[misc]
         except InputError:  # at the end of the shape's range
             continue
-        points, vertices = ((one - other) / (2.0 * step) for one, other in zip(more, less, strict=True))
         if np.any(points != 0.0):
-            yield Growth(key, value, widening * points, vertices)
+            yield Growth(key, value, widening * points, vertices, squeeze)
 
 
 def _numbers(case: GapCase) -> Iterator[tuple[str, float, Callable[[float], FloatingParts]]]:

@@ -5,8 +5,6 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
-import numpy as np
-
 from gaps.films.physics import Effect
 from reynolds.adjoint.gradient import FilmGradient, film_gradients, held_gradient, weakly_active
 from reynolds.adjoint.outputs import Axis, ContactLoadOutput, LoadOutput, MomentOutput, Output, output_names
@@ -57,11 +55,6 @@ def _unfit(case: FilmCase) -> list[Fault]:
         (stated.time, "a film in time, table [time]", "a steady film: state squeeze for one instant"),
         (stated.thermal, "a film with temperature, table [thermal]", "a film without it, at one oil temperature"),
         (shear, "oil that shear thins, a key of [oil]", "oil without it"),
-        (
-            stated.roughness and np.any(case.problem.film.squeeze != 0.0),
-            "a squeezed film between rough walls",
-            "a film without squeeze, or smooth walls",
-        ),
     )
     return [Fault(OPTION, found, expected) for given, found, expected in reasons if given]
 
@@ -138,6 +131,7 @@ def _at_held_load(case: FilmCase, solution: FilmSolution, found: Sensitivities) 
             value=supported[0].value + contact.value,
             at_points=supported[0].at_points + contact.at_points,
             at_vertices=supported[0].at_vertices + contact.at_vertices,
+            by_squeeze=supported[0].by_squeeze + contact.by_squeeze,
         )
     modes = [one.at_points for one in growth]
     held = {name: held_gradient(one, supported, modes) for name, one in found.gradients.items()}
