@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from reynolds.equation.balance import FilmState, Operators
 from reynolds.equation.coefficients import at_points
 from reynolds.equation.thickness import ThicknessSlopes
+from reynolds.fem import kernels
 from reynolds.fem.space import FilmSpace
 from reynolds.laws.fluid import CONSTANT
 from reynolds.numerics.arrays import Array
@@ -88,9 +89,13 @@ class SolvedFilm:
     def along_gradients(self, x: Array, y: Array) -> Array:
         """Sum over the points (cells, points) times the gradient of the basis there along x and y, (size,)."""
         space, tensors = self.space, self.space.tensors
-        both = np.stack([np.broadcast_to(part, space.area.shape) / space.area for part in (x, y)], axis=-1)
-        local = np.einsum("eqb,eqib->ei", both, tensors.gradient[tensors.shape])
-        return _summed(local, space.dofs, space.size)
+        less, size = np.zeros(space.size), np.zeros(space.size)
+        for axis, part in enumerate((x, y)):
+            flux = np.ascontiguousarray(np.broadcast_to(part, space.area.shape) / space.area)
+            kernels.wall_outflow(
+                space.dofs, tensors.shape, tensors.gradient[..., axis], flux, *space.reference.loops, less, size
+            )
+        return -less
 
     def on_vertices(self, at: Array) -> Array:
         """Sum over the points (cells, points) times the share of each vertex there, (vertices,)."""

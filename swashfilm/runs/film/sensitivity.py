@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 FIELD = "sensitivity_"
 _KEYS = {"N": "N", "N m": "Nm", "m3/s": "m3_per_s", "W": "W"}
-_SHOWN = {"m3/s": (6e7, "mL/min")}  # factor and unit of a picture; others keep theirs
+_SHOWN = {"m3/s": (6e7, "mL/min"), "N m": (1e3, "N mm")}  # factor and unit of a picture; others keep theirs
 PER_AREA_AND_FILM = 1e-12  # of 1/m3 in 1/(mm2 um)
 
 
@@ -104,7 +104,7 @@ def sensitivity_figure(fields: xarray.Dataset) -> Figure | None:
         factor, symbol = _SHOWN.get(unit, (1.0, unit))
         values = factor * PER_AREA_AND_FILM * fields[name].values
         most = float(np.percentile(np.abs(values), 99.0)) or 1.0  # a corner of the film must not hide the rest
-        title = f"{str(name).removeprefix(FIELD).replace('_', ' ')} by film thickness / ({symbol}/(mm2 um))"
+        title = f"{str(name).removeprefix(FIELD).replace('_', ' ')} by film / ({symbol}/(mm2 um))"
         axes = figure.add_subplot(rows, columns, number)
         draw_map(axes, place, fields["cells"].values, values, title, colours="coolwarm", limits=(-most, most))
     return figure

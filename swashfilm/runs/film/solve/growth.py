@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field, fields, replace
 from typing import TYPE_CHECKING
@@ -25,6 +26,7 @@ if TYPE_CHECKING:
 
 STEP = 1e-4  # of a parameter: differences of the shape alone, exact where it is linear in the parameter
 SMALLEST = 1e-9  # of a step, in the parameter's SI unit
+_IN_NAME = re.compile("(?<=[a-z])(?=[A-Z])")
 POSITIONS = {
     Gap.PISTON: ("eccentricity_inner_x_m", "eccentricity_inner_y_m", "eccentricity_case_x_m", "eccentricity_case_y_m"),
     Gap.SLIPPER: ("film_thickness_m", "rise_x_m", "rise_y_m"),
@@ -142,7 +144,7 @@ def _numbers(case: GapCase) -> Iterator[tuple[str, float, Callable[[float], Floa
                     return remade(replace(old, shapes=tuple(shapes)))
 
                 unit = "rad" if one.name == "crest" else "m"
-                yield f"{face}_{type(shape).__name__.lower()}_{one.name}_{unit}", value, changed
+                yield f"{face}_{_IN_NAME.sub('_', type(shape).__name__).lower()}_{one.name}_{unit}", value, changed
 
 
 def _faces(gap: Gap, parts: FloatingParts) -> list[tuple[str, Profile, Callable[[Profile], FloatingParts]]]:
