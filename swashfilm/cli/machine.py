@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from importlib.metadata import PackageNotFoundError, requires, version
 from pathlib import Path
 
-from swashfilm.output.picture3d import REMEDY, Frame, draw
+from swashfilm.output.scenes.picture3d import REMEDY, Frame, draw
 from system.work.processes import cores
 
 LEAST_MEMORY = 2e9  # bytes; a run with films needs half of it

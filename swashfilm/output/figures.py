@@ -8,7 +8,10 @@ from contextlib import contextmanager
 from contextvars import ContextVar
 from typing import TYPE_CHECKING
 
+import numpy as np
+
 if TYPE_CHECKING:
+    from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
 _MANY, _FEW = 3000, 100
@@ -36,6 +39,16 @@ def pyplot_figures() -> Iterator[None]:
         _BY_PYPLOT.reset(before)
 
 
+def legend_below(axes: Axes, columns: int = 2) -> None:
+    """Name the curves below the axes, where the names cover none of them."""
+    axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.22), ncols=columns, fontsize="small", frameon=False)
+
+
+def legend_beside(axes: Axes) -> None:
+    """Name the curves on the right of the axes, where the names cover none of them."""
+    axes.legend(loc="upper left", bbox_to_anchor=(1.01, 1.0), fontsize="small", frameon=False)
+
+
 def png_of(figure: Figure) -> bytes:
     """Return the figure as a PNG of 110 dots per inch."""
     picture = io.BytesIO()
@@ -48,9 +61,9 @@ def svg_of(figure: Figure) -> bytes:
     from matplotlib import rc_context
 
     areas = [cells for axes in figure.axes for cells in axes.collections]
-    corners = [sum(len(path.vertices) for path in cells.get_paths()) for cells in areas]
+    corners = [sum(np.size(path.vertices) // 2 for path in cells.get_paths()) for cells in areas]
     for cells, count in zip(areas, corners, strict=True):
-        cells.set_rasterized(sum(corners) > _MANY and count > _FEW)
+        cells.set_rasterized(bool(sum(corners) > _MANY and count > _FEW))
     picture = io.BytesIO()
     with rc_context({"svg.fonttype": "none", "svg.hashsalt": "swashfilm"}):
         figure.savefig(picture, format="svg", dpi=110, metadata={"Date": None})

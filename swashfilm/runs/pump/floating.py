@@ -245,10 +245,15 @@ def floating_view(folder: Path, summary: Mapping[str, Any]) -> dict[str, Any]:
         pictures += [(inlined(drawn[name]), f"{title}: {CAPTIONS[name]}") for name in names if name in drawn]
     turns = {TITLES[gap]: read_csv(folder / f"{gap}_convergence.csv") for gap in GAPS}
     return {
-        "head": HEAD, "rows": floating_rows(summary), "pictures": pictures, "turns": turns,
-        "physics_head": PHYSICS_HEAD,
+        "head": HEAD, "rows": floating_rows(summary), "backward": backward(summary),
+        "pictures": pictures, "turns": turns, "physics_head": PHYSICS_HEAD,
         "physics": effect_rows(summary["physics_left_out"], summary["cost"]["physics_seconds"]),
     }  # fmt: skip
+
+
+def backward(summary: Mapping[str, Any]) -> list[str]:
+    """Return the names of the gaps into which on balance oil flows from the case."""
+    return [TITLES[gap] for gap, of in summary["gaps"].items() if of["leakage_flow_m3_per_s"] < 0.0]
 
 
 def floating_rows(summary: Mapping[str, Any]) -> list[tuple[str, ...]]:

@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 
 from swashfilm.output.gap_names import FIELDS, vtu_name
-from swashfilm.output.picture3d import Frame, Solid, draw
+from swashfilm.output.scenes.picture3d import Frame, Solid, draw
 from swashfilm.runs.pump.data import PICTURED_TURN
 from swashfilm.runs.pump.scene.blocks import OIL, Blocks, Scene, nearest
 from swashfilm.runs.pump.scene.surfaces import TURN
@@ -54,4 +54,4 @@ def draw_pump(folder: Path, scene: Scene, blocks: Sequence[Blocks]) -> list[str]
     frames = [frame_of(folder, one, float(at)) for one, at in zip(blocks, degrees, strict=True)]
     pump = {folder / PICTURE: [frames[nearest(scene.times, TURN, pictured)]], folder / TURNING: frames}
     reason = draw(drawings | pump).reason
-    return [reason] if reason else []
+    return [f"no_3d_picture: {reason}"] if reason else []
