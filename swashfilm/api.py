@@ -94,27 +94,35 @@ def run(
 
 
 def film(
-    case: Case, *, refine: int | None = None, report: Report = silent, **options: object
+    case: Case,
+    *,
+    refine: int | None = None,
+    sensitivity: str | Sequence[str] | None = None,
+    report: Report = silent,
+    **options: object,
 ) -> FilmRun | RevolutionRun:
     """Solve one film, free or a gap of a pump, at an instant or over the turn, as `swashfilm film`.
 
-    refine: number of meshes, for order and error. options: rigid, isoviscous, isothermal, smooth, no_cavitation. Raises
-    InputFaults and FilmNotConverged.
+    refine: number of meshes, for order and error. sensitivity: outputs whose derivatives by the film thickness are
+    wanted, such as "load" or ["load", "flow.left"]. options: rigid, isoviscous, isothermal, smooth, no_cavitation.
+    Raises InputFaults and FilmNotConverged.
     """
     with _door("film"), _case_file(case) as path:
         from swashfilm.case.gap.revolution import RevolutionCase
         from swashfilm.case.study import StudyCase
-        from swashfilm.runs.film.command import film_case
+        from swashfilm.runs.film.command import film_case, outputs_of
         from swashfilm.runs.film.revolution.result import RevolutionRun
         from swashfilm.runs.film.revolution.run import run_revolution_case
         from swashfilm.runs.film.run import solve_film
 
-        found, meshes, _ = film_case(_words("film", [path], {"refine": refine} | options))
+        wanted = sensitivity if sensitivity is None or isinstance(sensitivity, str) else ",".join(sensitivity)
+        words = _words("film", [path], {"refine": refine, "sensitivity": wanted} | options)
+        found, meshes, _ = film_case(words)
         if isinstance(found, StudyCase):
             raise InputFaults(str(path), [Fault("study", "a study", "one film", "swashfilm.study()")])
         if isinstance(found, RevolutionCase):
             return RevolutionRun.ran(lambda folder: run_revolution_case(found, folder, report, meshes=meshes))
-        return solve_film(found, report, meshes=meshes)
+        return solve_film(found, report, meshes=meshes, outputs=outputs_of(words))
 
 
 def study(
