@@ -216,8 +216,8 @@ def compare(
 def export(of: MapRun | str | Path, to: str, output: str | Path | None = None) -> tuple[Path, ...]:
     """Write a map for another program and return the files, as `swashfilm export`; raise InputFaults.
 
-    of: a MapRun, its run folder, or its map.nc; to: "modelica", "matlab", "amesim", "fmu" or "csv"; output: the file, by
-    default the pump's name in the working folder. Points without a result and missing binaries are Python warnings.
+    of: a MapRun, its run folder, or its map.nc; to: "modelica", "matlab", "amesim", "fmu" or "csv"; output: the file,
+    by default the pump's name in the working folder. Points without a result and missing binaries are Python warnings.
     """
     with _door("export"), _map_file(of) as path:
         from swashfilm.runs.export.write import export_of

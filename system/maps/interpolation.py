@@ -129,11 +129,16 @@ def weights(axis: MapAxis, places: Array) -> Array:
     return np.asarray(spline(np.clip((places - lower) / (upper - lower), 0.0, 1.0)))
 
 
+def slack(axis: MapAxis) -> float:
+    """Round-off by which a point may lie outside an axis."""
+    lower, upper = axis.values[0], axis.values[-1]
+    return ROUND_OFF * max(upper - lower, abs(upper))
+
+
 def inside(axis: MapAxis, places: Array) -> np.ndarray:
     """Mask of places (N,) between the ends of an axis, up to round-off."""
     lower, upper = axis.values[0], axis.values[-1]
-    slack = ROUND_OFF * max(upper - lower, abs(upper))
-    return np.asarray((places >= lower - slack) & (places <= upper + slack))
+    return np.asarray((places >= lower - slack(axis)) & (places <= upper + slack(axis)))
 
 
 def _hold_inside(axes: Sequence[MapAxis], places: Mapping[MapInput, Array]) -> None:

@@ -13,8 +13,8 @@ def add_export_options(command: argparse.ArgumentParser) -> None:
     command.add_argument("--to", required=True, metavar="FORMAT", help="modelica, matlab, amesim, fmu or csv")
     command.add_argument(
         "-o", "--output", type=Path, metavar="FILE",
-        help="file with the ending .mo, .mat, .data, .fmu or .csv (default: the pump's name in the working folder); several "
-        "files of a format differ in what follows its name",
+        help="file with the ending .mo, .mat, .data, .fmu or .csv (default: the pump's name in the working folder); "
+        "several files of a format differ in what follows its name",
     )  # fmt: skip
 
 

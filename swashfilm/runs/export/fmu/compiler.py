@@ -29,10 +29,8 @@ MACHINES = {"amd64": "x86_64", "arm64": "aarch64"}
 """Names of processors that differ in FMI."""
 SYSTEMS = {"win32": "windows"}
 OPTIONS = ("-std=c99", "-O2", "-g0", "-shared", "-fvisibility=hidden", "-DFMI3_OVERRIDE_FUNCTION_PREFIX")
-NONE = (
-    f"no C compiler ({', '.join(COMPILERS)} on the path, or pip install 'swashfilm[fmu]' for {ZIG}): the unit has "
-    "sources and no binary; an importer has to compile it"
-)
+REMEDY = f"install {' or '.join(COMPILERS[1:])}, or pip install 'swashfilm[fmu]' ({ZIG}: for all platforms)"
+NONE = f"no C compiler: the unit has sources and no binary, its importer has to compile it; {REMEDY}"
 
 
 class CompilerFault(Exception):

@@ -99,8 +99,8 @@ def _add_units(definitions: Element, used: Iterable[str]) -> None:
 
 
 def _add_variables(variables: Element, given: Iterable[Input], found: Iterable[Output]) -> None:
-    about = {"causality": "independent", "variability": "continuous", "description": "time"}
-    SubElement(variables, "Float64", name="time", valueReference=str(TIME), **about)
+    time = {"name": "time", "valueReference": str(TIME), "causality": "independent", "variability": "continuous"}
+    SubElement(variables, "Float64", time)
     for one in given:
         kind = {"start": repr(one.start), "causality": "local", "variability": "constant"}
         if not one.constant:

@@ -8,7 +8,7 @@ from reynolds.numerics.arrays import Array
 from swashfilm.runs.export.fmu.variables import EFFICIENCY, Input, inputs
 from swashfilm.runs.export.numbers import TABLES, display
 from system.maps.data import MapData
-from system.maps.interpolation import CUBIC, ROUND_OFF, MapInterpolant, axis_spline
+from system.maps.interpolation import CUBIC, MapInterpolant, axis_spline, slack
 
 PORTS = ("geometric_displacement", "port_delivery_pressure", "port_inlet_pressure")
 """Numbers that the lossless part of torque and flows follows from."""
@@ -71,10 +71,9 @@ def _axis(one: Input) -> str:
     """Return the fields of an `Axis`."""
     given, levels = one.axis.input, one.axis.values
     unit = display(given.unit)
-    slack = ROUND_OFF * max(levels[-1] - levels[0], abs(levels[-1]))
     fields = (
         f'"{given.value}"', f'"{unit.name}"', repr(unit.factor), repr(unit.offset),
-        *(repr(float(value)) for value in (levels[0], levels[-1], slack, one.start)),
+        *(repr(float(value)) for value in (levels[0], levels[-1], slack(one.axis), one.start)),
         str(len(levels)), str(axis_spline(one.axis).degree), f"KNOTS_{one.reference}",
     )  # fmt: skip
     return ", ".join(fields)

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * Functions of capabilities and interface types that the unit does not have: importers look for all of them. Each returns
- * fmi3Error, or no instance.
+ * Functions of capabilities and interface types that the unit does not have: importers look for all of them. Each
+ * returns fmi3Error, or no instance.
  */
 
 #ifndef absent_h
@@ -11,9 +11,15 @@
 #define NO_VARIABLE(name) return nValueReferences ? refuse(instance, name, "no variable has this type") : fmi3OK;
 #define NO_CAPABILITY(name) return refuse(instance, name, "the unit has no such capability");
 
-#define NO_VARIABLES_OF(Type)                                                                                           \
-    fmi3Status fmi3Get##Type(VALUE_REFERENCES, fmi3##Type values[], size_t nValues) { NO_VARIABLE("fmi3Get" #Type) }    \
-    fmi3Status fmi3Set##Type(VALUE_REFERENCES, const fmi3##Type values[], size_t nValues) { NO_VARIABLE("fmi3Set" #Type) }
+#define NO_VARIABLES_OF(Type)                                                                       \
+    fmi3Status fmi3Get##Type(VALUE_REFERENCES, fmi3##Type values[], size_t nValues)                 \
+    {                                                                                               \
+        NO_VARIABLE("fmi3Get" #Type)                                                                \
+    }                                                                                               \
+    fmi3Status fmi3Set##Type(VALUE_REFERENCES, const fmi3##Type values[], size_t nValues)           \
+    {                                                                                               \
+        NO_VARIABLE("fmi3Set" #Type)                                                                \
+    }
 
 NO_VARIABLES_OF(Float32)
 NO_VARIABLES_OF(Int8)
@@ -192,15 +198,22 @@ fmi3Status fmi3SetTime(fmi3Instance instance, fmi3Float64 time)
     NO_CAPABILITY("fmi3SetTime")
 }
 
-fmi3Status fmi3SetContinuousStates(fmi3Instance instance, const fmi3Float64 continuousStates[], size_t nContinuousStates)
+fmi3Status fmi3SetContinuousStates(fmi3Instance instance, const fmi3Float64 continuousStates[],
+                                   size_t nContinuousStates)
 {
     NO_CAPABILITY("fmi3SetContinuousStates")
 }
 
-#define NO_STATES(name)                                                                                                 \
-    fmi3Status fmi3Get##name(fmi3Instance instance, fmi3Float64 values[], size_t nValues) { NO_CAPABILITY("fmi3Get" #name) }
-#define NO_NUMBER(name)                                                                                                 \
-    fmi3Status fmi3Get##name(fmi3Instance instance, size_t *number) { NO_CAPABILITY("fmi3Get" #name) }
+#define NO_STATES(name)                                                                             \
+    fmi3Status fmi3Get##name(fmi3Instance instance, fmi3Float64 values[], size_t nValues)           \
+    {                                                                                               \
+        NO_CAPABILITY("fmi3Get" #name)                                                              \
+    }
+#define NO_NUMBER(name)                                                                             \
+    fmi3Status fmi3Get##name(fmi3Instance instance, size_t *number)                                 \
+    {                                                                                               \
+        NO_CAPABILITY("fmi3Get" #name)                                                              \
+    }
 
 NO_STATES(ContinuousStateDerivatives)
 NO_STATES(EventIndicators)

@@ -39,7 +39,8 @@ static size_t weights(const Axis *axis, double place, double weight[])
 }
 
 /* Add to the channels the coefficients from axis k on, the last axis changing first, times a factor. */
-static void add(size_t k, size_t row, double factor, const size_t first[], double weight[][MOST_WEIGHTS], double found[])
+static void add(size_t k, size_t row, double factor, const size_t first[], double weight[][MOST_WEIGHTS],
+                double found[])
 {
     if (k == INPUTS) {
         for (size_t c = 0; c < CHANNELS; ++c)
