@@ -124,6 +124,8 @@ def test_an_importer_finds_no_fault(unit_file):
     assert validate_fmu(str(unit_file)) == []
     with zipfile.ZipFile(unit_file) as packed:
         names = set(packed.namelist())
+        assert {one.external_attr >> 16 for one in packed.infolist()} == {0o644}
+        assert {one.extract_version for one in packed.infolist()} == {20}, "the standard allows no more"
     assert {"modelDescription.xml", "sources/buildDescription.xml", "sources/fmi3.c", "sources/map.h"} <= names
     assert [name for name in names if name.startswith(f"binaries/{compiler.host()}/pump.")]
     assert not [name for name in names if "fmi3Functions" in name], "the importer has these headers"

@@ -24,6 +24,8 @@ HEADERS = files("swashfilm.runs.export.fmu").joinpath("headers")
 """The header files of FMI 3.0, by the Modelica Association (BSD licence). They are no part of a unit."""
 DATE = (1980, 1, 1, 0, 0, 0)
 """Of every file in the archive: the same map gives the same bytes."""
+READABLE = 0o644
+"""Permissions of every unpacked file."""
 
 
 def fmu_files(data: MapData, name: str) -> Content:
@@ -73,5 +75,7 @@ def _archive(entries: Mapping[str, bytes]) -> bytes:
     file = io.BytesIO()
     with ZipFile(file, "w", ZIP_DEFLATED) as archive:
         for place, content in entries.items():
-            archive.writestr(ZipInfo(place, DATE), content, ZIP_DEFLATED)
+            entry = ZipInfo(place, DATE)
+            entry.external_attr = READABLE << 16
+            archive.writestr(entry, content, ZIP_DEFLATED)
     return file.getvalue()
