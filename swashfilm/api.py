@@ -9,6 +9,7 @@ from __future__ import annotations
 import argparse
 import re
 import tempfile
+import warnings
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import replace
@@ -221,15 +222,18 @@ def compare(
 
 
 def export(of: MapRun | str | Path, to: str, output: str | Path | None = None) -> tuple[Path, ...]:
-    """Write a map as tables of another program and return the files, as `swashfilm export`; raise InputFaults.
+    """Write a map for another program and return the files, as `swashfilm export`; raise InputFaults.
 
-    of: a MapRun, its run folder, or its map.nc; to: "modelica", "matlab", "amesim" or "csv"; output: the file, by
-    default the pump's name in the working folder.
+    of: a MapRun, its run folder, or its map.nc; to: "modelica", "matlab", "amesim", "fmu" or "csv"; output: the file,
+    by default the pump's name in the working folder. Points without a result and missing binaries are Python warnings.
     """
     with _door("export"), _map_file(of) as path:
         from swashfilm.runs.export.write import export_of
 
-        return export_of(path, to, None if output is None else Path(output)).write()
+        written = export_of(path, to, None if output is None else Path(output)).write()
+    for warning in written.warnings:
+        warnings.warn(warning, stacklevel=2)
+    return written.paths
 
 
 def transient(case: Case) -> TransientRun:
