@@ -4,22 +4,17 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
 from itertools import combinations
 
 import numpy as np
 
-from reynolds.numerics.arrays import Array
+from system.description.drawn import DEVIATION, SIGMAS, Drawing, Drawn, DrawnFit, fit_sigma
 from system.description.keys import PumpKey, pump_keys, unknown_key
 from system.description.pump import PumpDescription
 from system.description.tolerance import DrawnSection, FitSection, Shape
 from system.inputs.faults import Fault, InputFaults, nearest_choice
 from system.inputs.units import Dimension, QuantityError, parse_quantity
 
-SIGMAS = 3.0
-"""Standard deviations of a normal dimension between its middle and a limit of the drawing."""
-DEVIATION = {Shape.NORMAL: SIGMAS, Shape.UNIFORM: math.sqrt(3.0), Shape.TRIANGULAR: math.sqrt(6.0)}
-"""Half width of the tolerance over the standard deviation, of a shape that is even about its middle."""
 _FILMS = ("piston.radial_clearance", "slipper.film_thickness", "valve_plate.film_thickness")
 _PAIRS = ("piston_cylinder", "slipper_swash_plate", "piston_slipper_socket", "valve_plate_cylinder")
 _RELATIVE = {
@@ -36,65 +31,6 @@ _ABSOLUTE = {"eccentricity_ratio": "piston.eccentricity_ratio", "stand_out_share
 _VISCOSITIES = ("oil.kinematic_viscosity_40C", "oil.kinematic_viscosity_100C")
 
 
-@dataclass(frozen=True)
-class Drawn:
-    """A dimension with its distribution: middle and standard deviation, SI; limits of a bounded shape.
-
-    keys: its path; several scatter in proportion to the first. peak: the likeliest value of a triangle.
-    """
-
-    name: str
-    keys: tuple[str, ...]
-    shape: Shape
-    middle: float
-    sigma: float
-    least: float = -math.inf
-    most: float = math.inf
-    peak: float = math.nan
-
-
-@dataclass(frozen=True)
-class DrawnFit:
-    """A radial clearance of hole and shaft, limits of their diameters in m, paired by class."""
-
-    name: str
-    shape: Shape
-    hole: tuple[float, float]
-    shaft: tuple[float, float]
-    classes: int
-
-    @property
-    def keys(self) -> tuple[str, ...]:
-        """Its path."""
-        return (self.name,)
-
-
-@dataclass(frozen=True)
-class Drawing:
-    """All that scatters; correlation: coefficient of the normal scores by the names of two dimensions.
-
-    unused: keys of [tolerance] that state what is not known of a pump but no dimension that scatters.
-    """
-
-    dimensions: tuple[Drawn, ...]
-    fits: tuple[DrawnFit, ...]
-    correlation: Mapping[tuple[str, str], float]
-    unused: tuple[str, ...]
-
-    @property
-    def names(self) -> tuple[str, ...]:
-        """Names of dimensions, then of fits."""
-        return tuple(one.name for one in (*self.dimensions, *self.fits))
-
-    def matrix(self) -> Array:
-        """Return the correlation of the dimensions' scores (k, k), fits left out."""
-        found = np.eye(len(self.dimensions))
-        at = {one.name: place for place, one in enumerate(self.dimensions)}
-        for (one, other), coefficient in self.correlation.items():
-            found[at[one], at[other]] = found[at[other], at[one]] = coefficient
-        return found
-
-
 def drawing_of(pump: PumpDescription) -> Drawing:
     """Return the scatter that a pump's [tolerance] states; what it leaves out does not scatter.
 
@@ -106,8 +42,8 @@ def drawing_of(pump: PumpDescription) -> Drawing:
     found = [*_drawn(pump, known, faults)]
     fits = [*_fits(pump, known, faults)]
     _check_names([*found, *fits], faults)
-    taken = {one.name for one in (*found, *fits)}
-    whole = (*(one for one in _by_sigma(pump, known) if one.name not in taken), *found)
+    taken = {name for one in found for name in one.keys} | {one.name for one in fits}
+    whole = (*(one for one in _by_sigma(pump, known) if taken.isdisjoint(one.keys)), *found)
     correlation = _correlation(pump, [one.name for one in found], faults)
     made = Drawing(whole, tuple(fits), correlation, _unused(pump))
     if not faults:
@@ -117,24 +53,29 @@ def drawing_of(pump: PumpDescription) -> Drawing:
     return made
 
 
-def stated_sigma(pump: PumpDescription, path: str) -> float | None:
-    """Return one sigma (SI) of a dimension by [[tolerance.dimension]] or [[tolerance.fit]]; None where they lack it.
+def drawing_faults(pump: PumpDescription) -> tuple[Fault, ...]:
+    """Return the faults of a pump's tolerances of the drawing."""
+    part = pump.tolerance
+    if not (part.dimension or part.fit or part.correlation):
+        return ()
+    try:
+        drawing_of(pump)
+    except InputFaults as reason:
+        return reason.faults
+    return ()
+
+
+def drawn_sigmas(pump: PumpDescription) -> dict[str, float]:
+    """Return one sigma (SI) of each dimension of [[tolerance.dimension]] and [[tolerance.fit]], by path.
 
     Of a fit in classes it is that of the paired parts.
     """
-    drawn = drawing_of(pump)
-    own = next((one.sigma for one in drawn.dimensions if one.name == path), None)
-    fit = next((one for one in drawn.fits if one.name == path), None)
-    listed = path in {one.key for one in pump.tolerance.dimension}
-    return fit_sigma(fit) if fit is not None else own if listed else None
-
-
-def fit_sigma(fit: DrawnFit) -> float:
-    """Return the standard deviation (m) of the clearance, of uniform diameters in their classes."""
-    hole, shaft = fit.hole[1] - fit.hole[0], fit.shaft[1] - fit.shaft[0]
-    within = (hole**2 + shaft**2) / fit.classes**2
-    between = (hole - shaft) ** 2 * (1.0 - 1.0 / fit.classes**2)
-    return 0.5 * math.sqrt(within + between) / (2.0 * DEVIATION[fit.shape])
+    part = pump.tolerance
+    if not (part.dimension or part.fit):
+        return {}
+    drawn, listed = drawing_of(pump), {one.key for one in part.dimension}
+    found = {one.name: one.sigma for one in drawn.dimensions if one.name in listed}
+    return found | {fit.name: fit_sigma(fit) for fit in drawn.fits}
 
 
 def _by_sigma(pump: PumpDescription, known: Mapping[str, PumpKey]) -> Iterator[Drawn]:
@@ -151,7 +92,7 @@ def _by_sigma(pump: PumpDescription, known: Mapping[str, PumpKey]) -> Iterator[D
             yield _normal(path, (path,), known[path].value, sigma)
     if part.viscosity is not None:
         first = known[_VISCOSITIES[0]].value
-        yield _normal("tolerance.viscosity", _VISCOSITIES, first, part.viscosity * first)
+        yield _normal(_VISCOSITIES[0], _VISCOSITIES, first, part.viscosity * first)
     if part.displacement is not None:  # stroke goes with the tangent of the angle
         angle = pump.pump.swash_angle_max
         path = "pump.swash_angle_max"
@@ -280,7 +221,9 @@ def _fits(pump: PumpDescription, known: Mapping[str, PumpKey], faults: list[Faul
 def _fit(where: str, row: FitSection, key: PumpKey, faults: list[Fault]) -> DrawnFit | None:
     sides = []
     for part in ("hole", "shaft"):
-        ends = [_quantity(f"{where}.{part}_{end}", getattr(row, f"{part}_{end}"), key, faults) for end in ("least", "most")]
+        ends = [
+            _quantity(f"{where}.{part}_{end}", getattr(row, f"{part}_{end}"), key, faults) for end in ("least", "most")
+        ]
         sides.append(_ordered(f"{where}.{part}_least", ends[0], ends[1], key, faults))
     hole, shaft = sides
     if hole is None or shaft is None:
@@ -319,6 +262,9 @@ def _definite(drawn: Drawing) -> Iterator[Fault]:
     least = float(np.linalg.eigvalsh(drawn.matrix()).min()) if drawn.dimensions else 1.0
     if least <= 1e-12:
         pairs = ", ".join(f"{one} and {other} {value:g}" for (one, other), value in drawn.correlation.items())
-        worst = max(combinations(sorted(set(sum(drawn.correlation, ()))), 2), key=lambda pair: abs(drawn.correlation.get(pair, 0.0)))
+        worst = max(
+            combinations(sorted(set(sum(drawn.correlation, ()))), 2),
+            key=lambda pair: abs(drawn.correlation.get(pair, 0.0)),
+        )
         expected = f"coefficients whose matrix is positive definite; its least eigenvalue is {least:.3g}"
         yield Fault("tolerance.correlation", pairs, expected, f"a smaller coefficient of {worst[0]} and {worst[1]}")

@@ -103,6 +103,6 @@ def unknown_key(where: str, path: str, known: Mapping[str, PumpKey]) -> Fault:
 def _by_last(path: str, known: Mapping[str, PumpKey]) -> str:
     """Return the path whose key alone is spelt like that of `path`, or like it."""
     last = path.rpartition(".")[2]
-    by_key = {one.rpartition(".")[2]: one for one in reversed(known)}
+    by_key = {one.rpartition(".")[2]: one for one in reversed([*known])}
     near = nearest_choice(last, by_key)
     return by_key[near] if near else ""

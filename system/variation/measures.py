@@ -39,6 +39,11 @@ def point_numbers(solved: SolvedPoint) -> list[float]:
     return [float(value) for value in found]
 
 
+def significant(number: float, digits: int) -> str:
+    """Return a number rounded to significant digits, large ones without an exponent."""
+    return f"{float(f'{number:.{digits}g}'):.12g}"
+
+
 Columns = Mapping[str, Array]
 """NUMBERS by name, arrays (.., P)."""
 
@@ -62,12 +67,12 @@ class Measure:
     def text(self, value: float, digits: int = 4) -> str:
         """Return a value as people read it; a temperature in degC."""
         number = value - 273.15 if self.unit == "K" else value * self.scale
-        return f"{number:.{digits}g} {self.shown}"
+        return f"{significant(number, digits)} {self.shown}"
 
     def change(self, value: float, digits: int = 3) -> str:
         """Return a change as people read it, with its sign."""
         shown = {"%": "points", "degC": "K"}.get(self.shown, self.shown)
-        return f"{value * self.scale:+.{digits}g} {shown}"
+        return f"{'+' if value >= 0.0 else ''}{significant(value * self.scale, digits)} {shown}"
 
 
 def _mean(name: str) -> Callable[[Columns, Array], Array]:
@@ -110,7 +115,9 @@ MEASURES = {
         *(_efficiency(place, part) for place, part in enumerate(("overall", "volumetric", "hydromechanical"))),
         Measure(DRAIN, "case drain", "m3/s", "L/min", LPM, _mean("drain_flow")),
         *(
-            Measure(f"leakage.{gap}", f"leakage, {gap.replace('_', ' ')}", "m3/s", "L/min", LPM, _mean(f"leakage.{gap}"))
+            Measure(
+                f"leakage.{gap}", f"leakage, {gap.replace('_', ' ')}", "m3/s", "L/min", LPM, _mean(f"leakage.{gap}")
+            )
             for gap in GAPS
         ),
         Measure("delivery_flow", "delivery flow", "m3/s", "L/min", LPM, _mean("delivery_flow")),

@@ -4,13 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 
 import numpy as np
 
 from reynolds.errors import NotConverged
 from reynolds.numerics.arrays import Array
-from system.description.drawing import Drawn, drawing_of, fit_sigma
+from system.description.drawing import drawing_of
+from system.description.drawn import fit_sigma
 from system.description.keys import PumpKey
 from system.description.pump import PumpDescription
 from system.inputs.faults import InputFaults
@@ -158,12 +160,16 @@ def _chosen(
     chosen, refused = dict[str, list[Stencil]](), list[Refused]()
     for path, key in keys.items():
         step = usual_step(key, accuracy.step)
-        options = list(stencils(key, step, lambda value, at=path: varied(pump, ((at, value),))))
+        options = list(stencils(key, step, partial(_varied_to, pump, path)))
         if options:
             chosen[path] = options
         else:
             refused.append(Refused(key, _why(pump, key, step)))
     return chosen, refused
+
+
+def _varied_to(pump: PumpDescription, path: str, value: float) -> PumpDescription:
+    return varied(pump, ((path, value),))
 
 
 def _why(pump: PumpDescription, key: PumpKey, step: float) -> str:
@@ -224,7 +230,7 @@ def _better(before: KeySlopes | None, after: KeySlopes) -> KeySlopes:
 def _sigmas(pump: PumpDescription) -> dict[str, float]:
     """Return the standard deviations that [tolerance] states, by path."""
     drawn = drawing_of(pump)
-    own = {one.name: one.sigma for one in drawn.dimensions if isinstance(one, Drawn) and len(one.keys) == 1}
+    own = {one.name: one.sigma for one in drawn.dimensions if len(one.keys) == 1}
     return own | {fit.name: fit_sigma(fit) for fit in drawn.fits}
 
 

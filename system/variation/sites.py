@@ -32,7 +32,7 @@ class Sites:
 def plan_sites(plan: MapPlan) -> Sites:
     """Return the points of a plan, each of the same weight."""
     count = len(plan.points)
-    words = "one operating point" if count == 1 else f"the mean over {count} operating points"
+    words = "one operating point" if count == 1 else f"{count} operating points, means"
     return Sites(plan.points, np.full(count, 1.0 / count), words)
 
 
@@ -42,4 +42,4 @@ def cycle_sites(plan: MapPlan, cycle: Cycle) -> Sites:
     Between the levels numbers run as those of a map do. Raises InputFaults for a cycle that leaves the plan's box.
     """
     weights = node_weights(plan.axes, cycle)
-    return Sites(plan.points, weights, f"the mean over a duty cycle of {cycle.duration:.6g} s")
+    return Sites(plan.points, weights, f"a duty cycle of {cycle.duration:.6g} s, means")
