@@ -108,6 +108,7 @@ def _efficiency(place: int, part: str) -> Measure:
 LOSS = "loss"
 EFFICIENCY = "efficiency.overall"
 DRAIN = "drain_flow"
+RIPPLE = "delivery_flow_ripple"
 MEASURES = {
     one.name: one
     for one in (
@@ -121,7 +122,7 @@ MEASURES = {
             for gap in GAPS
         ),
         Measure("delivery_flow", "delivery flow", "m3/s", "L/min", LPM, _mean("delivery_flow")),
-        Measure("delivery_flow_ripple", "delivery flow ripple", "m3/s", "L/min", LPM, _mean("delivery_flow_ripple")),
+        Measure(RIPPLE, "delivery flow ripple", "m3/s", "L/min", LPM, _mean(RIPPLE)),
         Measure("shaft_torque", "shaft torque", "N m", "N m", 1.0, _mean("shaft_torque")),
         Measure(
             "chamber_pressure_peak", "highest chamber pressure", "Pa", "bar", 1e-5,
@@ -134,9 +135,10 @@ MEASURES = {
 """All measures by name."""
 
 
-def measures_of(films: bool) -> tuple[Measure, ...]:
-    """Return the measures that a fidelity knows; those of films only where it solves them."""
-    return tuple(one for one in MEASURES.values() if films or not one.film)
+def measures_of(films: bool, ripple: bool = True) -> tuple[Measure, ...]:
+    """Return the measures that a fidelity knows: of films where it solves them, of the ripple where a point has it."""
+    known = (one for one in MEASURES.values() if films or not one.film)
+    return tuple(one for one in known if ripple or one.name != RIPPLE)
 
 
 def measured(numbers: Array, weights: Array, measures: tuple[Measure, ...]) -> Array:

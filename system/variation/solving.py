@@ -21,6 +21,7 @@ from system.maps.point import KEY_LENGTH, MapSolver
 from system.pump_file.file import check_pump, resolved_toml
 from system.variation.measures import point_numbers
 from system.variation.sites import Sites
+from system.variation.together import TogetherSolver
 from system.work.kept_results import KeptPoints, run_kept
 from system.work.progress import Report
 from system.work.tasks import Executor, PartOutcome
@@ -67,7 +68,7 @@ class VariedWork:
     """Variants of a pump as work in parts: each is solved at all sites."""
 
     pump: PumpDescription
-    solver: MapSolver
+    solver: MapSolver | TogetherSolver
     sites: Sites
 
     def key(self, variant: Variant) -> str:
@@ -78,8 +79,11 @@ class VariedWork:
         return content_key(*made_by, self.pump.file_contents, points, paths, values)[:KEY_LENGTH]
 
     def solve(self, variant: Variant) -> dict[str, object]:
-        """The numbers of all sites, and the names of their warnings."""
-        pump, solver = varied(self.pump, variant), self.solver.row()
+        """The numbers of all sites, and the names of their warnings, which points solved together have not."""
+        pump = varied(self.pump, variant)
+        if isinstance(self.solver, TogetherSolver):
+            return {"numbers": self.solver.solve_all(pump, self.sites.of(pump)), "warnings": []}
+        solver = self.solver.row()
         solved = [solver.solve(pump, point) for point in self.sites.of(pump)]
         names = sorted({remark.warning.value for one in solved for remark in one.pump_point.warnings})
         return {"numbers": [point_numbers(one) for one in solved], "warnings": names}

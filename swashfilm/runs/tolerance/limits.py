@@ -35,7 +35,7 @@ def limit_of(text: str, known: Sequence[Measure], faults: list[Fault]) -> Limit 
     measure = named.get(match[1].lower())
     if measure is None:
         found = f"'{match[1]}', no quantity of a pump at this fidelity"
-        expected = f"one of {', '.join(dict.fromkeys(one.words for one in known))}"
+        expected = f"one of {'; '.join(dict.fromkeys(one.words for one in known))}"
         faults.append(Fault("--limit", found, expected, nearest_choice(match[1], named)))
         return None
     try:

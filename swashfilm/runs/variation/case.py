@@ -25,6 +25,7 @@ from system.points.table.sources import Source, solver_of
 from system.pump_file.file import load_pump
 from system.variation.sites import Sites, cycle_sites, plan_sites
 from system.variation.solving import VariedWork, variable_keys
+from system.variation.together import TogetherSolver, solves_together
 
 CYCLE_LEVELS = {MapInput.PRESSURE: 5}
 """Levels of an input that a duty cycle varies and no option states; four of the others."""
@@ -63,9 +64,14 @@ def varied_case(
     options: argparse.Namespace,
     more: Sequence[Fault] = (),
     of_pump: Callable[[PumpDescription], Sequence[Fault]] = no_faults,
+    *,
+    together: bool = False,
 ) -> VariedCase:
     """Return the pump to vary; raise InputFaults with every fault, those of the command itself (`more`) and those
-    that it finds in the pump (`of_pump`) too."""
+    that it finds in the pump (`of_pump`) too.
+
+    together: lumped points of a pump are solved at once, without its course over the turn.
+    """
     faults = [*word_faults(options), *more]
     axes = stated_axes(options, faults)
     expect(options.pump, "pump", "film")
@@ -85,7 +91,9 @@ def varied_case(
     if faults:
         raise InputFaults(COMMAND_LINE, faults)
     fidelity = Fidelity(options.fidelity)
-    work = VariedWork(pump, _solver(options, plan, fidelity), _sites(plan, options.cycle))
+    at_once = together and fidelity is Fidelity.LUMPED and solves_together(pump)
+    solver = TogetherSolver() if at_once else _solver(options, plan, fidelity)
+    work = VariedWork(pump, solver, _sites(plan, options.cycle))
     fixed = tuple(path for path in stated if path not in known)
     return VariedCase(work, keys, fixed, fidelity, plan, given_text(options.pump, {}), options.cycle, options.resume)
 
