@@ -58,7 +58,7 @@ def sensitivity_answer(summary: Mapping[str, Any]) -> Answer:
             verb = "lowers" if change.startswith("-") else "raises"
             said.append(f"{row['change_text']} more of {row['key']} {verb} the loss by {change[1:]} ({points})")
     picture = cost_plot(summary)
-    return Answer(tuple(tiles), _sentences(summary, said), "" if picture is None else inlined(picture), CAPTION)
+    return Answer(tuple(tiles), _sentences(summary, said), None if picture is None else inlined(picture), CAPTION)
 
 
 def _words(row: rows.Row, measure: str) -> str:
