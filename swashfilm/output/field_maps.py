@@ -5,6 +5,8 @@ from typing import Any
 
 import numpy as np
 
+from swashfilm.output.touch.fields import keep_field, on_grid
+
 UNIFORM = 1e-9
 """Variation of a field, relative to its size, below which it is uniform."""
 
@@ -70,6 +72,9 @@ def paint(
     mesh = Triangulation(x, y, triangles)
     least, most = limits or (None, None)
     if len(values) == len(x):
-        return axes.tripcolor(mesh, values, shading="gouraud", cmap=colours, vmin=least, vmax=most)
-    faces = np.tile(values, 2 if quads else 1)
-    return axes.tripcolor(mesh, facecolors=faces, cmap=colours, vmin=least, vmax=most)
+        drawn = axes.tripcolor(mesh, values, shading="gouraud", cmap=colours, vmin=least, vmax=most)
+    else:
+        values = np.tile(values, 2 if quads else 1)
+        drawn = axes.tripcolor(mesh, facecolors=values, cmap=colours, vmin=least, vmax=most)
+    keep_field(drawn, on_grid(mesh, values))
+    return drawn

@@ -18,6 +18,7 @@ from swashfilm.output.refinement import refinement_head, refinement_rows
 from swashfilm.output.result import read_netcdf
 from swashfilm.runs.film.answer import film_tiles, film_words
 from swashfilm.runs.film.history import last_of
+from swashfilm.runs.film.sensitivity import sensitivity_figure, sensitivity_rows
 
 if TYPE_CHECKING:
     import xarray
@@ -45,14 +46,18 @@ def write_film_page(folder: Path) -> Path:
     The page is self-contained. Raises InputFaults where one of the three files is missing.
     """
     summary = read_summary(folder, ("summary.json", "resolved.toml", "results.nc"), "a film's run folder")
-    picture = inlined(film_figure(last_of(read_netcdf(folder / "results.nc"))))
+    fields = last_of(read_netcdf(folder / "results.nc"))
+    picture, costs = inlined(film_figure(fields)), sensitivity_figure(fields)
     return write_page(
         folder,
         "film",
         answer=Answer(tuple(film_tiles(summary)), film_words(summary), picture, CAPTION),
         name=summary["name"],
         of_gap="required_load_N" in summary,
-        history=inlined(history_picture(history)) if (history := folder / "history.csv").is_file() else "",
+        sensitivity=sensitivity_rows(summary),
+        kept=summary.get("sensitivity", {}).get("kept", ""),
+        costs=None if costs is None else inlined(costs),
+        history=inlined(history_picture(history)) if (history := folder / "history.csv").is_file() else None,
         rows=list(summary_rows(summary)),
         warnings=summary["warnings"],
         assumptions=summary.get("assumptions", []),
@@ -64,7 +69,7 @@ def write_film_page(folder: Path) -> Path:
 def summary_rows(summary: Mapping[str, Any]) -> Iterator[tuple[str, str]]:
     """Yield (name, value with its unit) of every number of a film's summary, in its order."""
     for key, value in summary.items():
-        if key in ("format", "kind", "name", "warnings", "refinement", "assumptions"):
+        if key in ("format", "kind", "name", "warnings", "refinement", "assumptions", "sensitivity"):
             continue
         words, unit = named(key)
         if value is None:

@@ -13,6 +13,7 @@ from swashfilm.output.result import read_netcdf
 from swashfilm.output.tables import read_csv
 from swashfilm.runs.film.page import summary_rows
 from swashfilm.runs.film.revolution.answer import revolution_tiles, revolution_words
+from swashfilm.runs.film.revolution.explorer import revolution_explorer
 from swashfilm.runs.film.revolution.plots import revolution_plots
 from swashfilm.runs.film.revolution.validity import LARGEST_STEP_ERROR
 from system.description.gap import Gap
@@ -32,7 +33,8 @@ def write_revolution_page(folder: Path) -> Path:
     The page is self-contained. Raises InputFaults where one of the four files is missing.
     """
     summary = read_summary(folder, FILES, "a film's run folder")
-    figures = revolution_plots(read_netcdf(folder / "results.nc"))
+    data = read_netcdf(folder / "results.nc")
+    figures, explorers = revolution_plots(data), {"maps": revolution_explorer(data)}
     refinement = summary.get("refinement")
     return write_page(
         folder,
@@ -44,7 +46,7 @@ def write_revolution_page(folder: Path) -> Path:
         step_limit=LARGEST_STEP_ERROR,
         summary=summary,
         gap=TITLES[Gap(summary["gap"]).value],
-        pictures={name: inlined(figure) for name, figure in figures.items()},
+        pictures={name: inlined(figure, explorers.get(name)) for name, figure in figures.items()},
         rows=list(revolution_rows(summary)),
         physics=[PHYSICS_HEAD, *effect_rows(summary["physics_left_out"], summary["physics_seconds"])],
         refinement=[refinement_head(refinement), *refinement_rows(refinement)] if refinement else [],

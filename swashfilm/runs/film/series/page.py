@@ -45,7 +45,7 @@ def write_study_page(folder: Path) -> Path:
     for key, figure in figures.items():
         (folder / PLOTS / f"{key}.png").write_bytes(png_of(figure))
     first = first_picture(summary, figures)
-    picture = inlined(figures[first]) if first else ""
+    picture = inlined(figures[first]) if first else None
     return write_page(
         folder,
         "study",
