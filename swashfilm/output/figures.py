@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+import re
 from collections.abc import Iterator
 from contextlib import contextmanager
 from contextvars import ContextVar
@@ -12,6 +13,11 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 _MANY, _FEW = 3000, 100
+_PLAIN = dict.fromkeys(("Date", "Creator", "Format", "Type"))
+_PATH = re.compile(rb'(?<= d=")[^"]*')
+_LONG = re.compile(rb"(\.\d\d)\d+")
+_BLANKS = re.compile(rb"\s*([MLQCz])\s*")
+_BETWEEN = re.compile(rb">\s+<")
 _BY_PYPLOT: ContextVar[bool] = ContextVar("by_pyplot", default=False)
 
 
@@ -44,14 +50,25 @@ def png_of(figure: Figure) -> bytes:
 
 
 def svg_of(figure: Figure) -> bytes:
-    """Return the figure as SVG with text as text; areas are pictures inside it where they have many corners."""
+    """Return the figure as SVG with text as text.
+
+    Areas are pictures inside it where they have many corners; contours stay lines up to that many each.
+    """
     from matplotlib import rc_context
+    from matplotlib.contour import ContourSet
 
     areas = [cells for axes in figure.axes for cells in axes.collections]
     corners = [sum(len(path.vertices) for path in cells.get_paths()) for cells in areas]
     for cells, count in zip(areas, corners, strict=True):
-        cells.set_rasterized(sum(corners) > _MANY and count > _FEW)
+        few = _MANY if isinstance(cells, ContourSet) else _FEW
+        cells.set_rasterized(sum(corners) > _MANY and count > few)
     picture = io.BytesIO()
     with rc_context({"svg.fonttype": "none", "svg.hashsalt": "swashfilm"}):
-        figure.savefig(picture, format="svg", dpi=110, metadata={"Date": None})
-    return picture.getvalue()
+        figure.savefig(picture, format="svg", dpi=110, metadata=_PLAIN)
+    return _compact(picture.getvalue())
+
+
+def _compact(svg: bytes) -> bytes:
+    """Return an SVG without blanks between its elements, its paths to a hundredth of a point."""
+    short = _PATH.sub(lambda path: _BLANKS.sub(rb"\1", _LONG.sub(rb"\1", path[0])), svg)
+    return _BETWEEN.sub(b"><", short)

@@ -14,7 +14,7 @@ from reynolds import NotConverged
 from swashfilm.__main__ import main
 from swashfilm.console.levels import map_axis
 from swashfilm.runs.map.files import read_map
-from swashfilm.runs.map.plots import efficiency_levels
+from swashfilm.runs.map.contour_levels import efficiency_levels
 from system import Fault
 from system.maps import point as map_point
 from system.maps.plan import MapInput
@@ -35,8 +35,8 @@ def run(tmp_path_factory):
 
 @pytest.fixture(autouse=True)
 def no_pictures(run, monkeypatch):
-    for place in ("page.map_plots", "page.film_plots", "duty.duty_plots", "compare.compare_plots"):
-        monkeypatch.setattr(f"swashfilm.runs.map.{place}", lambda *_: {})
+    for place in ("map.page.map_pictures", "compare.run.compare_pictures"):
+        monkeypatch.setattr(f"swashfilm.runs.{place}", lambda *_: {})
 
 
 @pytest.mark.parametrize(
