@@ -106,12 +106,7 @@ def compare_case(options: argparse.Namespace) -> CompareCase:
 
 
 def _option_faults(options: argparse.Namespace, pumps: Sequence[bool]) -> Iterator[Fault]:
-    """Yield the faults of the words on the command line; every one of A and B."""
-    for letter, name, pump in zip(LETTERS, (options.one, options.other), pumps, strict=True):
-        if not pump and not Path(name).exists():
-            near = nearest_choice(name, builtin_pumps()) or nearest_path(Path(name))
-            expected = "the run folder of a map, its map.nc, or a pump"
-            yield Fault(f"{letter}: map or pump", f"'{name}'", expected, near)
+    """Yield the faults of options."""
     words = [one.value for one in FIDELITIES]
     if options.fidelity is not None and options.fidelity not in words:
         near = nearest_choice(options.fidelity, words)
@@ -137,8 +132,6 @@ def _both(
             found[k] = _to_solve(names[k], axes, options.fidelity) if pumps[k] else _read(names[k])
         except InputFaults as reason:
             wrong[k] = reason
-    if len(wrong) == 1:
-        raise next(iter(wrong.values()))
     if wrong:
         faults = [
             replace(fault, path=f"{LETTERS[k]}: {fault.path}") for k in sorted(wrong) for fault in wrong[k].faults
@@ -148,9 +141,14 @@ def _both(
 
 
 def _read(name: str) -> Side:
+    """Return the map of a path; raise InputFaults where there is none."""
     from swashfilm.runs.compare.run import Side
     from swashfilm.runs.map.files import map_file, read_map
 
+    if not Path(name).exists():
+        near = nearest_choice(name, builtin_pumps()) or nearest_path(Path(name))
+        fault = Fault("map or pump", f"'{name}'", "the run folder of a map, its map.nc, or a pump", near)
+        raise InputFaults(COMMAND_LINE, [fault])
     return Side(name, *read_map(map_file(Path(name))))
 
 

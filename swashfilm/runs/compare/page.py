@@ -18,7 +18,7 @@ from system.maps.plan import MapInput
 
 DIFFERENCE_HEAD = ("", "A, mean", "B, mean", "B - A, mean", "largest B - A", "at", "error of both there")
 EFFICIENCY_HEAD = (
-    "overall efficiency", "A, mean", "B, mean", "B - A, mean / points", "largest / points", "at", "error of both / points",
+    "overall efficiency", "A, mean", "B, mean", "B - A, mean", "largest B - A", "at", "error of both there",
 )  # fmt: skip
 DUTY_HEAD = ("", "A", "B", "B - A", "error of both")
 NOTHING = "no difference"
@@ -95,14 +95,14 @@ def _efficiency_words(row: Row, summary: Row) -> Iterator[str]:
     if abs(apart) > row["error"]:
         yield (
             f"{better} is better: over the common levels its overall efficiency by ISO 4409 is "
-            f"{abs(100.0 * apart):.2g} {_POINTS} above that of {worse} in the mean."
+            f"{abs(100.0 * apart):.3g} {_POINTS} above that of {worse} in the mean."
         )
     else:
         yield "In the mean of the common levels there is no difference of overall efficiency."
     for letter, key, share in (("B", "rise", row["above"]), ("A", "fall", row["below"])):
         if share > 0.0:
             yield (
-                f"{letter} is better at {_share(share)} of the points, by up to {abs(100.0 * row[key]['value']):.2g} "
+                f"{letter} is better at {_share(share)} of the points, by up to {abs(100.0 * row[key]['value']):.3g} "
                 f"{_POINTS} at {_place(row[key], summary)}."
             )
 

@@ -90,6 +90,7 @@ def side_names(both: Sides) -> tuple[str, str]:
     for names in (
         tuple(side.data.name for side in both),
         tuple(f"{side.data.name}, {side.data.words}" for side in both),
+        tuple(f"{side.data.name} ({Path(side.given).name})" for side in both),
         tuple(f"{side.data.name} ({side.given})" for side in both),
     ):
         if names[0] != names[1]:

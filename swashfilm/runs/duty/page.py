@@ -64,8 +64,8 @@ def duty_answer(summary: Mapping[str, Any], picture: str = "", caption: str = ""
         f"In {summary['duration_s']:.6g} s the pump takes {energy_text(shaft['value'])} at its shaft and gives "
         f"{energy_text(hydraulic['value'])} to the oil; {energy_text(loss['value'])} are lost. Its mean overall "
         f"efficiency by ISO 4409 is {mean}, energy over energy. The largest loss is {first} "
-        f"({100.0 * most['value'] / loss['value']:.0f} %){next_words}. The errors are those of the map between its levels; the "
-        f"error of the pump's model itself comes on top."
+        f"({100.0 * most['value'] / loss['value']:.0f} %){next_words}. The errors are those of the map between its "
+        f"levels; the error of the pump's model itself comes on top."
     )
     return Answer(tiles, words, picture, caption)
 

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 SIDE_BY_SIDE = 3
-SMALL, LARGE = (4.8, 3.4), (7.6, 4.3)
+SMALL, LARGE = (4.8, 3.4), (6.8, 4.0)
 """Sizes of a panel in inches: one of several, and one alone."""
 POWERS = 6
 """Largest number of lines of constant power."""
