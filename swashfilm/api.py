@@ -205,13 +205,20 @@ def compare(
     one: MapRun | str | Path | PumpDescription,
     other: MapRun | str | Path | PumpDescription,
     cycle: str | Path | None = None,
+    *,
+    fidelity: str | None = None,
+    workers: int = 1,
 ) -> CompareRun:
-    """Compare two maps or pumps, also over a duty cycle, as `swashfilm compare`; raise InputFaults."""
+    """Compare two maps or pumps, also over a duty cycle, as `swashfilm compare`; raise InputFaults.
+
+    fidelity: of the map of a pump; None for lumped.
+    """
     with _door("compare"), _map_or_pump(one) as first, _map_or_pump(other) as second:
         from swashfilm.runs.compare.command import compare_case
         from swashfilm.runs.compare.result import CompareRun
 
-        return CompareRun.ran(compare_case(_words("compare", [first, second], {"cycle": cycle})).run)
+        options = {"cycle": cycle, "fidelity": fidelity, "workers": workers}
+        return CompareRun.ran(compare_case(_words("compare", [first, second], options)).run)
 
 
 def export(of: MapRun | str | Path, to: str, output: str | Path | None = None) -> tuple[Path, ...]:

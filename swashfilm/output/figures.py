@@ -54,11 +54,12 @@ def svg_of(figure: Figure) -> bytes:
 
     Areas are pictures inside it where they have many corners; contours stay lines up to that many each.
     """
+    import numpy as np
     from matplotlib import rc_context
     from matplotlib.contour import ContourSet
 
     areas = [cells for axes in figure.axes for cells in axes.collections]
-    corners = [sum(len(path.vertices) for path in cells.get_paths()) for cells in areas]
+    corners = [int(sum(np.shape(path.vertices)[0] for path in cells.get_paths())) for cells in areas]
     for cells, count in zip(areas, corners, strict=True):
         few = _MANY if isinstance(cells, ContourSet) else _FEW
         cells.set_rasterized(sum(corners) > _MANY and count > few)

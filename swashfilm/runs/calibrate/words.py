@@ -23,7 +23,7 @@ _INPUTS = {
     "speed": "shaft speed", "p_out": "delivery pressure", "p_in": "inlet pressure", "p_case": "case pressure",
     "T_in": "inlet temperature", "T_case": "case temperature",
 }  # fmt: skip
-_FACTORS = {"viscosity": "viscosity, over that of the oil", "displacement": "displacement, over the stated one"}
+_FACTORS = {"viscosity": "viscosity factor", "displacement": "displacement factor"}
 """Parameters that multiply a value of the pump file."""
 
 

@@ -39,10 +39,10 @@ class CompareRun(Result):
     def tables(self) -> list[Table]:
         """Return differences by number, and over the cycle where there is one."""
         summary = self.summary
-        title = f"A: {summary['names'][0]}; B: {summary['names'][1]}"
-        tables: list[Table] = [(title, [DIFFERENCE_HEAD, *difference_rows(summary)])]
+        sides = f"A: {summary['names'][0]}; B: {summary['names'][1]}"
+        tables: list[Table] = [(f"{sides}; means over the common levels", [DIFFERENCE_HEAD, *difference_rows(summary)])]
         if efficiencies := efficiency_rows(summary):
-            tables.append(("Overall efficiency, differences in percentage points", [EFFICIENCY_HEAD, *efficiencies]))
+            tables.insert(0, ("Differences in percentage points", [EFFICIENCY_HEAD, *efficiencies]))
         if summary["duty"]:
             tables.append(("Over the cycle", [DUTY_HEAD, *duty_rows(summary)]))
         return tables

@@ -74,8 +74,8 @@ def _columns(head: list[str], faults: list[Fault]) -> Iterator[tuple[str, tuple[
     """Yield the name of each column, its index, and factor and offset to SI."""
     known, named = [TIME, *HEADS], set[str]()
     if all(column.unit is None for column in head_columns(head)):
-        near = (nearest_choice(cell.strip().lower(), known) for cell in head)
-        units = ", ".join(f"{name} [{UNITS[name]}]" for name in dict.fromkeys(near) if name)
+        meant = dict.fromkeys(nearest_choice(cell.strip().lower(), known) for cell in head)
+        units = ", ".join(f"{name} [{UNITS[name]}]" for name in meant if name)
         faults.append(Fault("head", f"'{','.join(head)}', without units", EXAMPLE, units))
         return
     for place, (cell, column) in enumerate(zip(head, head_columns(head), strict=True)):

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterator, Mapping
 from itertools import groupby
 from pathlib import Path
@@ -49,7 +50,7 @@ def write_map_page(folder: Path) -> Path:
         errors=list(error_rows(summary)),
         error_head=ERROR_HEAD,
         table_errors=[(name, f"{100.0 * one:.3g} %") for name, one in (summary["table_error"] or {}).items()],
-        failed=list(failed_rows(summary)),
+        failed=list(failure_rows(summary)),
         further=further_words(data),
         pictures=kept,
         resolved=(folder / "resolved.toml").read_text("utf-8"),
@@ -135,3 +136,11 @@ def failed_rows(summary: Mapping[str, Any]) -> Iterator[tuple[str, ...]]:
     """Yield (point, state, reason) of every point without a result."""
     for point in summary["failed"]:
         yield point["at"], point["status"], point["reason"]
+
+
+def failure_rows(summary: Mapping[str, Any]) -> Iterator[tuple[str, ...]]:
+    """Yield (reason, number of points, the first of them), the most frequent reason first."""
+    counts = Counter(point["reason"] for point in summary["failed"])
+    first = {point["reason"]: point["at"] for point in reversed(summary["failed"])}
+    for reason, count in counts.most_common():
+        yield reason, str(count), first[reason]

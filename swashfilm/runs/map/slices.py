@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from reynolds.numerics.arrays import Array
+from system.inputs.units import format_quantity
 from system.maps.data import MapData
 from system.maps.interpolation import weights
 from system.maps.plan import MapInput, reading_levels
@@ -97,15 +98,16 @@ def place_words(levels: Mapping[MapInput, float]) -> str:
 
 
 def _level_words(given: MapInput, value: float) -> str:
+    if given.dimension is None:
+        return "full displacement" if value == 1.0 else f"{100.0 * value:.4g} % displacement"
+    shown = format_quantity(value, given.dimension, digits=4)
     match given:
-        case MapInput.RATIO:
-            return "full displacement" if value == 1.0 else f"{100.0 * value:.4g} % displacement"
         case MapInput.TEMPERATURE:
-            return f"oil of {given.text(value)}"
+            return f"oil of {shown}"
         case MapInput.INLET_PRESSURE:
-            return f"{given.text(value)} at the inlet"
+            return f"{shown} at the inlet"
         case _:
-            return given.text(value)
+            return shown
 
 
 def place_of(data: MapData, index: tuple[int, ...]) -> str:

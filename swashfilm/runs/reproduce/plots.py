@@ -45,7 +45,7 @@ def verdict_bars(counts: Mapping[str, Mapping[str, int]]) -> Figure:
         axes.barh([*counts], widths, left=left, color=colour, label=verdict.value)
         left += widths
     axes.invert_yaxis()
-    axes.xaxis.get_major_locator().set_params(integer=True)
+    axes.locator_params(axis="x", integer=True)
     axes.set_xlabel("statements, each reading counted")
     figure.legend(loc="outside upper center", ncols=len(VERDICT_COLOURS), fontsize=9)
     return figure
