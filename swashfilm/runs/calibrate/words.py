@@ -70,7 +70,8 @@ def assumed_text(row: Row) -> str:
     """Return the values within one sigma before the fit: "13.8 to 16.2 um"."""
     low, high = float(row["prior_low"]), float(row["prior_high"])
     factor, unit = _unit(row, max(abs(low), abs(high)))
-    return f"{factor * low:.3g} to {factor * high:.3g} {unit}".rstrip()
+    digits = max(0, 1 - floor(log10(factor * (high - low)))) if high > low else 3
+    return f"{factor * low:.{digits}f} to {factor * high:.{digits}f} {unit}".rstrip()
 
 
 def _unit(row: Row, size: float) -> tuple[float, str]:

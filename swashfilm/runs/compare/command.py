@@ -14,7 +14,6 @@ from swashfilm.console.inputs import COMMAND_LINE
 from swashfilm.console.terminal import show_result
 from swashfilm.runs.map.command import FIDELITIES, add_map_options, map_case
 from system.inputs.faults import Fault, InputFaults, nearest_choice, nearest_path
-from system.pump_file.file import builtin_pumps
 from system.work.progress import Report, silent
 
 if TYPE_CHECKING:
@@ -144,6 +143,7 @@ def _read(name: str) -> Side:
     """Return the map of a path; raise InputFaults where there is none."""
     from swashfilm.runs.compare.run import Side
     from swashfilm.runs.map.files import map_file, read_map
+    from system.pump_file.file import builtin_pumps
 
     if not Path(name).exists():
         near = nearest_choice(name, builtin_pumps()) or nearest_path(Path(name))
@@ -163,6 +163,8 @@ def _to_solve(name: str, axes: Sequence[MapAxis] | None, fidelity: str | None) -
 
 
 def _is_pump(name: str) -> bool:
+    from system.pump_file.file import builtin_pumps
+
     return name in builtin_pumps() or Path(name).suffix == ".toml"
 
 

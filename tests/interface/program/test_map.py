@@ -56,6 +56,18 @@ def test_levels_are_read(text, given, levels):
 
 
 @pytest.mark.parametrize(
+    ("text", "given", "remedy"),
+    [
+        ("5-35MPa", MapInput.PRESSURE, "5..35MPa:7"),
+        ("5..35MPa", MapInput.PRESSURE, "5MPa..35MPa:7"),
+        ("80%", MapInput.RATIO, "0.8"),
+    ],
+)
+def test_habits_get_a_remedy(text, given, remedy):
+    assert map_axis("--x", text, given, "").nearest == remedy
+
+
+@pytest.mark.parametrize(
     ("text", "words"), [("1000", "unit"), ("1..2rpm", "a number of levels"), ("1..2rpm:1", "2 to"), ("x", "rpm")]
 )
 def test_levels_that_are_none_are_told(text, words):
