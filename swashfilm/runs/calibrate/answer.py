@@ -9,6 +9,7 @@ import numpy as np
 
 from diagnosis.report.format import CHANNELS, listed
 from swashfilm.output.answer import Answer, Tile
+from swashfilm.output.picture import Picture
 from swashfilm.runs.calibrate.words import (
     AS_ASSUMED,
     DETERMINED,
@@ -33,7 +34,7 @@ CAPTION = "Measured less fitted, each reading, over the reading. Band: scatter o
 
 
 def calibrate_answer(
-    summary: Mapping[str, Any], parameters: Sequence[Row], residuals: Sequence[Row], picture: str = ""
+    summary: Mapping[str, Any], parameters: Sequence[Row], residuals: Sequence[Row], picture: Picture | None = None
 ) -> Answer:
     """Return the answer of a calibration's page: tiles, words, the picture of fit and readings."""
     own = sorted((row for row in parameters if not is_sensor(row)), key=lambda row: float(row["sigma_over_prior [1]"]))

@@ -41,7 +41,7 @@ def write_calibrate_page(folder: Path) -> Path:
     return write_page(
         folder,
         "calibrate",
-        answer=calibrate_answer(summary, parameters, tables["residuals"], pictures.get("fit", "")),
+        answer=calibrate_answer(summary, parameters, tables["residuals"], pictures.get("fit")),
         summary=summary,
         parameter_head=PARAMETER_HEAD,
         pump=[*parameter_rows(row for row in parameters if not is_sensor(row))],

@@ -8,6 +8,7 @@ from typing import Any
 
 from swashfilm.output.answer import Answer, Tile
 from swashfilm.output.page import kept_pictures, read_summary, write_page
+from swashfilm.output.picture import Picture
 from swashfilm.runs.compare.plots import FIRST
 from swashfilm.runs.duty.page import energy_text
 from swashfilm.runs.map.answer import percent
@@ -33,7 +34,7 @@ def write_compare_page(folder: Path) -> Path:
     """Write report.html of a comparison's run folder from its summary.json and plots/."""
     summary = read_summary(folder)
     pictures = {name: kept_pictures(folder, name) for name in summary["pictures"]}
-    caption, picture = next(iter(pictures.pop(FIRST, {}).items()), ("", ""))
+    caption, picture = next(iter(pictures.pop(FIRST, {}).items()), ("", None))
     return write_page(
         folder,
         "compare",
@@ -53,7 +54,7 @@ def write_compare_page(folder: Path) -> Path:
     )
 
 
-def compare_answer(summary: Row, picture: str = "", caption: str = "") -> Answer:
+def compare_answer(summary: Row, picture: Picture | None = None, caption: str = "") -> Answer:
     """Return the answer of a comparison: which is better, by how much, where, and what is within the error of both."""
     one, other = summary["names"]
     row = next((row for row in summary["differences"] if row["words"] == f"{EFFICIENCY}{HEADLINE.label}"), None)

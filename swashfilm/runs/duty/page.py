@@ -11,6 +11,7 @@ import numpy as np
 
 from swashfilm.output.answer import Answer, Tile
 from swashfilm.output.page import keep_pictures, read_summary, write_page
+from swashfilm.output.picture import Picture
 from swashfilm.output.tables import read_csv
 from swashfilm.runs.duty.plots import BALANCE, course_plot, sinks_of, sinks_plot
 from swashfilm.runs.map.answer import overall_formula, points_text
@@ -45,7 +46,7 @@ def write_duty_page(folder: Path) -> Path:
     )
 
 
-def duty_answer(summary: Mapping[str, Any], picture: str = "", caption: str = "") -> Answer:
+def duty_answer(summary: Mapping[str, Any], picture: Picture | None = None, caption: str = "") -> Answer:
     """Return the answer of a cycle: energy in, out and lost, mean efficiency, and where most is lost."""
     shaft, hydraulic, loss = (summary["energy_J"][name] for name in BALANCE)
     efficiency, volume = summary["efficiency"][HEADLINE.value], summary["volume_m3"]

@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 
 from swashfilm.output.answer import Answer, Tile
+from swashfilm.output.picture import Picture
 from swashfilm.runs.map.plots import HEADLINE
 from swashfilm.runs.map.slices import held_levels, place_of
 from system.maps.data import MapData
@@ -20,7 +21,7 @@ LEAST_TOLD = 1e-3
 
 
 def map_answer(
-    data: MapData, error: MapError | None, summary: Mapping[str, Any], picture: str = "", caption: str = ""
+    data: MapData, error: MapError | None, summary: Mapping[str, Any], picture: Picture | None = None, caption: str = ""
 ) -> Answer:
     """Return the answer of a map's page: tiles, words, and the picture with its caption."""
     tiles = (*_efficiency_tiles(data, error), *_loss_tiles(data), *_point_tiles(summary))

@@ -123,7 +123,7 @@ def map_case(options: argparse.Namespace, axes: Sequence[MapAxis] | None = None)
     from system.pump_file.file import load_pump
 
     faults = [*_word_faults(options)]
-    axes = _axes(options, faults) if axes is None else axes
+    axes = stated_axes(options, faults) if axes is None else axes
     expect(options.pump, "pump", "film")
     try:
         pump = load_pump(options.pump)
@@ -140,7 +140,7 @@ def map_case(options: argparse.Namespace, axes: Sequence[MapAxis] | None = None)
     return MapCase(plan, fidelity, given, options.table, options.direct, checks, options.resume, floating)
 
 
-def _axes(options: argparse.Namespace, faults: list[Fault]) -> list[MapAxis]:
+def stated_axes(options: argparse.Namespace, faults: list[Fault]) -> list[MapAxis]:
     """Return the axes of --plan, replaced by the stated ones; add faults to `faults`."""
     from swashfilm.console.levels import map_axis
     from system.maps.plan import MapInput, paper_axes

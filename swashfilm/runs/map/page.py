@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 from swashfilm.output.page import keep_pictures, read_summary, write_page
 from swashfilm.runs.map.answer import map_answer, overall_formula
+from swashfilm.runs.map.explorer import map_explorer
 from swashfilm.runs.map.files import MAP, read_map
 from swashfilm.runs.map.film_plots import film_pictures
 from swashfilm.runs.map.plots import definition_pictures, further_pictures, loss_pictures, main_picture
@@ -34,8 +35,10 @@ def write_map_page(folder: Path) -> Path:
     summary = read_summary(folder, FILES, "a map's run folder")
     data, error = read_map(folder / MAP)
     drawn = map_pictures(data) if summary["solved"] else {}
-    kept = {name: keep_pictures(folder, name, pictures) for name, pictures in drawn.items()}
-    caption, picture = next(iter(kept.pop(FIRST, {}).items()), ("", ""))
+    explorer = map_explorer(data) if drawn else None
+    explorers = {} if explorer is None else dict.fromkeys(drawn[FIRST], explorer)
+    kept = {name: keep_pictures(folder, name, pictures, explorers) for name, pictures in drawn.items()}
+    caption, picture = next(iter(kept.pop(FIRST, {}).items()), ("", None))
     return write_page(
         folder,
         "map",

@@ -10,6 +10,7 @@ import numpy as np
 
 from reynolds.numerics.arrays import Array
 from swashfilm.output.figures import figure_of
+from swashfilm.output.touch.fields import GridField, keep_field
 from swashfilm.runs.map.contour_levels import levels_of
 from swashfilm.runs.map.slices import FINE, Slice, axis_label, grids, shown
 from system.maps.data import MapData
@@ -68,6 +69,7 @@ def draw_panel(axes: Any, data: MapData, panel: Panel) -> None:
     between = shown(data, panel.piece, field)
     places = _fine(x, y) if np.all(np.isfinite(field)) else [x, y]
     painted = axes.contourf(*places, between, levels=levels, cmap=panel.colours, norm=BoundaryNorm(levels, 256))
+    keep_field(painted, GridField(places[0][0], places[1][:, 0], between, levels))
     lines = axes.contour(*places, between, levels=levels, colors=panel.ink, linewidths=0.5)
     axes.clabel(lines, fontsize=8)
     axes.figure.colorbar(painted, ax=axes, ticks=levels).ax.tick_params(labelsize=8)

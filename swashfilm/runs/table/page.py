@@ -7,6 +7,7 @@ from typing import Any
 from gaps.response import Measure
 from swashfilm.output.answer import Answer, Tile
 from swashfilm.output.page import inlined, read_summary, write_page
+from swashfilm.output.picture import Picture
 from swashfilm.runs.table.plots import NEGLIGIBLE, table_plots, words_of
 from system.inputs.units import Dimension, format_quantity
 from system.points.table.store import read_response
@@ -51,7 +52,7 @@ def held_rows(summary: Mapping[str, Any]) -> Iterator[tuple[str, str]]:
     yield "computing time per point", f"{summary['seconds']:.3g} s"
 
 
-def table_answer(summary: Mapping[str, Any], picture: str = "", caption: str = "") -> Answer:
+def table_answer(summary: Mapping[str, Any], picture: Picture | None = None, caption: str = "") -> Answer:
     """Return the answer of a table's page: its largest errors and their places, its box, and its use."""
     rows, axes, points = _ranked(summary, NUMBERS) or _ranked(summary, OUTPUTS), summary["axes"], summary["points"]
     headline = [row for row in rows if row["name"] in HEADLINE]

@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 
 from reynolds.numerics.arrays import Array
-from swashfilm.output.picture3d import Frame, PictureField, Solid
+from swashfilm.output.scenes.picture3d import Frame, PictureField, Solid
 
 SIZE, MOVING = (1000, 760), (720, 548)  # pixels of a picture and of an animation
 FRAME_TIME = 120  # ms, of an animation

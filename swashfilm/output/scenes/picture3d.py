@@ -1,7 +1,7 @@
 """3D pictures of films between translucent solids, drawn by pyvista in a child process.
 
 VTK ends the whole process with a segmentation fault where the machine lacks graphics libraries. In a child process
-only the picture is lost. The child is `swashfilm.output.plotter3d`.
+only the picture is lost. The child is `swashfilm.output.scenes.plotter3d`.
 """
 
 import json
@@ -61,7 +61,7 @@ def draw(
     field: PictureField = PRESSURE,
     *,
     patience: float = PATIENCE,
-    child: Sequence[str] = (sys.executable, "-m", "swashfilm.output.plotter3d"),
+    child: Sequence[str] = (sys.executable, "-m", "swashfilm.output.scenes.plotter3d"),
 ) -> Pictures:
     """Draw pictures of one frame (PNG) or of several (animated WebP) with films in the colours of a field.
 
@@ -85,4 +85,4 @@ def draw(
 def _none(drawings: Iterable[Path], why: str) -> Pictures:
     for picture in drawings:
         picture.unlink(missing_ok=True)
-    return Pictures((), f"no 3D picture: {why}; {REMEDY}")
+    return Pictures((), f"{why}; {REMEDY}")
