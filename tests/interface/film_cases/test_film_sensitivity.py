@@ -1,6 +1,7 @@
 """Option --sensitivity: numbers, fields and picture of the derivatives by the film, and what it refuses."""
 
 import json
+import runpy
 from pathlib import Path
 
 import meshio
@@ -136,6 +137,14 @@ def test_gaps_of_a_pump_by_their_position_and_shapes(case, walls):
     assert found["load_N"]["by_film_thickness_m"] == pytest.approx(expected, rel=1e-4)
     assert near.problem.walls is None  # as it is written: of its deformed shape
     assert any(key.startswith("by_face_") for key in found["load_N"])
+
+
+def test_the_example_finds_rayleighs_step(capsys):
+    """0.2064 mu U B^2/h^2 per width at a step of 1.866 (Rayleigh 1918), from a wedge of 0.1602."""
+    found = runpy.run_path(str(EXAMPLES / "shape_by_gradient.py"))
+    assert "step  0: load 48.05 N, 0.1602" in capsys.readouterr().out
+    assert 0.2060 < found["load"].value / found["unit"] < 0.2064
+    assert 1e6 * found["thickness"][8, 0] == pytest.approx(18.66, abs=0.2)
 
 
 @pytest.mark.parametrize(
