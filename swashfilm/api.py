@@ -9,6 +9,7 @@ from __future__ import annotations
 import argparse
 import re
 import tempfile
+import warnings
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import replace
@@ -34,7 +35,9 @@ if TYPE_CHECKING:
     from swashfilm.runs.pump.result import PumpRun
     from swashfilm.runs.reference.result import ReferenceRun
     from swashfilm.runs.reproduce.result import Reproduction
+    from swashfilm.runs.sensitivity.result import SensitivityRun
     from swashfilm.runs.table.result import TableRun
+    from swashfilm.runs.tolerance.result import ToleranceRun
     from swashfilm.runs.transient.result import TransientRun
     from system.description.pump import PumpDescription
 
@@ -50,7 +53,7 @@ _SI = {
 _OF_COMMAND_LINE = ("-o", "--output", "--help", "--csv", "--animate", "--apply", "--page", "--watch")
 _RESULTS = (
     "pump", "film", "film.revolution", "film.series", "map", "table", "transient", "reference", "reproduce", "diagnose",
-    "calibrate",
+    "calibrate", "sensitivity", "tolerance",
 )  # fmt: skip
 """Rooms of `swashfilm.runs` with results."""
 
@@ -220,16 +223,76 @@ def compare(
         return CompareRun.ran(compare_case(_words("compare", [first, second], {"cycle": cycle})).run)
 
 
-def export(of: MapRun | str | Path, to: str, output: str | Path | None = None) -> tuple[Path, ...]:
-    """Write a map as tables of another program and return the files, as `swashfilm export`; raise InputFaults.
+def sensitivity(
+    pump: str | Path | PumpDescription = "ref90",
+    *,
+    keys: str | Sequence[str] | None = None,
+    cycle: str | Path | None = None,
+    fidelity: str = "lumped",
+    report: Report = silent,
+    **options: object,
+) -> SensitivityRun:
+    """Differentiate a pump's numbers by its dimensions, as `swashfilm sensitivity`.
 
-    of: a MapRun, its run folder, or its map.nc; to: "modelica", "matlab", "amesim" or "csv"; output: the file, by
-    default the pump's name in the working folder.
+    keys: dimensions or patterns, text or a list; levels, plan, table, workers and resume as those of `map`. Raises
+    InputFaults and NotConverged.
+    """
+    given = {"keys": keys, "cycle": cycle, "fidelity": fidelity} | options
+    with _door("sensitivity"), _pump_file(pump) as name:
+        from swashfilm.runs.sensitivity.result import SensitivityRun
+        from swashfilm.runs.sensitivity.run import run_sensitivity
+        from swashfilm.runs.variation.case import varied_case
+        from swashfilm.runs.variation.options import varied_executor
+        from system.variation.sensitivity import variants_needed
+
+        words = _words("sensitivity", [name], given)
+        case = varied_case(words)
+        with varied_executor(words, case.seconds(variants_needed(len(case.keys)))) as executor:
+            return SensitivityRun.ran(lambda folder: run_sensitivity(case, folder, executor, report))
+
+
+def tolerance(
+    pump: str | Path | PumpDescription = "ref90",
+    *,
+    pumps: int | None = None,
+    limits: Sequence[str] = (),
+    keys: str | Sequence[str] | None = None,
+    cycle: str | Path | None = None,
+    fidelity: str = "lumped",
+    report: Report = silent,
+    **options: object,
+) -> ToleranceRun:
+    """Solve a series of pumps drawn from the tolerances of their drawing, as `swashfilm tolerance`.
+
+    limits: ("efficiency >= 88 %",); seed, and levels, plan, table, workers and resume as those of `map`. Raises
+    InputFaults.
+    """
+    given = {"pumps": pumps, "limit": list(limits), "keys": keys, "cycle": cycle, "fidelity": fidelity} | options
+    with _door("tolerance"), _pump_file(pump) as name:
+        from swashfilm.runs.tolerance.command import tolerance_case
+        from swashfilm.runs.tolerance.result import ToleranceRun
+        from swashfilm.runs.tolerance.run import run_tolerance
+        from swashfilm.runs.variation.options import varied_executor
+
+        words = _words("tolerance", [name], given)
+        case = tolerance_case(words)
+        with varied_executor(words, case.varied.seconds(case.pumps)) as executor:
+            return ToleranceRun.ran(lambda folder: run_tolerance(case, folder, executor, report))
+
+
+def export(of: MapRun | str | Path, to: str, output: str | Path | None = None) -> tuple[Path, ...]:
+    """Write a map for another program and return the files, as `swashfilm export`; raise InputFaults.
+
+    of: a MapRun, its run folder, or its map.nc; to: "modelica", "matlab", "amesim", "fmu" or "csv"; output: the file,
+    by default the pump's name in the working folder. Points without a result and missing binaries are Python warnings.
     """
     with _door("export"), _map_file(of) as path:
         from swashfilm.runs.export.write import export_of
 
-        return export_of(path, to, None if output is None else Path(output)).write()
+        written = export_of(path, to, None if output is None else Path(output)).write()
+    for warning in written.warnings:
+        warnings.warn(warning, stacklevel=2)
+    return written.paths
 
 
 def transient(case: Case) -> TransientRun:
@@ -396,7 +459,7 @@ def _words(command: str, positional: Sequence[object], given: Mapping[str, objec
         option = f"--{name.replace('_', '-')}"
         if value is True:
             words.append(option)
-        elif isinstance(value, list) and name == "set":
+        elif isinstance(value, list) and name in ("set", "limit"):
             words += [f"{option}={one}" for one in value]
         elif value is not None and value is not False:
             words.append(f"{option}={_text(name, value)}")

@@ -20,13 +20,15 @@ from swashfilm.runs.map import command as operating_map, compare_command as comp
 from swashfilm.runs.pump import command as run
 from swashfilm.runs.reference import coefficients_command as coefficients, command as reference
 from swashfilm.runs.reproduce import command as reproduce
+from swashfilm.runs.sensitivity import command as sensitivity
 from swashfilm.runs.table import command as table
+from swashfilm.runs.tolerance import command as tolerance
 from swashfilm.runs.transient import command as transient
 from system.inputs.faults import Fault, InputFaults, nearest_choice
 
 _MODULES = (
-    run, film, table, transient, operating_map, duty, compare, export, diagnose, calibrate, reference, coefficients,
-    reproduce, report, new, check, doctor, schema,
+    run, film, table, transient, operating_map, duty, compare, sensitivity, tolerance, export, diagnose, calibrate,
+    reference, coefficients, reproduce, report, new, check, doctor, schema,
 )  # fmt: skip
 COMMANDS: dict[str, Command] = {module.COMMAND.name: module.COMMAND for module in _MODULES}
 

@@ -1,4 +1,4 @@
-"""Figures that need no screen, and their pictures as SVG and PNG."""
+"""Figures that need no screen, and their pictures as SVG, PNG and WebP."""
 
 from __future__ import annotations
 
@@ -10,11 +10,18 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from swashfilm.output.touch.fields import kept_field
+
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
 _MANY, _FEW = 3000, 100
+LARGE = 30_000
+"""Bytes of an SVG that a page holds; what is larger becomes a picture of pixels, mostly a tenth as large."""
+_INKS = 32
+"""Number of colours of a picture of lines."""
+_FIELD_QUALITY, _FIELD_DPI, _LINES_DPI = 50, 64, 90
 _BY_PYPLOT: ContextVar[bool] = ContextVar("by_pyplot", default=False)
 
 
@@ -68,3 +75,31 @@ def svg_of(figure: Figure) -> bytes:
     with rc_context({"svg.fonttype": "none", "svg.hashsalt": "swashfilm"}):
         figure.savefig(picture, format="svg", dpi=110, metadata={"Date": None})
     return picture.getvalue()
+
+
+def compact(figure: Figure) -> bytes:
+    """Return the figure as SVG where that is not LARGE; otherwise as WebP, without loss where it shows no field."""
+    from PIL import Image
+
+    vector = svg_of(figure)
+    if len(vector) <= LARGE:
+        return vector
+    fields = any(kept_field(area) for axes in figure.axes for area in axes.collections)
+    drawn, picture = io.BytesIO(), io.BytesIO()
+    figure.savefig(drawn, format="png", dpi=_FIELD_DPI if fields else _LINES_DPI)
+    pixels = Image.open(drawn).convert("RGB")
+    if fields:
+        pixels.save(picture, format="WEBP", quality=_FIELD_QUALITY, method=6)
+    else:
+        few = pixels.quantize(_INKS).convert("RGB")
+        few.save(picture, format="WEBP", lossless=True, quality=_FIELD_QUALITY)
+    return picture.getvalue()
+
+
+def smaller(picture: bytes) -> bytes:
+    """Return a picture of a folder as WebP for its page."""
+    from PIL import Image
+
+    found = io.BytesIO()
+    Image.open(io.BytesIO(picture)).convert("RGB").save(found, format="WEBP", quality=_FIELD_QUALITY, method=6)
+    return found.getvalue()

@@ -9,12 +9,14 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from swashfilm.output.answer import Answer
 from swashfilm.output.field_maps import MapField, draw_map
 from swashfilm.output.figures import figure_of
 from swashfilm.output.headline import named
 from swashfilm.output.page import inlined, read_summary, write_page
 from swashfilm.output.refinement import refinement_head, refinement_rows
 from swashfilm.output.result import read_netcdf
+from swashfilm.runs.film.answer import film_tiles, film_words
 from swashfilm.runs.film.history import last_of
 from swashfilm.runs.film.sensitivity import sensitivity_figure, sensitivity_rows
 
@@ -32,6 +34,7 @@ FIELDS = (
 )
 
 
+CAPTION = "Maps of the film over its plane; pressures are gauge"
 HISTORY = ("load / N", "pressure max / Pa", "film thickness min / m", "temperature max / K")
 
 
@@ -42,12 +45,13 @@ def write_film_page(folder: Path) -> Path:
     """
     summary = read_summary(folder, ("summary.json", "resolved.toml", "results.nc"), "a film's run folder")
     fields = last_of(read_netcdf(folder / "results.nc"))
-    costs = sensitivity_figure(fields)
+    picture, costs = inlined(film_figure(fields)), sensitivity_figure(fields)
     return write_page(
         folder,
         "film",
+        answer=Answer(tuple(film_tiles(summary)), film_words(summary), picture, CAPTION),
         name=summary["name"],
-        picture=inlined(film_figure(fields)),
+        of_gap="required_load_N" in summary,
         sensitivity=sensitivity_rows(summary),
         kept=summary.get("sensitivity", {}).get("kept", ""),
         costs="" if costs is None else inlined(costs),

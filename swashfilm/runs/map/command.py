@@ -112,7 +112,7 @@ def map_case(options: argparse.Namespace) -> MapCase:
     from system.pump_file.file import load_pump
 
     faults = [*_word_faults(options)]
-    axes = _axes(options, faults)
+    axes = stated_axes(options, faults)
     expect(options.pump, "pump", "film")
     try:
         pump = load_pump(options.pump)
@@ -129,7 +129,7 @@ def map_case(options: argparse.Namespace) -> MapCase:
     return MapCase(plan, fidelity, given, options.table, options.direct, checks, options.resume, floating)
 
 
-def _axes(options: argparse.Namespace, faults: list[Fault]) -> list[MapAxis]:
+def stated_axes(options: argparse.Namespace, faults: list[Fault]) -> list[MapAxis]:
     """Return the axes of --plan, replaced by the stated ones; add faults to `faults`."""
     from swashfilm.console.levels import map_axis
     from system.maps.plan import MapInput, paper_axes

@@ -5,6 +5,7 @@ from pathlib import Path
 from typing import Any
 
 from swashfilm.output.page import keep_pictures, read_summary, write_page
+from swashfilm.runs.map.explorer import map_explorer
 from swashfilm.runs.map.files import MAP, read_map
 from swashfilm.runs.map.film_plots import film_plots
 from swashfilm.runs.map.plots import map_plots
@@ -22,6 +23,8 @@ def write_map_page(folder: Path) -> Path:
     summary = read_summary(folder, FILES, "a map's run folder")
     data = read_map(folder / MAP)[0]
     pictures = map_plots(data) | film_plots(data) if summary["solved"] else {}
+    explorer = map_explorer(data) if pictures else None
+    explorers = {} if explorer is None else {next(iter(pictures)): explorer}
     return write_page(
         folder,
         "map",
@@ -35,7 +38,7 @@ def write_map_page(folder: Path) -> Path:
         error_head=ERROR_HEAD,
         table_errors=[(name, f"{100.0 * error:.3g} %") for name, error in (summary["table_error"] or {}).items()],
         failed=list(failed_rows(summary)),
-        pictures=keep_pictures(folder, "map", pictures),
+        pictures=keep_pictures(folder, "map", pictures, explorers),
         resolved=(folder / "resolved.toml").read_text("utf-8"),
     )
 

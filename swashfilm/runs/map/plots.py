@@ -11,6 +11,7 @@ import numpy as np
 
 from reynolds.numerics.arrays import Array
 from swashfilm.output.figures import figure_of
+from swashfilm.output.touch.fields import GridField, keep_field
 from swashfilm.runs.map.files import PARTS
 from system.maps.data import MapData
 from system.maps.interpolation import weights
@@ -203,6 +204,7 @@ def contours(
     if np.all(np.isfinite(field)):
         places = [*np.meshgrid(*(np.linspace(ends.min(), ends.max(), FINE) for ends in (x, y)))]
     painted = axes.contourf(*places, between, levels=levels, cmap=colours, norm=BoundaryNorm(levels, 256))
+    keep_field(painted, GridField(places[0][0], places[1][:, 0], between, levels))
     lines = axes.contour(*places, between, levels=levels, colors=ink, linewidths=0.5)
     axes.clabel(lines, fontsize=7)
     axes.figure.colorbar(painted, ax=axes, ticks=levels).ax.tick_params(labelsize=7)

@@ -159,7 +159,7 @@ def _solver(asked: MapCase, executor: Executor, report: Report) -> MapSolver:
         case Fidelity.LUMPED:
             return LumpedSolver()
         case Fidelity.TABLE:
-            return TableSolver(_kept_table(asked))
+            return TableSolver(kept_table(asked))
     solver = solver_of(Source(asked.fidelity.value), asked.floating)
     if not asked.by_table:
         return DirectSolver(solver, POINT_COST[asked.fidelity])
@@ -191,7 +191,7 @@ def at_levels(plan: MapPlan) -> PumpDescription:
     return replace(plan.pump, operating=own)
 
 
-def _kept_table(asked: MapCase) -> ResponseTable:
+def kept_table(asked: MapCase) -> ResponseTable:
     """Return the table of a file, or a stored one; raise InputFaults where it does not contain all points."""
     plan, pump = asked.plan, at_levels(asked.plan)
     middle = plan.points[len(plan.points) // 2]

@@ -89,7 +89,7 @@ def test_the_page_begins_with_flow_torque_efficiency_and_loss(folder, summary):
     assert names == ["delivery flow", "shaft torque", "overall efficiency", "not delivered"]
     answer = pump_answer(summary)
     assert f"{summary['flow']['delivery_m3_per_s'] * 6e4:.1f} L/min" in answer.words
-    assert "of this loss go into friction at slipper-swash plate" in answer.words
+    assert "of this loss goes into friction at slipper-swash plate" in answer.words
     assert "<b>ref90</b>" not in page
 
 

@@ -7,6 +7,7 @@ from itertools import product
 import numpy as np
 import pytest
 from bench_pump import BENCH
+from scipy.interpolate import NdBSpline
 
 from reynolds import InputError
 from system import InputFaults, load_pump, lumped_point, map_plan, operating_point
@@ -14,7 +15,7 @@ from system.inputs.sections.fields import fields_of
 from system.maps.compare import compare
 from system.maps.data import LOSSES, best_points, map_data
 from system.maps.duty import Cycle, duty
-from system.maps.interpolation import MapInterpolant, check_points, fresh_error, left_out_error, weights
+from system.maps.interpolation import MapInterpolant, axis_spline, check_points, fresh_error, left_out_error, weights
 from system.maps.plan import MapAxis, MapInput, paper_axes
 from system.maps.point import LumpedSolver, MapWork, point_numbers
 from system.pump.efficiency import EfficiencyDefinition
@@ -148,6 +149,17 @@ def test_weights_hold_polynomials(levels, degree):
     x = np.linspace(places[0], places[-1], 11)
     for power in range(degree + 1):
         np.testing.assert_allclose(weights(axis, x) @ places**power, x**power, rtol=1e-9)
+
+
+def test_coefficients_are_those_of_the_splines():
+    interpolant, random = MapInterpolant(solved()), np.random.default_rng(2)
+    splines = [axis_spline(axis) for axis in AXES]
+    points = np.stack([random.uniform(axis.values[0], axis.values[-1], 20) for axis in AXES], axis=-1)
+    ends = np.array([[axis.values[0], axis.values[-1]] for axis in AXES]).T
+    coefficients = interpolant.coefficients("drain_flow")[..., 0, 0]
+    spline = NdBSpline(tuple(one.knots for one in splines), coefficients, tuple(one.degree for one in splines))
+    told = interpolant.at(dict(zip((axis.input for axis in AXES), points.T, strict=True)))
+    np.testing.assert_allclose(spline((points - ends[0]) / np.ptp(ends, axis=0)), told["drain_flow"], rtol=1e-12)
 
 
 def test_between_levels_the_stated_error_holds():
