@@ -68,7 +68,7 @@ def test_derivatives_by_constants_of_the_shape_are_slopes_of_the_outputs(case):
     outputs = found["sensitivity"]["outputs"]
     assert found["sensitivity"]["kept"] == "position"
     for name, step, unit in (("h0", 1e-3, "um"), ("slope", 1e-4, ""), ("ripple", 1e-3, "um")):
-        base = found["sensitivity"]["parameters"][name] * (1e6 if unit else 1.0)
+        base = found["sensitivity"]["parameters"][f"constants.{name}"] * (1e6 if unit else 1.0)
         more, less = (
             sf.film(case(_with(SLIDER, **{name: f'"{base + sign * step} {unit}"' if unit else base + sign * step})))
             for sign in (1.0, -1.0)
@@ -81,7 +81,7 @@ def test_derivatives_by_constants_of_the_shape_are_slopes_of_the_outputs(case):
             ("dissipation_W", lambda one: one["dissipation_W"]),
         ):
             expected = (of(more.summary) - of(less.summary)) / width
-            assert outputs[key][f"by_{name}"] == pytest.approx(expected, rel=1e-5)
+            assert outputs[key][f"by_constants.{name}"] == pytest.approx(expected, rel=1e-5)
 
 
 def test_fields_and_page_of_the_run_folder(case, tmp_path):
@@ -118,7 +118,7 @@ def test_a_film_under_a_load_keeps_it(case):
     by = found["outputs"]["dissipation_W"]
     assert "by_film_thickness_m" not in by
     more, less = (sf.film(case(_with(text, ripple=f'"{size} um"'))).summary["dissipation_W"] for size in (0.1, -0.1))
-    assert by["by_ripple"] == pytest.approx((more - less) / 0.2e-6, rel=2e-3)
+    assert by["by_constants.ripple"] == pytest.approx((more - less) / 0.2e-6, rel=2e-3)
 
 
 @pytest.mark.parametrize("walls", ["rigid", "elastic"])
