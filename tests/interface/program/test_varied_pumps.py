@@ -115,7 +115,7 @@ def test_result_of_a_tolerance(series):
 
 
 def test_both_as_functions(tmp_path):
-    found = sf.tolerance("ref90", pumps=100, keys="slipper.film_thickness", limits=["loss <= 20 kW"])
+    found = sf.tolerance("ref90", pumps=100, keys="slipper.film_thickness", limit="loss <= 20 kW")
     assert found.limits[0]["missing"]["value"] == 0.0
     assert (found.save(tmp_path / "run") / "report.html").is_file()
     with pytest.raises(sf.InputFaults, match="no dimension"):
