@@ -13,7 +13,7 @@ import numpy as np
 from reynolds.errors import NotConverged
 from reynolds.numerics.arrays import Array
 from system.description.drawing import drawing_of
-from system.description.drawn import fit_sigma
+from system.description.drawn import pump_sigma
 from system.description.keys import PumpKey
 from system.description.pump import PumpDescription
 from system.inputs.faults import InputFaults
@@ -240,8 +240,7 @@ def _better(before: KeySlopes | None, after: KeySlopes) -> KeySlopes:
 def _sigmas(pump: PumpDescription) -> dict[str, float]:
     """Return the standard deviations that [tolerance] states, by path."""
     drawn = drawing_of(pump)
-    own = {one.name: one.sigma for one in drawn.dimensions if len(one.keys) == 1}
-    return own | {fit.name: fit_sigma(fit) for fit in drawn.fits}
+    return {one.name: pump_sigma(one) for one in drawn.members if len(one.keys) == 1}
 
 
 def one_sided(found: Sensitivity) -> list[KeySlopes]:
