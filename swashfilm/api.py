@@ -264,7 +264,7 @@ def tolerance(
     pump: str | Path | PumpDescription = "ref90",
     *,
     pumps: int | None = None,
-    limits: Sequence[str] = (),
+    limit: str | Sequence[str] = (),
     keys: str | Sequence[str] | None = None,
     cycle: str | Path | None = None,
     fidelity: str = "lumped",
@@ -273,10 +273,11 @@ def tolerance(
 ) -> ToleranceRun:
     """Solve a series of pumps drawn from the tolerances of their drawing, as `swashfilm tolerance`.
 
-    limits: ("efficiency >= 88 %",); seed, and levels, plan, table, workers and resume as those of `map`. Raises
+    limit: "efficiency >= 88 %", or several; seed, and levels, plan, table, workers and resume as those of `map`. Raises
     InputFaults.
     """
-    given = {"pumps": pumps, "limit": list(limits), "keys": keys, "cycle": cycle, "fidelity": fidelity} | options
+    limits = [limit] if isinstance(limit, str) else list(limit)
+    given = {"pumps": pumps, "limit": limits, "keys": keys, "cycle": cycle, "fidelity": fidelity} | options
     with _door("tolerance"), _pump_file(pump) as name:
         from swashfilm.runs.tolerance.command import tolerance_case
         from swashfilm.runs.tolerance.result import ToleranceRun
