@@ -10,7 +10,10 @@ from system.inputs.units import Dimension, QuantityError, parse_quantity, with_p
 from system.maps.plan import MapAxis, MapInput
 
 _NUMBER = re.compile(r"\s*[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?\s*")
+_DASHED = re.compile(r"\s*(\d+\.?\d*)\s*-\s*(\d+\.?\d*)\s*([^\d\s].*|)")
+_PERCENT = re.compile(r"\s*(\d+\.?\d*)\s*%\s*")
 _MOST = 1000
+_USUAL = 7  # levels that a remedy proposes
 
 
 def map_axis(option: str, text: str, given: MapInput, example: str) -> MapAxis | Fault:
@@ -44,10 +47,10 @@ def level_texts(text: str) -> list[LevelText]:
 
     Raises QuantityError for a range without a number of levels.
     """
-    return [_item(item) for item in _with_units([item.strip() for item in text.split(",")])]
+    return [_item(item) for item in with_units([item.strip() for item in text.split(",")])]
 
 
-def _with_units(items: list[str]) -> list[str]:
+def with_units(items: list[str]) -> list[str]:
     """Return the items, each without a unit completed by the unit of the next item that has one."""
     found, unit = [], ""
     for item in reversed(items):
@@ -65,10 +68,13 @@ def _with_units(items: list[str]) -> list[str]:
 
 
 def _item(item: str) -> LevelText:
+    if dashed := dashed_range(item):
+        raise QuantityError(repr(item), "a level, or a range with a number of levels", f"{dashed}:{_USUAL}")
     ends, colon, count = item.partition(":")
     low, dots, high = ends.partition("..")
     if bool(dots) != bool(colon):
-        raise QuantityError(repr(item), "a level, or a range with a number of levels")
+        remedy = f"{item}:{_USUAL}" if dots else ""
+        raise QuantityError(repr(item), "a level, or a range with a number of levels", remedy)
     if not dots:
         return LevelText((low,))
     if not (count.strip().isdecimal() and 2 <= int(count) <= _MOST):
@@ -82,4 +88,12 @@ def _value(text: str, dimension: Dimension | None) -> float:
     try:
         return float(text)
     except ValueError:
-        raise QuantityError(repr(text), "bare numbers", with_point(text)) from None
+        percent = _PERCENT.fullmatch(text)
+        remedy = f"{float(percent[1]) / 100.0:g}" if percent else with_point(text)
+        raise QuantityError(repr(text), "bare numbers", remedy) from None
+
+
+def dashed_range(text: str) -> str:
+    """Return `5..35MPa` of `5-35MPa`; empty for a text that is no such range."""
+    match = _DASHED.fullmatch(text)
+    return f"{match[1]}..{match[2]}{match[3]}" if match else ""

@@ -48,14 +48,15 @@ def draw_map(
     place of the bar. Returns the artist.
     """
     x, y = place
-    drawn = paint(axes, place, cells, values, colours, limits)
+    uniform = bool(np.ptp(values) <= UNIFORM * np.max(np.abs(values)))
+    drawn = paint(axes, place, cells, np.full_like(values, np.mean(values)) if uniform else values, colours, limits)
     axes.set(xlabel=labels[0], ylabel=labels[1], title=title)
     if labels == ("x [mm]", "y [mm]") and np.ptp(x) < 5.0 * np.ptp(y) and np.ptp(y) < 5.0 * np.ptp(x):
         axes.set_aspect("equal")
-    if np.ptp(values) > UNIFORM * np.max(np.abs(values)):
-        axes.figure.colorbar(drawn, ax=axes)
-    else:
+    if uniform and limits is None:
         axes.set_title(f"{title}: {float(np.mean(values)):.4g} everywhere")
+    else:
+        axes.figure.colorbar(drawn, ax=axes)
     return drawn
 
 

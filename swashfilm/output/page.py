@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from swashfilm.output.answer import Answer
-from swashfilm.output.figures import svg_of
+from swashfilm.output.figures import compact
 from swashfilm.output.picture import Picture
 from swashfilm.output.touch.curves import touchable
 from swashfilm.output.touch.explorer import Explorer
@@ -101,11 +101,11 @@ def _files_of(folder: Path) -> list[tuple[str, str]]:
 
 
 def inlined(picture: Figure | bytes, explorer: Explorer | None = None) -> Picture:
-    """Return a picture as a page embeds it: figures as SVG, bytes as what they are.
+    """Return a picture as a page embeds it: figures by `compact`, bytes as what they are.
 
     Figures can be touched too, as far as `touchable` translates them; an explorer takes the place of either.
     """
-    content = picture if isinstance(picture, bytes) else svg_of(picture)
+    content = picture if isinstance(picture, bytes) else compact(picture)
     return Picture(_address(content), _touch(picture, explorer))
 
 
@@ -116,15 +116,18 @@ def _touch(picture: Figure | bytes, explorer: Explorer | None) -> str:
     return "" if explorer is None else explorer.packed()
 
 
+def _kind(content: bytes) -> str:
+    return next(kind for start, kind in _PICTURES.items() if content.startswith(start))
+
+
 def _address(content: bytes) -> str:
-    kind = next(kind for start, kind in _PICTURES.items() if content.startswith(start))
-    return f"data:image/{kind};base64,{base64.b64encode(content).decode('ascii')}"
+    return f"data:image/{_kind(content)};base64,{base64.b64encode(content).decode('ascii')}"
 
 
 def keep_pictures(
     folder: Path, stem: str, pictures: Mapping[str, Figure], explorers: Mapping[str, Explorer] | None = None
 ) -> dict[str, Picture]:
-    """Write pictures as plots/STEM-1.svg, plots/STEM-2.svg, .. and captions as plots/STEM.json.
+    """Write pictures as plots/STEM-1.svg, .. (.webp, .png, see `compact`) and captions as plots/STEM.json.
 
     What can be touched in the place of a picture is kept beside it, as a page embeds it, as plots/STEM-1.touch.
     `explorers`: those of some pictures, by caption. Return the same as `kept_pictures`.
@@ -132,8 +135,9 @@ def keep_pictures(
     (folder / PLOTS).mkdir(exist_ok=True)
     captions = {}
     for number, (caption, figure) in enumerate(pictures.items(), start=1):
-        path = folder / PLOTS / f"{stem}-{number}.svg"
-        path.write_bytes(svg_of(figure))
+        content = compact(figure)
+        path = folder / PLOTS / f"{stem}-{number}.{_kind(content).partition('+')[0]}"
+        path.write_bytes(content)
         captions[path.name] = caption
         if touch := _touch(figure, (explorers or {}).get(caption)):
             path.with_suffix(TOUCH).write_text(touch, encoding="ascii")

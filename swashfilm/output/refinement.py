@@ -12,6 +12,7 @@ from swashfilm.output.data.files import CSV_DIGITS
 from swashfilm.output.headline import named, shown_of, titled_key
 from swashfilm.output.tables import write_csv
 from system.inputs.shown import Shown, significant
+from system.inputs.units import Dimension, format_quantity
 
 DIGITS = 6
 """Significant digits of numbers whose change from mesh to mesh is of interest."""
@@ -59,10 +60,32 @@ def _with_bar(shown: Shown, limit: float | None, error: float | None) -> str:
     """Return the limit in its unit, rounded to the digit of its error bar."""
     if limit is None or error is None:
         return "-"
-    limit, error, digits = shown.of(limit if abs(limit) > error else 0.0), shown.difference(error), DIGITS
+    limit, error = shown.of(limit if abs(limit) > error else 0.0), shown.difference(error)
+    return f"{significant(limit, _digits(limit, error))} +- {significant(error, 1)}"
+
+
+def _digits(limit: float, error: float) -> int:
+    """Return the significant digits of a limit that its error leaves."""
     if error > 0.0 and limit != 0.0:
-        digits = int(np.clip(np.ceil(np.log10(abs(limit) / error)) + 1.0, 2, 10))
-    return f"{significant(limit, digits)} +- {significant(error, 1)}"
+        return int(np.clip(np.ceil(np.log10(abs(limit) / error)) + 1.0, 2, 10))
+    return DIGITS
+
+
+def bar_text(summary: Mapping[str, Any], key: str, dimension: Dimension) -> str:
+    """Return limit and error bar of a number of a refined run, each with its unit; empty where there is no refinement.
+
+    Without a limit the verdict says why.
+    """
+    number = summary.get("refinement", {}).get("numbers", {}).get(key)
+    if number is None:
+        return ""
+    limit, error = number["extrapolated"], number["error"]
+    if number["verdict"] == ConvergenceKind.CONVERGED.value:
+        return str(number["verdict"])
+    if limit is None or error is None:
+        return f"{number['verdict']}: no error bar"
+    digits = _digits(limit, error)
+    return f"limit {format_quantity(limit, dimension, digits=digits)} +- {format_quantity(error, dimension, digits=1)}"
 
 
 def refinement_head(found: Mapping[str, Any]) -> tuple[str, ...]:

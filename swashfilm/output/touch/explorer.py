@@ -50,6 +50,15 @@ class Move:
 
 
 @dataclass(frozen=True)
+class Copies:
+    """A mesh whose triangles repeat for `count` bodies of so many points each."""
+
+    trace: int
+    count: int
+    points: int
+
+
+@dataclass(frozen=True)
 class Explorer:
     """A figure with choices. grid: numbers over several axes, of which the first two traces show a slice."""
 
@@ -57,13 +66,14 @@ class Explorer:
     controls: Sequence[Control] = ()
     picks: Sequence[Pick] = ()
     moves: Sequence[Move] = ()
+    copies: Sequence[Copies] = ()
     tables: Mapping[str, Any] = field(default_factory=dict)
     grid: Mapping[str, Any] | None = None
 
     def packed(self) -> str:
         """Return the figure with its choices as a page holds it."""
         told: dict[str, Any] = {"figure": self.figure.to_plotly_json()}
-        for name in ("controls", "picks", "moves"):
+        for name in ("controls", "picks", "moves", "copies"):
             if parts := getattr(self, name):
                 told[name] = [asdict(one) for one in parts]
         if self.tables:

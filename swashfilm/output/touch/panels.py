@@ -129,7 +129,10 @@ def _texts(panel: Panel) -> Iterator[dict[str, Any]]:
         if title := axes.get_title(where):
             place = {"xref": f"{panel.x} domain", "yref": f"{panel.y} domain", "x": at, "y": 1.0, "yanchor": "bottom"}
             yield place | {"text": words(title), "showarrow": False, "xanchor": where, "font": {"size": 12}}
+    of_contours = {id(text) for one in axes.collections for text in getattr(one, "labelTexts", ())}
     for text in axes.texts:
+        if id(text) in of_contours:
+            continue
         in_data = text.get_transform().contains_branch_seperately(axes.transData)
         refs = [
             f"{name}" if inside else f"{name} domain" for name, inside in zip((panel.x, panel.y), in_data, strict=True)

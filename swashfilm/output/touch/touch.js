@@ -3,13 +3,22 @@
 (() => {
   const INK = "#1c2328", MPA = "[MPa]", BAR = "[bar]", BAR_PER_MPA = 10;
   const CONFIG = { displaylogo: false, responsive: true, modeBarButtonsToRemove: ["lasso2d", "select2d"] };
+  const DIGIT = [];
+  [..."0123456789ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz!#$%,()*+-;.=:?@^_`{|}~"].forEach((letter, n) => {
+    DIGIT[letter.charCodeAt(0)] = n;
+  });
   const views = [];
   let library = null, inBar = false;
 
-  // A script element holds base64 of gzip of a text.
+  // A script element holds a text by `packed` of packing.py.
   async function unpacked(script) {
-    const bytes = Uint8Array.from(atob(script.textContent), (letter) => letter.charCodeAt(0));
-    const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("gzip"));
+    const text = script.textContent, bytes = new DataView(new ArrayBuffer((text.length - 1) / 5 * 4));
+    for (let k = 1; k < text.length; k += 5) {
+      let word = 0;
+      for (let j = k; j < k + 5; j += 1) word = word * 85 + DIGIT[text.charCodeAt(j)];
+      bytes.setUint32((k - 1) / 5 * 4, word);
+    }
+    const stream = new Blob([bytes.buffer.slice(0, bytes.byteLength - Number(text[0]))]).stream().pipeThrough(new DecompressionStream("gzip"));
     return new Response(stream).text();
   }
 
@@ -100,7 +109,7 @@
       }
       const coloured = [trace, trace.marker].filter((part) => part && renamed(part.colorbar));
       for (const part of coloured) {
-        scale(part, [part.colorbar && part.type !== "mesh3d" ? "z" : "intensity", "color", "cmin", "cmax", "zmin", "zmax"]);
+        scale(part, ["intensity", "text", "color", "cmin", "cmax", "zmin", "zmax", ...(part.type === "mesh3d" ? [] : ["z"])]);
       }
       if (on.length + coloured.length) trace.hovertemplate = trace.hovertemplate?.replaceAll(MPA, BAR);
     }
@@ -170,7 +179,11 @@
 
   async function open(holder) {
     const text = await unpacked(holder.querySelector(".touch"));
-    const told = { controls: [], picks: [], moves: [], ...JSON.parse(text) };
+    const told = { controls: [], picks: [], moves: [], copies: [], ...JSON.parse(text) };
+    for (const { trace, count, points } of told.copies) for (const key of "ijk") {
+      const one = told.figure.data[trace][key];
+      told.figure.data[trace][key] = Array.from({ length: count }, (_, n) => one.map((corner) => corner + n * points)).flat();
+    }
     if (told.figure.layout.scene && !document.createElement("canvas").getContext("webgl")) return;
     await (library ??= loadLibrary());
     const view = { told, plot: element("div", { className: "plot" }), at: told.controls.map((one) => one.first) };

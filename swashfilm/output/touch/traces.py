@@ -197,7 +197,7 @@ def _field(artist: Any, field: GridField, panel: Panel) -> list[dict[str, Any]]:
     if field.levels is None:
         return [{"type": "heatmap", "zsmooth": "best", **grid, **look, **hover}]
     labels = {"coloring": "heatmap", "showlabels": True, "labelfont": {"size": 10, "color": "white"}}
-    lines = {"ncontours": 2 * len(field.levels), "contours": labels, "line": {"color": "white", "width": 0.5}}
+    lines = {"ncontours": len(field.levels), "contours": labels, "line": {"color": "white", "width": 0.5}}
     return [{"type": "contour", **lines, **grid, **look, **hover}]
 
 

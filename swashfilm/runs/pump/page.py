@@ -8,16 +8,19 @@ import numpy as np
 
 from swashfilm.console.fidelity import Fidelity
 from swashfilm.output.data.files import read_netcdf
+from swashfilm.output.figures import smaller
 from swashfilm.output.gap_names import TITLES
 from swashfilm.output.page import inlined, read_summary, write_page
 from swashfilm.output.picture import Picture
 from swashfilm.output.refinement import refinement_head, refinement_rows
+from swashfilm.output.touch.explorer import Explorer
 from swashfilm.runs.pump import plots as pump_plots
 from swashfilm.runs.pump.data import GAPS
 from swashfilm.runs.pump.floating import floating_view
 from swashfilm.runs.pump.forces import forces_view
 from swashfilm.runs.pump.headline.answer import pump_answer
 from swashfilm.runs.pump.headline.powers import power_parts
+from swashfilm.runs.pump.scene.view import pump_view
 from swashfilm.runs.pump.scene.views import PICTURE, TURNING
 from swashfilm.runs.pump.summary import chamber_numbers
 from swashfilm.runs.table.summary import TABLE_POINT_HEAD, table_point_rows
@@ -52,17 +55,15 @@ def write_pump_page(folder: Path) -> Path:
         table_head=TABLE_POINT_HEAD,
         refinement=[refinement_head(found), *refinement_rows(found)] if (found := summary.get("refinement")) else [],
         ripple=ripple_rows(summary),
-        steady=not any(
-            summary["ripple"][f"{name}_pressure_peak_to_peak_Pa"] > pump_plots.STEADY for name in ("delivery", "inlet")
-        ),
+        steady=is_steady(summary),
         coefficients=[tuple(one[key] for key in ("key", "file", "source", "range")) for one in summary["coefficients"]],
         checks=check_rows(summary),
         forces=forces_view(folder, summary),
         pictures=_pictures(data, summary),
         gap_maps={map_caption(data, gap): inlined(png) for gap, png in pump_plots.gap_maps(data).items()},
         solid=[(gap.replace("_", " "), png) for gap in GAPS if (png := _kept(folder / f"{gap}.png"))],
-        pump=_kept(folder / PICTURE),
-        turning=_kept(folder / TURNING),
+        pump=_kept(folder / PICTURE, pump_view(folder)),
+        turning=TURNING if (folder / TURNING).is_file() else "",
         resolved=(folder / "resolved.toml").read_text("utf-8"),
     )
 
@@ -179,6 +180,12 @@ def ripple_rows(summary: Mapping[str, Any]) -> Rows:
     return rows
 
 
+def is_steady(summary: Mapping[str, Any]) -> bool:
+    """Return True where both port pressures are constant."""
+    ripple = summary["ripple"]
+    return all(ripple[f"{port}_pressure_peak_to_peak_Pa"] < pump_plots.STEADY for port in ("delivery", "inlet"))
+
+
 def check_rows(summary: Mapping[str, Any]) -> Rows:
     """Return (check, value): balances, convergence and effort of the solvers, with those of the gaps."""
     rows: Rows = [(key.replace("_", " "), f"{value:.3g}") for key, value in summary["checks"].items()]
@@ -201,6 +208,6 @@ def _pictures(data: Any, summary: Mapping[str, Any]) -> dict[str, Picture]:
     return {name: inlined(png) for name, png in pictures.items()}
 
 
-def _kept(picture: Path) -> Picture | None:
+def _kept(picture: Path, explorer: Explorer | None = None) -> Picture | None:
     """Return a picture of the folder as a page embeds it; None where this machine could not draw it."""
-    return inlined(picture.read_bytes()) if picture.is_file() else None
+    return inlined(smaller(picture.read_bytes()), explorer) if picture.is_file() else None

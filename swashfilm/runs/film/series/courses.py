@@ -10,7 +10,7 @@ import numpy as np
 
 from swashfilm.case.study import Study
 from swashfilm.output.headline import about, named, shown_of
-from swashfilm.runs.film.series.plots import COURSES, MOST_LINES, figure_axes, where
+from swashfilm.runs.film.series.plots import COURSES, MOST_LINES, figure_axes, name_lines, where
 from swashfilm.runs.film.series.points import COURSE, StudyOutcome
 from system.inputs.shown import titled
 
@@ -19,7 +19,6 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 ANGLE = "shaft_angle_deg"
-LEGEND_LINE = 0.17  # height of a line of the legend, inches
 
 
 def course_variables(study: Study, outcomes: Sequence[StudyOutcome], dims: Sequence[str]) -> dict[str, tuple[Any, ...]]:
@@ -68,8 +67,5 @@ def _picture(data: xarray.Dataset, name: str) -> Figure:
     axes.set(xlabel="shaft angle [deg]", ylabel=titled(words, how.unit), title=f"{words} over the revolution")
     axes.grid(visible=True, alpha=0.3)
     lines = min(len(points), MOST_LINES)
-    title = None if lines == len(points) else f"{lines} of {len(points)} points"
-    width, height = figure.get_size_inches()
-    figure.set_size_inches(width, height + LEGEND_LINE * lines)
-    figure.legend(fontsize=7, title=title, loc="outside lower center")
+    name_lines(axes, None if lines == len(points) else f"{lines} of {len(points)} points")
     return figure
