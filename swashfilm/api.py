@@ -27,11 +27,13 @@ from system.work.progress import Report, silent
 if TYPE_CHECKING:
     from swashfilm.output.result import Result
     from swashfilm.runs.calibrate.result import CalibrationRun
+    from swashfilm.runs.compare.result import CompareRun
     from swashfilm.runs.diagnose.result import DiagnosisRun
+    from swashfilm.runs.duty.result import DutyRun
     from swashfilm.runs.film.result import FilmRun
     from swashfilm.runs.film.revolution.result import RevolutionRun
     from swashfilm.runs.film.series.result import StudyRun
-    from swashfilm.runs.map.result import CompareRun, DutyRun, MapRun
+    from swashfilm.runs.map.result import MapRun
     from swashfilm.runs.pump.result import PumpRun
     from swashfilm.runs.reference.result import ReferenceRun
     from swashfilm.runs.reproduce.result import Reproduction
@@ -52,8 +54,8 @@ _SI = {
 }  # fmt: skip
 _OF_COMMAND_LINE = ("-o", "--output", "--help", "--csv", "--animate", "--apply", "--page", "--watch")
 _RESULTS = (
-    "pump", "film", "film.revolution", "film.series", "map", "table", "transient", "reference", "reproduce", "diagnose",
-    "calibrate", "sensitivity", "tolerance",
+    "pump", "film", "film.revolution", "film.series", "map", "duty", "compare", "table", "transient", "reference",
+    "reproduce", "diagnose", "calibrate", "sensitivity", "tolerance",
 )  # fmt: skip
 """Rooms of `swashfilm.runs` with results."""
 
@@ -200,10 +202,10 @@ def table(pump: str | Path | PumpDescription, *, report: Report = silent, **opti
 def duty(of: MapRun | str | Path, cycle: str | Path) -> DutyRun:
     """Return energies and losses over a duty cycle (CSV) by a map: a MapRun, its run folder, or its map.nc."""
     with _door("duty"), _map_file(of) as path:
-        from swashfilm.runs.map.cycle_file import read_cycle
-        from swashfilm.runs.map.duty import run_duty
+        from swashfilm.runs.duty.cycle_file import read_cycle
+        from swashfilm.runs.duty.result import DutyRun
+        from swashfilm.runs.duty.run import run_duty
         from swashfilm.runs.map.files import map_file, read_map
-        from swashfilm.runs.map.result import DutyRun
 
         data, error = read_map(map_file(path))
         given = read_cycle(Path(cycle), data.axes)
@@ -214,13 +216,20 @@ def compare(
     one: MapRun | str | Path | PumpDescription,
     other: MapRun | str | Path | PumpDescription,
     cycle: str | Path | None = None,
+    *,
+    fidelity: str | None = None,
+    workers: int = 1,
 ) -> CompareRun:
-    """Compare two maps or pumps, also over a duty cycle, as `swashfilm compare`; raise InputFaults."""
-    with _door("compare"), _map_or_pump(one) as first, _map_or_pump(other) as second:
-        from swashfilm.runs.map.compare_command import compare_case
-        from swashfilm.runs.map.result import CompareRun
+    """Compare two maps or pumps, also over a duty cycle, as `swashfilm compare`; raise InputFaults.
 
-        return CompareRun.ran(compare_case(_words("compare", [first, second], {"cycle": cycle})).run)
+    fidelity: of the map of a pump; None for lumped.
+    """
+    with _door("compare"), _map_or_pump(one) as first, _map_or_pump(other) as second:
+        from swashfilm.runs.compare.command import compare_case
+        from swashfilm.runs.compare.result import CompareRun
+
+        options = {"cycle": cycle, "fidelity": fidelity, "workers": workers}
+        return CompareRun.ran(compare_case(_words("compare", [first, second], options)).run)
 
 
 def sensitivity(
@@ -255,7 +264,7 @@ def tolerance(
     pump: str | Path | PumpDescription = "ref90",
     *,
     pumps: int | None = None,
-    limits: Sequence[str] = (),
+    limit: str | Sequence[str] = (),
     keys: str | Sequence[str] | None = None,
     cycle: str | Path | None = None,
     fidelity: str = "lumped",
@@ -264,10 +273,11 @@ def tolerance(
 ) -> ToleranceRun:
     """Solve a series of pumps drawn from the tolerances of their drawing, as `swashfilm tolerance`.
 
-    limits: ("efficiency >= 88 %",); seed, and levels, plan, table, workers and resume as those of `map`. Raises
+    limit: "efficiency >= 88 %", or several; seed, and levels, plan, table, workers and resume as those of `map`. Raises
     InputFaults.
     """
-    given = {"pumps": pumps, "limit": list(limits), "keys": keys, "cycle": cycle, "fidelity": fidelity} | options
+    limits = [limit] if isinstance(limit, str) else list(limit)
+    given = {"pumps": pumps, "limit": limits, "keys": keys, "cycle": cycle, "fidelity": fidelity} | options
     with _door("tolerance"), _pump_file(pump) as name:
         from swashfilm.runs.tolerance.command import tolerance_case
         from swashfilm.runs.tolerance.result import ToleranceRun

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
 
@@ -12,7 +13,7 @@ import numpy as np
 from reynolds.errors import NotConverged
 from reynolds.numerics.arrays import Array
 from system.description.drawing import drawing_of
-from system.description.drawn import fit_sigma
+from system.description.drawn import pump_sigma
 from system.description.keys import PumpKey
 from system.description.pump import PumpDescription
 from system.inputs.faults import InputFaults
@@ -117,7 +118,8 @@ def sensitivity(
     """Return the derivatives of the measures by dimensions of a pump, each by differences of `Stencil`.
 
     Where numbers of a dimension do not converge, its step falls to a quarter, `accuracy.rounds` times in all; each
-    number is that of the step with the least error. Raises NotConverged where the stated pump has no result.
+    number is that of the first step at which it converges. Where a pump has no result the next stencil is tried.
+    Raises NotConverged where the stated pump has no result.
     """
     chosen, refused = _chosen(work.pump, keys, accuracy)
     known: dict[Variant, PartOutcome] = {}
@@ -125,23 +127,31 @@ def sensitivity(
     def solve(todo: Sequence[Stencil]) -> None:
         wanted = [(), *(((one.key.path, value),) for one in todo for value in one.values)]
         new = [variant for variant in dict.fromkeys(wanted) if variant not in known]
+        if not new:
+            return
         known.update(zip(new, solved_variants(work, new, folder, executor, report, earlier), strict=True))
 
-    todo, found = [options[0] for options in chosen.values()], dict[str, KeySlopes]()
+    left = {path: iter(options) for path, options in chosen.items()}
+    todo, found, rounds = [next(options) for options in left.values()], dict[str, KeySlopes](), Counter[str]()
     sigmas = _sigmas(work.pump)
-    for remaining in reversed(range(accuracy.rounds)):
-        solve(todo)
-        middle = _middle(known[()])
+    solve(todo)
+    middle = _middle(known[()])
+    while todo:
+        following: list[Stencil] = []
         for stencil in todo:
+            path = stencil.key.path
             made = _slopes(stencil, known, middle, work, measures, accuracy.noise, sigmas)
-            if isinstance(made, Refused):
+            if isinstance(made, KeySlopes):
+                rounds[path] += 1
+                found[path] = _better(found.get(path), made)
+                if Verdict.NOT_SMOOTH in found[path].verdict and rounds[path] < accuracy.rounds:
+                    following.append(replace(stencil, step=0.25 * stencil.step))
+            elif (smaller := next(left[path], None)) is not None and path not in found:
+                following.append(smaller)
+            elif path not in found:
                 refused.append(made)
-            else:
-                found[stencil.key.path] = _better(found.get(stencil.key.path), made)
-        rough = [path for path, one in found.items() if Verdict.NOT_SMOOTH in one.verdict]
-        todo = [Stencil(found[p].key, found[p].stencil.side, 0.25 * found[p].stencil.step) for p in rough]
-        if not (todo and remaining):
-            break
+        todo = following
+        solve(todo)
     return Sensitivity(
         measures, measured(middle, work.sites.weights, measures), tuple(found.values()), tuple(refused),
         tuple(known[()].record["warnings"]), len(known), sum(one.seconds for one in known.values()),
@@ -230,8 +240,7 @@ def _better(before: KeySlopes | None, after: KeySlopes) -> KeySlopes:
 def _sigmas(pump: PumpDescription) -> dict[str, float]:
     """Return the standard deviations that [tolerance] states, by path."""
     drawn = drawing_of(pump)
-    own = {one.name: one.sigma for one in drawn.dimensions if len(one.keys) == 1}
-    return own | {fit.name: fit_sigma(fit) for fit in drawn.fits}
+    return {one.name: pump_sigma(one) for one in drawn.members if len(one.keys) == 1}
 
 
 def one_sided(found: Sensitivity) -> list[KeySlopes]:

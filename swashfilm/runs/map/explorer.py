@@ -24,7 +24,7 @@ FINE = 41
 """Points along an axis of the interpolated field."""
 HEIGHT = 520  # pixels
 PARTS = ("overall", "volumetric", "hydromechanical")
-ACROSS = (MapInput.PRESSURE, MapInput.SPEED)
+ACROSS = (MapInput.SPEED, MapInput.PRESSURE)
 """Axes of the first slice, as far as they have several levels."""
 NUMBERS = {
     "delivery_flow": ("delivery flow / L/min", 6e4), "drain_flow": ("case drain flow / L/min", 6e4),

@@ -344,6 +344,17 @@ def test_large_soft_films_are_solved_without_a_dense_matrix(monkeypatch):
         )
 
 
+@pytest.mark.parametrize("name", ["jfo", "jfo, four edges", "oil", "rough"])
+def test_large_films_on_a_grid_are_solved_by_iteration(name, monkeypatch):
+    solved = _solved(CASES[name])
+    eliminated = solved.gradients()
+    monkeypatch.setattr("reynolds.adjoint.transposed.LARGE", 10)
+    monkeypatch.setattr("reynolds.adjoint.transposed.TransposedFilm._eliminated", None)
+    for output, gradient in solved.gradients().items():
+        expected = eliminated[output].density
+        assert gradient.density == pytest.approx(expected, rel=1e-7, abs=1e-8 * np.abs(expected).max())
+
+
 def test_unknowns_at_which_a_cavity_may_open_are_told():
     """A parallel film at the cavitation pressure neither bears nor lacks oil; the derivative is then one-sided."""
     space = film_space(rectangle((0.02, 0.01), (16, 4), cell=Cell.QUADRILATERAL))
