@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from swashfilm.output.convergence import Convergence, ConvergenceKind
+from reynolds.numerics.convergence import Convergence, ConvergenceKind
 from swashfilm.output.headline import named
 from swashfilm.output.tables import write_csv
 from system.inputs.units import Dimension, format_quantity
