@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from swashfilm.output.convergence import Convergence, ConvergenceKind
+from reynolds.numerics.convergence import Convergence, ConvergenceKind
 from swashfilm.output.data.files import CSV_DIGITS
 from swashfilm.output.headline import named, shown_of, titled_key
 from swashfilm.output.tables import write_csv

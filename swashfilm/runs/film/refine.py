@@ -2,10 +2,10 @@
 
 import numpy as np
 
+from reynolds.numerics.convergence import convergence
 from swashfilm.case.fields.mesh import MOST_CELLS
 from swashfilm.case.file import FilmCase
 from swashfilm.case.gap.instant import GapCase
-from swashfilm.output.convergence import convergence
 from swashfilm.output.headline import headline_numbers, sizes
 from swashfilm.output.refinement import Refinement
 from swashfilm.runs.film.solve.study import FilmStudy, solve_case

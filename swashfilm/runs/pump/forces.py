@@ -13,7 +13,7 @@ from reynolds.numerics.arrays import Array
 from swashfilm.output.data.files import Column, read_columns, write_columns
 from swashfilm.output.figures import figure_of, legend_below
 from swashfilm.output.page import inlined
-from swashfilm.output.picture import Picture
+from swashfilm.output.touch.picture import Picture
 from system.multibody.closure import closure
 from system.multibody.kinematics import SHAFT
 from system.multibody.retainer import guide_loss

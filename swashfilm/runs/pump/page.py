@@ -11,9 +11,9 @@ from swashfilm.output.data.files import read_netcdf
 from swashfilm.output.figures import smaller
 from swashfilm.output.gap_names import TITLES
 from swashfilm.output.page import inlined, read_summary, write_page
-from swashfilm.output.picture import Picture
 from swashfilm.output.refinement import refinement_head, refinement_rows
 from swashfilm.output.touch.explorer import Explorer
+from swashfilm.output.touch.picture import Picture
 from swashfilm.runs.pump import plots as pump_plots
 from swashfilm.runs.pump.data import GAPS
 from swashfilm.runs.pump.floating import floating_view

@@ -12,8 +12,8 @@ from bench_pump import BENCH
 from reynolds import Cell, annulus, mesh_from_file, rectangle
 from reynolds.fem.mesh_check import mesh_faults
 from reynolds.fem.refine import refine_mesh
+from reynolds.numerics.convergence import ConvergenceKind, convergence
 from swashfilm.__main__ import main
-from swashfilm.output.convergence import ConvergenceKind, convergence
 
 SLIDER = """
 format = 1

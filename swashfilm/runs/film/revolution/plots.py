@@ -38,7 +38,7 @@ BANDS = {
 }  # fmt: skip
 MEANING = {
     Active.CONTACT: "contact", Active.CAVITATION: "cavitation", Active.RETAINER: "retainer force",
-    Active.LIFT: "full film only",
+    Active.LIFT: "full film",
 }  # fmt: skip
 
 
@@ -88,7 +88,7 @@ def film_plot(data: xarray.Dataset) -> Figure:
     pressures.plot(angle, shown(data, "film_pressure_max"), color=THIRD, label="largest film pressure")
     pressures.plot(angle, chamber, color=SECOND, linestyle="--", label=name)
     pressures.set(ylabel=title_in("pressure, gauge", "Pa"), ylim=(min(0.0, float(np.nanmin(chamber))), None))
-    figure.legend(loc="outside upper right", fontsize=8, ncols=4)
+    figure.legend(loc="outside upper right", fontsize=8, ncols=2)
     draw_bands(bands, data)
     bands.set(xlabel="shaft angle from inner dead centre [deg]", xlim=(0.0, span(data)))
     return figure
@@ -203,7 +203,7 @@ def _temperature(data: xarray.Dataset) -> Figure:
         at = float(shown_in("K").of(data.attrs[f"{wall}_wall_temperature_K"]))
         axes.axhline(at, color=INK, linestyle=style, linewidth=0.9, label=f"{wall} wall")
     axes.set(xlabel="shaft angle [deg]", ylabel="temperature [degC]", xlim=(0.0, span(data)))
-    figure.legend(loc="outside upper right", fontsize=8, ncols=4)
+    figure.legend(loc="outside upper right", fontsize=8, ncols=2)
     axes.grid(visible=True, alpha=0.3)
     return figure
 

@@ -3,8 +3,8 @@
 from pathlib import Path
 from typing import Any
 
+from reynolds.numerics.convergence import convergence
 from swashfilm.case.gap.revolution import RevolutionCase
-from swashfilm.output.convergence import convergence
 from swashfilm.output.data.files import write_netcdf
 from swashfilm.output.refinement import Refinement, refinement_summary, write_refinement
 from swashfilm.output.run_folder import write_json
