@@ -15,6 +15,9 @@ from swashfilm.output.headline import named
 from swashfilm.output.page import inlined, read_summary, write_page
 from swashfilm.output.refinement import refinement_head, refinement_rows
 from swashfilm.output.result import read_netcdf
+from swashfilm.output.touch.explorer import Explorer
+from swashfilm.output.touch.meshes import triangles
+from swashfilm.output.touch.relief import ReliefField, relief
 from swashfilm.runs.film.history import last_of
 
 if TYPE_CHECKING:
@@ -40,12 +43,14 @@ def write_film_page(folder: Path) -> Path:
     The page is self-contained. Raises InputFaults where one of the three files is missing.
     """
     summary = read_summary(folder, ("summary.json", "resolved.toml", "results.nc"), "a film's run folder")
+    fields = last_of(read_netcdf(folder / "results.nc"))
     return write_page(
         folder,
         "film",
         name=summary["name"],
-        picture=inlined(film_figure(last_of(read_netcdf(folder / "results.nc")))),
-        history=inlined(history_picture(history)) if (history := folder / "history.csv").is_file() else "",
+        picture=inlined(film_figure(fields)),
+        surface=inlined(surface_figure(fields), film_relief(fields)),
+        history=inlined(history_picture(history)) if (history := folder / "history.csv").is_file() else None,
         rows=list(summary_rows(summary)),
         warnings=summary["warnings"],
         assumptions=summary.get("assumptions", []),
@@ -87,6 +92,28 @@ def film_figure(fields: xarray.Dataset) -> Figure:
         values = field.in_unit(fields[field.name].values)
         draw_map(axes, place, fields["cells"].values, values, field.title, colours=field.colours)
     return figure
+
+
+def surface_figure(fields: xarray.Dataset) -> Figure:
+    """Draw film pressure (MPa) as a surface over the film plane (mm)."""
+    figure = figure_of(8.0, 5.0)
+    axes = figure.add_subplot(projection="3d")
+    place = (fields[axis].values * 1e3 for axis in "xy")
+    corners, pressure = triangles(fields["cells"].values), fields["film_pressure"].values * 1e-6
+    axes.plot_trisurf(*place, pressure, triangles=corners, cmap="viridis", rasterized=True)
+    axes.set(xlabel="x / mm", ylabel="y / mm", zlabel="film pressure / MPa")
+    return figure
+
+
+def film_relief(fields: xarray.Dataset) -> Explorer:
+    """Return the relief of the fields of FIELDS at the vertices."""
+    shown = [
+        ReliefField(field.title, field.in_unit(fields[field.name].values[None]), field.colours)
+        for field in FIELDS
+        if field.name in fields and fields[field.name].dims == fields["x"].dims
+    ]
+    place = fields["x"].values[None] * 1e3, fields["y"].values[None] * 1e3
+    return relief(place, fields["cells"].values, shown, ("as solved",))
 
 
 def history_picture(history: Path) -> Figure:

@@ -12,7 +12,7 @@ import numpy as np
 from reynolds.numerics.arrays import Array
 from swashfilm.output.figures import figure_of, legend_below
 from swashfilm.output.page import inlined
-from swashfilm.output.picture import Picture
+from swashfilm.output.touch.picture import Picture
 from system.multibody.closure import closure
 from system.multibody.kinematics import SHAFT
 from system.multibody.retainer import guide_loss

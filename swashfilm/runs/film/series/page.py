@@ -38,16 +38,16 @@ def write_study_page(folder: Path) -> Path:
     """Write report.html and plots/ of a study's run folder from its summary.json, study.nc and input.toml."""
     summary = read_summary(folder, ("summary.json", "study.nc", "input.toml"), "a study's run folder")
     data = read_netcdf(folder / "study.nc")
-    pictures = {key: png_of(figure) for key, figure in (course_plots(data) | study_plots(data)).items()}
+    pictures = course_plots(data) | study_plots(data)
     (folder / PLOTS).mkdir(exist_ok=True)
-    for key, png in pictures.items():
-        (folder / PLOTS / f"{key}.png").write_bytes(png)
+    for key, figure in pictures.items():
+        (folder / PLOTS / f"{key}.png").write_bytes(png_of(figure))
     return write_page(
         folder,
         "study",
         name=summary["name"],
         warnings=summary["warnings"],
-        pictures={key: inlined(png) for key, png in pictures.items()},
+        pictures={key: inlined(figure) for key, figure in pictures.items()},
         rows=list(span_rows(summary)),
         failed=list(failed_rows(summary)),
         case=(folder / "input.toml").read_text("utf-8"),
