@@ -14,9 +14,12 @@ from .api import (
     reference as reference,
     reproduce as reproduce,
     run as run,
+    sensitivity as sensitivity,
     study as study,
     table as table,
+    tolerance as tolerance,
     transient as transient,
+    vary as vary,
 )
 from .runs.table.gap_run import read_gap_table as read_gap_table
 from .version import __version__ as __version__

@@ -13,6 +13,7 @@ from reynolds.laws.roughness import beyond_range
 from reynolds.problem import Cavitation, FilmSolution
 from reynolds.solve.loads import dissipated
 from swashfilm.runs.film.solve.gap import gap_warnings
+from system.inputs.shown import pressure_text
 
 if TYPE_CHECKING:
     from swashfilm.runs.film.solve.study import FilmStudy
@@ -46,6 +47,7 @@ def film_warnings(study: FilmStudy) -> list[dict[str, str]]:
         *_supply_warnings(study),
         *_heat_warnings(study),
         *_size_warnings(study),
+        *_one_sided_warnings(study),
     ]
     own = [] if study.gap is None else gap_warnings(study.gap)
     return own + [{"name": name, "text": text} for name, text in found]
@@ -150,6 +152,18 @@ def _size_warnings(study: FilmStudy) -> Iterator[Warned]:
         )
 
 
+def _one_sided_warnings(study: FilmStudy) -> Iterator[Warned]:
+    """Yield a warning of derivatives that are one-sided, since the cavity changes with the slightest change."""
+    if study.sensitivity is not None and (weak := study.sensitivity.weak):
+        yield (
+            "weakly_active_cavity",
+            f"{weak} of {study.solution.problem.space.size} unknowns neither bear pressure nor lack oil (limit: none, "
+            "to 1e-6 of the largest pressure): the cavity may open or close there with the slightest change, so that "
+            "the sensitivities hold for changes to one side only; compare with films that are a little thicker and "
+            "thinner",
+        )
+
+
 def _rough_warnings(study: FilmStudy) -> Iterator[Warned]:
     solution, surface = study.solution, study.solution.problem.surface
     if surface is None:
@@ -188,9 +202,9 @@ def _pressure_warnings(study: FilmStudy) -> Iterator[Warned]:
     if constant and not study.gap and highest > LARGEST_ISOVISCOUS_PRESSURE:
         yield (
             "viscosity_without_pressure",
-            f"the film reaches {highest * 1e-6:.3g} MPa (limit {LARGEST_ISOVISCOUS_PRESSURE * 1e-6:g} "
-            "MPa for a constant viscosity): viscosity is several times higher; add pressure_law in [oil], and "
-            "elastic walls, [elastic]",
+            f"the film reaches {pressure_text(highest)} (limit {pressure_text(LARGEST_ISOVISCOUS_PRESSURE)} for a "
+            "constant viscosity): viscosity is several times higher; add pressure_law in [oil], and elastic walls, "
+            "[elastic]",
         )
 
 
@@ -206,8 +220,8 @@ def _supply_warnings(study: FilmStudy) -> Iterator[Warned]:
     if problem.cavitation is not Cavitation.NONE and problem.cavitation_pressure < VACUUM:
         yield (
             "cavitation_below_vacuum",
-            f"the cavitation pressure is {problem.cavitation_pressure * 1e-5:.4g} bar gauge (vacuum: "
-            f"{VACUUM * 1e-5:.4g} bar): oil cavitates before; is the value absolute, not gauge?",
+            f"the cavitation pressure is {pressure_text(problem.cavitation_pressure, 4)} gauge (vacuum: "
+            f"{pressure_text(VACUUM, 4)}): oil cavitates before; is the value absolute, not gauge?",
         )
 
 

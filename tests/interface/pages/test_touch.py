@@ -43,7 +43,7 @@ def curve_figure() -> Any:
     figure = figure_of(8.0, 3.0)
     axes = figure.subplots()
     axes.plot(ANGLE, PRESSURE, color="#1c2328", label=NAME)
-    axes.set(xlabel="shaft angle / deg", ylabel="pressure, gauge / MPa", xlim=(0, 360))
+    axes.set(xlabel="shaft angle [deg]", ylabel="pressure, gauge [MPa]", xlim=(0, 360))
     axes.legend()
     return figure
 
@@ -73,8 +73,8 @@ def film_explorer() -> Explorer:
     cells = np.stack([corner, corner + 1, corner + 6, corner + 5], axis=1)
     states = np.arange(1.0, 4.0)[:, None]
     fields = [
-        ReliefField("film pressure / MPa", states * (1.0 + x * y)),
-        ReliefField("film thickness / um", 5.0 / states + x),
+        ReliefField("film pressure [MPa]", states * (1.0 + x * y)),
+        ReliefField("film thickness [um]", 5.0 / states + x),
     ]
     return relief((np.tile(x, (3, 1)), np.tile(y, (3, 1))), cells, fields, ("0 deg", "120 deg", "240 deg"))
 
@@ -198,8 +198,8 @@ def choose(figure: Any, name: str, option: int) -> None:
 @in_browser
 def test_hovering_over_a_curve_tells_the_number_of_its_table(opened: Opener) -> None:
     text = hover(drawn(opened(), "curve"), 0, 45)
-    assert f"pressure, gauge / MPa: {PRESSURE[45]:.6g}" in text
-    assert "shaft angle / deg: 90" in text
+    assert f"pressure, gauge [MPa]: {PRESSURE[45]:.6g}" in text
+    assert "shaft angle [deg]: 90" in text
 
 
 @in_browser
@@ -207,12 +207,12 @@ def test_the_unit_switch_multiplies_pressures_by_ten(opened: Opener) -> None:
     tab = opened()
     figure = drawn(tab, "curve")
     before = told(figure, "[plot.data[0].y[45], plot.layout.yaxis.range[1]]")
-    assert told(figure, "plot.layout.yaxis.title.text") == "pressure, gauge / MPa"
+    assert told(figure, "plot.layout.yaxis.title.text") == "pressure, gauge [MPa]"
     tab.locator('[name="pressure unit"]').select_option("bar")
-    tab.wait_for_function("document.querySelector('.plot').layout.yaxis.title.text.endsWith('/ bar')")
+    tab.wait_for_function("document.querySelector('.plot').layout.yaxis.title.text.endsWith('[bar]')")
     after = told(figure, "[plot.data[0].y[45], plot.layout.yaxis.range[1]]")
     assert after == pytest.approx([10.0 * value for value in before])
-    assert "/ bar: " in hover(figure, 0, 45)
+    assert "[bar]: " in hover(figure, 0, 45)
 
 
 @in_browser
@@ -240,9 +240,9 @@ def test_another_pair_of_axes_hides_its_sliders_and_offers_the_third(opened: Ope
 def test_a_solved_point_of_a_map_has_the_number_of_its_table(opened: Opener) -> None:
     figure, data = drawn(opened(), "map"), map_data()
     names = figure.locator('[name="quantity"] option').all_text_contents()
-    choose(figure, "quantity", names.index("shaft torque / N m"))
+    choose(figure, "quantity", names.index("shaft torque [N m]"))
     expected = f"{data.values['shaft_torque'][1, 1, 1, 0, 0]:.8g}"
-    assert f"shaft torque / N m: {expected}" in hover(figure, 1, 4)
+    assert f"shaft torque [N m]: {expected}" in hover(figure, 1, 4)
 
 
 @in_browser
@@ -255,7 +255,7 @@ def test_the_slider_over_the_shaft_angle_moves_the_field(opened: Opener) -> None
         highest.append(told(figure, "Math.max(...plot.data[0].intensity)"))
     assert highest == pytest.approx([13.0, 26.0, 39.0])
     choose(figure, "field", 1)
-    assert told(figure, "plot.data[0].colorbar.title.text") == "film thickness / um"
+    assert told(figure, "plot.data[0].colorbar.title.text") == "film thickness [um]"
 
 
 @in_browser
@@ -342,7 +342,7 @@ def test_a_curve_keeps_its_panel_labels_and_limits() -> None:
     found = touchable(figure)
     assert found is not None
     assert found.layout.xaxis.range == (0.0, 360.0)
-    assert found.layout.yaxis.title.text == "pressure, gauge / MPa"
+    assert found.layout.yaxis.title.text == "pressure, gauge [MPa]"
     assert found.data[0].line.color == "#1c2328"
     assert found.data[0].legend == "legend"
 

@@ -3,8 +3,9 @@
 from pathlib import Path
 from typing import Any
 
+from reynolds.numerics.convergence import convergence
 from swashfilm.case.gap.revolution import RevolutionCase
-from swashfilm.output.convergence import convergence
+from swashfilm.output.data.files import write_netcdf
 from swashfilm.output.refinement import Refinement, refinement_summary, write_refinement
 from swashfilm.output.run_folder import write_json
 from swashfilm.runs.film.revolution.data import (
@@ -65,18 +66,18 @@ def run_revolution_case(
         write_refinement(folder / "refinement.csv", found)
     report(0, 1, "writing fields")
     data = revolution_dataset(study)
-    data.to_netcdf(folder / "results.nc", engine="h5netcdf")
+    write_netcdf(data, folder / "results.nc")
     write_series(folder / f"{case.gap.value}.csv", data)
     write_convergence(folder / "convergence.csv", study)
     write_revolution_fields(folder, study)
     write_json(folder / "summary.json", summary)
-    report(0, 1, "drawing")
-    from swashfilm.runs.film.revolution.page import write_revolution_page
-
-    write_revolution_page(folder)
     if animated:
         from swashfilm.runs.film.revolution.animation import write_animation
 
         write_animation(folder, data, report)
+    report(0, 1, "drawing")
+    from swashfilm.runs.film.revolution.page import write_revolution_page
+
+    write_revolution_page(folder)
     report(1, 1, "done")
     return summary

@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from swashfilm.output.figures import figure_of
-from swashfilm.output.headline import bracketed, sizes, titled
+from swashfilm.output.headline import shown_of, sizes, titled_key
+from system.inputs.shown import Shown, shown_in, titled
 
 if TYPE_CHECKING:
     import xarray
@@ -20,6 +21,7 @@ LEAST_CHANGE = 1e-5  # relative variation below which a number is not drawn
 LOG_FROM = 30.0  # ratio of an axis' ends above which the axis is logarithmic
 LOG_TO = 1e6  # ratio of an axis' ends above which the small end counts as zero
 MOST_LINES = 12
+LEGEND_LINE = 0.17  # height of a line of the legend, inches
 STRIBECK = ("friction_coefficient", "hersey_number_m")
 CONTACT = "contact_load_fraction"
 COURSES = "course_"  # series over the shaft angle, drawn by `courses`
@@ -31,13 +33,27 @@ def study_plots(data: xarray.Dataset) -> dict[str, Figure]:
     Three keys and more yield lines over the first, one for each value of the others. `stribeck`, where the Hersey
     number varies, is the friction coefficient over it.
     """
-    ordered = data.sortby([dim for dim in data.dims if dim in data.coords and _is_numeric(data[dim].values)])
+    ordered, keys = _ordered(data), _varying(data)
+    stribeck = stribeck_plot(data)
+    first = {} if stribeck is None else {"stribeck": stribeck}
+    return first | {key: number_plot(ordered, key) for key in keys}
+
+
+def stribeck_plot(data: xarray.Dataset) -> Figure | None:
+    """Draw the friction coefficient over the Hersey number; None where one of them does not vary."""
+    return _stribeck(_ordered(data)) if set(STRIBECK) <= set(_varying(data)) else None
+
+
+def _ordered(data: xarray.Dataset) -> xarray.Dataset:
+    return data.sortby([dim for dim in data.dims if dim in data.coords and _is_numeric(data[dim].values)])
+
+
+def _varying(data: xarray.Dataset) -> list[str]:
+    """Return the keys of the numbers that vary."""
     variables = [str(key) for key in data.data_vars if key not in ("status", "reason")]
     numbers = {key: data[key].values for key in variables if not key.startswith(COURSES)}
     size = sizes({key: float(np.nanmax(np.abs(values))) for key, values in numbers.items()}, {})
-    keys = [key for key, values in numbers.items() if np.nanmax(values) - np.nanmin(values) > LEAST_CHANGE * size[key]]
-    first = {"stribeck": _stribeck(ordered)} if set(STRIBECK) <= set(keys) else {}
-    return first | {key: number_plot(ordered, key) for key in keys}
+    return [key for key, values in numbers.items() if np.nanmax(values) - np.nanmin(values) > LEAST_CHANGE * size[key]]
 
 
 def _is_numeric(values: np.ndarray) -> bool:
@@ -53,7 +69,7 @@ def number_plot(data: xarray.Dataset, key: str) -> Figure:
         _map(figure, axes, data, key)
     else:
         _lines(axes, data, key)
-    axes.set_title(titled(key), fontsize=10)
+    axes.set_title(titled_key(key), fontsize=10)
     return figure
 
 
@@ -64,23 +80,24 @@ def _lines(axes: Any, data: xarray.Dataset, key: str) -> None:
     lines = list(product(*(range(data.sizes[dim]) for dim in others)))
     for index in lines[:MOST_LINES]:
         at = dict(zip(others, index, strict=True))
-        axes.plot(places, field.isel(at).values, "o-", markersize=3.5, label=where(data, at) or None)
+        axes.plot(places, shown_of(key).of(field.isel(at).values), "o-", markersize=3.5, label=where(data, at) or None)
     if others:
-        axes.legend(fontsize=7, title=None if len(lines) <= MOST_LINES else f"{MOST_LINES} of {len(lines)} lines")
+        name_lines(axes, None if len(lines) <= MOST_LINES else f"{MOST_LINES} of {len(lines)} lines")
     if labels:
         axes.set_xticks(places, labels, rotation=20, ha="right", fontsize=7)
     elif _is_geometric(places):
         axes.set_xscale("log")
     if _is_wide(field.values):
         axes.set_yscale("log")
-    axes.set(xlabel=_axis_title(data, str(along)), ylabel=titled(key))
+    axes.set(xlabel=_axis_title(data, str(along)), ylabel=titled_key(key))
     axes.grid(visible=True, alpha=0.3)
 
 
 def _map(figure: Any, axes: Any, data: xarray.Dataset, key: str) -> None:
     """Draw colours and contours over two keys, logarithmic for a number with a large span."""
     across, along = (str(dim) for dim in data[key].dims)
-    x, y, values = data[across].values, data[along].values, data[key].values.T
+    x, y = (axis_unit(data, dim).of(data[dim].values) for dim in (across, along))
+    values = shown_of(key).of(data[key].values.T)
     for places, scale in ((x, axes.set_xscale), (y, axes.set_yscale)):
         if _is_geometric(places):
             scale("log")
@@ -110,22 +127,25 @@ def _levels(values: np.ndarray) -> np.ndarray:
 def _stribeck(data: xarray.Dataset) -> Figure:
     """Draw the friction coefficient over the Hersey number: one line with the contact's share, or many."""
     figure, axes = figure_axes()
-    friction, hersey = (data[key].transpose(*data[STRIBECK[0]].dims) for key in STRIBECK)
+    friction, speeds = (data[key].transpose(*data[STRIBECK[0]].dims) for key in STRIBECK)
+    hersey = shown_of(STRIBECK[1])
     along, *others = (str(dim) for dim in friction.dims)
     lines = list(product(*(range(data.sizes[dim]) for dim in others)))[:MOST_LINES]
     for index in lines:
         at = dict(zip(others, index, strict=True))
-        y, x = friction.isel(at).values, hersey.isel(at).values
+        y, x = friction.isel(at).values, speeds.isel(at).values
         order = np.argsort(x)
-        axes.plot(x[order], y[order], "o-", markersize=3.5, label=where(data, at) or None)
+        axes.plot(hersey.of(x[order]), y[order], "o-", markersize=3.5, label=where(data, at) or None)
     axes.set_xscale("log")
     if _is_wide(friction.values):
         axes.set_yscale("log")
     axes.margins(y=0.15)
-    axes.set(xlabel="Hersey number mu U/p_mean / m", ylabel="friction coefficient", title="Stribeck curve")
+    axes.set(
+        xlabel=titled("Hersey number mu U/p_mean", hersey.unit), ylabel="friction coefficient", title="Stribeck curve"
+    )
     axes.grid(visible=True, alpha=0.3)
     if others:
-        axes.legend(fontsize=7)
+        name_lines(axes)
     else:
         _with_least_and_contact(axes, data, along)
     return figure
@@ -133,14 +153,11 @@ def _stribeck(data: xarray.Dataset) -> Figure:
 
 def _with_least_and_contact(axes: Any, data: xarray.Dataset, along: str) -> None:
     sorted_by_hersey = data.isel({along: np.argsort(data[STRIBECK[1]].values)})
-    friction, hersey = (sorted_by_hersey[key].values for key in STRIBECK)
+    friction, hersey = (shown_of(key).of(sorted_by_hersey[key].values) for key in STRIBECK)
     least = int(np.nanargmin(friction))
     if 0 < least < len(friction) - 1:
         axes.plot(hersey[least], friction[least], "v", color="black")
-        axes.annotate(
-            f"least {friction[least]:.3g}", (hersey[least], friction[least]), (0, -14), ha="center", fontsize=8,
-            textcoords="offset points",
-        )  # fmt: skip
+        axes.set_title(f"Stribeck curve, least {friction[least]:.3g} (triangle)")
     if CONTACT in data:
         beside = axes.twinx()
         beside.plot(hersey, sorted_by_hersey[CONTACT].values, "--", color="tab:orange", linewidth=1.0)
@@ -150,16 +167,20 @@ def _with_least_and_contact(axes: Any, data: xarray.Dataset, along: str) -> None
 
 def where(data: xarray.Dataset, at: Mapping[Any, int]) -> str:
     """Return the values of a line's keys, with their units."""
-    return ", ".join(
-        f"{dim} = {_text(data[dim].values[k])} {data[dim].attrs.get('units', '')}".strip() for dim, k in at.items()
-    )
+    return ", ".join(f"{dim} = {value_text(data, str(dim), k)}" for dim, k in at.items())
+
+
+def value_text(data: xarray.Dataset, dim: str, k: int) -> str:
+    """Return the k-th value of a varied key, with its unit."""
+    value = data[dim].values[k]
+    return axis_unit(data, dim).stated(float(value)) if _is_numeric(data[dim].values) else _text(value)
 
 
 def _places(data: xarray.Dataset, dim: str) -> tuple[np.ndarray, list[str]]:
     """Return the positions of a dimension's points, and their labels where they are texts."""
     values = data[dim].values if dim in data.coords else None
     if values is not None and _is_numeric(values):
-        return values, []
+        return np.asarray(axis_unit(data, dim).of(values)), []
     count = data.sizes[dim]
     if values is not None:
         return np.arange(count), [_text(value) for value in values]
@@ -170,8 +191,13 @@ def _places(data: xarray.Dataset, dim: str) -> tuple[np.ndarray, list[str]]:
 def _axis_title(data: xarray.Dataset, dim: str) -> str:
     if dim not in data.coords:
         return ", ".join(_axis_title(data, str(name)) for name in data.coords if data[name].dims == (dim,))
-    unit = data[dim].attrs.get("units", "")
-    return f"{dim} / {bracketed(unit)}" if unit else dim
+    return titled(dim, axis_unit(data, dim).symbol)
+
+
+def axis_unit(data: xarray.Dataset, dim: str) -> Shown:
+    """Return the unit in which the numbers of a varied key are shown."""
+    largest = float(np.max(np.abs(data[dim].values))) if _is_numeric(data[dim].values) else 0.0
+    return shown_in(data[dim].attrs.get("units", ""), dim, largest)
 
 
 def _text(value: object) -> str:
@@ -191,6 +217,14 @@ def _is_geometric(places: np.ndarray) -> bool:
     if len(places) < 3 or not places.min() > 0.0:
         return _is_wide(places)
     return _is_wide(places) or bool(np.ptp(np.diff(np.log(places))) < 1e-6)
+
+
+def name_lines(axes: Any, title: str | None = None) -> None:
+    """Name the lines below the picture, which grows by the height of the names."""
+    figure, (_, labels) = axes.figure, axes.get_legend_handles_labels()
+    width, height = figure.get_size_inches()
+    figure.set_size_inches(width, height + LEGEND_LINE * len(labels))
+    figure.legend(fontsize=7, title=title, loc="outside lower center")
 
 
 def figure_axes() -> tuple[Figure, Axes]:
