@@ -137,6 +137,7 @@
     if (inBar) toBar(figure);
     toTheme(figure);
     await Plotly.react(plot, figure.data, figure.layout, CONFIG);
+    plot.dataset.draws = Number(plot.dataset.draws ?? 0) + 1;
   }
 
   function element(kind, properties, ...children) {
@@ -194,7 +195,6 @@
     views.push(view);
     hideUsed(view);
     await draw(view);
-    view.plot.dataset.drawn = "yes";
   }
 
   if (!window.DecompressionStream || !window.IntersectionObserver) return;

@@ -15,6 +15,9 @@ from swashfilm.output.figures import figure_of
 from swashfilm.output.headline import named, number_text, numbers_text, shown_of, summary_scales, titled_key
 from swashfilm.output.page import inlined, read_summary, write_page
 from swashfilm.output.refinement import refinement_head, refinement_rows
+from swashfilm.output.touch.explorer import Explorer
+from swashfilm.output.touch.meshes import triangles
+from swashfilm.output.touch.relief import ReliefField, relief
 from swashfilm.runs.film.answer import film_tiles, film_words
 from swashfilm.runs.film.history import last_of
 from swashfilm.runs.film.sensitivity import sensitivity_figure, sensitivity_rows
@@ -52,6 +55,7 @@ def write_film_page(folder: Path) -> Path:
         "film",
         answer=Answer(tuple(film_tiles(summary)), film_words(summary), picture, CAPTION),
         name=summary["name"],
+        surface=inlined(surface_figure(fields), film_relief(fields)),
         of_gap="required_load_N" in summary,
         sensitivity=sensitivity_rows(summary),
         kept=summary.get("sensitivity", {}).get("kept", ""),
@@ -99,6 +103,29 @@ def film_figure(fields: xarray.Dataset) -> Figure:
         values = field.in_unit(fields[smooth_name(fields, field.name)].values)
         draw_map(axes, place, fields["cells"].values, values, field.title, colours=field.colours)
     return figure
+
+
+def surface_figure(fields: xarray.Dataset) -> Figure:
+    """Draw film pressure as a surface over the film plane (mm)."""
+    figure, pressure = figure_of(8.0, 5.0), FIELDS[0]
+    axes = figure.add_subplot(projection="3d")
+    place = (fields[axis].values * 1e3 for axis in "xy")
+    height, corners = pressure.in_unit(fields[pressure.name].values), triangles(fields["cells"].values)
+    axes.plot_trisurf(*place, height, triangles=corners, cmap=pressure.colours, rasterized=True)
+    axes.set(xlabel="x [mm]", ylabel="y [mm]", zlabel=pressure.title)
+    return figure
+
+
+def film_relief(fields: xarray.Dataset) -> Explorer:
+    """Return the relief of the fields of FIELDS at the vertices."""
+    known = [(field, smooth_name(fields, field.name)) for field in FIELDS if field.name in fields]
+    shown = [
+        ReliefField(field.title, field.in_unit(fields[name].values[None]), field.colours)
+        for field, name in known
+        if fields[name].dims == fields["x"].dims
+    ]
+    place = fields["x"].values[None] * 1e3, fields["y"].values[None] * 1e3
+    return relief(place, fields["cells"].values, shown, ("as solved",))
 
 
 def smooth_name(fields: xarray.Dataset, name: str) -> str:

@@ -18,6 +18,7 @@ from swashfilm.runs.pump import plots as pump_plots
 from swashfilm.runs.pump.data import GAPS
 from swashfilm.runs.pump.floating import floating_view
 from swashfilm.runs.pump.forces import forces_view
+from swashfilm.runs.pump.gap_explorer import gap_explorer
 from swashfilm.runs.pump.headline.answer import pump_answer
 from swashfilm.runs.pump.headline.powers import power_parts
 from swashfilm.runs.pump.scene.view import pump_view
@@ -60,7 +61,10 @@ def write_pump_page(folder: Path) -> Path:
         checks=check_rows(summary),
         forces=forces_view(folder, summary),
         pictures=_pictures(data, summary),
-        gap_maps={map_caption(data, gap): inlined(png) for gap, png in pump_plots.gap_maps(data).items()},
+        gap_maps={
+            map_caption(data, gap): inlined(drawn, gap_explorer(data, gap))
+            for gap, drawn in pump_plots.gap_maps(data).items()
+        },
         solid=[(gap.replace("_", " "), png) for gap in GAPS if (png := _kept(folder / f"{gap}.png"))],
         pump=_kept(folder / PICTURE, pump_view(folder)),
         turning=TURNING if (folder / TURNING).is_file() else "",
