@@ -11,12 +11,15 @@ from swashfilm.cli import check, doctor, report, schema
 from swashfilm.cli.new import command as new
 from swashfilm.console.command import Command
 from swashfilm.console.inputs import COMMAND_LINE
+from swashfilm.console.pressures import pressures_of
 from swashfilm.console.terminal import show
 from swashfilm.runs.calibrate import command as calibrate
+from swashfilm.runs.compare import command as compare
 from swashfilm.runs.diagnose import command as diagnose
+from swashfilm.runs.duty import command as duty
 from swashfilm.runs.export import command as export
 from swashfilm.runs.film import command as film
-from swashfilm.runs.map import command as operating_map, compare_command as compare, duty_command as duty
+from swashfilm.runs.map import command as operating_map
 from swashfilm.runs.pump import command as run
 from swashfilm.runs.reference import coefficients_command as coefficients, command as reference
 from swashfilm.runs.reproduce import command as reproduce
@@ -39,7 +42,8 @@ def run_command(words: Sequence[str]) -> int:
     if options.command is None:
         build_parser().print_help()
         return 0
-    return COMMANDS[options.command].run(options)
+    with pressures_of(options):
+        return COMMANDS[options.command].run(options)
 
 
 def parse(words: Sequence[str]) -> argparse.Namespace:

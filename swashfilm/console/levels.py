@@ -1,6 +1,7 @@
 """Levels of an input on the command line: `1000,1300,1700rpm`, `500..2500rpm:9`, or both in one list."""
 
 import re
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -9,7 +10,10 @@ from system.inputs.units import Dimension, QuantityError, parse_quantity, with_p
 from system.maps.plan import MapAxis, MapInput
 
 _NUMBER = re.compile(r"\s*[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?\s*")
+_DASHED = re.compile(r"\s*(\d+\.?\d*)\s*-\s*(\d+\.?\d*)\s*([^\d\s].*|)")
+_PERCENT = re.compile(r"\s*(\d+\.?\d*)\s*%\s*")
 _MOST = 1000
+_USUAL = 7  # levels that a remedy proposes
 
 
 def map_axis(option: str, text: str, given: MapInput, example: str) -> MapAxis | Fault:
@@ -18,17 +22,36 @@ def map_axis(option: str, text: str, given: MapInput, example: str) -> MapAxis |
     The unit of an item holds for items before it without a unit; `a..b:n` are n equally spaced levels from a to b.
     """
     try:
-        items = _with_units([item.strip() for item in text.split(",")], given.dimension)
-        values = sorted({value for item in items for value in _levels(item, given.dimension)})
+        items = level_texts(text) if given.dimension else [_item(item.strip()) for item in text.split(",")]
+        values = sorted({value for item in items for value in item.levels(given.dimension)})
     except QuantityError as reason:
         return Fault(option, reason.found, f"{reason.expected}: {example}", reason.nearest)
     return MapAxis(given, tuple(values))
 
 
-def _with_units(items: list[str], dimension: Dimension | None) -> list[str]:
+@dataclass(frozen=True)
+class LevelText:
+    """An item of a list of levels: one level, or two ends and the number of levels between them."""
+
+    ends: tuple[str, ...]
+    count: int = 1
+
+    def levels(self, dimension: Dimension | None) -> list[float]:
+        """Return the levels in SI; raise QuantityError for ends that are not of the dimension."""
+        ends = [_value(end, dimension) for end in self.ends]
+        return [float(value) for value in np.linspace(ends[0], ends[-1], self.count)]
+
+
+def level_texts(text: str) -> list[LevelText]:
+    """Return the items of a text such as `1000,1300..1700rpm:5`, each with the unit of its list.
+
+    Raises QuantityError for a range without a number of levels.
+    """
+    return [_item(item) for item in with_units([item.strip() for item in text.split(",")])]
+
+
+def with_units(items: list[str]) -> list[str]:
     """Return the items, each without a unit completed by the unit of the next item that has one."""
-    if dimension is None:
-        return items
     found, unit = [], ""
     for item in reversed(items):
         ends, colon, count = item.partition(":")
@@ -44,16 +67,19 @@ def _with_units(items: list[str], dimension: Dimension | None) -> list[str]:
     return found[::-1]
 
 
-def _levels(item: str, dimension: Dimension | None) -> list[float]:
+def _item(item: str) -> LevelText:
+    if dashed := dashed_range(item):
+        raise QuantityError(repr(item), "a level, or a range with a number of levels", f"{dashed}:{_USUAL}")
     ends, colon, count = item.partition(":")
     low, dots, high = ends.partition("..")
     if bool(dots) != bool(colon):
-        raise QuantityError(repr(item), "a level, or a range with a number of levels")
+        remedy = f"{item}:{_USUAL}" if dots else ""
+        raise QuantityError(repr(item), "a level, or a range with a number of levels", remedy)
     if not dots:
-        return [_value(low, dimension)]
+        return LevelText((low,))
     if not (count.strip().isdecimal() and 2 <= int(count) <= _MOST):
         raise QuantityError(f"{count!r} levels", f"2 to {_MOST} levels")
-    return [float(value) for value in np.linspace(_value(low, dimension), _value(high, dimension), int(count))]
+    return LevelText((low, high), int(count))
 
 
 def _value(text: str, dimension: Dimension | None) -> float:
@@ -62,4 +88,12 @@ def _value(text: str, dimension: Dimension | None) -> float:
     try:
         return float(text)
     except ValueError:
-        raise QuantityError(repr(text), "bare numbers", with_point(text)) from None
+        percent = _PERCENT.fullmatch(text)
+        remedy = f"{float(percent[1]) / 100.0:g}" if percent else with_point(text)
+        raise QuantityError(repr(text), "bare numbers", remedy) from None
+
+
+def dashed_range(text: str) -> str:
+    """Return `5..35MPa` of `5-35MPa`; empty for a text that is no such range."""
+    match = _DASHED.fullmatch(text)
+    return f"{match[1]}..{match[2]}{match[3]}" if match else ""

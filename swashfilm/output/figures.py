@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+import re
 from collections.abc import Iterator
 from contextlib import contextmanager
 from contextvars import ContextVar
@@ -22,6 +23,15 @@ LARGE = 30_000
 _INKS = 32
 """Number of colours of a picture of lines."""
 _FIELD_QUALITY, _FIELD_DPI, _LINES_DPI = 50, 64, 90
+FEWEST_PIXELS = 700
+"""Least width of a picture of a field."""
+_PLAIN = dict.fromkeys(("Date", "Creator", "Format", "Type"))
+_FONTS = ["DejaVu Sans", "Verdana"]
+_PATH = re.compile(rb'(?<= d=")[^"]*')
+_LONG = re.compile(rb"(\.\d)\d+")
+_BLANKS = re.compile(rb"\s*([MLQCz])\s*")
+_BETWEEN = re.compile(rb">\s+<")
+_NAMES = re.compile(rb' id="(?:figure|axes|[xy]tick|line2d|patch|text|matplotlib\.axis|QuadContourSet)_\d+"')
 _BY_PYPLOT: ContextVar[bool] = ContextVar("by_pyplot", default=False)
 
 
@@ -64,17 +74,28 @@ def png_of(figure: Figure) -> bytes:
 
 
 def svg_of(figure: Figure) -> bytes:
-    """Return the figure as SVG with text as text; areas are pictures inside it where they have many corners."""
+    """Return the figure as SVG with text as text.
+
+    Areas are pictures inside it where they have many corners; contours stay lines up to that many each.
+    """
     from matplotlib import rc_context
+    from matplotlib.contour import ContourSet
 
     areas = [cells for axes in figure.axes for cells in axes.collections]
     corners = [sum(np.size(path.vertices) // 2 for path in cells.get_paths()) for cells in areas]
     for cells, count in zip(areas, corners, strict=True):
-        cells.set_rasterized(bool(sum(corners) > _MANY and count > _FEW))
+        few = _MANY if isinstance(cells, ContourSet) else _FEW
+        cells.set_rasterized(bool(sum(corners) > _MANY and count > few))
     picture = io.BytesIO()
-    with rc_context({"svg.fonttype": "none", "svg.hashsalt": "swashfilm"}):
-        figure.savefig(picture, format="svg", dpi=110, metadata={"Date": None})
-    return picture.getvalue()
+    with rc_context({"svg.fonttype": "none", "svg.hashsalt": "swashfilm", "font.sans-serif": _FONTS}):
+        figure.savefig(picture, format="svg", dpi=110, metadata=_PLAIN)
+    return _shortened(picture.getvalue())
+
+
+def _shortened(svg: bytes) -> bytes:
+    """Return an SVG without blanks between its elements and names of them, its paths to a tenth of a point."""
+    short = _PATH.sub(lambda path: _BLANKS.sub(rb"\1", _LONG.sub(rb"\1", path[0])), svg)
+    return _NAMES.sub(b"", _BETWEEN.sub(b"><", short))
 
 
 def compact(figure: Figure) -> bytes:
@@ -86,7 +107,8 @@ def compact(figure: Figure) -> bytes:
         return vector
     fields = any(kept_field(area) for axes in figure.axes for area in axes.collections)
     drawn, picture = io.BytesIO(), io.BytesIO()
-    figure.savefig(drawn, format="png", dpi=_FIELD_DPI if fields else _LINES_DPI)
+    dpi = max(_FIELD_DPI, FEWEST_PIXELS / figure.get_figwidth()) if fields else _LINES_DPI
+    figure.savefig(drawn, format="png", dpi=dpi)
     pixels = Image.open(drawn).convert("RGB")
     if fields:
         pixels.save(picture, format="WEBP", quality=_FIELD_QUALITY, method=6)

@@ -13,7 +13,7 @@ from swashfilm.output.touch.packing import short
 from swashfilm.output.touch.traces import scale_of
 
 DIGITS = 4
-PLACE = "<br>x / mm: %{x:.4~g}<br>y / mm: %{y:.4~g}"
+PLACE = "<br>x [mm]: %{x:.4~g}<br>y [mm]: %{y:.4~g}"
 HEIGHT = 520  # pixels
 LONG = 1.5
 """Length of the longer side of the film's plane in the view; the relief is as high as HIGH."""
@@ -94,7 +94,7 @@ def _layout(place: tuple[Array, Array], title: str) -> dict[str, object]:
     wide, deep = (float(np.ptp(one)) for one in place)
     longest = max(wide, deep)
     ratio = {"x": LONG * max(wide / longest, 0.3), "y": LONG * max(deep / longest, 0.3), "z": HIGH}
-    titles = {"x": "x / mm", "y": "y / mm", "z": title}
+    titles = {"x": "x [mm]", "y": "y [mm]", "z": title}
     axes = {f"{name}axis": {"title": {"text": text}, "showbackground": False} for name, text in titles.items()}
     scene = {"aspectmode": "manual", "aspectratio": ratio, "camera": CAMERA}
     return {"height": HEIGHT, "margin": {"l": 0, "r": 0, "t": 0, "b": 0}, "scene": scene | axes, "uirevision": "kept"}

@@ -221,7 +221,8 @@ def _bars(group: Any, panel: Panel) -> dict[str, Any]:
     along, across = ("x", "y") if lying else ("y", "x")
     axis = getattr(panel.axes, f"{across}axis")
     ticks, texts = axis.get_majorticklocs(), tick_texts(axis)
-    names = [texts[int(np.argmin(np.abs(ticks - at)))] for at in place] if len(ticks) else [""] * len(place)
+    named = 0 < len(ticks) == len(texts)  # an inner panel of a shared axis has no texts
+    names = [texts[int(np.argmin(np.abs(ticks - at)))] if named else "" for at in place]
     faces = [colour(bar.get_facecolor()) for bar in group.patches]
     name, title = _name(group), panel.titles[0 if lying else 1]
     return {

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import argparse
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -12,6 +12,7 @@ from swashfilm.case.gap.switches import add_floating_options
 from swashfilm.console.command import Command
 from swashfilm.console.fidelity import Fidelity
 from swashfilm.console.inputs import COMMAND_LINE, expect, given_text, option_value
+from swashfilm.console.settings import add_set_option, set_values
 from swashfilm.console.terminal import show, show_result
 from system.inputs.faults import Fault, InputFaults, nearest_choice
 
@@ -28,6 +29,14 @@ LEVELS = {
     "--inlet-pressures": ("INLET_PRESSURE", "25bar", "inlet pressures, gauge"),
 }
 """Member of `MapInput`, example and meaning of each axis of a map."""
+OPTIONS = {
+    "operating.speed": "--speeds", "operating.pressure": "--pressures",
+    "operating.displacement_ratio": "--displacements", "operating.temperature": "--temperatures",
+    "operating.inlet_pressure": "--inlet-pressures",
+}  # fmt: skip
+"""Option of each input by its key in a pump file."""
+MOST_LISTED = 6
+"""Largest number of levels that a fault lists."""
 FIDELITIES = (Fidelity.LUMPED, Fidelity.FIXED, Fidelity.FLOATING, Fidelity.TABLE)
 SOLVED = (Fidelity.FIXED.value, Fidelity.FLOATING.value)
 """Fidelities that solve films."""
@@ -41,6 +50,7 @@ def add_map_options(command: argparse.ArgumentParser) -> None:
     command.add_argument("pump", nargs="?", default="ref90", metavar="PUMP", help="built-in name or pump file")
     for option, (_, example, what) in LEVELS.items():
         command.add_argument(option, metavar=example, help=f"{what}; a..b:n: n levels; one value: constant")
+    add_set_option(command)
     command.add_argument(
         "--plan", metavar=f"{{{','.join(PLANS)}}}", default="paper",
         help="levels of axes that are not stated: the paper's 112 points (paper), or the pump's own point (point)",
@@ -78,7 +88,7 @@ def run_map_command(options: argparse.Namespace) -> int:
     name = asked.plan.pump.name
     with (
         map_executor(options, asked) as executor,
-        run_folder(f"map-{name}", options.output) as folder,
+        run_folder(f"map-{name}", options.output, workbook=options.excel) as folder,
         progress(len(asked.plan.points), f"map {name}") as report,
     ):
         run_map(asked, folder, executor, report)
@@ -104,27 +114,31 @@ def map_executor(options: argparse.Namespace, asked: MapCase) -> Iterator[Execut
         yield executor
 
 
-def map_case(options: argparse.Namespace) -> MapCase:
-    """Return the map of a command line; raise InputFaults with every fault."""
+def map_case(options: argparse.Namespace, axes: Sequence[MapAxis] | None = None) -> MapCase:
+    """Return the map of a command line, over these axes or over those that it states.
+
+    Raises InputFaults with every fault.
+    """
     from swashfilm.console.floating_options import floating_options
     from swashfilm.runs.map.run import MapCase
     from system.maps.plan import map_plan
     from system.pump_file.file import load_pump
 
     faults = [*_word_faults(options)]
-    axes = stated_axes(options, faults)
+    stated = set_values(options.set, faults)
+    axes = stated_axes(options, faults) if axes is None else axes
     expect(options.pump, "pump", "film")
     try:
-        pump = load_pump(options.pump)
+        pump = load_pump(options.pump, stated)
     except InputFaults as reason:
         raise InputFaults(reason.source, [*faults, *reason.faults], reason.lines) from None
     plan = map_plan(pump, axes)
-    faults += [*plan.checked().faults, *_solver_faults(options, plan)]
+    faults += [*_by_option(plan.checked().faults), *_solver_faults(options, plan)]
     if faults:
         raise InputFaults(COMMAND_LINE, faults)
     checks = None if options.check is None else int(options.check)
     fidelity = Fidelity(options.fidelity)
-    given = given_text(options.pump, {})
+    given = given_text(options.pump, stated)
     floating = floating_options(options, pump)
     return MapCase(plan, fidelity, given, options.table, options.direct, checks, options.resume, floating)
 
@@ -145,6 +159,18 @@ def stated_axes(options: argparse.Namespace, faults: list[Fault]) -> list[MapAxi
         else:
             axes[found.input] = found
     return list(axes.values())
+
+
+def _by_option(found: Sequence[Fault]) -> Iterator[Fault]:
+    """Yield the faults of a plan's points under the option of their input, those that expect the same as one."""
+    alike: dict[tuple[str, str, str], list[str]] = {}
+    for fault in found:
+        path = OPTIONS.get(fault.path, fault.path)
+        alike.setdefault((path, fault.expected, fault.nearest), []).append(fault.found)
+    for (path, expected, nearest), values in alike.items():
+        more = " .." if len(values) > MOST_LISTED else ""
+        listed = "; ".join(values[:MOST_LISTED]) + more
+        yield Fault(path, listed, expected, nearest)
 
 
 def _word_faults(options: argparse.Namespace) -> Iterator[Fault]:

@@ -93,7 +93,16 @@ def worth_starting(asked: MapCase, wanted: int) -> int:
 
 
 def run_map(asked: MapCase, folder: Path, executor: Executor, report: Report) -> dict[str, Any]:
-    """Solve a map's points and write points/, map.nc, map.csv, shares.csv, best.csv, summary.json and the page.
+    """Write the files of `solve_map` and the page; return the summary. Raises as `solve_map`."""
+    summary = solve_map(asked, folder, executor, report)
+    from swashfilm.runs.map.page import write_map_page
+
+    write_map_page(folder)
+    return summary
+
+
+def solve_map(asked: MapCase, folder: Path, executor: Executor, report: Report) -> dict[str, Any]:
+    """Solve a map's points and write points/, map.nc, map.csv, shares.csv, best.csv and summary.json.
 
     Returns the summary. A point that fails carries its reason. Raises InputFaults where the earlier run has no
     points or no table holds all of them, and as `build_table`.
@@ -115,9 +124,6 @@ def run_map(asked: MapCase, folder: Path, executor: Executor, report: Report) ->
     write_map(folder / "map.nc", data, error, summary | {"resolved_toml": resolved_toml(plan.pump)})
     write_tables(folder, data)
     write_json(folder / "summary.json", summary)
-    from swashfilm.runs.map.page import write_map_page
-
-    write_map_page(folder)
     return summary
 
 

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING
 from swashfilm.case.gap.switches import add_floating_options, switched_keys
 from swashfilm.console.command import Command
 from swashfilm.console.inputs import COMMAND_LINE, option_value, whole
+from swashfilm.console.settings import add_set_option, set_values
 from swashfilm.console.terminal import show_result
 from system.inputs.faults import Fault, InputFaults, nearest_choice
 from system.inputs.units import with_point
@@ -51,6 +52,7 @@ def add_table_options(command: argparse.ArgumentParser) -> None:
         command.add_argument(option, metavar=example, help=f"{what}; one value: constant")
     for option, (_, example, what) in HELD.items():
         command.add_argument(option, metavar=example, help=f"{what}; default: that of the pump file")
+    add_set_option(command, "the pump file or the case")
     command.add_argument(
         "--source", metavar="{fixed,floating}", default=_SOURCE, help="fidelity of the solved points (fixed)"
     )
@@ -73,7 +75,7 @@ def run_table_command(options: argparse.Namespace) -> int:
     if not is_film_case(options.pump):
         show_assumed(options.pump)
     with (
-        run_folder(f"table-{asked.name}", options.output) as folder,
+        run_folder(f"table-{asked.name}", options.output, workbook=options.excel) as folder,
         progress(asked.points, f"table {asked.name}") as report,
     ):
         try:
@@ -123,7 +125,7 @@ def _gap_case(options: argparse.Namespace) -> tuple[GapTableCase, int]:
     given["--source"] = None if options.source == _SOURCE else options.source
     stated = "a key of [table] or of the case"
     faults = [Fault(name, "an option beside a gap's case", stated) for name, text in given.items() if text]
-    case = load_gap_table(Path(options.pump), switched_keys(options))
+    case = load_gap_table(Path(options.pump), switched_keys(options), set_values(options.set, faults))
     learnt, held_out, workers = _counts(options, faults, len(case.axes))
     if faults:
         raise InputFaults(COMMAND_LINE, faults)
@@ -139,7 +141,7 @@ def _case(options: argparse.Namespace) -> tuple[TableCase, int]:
     from system.points.table.sources import Source
 
     faults: list[Fault] = []
-    single = {option for option in RANGES if ".." not in (option_value(options, option) or "..")}
+    single = {option for option in RANGES if _is_single(option_value(options, option))}
     counts = _counts(options, faults, max(1, len(RANGES) - len(single)))
     ranges = _ranges(options, faults, single)
     sources = [source.value for source in Source]
@@ -156,6 +158,13 @@ def _case(options: argparse.Namespace) -> tuple[TableCase, int]:
     speeds, pressures, ratios, temperatures = ranges
     axes = table_axes(pump, speeds, pressures, ratios, temperatures, held)
     return TableCase(pump, solver, axes, *counts[:2]), counts[2]
+
+
+def _is_single(text: str | None) -> bool:
+    """Return whether an option states one value."""
+    from swashfilm.console.levels import dashed_range
+
+    return text is not None and ".." not in text and not dashed_range(text)
 
 
 def _counts(options: argparse.Namespace, faults: list[Fault], inputs: int) -> tuple[int, int, int]:
@@ -175,9 +184,8 @@ def _pump(options: argparse.Namespace, faults: list[Fault], single: Collection[s
     from system.pump_file.file import load_pump
 
     keys = HELD | {option: RANGES[option] for option in single}
-    stated: dict[str, object] = {
-        path: text for option, (path, *_) in keys.items() if (text := option_value(options, option)) is not None
-    }
+    stated = set_values(options.set, faults)
+    stated |= {path: text for option, (path, *_) in keys.items() if (text := option_value(options, option)) is not None}
     if "--displacement" in single:
         try:
             stated["operating.displacement_ratio"] = float(options.displacement)
@@ -209,14 +217,16 @@ def _ranges(options: argparse.Namespace, faults: list[Fault], single: Collection
 
 
 def _range(faults: list[Fault], option: str, text: str, dimension: object, example: str) -> Range | None:
-    """Return MIN..MAX in SI; None after a fault."""
+    """Return MIN..MAX in SI, the unit of MAX also that of a MIN without one; None after a fault."""
+    from swashfilm.console.levels import dashed_range, with_units
     from system.inputs.units import Dimension, QuantityError, parse_quantity
 
-    ends = text.split("..")
+    kind = dimension if isinstance(dimension, Dimension) else None
+    ends = with_units([text])[0].split("..")
     try:
         if len(ends) != 2:
-            raise QuantityError(repr(text), "two ends with .. between them")
-        low, high = (parse_quantity(end, dimension) if isinstance(dimension, Dimension) else float(end) for end in ends)
+            raise QuantityError(repr(text), "two ends with .. between them", dashed_range(text))
+        low, high = (float(end) if kind is None else parse_quantity(end, kind) for end in ends)
         if not low < high:
             raise QuantityError(repr(text), "the lower end first")
     except QuantityError as reason:

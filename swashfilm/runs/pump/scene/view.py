@@ -46,9 +46,9 @@ class ViewField:
 
 
 FIELDS = (
-    ViewField("film_pressure [Pa]", "film pressure / MPa", 1e-6, 0.0, "viridis"),
-    ViewField("film_thickness [m]", "film thickness / um", 1e6, 0.0, "cividis"),
-    ViewField("film_temperature [K]", "film temperature / degC", 1.0, 273.15, "inferno"),
+    ViewField("film_pressure [Pa]", "film pressure [MPa]", 1e-6, 0.0, "viridis"),
+    ViewField("film_thickness [m]", "film thickness [um]", 1e6, 0.0, "cividis"),
+    ViewField("film_temperature [K]", "film temperature [degC]", 1.0, 273.15, "inferno"),
 )
 
 

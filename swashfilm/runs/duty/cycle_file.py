@@ -38,15 +38,13 @@ _RATIO_UNITS = {"1": 1.0, "-": 1.0, "%": 0.01}
 def read_cycle(path: Path, axes: tuple[MapAxis, ...]) -> Cycle:
     """Return the cycle of a file for a map of these axes: columns in any order and unit, `#` begins a comment.
 
-    Inputs with one level in the map may be left out. Raises InputFaults with every fault.
+    Columns are parted by commas, or by semicolons or tabs, where numbers may have a decimal comma. Inputs with one
+    level in the map may be left out. Raises InputFaults with every fault.
     """
     try:
         text = read_csv_text(path, f"a CSV file with columns {EXAMPLE}")
     except QuantityError as reason:
         raise InputFaults("command line", [Fault("cycle", reason.found, reason.expected, reason.nearest)]) from None
-    if ";" in "".join(text.head):
-        fault = Fault("head", f"'{','.join(text.head)}'", f"commas between columns: {EXAMPLE}", "decimals as 1.5")
-        raise InputFaults(str(path), [fault])
     if len(text.rows) < 2:
         raise InputFaults(str(path), [Fault("rows", str(len(text.rows)), f"at least two, under {EXAMPLE}")])
     faults: list[Fault] = []
@@ -75,6 +73,11 @@ def _levels(axes: tuple[MapAxis, ...], given: MapInput) -> int:
 def _columns(head: list[str], faults: list[Fault]) -> Iterator[tuple[str, tuple[int, float, float]]]:
     """Yield the name of each column, its index, and factor and offset to SI."""
     known, named = [TIME, *HEADS], set[str]()
+    if all(column.unit is None for column in head_columns(head)):
+        meant = dict.fromkeys(nearest_choice(cell.strip().lower(), known) for cell in head)
+        units = ", ".join(f"{name} [{UNITS[name]}]" for name in meant if name)
+        faults.append(Fault("head", f"'{','.join(head)}', without units", EXAMPLE, units))
+        return
     for place, (cell, column) in enumerate(zip(head, head_columns(head), strict=True)):
         name, unit = column.name, column.unit
         if unit is None or name not in known:

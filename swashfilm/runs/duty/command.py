@@ -18,17 +18,17 @@ def add_duty_options(command: argparse.ArgumentParser) -> None:
 def run_duty_command(options: argparse.Namespace) -> int:
     """Run `swashfilm duty` and return its exit code; raise InputFaults with every fault of map and cycle."""
     from swashfilm.output.run_folder import run_folder
-    from swashfilm.runs.map.cycle_file import read_cycle
-    from swashfilm.runs.map.duty import held_inputs, run_duty
+    from swashfilm.runs.duty.cycle_file import read_cycle
+    from swashfilm.runs.duty.result import DutyRun
+    from swashfilm.runs.duty.run import run_duty
     from swashfilm.runs.map.files import map_file, read_map
-    from swashfilm.runs.map.result import DutyRun
 
     data, error = read_map(map_file(options.map))
     cycle = read_cycle(options.cycle, data.axes)
-    with run_folder(f"duty-{data.name}", options.output) as folder:
+    with run_folder(f"duty-{data.name}", options.output, workbook=options.excel) as folder:
         run_duty(data, error, cycle, options.cycle, folder)
         found = DutyRun.opened(folder)
-    if held := held_inputs(data):
+    if held := found.summary["held"]:
         show(f"constant in the map: {held}")
     show_result(found, folder)
     return 0
