@@ -85,6 +85,7 @@ def draw_panel(axes: Any, data: MapData, panel: Panel) -> None:
 
 def _power_lines(axes: Any, data: MapData, piece: Slice) -> None:
     """Draw dashed lines of constant shaft power with their value in kW."""
+    from contourpy import contour_generator
     from matplotlib.ticker import MaxNLocator
 
     power = 1e-3 * piece.of(data.values["shaft_power"])
@@ -92,10 +93,12 @@ def _power_lines(axes: Any, data: MapData, piece: Slice) -> None:
     whole = np.all(np.isfinite(power))
     levels = MaxNLocator(POWERS).tick_values(float(np.nanmin(power)), float(np.nanmax(power)))
     places = _fine(x, y) if whole else [x, y]
-    lines = axes.contour(
-        *places, shown(data, piece, power), levels=levels, colors=POWER_INK, linewidths=1.0, linestyles="dashed"
-    )
-    axes.clabel(lines, fontsize=8, fmt="%g kW")
+    curves = contour_generator(*places, shown(data, piece, power))
+    for level in levels:
+        for line in curves.lines(level):
+            axes.plot(*line.T, "--", color=POWER_INK, linewidth=1.0)
+            middle = line[len(line) // 2]
+            axes.text(*middle, f"{level:g} kW", color=POWER_INK, fontsize=8, ha="center", va="bottom", clip_on=True)
 
 
 def _fine(x: Array, y: Array) -> list[Array]:
