@@ -38,10 +38,10 @@ if TYPE_CHECKING:
     from swashfilm.runs.pump.vary.result import VariedRun
     from swashfilm.runs.reference.result import ReferenceRun
     from swashfilm.runs.reproduce.result import Reproduction
-    from swashfilm.runs.sensitivity.result import SensitivityRun
     from swashfilm.runs.table.result import TableRun
-    from swashfilm.runs.tolerance.result import ToleranceRun
     from swashfilm.runs.transient.result import TransientRun
+    from swashfilm.runs.variation.sensitivity.result import SensitivityRun
+    from swashfilm.runs.variation.tolerance.result import ToleranceRun
     from system.description.pump import PumpDescription
 
 Quantity = str | float
@@ -67,7 +67,7 @@ _OF_COMMAND_LINE = (
 )
 _RESULTS = (
     "pump", "pump.vary", "film", "film.revolution", "film.series", "map", "duty", "compare", "table", "transient",
-    "reference", "reproduce", "diagnose", "calibrate", "sensitivity", "tolerance",
+    "reference", "reproduce", "diagnose", "calibrate", "variation.sensitivity", "variation.tolerance",
 )  # fmt: skip
 """Rooms of `swashfilm.runs` with results."""
 
@@ -288,10 +288,10 @@ def sensitivity(
     """
     given = {"keys": keys, "cycle": cycle, "fidelity": fidelity} | options
     with _door("sensitivity"), _pump_file(pump) as name:
-        from swashfilm.runs.sensitivity.result import SensitivityRun
-        from swashfilm.runs.sensitivity.run import run_sensitivity
         from swashfilm.runs.variation.case import varied_case
         from swashfilm.runs.variation.options import varied_executor
+        from swashfilm.runs.variation.sensitivity.result import SensitivityRun
+        from swashfilm.runs.variation.sensitivity.run import run_sensitivity
         from system.variation.sensitivity import variants_needed
 
         words = _words("sensitivity", [name], given)
@@ -319,10 +319,10 @@ def tolerance(
     limits = [limit] if isinstance(limit, str) else list(limit)
     given = {"pumps": pumps, "limit": limits, "keys": keys, "cycle": cycle, "fidelity": fidelity} | options
     with _door("tolerance"), _pump_file(pump) as name:
-        from swashfilm.runs.tolerance.command import tolerance_case
-        from swashfilm.runs.tolerance.result import ToleranceRun
-        from swashfilm.runs.tolerance.run import run_tolerance
         from swashfilm.runs.variation.options import varied_executor
+        from swashfilm.runs.variation.tolerance.command import tolerance_case
+        from swashfilm.runs.variation.tolerance.result import ToleranceRun
+        from swashfilm.runs.variation.tolerance.run import run_tolerance
 
         words = _words("tolerance", [name], given)
         case = tolerance_case(words)

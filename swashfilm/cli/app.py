@@ -23,10 +23,10 @@ from swashfilm.runs.map import command as operating_map
 from swashfilm.runs.pump import command as run
 from swashfilm.runs.reference import coefficients_command as coefficients, command as reference
 from swashfilm.runs.reproduce import command as reproduce
-from swashfilm.runs.sensitivity import command as sensitivity
 from swashfilm.runs.table import command as table
-from swashfilm.runs.tolerance import command as tolerance
 from swashfilm.runs.transient import command as transient
+from swashfilm.runs.variation.sensitivity import command as sensitivity
+from swashfilm.runs.variation.tolerance import command as tolerance
 from system.inputs.faults import Fault, InputFaults, nearest_choice
 
 _MODULES = (

@@ -27,8 +27,8 @@ PAGES = {
     "reference": "swashfilm.runs.reference.page.write_reference_page",
     "reproduction": "swashfilm.runs.reproduce.page.write_reproduce_page",
     "response_table": "swashfilm.runs.table.page.write_table_page",
-    "sensitivity": "swashfilm.runs.sensitivity.page.write_sensitivity_page",
-    "tolerance": "swashfilm.runs.tolerance.page.write_tolerance_page",
+    "sensitivity": "swashfilm.runs.variation.sensitivity.page.write_sensitivity_page",
+    "tolerance": "swashfilm.runs.variation.tolerance.page.write_tolerance_page",
     "transient": "swashfilm.runs.transient.page.write_transient_page",
 }
 """Page writer of a run, by the `kind` in its summary.json."""

@@ -1,1 +1,1 @@
-"""Inputs that both commands on varied pumps share: pump, operating points, fidelity, dimensions."""
+"""Commands on varied pumps, `swashfilm sensitivity` and `tolerance`, and the inputs that both share."""

@@ -6,9 +6,9 @@ from typing import TYPE_CHECKING, ClassVar
 
 from swashfilm.output.result import Result, plotted
 from swashfilm.output.tables import Table
-from swashfilm.runs.tolerance import rows
-from swashfilm.runs.tolerance.files import DATA
-from swashfilm.runs.tolerance.plots import scatter_plot, share_plot
+from swashfilm.runs.variation.tolerance import rows
+from swashfilm.runs.variation.tolerance.files import DATA
+from swashfilm.runs.variation.tolerance.plots import scatter_plot, share_plot
 from system.variation.measures import EFFICIENCY, MEASURES
 
 if TYPE_CHECKING:

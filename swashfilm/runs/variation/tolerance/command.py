@@ -12,7 +12,7 @@ from swashfilm.runs.variation.options import add_varied_options, varied_executor
 from system.inputs.faults import Fault
 
 if TYPE_CHECKING:
-    from swashfilm.runs.tolerance.run import ToleranceCase
+    from swashfilm.runs.variation.tolerance.run import ToleranceCase
 
 PUMPS, MOST_PUMPS = 2000, 1_000_000
 
@@ -33,9 +33,9 @@ def run_tolerance_command(options: argparse.Namespace) -> int:
     from swashfilm.console.assumed import show_assumed
     from swashfilm.console.progress import progress
     from swashfilm.output.run_folder import run_folder
-    from swashfilm.runs.sensitivity.command import show_cost
-    from swashfilm.runs.tolerance.result import ToleranceRun
-    from swashfilm.runs.tolerance.run import run_tolerance
+    from swashfilm.runs.variation.sensitivity.command import show_cost
+    from swashfilm.runs.variation.tolerance.result import ToleranceRun
+    from swashfilm.runs.variation.tolerance.run import run_tolerance
 
     case = tolerance_case(options)
     show_assumed(options.pump)
@@ -55,10 +55,10 @@ def run_tolerance_command(options: argparse.Namespace) -> int:
 def tolerance_case(options: argparse.Namespace) -> ToleranceCase:
     """Return the series of a command line; raise InputFaults with every fault."""
     from swashfilm.console.fidelity import Fidelity
-    from swashfilm.runs.tolerance.drawn import chosen_drawing_of, drawing_faults
-    from swashfilm.runs.tolerance.limits import limit_of
-    from swashfilm.runs.tolerance.run import ToleranceCase
     from swashfilm.runs.variation.case import varied_case
+    from swashfilm.runs.variation.tolerance.drawn import chosen_drawing_of, drawing_faults
+    from swashfilm.runs.variation.tolerance.limits import limit_of
+    from swashfilm.runs.variation.tolerance.run import ToleranceCase
     from system.variation.measures import measures_of
 
     faults: list[Fault] = []

@@ -9,9 +9,9 @@ from typing import TYPE_CHECKING, Any
 from swashfilm.output.answer import Answer, Tile
 from swashfilm.output.data.files import read_netcdf
 from swashfilm.output.page import inlined, read_summary, write_page
-from swashfilm.runs.tolerance import rows
-from swashfilm.runs.tolerance.files import DATA
-from swashfilm.runs.tolerance.plots import SHOWN, scatter_plot, share_plot
+from swashfilm.runs.variation.tolerance import rows
+from swashfilm.runs.variation.tolerance.files import DATA
+from swashfilm.runs.variation.tolerance.plots import SHOWN, scatter_plot, share_plot
 from system.variation.measures import DRAIN, EFFICIENCY, LOSS, MEASURES
 
 if TYPE_CHECKING:

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from swashfilm.output.figures import figure_of
-from swashfilm.runs.tolerance.rows import LEAST_SHARE, dearest
+from swashfilm.runs.variation.tolerance.rows import LEAST_SHARE, dearest
 from system.variation.measures import DRAIN, EFFICIENCY, LOSS, MEASURES
 
 if TYPE_CHECKING:

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
 from swashfilm.output.figures import figure_of
-from swashfilm.runs.sensitivity.rows import Row, cost, kind_of, ranked
+from swashfilm.runs.variation.sensitivity.rows import Row, cost, kind_of, ranked
 from system.variation.measures import EFFICIENCY, LOSS
 
 if TYPE_CHECKING:

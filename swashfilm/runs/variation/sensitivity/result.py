@@ -6,9 +6,9 @@ from typing import TYPE_CHECKING, ClassVar
 
 from swashfilm.output.result import Result, plotted
 from swashfilm.output.tables import Table
-from swashfilm.runs.sensitivity import rows
-from swashfilm.runs.sensitivity.files import DATA
-from swashfilm.runs.sensitivity.plots import cost_plot, tolerance_plot
+from swashfilm.runs.variation.sensitivity import rows
+from swashfilm.runs.variation.sensitivity.files import DATA
+from swashfilm.runs.variation.sensitivity.plots import cost_plot, tolerance_plot
 
 if TYPE_CHECKING:
     import pandas

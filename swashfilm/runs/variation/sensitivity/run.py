@@ -9,10 +9,10 @@ import numpy as np
 
 from swashfilm.console.fidelity import Fidelity
 from swashfilm.output.run_folder import write_json
-from swashfilm.runs.sensitivity.files import DATA, TABLE, write_data, write_table
-from swashfilm.runs.sensitivity.page import write_sensitivity_page
 from swashfilm.runs.variation.case import VariedCase
 from swashfilm.runs.variation.options import solves_films
+from swashfilm.runs.variation.sensitivity.files import DATA, TABLE, write_data, write_table
+from swashfilm.runs.variation.sensitivity.page import write_sensitivity_page
 from swashfilm.runs.variation.words import change_text, percent_of, size_text, where
 from system.pump_file.file import resolved_toml
 from system.variation.differences import Verdict

@@ -17,9 +17,9 @@ def run_sensitivity_command(options: argparse.Namespace) -> int:
     from swashfilm.console.assumed import show_assumed
     from swashfilm.console.progress import progress
     from swashfilm.output.run_folder import run_folder
-    from swashfilm.runs.sensitivity.result import SensitivityRun
-    from swashfilm.runs.sensitivity.run import run_sensitivity
     from swashfilm.runs.variation.case import varied_case
+    from swashfilm.runs.variation.sensitivity.result import SensitivityRun
+    from swashfilm.runs.variation.sensitivity.run import run_sensitivity
     from system.variation.sensitivity import variants_needed
 
     case = varied_case(options)

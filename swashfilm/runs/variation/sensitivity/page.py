@@ -8,8 +8,8 @@ from typing import Any
 
 from swashfilm.output.answer import Answer, Tile
 from swashfilm.output.page import inlined, read_summary, write_page
-from swashfilm.runs.sensitivity import rows
-from swashfilm.runs.sensitivity.plots import PANELS, cost_plot, tolerance_plot
+from swashfilm.runs.variation.sensitivity import rows
+from swashfilm.runs.variation.sensitivity.plots import PANELS, cost_plot, tolerance_plot
 from system.variation.measures import EFFICIENCY, LOSS, MEASURES
 
 CAPTION = (

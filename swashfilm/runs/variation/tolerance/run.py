@@ -7,10 +7,17 @@ from pathlib import Path
 from typing import Any
 
 from swashfilm.output.run_folder import write_json
-from swashfilm.runs.tolerance.files import DATA, PUMPS_TABLE, SHARES_TABLE, write_data, write_pumps, write_shares
-from swashfilm.runs.tolerance.page import write_tolerance_page
-from swashfilm.runs.tolerance.summary import tolerance_summary
 from swashfilm.runs.variation.case import VariedCase
+from swashfilm.runs.variation.tolerance.files import (
+    DATA,
+    PUMPS_TABLE,
+    SHARES_TABLE,
+    write_data,
+    write_pumps,
+    write_shares,
+)
+from swashfilm.runs.variation.tolerance.page import write_tolerance_page
+from swashfilm.runs.variation.tolerance.summary import tolerance_summary
 from system.description.drawn import Drawing
 from system.pump_file.file import resolved_toml
 from system.variation.measures import Measure
