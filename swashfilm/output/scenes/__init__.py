@@ -1,1 +1,1 @@
-"""3D pictures of films between solids, drawn by a process of its own."""
+"""Pictures of films over their plane, and of films and pump in space."""

@@ -10,8 +10,8 @@ import numpy as np
 
 from diagnosis.procedure.pump_comparison import OF_FILMS
 from swashfilm.output.data.files import write_netcdf
-from swashfilm.output.field_maps import MapField, draw_map
 from swashfilm.output.figures import figure_of
+from swashfilm.output.scenes.field_maps import MapField, draw_map
 from swashfilm.runs.diagnose.floating_fields import floating_pictures
 from swashfilm.runs.pump.data import GAPS, films_dataset
 from swashfilm.runs.pump.plots import GAP_FIELDS, gap_place, pictured

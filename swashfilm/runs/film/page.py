@@ -10,11 +10,11 @@ import numpy as np
 
 from swashfilm.output.answer import Answer
 from swashfilm.output.data.files import read_columns, read_netcdf
-from swashfilm.output.field_maps import MapField, draw_map
 from swashfilm.output.figures import figure_of
 from swashfilm.output.headline import named, number_text, numbers_text, shown_of, summary_scales, titled_key
 from swashfilm.output.page import inlined, read_summary, write_page
 from swashfilm.output.refinement import refinement_head, refinement_rows
+from swashfilm.output.scenes.field_maps import MapField, draw_map
 from swashfilm.output.touch.explorer import Explorer
 from swashfilm.output.touch.meshes import triangles
 from swashfilm.output.touch.relief import ReliefField, relief

@@ -7,9 +7,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from swashfilm.output.field_maps import draw_map
 from swashfilm.output.figures import figure_of
 from swashfilm.output.headline import named
+from swashfilm.output.scenes.field_maps import draw_map
 from swashfilm.runs.film.solve.growth import CONSTANT
 from swashfilm.runs.film.solve.study import FilmStudy
 

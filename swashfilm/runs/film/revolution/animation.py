@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from swashfilm.output.field_maps import draw_map, paint
+from swashfilm.output.scenes.field_maps import draw_map, paint
 from swashfilm.runs.film.revolution.plots import FILM, INK, degrees, shown, span, unit_of
 from system.inputs.shown import titled
 from system.work.progress import Report

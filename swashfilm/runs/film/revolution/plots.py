@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from gaps.films.reports import Active
-from swashfilm.output.field_maps import draw_map
 from swashfilm.output.figures import figure_of, legend_below, legend_beside
+from swashfilm.output.scenes.field_maps import draw_map
 from swashfilm.runs.film.revolution.data import PISTON_END, PLACES, POSITIONS
 from system.description.gap import Gap
 from system.inputs.shown import Shown, shown_in, title_in, titled
