@@ -200,6 +200,13 @@ def _colours(artist: Any) -> dict[str, Any]:
     return {"colorscale": scale_of(artist.get_cmap()), "cmin": float(low), "cmax": float(high), "showscale": False}
 
 
+def _stretched(scale: list[list[Any]], levels: Array) -> list[list[Any]]:
+    """Return a colour scale in which each step between levels has the same share of the colours."""
+    shares = np.linspace(0.0, 1.0, len(levels))
+    places = np.interp([place for place, _ in scale], shares, (levels - levels[0]) / (levels[-1] - levels[0]))
+    return [[float(f"{place:.4g}"), shade] for place, (_, shade) in zip(places, scale, strict=True)]
+
+
 def _field(artist: Any, field: GridField, panel: Panel) -> list[dict[str, Any]]:
     """Return a field as areas between its levels, or as a smooth map."""
     title = bar_title(artist, panel)
@@ -209,6 +216,7 @@ def _field(artist: Any, field: GridField, panel: Panel) -> list[dict[str, Any]]:
     grid = {"x": short(field.x), "y": short(field.y), "z": short(field.values, 4)}
     if field.levels is None:
         return [{"type": "heatmap", "zsmooth": "best", **grid, **look, **hover}]
+    look["colorscale"] = _stretched(look["colorscale"], field.levels)
     labels = {"coloring": "heatmap", "showlabels": True, "labelfont": {"size": 10, "color": "white"}}
     lines = {"ncontours": len(field.levels), "contours": labels, "line": {"color": "white", "width": 0.5}}
     return [{"type": "contour", **lines, **grid, **look, **hover}]
@@ -234,7 +242,8 @@ def _bars(group: Any, panel: Panel) -> dict[str, Any]:
     along, across = ("x", "y") if lying else ("y", "x")
     axis = getattr(panel.axes, f"{across}axis")
     ticks, texts = axis.get_majorticklocs(), tick_texts(axis)
-    names = [texts[int(np.argmin(np.abs(ticks - at)))] for at in place] if len(ticks) else [""] * len(place)
+    named = 0 < len(ticks) == len(texts)  # an inner panel of a shared axis has no texts
+    names = [texts[int(np.argmin(np.abs(ticks - at)))] if named else "" for at in place]
     faces = [colour(bar.get_facecolor()) for bar in group.patches]
     name, title = _name(group), panel.titles[0 if lying else 1]
     return {

@@ -13,6 +13,8 @@ from swashfilm.output.gap_names import TITLES
 from swashfilm.output.touch.explorer import Control, Explorer
 from swashfilm.output.touch.packing import short
 from swashfilm.output.touch.traces import scale_of
+from swashfilm.runs.map.files import PARTS
+from swashfilm.runs.map.plots import HEADLINE, shared_fields
 from system.inputs.shown import titled
 from system.maps.data import MapData
 from system.maps.interpolation import weights
@@ -24,7 +26,6 @@ CSV_DIGITS = 8
 FINE = 41
 """Points along an axis of the interpolated field."""
 HEIGHT = 520  # pixels
-PARTS = ("overall", "volumetric", "hydromechanical")
 ACROSS = (MapInput.SPEED, MapInput.PRESSURE)
 """Axes of the first slice, as far as they have several levels."""
 NUMBERS = {
@@ -78,12 +79,9 @@ def _first(axis: MapAxis) -> int:
 def _quantities(data: MapData) -> Iterator[tuple[str, Array]]:
     """Yield (title with unit, values over the axes)."""
     for part in PARTS:
-        known: list[Array] = []
-        for definition in EfficiencyDefinition:
-            values = 100.0 * getattr(data.efficiency(definition), part)
-            if not any(np.allclose(values, one, rtol=1e-9, equal_nan=True) for one in known):
-                known.append(values)
-                yield f"{part} efficiency [%], {definition.label}", values
+        fields = {one: getattr(data.efficiency(one), part) for one in (HEADLINE, *EfficiencyDefinition)}
+        for shared in shared_fields(fields):
+            yield f"{part} efficiency [%], {shared.definitions[0].label}", 100.0 * shared.field
     yield "loss (shaft power less p Q) [kW]", 1e-3 * data.loss
     for words, loss in data.losses.items():
         yield f"{words} [W]", loss

@@ -28,6 +28,8 @@ ERROR_HEAD = ("number", "rms", "largest", "relative to the map's largest")
 _SHOWN = {"W": (1e-3, "kW"), "Nm": (1.0, "N m"), "m3_per_s": (6e4, "L/min")}
 FIRST, FURTHER, DEFINITIONS, LOSSES, FILMS = "efficiency", "levels", "definitions", "losses", "films"
 """Names of the page's groups of pictures, in its order."""
+EXPLORED = "explored"
+TO_EXPLORE = "Any number of the map over any two of its axes; circles: solved points"
 
 
 def write_map_page(folder: Path) -> Path:
@@ -35,9 +37,12 @@ def write_map_page(folder: Path) -> Path:
     summary = read_summary(folder, FILES, "a map's run folder")
     data, error = read_map(folder / MAP)
     drawn = map_pictures(data) if summary["solved"] else {}
-    explorer = map_explorer(data) if drawn else None
-    explorers = {} if explorer is None else dict.fromkeys(drawn[FIRST], explorer)
-    kept = {name: keep_pictures(folder, name, pictures, explorers) for name, pictures in drawn.items()}
+    if FIRST in drawn and (explorer := map_explorer(data)) is not None:
+        figure = next(iter(drawn[FIRST].values()))
+        explored = keep_pictures(folder, EXPLORED, {TO_EXPLORE: figure}, {TO_EXPLORE: explorer})
+    else:
+        explored = {}
+    kept = {EXPLORED: explored} | {name: keep_pictures(folder, name, pictures) for name, pictures in drawn.items()}
     caption, picture = next(iter(kept.pop(FIRST, {}).items()), ("", None))
     return write_page(
         folder,

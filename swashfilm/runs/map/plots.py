@@ -64,7 +64,7 @@ def main_picture(data: MapData) -> tuple[str, Figure] | None:
         panel = Panel("overall efficiency [%]", piece, field, _common_levels(data, piece), best=True)
         caption = (
             f"Overall efficiency in % by ISO 4409{_comma(held_words(data, piece))}. Dashed: constant shaft power; "
-            f"dots: solved points; star: the best; {steps_words(panel.levels)}"
+            f"dots: solved points; star: the best; a step of colour: {steps_words(panel.levels)}"
         )
         return caption, panel_figure(data, panel, LARGE, powers=True)
     if wide := varied(data):

@@ -100,7 +100,7 @@ def test_fields_and_page_of_the_run_folder(case, tmp_path):
     page = (folder / "report.html").read_text("utf-8")
     assert "Where a micrometre counts" in page
     assert "per um" in page
-    assert "sensitivity_load / (N)/m3" in (folder / "fields.csv").read_text("utf-8")
+    assert "sensitivity_load [(N)/m3]" in (folder / "fields.csv").read_text("utf-8")
 
 
 def test_python_gives_tables_and_pictures(case):
