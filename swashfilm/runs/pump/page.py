@@ -20,7 +20,7 @@ from swashfilm.runs.pump.floating import floating_view
 from swashfilm.runs.pump.forces import forces_view
 from swashfilm.runs.pump.headline.answer import pump_answer
 from swashfilm.runs.pump.headline.powers import power_parts
-from swashfilm.runs.pump.scene.gap_explorer import gap_explorer
+from swashfilm.runs.pump.scene.reliefs import gap_explorer
 from swashfilm.runs.pump.scene.view import pump_view
 from swashfilm.runs.pump.scene.views import PICTURE, TURNING
 from swashfilm.runs.pump.summary import chamber_numbers
