@@ -29,10 +29,10 @@ if TYPE_CHECKING:
     from swashfilm.runs.calibrate.result import CalibrationRun
     from swashfilm.runs.compare.result import CompareRun
     from swashfilm.runs.diagnose.result import DiagnosisRun
-    from swashfilm.runs.duty.result import DutyRun
     from swashfilm.runs.film.result import FilmRun
     from swashfilm.runs.film.revolution.result import RevolutionRun
     from swashfilm.runs.film.series.result import StudyRun
+    from swashfilm.runs.map.duty.result import DutyRun
     from swashfilm.runs.map.result import MapRun
     from swashfilm.runs.pump.result import PumpRun
     from swashfilm.runs.reference.result import ReferenceRun
@@ -54,7 +54,7 @@ _SI = {
 }  # fmt: skip
 _OF_COMMAND_LINE = ("-o", "--output", "--help", "--csv", "--animate", "--apply", "--page", "--watch")
 _RESULTS = (
-    "pump", "film", "film.revolution", "film.series", "map", "duty", "compare", "table", "transient", "reference",
+    "pump", "film", "film.revolution", "film.series", "map", "map.duty", "compare", "table", "transient", "reference",
     "reproduce", "diagnose", "calibrate", "sensitivity", "tolerance",
 )  # fmt: skip
 """Rooms of `swashfilm.runs` with results."""
@@ -202,9 +202,9 @@ def table(pump: str | Path | PumpDescription, *, report: Report = silent, **opti
 def duty(of: MapRun | str | Path, cycle: str | Path) -> DutyRun:
     """Return energies and losses over a duty cycle (CSV) by a map: a MapRun, its run folder, or its map.nc."""
     with _door("duty"), _map_file(of) as path:
-        from swashfilm.runs.duty.cycle_file import read_cycle
-        from swashfilm.runs.duty.result import DutyRun
-        from swashfilm.runs.duty.run import run_duty
+        from swashfilm.runs.map.duty.cycle_file import read_cycle
+        from swashfilm.runs.map.duty.result import DutyRun
+        from swashfilm.runs.map.duty.run import run_duty
         from swashfilm.runs.map.files import map_file, read_map
 
         data, error = read_map(map_file(path))

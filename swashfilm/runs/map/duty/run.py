@@ -11,7 +11,7 @@ import numpy as np
 
 from swashfilm.output.run_folder import write_json
 from swashfilm.output.tables import write_csv
-from swashfilm.runs.duty.page import COURSE, write_duty_page
+from swashfilm.runs.map.duty.page import COURSE, write_duty_page
 from system.inputs.faults import Fault, InputFaults
 from system.maps.data import MapData
 from system.maps.duty import Cycle, Duty, duty
