@@ -32,15 +32,19 @@ def channel_words(channel: ChannelName) -> str:
 
 def estimate_text(estimate: Estimate) -> str:
     """A parameter with one sigma: "opening 22 +- 2 1/GPa". Temperatures are differences, in K."""
-    value, sigma, dimension = estimate.value, estimate.sigma, estimate.dimension
-    unit = ""
+    unit, factor = parameter_unit(estimate.dimension, estimate.value)
+    size = f"{estimate.value * factor:.3g} +- {estimate.sigma * factor:.2g}"
+    return f"{last_word(estimate.name)} {size} {unit.removesuffix('1')}".rstrip()
+
+
+def parameter_unit(dimension: Dimension | None, size: float) -> tuple[str, float]:
+    """Unit that a parameter of this size (SI) is read in, and its factor on SI; temperatures are differences."""
+    if dimension is None:
+        return "1", 1.0
     if dimension is Dimension.TEMPERATURE:
-        unit = " K"
-    elif dimension is not None:
-        name = reading_unit(value, dimension)
-        value, sigma = (in_unit(number, name, dimension) for number in (value, sigma))
-        unit = f" {name}"
-    return f"{last_word(estimate.name)} {value:.3g} +- {sigma:.2g}{unit}"
+        return "K", 1.0
+    unit = reading_unit(size, dimension)
+    return unit, in_unit(1.0, unit, dimension)
 
 
 def last_word(name: str) -> str:

@@ -1,9 +1,10 @@
 """Transposed solves of a film's linearised balance: lambda with F_u^T lambda = J_u.
 
 The matrix is that of the last Newton step. Between rigid walls, of constant oil without a cavity that conserves oil, it
-is symmetric, and its factor is at hand. Else the transposed matrix is factorised once for all outputs. Between elastic
-walls F_u = A + B C: GMRES (Saad and Schultz 1986) on the transpose, with the dense factor of the Newton matrix up to
-DENSE_LIMIT free pressures and the factor of A beyond. B is exact there: with the change of a cavity's upwinding.
+is symmetric, and its factor is at hand. Else the transposed matrix is factorised once for all outputs; on a large grid
+the transposed iteration of `CavitatedFilm` solves it. Between elastic walls F_u = A + B C: GMRES (Saad and Schultz
+1986) on the transpose, with the dense factor of the Newton matrix up to DENSE_LIMIT free pressures and the factor of A
+beyond. B is exact there: with the change of a cavity's upwinding.
 """
 
 from __future__ import annotations
@@ -24,8 +25,10 @@ from reynolds.equation.deformation import Touch, deformation_slope, touch_at
 from reynolds.equation.deformation_sparsity import ElasticPatterns
 from reynolds.errors import FilmNotConverged
 from reynolds.fem import kernels
+from reynolds.linear.cavitated import CavitatedFilm
 from reynolds.linear.elastic import DENSE_LIMIT, dense_answer
 from reynolds.linear.factor import GeneralFactor
+from reynolds.linear.multigrid.grid import grid_of
 from reynolds.numerics.arrays import Array
 from reynolds.numerics.gmres import gmres
 from reynolds.problem import Cavitation
@@ -38,6 +41,7 @@ TOLERANCE = 1e-11  # of the load
 GOOD_ENOUGH = 1e-9  # where round-off allows no less
 MOST_STEPS = 150  # of GMRES with the factor of rigid walls; with one that needs more the dense factor is cheaper
 FELT = 1e-10  # of the steepest contact: less counts as none
+LARGE = 3000  # unknowns of a grid: below, the elimination of the transposed matrix is as fast as iterations
 Solve = Callable[[Array], Array]
 
 
@@ -104,14 +108,32 @@ class TransposedFilm:
         upper, lower, _, scale = general_step(film.problem, spread(film.problem), at)
         return upper, lower, scale, float(np.abs(at.parts.stiffness).max()) or 1.0
 
-    @cached_property
-    def _solve(self) -> Solve:
-        upper, lower, _, _ = self._step
+    def _solve(self, load: Array) -> Array:
         if self._film.problem.walls is not None:
-            return self._compliant
+            return self._compliant(load)
+        if self._on_grid is not None:
+            found, effort = self._on_grid.solve(load, TOLERANCE, transposed=True)
+            if effort.left <= GOOD_ENOUGH:
+                return found
+        return self._eliminated.solve(load, TOLERANCE)
+
+    @cached_property
+    def _on_grid(self) -> CavitatedFilm | None:
+        """The Newton matrix of a large film on a grid; None where there is none, and where it is not fit."""
+        grid = grid_of(self._film.space)
+        if grid is None or self._film.space.size < LARGE:
+            return None
+        upper, lower, _, _ = self._step
+        film = CavitatedFilm(grid, self._film.space.matrix(upper))
+        return film if film.update(upper, lower, self._film.solution.cavity) else None
+
+    @cached_property
+    def _eliminated(self) -> GeneralFactor:
+        """A factor of the transposed Newton matrix."""
+        upper, lower, _, _ = self._step
         factor = GeneralFactor()
         factor.update(self._film.space.matrix(lower), upper)
-        return lambda load: factor.solve(load, TOLERANCE)
+        return factor
 
     @cached_property
     def _rigid(self) -> csc_array:

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping
+from dataclasses import replace
 from itertools import combinations
 
 import numpy as np
 
-from system.description.drawn import DEVIATION, SIGMAS, Drawing, Drawn, DrawnFit, fit_sigma
+from system.description.drawn import DEVIATION, SIGMAS, Drawing, Drawn, DrawnFit, pump_sigma
 from system.description.keys import PumpKey, pump_keys, unknown_key
 from system.description.pump import PumpDescription
 from system.description.tolerance import DrawnSection, FitSection, Shape
@@ -74,8 +75,7 @@ def drawn_sigmas(pump: PumpDescription) -> dict[str, float]:
     if not (part.dimension or part.fit):
         return {}
     drawn, listed = drawing_of(pump), {one.key for one in part.dimension}
-    found = {one.name: one.sigma for one in drawn.dimensions if one.name in listed}
-    return found | {fit.name: fit_sigma(fit) for fit in drawn.fits}
+    return {one.name: pump_sigma(one) for one in drawn.members if one.name in listed or one in drawn.fits}
 
 
 def _by_sigma(pump: PumpDescription, known: Mapping[str, PumpKey]) -> Iterator[Drawn]:
@@ -115,7 +115,7 @@ def _drawn(pump: PumpDescription, known: Mapping[str, PumpKey], faults: list[Fau
             faults.append(unknown_key(f"{where}.key", row.key, known))
             continue
         if (made := _dimension(where, row, known[row.key], faults)) is not None:
-            yield made
+            yield replace(made, parts=row.parts)
 
 
 def _dimension(where: str, row: DrawnSection, key: PumpKey, faults: list[Fault]) -> Drawn | None:
@@ -231,7 +231,7 @@ def _fit(where: str, row: FitSection, key: PumpKey, faults: list[Fault]) -> Draw
     if not shaft[0] < hole[1]:
         faults.append(Fault(where, f"a shaft of {key.shown(shaft[0])} and more", f"one below {key.shown(hole[1])}"))
         return None
-    return DrawnFit(key.path, row.shape, hole, shaft, row.classes)
+    return DrawnFit(key.path, row.shape, hole, shaft, row.classes, row.parts)
 
 
 def _check_names(found: list[Drawn | DrawnFit], faults: list[Fault]) -> None:
@@ -251,6 +251,10 @@ def _correlation(pump: PumpDescription, names: list[str], faults: list[Fault]) -
                 near = nearest_choice(name, names)
                 faults.append(Fault(f"{where}.{end}", f"'{name}'", "a key of [[tolerance.dimension]]", near))
         pair = (min(row.one, row.other), max(row.one, row.other))
+        several = [one.key for one in pump.tolerance.dimension if one.parts > 1 and one.key in pair]
+        if several:
+            expected = "dimensions of which a pump has one part"
+            faults.append(Fault(where, f"'{several[0]}', of several parts", expected))
         if row.one == row.other or pair in found:
             faults.append(Fault(where, f"'{row.one}' and '{row.other}'", "two dimensions, each pair once"))
         found[pair] = row.coefficient

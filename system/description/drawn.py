@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass
+from typing import ClassVar
 
 import numpy as np
 
@@ -22,6 +23,7 @@ class Drawn:
     """A dimension with its distribution: middle and standard deviation, SI; limits of a bounded shape.
 
     name: its path; keys: that, and those that scatter in proportion to it. peak: the likeliest value of a triangle.
+    parts: of a pump, each of its own size; the distribution is that of one.
     """
 
     name: str
@@ -32,17 +34,21 @@ class Drawn:
     least: float = -math.inf
     most: float = math.inf
     peak: float = math.nan
+    parts: int = 1
+    scores: ClassVar[int] = 1
 
 
 @dataclass(frozen=True)
 class DrawnFit:
-    """A radial clearance of hole and shaft, limits of their diameters in m, paired by class."""
+    """A radial clearance of hole and shaft, limits of their diameters in m, paired by class; parts: pairs of a pump."""
 
     name: str
     shape: Shape
     hole: tuple[float, float]
     shaft: tuple[float, float]
     classes: int
+    parts: int = 1
+    scores: ClassVar[int] = 2
 
     @property
     def keys(self) -> tuple[str, ...]:
@@ -81,8 +87,13 @@ class Drawing:
         return found
 
 
+def pump_sigma(one: Drawn | DrawnFit) -> float:
+    """Return the standard deviation (SI) of a dimension of a pump: of the mean of its parts."""
+    return (one.sigma if isinstance(one, Drawn) else fit_sigma(one)) / math.sqrt(one.parts)
+
+
 def fit_sigma(fit: DrawnFit) -> float:
-    """Return the standard deviation (m) of the clearance, of uniform diameters in their classes."""
+    """Return the standard deviation (m) of one clearance, of uniform diameters in their classes."""
     hole, shaft = fit.hole[1] - fit.hole[0], fit.shaft[1] - fit.shaft[0]
     within = (hole**2 + shaft**2) / fit.classes**2
     between = (hole - shaft) ** 2 * (1.0 - 1.0 / fit.classes**2)

@@ -9,6 +9,7 @@ from system.inputs.units import Dimension
 
 _Key = Annotated[str, Text.KEY]
 _Quantity = Annotated[str, Text.QUANTITY]
+_Parts = Annotated[int, Limits(least=1, most=99)]
 
 
 class Shape(Enum):
@@ -32,6 +33,7 @@ class DrawnSection:
     plus_minus: _Quantity | None = None  # half of the tolerance, about the stated value
     least: _Quantity | None = None  # limit of the drawing
     most: _Quantity | None = None  # limit of the drawing
+    parts: _Parts = 1  # of a pump, each of its own size
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -45,6 +47,7 @@ class FitSection:
     shaft_least: _Quantity
     shaft_most: _Quantity
     classes: Annotated[int, Limits(least=1, most=99)] = 1  # of equal width; hole and shaft of one class are paired
+    parts: _Parts = 1  # pairs of a pump, each of its own clearance
 
 
 @dataclass(frozen=True, kw_only=True)

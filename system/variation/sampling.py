@@ -15,6 +15,9 @@ from system.description.pump import PumpDescription
 from system.description.tolerance import Shape
 from system.variation.solving import Variant
 
+FILMS = ("piston.radial_clearance", "slipper.film_thickness")
+"""Films that leak by their cube, of which a pump has one a piston."""
+
 
 @dataclass(frozen=True)
 class Series:
@@ -43,26 +46,48 @@ def drawn_series(drawing: Drawing, count: int, seed: int) -> Series:
 
 
 def score_count(drawing: Drawing) -> int:
-    """Return the number of independent normal scores of one pump: one a dimension, two a fit."""
-    return len(drawing.dimensions) + 2 * len(drawing.fits)
+    """Return the number of independent normal scores of one pump: of each part one, of a fit two."""
+    return sum(_widths(drawing))
 
 
 def score_columns(drawing: Drawing, column: int) -> list[int]:
     """Return the columns of the scores from which a column of the values is made, its correlation left out."""
-    own = column - len(drawing.dimensions)
-    return [column] if own < 0 else [len(drawing.dimensions) + 2 * own, len(drawing.dimensions) + 2 * own + 1]
+    widths = _widths(drawing)
+    first = sum(widths[:column])
+    return list(range(first, first + widths[column]))
+
+
+def _widths(drawing: Drawing) -> list[int]:
+    return [one.parts * one.scores for one in drawing.members]
 
 
 def values_of(drawing: Drawing, scores: Array) -> Array:
     """Return the dimensions (N, k) of independent normal scores (N, `score_count`).
 
-    Correlated dimensions are of correlated normal scores, each then of its own distribution (a Gaussian copula).
+    Correlated dimensions are of correlated normal scores, each then of its own distribution (a Gaussian copula). Of
+    several parts the value is that of `alike`.
     """
-    own = len(drawing.dimensions)
-    together = scores[:, :own] @ np.linalg.cholesky(drawing.matrix()).T if own else scores[:, :0]
-    columns = [_value(one, together[:, k]) for k, one in enumerate(drawing.dimensions)]
-    columns += [fit_values(fit, scores[:, own + 2 * k : own + 2 * k + 2]) for k, fit in enumerate(drawing.fits)]
+    scores, own = scores.copy(), len(drawing.dimensions)
+    if own:
+        first = [score_columns(drawing, column)[0] for column in range(own)]
+        scores[:, first] = scores[:, first] @ np.linalg.cholesky(drawing.matrix()).T
+    columns = []
+    for column, one in enumerate(drawing.members):
+        each = np.split(scores[:, score_columns(drawing, column)], one.parts, axis=1)
+        parts = [_value(one, part[:, 0]) if isinstance(one, Drawn) else fit_values(one, part) for part in each]
+        columns.append(alike(one.name, np.stack(parts, axis=1)))
     return np.column_stack(columns)
+
+
+def alike(path: str, values: Array) -> Array:
+    """Return the value (N,) of parts that are alike for parts of values (N, parts): their mean.
+
+    Of a film or clearance the cube root of the mean cube, by which the parts leak the same. Where a part has no size,
+    0 or below, its value: no pump has it.
+    """
+    least = values.min(axis=1)
+    mean = np.cbrt(np.mean(values**3, axis=1)) if path in FILMS else values.mean(axis=1)
+    return np.where((least <= 0.0) & (values.shape[1] > 1), least, mean)
 
 
 def _value(drawn: Drawn, score: Array) -> Array:

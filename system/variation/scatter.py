@@ -15,6 +15,8 @@ from system.variation.measures import Measure
 
 QUANTILES = (0.05, 0.5, 0.95)
 CONFIDENCE = 0.95
+FEWEST = 100
+"""Pumps from which 5 and 95 % follow."""
 
 
 @dataclass(frozen=True)
@@ -41,9 +43,9 @@ class Scatter:
 
 
 def scatter(values: Array) -> Scatter:
-    """Return the scatter of independent numbers (N,). Raises InputError for fewer than 100."""
-    if len(values) < 100:
-        raise InputError("series", f"{len(values)} pumps with a result", "100 at least: 5 and 95 % are tails")
+    """Return the scatter of independent numbers (N,). Raises InputError for fewer than FEWEST."""
+    if len(values) < FEWEST:
+        raise InputError("series", f"{len(values)} pumps with a result", f"{FEWEST} at least: 5 and 95 % are tails")
     return Scatter(
         float(np.mean(values)), float(np.std(values, ddof=1)), tuple(_quantile(values, p) for p in QUANTILES)
     )

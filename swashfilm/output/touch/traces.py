@@ -21,6 +21,8 @@ SIGNS = {
 }  # fmt: skip
 STEPS = {"steps-pre": "vh", "steps": "vh", "steps-mid": "hvh", "steps-post": "hv", "default": "linear"}
 PIXELS = 1.4  # per point, of lines and marks
+MOST = 2000
+"""Points of a line; of a longer one, those stay that are highest and lowest in as many equal parts as pixels."""
 
 
 class Untranslated(Exception):
@@ -82,12 +84,23 @@ def _numbers(values: Any) -> Array:
     return np.atleast_1d(np.asarray(np.ma.filled(np.ma.asarray(values, dtype=float), np.nan)))
 
 
+def _thinned(x: Array, y: Array) -> tuple[Array, Array]:
+    """Return at most MOST points of a line: the ends, and the least and the largest of each part of it."""
+    if len(y) <= MOST:
+        return x, y
+    parts = np.array_split(np.arange(1, len(y) - 1), MOST // 2 - 1)
+    of_ends = [[part[np.argmin(y[part])], part[np.argmax(y[part])]] for part in parts]
+    kept = np.unique([0, *np.ravel(of_ends), len(y) - 1])
+    return x[kept], y[kept]
+
+
 def _line(line: Any, panel: Panel) -> dict[str, Any]:
     x, y = (_numbers(one) for one in line.get_data(orig=False))
     for k, inside in enumerate(line.get_transform().contains_branch_seperately(panel.axes.transData)):
         if not inside:  # a line across the panel
             low, high = (panel.axes.get_xlim, panel.axes.get_ylim)[k]()
             x, y = (low + (high - low) * x, y) if k == 0 else (x, low + (high - low) * y)
+    x, y = _thinned(x, y)
     sign, style = line.get_marker(), line.get_linestyle()
     lines, marks = style in DASHES, sign not in ("None", "none", "", " ", None)
     opacity = line.get_alpha()
@@ -138,7 +151,7 @@ def _joined(pieces: list[Array]) -> tuple[Array, Array]:
 def _area(area: Any, panel: Panel) -> dict[str, Any]:
     if area.get_array() is not None or not all(area.get_transform().contains_branch_seperately(panel.axes.transData)):
         raise Untranslated
-    x, y = _joined([path.vertices for path in area.get_paths()])
+    x, y = _joined([np.column_stack(_thinned(*path.vertices.T)) for path in area.get_paths()])
     edge = {"mode": "lines", "line": {"width": 0}, "fill": "toself", "fillcolor": colour(area.get_facecolor()[0])}
     shown = _hover(panel, _name(area)) | {"hoverinfo": "skip"}
     del shown["hovertemplate"]

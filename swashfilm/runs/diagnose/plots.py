@@ -9,6 +9,8 @@ import numpy as np
 
 from reynolds.numerics.arrays import Array
 from swashfilm.output.figures import figure_of
+from swashfilm.runs.diagnose.files import head_of
+from system.inputs.shown import titled
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -39,15 +41,16 @@ def residual_maps(rows: Sequence[Row]) -> Figure:
     grid = figure.subplots(len(lines), columns, squeeze=False, sharex=True, sharey=True)
     most = max(3.0, float(np.nanpercentile(np.abs(_column(rows, "pull_before")), 98)))
     drawn: Any = None
+    at = head_of(rows[0], "speed"), head_of(rows[0], "p_out")
     for line, (channel, keys) in zip(grid, lines, strict=True):
         places = [(level, key) for level in levels for key in keys]
         for axes, (level, key) in zip(line, places, strict=True):
             own = [row for row in rows if row["channel"] == channel and _of_level(row, level)]
-            drawn = _map(axes, own, key, most)
+            drawn = _map(axes, own, at, key, most)
             axes.set_title(f"{key.removeprefix('pull_')}{_title(level)}", fontsize=8, pad=3)
-        line[0].set_ylabel(f"{channel}\np_out / bar", fontsize=8)
+        line[0].set_ylabel(f"{channel}\n{at[1]}", fontsize=8)
     for axes in grid[-1]:
-        axes.set_xlabel("speed / rpm", fontsize=8)
+        axes.set_xlabel(at[0], fontsize=8)
     bar = figure.colorbar(drawn, ax=grid.ravel().tolist(), shrink=min(0.8, 6.0 / (1.5 * len(lines))), extend="both")
     bar.set_label("(measured - simulated) / sigma", fontsize=8)
     return figure
@@ -111,9 +114,8 @@ def effect_courses(rows: Sequence[Row], courses: Sequence[tuple[str, str]]) -> F
         )  # fmt: skip
         axes.plot(place, added, "x", color=AFTER, markeredgewidth=1.8, label="contribution of the finding", zorder=3)
         axes.axhline(0.0, color="#1c2328", linewidth=0.8)
-        name, _, unit = axis.partition(" [")
-        axes.set_xlabel(f"{name} / {unit.rstrip(']')}")
-        axes.set_ylabel(f"{channel} / {own[0]['unit'].replace('degC', 'K')}")
+        axes.set_xlabel(axis)
+        axes.set_ylabel(titled(channel, own[0]["unit"].replace("degC", "K")))
         axes.grid(visible=True, alpha=0.3)
     _legend_above(axes)
     return figure
@@ -126,7 +128,7 @@ def loss_bars(rows: Sequence[Row], whole: Mapping[str, float]) -> Figure:
     shown = {name: both for name, both in shares.items() if max(map(abs, both)) >= LEAST_LOSS}
     figure = figure_of(WIDTH, 1.0 + 0.36 * len(shown))
     sizes = {run: [both[at] for both in shown.values()] for at, run in enumerate(runs)}
-    _paired_bars(figure.subplots(), list(shown), sizes, "share of the shaft power / %")
+    _paired_bars(figure.subplots(), list(shown), sizes, "share of the shaft power [%]")
     return figure
 
 
@@ -147,9 +149,9 @@ def _legend_above(axes: Axes) -> None:
     axes.legend(fontsize=8, ncols=3, loc="lower right", bbox_to_anchor=(1.0, 1.0), frameon=False)
 
 
-def _map(axes: Axes, rows: Sequence[Row], key: str, most: float) -> Any:
-    """One map of pulls; points at one place (of other temperatures) are side by side."""
-    speed, pressure = _place(axes, rows, "speed [rpm]", 0.02), _place(axes, rows, "p_out [bar]", 0.1)
+def _map(axes: Axes, rows: Sequence[Row], at: tuple[str, str], key: str, most: float) -> Any:
+    """One map of pulls over speed and pressure, `at`; points at one place, of other temperatures, are side by side."""
+    speed, pressure = (_place(axes, rows, head, height) for head, height in zip(at, (0.02, 0.1), strict=True))
     warm = _column(rows, "T_case [degC]")
     spread = np.ptp(warm[np.isfinite(warm)]) if np.any(np.isfinite(warm)) else 0.0
     shift = np.nan_to_num((warm - np.nanmean(warm)) / spread) if spread > 0 else 0.0

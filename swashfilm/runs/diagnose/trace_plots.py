@@ -9,15 +9,18 @@ import numpy as np
 
 from reynolds.numerics.arrays import Array
 from swashfilm.output.figures import figure_of
+from swashfilm.output.tables import parted
+from swashfilm.runs.diagnose.files import head_of
+from system.inputs.shown import titled
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 Row = Mapping[str, str]
 FITS = {
-    "stated [bar]": ("#a274ad", "pump as described"),
-    "before [bar]": ("#b55a00", "before: fit without the finding"),
-    "after [bar]": ("#3c7a8c", "after"),
+    "stated": ("#a274ad", "pump as described"),
+    "before": ("#b55a00", "before: fit without the finding"),
+    "after": ("#3c7a8c", "after"),
 }
 NOISE, WINDOW = "#9aa4ab", "#e8d9a0"
 MOST_TRACES = 4
@@ -31,19 +34,20 @@ def trace_residuals(rows: Sequence[Row], window: Sequence[float] | None, setting
     """
     points = worst_points(rows)
     rows = [row for row in rows if row["point"] in points]
+    unit = parted(head_of(rows[0], "measured"))[1]
     figure = figure_of(10.0, 0.8 + 1.9 * len(points))
     most = max(float(np.max(np.abs(_residual(rows, key)))) for key in FITS)
     grid = figure.subplots(len(points), 2, squeeze=False, sharex=True, sharey="col", width_ratios=(1, 2))
     for line, point in zip(grid, points, strict=True):
         own = [row for row in rows if row["point"] == point]
-        angle, measured, sigma = (_column(own, key) for key in ("angle [deg]", "measured [bar]", "sigma [bar]"))
+        angle, measured, sigma = (_column(own, key) for key in ("angle", "measured", "sigma"))
         line[0].plot(angle, measured, color="#1c2328", linewidth=1.0)
-        line[0].set_ylabel("p_chamber / bar", fontsize=8)
+        line[0].set_ylabel(titled("p_chamber", unit), fontsize=8)
         line[0].set_title(settings.get(point, ""), fontsize=8, loc="left")
         line[1].fill_between(angle, -2 * sigma, 2 * sigma, color=NOISE, alpha=0.35, linewidth=0, label="two sigma")
         for key, (colour, label) in FITS.items():
             line[1].plot(angle, _residual(own, key), color=colour, linewidth=1.2, label=label)
-        line[1].set_ylabel("residual / bar", fontsize=8)
+        line[1].set_ylabel(titled("residual", unit), fontsize=8)
         line[1].set_ylim(-1.1 * most, 1.1 * most)
         for axes in line:
             for start, end in _spans(window):
@@ -53,13 +57,13 @@ def trace_residuals(rows: Sequence[Row], window: Sequence[float] | None, setting
             axes.grid(visible=True, alpha=0.3)
     grid[0, 1].legend(fontsize=8, ncols=4, loc="lower right", bbox_to_anchor=(1.0, 1.0), frameon=False)
     for axes in grid[-1]:
-        axes.set_xlabel("shaft angle from the inner dead centre / deg", fontsize=8)
+        axes.set_xlabel("shaft angle from the inner dead centre [deg]", fontsize=8)
     return figure
 
 
 def _residual(rows: Sequence[Row], key: str) -> Array:
-    """Measured minus predicted, bar."""
-    return _column(rows, "measured [bar]") - _column(rows, key)
+    """Measured minus predicted."""
+    return _column(rows, "measured") - _column(rows, key)
 
 
 def _spans(window: Sequence[float] | None) -> list[tuple[float, float]]:
@@ -79,5 +83,6 @@ def worst_points(rows: Sequence[Row]) -> list[str]:
     return sorted(worst, key=int)
 
 
-def _column(rows: Sequence[Row], key: str) -> Array:
-    return np.array([float(row[key]) for row in rows])
+def _column(rows: Sequence[Row], name: str) -> Array:
+    head = head_of(rows[0], name)
+    return np.array([float(row[head]) for row in rows])

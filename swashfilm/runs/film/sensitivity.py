@@ -9,7 +9,8 @@ import numpy as np
 
 from swashfilm.output.field_maps import draw_map
 from swashfilm.output.figures import figure_of
-from swashfilm.output.headline import UNITS, named
+from swashfilm.output.headline import named
+from swashfilm.runs.film.solve.growth import CONSTANT
 from swashfilm.runs.film.solve.study import FilmStudy
 
 if TYPE_CHECKING:
@@ -18,7 +19,7 @@ if TYPE_CHECKING:
 
 FIELD = "sensitivity_"
 _KEYS = {"N": "N", "N m": "Nm", "m3/s": "m3_per_s", "W": "W"}
-_SHOWN = {"m3/s": (6e7, "mL/min"), "N m": (1e3, "N mm")}  # factor and unit of a picture; others keep theirs
+_SHOWN = {"m3/s": (6e7, "mL/min"), "N m": (1e3, "N mm")}  # factor and unit of page and picture; others keep theirs
 PER_AREA_AND_FILM = 1e-12  # of 1/m3 in 1/(mm2 um)
 
 
@@ -72,19 +73,21 @@ def sensitivity_rows(summary: Mapping[str, Any]) -> list[tuple[str, ...]]:
 
 def _rows(found: Mapping[str, Any]) -> Iterator[tuple[str, ...]]:
     for key, numbers in found["outputs"].items():
-        words, unit = named(key)
-        for by, slope in numbers.items():
+        words, si = named(key)
+        factor, unit = _SHOWN.get(si, (1.0, si))
+        for by, in_si in numbers.items():
             if by == "value":
                 continue
             parameter = by.removeprefix("by_")
-            value = found["parameters"].get(parameter)
+            value, slope = found["parameters"].get(parameter), factor * in_si
             change = "" if not value else f"{0.01 * value * slope:.4g} {unit}"
             yield words, *_derivative(parameter, slope, unit), change
 
 
 def _derivative(parameter: str, slope: float, unit: str) -> tuple[str, str]:
     """Return name of a parameter and the derivative by it: per um of a length, else per SI unit."""
-    words, per = named(parameter) if parameter.endswith(tuple(UNITS)) else (parameter, "")
+    constant = parameter.startswith(CONSTANT)
+    words, per = (parameter.removeprefix(CONSTANT), "") if constant else named(parameter)
     if per == "m":
         return words, f"{1e-6 * slope:.4g} {unit} per um"
     return words, f"{slope:.4g} {unit} per {per}" if per else f"{slope:.4g} {unit} per SI unit"

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from swashfilm.output.answer import Answer, Tile
-from swashfilm.output.picture import Picture
+from swashfilm.output.touch.picture import Picture
 from swashfilm.runs.map.plots import HEADLINE
 from swashfilm.runs.map.slices import held_levels, place_of
 from system.maps.data import MapData

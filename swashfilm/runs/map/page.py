@@ -119,14 +119,14 @@ def best_rows(summary: Mapping[str, Any]) -> Iterator[tuple[str, ...]]:
 
 
 def displacement_rows(summary: Mapping[str, Any]) -> Iterator[tuple[str, ...]]:
-    """Yield (setting, geometric, swept, by Toet) in cm3 per revolution."""
+    """Yield (setting, geometric, swept, by Toet) in mL/r."""
     for row in summary["displacement"]:
         toet, sigma = row["toet_m3_per_rev"], row["toet_sigma_m3_per_rev"]
         by_toet = "void" if toet is None else f"{toet * CM3:.3f}" + (f" +- {sigma * CM3:.2g}" if sigma else "")
         yield (
             row["at"],
-            *(f"{row[name] * CM3:.3f} cm3/rev" for name in ("geometric_m3_per_rev", "swept_m3_per_rev")),
-            f"{by_toet} cm3/rev" if toet is not None else by_toet,
+            *(f"{row[name] * CM3:.3f} mL/r" for name in ("geometric_m3_per_rev", "swept_m3_per_rev")),
+            f"{by_toet} mL/r" if toet is not None else by_toet,
         )
 
 

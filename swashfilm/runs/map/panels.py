@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, cast
 
 import numpy as np
 
@@ -92,10 +92,10 @@ def _power_lines(axes: Any, data: MapData, piece: Slice) -> None:
     x, y = grids(data, piece)
     whole = np.all(np.isfinite(power))
     levels = MaxNLocator(POWERS).tick_values(float(np.nanmin(power)), float(np.nanmax(power)))
-    places = _fine(x, y) if whole else [x, y]
-    curves = contour_generator(*places, shown(data, piece, power))
+    across, up = _fine(x, y) if whole else [x, y]
+    curves = contour_generator(across, up, shown(data, piece, power), line_type="Separate")
     for level in levels:
-        for line in curves.lines(level):
+        for line in cast("list[Array]", curves.lines(level)):
             axes.plot(*line.T, "--", color=POWER_INK, linewidth=1.0)
             middle = line[len(line) // 2]
             axes.text(*middle, f"{level:g} kW", color=POWER_INK, fontsize=8, ha="center", va="bottom", clip_on=True)

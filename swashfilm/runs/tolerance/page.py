@@ -7,8 +7,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from swashfilm.output.answer import Answer, Tile
+from swashfilm.output.data.files import read_netcdf
 from swashfilm.output.page import inlined, read_summary, write_page
-from swashfilm.output.result import read_netcdf
 from swashfilm.runs.tolerance import rows
 from swashfilm.runs.tolerance.files import DATA
 from swashfilm.runs.tolerance.plots import SHOWN, scatter_plot, share_plot
@@ -72,6 +72,6 @@ def _sentences(summary: Mapping[str, Any], first: Mapping[str, Any]) -> str:
         f"tighter by a third changes the width by {narrower}."
     )
     for one in summary["limits"]:
-        low, high = (100.0 * one["missing"][end] for end in ("low", "high"))
-        found += f" {rows.of_hundred(one['missing']['value'])} pumps miss {one['limit']} ({low:.2g} to {high:.2g})."
+        missing = one["missing"]
+        found += f" {rows.of_hundred(missing['value'])} pumps miss {one['limit']} ({rows.interval_text(missing)})."
     return found

@@ -8,14 +8,7 @@ from typing import Any
 from system.variation.measures import MEASURES, significant
 
 SCATTER_HEAD = ("number", "5 %", "median", "95 %", "mean", "standard deviation", "5 to 95 %")
-SHARE_HEAD = (
-    "dimension",
-    "tolerance",
-    "share alone",
-    "share in all",
-    "width, a third tighter",
-    "mean, a third tighter",
-)
+SHARE_HEAD = ("dimension", "share alone", "share in all", "width, a third tighter", "mean, a third tighter")
 LIMIT_HEAD = ("limit", "miss it", "95 % interval", "miss it at one point or more", "95 % interval")
 POINT_HEAD = ("operating point", "efficiency: 5 %", "median", "95 %", "case drain: 5 %", "median", "95 %")
 LEAST_SHARE = 0.005
@@ -48,7 +41,6 @@ def dearest(summary: Mapping[str, Any], name: str) -> list[Mapping[str, Any]]:
 
 def share_rows(summary: Mapping[str, Any], name: str) -> Iterator[tuple[str, ...]]:
     """Yield the rows of SHARE_HEAD of a measure; what counts less than LEAST_SHARE in one row."""
-    words = {one["name"]: one["words"] for one in summary["dimensions"]}
     small = []
     for one in dearest(summary, name):
         if one["total"]["value"] < LEAST_SHARE:
@@ -56,9 +48,9 @@ def share_rows(summary: Mapping[str, Any], name: str) -> Iterator[tuple[str, ...
             continue
         shares = (_share(one[part]) for part in ("first", "total"))
         changes = (_interval(name, one[part]) for part in ("width", "mean"))
-        yield " and ".join(one["names"]), "; ".join(words[each] for each in one["names"]), *shares, *changes
+        yield " and ".join(one["names"]), *shares, *changes
     if small:
-        yield f"{len(small)} others", ", ".join(small), f"below {100.0 * LEAST_SHARE:g} % each"
+        yield f"{len(small)} others", f"below {100.0 * LEAST_SHARE:g} % each"
 
 
 def limit_rows(summary: Mapping[str, Any]) -> Iterator[tuple[str, ...]]:
@@ -67,13 +59,18 @@ def limit_rows(summary: Mapping[str, Any]) -> Iterator[tuple[str, ...]]:
         cells = [one["limit"]]
         for part in ("missing", "missing_at_a_point"):
             found = one[part]
-            cells += [of_hundred(found["value"]), f"{100.0 * found['low']:.2g} to {100.0 * found['high']:.2g}"]
+            cells += [of_hundred(found["value"]), interval_text(found)]
         yield tuple(cells)
 
 
 def of_hundred(share: float) -> str:
     """Return a share as pumps of a hundred."""
     return f"{100.0 * share:.3g} of 100"
+
+
+def interval_text(found: Mapping[str, float]) -> str:
+    """Return the interval of a share as pumps of a hundred."""
+    return " to ".join(significant(100.0 * found[end], 2) for end in ("low", "high"))
 
 
 def point_rows(summary: Mapping[str, Any]) -> Iterator[tuple[str, ...]]:

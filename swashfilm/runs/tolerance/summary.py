@@ -10,7 +10,7 @@ import numpy as np
 
 from swashfilm.runs.variation.case import VariedCase
 from swashfilm.runs.variation.words import size_text, where
-from system.description.drawn import Drawing, Drawn, DrawnFit, fit_sigma
+from system.description.drawn import Drawing, Drawn, DrawnFit, pump_sigma
 from system.description.keys import pump_keys
 from system.maps.plan import point_words
 from system.variation.scatter import CONFIDENCE, QUANTILES, Scatter
@@ -64,7 +64,7 @@ def _dimension_rows(case: VariedCase, drawing: Drawing) -> list[dict[str, Any]]:
     known, rows = pump_keys(case.pump), []
     for one in drawing.members:
         key = known[one.keys[0]]
-        sigma = one.sigma if isinstance(one, Drawn) else fit_sigma(one)
+        sigma = pump_sigma(one)
         rows.append(
             {
                 "name": one.name, "keys": list(one.keys), "value": key.value, "text": key.text,
@@ -77,14 +77,15 @@ def _dimension_rows(case: VariedCase, drawing: Drawing) -> list[dict[str, Any]]:
 
 def _words(one: Drawn | DrawnFit, shown: Callable[[float], str]) -> str:
     """Return the tolerance in words."""
+    several = f"; {one.parts} parts of a pump, each its own" if one.parts > 1 else ""
     if isinstance(one, DrawnFit):
         hole, shaft = (f"{shown(part[0])} to {shown(part[1])}" for part in (one.hole, one.shaft))
         sorting = f", paired in {one.classes} classes" if one.classes > 1 else ""
-        return f"{one.shape.value}: hole {hole}, shaft {shaft}{sorting}"
+        return f"{one.shape.value}: hole {hole}, shaft {shaft}{sorting}{several}"
     if np.isfinite(one.least):
-        return f"{one.shape.value}, {shown(one.least)} to {shown(one.most)}"
+        return f"{one.shape.value}, {shown(one.least)} to {shown(one.most)}{several}"
     together = f"; {', '.join(one.keys[1:])} in proportion" if one.keys[1:] else ""
-    return f"{one.shape.value} about {shown(one.middle)}{together}"
+    return f"{one.shape.value} about {shown(one.middle)}{together}{several}"
 
 
 def _warnings(found: Tolerance) -> list[str]:

@@ -18,7 +18,7 @@ from diagnosis.report.json_file import diagnosis_record
 from diagnosis.report.tables import pull_sums
 from diagnosis.verdict.diagnosis import ClaimedEffect
 from swashfilm.__main__ import main
-from swashfilm.runs.diagnose.files import read_rows, write_diagnosis_files
+from swashfilm.runs.diagnose.files import head_of, read_rows, write_diagnosis_files
 from swashfilm.runs.diagnose.page import (
     AXES,
     claim_rows,
@@ -178,7 +178,7 @@ def test_what_is_added_is_drawn_over_an_axis_that_is_there(study: Study, named: 
     assert courses
     assert {axis for _, axis in courses} == {"speed [rpm]"}
     assert effect_courses(rows, courses).axes
-    assert strongest_courses([row | dict.fromkeys(AXES, "") for row in rows]) == []
+    assert strongest_courses([row | {head_of(row, axis): "" for axis in AXES} for row in rows]) == []
 
 
 def test_where_is_told_by_what_shows_there(named: Diagnosis) -> None:

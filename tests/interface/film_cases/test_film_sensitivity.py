@@ -1,6 +1,7 @@
 """Option --sensitivity: numbers, fields and picture of the derivatives by the film, and what it refuses."""
 
 import json
+import runpy
 from pathlib import Path
 
 import meshio
@@ -67,7 +68,7 @@ def test_derivatives_by_constants_of_the_shape_are_slopes_of_the_outputs(case):
     outputs = found["sensitivity"]["outputs"]
     assert found["sensitivity"]["kept"] == "position"
     for name, step, unit in (("h0", 1e-3, "um"), ("slope", 1e-4, ""), ("ripple", 1e-3, "um")):
-        base = found["sensitivity"]["parameters"][name] * (1e6 if unit else 1.0)
+        base = found["sensitivity"]["parameters"][f"constants.{name}"] * (1e6 if unit else 1.0)
         more, less = (
             sf.film(case(_with(SLIDER, **{name: f'"{base + sign * step} {unit}"' if unit else base + sign * step})))
             for sign in (1.0, -1.0)
@@ -80,7 +81,7 @@ def test_derivatives_by_constants_of_the_shape_are_slopes_of_the_outputs(case):
             ("dissipation_W", lambda one: one["dissipation_W"]),
         ):
             expected = (of(more.summary) - of(less.summary)) / width
-            assert outputs[key][f"by_{name}"] == pytest.approx(expected, rel=1e-5)
+            assert outputs[key][f"by_constants.{name}"] == pytest.approx(expected, rel=1e-5)
 
 
 def test_fields_and_page_of_the_run_folder(case, tmp_path):
@@ -117,7 +118,7 @@ def test_a_film_under_a_load_keeps_it(case):
     by = found["outputs"]["dissipation_W"]
     assert "by_film_thickness_m" not in by
     more, less = (sf.film(case(_with(text, ripple=f'"{size} um"'))).summary["dissipation_W"] for size in (0.1, -0.1))
-    assert by["by_ripple"] == pytest.approx((more - less) / 0.2e-6, rel=2e-3)
+    assert by["by_constants.ripple"] == pytest.approx((more - less) / 0.2e-6, rel=2e-3)
 
 
 @pytest.mark.parametrize("walls", ["rigid", "elastic"])
@@ -136,6 +137,14 @@ def test_gaps_of_a_pump_by_their_position_and_shapes(case, walls):
     assert found["load_N"]["by_film_thickness_m"] == pytest.approx(expected, rel=1e-4)
     assert near.problem.walls is None  # as it is written: of its deformed shape
     assert any(key.startswith("by_face_") for key in found["load_N"])
+
+
+def test_the_example_finds_rayleighs_step(capsys):
+    """0.2064 mu U B^2/h^2 per width at a step of 1.866 (Rayleigh 1918), from a wedge of 0.1602."""
+    found = runpy.run_path(str(EXAMPLES / "shape_by_gradient.py"))
+    assert "step  0: load 48.05 N, 0.1602" in capsys.readouterr().out
+    assert 0.2060 < found["load"].value / found["unit"] < 0.2064
+    assert 1e6 * found["thickness"][8, 0] == pytest.approx(18.66, abs=0.2)
 
 
 @pytest.mark.parametrize(

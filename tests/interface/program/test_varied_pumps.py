@@ -4,10 +4,12 @@ import json
 
 import numpy as np
 import pytest
+from stand_in_films import ThinningFilms
 
 import swashfilm as sf
 from swashfilm.__main__ import main
 from swashfilm.runs.tolerance.limits import limit_of
+from system.points.table import sources
 from system.variation.measures import measures_of
 from system.variation.scatter import Bound
 
@@ -115,7 +117,7 @@ def test_result_of_a_tolerance(series):
 
 
 def test_both_as_functions(tmp_path):
-    found = sf.tolerance("ref90", pumps=100, keys="slipper.film_thickness", limits=["loss <= 20 kW"])
+    found = sf.tolerance("ref90", pumps=100, keys="slipper.film_thickness", limit="loss <= 20 kW")
     assert found.limits[0]["missing"]["value"] == 0.0
     assert (found.save(tmp_path / "run") / "report.html").is_file()
     with pytest.raises(sf.InputFaults, match="no dimension"):
@@ -185,3 +187,37 @@ def test_limits_as_text(text, name, bound, value):
     found = limit_of(text, measures_of(films=True), faults)
     assert not faults
     assert (found.measure.name, found.bound, found.value) == (name, bound, pytest.approx(value))
+
+
+@pytest.fixture(scope="module")
+def film_table(tmp_path_factory):
+    """File of a response table of REF90 over pressure and viscosity, whose points a stand-in solves."""
+    place = tmp_path_factory.mktemp("table")
+    with pytest.MonkeyPatch.context() as patched:
+        patched.setenv("SWASHFILM_CACHE", str(place / "cache"))
+        patched.setattr(sources, "solver_of", lambda source, options: ThinningFilms())
+        held = ["--speed", "2100rpm", "--displacement", "1", "--points", "24", "--held-out", "6"]
+        assert main(["table", "ref90", "--pressure", "15MPa..38MPa", *held, "-o", str(place / "run")]) == 0
+    return place / "run" / "table.json"
+
+
+def test_sensitivity_by_a_response_table(film_table):
+    """Dimensions beside the films, and the viscosity, which the table has as an axis."""
+    of_table = {"fidelity": "table", "table": film_table}
+    found = sf.sensitivity("ref90", keys="ports.groove_*,oil.kinematic_viscosity_40C", **of_table)
+    rows = {row["key"]: row["measures"] for row in found.summary["dimensions"]}
+    assert rows["oil.kinematic_viscosity_40C"]["film_least.slipper"]["derivative"] > 0.0  # thicker on thicker oil
+    assert rows["ports.groove_start"]["loss"]["derivative"] < 0.0
+    assert "slipper.film_thickness" in found.summary["held_by_fidelity"]
+    with pytest.raises(sf.InputFaults, match="the films of a response table depend"):
+        sf.sensitivity("ref90", keys="slipper.film_thickness", **of_table)
+
+
+def test_tolerance_by_a_response_table(film_table):
+    of_table = {"fidelity": "table", "table": film_table, "pumps": 100}
+    found = sf.tolerance("ref90", keys="oil.kinematic_viscosity_40C", limit="least film, slipper >= 1 um", **of_table)
+    shares = found.summary["measures"]["film_least.slipper"]["shares"]
+    assert shares[0]["total"]["value"] == pytest.approx(1.0, abs=0.02)
+    with pytest.raises(sf.InputFaults, match=r"slipper.film_thickness.*the films of a response table") as reason:
+        sf.tolerance("ref90", **of_table | {"pumps": 400})
+    assert "oil.kinematic_viscosity_40C" in reason.value.faults[0].nearest

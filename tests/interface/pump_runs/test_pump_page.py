@@ -110,3 +110,28 @@ def test_a_pump_that_delivers_nothing_says_so(summary):
     assert "delivers nothing" in answer.words
     assert "overall efficiency" not in [tile.name for tile in answer.tiles]
     assert np.all([tile.value for tile in answer.tiles])
+
+
+GAP = {
+    "film_thickness_min_m": 3e-6, "film_thickness_min_at_deg": 280.0, "rubbing_power_W": 0.0,
+    "film_temperature_max_K": 350.0,
+}  # fmt: skip
+
+
+def test_floating_films_tell_the_thinnest_the_hottest_and_what_rubs(summary):
+    gaps = {"piston": GAP | {"film_thickness_min_m": 0.8e-6, "rubbing_power_W": 12.0}, "slipper": GAP}
+    number = {"extrapolated": 0.79e-6, "error": 2e-8, "verdict": "converges as expected"}
+    found = pump_answer({
+        **summary, "fidelity": "floating", "gaps": gaps, "unlike": {},
+        "refinement": {"numbers": {"film_least_m.piston": number}},
+    })  # fmt: skip
+    tiles = {tile.name: tile for tile in found.tiles}
+    assert tiles["least film of the turn"].value == "0.80 um"
+    assert tiles["least film of the turn"].note == "piston-cylinder, 280 deg; limit 0.790 +- 0.020 um"
+    assert tiles["hottest oil"].value == "77 degC"
+    assert "Parts rub on each other at piston-cylinder (12 W)." in found.words
+
+
+@pytest.mark.parametrize(("fidelity", "words"), [("table", "response table"), ("fixed", "positions of the pump file")])
+def test_words_say_where_the_films_come_from(summary, fidelity, words):
+    assert words in pump_answer({**summary, "fidelity": fidelity}).words

@@ -26,6 +26,8 @@ if TYPE_CHECKING:
 
 STEP = 1e-4  # of a parameter: differences of the shape alone, exact where it is linear in the parameter
 SMALLEST = 1e-9  # of a step, in the parameter's SI unit
+CONSTANT = "constants."
+"""Beginning of the key of a constant of the case, which has no unit in its name."""
 _IN_NAME = re.compile("(?<=[a-z])(?=[A-Z])")
 POSITIONS = {
     Gap.PISTON: ("eccentricity_inner_x_m", "eccentricity_inner_y_m", "eccentricity_case_x_m", "eccentricity_case_y_m"),
@@ -78,7 +80,7 @@ def case_growth(case: FilmCase) -> list[Growth]:
 
         points, vertices = _differences(shape, value)
         if np.any(points != 0.0) and np.isfinite(points).all():
-            found.append(Growth(name, value, points, vertices))
+            found.append(Growth(f"{CONSTANT}{name}", value, points, vertices))
     return found
 
 

@@ -12,7 +12,7 @@ from system.description.tolerance import Shape
 from system.inputs.faults import InputFaults
 from system.inputs.sections.reader import with_values
 from system.pump_file.file import resolved_toml
-from system.variation.sampling import below, drawn_series, fit_values, groups, part_of, quantile
+from system.variation.sampling import alike, below, drawn_series, fit_values, groups, part_of, quantile
 
 COUNT = 40_000
 
@@ -90,6 +90,29 @@ def test_normal_parts_stay_in_their_class():
     one = DrawnFit("x", Shape.NORMAL, fit.hole, fit.shaft, 1)
     scores = np.random.default_rng(7).standard_normal((COUNT, 2))
     assert np.std(fit_values(fit, scores)) < 0.4 * np.std(fit_values(one, scores))
+
+
+@pytest.mark.parametrize("parts", [1, 9])
+def test_parts_of_their_own_size(parts):
+    """The mean over a pump scatters by the root of their number; clearances by the leakage that they have together."""
+    fit = {"key": "piston.radial_clearance", "shape": "uniform", "hole_least": "22.02 mm", "hole_most": "22.04 mm",
+           "shaft_least": "22 mm", "shaft_most": "22.01 mm", "parts": parts}  # fmt: skip
+    row = {"key": "slipper.orifice_diameter", "shape": "triangular", "plus_minus": "0.03 mm", "parts": parts}
+    pump = pump_with(fit=[fit], dimension=[row])
+    orifice = drawn_values(pump, "slipper.orifice_diameter")
+    assert np.std(orifice) == pytest.approx(0.03e-3 / np.sqrt(6.0 * parts), rel=0.02)
+    clearance = drawn_values(pump, "piston.radial_clearance")
+    cube = stats.uniform(11.01e-3, 0.01e-3), stats.uniform(11.0e-3, 0.005e-3)
+    drawn = [one.rvs(COUNT, random_state=k) for k, one in enumerate(cube)]
+    assert np.mean(clearance**3) == pytest.approx(np.mean((drawn[0] - drawn[1]) ** 3), rel=0.01)
+    assert drawn_sigmas(pump)["piston.radial_clearance"] == pytest.approx(np.std(clearance), rel=0.06)
+
+
+def test_one_part_without_clearance_is_no_pump():
+    values = np.array([[3e-6, 4e-6, 5e-6], [3e-6, -1e-6, 5e-6]])
+    found = alike("piston.radial_clearance", values)
+    assert found[0] == pytest.approx(np.cbrt(72.0) * 1e-6)
+    assert found[1] == -1e-6
 
 
 def test_sigmas_of_the_table_are_dimensions():
@@ -225,6 +248,8 @@ def test_faults_of_a_correlation():
     same = pair | {"other": FILM["key"]}
     assert "two dimensions" in faults_of(dimension=[FILM], correlation=[same])["tolerance.correlation.1"].expected
     assert faults_of(dimension=[FILM], correlation=[pair | {"coefficient": 1.0}])
+    several = faults_of(dimension=[FILM | {"parts": 9}, PLATE], correlation=[pair | {"other": PLATE["key"]}])
+    assert "of several parts" in several["tolerance.correlation.1"].found
 
 
 def test_a_partial_section_has_no_keys_of_others():

@@ -104,6 +104,14 @@ def test_limits(tmp_path):
     assert 0.0 < found[1].missing.value < found[1].anywhere.value < 1.0
 
 
+def test_too_few_pumps_with_a_result(tmp_path):
+    """A shaft that is nearly always wider than its hole."""
+    fit = {"key": "piston.radial_clearance", "shape": "uniform", "hole_least": "22.00 mm", "hole_most": "22.02 mm",
+           "shaft_least": "22.01 mm", "shaft_most": "22.03 mm"}  # fmt: skip
+    with pytest.raises(InputError, match=r"of 200 pumps with a result; the first without: .*radial_clearance"):
+        series(tmp_path, load_pump("ref90", {"tolerance.fit": [fit]}), 200)
+
+
 def test_the_same_seed_draws_the_same_pumps(tmp_path):
     one, other = (series(tmp_path / name, PUMP, 150) for name in ("one", "other"))
     assert np.array_equal(one.numbers, other.numbers, equal_nan=True)

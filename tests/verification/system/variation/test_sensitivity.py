@@ -162,6 +162,21 @@ def test_a_pump_without_a_result_is_no_sensitivity(tmp_path, monkeypatch):
         found_by(tmp_path, ["oil.density"], plan_sites(map_plan(PUMP, ())))
 
 
+def test_a_pump_that_fails_has_a_smaller_step(tmp_path, monkeypatch):
+    """The next stencil that the geometry admits; where none is left, the reason."""
+    whole, own = LumpedSolver.solve, PUMP.slipper.film_thickness
+
+    def fails_far_off(self, pump, point):
+        if abs(pump.slipper.film_thickness - own) > 0.005 * own or pump.oil.density != PUMP.oil.density:
+            raise NotConverged("walls apart")
+        return whole(self, pump, point)
+
+    monkeypatch.setattr(LumpedSolver, "solve", fails_far_off)
+    found = found_by(tmp_path, ["slipper.film_thickness", "oil.density"], plan_sites(map_plan(PUMP, ())))
+    assert [one.stencil.step for one in found.slopes] == [pytest.approx(0.0025 * own)]
+    assert [(one.key.path, one.reason) for one in found.refused] == [("oil.density", "not converged: walls apart")]
+
+
 def test_changes_that_people_ask_for():
     assert unit_change(KEYS["slipper.film_thickness"]) == 1e-6
     assert unit_change(KEYS["ports.groove_start"]) == pytest.approx(np.radians(1.0))
