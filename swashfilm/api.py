@@ -29,10 +29,10 @@ if TYPE_CHECKING:
     from swashfilm.runs.calibrate.result import CalibrationRun
     from swashfilm.runs.compare.result import CompareRun
     from swashfilm.runs.diagnose.result import DiagnosisRun
-    from swashfilm.runs.duty.result import DutyRun
     from swashfilm.runs.film.result import FilmRun
     from swashfilm.runs.film.revolution.result import RevolutionRun
     from swashfilm.runs.film.series.result import StudyRun
+    from swashfilm.runs.map.duty.result import DutyRun
     from swashfilm.runs.map.result import MapRun
     from swashfilm.runs.pump.result import PumpRun
     from swashfilm.runs.pump.vary.result import VariedRun
@@ -66,7 +66,7 @@ _OF_COMMAND_LINE = (
     "--units",
 )
 _RESULTS = (
-    "pump", "pump.vary", "film", "film.revolution", "film.series", "map", "duty", "compare", "table", "transient",
+    "pump", "pump.vary", "film", "film.revolution", "film.series", "map", "map.duty", "compare", "table", "transient",
     "reference", "reproduce", "diagnose", "calibrate", "variation.sensitivity", "variation.tolerance",
 )  # fmt: skip
 """Rooms of `swashfilm.runs` with results."""
@@ -242,9 +242,9 @@ def table(pump: str | Path | PumpDescription, *, report: Report = silent, **opti
 def duty(of: MapRun | str | Path, cycle: str | Path) -> DutyRun:
     """Return energies and losses over a duty cycle (CSV) by a map: a MapRun, its run folder, or its map.nc."""
     with _door("duty"), _map_file(of) as path:
-        from swashfilm.runs.duty.cycle_file import read_cycle
-        from swashfilm.runs.duty.result import DutyRun
-        from swashfilm.runs.duty.run import run_duty
+        from swashfilm.runs.map.duty.cycle_file import read_cycle
+        from swashfilm.runs.map.duty.result import DutyRun
+        from swashfilm.runs.map.duty.run import run_duty
         from swashfilm.runs.map.files import map_file, read_map
 
         data, error = read_map(map_file(path))

@@ -16,10 +16,10 @@ from swashfilm.console.terminal import show
 from swashfilm.runs.calibrate import command as calibrate
 from swashfilm.runs.compare import command as compare
 from swashfilm.runs.diagnose import command as diagnose
-from swashfilm.runs.duty import command as duty
 from swashfilm.runs.export import command as export
 from swashfilm.runs.film import command as film
 from swashfilm.runs.map import command as operating_map
+from swashfilm.runs.map.duty import command as duty
 from swashfilm.runs.pump import command as run
 from swashfilm.runs.reference import coefficients_command as coefficients, command as reference
 from swashfilm.runs.reproduce import command as reproduce

@@ -21,7 +21,7 @@ PAGES = {
     "pump_study": "swashfilm.runs.film.series.page.write_study_page",
     "pump": "swashfilm.runs.pump.page.write_pump_page",
     "comparison": "swashfilm.runs.compare.page.write_compare_page",
-    "duty": "swashfilm.runs.duty.page.write_duty_page",
+    "duty": "swashfilm.runs.map.duty.page.write_duty_page",
     "map": "swashfilm.runs.map.page.write_map_page",
     "gap_table": "swashfilm.runs.table.page.write_table_page",
     "reference": "swashfilm.runs.reference.page.write_reference_page",

@@ -94,7 +94,7 @@ class CompareCase:
 
 def compare_case(options: argparse.Namespace) -> CompareCase:
     """Return the case of a command line; raise InputFaults with every fault of maps, pumps, options and cycle."""
-    from swashfilm.runs.duty.cycle_file import read_cycle
+    from swashfilm.runs.map.duty.cycle_file import read_cycle
     from system.maps.compare import common_axes
     from system.work.processes import cores
 

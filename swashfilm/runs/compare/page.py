@@ -10,8 +10,8 @@ from swashfilm.output.answer import Answer, Tile
 from swashfilm.output.page import kept_pictures, read_summary, write_page
 from swashfilm.output.touch.picture import Picture
 from swashfilm.runs.compare.plots import FIRST
-from swashfilm.runs.duty.page import energy_text
 from swashfilm.runs.map.answer import percent
+from swashfilm.runs.map.duty.page import energy_text
 from swashfilm.runs.map.plots import HEADLINE
 from swashfilm.runs.map.slices import place_words
 from system.maps.data import LOSSES

@@ -12,7 +12,7 @@ from swashfilm.output.run_folder import write_json
 from swashfilm.output.tables import write_csv
 from swashfilm.runs.compare.page import write_compare_page
 from swashfilm.runs.compare.plots import compare_pictures
-from swashfilm.runs.duty.run import duty_summary, known_error
+from swashfilm.runs.map.duty.run import duty_summary, known_error
 from swashfilm.runs.map.files import MAP, read_map
 from swashfilm.runs.map.run import MapCase, solve_map, worth_starting
 from system.inputs.shown import shown_in

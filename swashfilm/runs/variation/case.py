@@ -12,8 +12,8 @@ import numpy as np
 from swashfilm.console.fidelity import Fidelity
 from swashfilm.console.floating_options import alike_faults, floating_faults, floating_options
 from swashfilm.console.inputs import COMMAND_LINE, expect, given_text
-from swashfilm.runs.duty.cycle_file import read_cycle
 from swashfilm.runs.map.command import stated_axes
+from swashfilm.runs.map.duty.cycle_file import read_cycle
 from swashfilm.runs.map.run import POINT_COST, MapCase, kept_table
 from swashfilm.runs.variation.options import chosen_keys, needs_keys, word_faults
 from system.description.keys import PumpKey, pump_keys

@@ -77,7 +77,7 @@ def test_a_figure_leaves_a_run_folder(tmp_path, capsys):
     part = docs.split("# A reproduction", 1)[1].split("\n## ", 1)[0]
     assert set(row) | set(summary) <= set(re.findall(r"`([^`]+)`", part))
     assert "**fig11.small**" in page.read_text("utf-8")
-    report = (folder / "report.html").read_text("utf-8")
+    report = (folder / "report.html").read_text("utf-8").replace("\u00a0", " ")
     assert report.index("of 2 readings 2 reached") < report.index("<nav>") < report.index("&ldquo;")
     assert main(["report", str(folder)]) == 0
 

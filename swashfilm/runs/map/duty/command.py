@@ -18,9 +18,9 @@ def add_duty_options(command: argparse.ArgumentParser) -> None:
 def run_duty_command(options: argparse.Namespace) -> int:
     """Run `swashfilm duty` and return its exit code; raise InputFaults with every fault of map and cycle."""
     from swashfilm.output.run_folder import run_folder
-    from swashfilm.runs.duty.cycle_file import read_cycle
-    from swashfilm.runs.duty.result import DutyRun
-    from swashfilm.runs.duty.run import run_duty
+    from swashfilm.runs.map.duty.cycle_file import read_cycle
+    from swashfilm.runs.map.duty.result import DutyRun
+    from swashfilm.runs.map.duty.run import run_duty
     from swashfilm.runs.map.files import map_file, read_map
 
     data, error = read_map(map_file(options.map))

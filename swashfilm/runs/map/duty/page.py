@@ -11,8 +11,8 @@ from swashfilm.output.answer import Answer, Tile
 from swashfilm.output.data.files import read_columns
 from swashfilm.output.page import keep_pictures, read_summary, write_page
 from swashfilm.output.touch.picture import Picture
-from swashfilm.runs.duty.plots import BALANCE, course_plot, sinks_of, sinks_plot
 from swashfilm.runs.map.answer import overall_formula, points_text
+from swashfilm.runs.map.duty.plots import BALANCE, course_plot, sinks_of, sinks_plot
 from swashfilm.runs.map.plots import HEADLINE
 
 COURSE = "course.csv"

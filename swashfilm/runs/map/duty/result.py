@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING, ClassVar
 
 from swashfilm.output.result import Result, plotted, read_table
 from swashfilm.output.tables import Table
-from swashfilm.runs.duty.page import COURSE, EFFICIENCY_HEAD, ENERGY_HEAD, efficiency_rows, energy_rows, marked_rows
-from swashfilm.runs.duty.plots import course_of, course_plot, sinks_plot
+from swashfilm.runs.map.duty.page import COURSE, EFFICIENCY_HEAD, ENERGY_HEAD, efficiency_rows, energy_rows, marked_rows
+from swashfilm.runs.map.duty.plots import course_of, course_plot, sinks_plot
 
 if TYPE_CHECKING:
     import xarray

@@ -11,8 +11,8 @@ import numpy as np
 
 from swashfilm.output.data.files import Column, write_columns
 from swashfilm.output.run_folder import write_json
-from swashfilm.runs.duty.page import COURSE, write_duty_page
-from swashfilm.runs.duty.plots import RATIO
+from swashfilm.runs.map.duty.page import COURSE, write_duty_page
+from swashfilm.runs.map.duty.plots import RATIO
 from system.inputs.faults import Fault, InputFaults
 from system.maps.data import MapData
 from system.maps.duty import Cycle, Duty, duty
