@@ -8,9 +8,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from reynolds.numerics.arrays import Array
+from swashfilm.output.data.gap_names import TITLES
 from swashfilm.output.field_maps import MapField, draw_map
 from swashfilm.output.figures import figure_of, legend_below
-from swashfilm.output.gap_names import TITLES
 from swashfilm.runs.pump.data import GAPS, PICTURED_TURN
 from system.inputs.shown import shown_in, significant, title_in
 from system.inputs.units import LPM
