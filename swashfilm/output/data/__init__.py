@@ -1,1 +1,1 @@
-"""Data of runs as files: CSV, NetCDF, and a workbook."""
+"""Data of runs as files: names, CSV, NetCDF, and a workbook."""

@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from swashfilm.output.data.files import read_netcdf
+from swashfilm.output.data.gap_names import TITLES
 from swashfilm.output.figures import figure_of
-from swashfilm.output.gap_names import TITLES
 from swashfilm.output.scenes.field_maps import draw_map
 from swashfilm.runs.film.revolution.plots import MAPPED, unit_of
 from system.inputs.shown import titled

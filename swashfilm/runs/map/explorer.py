@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from reynolds.numerics.arrays import Array
-from swashfilm.output.gap_names import TITLES
+from swashfilm.output.data.gap_names import TITLES
 from swashfilm.output.touch.explorer import Control, Explorer
 from swashfilm.output.touch.packing import short
 from swashfilm.output.touch.traces import scale_of

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from reynolds.numerics.arrays import Array
-from swashfilm.output.gap_names import TITLES
+from swashfilm.output.data.gap_names import TITLES
 from swashfilm.runs.map.panels import even_panel, panel_figure
 from swashfilm.runs.map.slices import Slice, held_words, main_slice
 from system.inputs.units import Dimension, in_unit

@@ -10,7 +10,7 @@ import numpy as np
 
 from gaps.standing.gap_film import GapFilm
 from swashfilm.output.data.files import columns_of, write_columns, write_netcdf
-from swashfilm.output.gap_names import kind_folder
+from swashfilm.output.data.gap_names import kind_folder
 from system.films.oil_state import UNITS, oil_state
 from system.points.films import FilmsPoint
 from system.pump.assembly import PumpPoint

@@ -12,7 +12,7 @@ from gaps.revolution.march import GapRevolution, Leg
 from swashfilm.case.gap.physics import PHYSICS_HEAD, effect_rows
 from swashfilm.console.fidelity import Fidelity
 from swashfilm.output.data.files import read_netcdf, write_netcdf
-from swashfilm.output.gap_names import TITLES, kind_folder
+from swashfilm.output.data.gap_names import TITLES, kind_folder
 from swashfilm.output.page import inlined
 from swashfilm.output.run_folder import FAILED, write_json
 from swashfilm.output.tables import read_csv

@@ -8,8 +8,8 @@ import numpy as np
 
 from swashfilm.console.fidelity import Fidelity
 from swashfilm.output.data.files import read_netcdf
+from swashfilm.output.data.gap_names import TITLES
 from swashfilm.output.figures import smaller
-from swashfilm.output.gap_names import TITLES
 from swashfilm.output.page import inlined, read_summary, write_page
 from swashfilm.output.refinement import refinement_head, refinement_rows
 from swashfilm.output.touch.explorer import Explorer

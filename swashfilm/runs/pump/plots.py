@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from reynolds.numerics.arrays import Array
+from swashfilm.output.data.gap_names import TITLES
 from swashfilm.output.figures import figure_of, legend_below
-from swashfilm.output.gap_names import TITLES
 from swashfilm.output.scenes.field_maps import MapField, draw_map
 from swashfilm.runs.pump.data import GAPS, PICTURED_TURN
 from system.inputs.shown import shown_in, significant, title_in

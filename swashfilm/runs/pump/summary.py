@@ -8,7 +8,7 @@ import numpy as np
 
 from gaps.standing.gap_film import GapFilm
 from swashfilm.console.fidelity import Fidelity
-from swashfilm.output.gap_names import LARGEST_RIGID_PRESSURE, kind_folder
+from swashfilm.output.data.gap_names import LARGEST_RIGID_PRESSURE, kind_folder
 from swashfilm.runs.pump.coefficients.edge_losses import loss_records
 from swashfilm.runs.pump.coefficients.flow import coefficient_records
 from swashfilm.runs.pump.data import GAPS, PARTS, named_films

@@ -7,7 +7,7 @@ from typing import Any
 
 from gaps.films.reports import Active
 from swashfilm.output.answer import Tile
-from swashfilm.output.gap_names import TITLES
+from swashfilm.output.data.gap_names import TITLES
 from swashfilm.output.refinement import bar_text
 from swashfilm.runs.film.answer import LEAST_SHARE, amount
 from swashfilm.runs.film.revolution.plots import MEANING

@@ -15,7 +15,7 @@ from reynolds.equation.rough_overlap import vertex_thickness
 from reynolds.numerics.arrays import Array
 from reynolds.solve.export import write_pvd, write_vtu
 from swashfilm.output.data.files import Column, columns_of, write_columns
-from swashfilm.output.gap_names import FIELDS, vtu_name
+from swashfilm.output.data.gap_names import FIELDS, vtu_name
 from swashfilm.runs.film.revolution.solve import RevolutionStudy, friction_power, tilt
 from system.description.gap import Gap
 from system.films.places import place_of

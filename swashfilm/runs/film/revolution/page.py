@@ -7,7 +7,7 @@ from typing import Any
 from swashfilm.case.gap.physics import PHYSICS_HEAD, effect_rows
 from swashfilm.output.answer import Answer
 from swashfilm.output.data.files import read_netcdf
-from swashfilm.output.gap_names import TITLES
+from swashfilm.output.data.gap_names import TITLES
 from swashfilm.output.page import inlined, read_summary, write_page
 from swashfilm.output.refinement import refinement_head, refinement_rows
 from swashfilm.output.tables import read_csv

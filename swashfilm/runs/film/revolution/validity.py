@@ -9,7 +9,7 @@ from gaps.films.physics import Effect
 from gaps.films.slipper import retainer_force
 from gaps.revolution.march import GapRevolution
 from swashfilm.case.gap.revolution import GapOverTurn
-from swashfilm.output.gap_names import LARGEST_RIGID_PRESSURE
+from swashfilm.output.data.gap_names import LARGEST_RIGID_PRESSURE
 from swashfilm.runs.film.solve.profiles import unresolved_profiles
 from system.description.gap import Gap
 from system.films.drives import slipper_retainer

@@ -9,7 +9,7 @@ import numpy as np
 
 from swashfilm.console.fidelity import Fidelity
 from swashfilm.output.answer import Answer, Tile
-from swashfilm.output.gap_names import TITLES
+from swashfilm.output.data.gap_names import TITLES
 from swashfilm.output.page import inlined
 from swashfilm.runs.pump.headline.powers import (
     SMALLEST,

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from enum import Enum
 from typing import Any
 
-from swashfilm.output.gap_names import TITLES
+from swashfilm.output.data.gap_names import TITLES
 from swashfilm.runs.pump.data import GAPS
 from system.effects.effect import EffectId
 from system.pump.laws.friction_pairs import Pair

@@ -16,7 +16,7 @@ import numpy as np
 
 from reynolds.numerics.arrays import Array
 from reynolds.solve.export import write_pvd
-from swashfilm.output.gap_names import FIELDS, vtu_name
+from swashfilm.output.data.gap_names import FIELDS, vtu_name
 from swashfilm.runs.pump.scene.solids import Solids
 from swashfilm.runs.pump.scene.surfaces import TURN, Surface, joined
 from system.films.parts import FloatingParts

@@ -6,7 +6,7 @@ import numpy as np
 
 from gaps.films.over_turn import TURN, PeriodicCurve
 from reynolds.solve.export import write_pvd, write_vtu
-from swashfilm.output.gap_names import FIELDS, kind_folder, vtu_name
+from swashfilm.output.data.gap_names import FIELDS, kind_folder, vtu_name
 from swashfilm.runs.pump.data import GAPS, PARTS
 from swashfilm.runs.pump.scene.blocks import Blocks, ChamberKind, Scene, write_pump
 from system.description.gap import Gap

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 
-from swashfilm.output.gap_names import FIELDS, vtu_name
+from swashfilm.output.data.gap_names import FIELDS, vtu_name
 from swashfilm.output.scenes.picture3d import Frame, Solid, draw
 from swashfilm.runs.pump.data import PICTURED_TURN
 from swashfilm.runs.pump.scene.blocks import OIL, Blocks, Scene, nearest
