@@ -7,40 +7,27 @@ With names, only these examples are run; the others keep their pictures.
 
 from __future__ import annotations
 
-import io
-import subprocess
 import sys
-import tempfile
 from dataclasses import dataclass
-from pathlib import Path
 
-import matplotlib
-from PIL import Image
+from pictures import DOCS, WHOLE, picture, ran, write_thumbnail
 
-import swashfilm as sf
-from swashfilm.output.figures import png_of
-
-matplotlib.use("Agg")
-
-ROOT = Path(__file__).resolve().parents[2]
-DOCS = ROOT / "docs"
 PICTURES = DOCS / "gallery"
-WIDTH, COLOURS, ACROSS = 420, 64, 3
+WIDTH, ACROSS = 420, 3
 
 
 @dataclass(frozen=True)
 class Example:
     """A command, and the picture that stands for its result.
 
-    picture: a file of the run folder, or a method of the result that draws; part: left, top, right, bottom as shares of
-    the picture.
+    picture: as `picture` of a run folder takes it; part: left, top, right, bottom as shares of the picture.
     """
 
     name: str
     title: str
     command: str
     picture: str
-    part: tuple[float, float, float, float] = (0.0, 0.0, 1.0, 1.0)
+    part: tuple[float, float, float, float] = WHOLE
 
 
 BENCH = "examples/recordings/bench_pump.toml"
@@ -77,23 +64,8 @@ def main(names: list[str]) -> int:
 
 def draw(example: Example) -> None:
     """Run an example and leave its thumbnail in docs/gallery."""
-    with tempfile.TemporaryDirectory() as place:
-        folder = Path(place) / "run"
-        command = [sys.executable, "-m", "swashfilm", *example.command.split(), "-o", str(folder)]
-        subprocess.run(command, cwd=ROOT, check=True, stdout=subprocess.DEVNULL)
-        whole = Image.open(io.BytesIO(picture(folder, example.picture))).convert("RGB")
-    (wide, tall), (left, top, right, bottom) = whole.size, example.part
-    shown = whole.crop((round(left * wide), round(top * tall), round(right * wide), round(bottom * tall)))
-    shown.thumbnail((WIDTH, WIDTH))
-    shown.quantize(COLOURS).save(PICTURES / f"{example.name}.png", optimize=True)
-
-
-def picture(folder: Path, name: str) -> bytes:
-    """Return a picture of a run folder as PNG: its file of that name, or what that method of its result draws."""
-    if (file := folder / name).suffix:
-        return file.read_bytes()
-    axes = getattr(sf.open(folder), name)()
-    return png_of(axes[0].figure)
+    with ran(example.command) as folder:
+        write_thumbnail(picture(folder, example.picture), PICTURES / f"{example.name}.png", WIDTH, example.part)
 
 
 def page() -> str:

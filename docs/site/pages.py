@@ -4,12 +4,15 @@ from __future__ import annotations
 
 import importlib
 import pkgutil
+from collections.abc import Iterable
 from pathlib import Path
 from typing import Any
 
+from listed import EXAMPLES
+
 PACKAGES = ("reynolds", "gaps", "system", "diagnosis", "swashfilm")
 CONTENTS = {
-    "Start": ("/README", "tutorial", "gallery", "notebooks/film", "notebooks/pump", "wrong_results"),
+    "Start": ("/README", "tutorial", "gallery", "examples/index", "notebooks/film", "notebooks/pump", "wrong_results"),
     "Reference": ("files", "conventions", "/examples/README", "/meshes/README", "cluster", "api/index"),
     "Background": ("theory", "architecture", "validation", "proof", "proof_floating", "Reproduction <reproduction>",
                    "Reproduction with films <reproduction_fixed>",
@@ -28,11 +31,17 @@ def setup(app: Any) -> dict[str, bool]:
 
 
 def add_contents(_app: Any, name: str, source: list[str]) -> None:
-    """Append the menu to docs/index.md, which stays plain Markdown in the repository."""
+    """Append the menu to docs/index.md and to that of the examples, which stay plain Markdown in the repository."""
     if name == "docs/index":
         for caption, pages in CONTENTS.items():
-            listed = "\n".join(pages)
-            source[0] += f"\n```{{toctree}}\n:hidden:\n:caption: {caption}\n:maxdepth: 1\n\n{listed}\n```\n"
+            source[0] += _menu(pages, f":caption: {caption}\n:maxdepth: 1\n")
+    if name == "docs/examples/index":
+        source[0] += _menu([example.name for example in EXAMPLES])
+
+
+def _menu(pages: Iterable[str], options: str = "") -> str:
+    listed = "\n".join(pages)
+    return f"\n```{{toctree}}\n:hidden:\n{options}\n{listed}\n```\n"
 
 
 def write_front(app: Any, _error: Exception | None) -> None:
