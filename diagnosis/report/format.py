@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
+from diagnosis.recording.units import reading
 from diagnosis.verdict.diagnosis import Estimate
 from system.description.gap import Gap
 from system.effects.effect import EffectId
@@ -12,6 +13,9 @@ from system.inputs.units import Dimension, in_unit, reading_unit
 
 MOST_ODDS = 1000000
 """Odds beyond which a number means nothing: models are not that true."""
+
+NOTHING = "no mismatch"
+"""The explanation by no effect at all, in words."""
 
 PLACES = {Gap.PISTON: "the pistons", Gap.SLIPPER: "the slippers", Gap.VALVE_PLATE: "the valve plate"}
 
@@ -28,6 +32,12 @@ def channel_words(channel: ChannelName) -> str:
     """A channel in words with its name: "case drain (Q_case)"."""
     words = CHANNELS.get(channel)
     return f"{words} ({channel.value})" if words else channel.value
+
+
+def setting_text(speed: float, pressure: float, stroke: float) -> str:
+    """An operating point in SI in the words of a bench: "1000 r/min, 374 bar, 28 % stroke"."""
+    turns, bar = reading(ChannelName.SPEED, speed), reading(ChannelName.P_OUT, pressure)
+    return f"{turns:.0f} r/min, {bar:.0f} bar, {100.0 * stroke:.0f} % stroke"
 
 
 def estimate_text(estimate: Estimate) -> str:
@@ -52,6 +62,11 @@ def effect_words(effects: Iterable[EffectId], pair: Gap | None = None) -> str:
     """Ids as words: "elastic opening of the slippers", "churning and torque offset", "nothing"."""
     words = listed(effect.value.replace("_", " ") for effect in effects) or "nothing"
     return f"{words} at {PLACES[pair]}" if pair else words
+
+
+def if_words(explanation: str) -> str:
+    """The condition that an explanation is true: "if the cause is churning", "if nothing is wrong"."""
+    return "if nothing is wrong" if explanation == NOTHING else f"if the cause is {explanation}"
 
 
 def listed(words: Iterable[str], last: str = "and") -> str:

@@ -125,18 +125,24 @@ def parameter_rows(diagnosis: Diagnosis) -> Iterator[Row]:
         }
 
 
+NEXT_POINT_HEAD = (
+    "speed [rpm]", "p_out [bar]", "displacement_ratio [1]", "T_in [degC]", "T_case [degC]", "gain [nats]",
+)  # fmt: skip
+
+
 def next_point_rows(found: NextPoint | None) -> Iterator[Row]:
     """Points of the rig's box by the gain of readings there, in nats, the best first."""
     for one in () if found is None else found.ranked:
         point = one.point
-        yield {
-            "speed [rpm]": _reading(ChannelName.SPEED, point.shaft_speed),
-            "p_out [bar]": _reading(ChannelName.P_OUT, point.delivery_pressure),
-            "displacement_ratio [1]": _text(point.displacement_ratio),
-            "T_in [degC]": _reading(ChannelName.T_IN, one.inlet_temperature),
-            "T_case [degC]": _reading(ChannelName.T_CASE, point.temperature),
-            "gain [nats]": _text(one.gain),
-        }
+        values = (
+            _reading(ChannelName.SPEED, point.shaft_speed),
+            _reading(ChannelName.P_OUT, point.delivery_pressure),
+            _text(point.displacement_ratio),
+            _reading(ChannelName.T_IN, one.inlet_temperature),
+            _reading(ChannelName.T_CASE, point.temperature),
+            _text(one.gain),
+        )
+        yield dict(zip(NEXT_POINT_HEAD, values, strict=True))
 
 
 def pull_sums(before: Posterior, after: Posterior) -> tuple[float, float]:

@@ -15,6 +15,10 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 Row = Mapping[str, str]
+FITS = {"pull_before": "without the finding", "pull_after": "with it"}
+AXIS_WORDS = {
+    "p_out": "delivery pressure", "speed": "speed", "displacement_ratio": "stroke", "T_case": "case temperature",
+}  # fmt: skip
 BEFORE, AFTER, NOISE = "#b55a00", "#3c7a8c", "#9aa4ab"
 WIDTH = 10.0  # inches, of every picture that is as wide as the page
 MOST_BARS = 12
@@ -24,14 +28,15 @@ RATIO_STEP = 0.1
 """Points whose displacement ratios differ by less are drawn together."""
 
 
-def residual_maps(rows: Sequence[Row]) -> Figure:
-    """Pulls over speed and pressure by channel and displacement, before beside after on one scale.
+def residual_maps(rows: Sequence[Row], claimed: bool = True) -> Figure:
+    """Pulls over speed and pressure by channel and displacement, without the claim beside with it on one scale.
 
-    For more than two displacements, before is above after, so that each panel stays legible.
+    For more than two displacements, without is above with, so that each panel stays legible. Without a claim there is
+    one fit.
     """
     channels = list(dict.fromkeys(row["channel"] for row in rows))
     levels = _levels(_column(rows, "displacement_ratio [1]"))
-    both = ("pull_before", "pull_after")
+    both = ("pull_before", "pull_after") if claimed else ("pull_before",)
     kinds = [both] if len(levels) < 3 else [(key,) for key in both]
     lines = [(channel, keys) for channel in channels for keys in kinds]
     columns = len(levels) * len(kinds[0])
@@ -44,22 +49,25 @@ def residual_maps(rows: Sequence[Row]) -> Figure:
         for axes, (level, key) in zip(line, places, strict=True):
             own = [row for row in rows if row["channel"] == channel and _of_level(row, level)]
             drawn = _map(axes, own, key, most)
-            axes.set_title(f"{key.removeprefix('pull_')}{_title(level)}", fontsize=8, pad=3)
+            axes.set_title(", ".join(filter(None, (FITS[key] if claimed else "", _title(level)))), fontsize=8, pad=3)
         line[0].set_ylabel(f"{channel}\np_out / bar", fontsize=8)
     for axes in grid[-1]:
-        axes.set_xlabel("speed / rpm", fontsize=8)
+        axes.set_xlabel("speed / (r/min)", fontsize=8)
     bar = figure.colorbar(drawn, ax=grid.ravel().tolist(), shrink=min(0.8, 6.0 / (1.5 * len(lines))), extend="both")
-    bar.set_label("(measured - simulated) / sigma", fontsize=8)
+    bar.set_label("(measured - simulated) / scatter of the meter", fontsize=8)
     return figure
 
 
 def held_out_bars(held_out: Mapping[str, Mapping[str, Any]]) -> Figure:
     """RMS of held-out residuals before and after, in units of each channel's noise."""
-    sizes = {key: [one[key] / one["noise"] for one in held_out.values()] for key in ("before", "after")}
+    sizes = {
+        words: [one[key] / one["noise"] for one in held_out.values()]
+        for key, words in (("before", "without the finding"), ("after", "with it"))
+    }
     figure = figure_of(WIDTH, 1.2 + 0.5 * len(held_out))
     axes = figure.subplots()
-    axes.axvline(1.0, color=NOISE, linestyle="--", label="noise")
-    _paired_bars(axes, list(held_out), sizes, "rms of held-out residuals / noise")
+    axes.axvline(1.0, color=NOISE, linestyle="--", label="scatter of the meter")
+    _paired_bars(axes, list(held_out), sizes, "rms difference at points not used in the fit / scatter of the meter")
     return figure
 
 
@@ -89,7 +97,7 @@ def pull_changes(rows: Sequence[Row]) -> Figure:
     ends = [np.array([float(row[key]) for row in ranked]) for key in ("pull_before", "pull_after")]
     axes.axvspan(-2, 2, color=NOISE, alpha=0.2)
     axes.hlines(places, ends[0], ends[1], color=NOISE)
-    for values, colour, label in zip(ends, (BEFORE, AFTER), ("before", "after"), strict=True):
+    for values, colour, label in zip(ends, (BEFORE, AFTER), FITS.values(), strict=True):
         axes.plot(values, places, "o", color=colour, label=label)
     axes.set_yticks(places, [row["name"] for row in ranked], fontsize=8)
     axes.set_xlabel("pull; grey: within two, as for most values that are stated correctly")
@@ -107,13 +115,13 @@ def effect_courses(rows: Sequence[Row], courses: Sequence[tuple[str, str]]) -> F
         left = _column(own, "measured") - (_column(own, "after") - added)
         axes.errorbar(
             place, left, _column(own, "sigma"), fmt="o", markersize=4, color=BEFORE, markerfacecolor="none",
-            ecolor=NOISE, label="measured - simulated without it", alpha=0.8,
+            ecolor=NOISE, label="measured - simulated without the finding", alpha=0.8,
         )  # fmt: skip
-        axes.plot(place, added, "x", color=AFTER, markeredgewidth=1.8, label="contribution of the finding", zorder=3)
+        axes.plot(place, added, "x", color=AFTER, markeredgewidth=1.8, label="what the finding adds", zorder=3)
         axes.axhline(0.0, color="#1c2328", linewidth=0.8)
         name, _, unit = axis.partition(" [")
-        axes.set_xlabel(f"{name} / {unit.rstrip(']')}")
-        axes.set_ylabel(f"{channel} / {own[0]['unit'].replace('degC', 'K')}")
+        axes.set_xlabel(f"{AXIS_WORDS[name]} / {unit.rstrip(']').replace('rpm', '(r/min)')}".removesuffix(" / 1"))
+        axes.set_ylabel(f"difference in {channel} / {own[0]['unit'].replace('degC', 'K')}")
         axes.grid(visible=True, alpha=0.3)
     _legend_above(axes)
     return figure
@@ -189,12 +197,13 @@ def _of_level(row: Row, level: tuple[float, float]) -> bool:
 
 
 def _title(level: tuple[float, float]) -> str:
-    """Text behind the time: displacements of the points, none if all."""
+    """Strokes of the points, none if all."""
     if not np.all(np.isfinite(level)):
         return ""
     lower, upper = level
-    one = f"{(lower + upper) / 2:.2g}" if upper - lower < RATIO_STEP / 2 else f"{lower:.2g} to {upper:.2g}"
-    return f", displacement {one}"
+    middle = (lower + upper) / 2
+    one = f"{middle:.0%}" if upper - lower < RATIO_STEP / 2 else f"{lower:.0%} to {upper:.0%}"
+    return f"stroke {one}"
 
 
 def _column(rows: Sequence[Row], key: str) -> Array:

@@ -16,23 +16,28 @@ if TYPE_CHECKING:
 Row = Mapping[str, str]
 FITS = {
     "stated [bar]": ("#a274ad", "pump as described"),
-    "before [bar]": ("#b55a00", "before: fit without the finding"),
-    "after [bar]": ("#3c7a8c", "after"),
+    "before [bar]": ("#b55a00", "fit without the finding"),
+    "after [bar]": ("#3c7a8c", "fit with it"),
 }
+AGREED_FITS = {"stated [bar]": FITS["stated [bar]"], "before [bar]": ("#b55a00", "its fit")}
 NOISE, WINDOW = "#9aa4ab", "#e8d9a0"
 MOST_TRACES = 4
 QUARTERS = np.arange(0, 361, 90)
 
 
-def trace_residuals(rows: Sequence[Row], window: Sequence[float] | None, settings: Mapping[str, str]) -> Figure:
+def trace_residuals(
+    rows: Sequence[Row], window: Sequence[float] | None, settings: Mapping[str, str], claimed: bool = True
+) -> Figure:
     """The traces that differ most before: recorded pressure, and recorded less simulated, on one scale.
 
-    window: shaft angles in deg of the local mismatch; settings: by point, the text above it.
+    window: shaft angles in deg of the local mismatch; settings: by point, the text above it. Without a claim there
+    is one fit.
     """
     points = worst_points(rows)
     rows = [row for row in rows if row["point"] in points]
     figure = figure_of(10.0, 0.8 + 1.9 * len(points))
-    most = max(float(np.max(np.abs(_residual(rows, key)))) for key in FITS)
+    fits = FITS if claimed else AGREED_FITS
+    most = max(float(np.max(np.abs(_residual(rows, key)))) for key in fits)
     grid = figure.subplots(len(points), 2, squeeze=False, sharex=True, sharey="col", width_ratios=(1, 2))
     for line, point in zip(grid, points, strict=True):
         own = [row for row in rows if row["point"] == point]
@@ -40,10 +45,12 @@ def trace_residuals(rows: Sequence[Row], window: Sequence[float] | None, setting
         line[0].plot(angle, measured, color="#1c2328", linewidth=1.0)
         line[0].set_ylabel("p_chamber / bar", fontsize=8)
         line[0].set_title(settings.get(point, ""), fontsize=8, loc="left")
-        line[1].fill_between(angle, -2 * sigma, 2 * sigma, color=NOISE, alpha=0.35, linewidth=0, label="two sigma")
-        for key, (colour, label) in FITS.items():
+        line[1].fill_between(
+            angle, -2 * sigma, 2 * sigma, color=NOISE, alpha=0.35, linewidth=0, label="twice the scatter"
+        )
+        for key, (colour, label) in fits.items():
             line[1].plot(angle, _residual(own, key), color=colour, linewidth=1.2, label=label)
-        line[1].set_ylabel("residual / bar", fontsize=8)
+        line[1].set_ylabel("measured - simulated / bar", fontsize=8)
         line[1].set_ylim(-1.1 * most, 1.1 * most)
         for axes in line:
             for start, end in _spans(window):
