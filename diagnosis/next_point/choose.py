@@ -157,5 +157,4 @@ def _expected(study: Study, first: Contender, second: Contender, point: BenchPoi
     apart = np.where(read.measured[0], np.abs(other - one) / read.sigma[0], 0.0)
     most = int(np.argmax(apart))
     channel = read.channels[most]
-    values = (float(value[most]) for value in (one, other))
-    return ExpectedReading(channel.name, channel.dimension, *values, float(apart[most]))
+    return ExpectedReading(channel.name, channel.dimension, float(one[most]), float(other[most]), float(apart[most]))

@@ -51,8 +51,8 @@ class GapLeakTest:
         """The measurement, its operating point, and the expected values."""
         drain, unit = ChannelName.Q_CASE, channel_unit(ChannelName.Q_CASE)
         leaks = (
-            f"{reading(drain, leak):.3g} {unit} {if_words(cause)}"
-            for leak, cause in zip(self.leaks, self.between, strict=True)
+            f"{reading(drain, leak):.3g} {unit} {cause}"
+            for leak, cause in zip(self.leaks, if_words(*self.between), strict=True)
         )
         speed, pressure, warm = (float(one[0]) for one in (self.point.speed, self.point.p_out, self.point.T_case))
         where = (
@@ -61,8 +61,7 @@ class GapLeakTest:
         )
         return (
             f"Measure the leakage of {PLACES[self.gap]} by itself, by its own drain or a gauge of the film, at "
-            f"{where}: {' and '.join(leaks)}. The reading must be accurate to "
-            f"{difference(drain, self.sigma):.2g} {unit}."
+            f"{where}: {', '.join(leaks)}. The reading must be accurate to {difference(drain, self.sigma):.2g} {unit}."
         )
 
 

@@ -12,7 +12,7 @@ from diagnosis.report.explanations import explained_by
 from diagnosis.report.format import PLACES, effect_words, listed
 from diagnosis.report.measure import measure_words
 from diagnosis.report.sizes import size_words
-from diagnosis.report.text import finding, fit_words, headline, rivals_words, where_words
+from diagnosis.report.text import doubt, finding, fit_words, headline, rivals_words, where_words
 from diagnosis.study.model import Study
 from diagnosis.verdict.diagnosis import Diagnosis, VerdictStatus
 from system.description.gap import Gap
@@ -36,16 +36,18 @@ class Look:
 class PlainAnswer:
     """The answer in sentences, in the order in which it is read; empty where there is nothing to say.
 
-    headline: kind of answer; finding: what happens, with sizes; cost: in flow, torque and efficiency; course: how far
+    headline: kind of answer; finding: what happens, with sizes; cost: in flow, torque and efficiency; doubt: what cannot be
+    told apart from it, what it leaves; course: how far
     readings are from the simulation; where: channels and part of the map; certainty: with the record of such answers;
     rivals: what else is possible, what is ruled out; look: parts to inspect; measure: what to measure next; fit:
-    points not used in the fit; evidence: sentences of statistics. size, sure, record: the first finding's size, the
+    points not used in the fit; evidence: sentences of statistics. sizes, sure, record: the claims' sizes, the
     certainty and the record of such answers, in a word or two each.
     """
 
     headline: str
     finding: str
     cost: str
+    doubt: str
     course: str
     where: str
     certainty: str
@@ -54,7 +56,7 @@ class PlainAnswer:
     measure: str
     fit: str
     evidence: tuple[str, ...]
-    size: str
+    sizes: tuple[str, ...]
     sure: str
     record: str
 
@@ -65,6 +67,7 @@ def plain_answer(study: Study, diagnosis: Diagnosis, cost: str) -> PlainAnswer:
         headline=headline(diagnosis),
         finding=finding(diagnosis),
         cost=cost,
+        doubt=doubt(diagnosis),
         course=course_words(study, diagnosis),
         where=where_words(diagnosis),
         certainty=certainty(diagnosis, study.scant),
@@ -73,7 +76,7 @@ def plain_answer(study: Study, diagnosis: Diagnosis, cost: str) -> PlainAnswer:
         measure=measure_words(diagnosis),
         fit=fit_words(diagnosis),
         evidence=evidence(diagnosis),
-        size=size_words(diagnosis.effects[0]) if diagnosis.effects else "",
+        sizes=tuple(map(size_words, diagnosis.effects)),
         sure=sure_words(diagnosis),
         record=record_words(diagnosis, study.scant),
     )

@@ -85,10 +85,10 @@ def certainty(diagnosis: Diagnosis, scant: bool) -> str:
 def sure_words(diagnosis: Diagnosis) -> str:
     """Certainty in a word or two."""
     probability = stated_probability(diagnosis)
-    if diagnosis.status in (VerdictStatus.SUSPICION, VerdictStatus.INCOMPLETE):
-        return "not sure" if diagnosis.status is VerdictStatus.SUSPICION else "likely"
+    if diagnosis.status is VerdictStatus.SUSPICION:
+        return "not sure"
     grades = ((SURE, "very sure"), (FAIRLY, "fairly sure"), (LIKELY, "likely"))
-    return next((words for least, words in grades if probability >= least), "open")
+    return next((words for least, words in grades if probability >= least), "possible")
 
 
 def record_words(diagnosis: Diagnosis, scant: bool) -> str:

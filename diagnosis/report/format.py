@@ -64,8 +64,18 @@ def effect_words(effects: Iterable[EffectId], pair: Gap | None = None) -> str:
     return f"{words} at {PLACES[pair]}" if pair else words
 
 
-def if_words(explanation: str) -> str:
-    """The condition that an explanation is true: "if the cause is churning", "if nothing is wrong"."""
+def if_words(first: str, second: str) -> tuple[str, str]:
+    """Conditions that either of two explanations is true, short where they differ by their place alone.
+
+    "if the cause is churning" and "if nothing is wrong"; "if it is the pistons" and "if it is the slippers".
+    """
+    (one, _, here), (other, _, there) = first.partition(" at "), second.partition(" at ")
+    if one == other and here and there:
+        return f"if it is {here}", f"if it is {there}"
+    return _if(first), _if(second)
+
+
+def _if(explanation: str) -> str:
     return "if nothing is wrong" if explanation == NOTHING else f"if the cause is {explanation}"
 
 

@@ -189,5 +189,6 @@ def _next_test(found: NextPoint) -> dict[str, Any]:
 def _why(found: NextPoint) -> str:
     """The reading in which the two differ most at the point."""
     expected = found.expected
-    one, other = (f"{value} {if_words(cause)}" for value, cause in zip(expected.texts, found.between, strict=True))
+    reads = zip(expected.texts, if_words(*found.between), strict=True)
+    one, other = (f"{value} {cause}" for value, cause in reads)
     return f"there {expected.channel} is {one} and {other}, {expected.apart:.1f} sigma of one reading apart"

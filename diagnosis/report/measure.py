@@ -33,9 +33,8 @@ def measure_words(diagnosis: Diagnosis) -> str:
 
 def next_point_text(found: NextPoint) -> str:
     """The next point to record with the expected readings; or that no point decides, and what would instead."""
-    first, second = found.between
-    at, (one, other) = point_words(found), found.expected.texts
-    reads = f"{_channel(found.expected.channel)} reads {one} {if_words(first)}, and {other} {if_words(second)}."
+    at, (one, other), (first, second) = point_words(found), found.expected.texts, if_words(*found.between)
+    reads = f"{_channel(found.expected.channel)} reads {one} {first}, {other} {second}."
     if found.settles:
         beyond = " This is outside the range recorded." if found.beyond else ""
         sure = f"{found.limits.readings} readings decide with a chance of {100.0 * min(found.chance, 0.99):.0f} %."

@@ -57,7 +57,13 @@ def size_words(claim: ClaimedEffect) -> str:
 
 def quantity(one: Estimate) -> str:
     """A value with one sigma, to the digits that count: "0.207 +- 0.008 mm2". Temperatures are differences, in K."""
-    value, sigma, unit = _in_reading_unit(one)
+    value, sigma, unit = one.value, one.sigma, ""
+    if one.dimension is Dimension.TEMPERATURE:
+        unit = " K"
+    elif one.dimension is not None:
+        name = reading_unit(one.value, one.dimension)
+        value, sigma = (in_unit(number, name, one.dimension) for number in (value, sigma))
+        unit = f" {name}"
     return f"{_rounded(value, sigma)}{unit}"
 
 
@@ -74,15 +80,6 @@ def _fields(claim: ClaimedEffect, diagnosis: Diagnosis) -> dict[str, object]:
             sure = Estimate(first.name, stated.centre, 0.0, first.dimension)
             fields["stated"] = quantity(sure)
     return fields
-
-
-def _in_reading_unit(one: Estimate) -> tuple[float, float, str]:
-    if one.dimension is None:
-        return one.value, one.sigma, ""
-    if one.dimension is Dimension.TEMPERATURE:
-        return one.value, one.sigma, " K"
-    name = reading_unit(one.value, one.dimension)
-    return (*(in_unit(number, name, one.dimension) for number in (one.value, one.sigma)), f" {name}")  # type: ignore[return-value]
 
 
 def _rounded(value: float, sigma: float) -> str:

@@ -23,7 +23,7 @@ COUNTS = ("no", "one", "two", "three", "four", "five", "six", "seven", "eight", 
 
 def statement(diagnosis: Diagnosis) -> str:
     """Headline, finding with its size, where it shows, and certainty."""
-    told = (headline(diagnosis), finding(diagnosis), where_words(diagnosis), _sure(diagnosis))
+    told = (headline(diagnosis), finding(diagnosis), doubt(diagnosis), where_words(diagnosis), _sure(diagnosis))
     return " ".join(text for text in told if text)
 
 
@@ -51,7 +51,7 @@ def headline(diagnosis: Diagnosis) -> str:
 
 
 def finding(diagnosis: Diagnosis) -> str:
-    """What happens in the pump or its meters, with sizes; what cannot be told apart from it."""
+    """What happens in the pump or its meters, with sizes."""
     if diagnosis.status is VerdictStatus.SUSPICION:
         return _suspicion(diagnosis)
     if diagnosis.kind is Kind.NO_MISMATCH:
@@ -60,9 +60,14 @@ def finding(diagnosis: Diagnosis) -> str:
         parts = listed((one.value.replace("_", " ") for one in diagnosis.location.tie), "or")
         place = f"; it is most like a change of the {parts}" if parts else ""
         return f"No effect of the catalogue explains the mismatch{place}."
-    told = [f"{finding_sentence(claim, diagnosis)}{_of_which(at, diagnosis)}."
-            for at, claim in enumerate(diagnosis.effects)]  # fmt: skip
-    return " ".join([*told, *_class(diagnosis), *_incomplete(diagnosis)])
+    return " ".join(
+        f"{finding_sentence(claim, diagnosis)}{_of_which(at, diagnosis)}." for at, claim in enumerate(diagnosis.effects)
+    )
+
+
+def doubt(diagnosis: Diagnosis) -> str:
+    """What cannot be told apart from a claim, and a part of the mismatch that no claim explains."""
+    return " ".join([*_class(diagnosis), *_incomplete(diagnosis)])
 
 
 def where_words(diagnosis: Diagnosis) -> str:
@@ -131,7 +136,7 @@ def _times(location: Location) -> Iterator[str]:
     if time is not None:
         drifts = time.kind is TimeKind.DRIFT
         since = "drifting in the course of the recording" if drifts else f"from point {time.at + 1} on"
-        yield f"; {time.channel.value} {since}"
+        yield f"; in {time.channel.value} {since}"
 
 
 def _angles(location: Location) -> str:
@@ -161,10 +166,13 @@ def _of_which(at: int, diagnosis: Diagnosis) -> str:
 
 def _class(diagnosis: Diagnosis) -> Iterator[str]:
     """Effects and gaps that the recording cannot tell apart."""
+    if diagnosis.status is VerdictStatus.SUSPICION:
+        return
     for claim in diagnosis.effects:
         if claim.equivalent:
             others = listed((one.value.replace("_", " ") for one in claim.equivalent), "or")
-            yield f"It may as well be {others}: this recording cannot tell them apart."
+            own = claim.effect.value.replace("_", " ")
+            yield f"{others[0].upper()}{others[1:]} in place of {own} fits this recording as well."
         if claim.pair and claim.elsewhere:
             own = f"{PLACES[claim.pair]} ({chance(1.0 - sum(part for _, part in claim.elsewhere))})"
             others = listed((f"{PLACES[gap]} ({chance(part)})" for gap, part in claim.elsewhere), "or")

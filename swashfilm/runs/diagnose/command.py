@@ -49,7 +49,7 @@ def run_diagnose_command(options: argparse.Namespace) -> int:
     from swashfilm.runs.diagnose.films import film_model_of, film_options_of
     from swashfilm.runs.diagnose.result import DiagnosisRun
     from swashfilm.runs.diagnose.run import EXTENDED, write_finding
-    from swashfilm.runs.diagnose.told import answer_lines, show_contradictions
+    from swashfilm.runs.diagnose.told import MOST_LINES, answer_lines, show_contradictions
     from system.effects.catalogue.entries import CATALOGUE, with_films_solved
     from system.effects.effect import Kind
     from system.pump_file.file import load_known_pump
@@ -68,7 +68,7 @@ def run_diagnose_command(options: argparse.Namespace) -> int:
         finding = diagnose(known, recording, report, workers, catalogue, films)
         write_finding(folder, finding)
         found = DiagnosisRun.opened(folder)
-    for line in answer_lines(found.record["answer"]):
+    for line in answer_lines(found.record["answer"], MOST_LINES - (apply is not None)):
         show(line)
     if apply is not None and found.effects:
         shutil.copyfile(final_folder(folder) / EXTENDED, apply)

@@ -52,6 +52,8 @@ FAINT = 0.3  # sigma, rms: smaller additions to a channel are not drawn
 MOST_COURSES = 2
 
 
+WORDS = ("headline", "finding", "cost", "doubt", "course")
+"""Of the answer in plain words, what the page says first."""
 COURSE_CAPTION = (
     "Crosses: what the finding adds to the readings. Circles: measured minus simulated without the finding, with the "
     "scatter of the meter. Where crosses lie on circles, the finding explains the difference."
@@ -118,7 +120,7 @@ def _answer(
     """What the page says first, and the pictures that are left for its sections."""
     told, first = found["answer"], "course" if "course" in pictures else "maps"
     caption = COURSE_CAPTION if first == "course" else _map_caption(bool(found["effects"]))
-    words = " ".join(text for text in (told["headline"], told["finding"], told["cost"], told["course"]) if text)
+    words = " ".join(text for text in (told[key] for key in WORDS) if text)
     answer = Answer(tiles(found, summary, tables["changes"]), words, pictures[first], caption)
     return answer, {name: picture for name, picture in pictures.items() if name != first}
 
@@ -138,7 +140,11 @@ def _pictures(found: Mapping[str, Any], tables: Mapping[str, Sequence[Mapping[st
     """Pictures by name. Where nothing is claimed, one fit is drawn, not the same one twice."""
     residuals, claimed = tables["residuals"], bool(found["effects"])
     held_out = {name: row for name, row in found["fit"]["heldout"].items() if all(row[key] for key in HELD_OUT)}
-    pictures = {"maps": diagnose_plots.residual_maps(residuals, claimed)}
+    shown = {row["channel"] for row in residuals} & set(found["where"]["channels"] if claimed else [])
+    mine, others = ([row for row in residuals if (row["channel"] in shown) is side] for side in (True, False))
+    pictures = {"maps": diagnose_plots.residual_maps(mine or others, claimed)}
+    if mine and others:
+        pictures["others"] = diagnose_plots.residual_maps(others, claimed)
     if courses := strongest_courses(residuals) if claimed else []:
         pictures["course"] = diagnose_plots.effect_courses(residuals, courses)
     if held_out and claimed:

@@ -9,6 +9,7 @@ from diagnosis.procedure.compared import WITH, WITHOUT
 from diagnosis.procedure.pump_comparison import SHAFT
 from diagnosis.report.format import chance
 from swashfilm.output.answer import Tile
+from system.estimation.parameters import Role
 from system.inputs.units import Dimension, in_unit, reading_unit
 
 Row = Mapping[str, str]
@@ -17,6 +18,7 @@ CHANNEL_HEAD = (
     "difference at points not used in the fit, rms", "without the finding", "with it", "scatter of the meter",
 )  # fmt: skip
 AGREED_HEAD = ("difference at points not used in the fit, rms", "simulation", "scatter of the meter")
+BASE = Role.BASE.value
 MOVED, BACK = 3.0, 0.5
 """Pull without the finding above which a stated value is told to have moved, and the part of it that may stay."""
 
@@ -90,8 +92,8 @@ def parameter_rows(rows: Sequence[Row], claimed: bool) -> Iterator[tuple[str, ..
 
 
 def moved_words(rows: Sequence[Row]) -> str:
-    """The stated value that the fit has to move most without the finding, and that stays with it; empty without one."""
-    known = [row for row in rows if row["pull_before"] and row["pull_after"]]
+    """The stated value of the pump that the fit moves most without the finding, and hardly with it; empty without."""
+    known = [row for row in rows if row["role"] == BASE and row["pull_before"] and row["pull_after"]]
     freed = [
         row
         for row in known
@@ -103,7 +105,7 @@ def moved_words(rows: Sequence[Row]) -> str:
     row = max(freed, key=lambda row: abs(float(row["pull_before"])))
     unit, name = row["unit"], row["name"].replace("_", " ").replace(".", ", ")
     stated = _quantity(unit, float(row["prior"]), float(row["prior_sigma"]))
-    without, with_it = (_quantity(unit, float(row[key])) for key in ("before", "after"))
+    without, with_it = (_quantity(unit, float(f"{float(row[key]):.3g}")) for key in ("before", "after"))
     return f"Without the finding the fit needs {name} at {without} (stated: {stated}); with it, {with_it}."
 
 
@@ -158,7 +160,7 @@ def _plain(value: float, digits: int) -> str:
 
 
 COST_TILES = ("efficiency, overall (ISO 4409)", "delivery flow", "shaft torque", "case drain")
-MOST_COSTS = 2
+MOST_SIZES, MOST_COSTS = 2, 2
 
 
 def tiles(found: Mapping[str, Any], summary: Mapping[str, Any], changes: Sequence[Row]) -> tuple[Tile, ...]:
@@ -173,17 +175,22 @@ def tiles(found: Mapping[str, Any], summary: Mapping[str, Any], changes: Sequenc
 
 
 def _size_tiles(found: Mapping[str, Any]) -> Iterator[Tile]:
-    told = found["answer"]
-    if found["effects"] and told["size"]:
-        yield Tile(told["size"], found["effects"][0]["id"].replace("_", " "), "size found, one sigma")
+    """Sizes of the first claims that have one."""
+    known = [pair for pair in zip(found["effects"], found["answer"]["sizes"], strict=True) if pair[1]]
+    for claim, size in known[:MOST_SIZES]:
+        value, _, sigma = size.partition(" +- ")
+        scatter, _, unit = sigma.partition(" ")
+        name = claim["id"].replace("_", " ")
+        yield Tile(f"{value} {unit}".rstrip(), name, f"+- {scatter}, one sigma" if sigma else "")
 
 
 def _cost_tiles(changes: Sequence[Row]) -> Iterator[Tile]:
-    """The changes that are largest as a part of what they change."""
-    known = [row for row in changes if row["quantity"] in COST_TILES and abs(float(row["change"])) > 0.0]
-    ranked = sorted(known, key=lambda row: -abs(float(row["change"])) / max(abs(float(row[WITHOUT])), 1e-12))
-    whole = [row for row in ranked if row["unit"] == "%"]
-    for row in (*whole, *(row for row in ranked if row not in whole))[:MOST_COSTS] if whole else ranked[:MOST_COSTS]:
+    """The change of efficiency, then that which is largest as a part of what it changes."""
+    known = [row for row in changes if row["quantity"] in COST_TILES and float(row["change"]) != 0.0]
+    ranked = sorted(
+        known, key=lambda row: (row["unit"] != "%", -abs(float(row["change"]) / (float(row[WITHOUT]) or 1.0)))
+    )
+    for row in ranked[:MOST_COSTS]:
         unit = "points" if row["unit"] == "%" else row["unit"]
         name = row["quantity"].partition(", overall")[0]
         yield Tile(f"{float(row['change']):+.2g} {unit}", name, "with the finding, where it shows most")
@@ -203,10 +210,9 @@ def _fit_tiles(found: Mapping[str, Any]) -> Iterator[Tile]:
     worst = max(met, key=lambda name: met[name]["before"] / met[name]["noise"])
     name = named[0] if named else worst
     one = met[name]
-    value = f"{one['before']:.2g} -> {one['after']:.2g}" if found["effects"] else f"{one['before']:.2g}"
-    yield Tile(
-        f"{value} {one['unit']}", f"points not used in the fit, {name}", f"scatter of the meter {one['noise']:.2g}"
-    )
+    value, was = (one["after"], f"before {one['before']:.2g}; ") if found["effects"] else (one["before"], "")
+    note = f"{was}scatter of the meter {one['noise']:.2g}"
+    yield Tile(f"{value:.2g} {one['unit']}", f"points not used in the fit, {name}", note)
 
 
 def _point_tiles(found: Mapping[str, Any], summary: Mapping[str, Any]) -> Iterator[Tile]:

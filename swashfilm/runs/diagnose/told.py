@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import re
 import textwrap
 from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 from swashfilm.console.terminal import show_at_once
@@ -12,10 +14,11 @@ if TYPE_CHECKING:
     from diagnosis.recording.model import Recording
 
 WIDTH = 100
-MOST_LINES = 10
-"""Of the answer: with the lines on files, twelve."""
+MOST_LINES = 11
+"""Of the answer: with the line on files twelve."""
 MORE = " .."
 """Where the page has more."""
+_END = re.compile(r"(?<=\.) (?=[A-Z])")
 
 
 def show_contradictions(recording: Recording) -> None:
@@ -27,30 +30,45 @@ def show_contradictions(recording: Recording) -> None:
             show_at_once(f"warning: {note.text}")
 
 
-def answer_lines(answer: Mapping[str, Any]) -> list[str]:
-    """The answer of a diagnosis in at most `MOST_LINES` lines of at most `WIDTH` columns.
+def answer_lines(answer: Mapping[str, Any], most: int = MOST_LINES) -> list[str]:
+    """The answer of a diagnosis in at most `most` lines of at most `WIDTH` columns.
 
-    Where it is longer, the last sentences of the longest paragraph are left to the page.
+    Where it is longer, last sentences are left to the page: of what to look at, of the measurement, the points not
+    used in the fit, of certainty, and of the finding, in this order.
     """
-    told = [text for text in _paragraphs(answer) if text]
-    while len(lines := [line for text in told for line in textwrap.wrap(text, WIDTH)]) > MOST_LINES:
-        longest = max(range(len(told)), key=lambda at: (len(textwrap.wrap(told[at], WIDTH)), at))
-        told[longest] = _shorter(told[longest])
+    told = list(_paragraphs(answer))
+    while len(lines := [line for one in told for line in textwrap.wrap(one.text, WIDTH)]) > most:
+        longer = [at for at, one in enumerate(told) if len(one.sentences) > one.least]
+        if not longer:
+            return [*lines[: most - 1], f"{lines[most - 1][: WIDTH - len(MORE)]}{MORE}"]
+        at = min(longer, key=lambda at: told[at].rank)
+        told[at] = replace(told[at], sentences=told[at].sentences[:-1], cut=MORE)
     return lines
 
 
-def _paragraphs(answer: Mapping[str, Any]) -> Iterator[str]:
-    yield " ".join(filter(None, (answer["headline"], answer["finding"], answer["cost"])))
-    yield f"How sure: {answer['certainty']}"
-    yield " ".join(one["text"] for one in answer["look"])
-    yield f"Next: {answer['measure']}"
-    yield answer["fit"]
+@dataclass(frozen=True)
+class _Paragraph:
+    """Sentences behind a heading, of which the last ones may be cut down to `least`; the lowest rank first."""
+
+    heading: str
+    sentences: tuple[str, ...]
+    least: int
+    rank: int
+    cut: str = ""
+
+    @property
+    def text(self) -> str:
+        return f"{self.heading}{' '.join(self.sentences)}{self.cut}" if self.sentences else ""
 
 
-def _shorter(text: str) -> str:
-    """The text without its last sentence; of one sentence without its last words."""
-    whole = text.removesuffix(MORE)
-    shorter, _, last = whole.rstrip(".").rpartition(". ")
-    if not shorter:
-        shorter = " ".join(last.split()[:-5])
-    return f"{shorter.rstrip('.')}.{MORE}"
+def _paragraphs(answer: Mapping[str, Any]) -> Iterator[_Paragraph]:
+    finding = " ".join(filter(None, (answer[key] for key in ("headline", "finding", "cost", "doubt"))))
+    yield _Paragraph("", _sentences(finding), 2, 4)
+    yield _Paragraph("How sure: ", _sentences(answer["certainty"]), 1, 3)
+    yield _Paragraph("", _sentences(" ".join(one["text"] for one in answer["look"])), 1, 0)
+    yield _Paragraph("Next: ", _sentences(answer["measure"]), 2, 1)
+    yield _Paragraph("", _sentences(answer["fit"]), 0, 2)
+
+
+def _sentences(text: str) -> tuple[str, ...]:
+    return tuple(_END.split(text)) if text else ()

@@ -21,7 +21,7 @@ FITS = {
 }
 AGREED_FITS = {"stated [bar]": FITS["stated [bar]"], "before [bar]": ("#b55a00", "its fit")}
 NOISE, WINDOW = "#9aa4ab", "#e8d9a0"
-MOST_TRACES = 4
+MOST_TRACES, AGREED_TRACES = 4, 2
 QUARTERS = np.arange(0, 361, 90)
 
 
@@ -33,7 +33,7 @@ def trace_residuals(
     window: shaft angles in deg of the local mismatch; settings: by point, the text above it. Without a claim there
     is one fit.
     """
-    points = worst_points(rows)
+    points = worst_points(rows, MOST_TRACES if claimed else AGREED_TRACES)
     rows = [row for row in rows if row["point"] in points]
     figure = figure_of(10.0, 0.8 + 1.9 * len(points))
     fits = FITS if claimed else AGREED_FITS
@@ -77,12 +77,12 @@ def _spans(window: Sequence[float] | None) -> list[tuple[float, float]]:
     return [(start, end)] if start <= end else [(start, 360.0), (0.0, end)]
 
 
-def worst_points(rows: Sequence[Row]) -> list[str]:
+def worst_points(rows: Sequence[Row], most: int = MOST_TRACES) -> list[str]:
     """Points of the traces with the largest misfit before, in the order of the recording."""
     misfit: dict[str, float] = {}
     for row in rows:
         misfit[row["point"]] = misfit.get(row["point"], 0.0) + float(row["pull_before"]) ** 2
-    worst = sorted(misfit, key=lambda point: -misfit[point])[:MOST_TRACES]
+    worst = sorted(misfit, key=lambda point: -misfit[point])[:most]
     return sorted(worst, key=int)
 
 
