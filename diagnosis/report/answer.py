@@ -36,12 +36,11 @@ class Look:
 class PlainAnswer:
     """The answer in sentences, in the order in which it is read; empty where there is nothing to say.
 
-    headline: kind of answer; finding: what happens, with sizes; cost: in flow, torque and efficiency; doubt: what cannot be
-    told apart from it, what it leaves; course: how far
-    readings are from the simulation; where: channels and part of the map; certainty: with the record of such answers;
-    rivals: what else is possible, what is ruled out; look: parts to inspect; measure: what to measure next; fit:
-    points not used in the fit; evidence: sentences of statistics. sizes, sure, record: the claims' sizes, the
-    certainty and the record of such answers, in a word or two each.
+    headline: kind of answer; finding: what happens, with sizes; cost: in flow, torque and efficiency; doubt: what
+    cannot be told apart from it, and what it leaves; course: how far readings are from the simulation; where: channels
+    and part of the map; certainty: with the record of such answers; rivals: what else is possible, what is ruled out;
+    look: parts to inspect; measure: what to measure next; fit: points not used in the fit; evidence: sentences of
+    statistics. sizes: of each claim; sure, record: certainty and the record of such answers in a word or two each.
     """
 
     headline: str
@@ -96,7 +95,8 @@ def _looks(diagnosis: Diagnosis) -> Iterator[Look]:
 
 def _suspects(diagnosis: Diagnosis) -> Iterator[tuple[EffectId, Gap | None]]:
     if diagnosis.status is VerdictStatus.SUSPICION:
-        likely = [one.hypothesis for one in explained_by(diagnosis)][:SUSPECTS]
+        known = [one.hypothesis for one in explained_by(diagnosis)]
+        likely = [own for own in known if EffectId.UNKNOWN_PHYSICS not in own.effects][:SUSPECTS]
         yield from (pair for own in likely for pair in zip(own.effects, own.places, strict=True))
     elif diagnosis.kind is Kind.UNKNOWN_PHYSICS:
         yield EffectId.UNKNOWN_PHYSICS, None

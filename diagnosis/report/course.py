@@ -46,6 +46,8 @@ def course_words(study: Study, diagnosis: Diagnosis) -> str:
         return ""
     own = added[:, study.channels.index(channel)]
     measured = study.observations.measured[:, study.channels.index(channel)]
+    if not np.any(own[measured]):
+        return ""
     more, less = SIDES[channel]
     ends = _ends(channel, own[measured], {name: x[measured] for name, x in axis_values(study.recording).items()})
     same = _same(diagnosis.scaling, diagnosis.thresholds.form.flat)

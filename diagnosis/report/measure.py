@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from diagnosis.next_point.choose import NextPoint
 from diagnosis.recording.units import channel_unit, reading
+from diagnosis.report.certainty import stated_probability
 from diagnosis.report.format import channel_words, if_words, setting_text
 from diagnosis.verdict.diagnosis import Diagnosis, VerdictStatus
 from system.effects.effect import Kind
@@ -12,6 +13,10 @@ from system.inputs.channels import ChannelName
 NO_NEXT_POINT = "no next point can be proposed"
 """First words of the note that gives the reason."""
 NOTHING_ELSE = "No further measurement is needed: nothing else fits."
+NO_POINT_TELLS = (
+    "No further point would tell more: nothing else that could be fitted comes near. More of the pump's own data "
+    "would: clearances, valve plate, ports."
+)
 
 
 def measure_words(diagnosis: Diagnosis) -> str:
@@ -28,7 +33,7 @@ def measure_words(diagnosis: Diagnosis) -> str:
         return "Read the points with the largest difference again."
     if diagnosis.status is VerdictStatus.INCOMPLETE:
         return "Read the points again that still differ most: nothing else that could be fitted explains them better."
-    return NOTHING_ELSE
+    return NOTHING_ELSE if stated_probability(diagnosis) >= diagnosis.thresholds.name.probability else NO_POINT_TELLS
 
 
 def next_point_text(found: NextPoint) -> str:

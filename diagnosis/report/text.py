@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from diagnosis.detect.time_scan import TimeKind
 from diagnosis.explain.hypotheses import Hypothesis
 from diagnosis.recording.units import difference, difference_unit, reading
-from diagnosis.report.certainty import sure_words
+from diagnosis.report.certainty import stated_probability, sure_words
 from diagnosis.report.explanations import RIVALS, explained_by, explanation_words, named_apart
 from diagnosis.report.format import CHANNELS, PLACES, chance, channel_words, last_word, listed
 from diagnosis.report.measure import measure_words
@@ -45,9 +45,11 @@ def headline(diagnosis: Diagnosis) -> str:
     alike = max((1 + len(claim.equivalent) + len(claim.elsewhere) for claim in diagnosis.effects), default=1)
     if alike > 1:
         return f"Narrowed down to {_count(alike)} causes{left}."
+    sure = not left and stated_probability(diagnosis) >= diagnosis.thresholds.name.probability
     causes = len(diagnosis.effects)
-    found = "Cause found" if causes < 2 else f"{_count(causes).capitalize()} causes found"
-    return f"{'Likely c' if left else 'C'}{found[1:]}{left}." if causes < 2 else f"{found}{left}."
+    found = "cause found" if causes < 2 else f"{_count(causes)} causes found"
+    words = found if sure else f"likely {found}"
+    return f"{words[0].upper()}{words[1:]}{left}."
 
 
 def finding(diagnosis: Diagnosis) -> str:
