@@ -150,7 +150,7 @@ _PATHS_AND_PORTS = {
         "stop screw for play.",
     ),
     E.LINE_RESONANCE: BenchWords(
-        "The delivery line resonates near {speed}, and its meter reads wrong there",
+        "The delivery line resonates at one speed, where its meter reads {height:percent_off}",
         "Nothing is wrong with the pump. Move the flow meter or add a damper, and read again at the same speed.",
     ),
 }
