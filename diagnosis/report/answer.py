@@ -76,7 +76,7 @@ def plain_answer(study: Study, diagnosis: Diagnosis, cost: str) -> PlainAnswer:
         fit=fit_words(diagnosis),
         evidence=evidence(diagnosis),
         sizes=tuple(map(size_words, diagnosis.effects)),
-        sure=sure_words(diagnosis),
+        sure=sure_words(diagnosis, study.scant),
         record=record_words(diagnosis, study.scant),
     )
 

@@ -17,7 +17,7 @@ from system.effects.effect import Kind
 
 ENOUGH = 10
 """Trials of a band of probability below which all bands of the answer count together."""
-SURE, FAIRLY, LIKELY = 0.99, 0.9, 0.6
+GRADES = ((0.9, "very sure"), (0.75, "fairly sure"), (0.5, "likely"))
 
 
 class AnswerKind(Enum):
@@ -82,13 +82,14 @@ def certainty(diagnosis: Diagnosis, scant: bool) -> str:
     return " ".join(_sentences(diagnosis, scant))
 
 
-def sure_words(diagnosis: Diagnosis) -> str:
-    """Certainty in a word or two."""
-    probability = stated_probability(diagnosis)
+def sure_words(diagnosis: Diagnosis, scant: bool) -> str:
+    """Certainty in a word or two, by the lesser of the stated probability and the share of right answers on record."""
     if diagnosis.status is VerdictStatus.SUSPICION:
         return "not sure"
-    grades = ((SURE, "very sure"), (FAIRLY, "fairly sure"), (LIKELY, "likely"))
-    return next((words for least, words in grades if probability >= least), "possible")
+    probability = stated_probability(diagnosis)
+    record = record_of(_kind(diagnosis), scant, probability)
+    trust = min(probability, record.right / record.cases) if record else probability
+    return next((words for least, words in GRADES if trust >= least), "open")
 
 
 def record_words(diagnosis: Diagnosis, scant: bool) -> str:
@@ -109,17 +110,17 @@ def record_text(record: Record, kind: AnswerKind, scant: bool) -> str:
 
 
 _RIGHT = {
-    AnswerKind.NAME: "{right} of {cases} names given{like} were right",
-    AnswerKind.PART: "{right} of {cases} names that left a part unexplained were right",
-    AnswerKind.UNKNOWN: "{right} of {cases} such answers were right",
+    AnswerKind.NAME: "{right} of {cases} names given{like} proved right",
+    AnswerKind.PART: "{right} of {cases} names that left a part unexplained proved right",
+    AnswerKind.UNKNOWN: "{right} of {cases} such answers proved right",
     AnswerKind.SUSPICION: "{right} of {cases} suspicions had a cause",
-    AnswerKind.NOTHING: "{right} of {cases} such answers{like} were right; the others missed an effect",
+    AnswerKind.NOTHING: "{right} of {cases} such answers{like} proved right; the others missed an effect",
 }
 
 
 def _sentences(diagnosis: Diagnosis, scant: bool) -> Iterator[str]:
     kind, probability = _kind(diagnosis), stated_probability(diagnosis)
-    words = sure_words(diagnosis)
+    words = sure_words(diagnosis, scant)
     alike = any(claim.equivalent or claim.elsewhere for claim in diagnosis.effects)
     of = " that it is one of these" if alike else " that there is a cause" if kind is AnswerKind.SUSPICION else ""
     yield f"{words[0].upper()}{words[1:]}{of} (stated probability {chance(probability)})."

@@ -1,15 +1,13 @@
-"""Numbers of a diagnosis as people read them: the unit of each quantity, values with their sigma, ids as words."""
+"""Words and numbers of a diagnosis as people read them: places, channels, settings, odds, ids as words."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable
 
 from diagnosis.recording.units import reading
-from diagnosis.verdict.diagnosis import Estimate
 from system.description.gap import Gap
 from system.effects.effect import EffectId
 from system.inputs.channels import ChannelName
-from system.inputs.units import Dimension, in_unit, reading_unit
 
 MOST_ODDS = 1000000
 """Odds beyond which a number means nothing: models are not that true."""
@@ -38,19 +36,6 @@ def setting_text(speed: float, pressure: float, stroke: float) -> str:
     """An operating point in SI in the words of a bench: "1000 r/min, 374 bar, 28 % stroke"."""
     turns, bar = reading(ChannelName.SPEED, speed), reading(ChannelName.P_OUT, pressure)
     return f"{turns:.0f} r/min, {bar:.0f} bar, {100.0 * stroke:.0f} % stroke"
-
-
-def estimate_text(estimate: Estimate) -> str:
-    """A parameter with one sigma: "opening 22 +- 2 1/GPa". Temperatures are differences, in K."""
-    value, sigma, dimension = estimate.value, estimate.sigma, estimate.dimension
-    unit = ""
-    if dimension is Dimension.TEMPERATURE:
-        unit = " K"
-    elif dimension is not None:
-        name = reading_unit(value, dimension)
-        value, sigma = (in_unit(number, name, dimension) for number in (value, sigma))
-        unit = f" {name}"
-    return f"{last_word(estimate.name)} {value:.3g} +- {sigma:.2g}{unit}"
 
 
 def last_word(name: str) -> str:

@@ -51,7 +51,7 @@ def size_words(claim: ClaimedEffect) -> str:
     for name, form in asked:
         one = first if name == "size" else known.get(name)
         if one is not None:
-            return FORMS[form or ""](one)
+            return f"{FORMS[form or ''](one)}{' per 100 bar' if form == 'per_100_bar' else ''}"
     return quantity(first) if asked and first is not None else ""
 
 

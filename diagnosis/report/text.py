@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from diagnosis.detect.time_scan import TimeKind
 from diagnosis.explain.hypotheses import Hypothesis
 from diagnosis.recording.units import difference, difference_unit, reading
-from diagnosis.report.certainty import stated_probability, sure_words
+from diagnosis.report.certainty import stated_probability
 from diagnosis.report.explanations import RIVALS, explained_by, explanation_words, named_apart
 from diagnosis.report.format import CHANNELS, PLACES, chance, channel_words, last_word, listed
 from diagnosis.report.measure import measure_words
@@ -125,12 +125,10 @@ def _count(number: int) -> str:
 
 
 def _sure(diagnosis: Diagnosis) -> str:
-    """Certainty of a claim, in words and as a probability."""
+    """Probabilities of the claims."""
     if not diagnosis.effects or diagnosis.status is VerdictStatus.SUSPICION:
         return ""
-    words = sure_words(diagnosis)
-    odds = listed(f"{chance(claim.probability)} ({claim.effect.value})" for claim in diagnosis.effects)
-    return f"{words[0].upper()}{words[1:]}: probability {odds}."
+    return f"Probability {listed(f'{chance(one.probability)} ({one.effect.value})' for one in diagnosis.effects)}."
 
 
 def _times(location: Location) -> Iterator[str]:

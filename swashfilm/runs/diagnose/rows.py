@@ -161,6 +161,8 @@ def _plain(value: float, digits: int) -> str:
 
 COST_TILES = ("efficiency, overall (ISO 4409)", "delivery flow", "shaft torque", "case drain")
 MOST_SIZES, MOST_COSTS = 2, 2
+SIZE_TAILS = (" per 100 bar", " too high", " too low", " more", " less", " times")
+"""Words behind a size, which a tile has in its note."""
 
 
 def tiles(found: Mapping[str, Any], summary: Mapping[str, Any], changes: Sequence[Row]) -> tuple[Tile, ...]:
@@ -179,9 +181,10 @@ def _size_tiles(found: Mapping[str, Any]) -> Iterator[Tile]:
     known = [pair for pair in zip(found["effects"], found["answer"]["sizes"], strict=True) if pair[1]]
     for claim, size in known[:MOST_SIZES]:
         value, _, sigma = size.partition(" +- ")
-        scatter, _, unit = sigma.partition(" ")
-        name = claim["id"].replace("_", " ")
-        yield Tile(f"{value} {unit}".rstrip(), name, f"+- {scatter}, one sigma" if sigma else "")
+        scatter, _, rest = sigma.partition(" ")
+        tail = next((words for words in SIZE_TAILS if rest.endswith(words)), "")
+        unit, name = rest.removesuffix(tail).strip(), claim["id"].replace("_", " ")
+        yield Tile(f"{value} {unit}".rstrip(), name, f"+- {scatter}{tail}, one sigma" if sigma else "")
 
 
 def _cost_tiles(changes: Sequence[Row]) -> Iterator[Tile]:

@@ -238,8 +238,8 @@ _VALUES = {
 _UNKNOWN = {
     E.UNKNOWN_PHYSICS: BenchWords(
         "No effect of the catalogue explains the mismatch",
-        "Look for what is special to this pump or bench: added parts, another oil, an unusual line. Read the points "
-        "with the largest difference again.",
+        "Look for what is special to this pump or bench: added parts, another oil, an unusual line. Compare "
+        "with a second pump of the same make.",
     )
 }
 BENCH_WORDS: Mapping[EffectId, BenchWords] = {

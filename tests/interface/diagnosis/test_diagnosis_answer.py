@@ -7,14 +7,22 @@ from string import Formatter
 
 import numpy as np
 import pytest
-from made_diagnosis import PRESSURE, its_answer
+from made_diagnosis import PRESSURE, hypothesis, its_answer
 
 from diagnosis import Diagnosis, Study
 from diagnosis.explain.explained import ExplainedMismatch
 from diagnosis.procedure.compared import NO_COMPARISON, WITH, Change, PumpComparison
 from diagnosis.procedure.cost import cost_words
 from diagnosis.report import course
-from diagnosis.report.certainty import AnswerKind, Record, certainty, record_of, record_text, stated_probability
+from diagnosis.report.certainty import (
+    AnswerKind,
+    Record,
+    certainty,
+    record_of,
+    record_text,
+    stated_probability,
+    sure_words,
+)
 from diagnosis.report.sizes import FORMS, finding_sentence
 from diagnosis.study.acceptance import contradictions
 from diagnosis.verdict.diagnosis import ClaimedEffect, Estimate, VerdictStatus
@@ -109,11 +117,23 @@ def test_certainty_stands_beside_its_record(named: Diagnosis) -> None:
     assert (low, high) == (pytest.approx(0.596, abs=1e-3), pytest.approx(0.982, abs=1e-3))  # Wilson 1927
     text = record_text(Record(9, 10, True), AnswerKind.NAME, True)
     assert (
-        "known by their type plate, 9 of 10 names given with such certainty were right (95 % interval 60 to 98 %)"
+        "known by their type plate, 9 of 10 names given with such certainty proved right (95 % interval 60 to 98 %)"
         in text
     )
     assert stated_probability(named) == pytest.approx(0.93)
-    assert certainty(named, False).startswith("Fairly sure (stated probability 0.93). In trials on other simulators, ")
+    assert certainty(named, False).startswith("Very sure (stated probability 0.93). In trials on other simulators, ")
+
+
+def test_words_of_certainty_go_by_the_record_too(named: Diagnosis) -> None:
+    """An answer that is stated to be sure, of a kind that often failed, is open."""
+    first, *others = named.hypotheses
+    unknown = replace(first, hypothesis=hypothesis(E.UNKNOWN_PHYSICS, kind=Kind.UNKNOWN_PHYSICS), probability=0.995)
+    found = replace(named, kind=Kind.UNKNOWN_PHYSICS, effects=(), hypotheses=(unknown, *others))
+    record = record_of(AnswerKind.UNKNOWN, False, 0.995)
+    assert record is not None
+    assert record.right < 0.5 * record.cases
+    assert sure_words(found, False) == "open"
+    assert sure_words(replace(named, status=VerdictStatus.SUSPICION), False) == "not sure"
 
 
 @pytest.mark.parametrize("kind", AnswerKind)

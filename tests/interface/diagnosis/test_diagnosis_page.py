@@ -229,7 +229,8 @@ def test_tiles_are_size_cost_certainty_and_fit(named: Diagnosis) -> None:
         {"quantity": "shaft power", "unit": "W", "without": "9000", "with": "9100", "change": "100"},
     ]
     shown = tiles(record, {"points": 28, "channels": []}, changes)
-    assert [tile.value for tile in shown] == ["22 %", "-1.5 points", "-2 L/min", "fairly sure", "0.016 L/min"]
+    assert [tile.value for tile in shown] == ["22 %", "-1.5 points", "-2 L/min", "very sure", "0.016 L/min"]
+    assert shown[0].note == "+- 2 per 100 bar, one sigma"
     assert shown[-1].note == "before 0.06; scatter of the meter 0.015"
 
 

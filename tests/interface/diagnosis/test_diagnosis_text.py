@@ -35,7 +35,7 @@ def test_a_named_effect_is_told_with_place_size_and_certainty(named: Diagnosis) 
         "Cause found.",
         "The film at the valve plate opens under pressure, by 22 +- 2 % of its thickness per 100 bar.",
         "It shows in case drain (Q_case); half of its largest effect or more is reached with p_out above 250 bar.",
-        "Fairly sure: probability 0.93 (elastic_opening).",
+        "Probability 0.93 (elastic_opening).",
     ):
         assert part in text
     told = " ".join(paragraphs(named))
