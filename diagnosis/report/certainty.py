@@ -112,9 +112,9 @@ def record_text(record: Record, kind: AnswerKind, scant: bool) -> str:
 _RIGHT = {
     AnswerKind.NAME: "{right} of {cases} names given{like} proved right",
     AnswerKind.PART: "{right} of {cases} names that left a part unexplained proved right",
-    AnswerKind.UNKNOWN: "{right} of {cases} such answers proved right",
+    AnswerKind.UNKNOWN: "{right} of {cases} answers of this kind proved right",
     AnswerKind.SUSPICION: "{right} of {cases} suspicions had a cause",
-    AnswerKind.NOTHING: "{right} of {cases} such answers{like} proved right; the others missed an effect",
+    AnswerKind.NOTHING: "{right} of {cases} answers of this kind{like} proved right, the others missed an effect",
 }
 
 

@@ -59,8 +59,8 @@ COURSE_CAPTION = (
     "scatter of the meter. Where crosses lie on circles, the finding explains the difference."
 )
 MAP_CAPTION = (
-    "Measured minus simulated, in multiples of the meter's scatter, over speed and pressure{both}. White: agreement; "
-    "red: more is measured; blue: less. Points of other case temperatures stand side by side."
+    "Measured minus simulated, in multiples of the meter's scatter, over pressure and speed or temperature{both}. "
+    "White: agreement; red: more is measured; blue: less. Points of other case temperatures stand side by side."
 )
 TRACE_CAPTION = (
     "Recorded chamber pressures that differ most, and measured minus simulated on one scale: for the pump as described"

@@ -21,6 +21,9 @@ AXIS_WORDS = {
 }  # fmt: skip
 BEFORE, AFTER, NOISE = "#b55a00", "#3c7a8c", "#9aa4ab"
 WIDTH = 10.0  # inches, of every picture that is as wide as the page
+SPEED = "speed [rpm]"
+ACROSS = {SPEED: "speed / (r/min)", "T_case [degC]": "case temperature / degC"}
+LEAST_SPREAD = 0.05  # of an axis, by its largest value: a smaller one is that of one level
 MOST_BARS = 12
 MOST_LEVELS = 4
 LEAST_LOSS = 0.05  # % of the shaft power, below which a loss is not drawn
@@ -40,21 +43,23 @@ def residual_maps(rows: Sequence[Row], claimed: bool = True) -> Figure:
     kinds = [both] if len(levels) < 3 else [(key,) for key in both]
     lines = [(channel, keys) for channel in channels for keys in kinds]
     columns = len(levels) * len(kinds[0])
-    figure = figure_of(1.5 + 2.3 * columns, 0.6 + (2.1 if len(levels) < 3 else 1.5) * len(lines))
+    height = max(3.0, 0.6 + (2.1 if len(levels) < 3 else 1.5) * len(lines))
+    figure = figure_of(max(WIDTH, 1.5 + 2.3 * columns), height)
     grid = figure.subplots(len(lines), columns, squeeze=False, sharex=True, sharey=True)
     most = max(3.0, float(np.nanpercentile(np.abs(_column(rows, "pull_before")), 98)))
+    across = _across(rows)
     drawn: Any = None
     for line, (channel, keys) in zip(grid, lines, strict=True):
         places = [(level, key) for level in levels for key in keys]
         for axes, (level, key) in zip(line, places, strict=True):
             own = [row for row in rows if row["channel"] == channel and _of_level(row, level)]
-            drawn = _map(axes, own, key, most)
+            drawn = _map(axes, own, key, across, most)
             axes.set_title(", ".join(filter(None, (FITS[key] if claimed else "", _title(level)))), fontsize=8, pad=3)
         line[0].set_ylabel(f"{channel}\np_out / bar", fontsize=8)
     for axes in grid[-1]:
-        axes.set_xlabel("speed / (r/min)", fontsize=8)
+        axes.set_xlabel(ACROSS[across], fontsize=8)
     bar = figure.colorbar(drawn, ax=grid.ravel().tolist(), shrink=min(0.8, 6.0 / (1.5 * len(lines))), extend="both")
-    bar.set_label("(measured - simulated) / scatter of the meter", fontsize=8)
+    bar.set_label("measured - simulated,\nin scatters of the meter", fontsize=8)
     return figure
 
 
@@ -155,12 +160,22 @@ def _legend_above(axes: Axes) -> None:
     axes.legend(fontsize=8, ncols=3, loc="lower right", bbox_to_anchor=(1.0, 1.0), frameon=False)
 
 
-def _map(axes: Axes, rows: Sequence[Row], key: str, most: float) -> Any:
+def _across(rows: Sequence[Row]) -> str:
+    """The axis of maps beside pressure: the speed; the case temperature where it varies and the speed does not."""
+    spread = {}
+    for axis in ACROSS:
+        known = _column(rows, axis)[np.isfinite(_column(rows, axis))]
+        spread[axis] = float(np.ptp(known) / np.abs(known).max()) if np.any(known) else 0.0
+    speed, warm = spread
+    return warm if spread[speed] < LEAST_SPREAD < spread[warm] else speed
+
+
+def _map(axes: Axes, rows: Sequence[Row], key: str, across: str, most: float) -> Any:
     """One map of pulls; points at one place (of other temperatures) are side by side."""
-    speed, pressure = _place(axes, rows, "speed [rpm]", 0.02), _place(axes, rows, "p_out [bar]", 0.1)
+    speed, pressure = _place(axes, rows, across, 0.02), _place(axes, rows, "p_out [bar]", 0.1)
     warm = _column(rows, "T_case [degC]")
     spread = np.ptp(warm[np.isfinite(warm)]) if np.any(np.isfinite(warm)) else 0.0
-    shift = np.nan_to_num((warm - np.nanmean(warm)) / spread) if spread > 0 else 0.0
+    shift = np.nan_to_num((warm - np.nanmean(warm)) / spread) if spread > 0 and across == SPEED else 0.0
     width = 0.1 * (float(np.ptp(pressure)) if pressure.size else 0.0) or 1.0
     axes.tick_params(labelsize=7)
     return axes.scatter(

@@ -160,20 +160,16 @@ def _plain(value: float, digits: int) -> str:
 
 
 COST_TILES = ("efficiency, overall (ISO 4409)", "delivery flow", "shaft torque", "case drain")
-MOST_SIZES, MOST_COSTS = 2, 2
+MOST_SIZES, MOST_FIRST = 2, 3
 SIZE_TAILS = (" per 100 bar", " too high", " too low", " more", " less", " times")
 """Words behind a size, which a tile has in its note."""
 
 
 def tiles(found: Mapping[str, Any], summary: Mapping[str, Any], changes: Sequence[Row]) -> tuple[Tile, ...]:
     """Size of the finding, what it costs, how sure it is, and how well points are met that were not used in the fit."""
-    return (
-        *_size_tiles(found),
-        *_cost_tiles(changes),
-        _sure_tile(found),
-        *_fit_tiles(found),
-        *_point_tiles(found, summary),
-    )
+    sizes = tuple(_size_tiles(found))
+    costs = _cost_tiles(changes, MOST_FIRST - len(sizes))
+    return (*sizes, *costs, _sure_tile(found), *_fit_tiles(found), *_point_tiles(found, summary))
 
 
 def _size_tiles(found: Mapping[str, Any]) -> Iterator[Tile]:
@@ -187,13 +183,13 @@ def _size_tiles(found: Mapping[str, Any]) -> Iterator[Tile]:
         yield Tile(f"{value} {unit}".rstrip(), name, f"+- {scatter}{tail}, one sigma" if sigma else "")
 
 
-def _cost_tiles(changes: Sequence[Row]) -> Iterator[Tile]:
+def _cost_tiles(changes: Sequence[Row], most: int) -> Iterator[Tile]:
     """The change of efficiency, then that which is largest as a part of what it changes."""
     known = [row for row in changes if row["quantity"] in COST_TILES and float(row["change"]) != 0.0]
     ranked = sorted(
         known, key=lambda row: (row["unit"] != "%", -abs(float(row["change"]) / (float(row[WITHOUT]) or 1.0)))
     )
-    for row in ranked[:MOST_COSTS]:
+    for row in ranked[:most]:
         unit = "points" if row["unit"] == "%" else row["unit"]
         name = row["quantity"].partition(", overall")[0]
         yield Tile(f"{float(row['change']):+.2g} {unit}", name, "with the finding, where it shows most")

@@ -258,3 +258,12 @@ def test_the_terminal_has_few_short_lines(named: Diagnosis) -> None:
     assert max(map(len, cut)) <= WIDTH
     assert "3 readings decide" in " ".join(cut)
     assert all(len(answer_lines(answer, most)) <= most for most in range(4, 12))
+
+
+def test_maps_of_one_speed_are_drawn_over_temperature(study: Study, named: Diagnosis, tmp_path: Path) -> None:
+    write_diagnosis_files(tmp_path, study, named, its_answer(named))
+    rows = read_rows(tmp_path / "residuals.csv")
+    assert residual_maps(rows).axes[-2].get_xlabel() == "speed / (r/min)"
+    for at, row in enumerate(rows):
+        row |= {"speed [rpm]": "", "T_case [degC]": str(30 + at)}
+    assert residual_maps(rows).axes[-2].get_xlabel() == "case temperature / degC"
