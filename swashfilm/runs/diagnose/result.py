@@ -53,6 +53,12 @@ class DiagnosisRun(Result):
         return (self.statement, *self.record["details"])
 
     @property
+    def answer(self) -> Mapping[str, Any]:
+        """The answer in plain words by part: finding, cost, certainty, what to look at, what to measure next."""
+        found: Mapping[str, Any] = self.record["answer"]
+        return found
+
+    @property
     def effects(self) -> list[dict[str, Any]]:
         """The claimed effects: id, pair, probability, parameters with sigmas in SI."""
         return list(self.record["effects"])
