@@ -46,8 +46,8 @@ gallery: install
 	$(VENV)/python docs/site/gallery.py
 
 lock: install
-	$(VENV)/uv pip compile --quiet pyproject.toml --all-extras --universal --python-version 3.11 \
-		--generate-hashes --no-header --no-annotate --output-file requirements.lock
+	$(VENV)/uv pip compile --quiet pyproject.toml --extra dev --extra cluster --extra recordings --universal \
+		--python-version 3.11 --generate-hashes --no-header --no-annotate --output-file requirements.lock
 
 clean:
 	rm -rf .venv dist build .mypy_cache .ruff_cache .import_linter_cache .hypothesis

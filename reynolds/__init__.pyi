@@ -1,3 +1,23 @@
+from .adjoint.gradient import (
+    FilmGradient as FilmGradient,
+    film_gradients as film_gradients,
+    held_gradient as held_gradient,
+    weakly_active as weakly_active,
+)
+from .adjoint.outputs import (
+    Axis as Axis,
+    ContactLoadOutput as ContactLoadOutput,
+    DissipationOutput as DissipationOutput,
+    FlowOutput as FlowOutput,
+    FrictionForceOutput as FrictionForceOutput,
+    FrictionOutput as FrictionOutput,
+    FrictionTorqueOutput as FrictionTorqueOutput,
+    LoadOutput as LoadOutput,
+    MomentOutput as MomentOutput,
+    Output as Output,
+    Wall as Wall,
+    output_names as output_names,
+)
 from .bodies.chart import Cylinder as Cylinder, Plane as Plane, Side as Side, face_normals as face_normals
 from .bodies.elasticity import Elastic as Elastic, structure as structure
 from .bodies.foundation import Compliance as Compliance, both as both, half_space as half_space, winkler as winkler

@@ -14,8 +14,10 @@ from .api import (
     reference as reference,
     reproduce as reproduce,
     run as run,
+    sensitivity as sensitivity,
     study as study,
     table as table,
+    tolerance as tolerance,
     transient as transient,
 )
 from .runs.table.gap_run import read_gap_table as read_gap_table

@@ -9,6 +9,7 @@ from __future__ import annotations
 import argparse
 import re
 import tempfile
+import warnings
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import replace
@@ -26,15 +27,19 @@ from system.work.progress import Report, silent
 if TYPE_CHECKING:
     from swashfilm.output.result import Result
     from swashfilm.runs.calibrate.result import CalibrationRun
+    from swashfilm.runs.compare.result import CompareRun
     from swashfilm.runs.diagnose.result import DiagnosisRun
+    from swashfilm.runs.duty.result import DutyRun
     from swashfilm.runs.film.result import FilmRun
     from swashfilm.runs.film.revolution.result import RevolutionRun
     from swashfilm.runs.film.series.result import StudyRun
-    from swashfilm.runs.map.result import CompareRun, DutyRun, MapRun
+    from swashfilm.runs.map.result import MapRun
     from swashfilm.runs.pump.result import PumpRun
     from swashfilm.runs.reference.result import ReferenceRun
     from swashfilm.runs.reproduce.result import Reproduction
+    from swashfilm.runs.sensitivity.result import SensitivityRun
     from swashfilm.runs.table.result import TableRun
+    from swashfilm.runs.tolerance.result import ToleranceRun
     from swashfilm.runs.transient.result import TransientRun
     from system.description.pump import PumpDescription
 
@@ -49,8 +54,8 @@ _SI = {
 }  # fmt: skip
 _OF_COMMAND_LINE = ("-o", "--output", "--help", "--csv", "--animate", "--apply", "--page", "--watch")
 _RESULTS = (
-    "pump", "film", "film.revolution", "film.series", "map", "table", "transient", "reference", "reproduce", "diagnose",
-    "calibrate",
+    "pump", "film", "film.revolution", "film.series", "map", "duty", "compare", "table", "transient", "reference",
+    "reproduce", "diagnose", "calibrate", "sensitivity", "tolerance",
 )  # fmt: skip
 """Rooms of `swashfilm.runs` with results."""
 
@@ -94,27 +99,35 @@ def run(
 
 
 def film(
-    case: Case, *, refine: int | None = None, report: Report = silent, **options: object
+    case: Case,
+    *,
+    refine: int | None = None,
+    sensitivity: str | Sequence[str] | None = None,
+    report: Report = silent,
+    **options: object,
 ) -> FilmRun | RevolutionRun:
     """Solve one film, free or a gap of a pump, at an instant or over the turn, as `swashfilm film`.
 
-    refine: number of meshes, for order and error. options: rigid, isoviscous, isothermal, smooth, no_cavitation. Raises
-    InputFaults and FilmNotConverged.
+    refine: number of meshes, for order and error. sensitivity: outputs whose derivatives by the film thickness are
+    wanted, such as "load" or ["load", "flow.left"]. options: rigid, isoviscous, isothermal, smooth, no_cavitation.
+    Raises InputFaults and FilmNotConverged.
     """
     with _door("film"), _case_file(case) as path:
         from swashfilm.case.gap.revolution import RevolutionCase
         from swashfilm.case.study import StudyCase
-        from swashfilm.runs.film.command import film_case
+        from swashfilm.runs.film.command import film_case, outputs_of
         from swashfilm.runs.film.revolution.result import RevolutionRun
         from swashfilm.runs.film.revolution.run import run_revolution_case
         from swashfilm.runs.film.run import solve_film
 
-        found, meshes, _ = film_case(_words("film", [path], {"refine": refine} | options))
+        wanted = sensitivity if sensitivity is None or isinstance(sensitivity, str) else ",".join(sensitivity)
+        words = _words("film", [path], {"refine": refine, "sensitivity": wanted} | options)
+        found, meshes, _ = film_case(words)
         if isinstance(found, StudyCase):
             raise InputFaults(str(path), [Fault("study", "a study", "one film", "swashfilm.study()")])
         if isinstance(found, RevolutionCase):
             return RevolutionRun.ran(lambda folder: run_revolution_case(found, folder, report, meshes=meshes))
-        return solve_film(found, report, meshes=meshes)
+        return solve_film(found, report, meshes=meshes, outputs=outputs_of(words))
 
 
 def study(
@@ -189,10 +202,10 @@ def table(pump: str | Path | PumpDescription, *, report: Report = silent, **opti
 def duty(of: MapRun | str | Path, cycle: str | Path) -> DutyRun:
     """Return energies and losses over a duty cycle (CSV) by a map: a MapRun, its run folder, or its map.nc."""
     with _door("duty"), _map_file(of) as path:
-        from swashfilm.runs.map.cycle_file import read_cycle
-        from swashfilm.runs.map.duty import run_duty
+        from swashfilm.runs.duty.cycle_file import read_cycle
+        from swashfilm.runs.duty.result import DutyRun
+        from swashfilm.runs.duty.run import run_duty
         from swashfilm.runs.map.files import map_file, read_map
-        from swashfilm.runs.map.result import DutyRun
 
         data, error = read_map(map_file(path))
         given = read_cycle(Path(cycle), data.axes)
@@ -203,25 +216,93 @@ def compare(
     one: MapRun | str | Path | PumpDescription,
     other: MapRun | str | Path | PumpDescription,
     cycle: str | Path | None = None,
+    *,
+    fidelity: str | None = None,
+    workers: int = 1,
 ) -> CompareRun:
-    """Compare two maps or pumps, also over a duty cycle, as `swashfilm compare`; raise InputFaults."""
-    with _door("compare"), _map_or_pump(one) as first, _map_or_pump(other) as second:
-        from swashfilm.runs.map.compare_command import compare_case
-        from swashfilm.runs.map.result import CompareRun
+    """Compare two maps or pumps, also over a duty cycle, as `swashfilm compare`; raise InputFaults.
 
-        return CompareRun.ran(compare_case(_words("compare", [first, second], {"cycle": cycle})).run)
+    fidelity: of the map of a pump; None for lumped.
+    """
+    with _door("compare"), _map_or_pump(one) as first, _map_or_pump(other) as second:
+        from swashfilm.runs.compare.command import compare_case
+        from swashfilm.runs.compare.result import CompareRun
+
+        options = {"cycle": cycle, "fidelity": fidelity, "workers": workers}
+        return CompareRun.ran(compare_case(_words("compare", [first, second], options)).run)
+
+
+def sensitivity(
+    pump: str | Path | PumpDescription = "ref90",
+    *,
+    keys: str | Sequence[str] | None = None,
+    cycle: str | Path | None = None,
+    fidelity: str = "lumped",
+    report: Report = silent,
+    **options: object,
+) -> SensitivityRun:
+    """Differentiate a pump's numbers by its dimensions, as `swashfilm sensitivity`.
+
+    keys: dimensions or patterns, text or a list; levels, plan, table, workers and resume as those of `map`. Raises
+    InputFaults and NotConverged.
+    """
+    given = {"keys": keys, "cycle": cycle, "fidelity": fidelity} | options
+    with _door("sensitivity"), _pump_file(pump) as name:
+        from swashfilm.runs.sensitivity.result import SensitivityRun
+        from swashfilm.runs.sensitivity.run import run_sensitivity
+        from swashfilm.runs.variation.case import varied_case
+        from swashfilm.runs.variation.options import varied_executor
+        from system.variation.sensitivity import variants_needed
+
+        words = _words("sensitivity", [name], given)
+        case = varied_case(words)
+        with varied_executor(words, case.seconds(variants_needed(len(case.keys)))) as executor:
+            return SensitivityRun.ran(lambda folder: run_sensitivity(case, folder, executor, report))
+
+
+def tolerance(
+    pump: str | Path | PumpDescription = "ref90",
+    *,
+    pumps: int | None = None,
+    limit: str | Sequence[str] = (),
+    keys: str | Sequence[str] | None = None,
+    cycle: str | Path | None = None,
+    fidelity: str = "lumped",
+    report: Report = silent,
+    **options: object,
+) -> ToleranceRun:
+    """Solve a series of pumps drawn from the tolerances of their drawing, as `swashfilm tolerance`.
+
+    limit: "efficiency >= 88 %", or several; seed, and levels, plan, table, workers and resume as those of `map`. Raises
+    InputFaults.
+    """
+    limits = [limit] if isinstance(limit, str) else list(limit)
+    given = {"pumps": pumps, "limit": limits, "keys": keys, "cycle": cycle, "fidelity": fidelity} | options
+    with _door("tolerance"), _pump_file(pump) as name:
+        from swashfilm.runs.tolerance.command import tolerance_case
+        from swashfilm.runs.tolerance.result import ToleranceRun
+        from swashfilm.runs.tolerance.run import run_tolerance
+        from swashfilm.runs.variation.options import varied_executor
+
+        words = _words("tolerance", [name], given)
+        case = tolerance_case(words)
+        with varied_executor(words, case.varied.seconds(case.pumps)) as executor:
+            return ToleranceRun.ran(lambda folder: run_tolerance(case, folder, executor, report))
 
 
 def export(of: MapRun | str | Path, to: str, output: str | Path | None = None) -> tuple[Path, ...]:
-    """Write a map as tables of another program and return the files, as `swashfilm export`; raise InputFaults.
+    """Write a map for another program and return the files, as `swashfilm export`; raise InputFaults.
 
-    of: a MapRun, its run folder, or its map.nc; to: "modelica", "matlab", "amesim" or "csv"; output: the file, by
-    default the pump's name in the working folder.
+    of: a MapRun, its run folder, or its map.nc; to: "modelica", "matlab", "amesim", "fmu" or "csv"; output: the file,
+    by default the pump's name in the working folder. Points without a result and missing binaries are Python warnings.
     """
     with _door("export"), _map_file(of) as path:
         from swashfilm.runs.export.write import export_of
 
-        return export_of(path, to, None if output is None else Path(output)).write()
+        written = export_of(path, to, None if output is None else Path(output)).write()
+    for warning in written.warnings:
+        warnings.warn(warning, stacklevel=2)
+    return written.paths
 
 
 def transient(case: Case) -> TransientRun:
@@ -388,7 +469,7 @@ def _words(command: str, positional: Sequence[object], given: Mapping[str, objec
         option = f"--{name.replace('_', '-')}"
         if value is True:
             words.append(option)
-        elif isinstance(value, list) and name == "set":
+        elif isinstance(value, list) and name in ("set", "limit"):
             words += [f"{option}={one}" for one in value]
         elif value is not None and value is not False:
             words.append(f"{option}={_text(name, value)}")

@@ -3,6 +3,7 @@ from .bench.outputs import SIMULATED as SIMULATED
 from .bench.parameters import base_parameters as base_parameters
 from .bench.points import BenchPoints as BenchPoints, operating_at as operating_at
 from .bench.simulator import LumpedBench as LumpedBench
+from .description.drawing import drawing_of as drawing_of
 from .description.gap import Gap as Gap
 from .description.pump import PumpDescription as PumpDescription, PumpSection as PumpSection
 from .description.tolerances import tolerances as tolerances
@@ -90,3 +91,4 @@ from .pump.ports.areas import (
 from .pump.ports.lines import ImpedanceLine as ImpedanceLine
 from .pump.ports.relief_grooves import ReliefGroove as ReliefGroove
 from .pump_file.file import check_pump as check_pump, load_pump as load_pump, resolved_toml as resolved_toml
+from .variation.sampling import Series as Series, drawn_series as drawn_series

@@ -1,4 +1,4 @@
-"""Draw the gallery: run its examples, shrink one picture of each report, write docs/gallery.md.
+"""Draw the gallery: run its examples, shrink one picture of each result, write docs/gallery.md.
 
     python docs/site/gallery.py [NAME ..]
 
@@ -7,60 +7,66 @@ With names, only these examples are run; the others keep their pictures.
 
 from __future__ import annotations
 
-import base64
 import io
-import re
 import subprocess
 import sys
 import tempfile
 from dataclasses import dataclass
 from pathlib import Path
 
+import matplotlib
 from PIL import Image
+
+import swashfilm as sf
+from swashfilm.output.figures import png_of
+
+matplotlib.use("Agg")
 
 ROOT = Path(__file__).resolve().parents[2]
 DOCS = ROOT / "docs"
 PICTURES = DOCS / "gallery"
 WIDTH, COLOURS, ACROSS = 420, 64, 3
-EMBEDDED = re.compile(r'<img alt="([^"]*)"\s+src="data:image/png;base64,([^"]+)"')
 
 
 @dataclass(frozen=True)
 class Example:
-    """A command, and the picture of its report that stands for it.
+    """A command, and the picture that stands for its result.
 
-    picture: words that the picture's text begins with; part: left, top, right, bottom as shares of the picture.
+    picture: a file of the run folder, or a method of the result that draws; part: left, top, right, bottom as shares of
+    the picture.
     """
 
     name: str
     title: str
     command: str
-    picture: str = ""
+    picture: str
     part: tuple[float, float, float, float] = (0.0, 0.0, 1.0, 1.0)
 
 
 BENCH = "examples/recordings/bench_pump.toml"
 EXAMPLES = (
-    Example("journal", "Journal bearing with a cavity", "film examples/films/journal_bearing.toml"),
-    Example("stribeck", "Stribeck curve of rough walls", "film examples/films/stribeck_study.toml", "stribeck"),
-    Example("squeeze", "Film that ruptures in time", "film examples/films/oscillating_squeeze.toml", "Load"),
-    Example("plate", "Elastic plate under its film", "film examples/films/bending_plate.toml"),
-    Example("warm", "Film that warms along its way", "film examples/films/warm_slider.toml"),
-    Example("slipper", "Slipper of a pump", "film examples/films/ref90_slipper.toml"),
-    Example("valve-plate", "Valve plate, block tilted", "film examples/films/ref90_valve_plate.toml"),
-    Example("pump", "Pump with its films", "run ref90", "Pump in the middle", (0.22, 0.0, 1.0, 1.0)),
-    Example("losses", "Losses of the friction pairs", "run ref90", "Mean loss"),
-    Example("chamber", "Chamber pressure over a turn", "run ref90 --fidelity lumped", "One chamber"),
-    Example("map", "Efficiency map", "map ref90 --fidelity lumped", part=(0.0, 0.0, 0.36, 1.0)),
-    Example("destroke", "Swash plate that swings back", "transient examples/transients/destroke.toml"),
-    Example("orifice", "Navier-Stokes flow of a bore", "reference examples/references/slipper_orifice.toml"),
-    Example("diagnose", "Cause of a mismatch", f"diagnose {BENCH} examples/recordings/open-06", "What is claimed"),
-    Example("calibrate", "Friction coefficients fitted", f"calibrate {BENCH} examples/recordings/open-01"),
+    Example("journal", "Journal bearing with a cavity", "film examples/films/journal_bearing.toml", "plot_fields"),
+    Example("stribeck", "Stribeck curve of rough walls", "film examples/films/stribeck_study.toml", "plot_stribeck"),
+    Example("squeeze", "Film that ruptures in time", "film examples/films/oscillating_squeeze.toml", "plot_fields"),
+    Example("plate", "Elastic plate under its film", "film examples/films/bending_plate.toml", "plot_fields"),
+    Example("warm", "Film that warms along its way", "film examples/films/warm_slider.toml", "plot_fields"),
+    Example("slipper", "Slipper of a pump", "film examples/films/ref90_slipper.toml", "plot_fields"),
+    Example("valve-plate", "Valve plate, block tilted", "film examples/films/ref90_valve_plate.toml", "plot_fields"),
+    Example("pump", "Pump with its films", "run ref90", "pump.png", (0.22, 0.0, 1.0, 1.0)),
+    Example("powers", "Where the shaft power goes", "run ref90", "plot_powers"),
+    Example("losses", "Losses of the friction pairs", "run ref90", "plot_losses"),
+    Example("chamber", "Chamber pressure over a turn", "run ref90 --fidelity lumped", "plot_chamber"),
+    Example("map", "Efficiency map", "map ref90 --fidelity lumped", "plot_efficiency", (0.0, 0.0, 0.36, 1.0)),
+    Example("destroke", "Swash plate that swings back", "transient examples/transients/destroke.toml", "plot_plate"),
+    Example("orifice", "Flow of a slipper bore", "reference examples/references/slipper_orifice.toml", "flow_1.png"),
+    Example("diagnose", "Cause of a mismatch", f"diagnose {BENCH} examples/recordings/open-06", "plot_effect"),
+    Example("calibrate", "Friction coefficients", f"calibrate {BENCH} examples/recordings/open-01", "plot_friction"),
     Example(
         "reproduce",
         "Published figure beside our numbers",
         "reproduce fig18 --fidelity lumped",
-        part=(0.0, 0.0, 0.5, 1.0),
+        "plots/fig18.png",
+        (0.0, 0.0, 0.5, 1.0),
     ),
 )
 
@@ -81,15 +87,19 @@ def draw(example: Example) -> None:
         folder = Path(place) / "run"
         command = [sys.executable, "-m", "swashfilm", *example.command.split(), "-o", str(folder)]
         subprocess.run(command, cwd=ROOT, check=True, stdout=subprocess.DEVNULL)
-        report = (folder / "report.html").read_text("utf-8")
-    found = [data for text, data in EMBEDDED.findall(report) if text.startswith(example.picture)]
-    if not found:
-        raise SystemExit(f"{example.name}: no picture '{example.picture}' among {EMBEDDED.findall(report)[:9]}")
-    whole = Image.open(io.BytesIO(base64.b64decode(found[0]))).convert("RGB")
+        whole = Image.open(io.BytesIO(picture(folder, example.picture))).convert("RGB")
     (wide, tall), (left, top, right, bottom) = whole.size, example.part
     shown = whole.crop((round(left * wide), round(top * tall), round(right * wide), round(bottom * tall)))
     shown.thumbnail((WIDTH, WIDTH))
     shown.quantize(COLOURS).save(PICTURES / f"{example.name}.png", optimize=True)
+
+
+def picture(folder: Path, name: str) -> bytes:
+    """Return a picture of a run folder as PNG: its file of that name, or what that method of its result draws."""
+    if (file := folder / name).suffix:
+        return file.read_bytes()
+    axes = getattr(sf.open(folder), name)()
+    return png_of(axes[0].figure)
 
 
 def page() -> str:
@@ -97,7 +107,7 @@ def page() -> str:
     lines = [
         "# Gallery",
         "",
-        "Each picture is part of the report that the command beneath it writes. "
+        "Each picture shows the result of the command beneath it. "
         "`make gallery` runs all of them and writes this page.",
         "",
         "| " + " | ".join(" " for _ in range(ACROSS)) + " |",

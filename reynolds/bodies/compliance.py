@@ -99,6 +99,13 @@ def columns_of(matrix: WallOperator, unknowns: NDArray[np.intp]) -> Array:
     return matrix.columns(unknowns)
 
 
+def transposed_product(matrix: WallMatrix, force: Array) -> Array:
+    """C^T force, (size,): the slope by pressures of what has the slope `force` (vertices,) by the deformation."""
+    if isinstance(matrix, LowRank):
+        return np.asarray(matrix.right.T @ (matrix.left.T @ force))
+    return np.asarray(matrix.T @ force)
+
+
 class ElasticWalls(Protocol):
     """Both walls of a film together, as one linear operator."""
 

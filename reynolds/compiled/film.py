@@ -66,7 +66,8 @@ class CompiledFilm:
             viscosity, steeper = problem.fluid.viscosity(inside, film.viscosity)
             dense, denser = problem.fluid.density(inside)
             per_viscosity, relative = dense / (12.0 * viscosity), denser / dense - steeper / viscosity
-            ratio, slope = problem.fluid.density(pressure)
+            # Copies: a law may return read-only arrays, for which the kernels would be compiled once more.
+            ratio, slope = (np.array(part) for part in problem.fluid.density(pressure))
         c = coefficients(self.table, gap, problem.space.everywhere(per_viscosity), self.motion)
         oil = Filling(pressure, fraction, ratio, slope, relative, cavity_density(problem))
         return FilmBalance(self, viscosity, c, oil, kernels.flow_balance(self.mesh, c, oil, self.given), cavity)

@@ -14,7 +14,7 @@ from reynolds.errors import FilmInputError, FilmNotConverged
 from reynolds.fem.space import FilmSpace
 from reynolds.laws.fluid import CONSTANT
 from reynolds.laws.law import Tangent
-from reynolds.laws.roughness import FlowFactors, Surface, flow_factors
+from reynolds.laws.roughness import FlowFactors, Surface, flow_factors, mean_thickness_curvature
 from reynolds.numerics.array_kernels import cubes
 from reynolds.numerics.arrays import Array
 from reynolds.problem import ZERO, Film, FilmProblem
@@ -98,6 +98,18 @@ class Transport:
         """Its rate, m/s."""
         still = self.film.squeeze.size == 1 and self.film.squeeze.item() == 0.0
         return self.film.squeeze if still else self.content_slope * self.film.squeeze
+
+    @property
+    def squeeze_slope(self) -> Array:
+        """Its slope, 1/s: zero between smooth walls, whose film grows as the gap does."""
+        if self.surface is None or not self.film.squeeze.any():
+            return ZERO
+        thickness, least = self.film.thickness, self.surface.lowest_ratio * self.surface.composite_roughness
+        curved = mean_thickness_curvature(self.surface.composite_roughness, thickness)
+        if self.widening is not None:  # the film is an exponential of the gap where walls overlap (`film_between`)
+            overlap = np.where(thickness < least, self.widening / least, 0.0)
+            curved = curved * self.widening**2 + self._content.slope * overlap
+        return np.asarray(curved * self.film.squeeze)
 
     def _by_gap(self, slope: Array) -> Array:
         return slope if self.widening is None else slope * self.widening

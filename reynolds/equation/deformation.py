@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from scipy.sparse import csc_array, csr_array, eye_array, issparse
 from scipy.sparse.linalg import splu
 
-from reynolds.bodies.compliance import LowRank, WallMatrix, WallOperator, columns_of, full
+from reynolds.bodies.compliance import LowRank, WallMatrix, WallOperator, columns_of, full, transposed_product
 from reynolds.errors import FilmInputError, FilmNotConverged
 from reynolds.laws.contact import LOWEST_RATIO, Asperities, contact_pressure
 from reynolds.laws.law import Tangent
@@ -129,6 +129,16 @@ class Touch:
         here = self._within(np.ascontiguousarray(displaced[self.felt]), 0.0)
         return np.asarray(displaced + self._columns @ here)
 
+    def settled_transposed(self, force: Array) -> Array:
+        """The transpose of `settled`: (I - C dp_c/dh)^-T force, (vertices,)."""
+        if not self.felt.size:
+            return force
+        seats = self.meeting.seats[self.felt]
+        pushed = self.weights * transposed_product(self.compliance, force)[seats]
+        found = force.copy()
+        found[self.felt] += self._within_transposed(pushed, 0.0)
+        return found
+
     @property
     def weights(self) -> Array:
         """Pressure of contact on its unknown by the gap of each vertex where it is felt, (felt,) Pa/m."""
@@ -147,13 +157,13 @@ class Touch:
     def _within(self) -> Answer:
         """The same where contact is felt: elsewhere it follows."""
         here = _rows(self._columns, self.felt)
-        if not isinstance(here, csr_array):
-            return dense_answer(np.eye(self.felt.size) - full(here))
-        try:
-            factor = splu(csc_array(eye_array(self.felt.size) - here))
-        except RuntimeError as reason:  # SuperLU: "Factor is exactly singular"
-            raise singular(str(reason)) from None
-        return lambda load, _: np.asarray(factor.solve(load))
+        return _less(here if isinstance(here, csr_array) else full(here))
+
+    @cached_property
+    def _within_transposed(self) -> Answer:
+        """Its transpose."""
+        here = _rows(self._columns, self.felt)
+        return _less(csr_array(here.T) if isinstance(here, csr_array) else np.ascontiguousarray(full(here).T))
 
 
 @dataclass(frozen=True)
@@ -241,3 +251,14 @@ def given_gap(problem: FilmProblem) -> Array:
 def _rows(matrix: WallMatrix, rows: NDArray[np.intp]) -> WallMatrix:
     """Some rows of a compliance."""
     return LowRank(matrix.left[rows], matrix.right) if isinstance(matrix, LowRank) else matrix[rows]
+
+
+def _less(matrix: Array | csr_array) -> Answer:
+    """The answer of the identity less a matrix."""
+    if not isinstance(matrix, csr_array):
+        return dense_answer(np.eye(len(matrix)) - matrix)
+    try:
+        factor = splu(csc_array(eye_array(matrix.shape[0]) - matrix))
+    except RuntimeError as reason:  # SuperLU: "Factor is exactly singular"
+        raise singular(str(reason)) from None
+    return lambda load, _: np.asarray(factor.solve(load))

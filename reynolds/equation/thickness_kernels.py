@@ -37,6 +37,16 @@ def mixed(modes, shares):
     return out
 
 
+@njit(inline="always")
+def _risen(e, q, i, s, row, value, steep, gradient, signs, area, driven_x, driven_y, hourglass, drag_x, drag_y,
+           stored, filling):  # fmt: skip
+    """Flow out of a cell's unknown per growth of the film at one of its points: see `thicken`."""
+    flow = driven_x[e, q] * steep[s, q, i, 0] + driven_y[e, q] * steep[s, q, i, 1]
+    flow += hourglass[e, q] * signs[i]
+    flow -= drag_x[e, q] * gradient[s, q, i, 0] + drag_y[e, q] * gradient[s, q, i, 1]
+    return flow + stored[e, q] * filling[row] * area[e, q] * value[q, i]
+
+
 @njit(**_FAST)
 def thicken(
     dofs, shape, value, steep, gradient, signs, area, driven_x, driven_y, hourglass, drag_x, drag_y, stored,
@@ -54,12 +64,31 @@ def thicken(
         for i in range(len(basis)):
             row = dofs[e, i]
             for q in range(len(points)):
-                flow = driven_x[e, q] * steep[s, q, i, 0] + driven_y[e, q] * steep[s, q, i, 1]
-                flow += hourglass[e, q] * signs[i]
-                flow -= drag_x[e, q] * gradient[s, q, i, 0] + drag_y[e, q] * gradient[s, q, i, 1]
-                flow += stored[e, q] * filling[row] * area[e, q] * value[q, i]
+                flow = _risen(
+                    e, q, i, s, row, value, steep, gradient, signs, area, driven_x, driven_y, hourglass, drag_x,
+                    drag_y, stored, filling,
+                )  # fmt: skip
                 for j in range(modes.shape[2]):
                     out[row, j] += flow * modes[e, q, j]
+
+
+@njit(**_FAST)
+def levered(
+    dofs, shape, value, steep, gradient, signs, area, driven_x, driven_y, hourglass, drag_x, drag_y, stored,
+    filling, weight, basis, points, out,
+):  # fmt: skip
+    """out[e, q] = sum_i weight_i times what `thicken` adds to i for a growth at this point: its transpose."""
+    for e in range(dofs.shape[0]):
+        s = shape[e]
+        for q in range(len(points)):
+            total = 0.0
+            for i in range(len(basis)):
+                row = dofs[e, i]
+                total += weight[row] * _risen(
+                    e, q, i, s, row, value, steep, gradient, signs, area, driven_x, driven_y, hourglass, drag_x,
+                    drag_y, stored, filling,
+                )  # fmt: skip
+            out[e, q] = total
 
 
 @njit(**_FAST)
@@ -71,6 +100,15 @@ def _apart(indptr, indices, level):
             if level[indices[k]] != level[j]:
                 found[indices[k]] = found[j] = True
     return found
+
+
+@njit(inline="always")
+def _convected(e, q, i, j, s, swapped, value, gradient, slope_x, slope_y):
+    """Slopes of the convection's entry of a cell's unknowns i and j and of its mirror by the film at one point."""
+    fx, fy = slope_x[e, q], slope_y[e, q]
+    c_ij = -value[q, j] * (fx * gradient[s, q, i, 0] + fy * gradient[s, q, i, 1])
+    c_ji = -value[q, i] * (fx * gradient[s, q, j, 0] + fy * gradient[s, q, j, 1])
+    return (c_ji, c_ij) if swapped else (c_ij, c_ji)
 
 
 @njit(**_FAST)
@@ -92,11 +130,7 @@ def _convection_slopes(
                 if one == two:  # nothing that unknowns exchange
                     continue
                 for q in range(len(points)):
-                    fx, fy = slope_x[e, q], slope_y[e, q]
-                    c_ij = -value[q, j] * (fx * gradient[s, q, i, 0] + fy * gradient[s, q, i, 1])
-                    c_ji = -value[q, i] * (fx * gradient[s, q, j, 0] + fy * gradient[s, q, j, 1])
-                    if one > two:
-                        c_ij, c_ji = c_ji, c_ij
+                    c_ij, c_ji = _convected(e, q, i, j, s, one > two, value, gradient, slope_x, slope_y)
                     for m in range(modes.shape[2]):
                         upper[slot, m] += c_ij * modes[e, q, m]
                         lower[slot, m] += c_ji * modes[e, q, m]
@@ -168,3 +202,63 @@ def mixed_more(
             flow = -more * (level[j] - level[i])
             out[i, m] += flow
             out[j, m] -= flow
+
+
+@njit(**_FAST)
+def mixed_levered(
+    dofs, slots, shape, value, gradient, slope_x, slope_y, weight, basis, points,
+    indptr, indices, upper, lower, leaves, level, out,
+):  # fmt: skip
+    """out[e, q] += sum_i weight_i times what `mixed_more` adds to i for a growth at this point: its transpose."""
+    of_upper, of_lower = _mixing_levers(indptr, indices, upper, lower, leaves, level, weight)
+    for e in range(dofs.shape[0]):
+        s, k = shape[e], 0
+        for i in range(len(basis)):
+            for j in range(i, len(basis)):
+                slot, one, two = slots[e, k], dofs[e, i], dofs[e, j]
+                k += 1
+                if one == two or (of_upper[slot] == 0.0 and of_lower[slot] == 0.0):
+                    continue
+                for q in range(len(points)):
+                    c_ij, c_ji = _convected(e, q, i, j, s, one > two, value, gradient, slope_x, slope_y)
+                    out[e, q] += of_upper[slot] * c_ij + of_lower[slot] * c_ji
+
+
+@njit(**_FAST)
+def _mixing_levers(indptr, indices, upper, lower, leaves, level, weight):
+    """Slopes of sum_i weight_i exchange_i by the convection's entries and their mirrors, (entries,) each."""
+    of_upper, of_lower = np.zeros(len(indices)), np.zeros(len(indices))
+    beside, uneven, columns = _exchanging(indptr, indices, leaves, level)
+    size = indptr.shape[0] - 1
+    taken, brought, of_taken, of_brought = np.zeros(size), np.zeros(size), np.zeros(size), np.zeros(size)
+    for k in beside:
+        at, c = (indices[k], upper[k]) if leaves[columns[k]] else (columns[k], lower[k])
+        taken[at] += max(0.0, c)
+        brought[at] += max(0.0, -c)
+    for k in uneven:
+        i, j = indices[k], columns[k]
+        felt = -(weight[i] - weight[j]) * (level[j] - level[i])
+        largest = felt
+        if leaves[i] != leaves[j]:
+            largest, own = LEAST_MIXING * felt, (1.0 - LEAST_MIXING) * felt
+            at, c = (i, upper[k]) if leaves[j] else (j, lower[k])
+            if c < 0.0 and taken[at] < brought[at]:
+                share = taken[at] / brought[at]
+                of_taken[at] += own * c / brought[at]
+                of_brought[at] -= own * c * share / brought[at]
+                own *= share
+            if leaves[j]:
+                of_upper[k] += own
+            else:
+                of_lower[k] += own
+        of_upper[k] += largest * _largest_slope(upper[k], lower[k], 1.0, 0.0)
+        of_lower[k] += largest * _largest_slope(upper[k], lower[k], 0.0, 1.0)
+    for k in beside:
+        j = columns[k]
+        at, c = (indices[k], upper[k]) if leaves[j] else (j, lower[k])
+        own = of_taken[at] if c > 0.0 else -of_brought[at]
+        if leaves[j]:
+            of_upper[k] += own
+        else:
+            of_lower[k] += own
+    return of_upper, of_lower

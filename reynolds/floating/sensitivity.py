@@ -9,14 +9,13 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from reynolds.equation.balance import FilmState, Operators, cavity_density, density, steep_gradient
-from reynolds.equation.coefficients import along, at_points
+from reynolds.equation.balance import FilmState, Operators, density
 from reynolds.equation.deformation import deformation_slope
-from reynolds.equation.hourglass import hourglass_slope, signs
-from reynolds.equation.thickness_kernels import integrate, mixed_more, thicken
+from reynolds.equation.thickness import ThicknessSlopes
+from reynolds.equation.thickness_kernels import integrate
 from reynolds.linear.factor import ITERATIVE_TOLERANCE
 from reynolds.numerics.arrays import Array
-from reynolds.problem import Cavitation, FilmSolution
+from reynolds.problem import FilmSolution
 from reynolds.solve.solver import FilmSolver
 
 
@@ -40,30 +39,8 @@ def thickness_load(solution: FilmSolution, thicker: Array, parts: Operators) -> 
 
     `parts`: the operators of the solution's balance (`FilmSolver.operators`).
     """
-    problem = solution.problem
     state = FilmState(solution.pressure, solution.film_fraction, solution.deformation)
-    space, terms, tensors = problem.space, parts.transport, problem.space.tensors
-    filling = state.film_fraction * density(problem, state.pressure)[0]
-    driven = along(terms.conductance_slope, steep_gradient(space, state.pressure))
-    mode = hourglass_slope(space, terms.conductance, terms.conductance_slope, state.pressure)
-    full = at_points(space, filling)
-    convected = (full * part for part in terms.flux_slope)
-    per_second = 0.0 if problem.storage is None else terms.content_slope / problem.storage.step
-    out = np.empty((space.size, thicker.shape[2]))
-    thicken(
-        space.dofs, tensors.shape, space.reference.value, tensors.steep_gradient, tensors.gradient, signs(space),
-        space.area, *(space.everywhere(part) for part in (*driven, mode, *convected, np.atleast_2d(per_second))),
-        filling, thicker, *space.reference.loops, out,
-    )  # fmt: skip
-    if problem.cavitation is Cavitation.JFO and bool(np.any(state.film_fraction != 1.0)):
-        # Upwinding's diffusion grows with the walls' flow.
-        mixed_more(
-            space.dofs, space.pattern.slots, tensors.shape, space.reference.value, tensors.gradient,
-            *(space.everywhere(part) for part in terms.flux_slope), thicker, *space.reference.loops,
-            space.pattern.indptr, space.pattern.indices, *parts.convection, parts.leaves,
-            cavity_density(problem) * solution.film_fraction, out,
-        )  # fmt: skip
-    return out
+    return ThicknessSlopes(solution.problem, parts, state).load(thicker)
 
 
 def oil_slopes(solution: FilmSolution, thicker: Array, changed: FilmSensitivity, parts: Operators) -> Array:

@@ -62,15 +62,15 @@ class FloatingStage:
 
         It follows the shift along its slopes, and so do its flows: oil is conserved to the square of the shift.
         """
-        return as_shaped(self._balanced)
+        return as_shaped(self.balanced)
 
     @property
     def deformation(self) -> Array:
         """Opening of the film by its elastic walls, (vertices,) m; zero between rigid ones."""
-        return self._balanced.deformation
+        return self.balanced.deformation
 
     @cached_property
-    def _balanced(self) -> FilmSolution:
+    def balanced(self) -> FilmSolution:
         """The film in balance, between elastic walls if they are."""
         if not self.shift.any():
             return self.trial.solution

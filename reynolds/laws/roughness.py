@@ -171,6 +171,12 @@ def mean_thickness(composite_roughness: float, h: ArrayLike) -> Tangent:
     return Tangent(mean, share)
 
 
+def mean_thickness_curvature(composite_roughness: float, h: ArrayLike) -> Array:
+    """d2hT/dh2 = n(H)/sigma (1/m), the slope of the contact factor: Gaussian heights, exact."""
+    ratio = np.asarray(h, dtype=float) / composite_roughness
+    return np.asarray(np.exp(-0.5 * ratio**2) / (np.sqrt(2.0 * np.pi) * composite_roughness))
+
+
 def _ratio(surface: Surface, h: ArrayLike) -> Array:
     ratio = np.asarray(h, dtype=float) / surface.composite_roughness
     if not np.all(ratio > 0.0):

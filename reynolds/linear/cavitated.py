@@ -61,8 +61,8 @@ class CavitatedFilm:
         self._columns = columns._replace(edge=self._edge[:edges], edge_column=self._edge_column[:edges])
         return good and self._film.update(self._part)
 
-    def solve(self, load: Array, tolerance: float) -> tuple[Array, IterationRecord]:
-        """x with |A x - load| <= tolerance |load|, (n,), or as near as ROUNDS of GMRES come."""
+    def solve(self, load: Array, tolerance: float, *, transposed: bool = False) -> tuple[Array, IterationRecord]:
+        """x with |A x - load| <= tolerance |load|, (n,), or as near as ROUNDS of GMRES come; A^T x if `transposed`."""
         size = norm(load)
         answer = np.zeros(len(load))
         if size == 0.0:
@@ -70,7 +70,14 @@ class CavitatedFilm:
         steps, left = 0, size
         for _ in range(ROUNDS):
             left, more = kernels.gmres(
-                self._film.levels, self._film.slots, self._columns, load, tolerance * size, self._basis, answer
+                self._film.levels,
+                self._film.slots,
+                self._columns,
+                transposed,
+                load,
+                tolerance * size,
+                self._basis,
+                answer,
             )
             steps += more
             if not left > tolerance * size:

@@ -179,6 +179,60 @@ def _precondition(levels, slots, m, load, rest, out):
         out[j] = rest[j]
 
 
+@njit(**_FAST)
+def _multiply_transposed(m, x, out):
+    """out = A^T x."""
+    for j in range(x.shape[0]):
+        total = 0.0
+        for k in range(m.indptr[j], m.indptr[j + 1]):
+            total += m.entries[k] * x[m.indices[k]]
+        out[j] = total
+
+
+@njit(**_FAST)
+def _sweep_back(m, load, out):
+    """Solve the transpose for the cavity upstream, in `out`, which has the film's part."""
+    for place in range(m.order.shape[0] - 1, -1, -1):
+        j = m.order[place]
+        total = load[j]
+        for k in range(m.begin[place], m.begin[place + 1]):
+            total -= m.value[k] * out[m.row[k]]
+        out[j] = total / m.diagonal[j]
+
+
+@njit(**_FAST)
+def _precondition_transposed(levels, slots, m, load, rest, out):
+    """out = M^T load: the steps of `_precondition` backwards, each transposed."""
+    fine, coarse, coarsest = levels
+    out[:] = 0.0
+    _sweep_back(m, load, out)
+    rest[:] = load
+    for k in range(m.edge.shape[0]):
+        rest[m.edge_column[k]] -= m.entries[m.edge[k]] * out[m.indices[m.edge[k]]]
+    for j in m.order:
+        rest[j] = 0.0
+    put(rest, slots, fine.load)
+    cycle(fine, coarse, coarsest)
+    take(fine.answer, slots, out)
+    _sweep_back(m, load, out)
+
+
+@njit(**_FAST)
+def _conditioned(levels, slots, m, transposed, load, rest, out):
+    if transposed:
+        _precondition_transposed(levels, slots, m, load, rest, out)
+    else:
+        _precondition(levels, slots, m, load, rest, out)
+
+
+@njit(**_FAST)
+def _times(m, transposed, x, out):
+    if transposed:
+        _multiply_transposed(m, x, out)
+    else:
+        _multiply(m, x, out)
+
+
 @njit(**_SUMS)
 def _dot(a, b):
     total = 0.0
@@ -188,14 +242,14 @@ def _dot(a, b):
 
 
 @njit(**_FAST)
-def gmres(levels, slots, m, load, tolerance, basis, x):
+def gmres(levels, slots, m, transposed, load, tolerance, basis, x):
     """One round of GMRES (Saad and Schultz 1986) preconditioned from the right, added to x; |load - A x|, steps.
 
-    `basis` (steps + 3, n) is room for the directions.
+    A is the matrix or, `transposed`, its transpose; `basis` (steps + 3, n) is room for the directions.
     """
     most = basis.shape[0] - 3
     image, rest = basis[most + 1], basis[most + 2]
-    _multiply(m, x, image)
+    _times(m, transposed, x, image)
     for i in range(x.shape[0]):
         basis[0, i] = load[i] - image[i]
     size = np.sqrt(_dot(basis[0], basis[0]))
@@ -208,8 +262,8 @@ def gmres(levels, slots, m, load, tolerance, basis, x):
     steps = 0
     while steps < most and abs(right[steps]) > tolerance:
         k = steps
-        _precondition(levels, slots, m, basis[k], rest, image)
-        _multiply(m, image, basis[k + 1])
+        _conditioned(levels, slots, m, transposed, basis[k], rest, image)
+        _times(m, transposed, image, basis[k + 1])
         for j in range(k + 1):
             h[j, k] = _dot(basis[j], basis[k + 1])
             _add(basis[k + 1], basis[j], -h[j, k])
@@ -234,9 +288,9 @@ def gmres(levels, slots, m, load, tolerance, basis, x):
     total[:] = 0.0
     for k in range(steps):
         _add(total, basis[k], right[k])
-    _precondition(levels, slots, m, total, rest, image)
+    _conditioned(levels, slots, m, transposed, total, rest, image)
     _add(x, image, 1.0)
-    _multiply(m, x, image)
+    _times(m, transposed, x, image)
     for i in range(x.shape[0]):
         image[i] = load[i] - image[i]
     return np.sqrt(_dot(image, image)), steps

@@ -1,6 +1,6 @@
 """Linear solves with one sparsity pattern: symmetric positive definite (`Factor`) and general (`GeneralFactor`).
 
-Symmetric ones by size. On a grid, multigrid solves them from a few hundred unknowns on. QDLDL (Stellato
+Symmetric ones by size. On a grid, multigrid solves them from 400 unknowns on. QDLDL (Stellato
 et al. 2020) keeps its symbolic part between calls and is the fastest of the freely licensed direct solvers below
 about 1e5 unknowns; above, conjugate gradients with algebraic multigrid (Ruge-Stueben 1987, pyamg) take over,
 since fill grows faster than the mesh. Where one stalls, the next one takes over.
@@ -25,7 +25,7 @@ from reynolds.numerics.array_kernels import norm
 from reynolds.numerics.arrays import Array
 
 DIRECT_LIMIT = 60_000
-GRID_LEAST = 100  # unknowns: below, a direct solve of a grid is as fast as multigrid
+GRID_LEAST = 400  # unknowns: below, a direct solve of a grid is as fast as multigrid
 ITERATIVE_TOLERANCE = 1e-11
 STALLED = 1e3  # times the tolerance: what round-off may leave; beyond, the next solver
 ROUND_OFF = 1e-13  # of the answer, in units of the scaled matrix

@@ -13,20 +13,24 @@ from swashfilm.console.command import Command
 from swashfilm.console.inputs import COMMAND_LINE
 from swashfilm.console.terminal import show
 from swashfilm.runs.calibrate import command as calibrate
+from swashfilm.runs.compare import command as compare
 from swashfilm.runs.diagnose import command as diagnose
+from swashfilm.runs.duty import command as duty
 from swashfilm.runs.export import command as export
 from swashfilm.runs.film import command as film
-from swashfilm.runs.map import command as operating_map, compare_command as compare, duty_command as duty
+from swashfilm.runs.map import command as operating_map
 from swashfilm.runs.pump import command as run
 from swashfilm.runs.reference import coefficients_command as coefficients, command as reference
 from swashfilm.runs.reproduce import command as reproduce
+from swashfilm.runs.sensitivity import command as sensitivity
 from swashfilm.runs.table import command as table
+from swashfilm.runs.tolerance import command as tolerance
 from swashfilm.runs.transient import command as transient
 from system.inputs.faults import Fault, InputFaults, nearest_choice
 
 _MODULES = (
-    run, film, table, transient, operating_map, duty, compare, export, diagnose, calibrate, reference, coefficients,
-    reproduce, report, new, check, doctor, schema,
+    run, film, table, transient, operating_map, duty, compare, sensitivity, tolerance, export, diagnose, calibrate,
+    reference, coefficients, reproduce, report, new, check, doctor, schema,
 )  # fmt: skip
 COMMANDS: dict[str, Command] = {module.COMMAND.name: module.COMMAND for module in _MODULES}
 

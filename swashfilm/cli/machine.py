@@ -11,7 +11,8 @@ from dataclasses import dataclass
 from importlib.metadata import PackageNotFoundError, requires, version
 from pathlib import Path
 
-from swashfilm.output.picture3d import REMEDY, Frame, draw
+from swashfilm.output.scenes.picture3d import REMEDY, Frame, draw
+from swashfilm.runs.export.fmu.compiler import REMEDY as COMPILER, targets
 from system.work.processes import cores
 
 LEAST_MEMORY = 2e9  # bytes; a run with films needs half of it
@@ -49,6 +50,7 @@ def examine() -> list[Finding]:
         _memory(),
         Finding("threads a run uses", os.environ.get("OMP_NUM_THREADS", "not set")),
         *_kernels(),
+        _compiler(),
         *_graphics(),
     ]
 
@@ -99,6 +101,14 @@ def _kernels() -> list[Finding]:
         remedy = "" if writable else "set NUMBA_CACHE_DIR to a writable folder; without it every run compiles again"
         found.append(Finding(f"compiled kernels, {package.__name__}", state, remedy))
     return found
+
+
+def _compiler() -> Finding:
+    """Return the finding on a C compiler, which an exported FMU has its binaries from."""
+    found = [target.platform for target in targets()]
+    if not found:
+        return Finding("C compiler", "none", f"{COMPILER} (without one an exported FMU has sources alone)")
+    return Finding("C compiler", f"for FMUs on {', '.join(found)}")
 
 
 def _graphics() -> list[Finding]:

@@ -18,13 +18,15 @@ PAGES = {
     "film_revolution": "swashfilm.runs.film.revolution.page.write_revolution_page",
     "film_study": "swashfilm.runs.film.series.page.write_study_page",
     "pump": "swashfilm.runs.pump.page.write_pump_page",
-    "comparison": "swashfilm.runs.map.compare.write_compare_page",
-    "duty": "swashfilm.runs.map.duty.write_duty_page",
+    "comparison": "swashfilm.runs.compare.page.write_compare_page",
+    "duty": "swashfilm.runs.duty.page.write_duty_page",
     "map": "swashfilm.runs.map.page.write_map_page",
     "gap_table": "swashfilm.runs.table.page.write_table_page",
     "reference": "swashfilm.runs.reference.page.write_reference_page",
     "reproduction": "swashfilm.runs.reproduce.page.write_reproduce_page",
     "response_table": "swashfilm.runs.table.page.write_table_page",
+    "sensitivity": "swashfilm.runs.sensitivity.page.write_sensitivity_page",
+    "tolerance": "swashfilm.runs.tolerance.page.write_tolerance_page",
     "transient": "swashfilm.runs.transient.page.write_transient_page",
 }
 """Page writer of a run, by the `kind` in its summary.json."""

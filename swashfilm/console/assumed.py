@@ -18,7 +18,10 @@ WIDTH = 120
 def scaled_warning(assumptions: Sequence[Assumption]) -> list[str]:
     """Return the warning of a run whose pump file leaves most values out; none of a pump stated in full."""
     count = len(assumptions)
-    return [f"{count} values of the pump are not stated: they are those of ref90, scaled"] if count else []
+    if not count:
+        return []
+    told = f"{count} values of the pump are not stated: they are those of ref90, scaled"
+    return [f"values_scaled: {told}; state those that you know"]
 
 
 def show_assumed(pump: str | Path) -> None:

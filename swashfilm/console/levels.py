@@ -9,7 +9,10 @@ from system.inputs.units import Dimension, QuantityError, parse_quantity, with_p
 from system.maps.plan import MapAxis, MapInput
 
 _NUMBER = re.compile(r"\s*[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?\s*")
+_DASHED = re.compile(r"\s*(\d+\.?\d*)\s*-\s*(\d+\.?\d*)\s*([^\d\s].*|)")
+_PERCENT = re.compile(r"\s*(\d+\.?\d*)\s*%\s*")
 _MOST = 1000
+_USUAL = 7  # levels that a remedy proposes
 
 
 def map_axis(option: str, text: str, given: MapInput, example: str) -> MapAxis | Fault:
@@ -18,14 +21,14 @@ def map_axis(option: str, text: str, given: MapInput, example: str) -> MapAxis |
     The unit of an item holds for items before it without a unit; `a..b:n` are n equally spaced levels from a to b.
     """
     try:
-        items = _with_units([item.strip() for item in text.split(",")], given.dimension)
+        items = with_units([item.strip() for item in text.split(",")], given.dimension)
         values = sorted({value for item in items for value in _levels(item, given.dimension)})
     except QuantityError as reason:
         return Fault(option, reason.found, f"{reason.expected}: {example}", reason.nearest)
     return MapAxis(given, tuple(values))
 
 
-def _with_units(items: list[str], dimension: Dimension | None) -> list[str]:
+def with_units(items: list[str], dimension: Dimension | None) -> list[str]:
     """Return the items, each without a unit completed by the unit of the next item that has one."""
     if dimension is None:
         return items
@@ -45,10 +48,13 @@ def _with_units(items: list[str], dimension: Dimension | None) -> list[str]:
 
 
 def _levels(item: str, dimension: Dimension | None) -> list[float]:
+    if dashed := dashed_range(item):
+        raise QuantityError(repr(item), "a level, or a range with a number of levels", f"{dashed}:{_USUAL}")
     ends, colon, count = item.partition(":")
     low, dots, high = ends.partition("..")
     if bool(dots) != bool(colon):
-        raise QuantityError(repr(item), "a level, or a range with a number of levels")
+        remedy = f"{item}:{_USUAL}" if dots else ""
+        raise QuantityError(repr(item), "a level, or a range with a number of levels", remedy)
     if not dots:
         return [_value(low, dimension)]
     if not (count.strip().isdecimal() and 2 <= int(count) <= _MOST):
@@ -62,4 +68,12 @@ def _value(text: str, dimension: Dimension | None) -> float:
     try:
         return float(text)
     except ValueError:
-        raise QuantityError(repr(text), "bare numbers", with_point(text)) from None
+        percent = _PERCENT.fullmatch(text)
+        remedy = f"{float(percent[1]) / 100.0:g}" if percent else with_point(text)
+        raise QuantityError(repr(text), "bare numbers", remedy) from None
+
+
+def dashed_range(text: str) -> str:
+    """Return `5..35MPa` of `5-35MPa`; empty for a text that is no such range."""
+    match = _DASHED.fullmatch(text)
+    return f"{match[1]}..{match[2]}{match[3]}" if match else ""

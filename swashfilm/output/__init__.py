@@ -1,1 +1,1 @@
-"""Run folder, figures, 3D pictures, field maps, page templates."""
+"""Run folder, pages, figures, field maps, tables."""

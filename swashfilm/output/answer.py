@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from swashfilm.output.picture import Picture
+
 
 @dataclass(frozen=True)
 class Tile:
@@ -19,10 +21,10 @@ class Answer:
     """What a page says first.
 
     tiles: three to seven headline numbers. words: a paragraph that can be read out in a meeting. picture: the one
-    picture that shows the answer, as `inlined` returns it; empty where there is none.
+    picture that shows the answer, None where there is none.
     """
 
     tiles: tuple[Tile, ...]
     words: str
-    picture: str = ""
+    picture: Picture | None = None
     caption: str = ""

@@ -5,6 +5,11 @@ from typing import Any
 
 import numpy as np
 
+from swashfilm.output.touch.fields import keep_field, on_grid
+
+UNIFORM = 1e-9
+"""Variation of a field, relative to its size, below which it is uniform."""
+
 
 @dataclass(frozen=True)
 class MapField:
@@ -34,14 +39,19 @@ def draw_map(
 ) -> Any:
     """Draw a field of vertices (smooth) or cells (flat) over `place` with a colour bar; texts name the units.
 
-    `limits`: ends of the colour scale, by default those of the field. Returns the artist.
+    `limits`: ends of the colour scale, by default those of the field. A uniform field has its value in the title in
+    place of the bar. Returns the artist.
     """
     x, y = place
-    drawn = paint(axes, place, cells, values, colours, limits)
+    uniform = bool(np.ptp(values) <= UNIFORM * np.max(np.abs(values)))
+    drawn = paint(axes, place, cells, np.full_like(values, np.mean(values)) if uniform else values, colours, limits)
     axes.set(xlabel=labels[0], ylabel=labels[1], title=title)
     if labels == ("x / mm", "y / mm") and np.ptp(x) < 5.0 * np.ptp(y) and np.ptp(y) < 5.0 * np.ptp(x):
         axes.set_aspect("equal")
-    axes.figure.colorbar(drawn, ax=axes)
+    if uniform and limits is None:
+        axes.set_title(f"{title}: {float(np.mean(values)):.4g} everywhere")
+    else:
+        axes.figure.colorbar(drawn, ax=axes)
     return drawn
 
 
@@ -62,6 +72,9 @@ def paint(
     mesh = Triangulation(x, y, triangles)
     least, most = limits or (None, None)
     if len(values) == len(x):
-        return axes.tripcolor(mesh, values, shading="gouraud", cmap=colours, vmin=least, vmax=most)
-    faces = np.tile(values, 2 if quads else 1)
-    return axes.tripcolor(mesh, facecolors=faces, cmap=colours, vmin=least, vmax=most)
+        drawn = axes.tripcolor(mesh, values, shading="gouraud", cmap=colours, vmin=least, vmax=most)
+    else:
+        values = np.tile(values, 2 if quads else 1)
+        drawn = axes.tripcolor(mesh, facecolors=values, cmap=colours, vmin=least, vmax=most)
+    keep_field(drawn, on_grid(mesh, values))
+    return drawn

@@ -1,17 +1,37 @@
-"""Figures that need no screen, and their pictures as SVG and PNG."""
+"""Figures that need no screen, and their pictures as SVG, PNG and WebP."""
 
 from __future__ import annotations
 
 import io
+import re
 from collections.abc import Iterator
 from contextlib import contextmanager
 from contextvars import ContextVar
 from typing import TYPE_CHECKING
 
+import numpy as np
+
+from swashfilm.output.touch.fields import kept_field
+
 if TYPE_CHECKING:
+    from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
 _MANY, _FEW = 3000, 100
+LARGE = 30_000
+"""Bytes of an SVG that a page holds; what is larger becomes a picture of pixels, mostly a tenth as large."""
+_INKS = 32
+"""Number of colours of a picture of lines."""
+_FIELD_QUALITY, _FIELD_DPI, _LINES_DPI = 50, 64, 90
+FEWEST_PIXELS = 700
+"""Least width of a picture of a field."""
+_PLAIN = dict.fromkeys(("Date", "Creator", "Format", "Type"))
+_FONTS = ["DejaVu Sans", "Verdana"]
+_PATH = re.compile(rb'(?<= d=")[^"]*')
+_LONG = re.compile(rb"(\.\d)\d+")
+_BLANKS = re.compile(rb"\s*([MLQCz])\s*")
+_BETWEEN = re.compile(rb">\s+<")
+_NAMES = re.compile(rb' id="(?:figure|axes|[xy]tick|line2d|patch|text|matplotlib\.axis|QuadContourSet)_\d+"')
 _BY_PYPLOT: ContextVar[bool] = ContextVar("by_pyplot", default=False)
 
 
@@ -36,6 +56,16 @@ def pyplot_figures() -> Iterator[None]:
         _BY_PYPLOT.reset(before)
 
 
+def legend_below(axes: Axes, columns: int = 2) -> None:
+    """Name the curves below the axes, where the names cover none of them."""
+    axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.22), ncols=columns, fontsize="small", frameon=False)
+
+
+def legend_beside(axes: Axes) -> None:
+    """Name the curves on the right of the axes, where the names cover none of them."""
+    axes.legend(loc="upper left", bbox_to_anchor=(1.01, 1.0), fontsize="small", frameon=False)
+
+
 def png_of(figure: Figure) -> bytes:
     """Return the figure as a PNG of 110 dots per inch."""
     picture = io.BytesIO()
@@ -44,14 +74,54 @@ def png_of(figure: Figure) -> bytes:
 
 
 def svg_of(figure: Figure) -> bytes:
-    """Return the figure as SVG with text as text; areas are pictures inside it where they have many corners."""
+    """Return the figure as SVG with text as text.
+
+    Areas are pictures inside it where they have many corners; contours stay lines up to that many each.
+    """
     from matplotlib import rc_context
+    from matplotlib.contour import ContourSet
 
     areas = [cells for axes in figure.axes for cells in axes.collections]
-    corners = [sum(len(path.vertices) for path in cells.get_paths()) for cells in areas]
+    corners = [sum(np.size(path.vertices) // 2 for path in cells.get_paths()) for cells in areas]
     for cells, count in zip(areas, corners, strict=True):
-        cells.set_rasterized(sum(corners) > _MANY and count > _FEW)
+        few = _MANY if isinstance(cells, ContourSet) else _FEW
+        cells.set_rasterized(bool(sum(corners) > _MANY and count > few))
     picture = io.BytesIO()
-    with rc_context({"svg.fonttype": "none", "svg.hashsalt": "swashfilm"}):
-        figure.savefig(picture, format="svg", dpi=110, metadata={"Date": None})
+    with rc_context({"svg.fonttype": "none", "svg.hashsalt": "swashfilm", "font.sans-serif": _FONTS}):
+        figure.savefig(picture, format="svg", dpi=110, metadata=_PLAIN)
+    return _shortened(picture.getvalue())
+
+
+def _shortened(svg: bytes) -> bytes:
+    """Return an SVG without blanks between its elements and names of them, its paths to a tenth of a point."""
+    short = _PATH.sub(lambda path: _BLANKS.sub(rb"\1", _LONG.sub(rb"\1", path[0])), svg)
+    return _NAMES.sub(b"", _BETWEEN.sub(b"><", short))
+
+
+def compact(figure: Figure) -> bytes:
+    """Return the figure as SVG where that is not LARGE; otherwise as WebP, without loss where it shows no field."""
+    from PIL import Image
+
+    vector = svg_of(figure)
+    if len(vector) <= LARGE:
+        return vector
+    fields = any(kept_field(area) for axes in figure.axes for area in axes.collections)
+    drawn, picture = io.BytesIO(), io.BytesIO()
+    dpi = max(_FIELD_DPI, FEWEST_PIXELS / figure.get_figwidth()) if fields else _LINES_DPI
+    figure.savefig(drawn, format="png", dpi=dpi)
+    pixels = Image.open(drawn).convert("RGB")
+    if fields:
+        pixels.save(picture, format="WEBP", quality=_FIELD_QUALITY, method=6)
+    else:
+        few = pixels.quantize(_INKS).convert("RGB")
+        few.save(picture, format="WEBP", lossless=True, quality=_FIELD_QUALITY)
     return picture.getvalue()
+
+
+def smaller(picture: bytes) -> bytes:
+    """Return a picture of a folder as WebP for its page."""
+    from PIL import Image
+
+    found = io.BytesIO()
+    Image.open(io.BytesIO(picture)).convert("RGB").save(found, format="WEBP", quality=_FIELD_QUALITY, method=6)
+    return found.getvalue()

@@ -10,7 +10,12 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from swashfilm.output.answer import Answer
-from swashfilm.output.figures import svg_of
+from swashfilm.output.figures import compact
+from swashfilm.output.picture import Picture
+from swashfilm.output.touch.curves import touchable
+from swashfilm.output.touch.explorer import Explorer
+from swashfilm.output.touch.library import embedded
+from swashfilm.output.warnings import causes, counted
 from system.inputs.faults import Fault, InputFaults
 
 if TYPE_CHECKING:
@@ -18,8 +23,12 @@ if TYPE_CHECKING:
 
 PAGE = "report.html"
 PLOTS = "plots"
+TOUCH = ".touch"
+TOUCHED = '<script type="text/plain" class="touch">'
+"""How the figures begin that the template's pictures hold."""
 _HEADING = re.compile(r"<h2>(.*?)</h2>", re.DOTALL)
 _NUMBER = re.compile(r"[-+<>~]?\d[\d.e+-]*( \+- [\d.e-]+)?( ?[a-zA-Z%/0-9]{1,6}( [a-z/]{1,4})?)?$")
+_TIED = re.compile(r"(?<=\d) (?=\S)|(?<=\+-) (?=\d)|(?<=\bN) (?=m\b)|(?<=\bPa) (?=s\b)|(?<=mPa) (?=s\b)")
 _PICTURES = {b"\x89PNG": "png", b"RIFF": "webp", b"GIF8": "gif", b"<?xm": "svg+xml"}
 
 
@@ -46,15 +55,20 @@ def write_page(folder: Path, template: str, *, answer: Answer | None = None, **c
 
     environment = Environment(loader=PackageLoader("swashfilm.output"), autoescape=True)
     environment.tests["numeric"] = lambda cell: _NUMBER.match(str(cell)) is not None
+    environment.filters["tied"] = tied
+    notes = causes(content.get("warnings", content.get("summary", {}).get("warnings", ())))
     page = environment.get_template(f"{template}.html.jinja").render(
-        answer=answer,
-        files=_files_of(folder),
-        **{"warnings": content.get("summary", {}).get("warnings", ()), **content},
+        answer=answer, files=_files_of(folder), notes=notes, notes_line=counted(notes) if notes else "", **content
     )
     path = folder / PAGE
     path.unlink(missing_ok=True)
-    path.write_text(_with_contents(page), encoding="utf-8")
+    path.write_text(_with_library(_with_contents(page)), encoding="utf-8")
     return path
+
+
+def tied(text: object) -> str:
+    """Return a text in which no line ends between a number and its unit, or inside a unit."""
+    return _TIED.sub("\u00a0", str(text))
 
 
 def _with_contents(page: str) -> str:
@@ -70,6 +84,11 @@ def _with_contents(page: str) -> str:
     return body.replace("<nav></nav>", f"<nav>\n{links}\n</nav>" if len(titles) > 1 else "", 1)
 
 
+def _with_library(page: str) -> str:
+    """Return the page with what draws its figures to touch, where it has any."""
+    return page.replace("</body>", f"{embedded()}</body>", 1) if TOUCHED in page else page
+
+
 def _files_of(folder: Path) -> list[tuple[str, str]]:
     """Return (path, size) of the folder's files; of a folder in it: its page, or its name with a stroke."""
     found = []
@@ -81,29 +100,57 @@ def _files_of(folder: Path) -> list[tuple[str, str]]:
     return found
 
 
-def inlined(picture: Figure | bytes) -> str:
-    """Return a picture as the address that a page embeds: figures as SVG, bytes as what they are."""
-    content = picture if isinstance(picture, bytes) else svg_of(picture)
-    kind = next(kind for start, kind in _PICTURES.items() if content.startswith(start))
-    return f"data:image/{kind};base64,{base64.b64encode(content).decode('ascii')}"
+def inlined(picture: Figure | bytes, explorer: Explorer | None = None) -> Picture:
+    """Return a picture as a page embeds it: figures by `compact`, bytes as what they are.
+
+    Figures can be touched too, as far as `touchable` translates them; an explorer takes the place of either.
+    """
+    content = picture if isinstance(picture, bytes) else compact(picture)
+    return Picture(_address(content), _touch(picture, explorer))
 
 
-def keep_pictures(folder: Path, stem: str, pictures: Mapping[str, Figure]) -> dict[str, str]:
-    """Write pictures as plots/STEM-1.svg, plots/STEM-2.svg, .. and captions as plots/STEM.json.
+def _touch(picture: Figure | bytes, explorer: Explorer | None) -> str:
+    """Return what takes the place of a drawn picture, packed."""
+    if explorer is None and not isinstance(picture, bytes) and (translated := touchable(picture)) is not None:
+        explorer = Explorer(translated)
+    return "" if explorer is None else explorer.packed()
 
-    Return the same as `kept_pictures`.
+
+def _kind(content: bytes) -> str:
+    return next(kind for start, kind in _PICTURES.items() if content.startswith(start))
+
+
+def _address(content: bytes) -> str:
+    return f"data:image/{_kind(content)};base64,{base64.b64encode(content).decode('ascii')}"
+
+
+def keep_pictures(
+    folder: Path, stem: str, pictures: Mapping[str, Figure], explorers: Mapping[str, Explorer] | None = None
+) -> dict[str, Picture]:
+    """Write pictures as plots/STEM-1.svg, .. (.webp, .png, see `compact`) and captions as plots/STEM.json.
+
+    What can be touched in the place of a picture is kept beside it, as a page embeds it, as plots/STEM-1.touch.
+    `explorers`: those of some pictures, by caption. Return the same as `kept_pictures`.
     """
     (folder / PLOTS).mkdir(exist_ok=True)
     captions = {}
     for number, (caption, figure) in enumerate(pictures.items(), start=1):
-        name = f"{stem}-{number}.svg"
-        (folder / PLOTS / name).write_bytes(svg_of(figure))
-        captions[name] = caption
+        content = compact(figure)
+        path = folder / PLOTS / f"{stem}-{number}.{_kind(content).partition('+')[0]}"
+        path.write_bytes(content)
+        captions[path.name] = caption
+        if touch := _touch(figure, (explorers or {}).get(caption)):
+            path.with_suffix(TOUCH).write_text(touch, encoding="ascii")
     (folder / PLOTS / f"{stem}.json").write_text(json.dumps(captions, indent=2) + "\n", encoding="utf-8")
     return kept_pictures(folder, stem)
 
 
-def kept_pictures(folder: Path, stem: str) -> dict[str, str]:
-    """Return the pictures of `keep_pictures`, by caption, as `inlined` does; raise OSError where there are none."""
+def kept_pictures(folder: Path, stem: str) -> dict[str, Picture]:
+    """Return the pictures of `keep_pictures` by caption; raise OSError where there are none."""
     captions = json.loads((folder / PLOTS / f"{stem}.json").read_text("utf-8"))
-    return {caption: inlined((folder / PLOTS / name).read_bytes()) for name, caption in captions.items()}
+    return {caption: _kept(folder / PLOTS / name) for name, caption in captions.items()}
+
+
+def _kept(path: Path) -> Picture:
+    touch = path.with_suffix(TOUCH)
+    return Picture(_address(path.read_bytes()), touch.read_text("ascii") if touch.is_file() else "")

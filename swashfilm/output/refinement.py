@@ -7,9 +7,10 @@ from typing import Any
 
 import numpy as np
 
-from swashfilm.output.convergence import Convergence
+from swashfilm.output.convergence import Convergence, ConvergenceKind
 from swashfilm.output.headline import named
 from swashfilm.output.tables import write_csv
+from system.inputs.units import Dimension, format_quantity
 
 
 @dataclass(frozen=True)
@@ -53,10 +54,31 @@ def _with_bar(limit: float | None, error: float | None) -> str:
     """Return the limit, rounded to the digit of its error bar."""
     if limit is None or error is None:
         return "-"
-    digits = 6
+    return f"{limit:.{_digits(limit, error)}g} +- {error:.1g}"
+
+
+def _digits(limit: float, error: float) -> int:
+    """Return the significant digits of a limit that its error leaves."""
     if error > 0.0 and limit != 0.0:
-        digits = int(np.clip(np.ceil(np.log10(abs(limit) / error)) + 1.0, 2, 10))
-    return f"{limit:.{digits}g} +- {error:.1g}"
+        return int(np.clip(np.ceil(np.log10(abs(limit) / error)) + 1.0, 2, 10))
+    return 6
+
+
+def bar_text(summary: Mapping[str, Any], key: str, dimension: Dimension) -> str:
+    """Return limit and error bar of a number of a refined run, each with its unit; empty where there is no refinement.
+
+    Without a limit the verdict says why.
+    """
+    number = summary.get("refinement", {}).get("numbers", {}).get(key)
+    if number is None:
+        return ""
+    limit, error = number["extrapolated"], number["error"]
+    if number["verdict"] == ConvergenceKind.CONVERGED.value:
+        return str(number["verdict"])
+    if limit is None or error is None:
+        return f"{number['verdict']}: no error bar"
+    digits = _digits(limit, error)
+    return f"limit {format_quantity(limit, dimension, digits=digits)} +- {format_quantity(error, dimension, digits=1)}"
 
 
 def refinement_head(found: Mapping[str, Any]) -> tuple[str, ...]:

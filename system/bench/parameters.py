@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from system.description.drawing import drawn_sigmas
 from system.description.gap import Gap
 from system.description.pump import FrictionSection, OilSection, PumpDescription
 from system.description.tolerances import Tolerances
@@ -36,6 +37,16 @@ GROOVE_SPREAD = (np.radians(0.5), 0.1)
 """One sigma of how relief grooves are cut: of their beginning (rad), of their throats' area (relative)."""
 
 FRICTION_PAIRS = tuple(own.name for own in fields(FrictionSection))
+FILE_KEYS = {
+    **{f"film_thickness.{gap.value}": ".".join(place) for gap, place in _THICKNESS.items()},
+    **{f"friction.{pair}": f"friction.{pair}" for pair in FRICTION_PAIRS},
+    "eccentricity_ratio": "piston.eccentricity_ratio",
+    "stand_out_share": "piston.stand_out_share",
+    "bulk_modulus": "oil.bulk_modulus",
+    "dead_volume": "pump.dead_volume",
+    "flow_coefficient": "ports.flow_coefficient",
+}
+"""Table and key of a pump file by the name of the parameter that is this very value."""
 BASE_NAMES = frozenset(
     {
         *(f"film_thickness.{gap.value}" for gap in Gap),
@@ -53,9 +64,11 @@ def base_parameters(pump: PumpDescription, tolerances: Tolerances) -> tuple[Para
     film_thickness.GAP in m, eccentricity_ratio, friction.PAIR, dead_volume in m3, flow_coefficient, bulk_modulus
     in Pa; factors on viscosity and displacement; viscosity_slope in 1/K; stand_out_share about 0.5 where not
     stated. A friction coefficient of 0 stays 0. inlet_share: of the inlet's oil in the
-    temperature of the films, where that may differ from the case's.
+    temperature of the films, where that may differ from the case's. A tolerance of the drawing
+    ([[tolerance.dimension]], [[tolerance.fit]]) stands in place of the sigma of `tolerances`.
     """
-    return (
+    sigmas = drawn_sigmas(pump)
+    whole = (
         *(_thickness(pump, gap, tolerances) for gap in Gap),
         _eccentricity(pump.piston.eccentricity_ratio, tolerances.eccentricity_ratio),
         *_fluid(pump, tolerances),
@@ -66,6 +79,14 @@ def base_parameters(pump: PumpDescription, tolerances: Tolerances) -> tuple[Para
         _absolute("stand_out_share", _share(pump), tolerances.stand_out_share, 0.0, 1.2),
         *_warmth(tolerances),
     )
+    return tuple(_by_drawing(one, sigmas.get(FILE_KEYS.get(one.name, ""))) for one in whole)
+
+
+def _by_drawing(parameter: Parameter, sigma: float | None) -> Parameter:
+    """Return the parameter with a sigma (SI) of the drawing, itself where there is none."""
+    if sigma is None:
+        return parameter
+    return replace(parameter, spread=sigma / parameter.centre if parameter.scale is Scale.LOG else sigma)
 
 
 def groove_parameters() -> tuple[Parameter, ...]:

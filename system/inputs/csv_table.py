@@ -16,6 +16,10 @@ from system.inputs.units import Dimension, QuantityError, parse_quantity
 
 Heads = Mapping[str, Dimension | None]
 """Names of the columns a table must have, and what each measures; None: a bare number, `[1]`."""
+SEPARATORS = (";", "\t", ",")
+"""Signs between cells; the first that the head has is the file's."""
+_COMMA = re.compile(r"[+-]?\d+,\d+([eE][+-]?\d+)?")
+_POINT = re.compile(r"[+-]?\d*\.\d+([eE][+-]?\d+)?")
 _HEAD = re.compile(r"\s*(.+?)\s*\[(.+)\]\s*")
 Line = tuple[int, list[str]]
 """Number of a line in its file, from 1, and its cells."""
@@ -77,24 +81,42 @@ def read_table(path: Path, heads: Heads) -> CsvTable:
 def read_csv_text(path: Path, wanted: str) -> CsvText:
     """The lines of a CSV file without those that are empty or begin with #.
 
-    Raises QuantityError for what is no file, cannot be read or has no head; `wanted` says in words what it should be.
+    Cells are parted by the first of SEPARATORS in the head. Where this is no comma, and no cell has a decimal
+    point, cells may have a decimal comma. Raises QuantityError for what is no file, cannot be read or has no head;
+    `wanted` says in words what it should be.
     """
-    try:
-        text = path.read_text("utf-8-sig")
-    except FileNotFoundError:
-        raise QuantityError(f"'{path}', which is no file", wanted, nearest_path(path)) from None
-    except (OSError, UnicodeDecodeError) as reason:
-        raise QuantityError(f"'{path}', which cannot be read: {reason}", wanted) from None
-    lines = [line for line in enumerate(csv.reader(text.splitlines()), start=1) if "".join(line[1]).strip()]
-    comments = tuple(",".join(cells).lstrip(" #").strip() for _, cells in lines if _is_comment(cells))
+    lines = [line for line in enumerate(_text(path, wanted).splitlines(), start=1) if line[1].strip(" ;,\t")]
+    comments = tuple(line.strip(' \t"#;,') for _, line in lines if _is_comment(line))
     lines = [line for line in lines if not _is_comment(line[1])]
     if not lines:
         raise QuantityError(f"'{path}', which is empty", wanted)
-    return CsvText(lines[0][1], tuple(lines[1:]), comments)
+    separator = next((sign for sign in SEPARATORS if sign in lines[0][1]), ",")
+    cells = [next(csv.reader([line], delimiter=separator)) for _, line in lines]
+    head, *rows = cells if separator == "," else _with_points(cells)
+    return CsvText(head, tuple(zip((number for number, _ in lines[1:]), rows, strict=True)), comments)
 
 
-def _is_comment(cells: list[str]) -> bool:
-    return cells[0].lstrip().startswith("#")
+def _text(path: Path, wanted: str) -> str:
+    """The text of a file; raises QuantityError in plain words."""
+    try:
+        return path.read_text("utf-8-sig")
+    except FileNotFoundError:
+        raise QuantityError(f"'{path}', which is no file", wanted, nearest_path(path)) from None
+    except UnicodeDecodeError:
+        raise QuantityError(f"'{path}', which is no text in UTF-8", wanted, "save it as 'CSV UTF-8'") from None
+    except OSError as reason:
+        raise QuantityError(f"'{path}', which cannot be read: {reason.strerror}", wanted) from None
+
+
+def _with_points(rows: list[list[str]]) -> list[list[str]]:
+    """Rows with decimal points in place of decimal commas; unchanged where a cell has a decimal point."""
+    if any(_POINT.fullmatch(cell.strip()) for row in rows for cell in row):
+        return rows
+    return [[cell.replace(",", ".") if _COMMA.fullmatch(cell.strip()) else cell for cell in row] for row in rows]
+
+
+def _is_comment(line: str) -> bool:
+    return line.lstrip(' \t"').startswith("#")
 
 
 def head_columns(head: list[str]) -> list[Column]:

@@ -1,6 +1,6 @@
-"""Comparison of two maps: over their common box, number by number, with the possible error of interpolation."""
+"""Comparison of two maps: over their common box, number by number, with the possible error of both."""
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -23,24 +23,47 @@ COMPARED = {
 
 
 @dataclass(frozen=True)
-class Difference:
-    """A number of two maps over their common box: means, the largest difference (other less one) and its place.
+class Extreme:
+    """A difference (other less one) at a point of two maps, with the possible error of both there. SI."""
 
-    error: possible error of both interpolations there, by the largest measured errors of either map. SI.
+    value: float
+    at: Mapping[MapInput, float]
+    error: float
+
+    @property
+    def significant(self) -> bool:
+        """True if the difference exceeds the error of both."""
+        return abs(self.value) > self.error
+
+
+@dataclass(frozen=True)
+class Difference:
+    """A number of two maps over their common box: means, and the largest rise and fall from one to the other.
+
+    error: mean of the possible error of both, by interpolation (the largest measured errors of either map) and by
+    the solvers' own balances; above, below: share of the points where the other exceeds the one, or falls below
+    it, by more than that error. SI.
     """
 
     words: str
     unit: str
     one: float
     other: float
-    largest: float
-    at: Mapping[MapInput, float]
+    rise: Extreme
+    fall: Extreme
     error: float
+    above: float
+    below: float
+
+    @property
+    def largest(self) -> Extreme:
+        """The larger of rise and fall."""
+        return max(self.rise, self.fall, key=lambda extreme: abs(extreme.value))
 
     @property
     def significant(self) -> bool:
-        """True if the largest difference exceeds the possible error of interpolation."""
-        return abs(self.largest) > self.error
+        """True if the maps differ at some point by more than the error of both."""
+        return self.above > 0.0 or self.below > 0.0
 
 
 @dataclass(frozen=True)
@@ -57,17 +80,17 @@ def compare(one: MapData, other: MapData, errors: tuple[MapError | None, MapErro
 
     Raises InputFaults for maps that are not whole or have no box in common.
     """
-    axes = common_axes(one, other)
+    axes = common_axes(one.axes, other.axes)
     exact = axes == one.axes == other.axes
     here, there = (at_levels(MapInterpolant(data), axes) for data in (one, other))
     known = [] if exact else [error for error in errors if error is not None]
     return MapComparison(here, there, tuple(_differences(here, there, known)))
 
 
-def common_axes(one: MapData, other: MapData) -> tuple[MapAxis, ...]:
+def common_axes(one: Sequence[MapAxis], other: Sequence[MapAxis]) -> tuple[MapAxis, ...]:
     """Levels of the first within both boxes, and the ends of these; raises InputFaults where boxes lie apart."""
     found, faults = [], []
-    for mine, theirs in zip(one.axes, other.axes, strict=True):
+    for mine, theirs in zip(one, other, strict=True):
         lower, upper = max(mine.values[0], theirs.values[0]), min(mine.values[-1], theirs.values[-1])
         given = mine.input
         if lower > upper and not (inside(mine, np.array([lower]))[0] and inside(theirs, np.array([lower]))[0]):
@@ -78,7 +101,7 @@ def common_axes(one: MapData, other: MapData) -> tuple[MapAxis, ...]:
         levels = {lower, max(lower, upper)} | {value for value in mine.values if lower < value < upper}
         found.append(MapAxis(given, tuple(sorted(levels))))
     if faults:
-        raise InputFaults(f"{one.name} and {other.name}", faults)
+        raise InputFaults("both maps", faults)
     return tuple(found)
 
 
@@ -104,26 +127,43 @@ def at_levels(interpolant: MapInterpolant, axes: tuple[MapAxis, ...]) -> MapData
 
 
 def _differences(one: MapData, other: MapData, errors: list[MapError]) -> Iterator[Difference]:
+    both = (one, other)
+    balance = sum(np.abs(data.values["energy_balance_error"]) for data in both)
+    power = np.minimum(*(data.values["shaft_power"] for data in both))
     for definition in EfficiencyDefinition:
         pair = one.efficiency(definition).overall, other.efficiency(definition).overall
         if all(np.isfinite(values).any() for values in pair):
-            difference = _difference(f"overall efficiency, {definition.label}", "1", one, *pair, 0.0)
-            yield replace(difference, error=sum(_efficiency_error(one, other, difference, each) for each in errors))
+            between = sum(error.largest["shaft_power"] + error.largest["hydraulic_power"] for error in errors)
+            words = f"overall efficiency, {definition.label}"
+            yield _difference(words, "1", one, *pair, balance + between / power)
     for column, (words, unit) in COMPARED.items():
         pair = one.values[column], other.values[column]
         if any(np.any(values) for values in pair):
-            yield _difference(words, unit, one, *pair, sum(error.largest[column] for error in errors))
+            between = sum(error.largest[column] for error in errors)
+            yield _difference(words, unit, one, *pair, between + _own_error(both, unit))
 
 
-def _difference(words: str, unit: str, data: MapData, one: Array, other: Array, error: float) -> Difference:
+def _own_error(both: tuple[MapData, MapData], unit: str) -> Array:
+    """Error of a number at every point by the solvers' balances: of the shaft power, or of the flow."""
+    found = [
+        np.abs(data.values["mass_balance_error"]) * data.values["delivery_flow"]
+        if unit == "m3/s"
+        else np.abs(data.values["energy_balance_error"]) * data.values["shaft_power"]
+        for data in both
+    ]
+    return np.asarray(sum(found) / (both[0].grid[MapInput.SPEED] if unit == "N m" else 1.0))
+
+
+def _difference(words: str, unit: str, data: MapData, one: Array, other: Array, error: Array) -> Difference:
     off = other - one
-    index = np.unravel_index(int(np.nanargmax(np.abs(off))), off.shape)
-    at = {given: float(values[index]) for given, values in data.grid.items()}
-    return Difference(words, unit, float(np.nanmean(one)), float(np.nanmean(other)), float(off[index]), at, error)
 
+    def extreme(flat: int) -> Extreme:
+        index = np.unravel_index(flat, off.shape)
+        at = {given: float(values[index]) for given, values in data.grid.items()}
+        return Extreme(float(off[index]), at, float(error[index]))
 
-def _efficiency_error(one: MapData, other: MapData, difference: Difference, error: MapError) -> float:
-    """Error of an efficiency P_h/P from the errors of both powers: dP_h/P + dP/P, with the lesser P."""
-    at = tuple(list(axis.values).index(difference.at[axis.input]) for axis in one.axes)
-    power = min(float(data.values["shaft_power"][at]) for data in (one, other))
-    return (error.largest["shaft_power"] + error.largest["hydraulic_power"]) / power
+    return Difference(
+        words, unit, float(np.nanmean(one)), float(np.nanmean(other)), extreme(int(np.nanargmax(off))),
+        extreme(int(np.nanargmin(off))), float(np.nanmean(error)), float(np.mean(off > error)),
+        float(np.mean(off < -error)),
+    )  # fmt: skip

@@ -31,14 +31,14 @@ READING = {
 }
 """Fields of a bench reading beside the speed, by the map's numbers."""
 LOSSES = {
-    **{f"pair_loss.{pair.value}": pair.value.replace("_", " ") for pair in Pair},
-    "leakage_loss.piston": "leakage of pistons",
-    "leakage_loss.slipper": "leakage of slippers",
-    "leakage_loss.valve_plate": "leakage of valve plate",
+    **{f"pair_loss.{pair.value}": f"{pair.words} friction" for pair in Pair},
+    "leakage_loss.piston": "piston leakage",
+    "leakage_loss.slipper": "slipper leakage",
+    "leakage_loss.valve_plate": "valve plate leakage",
     "compression_power": "compression",
-    "throttling_delivery": "throttling, delivery",
-    "throttling_suction": "throttling, suction",
-    "ripple_power": "ripple of lines",
+    "throttling_delivery": "delivery throttling",
+    "throttling_suction": "suction throttling",
+    "ripple_power": "line ripple",
     "extended_loss": "effects of [physics]",
 }
 """Losses that add up to the shaft power minus the hydraulic power, with their names."""

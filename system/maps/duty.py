@@ -1,6 +1,6 @@
 """A duty cycle by a map: energies over the time, each with the error that the map between its levels has."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -9,7 +9,7 @@ from reynolds.errors import InputError
 from reynolds.numerics.arrays import Array
 from system.inputs.faults import Fault, InputFaults
 from system.maps.data import LOSSES, MapData
-from system.maps.interpolation import MapError, MapInterpolant, inside
+from system.maps.interpolation import MapError, MapInterpolant, inside, weights
 from system.maps.plan import MapAxis, MapInput
 from system.pump.efficiency import EfficiencyDefinition
 
@@ -70,7 +70,7 @@ def duty(interpolant: MapInterpolant, cycle: Cycle, error: MapError) -> Duty:
     The error of each energy is the largest that the map has shown of that power, over the whole time: it holds
     wherever in the box the cycle stays.
     """
-    _hold_inside(interpolant.data, cycle)
+    _hold_inside(interpolant.data.axes, cycle)
     places, share = _stretches(cycle)
     interpolated = interpolant.at(places)
     interpolated["loss"] = interpolated["shaft_power"] - interpolated["hydraulic_power"]
@@ -92,11 +92,26 @@ def duty(interpolant: MapInterpolant, cycle: Cycle, error: MapError) -> Duty:
     )
 
 
-def _hold_inside(data: MapData, cycle: Cycle) -> None:
+def node_weights(axes: Sequence[MapAxis], cycle: Cycle) -> Array:
+    """Weights (P,) of the points of a grid by which their sum is the mean over a cycle, the last axis changing first.
+
+    A map between its levels, as `MapInterpolant` has it, is linear in the numbers at its points. Raises InputFaults as
+    `duty`.
+    """
+    _hold_inside(axes, cycle)
+    places, share = _stretches(cycle)
+    kernel = np.ones((len(share), 1))
+    for axis in axes:
+        own = weights(axis, places.get(axis.input, np.full(len(share), axis.values[0])))
+        kernel = (kernel[:, :, None] * own[:, None, :]).reshape(len(share), -1)
+    return np.asarray(share @ kernel / cycle.duration)
+
+
+def _hold_inside(axes: Sequence[MapAxis], cycle: Cycle) -> None:
     """Raise InputFaults with each input's first row outside the box; between rows a cycle cannot leave it."""
     out = [
         (int(np.argmin(good)), axis)
-        for axis in data.axes
+        for axis in axes
         if axis.input in cycle.inputs and not np.all(good := inside(axis, cycle.inputs[axis.input]))
     ]
     if out:

@@ -66,6 +66,13 @@ class MapInterpolant:
             kernel = (kernel[:, :, None] * weights(axis, place)[:, None, :]).reshape(len(place), -1)
         return np.asarray(kernel @ self._losses.reshape(kernel.shape[1], -1))
 
+    def coefficients(self, name: str) -> Array:
+        """B-spline coefficients (n1, .., n5) of what is interpolated of a number, by the `axis_spline` of each axis."""
+        found = self._losses[..., self._names.index(name)]
+        for k, axis in enumerate(self.data.axes):
+            found = np.moveaxis(np.tensordot(axis_spline(axis).coefficients, found, axes=(1, k)), 0, k)
+        return found
+
     @property
     def _names(self) -> tuple[str, ...]:
         return tuple(name for name, _, _ in columns())
@@ -87,24 +94,51 @@ def ideal(name: str, inputs: Mapping[MapInput, Array], values: Mapping[str, Arra
     return ideal_flow(volume, inputs[MapInput.SPEED])  # type: ignore[arg-type]
 
 
-def weights(axis: MapAxis, places: Array) -> Array:
-    """Weight of each level at places (N,): (N, levels), exact for polynomials of the spline's degree."""
+@dataclass(frozen=True)
+class AxisSpline:
+    """B-splines of an axis over 0..1 between its ends: degree, knots (levels + degree + 1,), and the matrix
+    (levels, levels) that makes their coefficients of values at the levels."""
+
+    degree: int
+    knots: Array
+    coefficients: Array
+
+
+def axis_spline(axis: MapAxis) -> AxisSpline:
+    """The splines of an axis, no-knot ends, exact for polynomials of their degree."""
     from scipy.interpolate import make_interp_spline
 
     count = len(axis.values)
     if count == 1:
-        return np.ones((len(places), 1))
+        return AxisSpline(0, np.array([0.0, 1.0]), np.eye(1))
     lower, upper = axis.values[0], axis.values[-1]
     unit = (np.array(axis.values) - lower) / (upper - lower)
     spline = make_interp_spline(unit, np.eye(count), k=min(CUBIC, count - 1))
+    return AxisSpline(spline.k, spline.t, spline.c)
+
+
+def weights(axis: MapAxis, places: Array) -> Array:
+    """Weight of each level at places (N,): (N, levels), exact for polynomials of the spline's degree."""
+    from scipy.interpolate import BSpline
+
+    lower, upper = axis.values[0], axis.values[-1]
+    if lower == upper:
+        return np.ones((len(places), 1))
+    own = axis_spline(axis)
+    spline = BSpline(own.knots, own.coefficients, own.degree)
     return np.asarray(spline(np.clip((places - lower) / (upper - lower), 0.0, 1.0)))
+
+
+def slack(axis: MapAxis) -> float:
+    """Round-off by which a point may lie outside an axis."""
+    lower, upper = axis.values[0], axis.values[-1]
+    return ROUND_OFF * max(upper - lower, abs(upper))
 
 
 def inside(axis: MapAxis, places: Array) -> np.ndarray:
     """Mask of places (N,) between the ends of an axis, up to round-off."""
     lower, upper = axis.values[0], axis.values[-1]
-    slack = ROUND_OFF * max(upper - lower, abs(upper))
-    return np.asarray((places >= lower - slack) & (places <= upper + slack))
+    return np.asarray((places >= lower - slack(axis)) & (places <= upper + slack(axis)))
 
 
 def _hold_inside(axes: Sequence[MapAxis], places: Mapping[MapInput, Array]) -> None:

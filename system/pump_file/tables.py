@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from reynolds.laws.oil import ISO_GRADES
+from system.description.drawing import drawing_faults
 from system.description.ports import PortsSection
 from system.description.pump import FORMAT, SINGLE_PARTS, PumpDescription
 from system.inputs.coefficients.flow_files import FlowCoefficients
@@ -61,6 +62,7 @@ def pump_of_tables(
     reading.faults += [fault for fault in report.faults if fault.path not in reading.faulty]
     if not reading.faults:
         reading.faults += single_parts_checked(CHECKS, pump, report).faults
+        reading.faults += drawing_faults(pump)
     if reading.faults:
         raise InputFaults(label, reading.faults, lines)
     return pump

@@ -41,8 +41,12 @@ class Cluster:
         """False: workers are anywhere."""
         return False
 
-    def attempts(self, task: Callable[[Part], Result], parts: Sequence[Part]) -> Iterator[Attempt[Part, Result]]:
+    def attempts(
+        self, task: Callable[[Part], Result], parts: Sequence[Part], meanwhile: Callable[[], None] | None = None
+    ) -> Iterator[Attempt[Part, Result]]:
         """Result of each part, in the order of completion; no part's failure ends the others.
+
+        `meanwhile` is not called: parts do not run here.
 
         The scheduler gives a part whose worker dies to another. After the fourth death (Dask's own
         `allowed-failures`, 3) the part is tried alone, since Dask also blames other parts that waited on the same

@@ -45,6 +45,11 @@ class KeptPoints:
             LOG.warning("%s is broken (%r): done anew", place, fault)
             return None
 
+    @property
+    def count(self) -> int:
+        """Number of outcomes in the folder."""
+        return sum(1 for _ in self.folder.glob("*.json"))
+
     def put(self, outcome: PartOutcome) -> None:
         """Keep an outcome of a kind that is kept. The file is written elsewhere and moved, so no reader meets a
         part of it.
@@ -103,11 +108,23 @@ def run_kept(
     known, todo = len(found), [index for index in range(len(parts)) if index not in found]
     report(0, len(todo), f"{known} points kept" if known else "solving")
     keeper, shared = store if executor.here else None, max(1, -(-len(todo) // executor.workers))
-    for index, outcome in _outcomes(work, parts, todo, executor, min(batch, shared), keeper):
+    before = store.count
+    told = 0
+
+    def tell(done: int, what: str) -> None:
+        nonlocal told
+        if done > told:
+            told = done
+            report(done, len(todo), what)
+
+    def look() -> None:
+        tell(store.count - before, "solving")  # points of rows under way are in the store already
+
+    for index, outcome in _outcomes(work, parts, todo, executor, min(batch, shared), keeper, look):
         found[index] = outcome
         if keeper is None:
             store.put(outcome)
-        report(len(found) - known, len(todo), described(parts[index], outcome))
+        tell(len(found) - known, described(parts[index], outcome))
     return KeptOutcomes(tuple(found[index] for index in range(len(parts))), known)
 
 
@@ -133,6 +150,7 @@ def _outcomes(
     executor: Executor,
     batch: int,
     keeper: KeptPoints | None,
+    meanwhile: Callable[[], None],
 ) -> Iterator[tuple[int, PartOutcome]]:
     """Index and outcome of the parts that are to do, as they are done and, with a keeper, kept."""
     groups = [[(k, parts[k]) for k in todo[at : at + batch]] for at in range(0, len(todo), batch)]
@@ -142,7 +160,7 @@ def _outcomes(
         return
     again: list[list[tuple[int, Part]]] = []
     for single in (False, True):
-        for attempt in executor.attempts(partial(_done, work, keeper), again if single else groups):
+        for attempt in executor.attempts(partial(_done, work, keeper), again if single else groups, meanwhile):
             if attempt.result is not None:
                 yield from attempt.result
             elif isinstance(attempt.fault, WorkerDied) and len(attempt.part) > 1:

@@ -14,6 +14,8 @@ if TYPE_CHECKING:
 
 Part = TypeVar("Part")
 Result = TypeVar("Result")
+TICK = 2.0
+"""Time between two calls of `meanwhile`, s."""
 DIED = "its process died twice, the second time alone: out of memory, or killed from outside"
 
 
@@ -59,8 +61,12 @@ class ProcessPool:
                 raise attempt.fault
             yield attempt.result  # type: ignore[misc]  # a part without a fault has its result
 
-    def attempts(self, task: Callable[[Part], Result], parts: Sequence[Part]) -> Iterator[Attempt[Part, Result]]:
+    def attempts(
+        self, task: Callable[[Part], Result], parts: Sequence[Part], meanwhile: Callable[[], None] | None = None
+    ) -> Iterator[Attempt[Part, Result]]:
         """Result of each part, in the order of completion; no part's failure ends the others.
+
+        `meanwhile` is called every `TICK` seconds while other processes are at parts.
 
         Task and parts must be picklable. The processes start when they are first needed. Ctrl-C is for this
         process alone. Parts under way when a process died are tried once more, each alone, so that the one which
@@ -73,7 +79,8 @@ class ProcessPool:
         while waiting or suspects:
             alone = bool(suspects)
             lost: list[Part] = []
-            yield from self._until_a_death(task, suspects if alone else waiting, 1 if alone else self.workers, lost)
+            some, most = (suspects, 1) if alone else (waiting, self.workers)
+            yield from self._until_a_death(task, some, most, lost, meanwhile)
             if alone:
                 yield from (Attempt(part, None, WorkerDied(DIED)) for part in lost)
             else:
@@ -97,7 +104,12 @@ class ProcessPool:
         self.leave()
 
     def _until_a_death(
-        self, task: Callable[[Part], Result], parts: deque[Part], most: int, lost: list[Part]
+        self,
+        task: Callable[[Part], Result],
+        parts: deque[Part],
+        most: int,
+        lost: list[Part],
+        meanwhile: Callable[[], None] | None,
     ) -> Iterator[Attempt[Part, Result]]:
         """Take parts, `most` at a time, until none is left or a process dies, whose parts are then `lost`."""
         from concurrent.futures import FIRST_COMPLETED, wait
@@ -113,7 +125,10 @@ class ProcessPool:
                 if not flying:
                     self._leave_broken()
                     continue
-            landed = {future: flying.pop(future) for future in wait(flying, return_when=FIRST_COMPLETED).done}
+            done = wait(flying, TICK if meanwhile else None, FIRST_COMPLETED).done
+            if meanwhile and not done:
+                meanwhile()
+            landed = {future: flying.pop(future) for future in done}
             broken = {f: part for f, part in landed.items() if isinstance(f.exception(), BrokenProcessPool)}
             yield from (_landed(f, part) for f, part in landed.items() if f not in broken)
             if broken:

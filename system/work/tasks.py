@@ -76,8 +76,10 @@ class Executor(Protocol):
     def here(self) -> bool:
         """True if parts run on this machine, whose files they see."""
 
-    def attempts(self, task: Callable[[Part], Result], parts: Sequence[Part]) -> Iterator[Attempt[Part, Result]]:
-        """Result of each part, in the order of completion."""
+    def attempts(
+        self, task: Callable[[Part], Result], parts: Sequence[Part], meanwhile: Callable[[], None] | None = None
+    ) -> Iterator[Attempt[Part, Result]]:
+        """Result of each part, in the order of completion; `meanwhile` is called now and then, where parts run here."""
 
 
 def done_part(work: Work[Part], part: Part) -> PartOutcome:

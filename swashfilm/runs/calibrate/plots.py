@@ -7,8 +7,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from diagnosis.report.format import CHANNELS
 from swashfilm.output.figures import figure_of
 from system.bench.calibration.held_out import PHYSICS
+from system.inputs.channels import ChannelName
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -50,6 +52,28 @@ def coefficients_over_displacement(rows: Sequence[Row]) -> Figure:
         axes.tick_params(labelsize=7)
         axes.grid(visible=True, alpha=0.3)
     figure.legend(*grid[0, 0].get_legend_handles_labels(), loc="lower right", fontsize=9)
+    return figure
+
+
+def fit_and_readings(rows: Sequence[Row]) -> Figure:
+    """Draw measured less fitted over the reading, a panel for each channel, with the meter's scatter as a band."""
+    channels = list(dict.fromkeys(row["channel"] for row in rows))
+    lines = -(-len(channels) // 2)
+    figure = figure_of(7.0, 2.6 * lines)
+    panels = figure.subplots(lines, min(2, len(channels)), squeeze=False).ravel()
+    for axes in panels[len(channels) :]:
+        axes.set_axis_off()
+    for axes, channel in zip(panels, channels, strict=False):
+        own = sorted((row for row in rows if row["channel"] == channel), key=lambda row: float(row["measured"]))
+        measured, fitted, pull = (np.array([float(row[key]) for row in own]) for key in ("measured", "fitted", "pull"))
+        off = measured - fitted
+        sigma = np.divide(off, pull, out=np.zeros_like(off), where=pull != 0.0)
+        axes.fill_between(measured, -sigma, sigma, color=NOISE, alpha=0.35, linewidth=0.0)
+        axes.axhline(0.0, color=NOISE, linewidth=0.8)
+        axes.plot(measured, off, ".", color=OTHERS, markersize=5)
+        words = CHANNELS.get(ChannelName.named(channel), channel)
+        axes.set(xlabel=f"{words} / {own[0]['unit']}", ylabel=f"measured - fitted / {own[0]['unit']}")
+        axes.grid(visible=True, alpha=0.3)
     return figure
 
 

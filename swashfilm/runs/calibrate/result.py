@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, ClassVar
 from swashfilm.output.result import Result, plotted, read_table
 from swashfilm.output.tables import Table
 from swashfilm.runs.calibrate import plots
-from swashfilm.runs.calibrate.page import FILES, headline, held_out_table, pair_table
+from swashfilm.runs.calibrate.page import FILES, headline, held_out_tables, pair_table
 from swashfilm.runs.diagnose.files import read_rows
 
 if TYPE_CHECKING:
@@ -33,9 +33,7 @@ class CalibrationRun(Result):
         found = super().opened(folder)
         found.paragraphs = headline(folder)
         found._hersey = read_rows(folder / "hersey.csv")
-        found._tables = [("Friction coefficients: prior, fitted, sigma over the prior's", pair_table(folder))]
-        if len(compared := held_out_table(folder)) > 1:
-            found._tables.append(("Error of models at held-out levels", compared))
+        found._tables = [("Friction coefficients", pair_table(folder)), *held_out_tables(folder)]
         return found
 
     @staticmethod

@@ -1,1 +1,1 @@
-"""An operating map as tables of other programs: Modelica, MATLAB, Amesim, CSV."""
+"""An operating map for other programs: tables for Modelica, MATLAB, Amesim, CSV; a co-simulation unit (FMU)."""

@@ -6,11 +6,12 @@ each; their levels, a line each; the values, the first axis along a line, the se
 One axis: level and value on each line.
 """
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 
 import numpy as np
 
 from reynolds.numerics.arrays import Array
+from swashfilm.runs.export.content import Content
 from swashfilm.runs.export.numbers import Number, held, in_unit, tables, wide
 from system.maps.data import MapData
 
@@ -21,9 +22,10 @@ UNITS = {
 """Unit in the file by SI unit, and Amesim's name of it; a bare number has none."""
 
 
-def amesim_files(data: MapData, name: str) -> Mapping[str, bytes]:
+def amesim_files(data: MapData, name: str) -> Content:
     """Return a file for each of `TABLES` by its ending `_NUMBER.data`, in Amesim's usual units, twelve digits."""
-    return {f"_{number.identifier}.data": "\n".join(_lines(data, number)).encode() + b"\n" for number in tables(data)}
+    files = {f"_{number.identifier}.data": "\n".join(_lines(data, number)).encode() + b"\n" for number in tables(data)}
+    return Content(files)
 
 
 def _lines(data: MapData, number: Number) -> Iterator[str]:

@@ -1,12 +1,12 @@
 """A map as MATLAB file: breakpoints and n-D arrays as the lookup tables of Simulink and Simscape read them."""
 
 import io
-from collections.abc import Mapping
 from importlib.metadata import version
 from typing import Any
 
 import numpy as np
 
+from swashfilm.runs.export.content import Content
 from swashfilm.runs.export.numbers import numbers, wide
 from system.maps.data import MapData
 
@@ -14,7 +14,7 @@ UNITS = {"N m": "N*m", "m3/s": "m^3/s", "m3/rev": "m^3/rev"}
 """Units as Simscape writes them, where they differ."""
 
 
-def matlab_files(data: MapData, name: str) -> Mapping[str, bytes]:
+def matlab_files(data: MapData, name: str) -> Content:
     """Return the file by its ending: format 5, SI, pressures gauge.
 
     An axis with several levels is a row vector, and a dimension of every array, in the order of the cell array
@@ -39,7 +39,7 @@ def matlab_files(data: MapData, name: str) -> Mapping[str, bytes]:
     }
     file = io.BytesIO()
     savemat(file, found, long_field_names=True, oned_as="row")
-    return {".mat": file.getvalue()}
+    return Content({".mat": file.getvalue()})
 
 
 def _unit(si_unit: str) -> str:

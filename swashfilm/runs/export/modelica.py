@@ -5,12 +5,13 @@ model is linear between them.
 """
 
 import re
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from importlib.metadata import version
 from itertools import product
 
 import numpy as np
 
+from swashfilm.runs.export.content import Content
 from swashfilm.runs.export.numbers import TABLES, Number, held, tables
 from system.maps.data import MapData
 from system.maps.plan import MapAxis, MapInput
@@ -28,11 +29,11 @@ def package_name(text: str) -> str:
     return name if PACKAGE.fullmatch(name) else f"Map_{name}".rstrip("_")
 
 
-def modelica_files(data: MapData, name: str) -> Mapping[str, bytes]:
+def modelica_files(data: MapData, name: str) -> Content:
     """Return the text of the tables (.txt) and the package (.mo) by their endings; `name` is that of the package."""
     text = "\n".join(_table_lines(data))
     model = "\n".join(_package_lines(data, name))
-    return {".mo": model.encode() + b"\n", ".txt": text.encode() + b"\n"}
+    return Content({".mo": model.encode() + b"\n", ".txt": text.encode() + b"\n"})
 
 
 def _table_lines(data: MapData) -> Iterator[str]:

@@ -25,6 +25,20 @@ DIMENSIONS = {
 }  # fmt: skip
 """Dimension of each SI unit of a map."""
 PERCENT = "%"
+READING_UNITS = {
+    "rad/s": "r/min", "Pa": "bar", "K": "degC", "m": "um", "N m": "N m", "m3/s": "L/min", "W": "W",
+    "m3/rev": "cm3/rev", "1": PERCENT,
+}  # fmt: skip
+"""Unit that people read a number in, by SI unit."""
+
+
+@dataclass(frozen=True)
+class Display:
+    """A unit that people read: its name, and value there = factor * SI value + offset."""
+
+    name: str
+    factor: float
+    offset: float
 
 
 @dataclass(frozen=True)
@@ -84,6 +98,17 @@ def first_hole(data: MapData) -> str:
     index = tuple(int(k) for k in lacking[0])
     place = ", ".join(axis.input.text(axis.values[k]) for axis, k in zip(data.axes, index, strict=True))
     return f"{len(lacking)} of {data.solved.size} points without a result, the first at {place}: {data.reason[index]}"
+
+
+def display(si_unit: str) -> Display:
+    """Return the unit that people read numbers of an SI unit in."""
+    name = READING_UNITS[si_unit]
+    if name == PERCENT:
+        return Display(name, 100.0, 0.0)
+    if name == si_unit:
+        return Display(name, 1.0, 0.0)
+    factor, offset = unit_scale(name, DIMENSIONS[si_unit])
+    return Display(name, 1.0 / factor, 0.0 - offset / factor)
 
 
 def in_unit(values: Array, si_unit: str, unit: str) -> Array:

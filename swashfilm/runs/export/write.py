@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 from itertools import count
 from pathlib import Path
 
 from swashfilm.console.inputs import COMMAND_LINE
 from swashfilm.runs.export.amesim import amesim_files
+from swashfilm.runs.export.content import Content
+from swashfilm.runs.export.fmu.archive import fmu_files
 from swashfilm.runs.export.long_csv import csv_files
 from swashfilm.runs.export.matlab import matlab_files
 from swashfilm.runs.export.modelica import PACKAGE, modelica_files, package_name
@@ -28,7 +30,7 @@ class Format:
 
     ending: str
     words: str
-    files: Callable[[MapData, str], Mapping[str, bytes]]
+    files: Callable[[MapData, str], Content]
     holes: bool
     single: bool = False
 
@@ -37,8 +39,17 @@ FORMATS = {
     "modelica": Format(".mo", "model and tables for the Modelica Standard Library", modelica_files, holes=False),
     "matlab": Format(".mat", "breakpoints and arrays for MATLAB, Simulink, Simscape", matlab_files, holes=True),
     "amesim": Format(".data", "a table for each number for Amesim", amesim_files, holes=False),
+    "fmu": Format(".fmu", "co-simulation unit by FMI 3.0", fmu_files, holes=False),
     "csv": Format(".csv", "a line for each point", csv_files, holes=True, single=True),
 }
+
+
+@dataclass(frozen=True)
+class Written:
+    """Files that an export has written, and warnings."""
+
+    paths: tuple[Path, ...]
+    warnings: tuple[str, ...]
 
 
 @dataclass(frozen=True)
@@ -49,14 +60,10 @@ class Export:
     to: Format
     stem: Path
 
-    @property
-    def hole(self) -> str:
-        """Points without a result, in words; empty for a whole map."""
-        return first_hole(self.data)
-
-    def write(self) -> tuple[Path, ...]:
-        """Write the files and return their paths; raise InputFaults where one exists or cannot be written."""
-        files = self.to.files(self.data, self.stem.name)
+    def write(self) -> Written:
+        """Write the files; raise InputFaults where one exists or cannot be written."""
+        content = self.to.files(self.data, self.stem.name)
+        files, hole = content.files, first_hole(self.data)
         there = _existing(self.stem, files)
         if there:
             free = next(stem for n in count(2) if not _existing(stem := _path(self.stem, f"_{n}"), files))
@@ -68,12 +75,12 @@ class Export:
         contents = {_path(self.stem, ending): content for ending, content in files.items()}
         try:
             self.stem.parent.mkdir(parents=True, exist_ok=True)
-            for path, content in contents.items():
-                path.write_bytes(content)
+            for path, own in contents.items():
+                path.write_bytes(own)
         except OSError as reason:
             fault = Fault("-o", f"{reason.filename}: {reason.strerror}", "a file that can be created and written")
             raise InputFaults(COMMAND_LINE, [fault]) from None
-        return tuple(contents)
+        return Written(tuple(contents), (*content.warnings, *([f"{hole}; written as nan"] if hole else [])))
 
 
 def export_of(place: Path, to: str, output: Path | None) -> Export:

@@ -26,6 +26,10 @@ def add_film_options(command: argparse.ArgumentParser) -> None:
     command.add_argument("--refine", metavar="N", help="solve on N meshes, each twice as fine; report order and limit")
     command.add_argument("--resume", type=Path, metavar="DIR", help="of a study: run folder with finished points")
     command.add_argument("--workers", metavar="N", help="of a study: processes that solve points side by side (1)")
+    command.add_argument(
+        "--sensitivity", metavar="OUTPUTS",
+        help="derivatives by the film at every place: load,flow.left,friction,.. (a wrong name lists all)",
+    )  # fmt: skip
     command.add_argument("--csv", action="store_true", help="write the fields also as a table, fields.csv")
     command.add_argument(
         "--animate", action="store_true", help="of a revolution: write animation.gif (and .mp4 by ffmpeg)"
@@ -49,7 +53,7 @@ def run_film(options: argparse.Namespace) -> int:
     if isinstance(case, RevolutionCase):
         return _revolution(case, options, meshes)
     with run_folder(case.name, options.output) as folder, progress(3, f"film {case.name}") as report:
-        found = solve_film(case, report, meshes=meshes, as_table=options.csv)
+        found = solve_film(case, report, meshes=meshes, as_table=options.csv, outputs=outputs_of(options))
         found.write(folder)
     show_result(found, folder)
     return 0
@@ -60,6 +64,7 @@ def film_case(options: argparse.Namespace) -> tuple[Case | StudyCase, int, int]:
     from swashfilm.case.gap.revolution import RevolutionCase
     from swashfilm.case.study import StudyCase, load_film
     from swashfilm.runs.film.refine import check_refinement
+    from swashfilm.runs.film.solve.sensitivity import check_sensitivity
 
     expect(options.case, "film", "run")
     faults: list[Fault] = []
@@ -69,9 +74,18 @@ def film_case(options: argparse.Namespace) -> tuple[Case | StudyCase, int, int]:
         raise InputFaults(COMMAND_LINE, faults)
     case = load_film(options.case, switched_keys(options))
     _check_options(options, case)
-    if meshes > 1 and not isinstance(case, (StudyCase, RevolutionCase)):
-        check_refinement(case, meshes)
+    if not isinstance(case, (StudyCase, RevolutionCase)):
+        if meshes > 1:
+            check_refinement(case, meshes)
+        if options.sensitivity is not None:
+            check_sensitivity(case, outputs_of(options) or [options.sensitivity])
     return case, meshes, workers
+
+
+def outputs_of(options: argparse.Namespace) -> list[str]:
+    """Return the names of the outputs whose sensitivity is wanted, each once."""
+    stated = options.sensitivity or ""
+    return list(dict.fromkeys(name for part in stated.split(",") if (name := part.strip())))
 
 
 def _revolution(case: RevolutionCase, options: argparse.Namespace, meshes: int) -> int:
@@ -113,7 +127,8 @@ def _check_options(options: argparse.Namespace, case: Case | StudyCase) -> None:
 
     single, study, turn = "a single film", "a study", "a single case with revolution = true"
     for_study = {"--resume": options.resume, "--workers": options.workers}
-    for_turn, for_instant = {"--animate": options.animate or None}, {"--csv": options.csv or None}
+    for_turn = {"--animate": options.animate or None}
+    for_instant = {"--csv": options.csv or None, "--sensitivity": options.sensitivity}
     match case:
         case StudyCase():
             kind, unfit = study, [({"--refine": options.refine} | for_instant, single), (for_turn, turn)]

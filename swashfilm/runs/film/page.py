@@ -9,13 +9,16 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from swashfilm.output.answer import Answer
 from swashfilm.output.field_maps import MapField, draw_map
 from swashfilm.output.figures import figure_of
 from swashfilm.output.headline import named
 from swashfilm.output.page import inlined, read_summary, write_page
 from swashfilm.output.refinement import refinement_head, refinement_rows
 from swashfilm.output.result import read_netcdf
+from swashfilm.runs.film.answer import film_tiles, film_words
 from swashfilm.runs.film.history import last_of
+from swashfilm.runs.film.sensitivity import sensitivity_figure, sensitivity_rows
 
 if TYPE_CHECKING:
     import xarray
@@ -31,6 +34,9 @@ FIELDS = (
 )
 
 
+LARGEST_STEP = 0.02
+"""Difference, relative to the thickest film, of a cell and its corners above which the film has a step."""
+CAPTION = "Maps of the film over its plane; pressures are gauge"
 HISTORY = ("load / N", "pressure max / Pa", "film thickness min / m", "temperature max / K")
 
 
@@ -40,12 +46,18 @@ def write_film_page(folder: Path) -> Path:
     The page is self-contained. Raises InputFaults where one of the three files is missing.
     """
     summary = read_summary(folder, ("summary.json", "resolved.toml", "results.nc"), "a film's run folder")
+    fields = last_of(read_netcdf(folder / "results.nc"))
+    picture, costs = inlined(film_figure(fields)), sensitivity_figure(fields)
     return write_page(
         folder,
         "film",
+        answer=Answer(tuple(film_tiles(summary)), film_words(summary), picture, CAPTION),
         name=summary["name"],
-        picture=inlined(film_figure(last_of(read_netcdf(folder / "results.nc")))),
-        history=inlined(history_picture(history)) if (history := folder / "history.csv").is_file() else "",
+        of_gap="required_load_N" in summary,
+        sensitivity=sensitivity_rows(summary),
+        kept=summary.get("sensitivity", {}).get("kept", ""),
+        costs=None if costs is None else inlined(costs),
+        history=inlined(history_picture(history)) if (history := folder / "history.csv").is_file() else None,
         rows=list(summary_rows(summary)),
         warnings=summary["warnings"],
         assumptions=summary.get("assumptions", []),
@@ -57,7 +69,7 @@ def write_film_page(folder: Path) -> Path:
 def summary_rows(summary: Mapping[str, Any]) -> Iterator[tuple[str, str]]:
     """Yield (name, value with its unit) of every number of a film's summary, in its order."""
     for key, value in summary.items():
-        if key in ("format", "kind", "name", "warnings", "refinement", "assumptions"):
+        if key in ("format", "kind", "name", "warnings", "refinement", "assumptions", "sensitivity"):
             continue
         words, unit = named(key)
         if value is None:
@@ -84,9 +96,19 @@ def film_figure(fields: xarray.Dataset) -> Figure:
     figure = figure_of(*((8.0, 3.5 * rows) if wide else (10.0, 4.2 * rows)))
     for number, field in enumerate(shown, start=1):
         axes = figure.add_subplot(rows, columns, number)
-        values = field.in_unit(fields[field.name].values)
+        values = field.in_unit(fields[smooth_name(fields, field.name)].values)
         draw_map(axes, place, fields["cells"].values, values, field.title, colours=field.colours)
     return figure
+
+
+def smooth_name(fields: xarray.Dataset, name: str) -> str:
+    """Return the field at the vertices in place of that of the cells, `name`, where no step lies between the cells."""
+    at_vertices = name.removesuffix("_cell")
+    if at_vertices == name or at_vertices not in fields:
+        return name
+    by_cell = fields[name].values
+    across = fields[at_vertices].values[fields["cells"].values].mean(axis=1)
+    return at_vertices if np.max(np.abs(across - by_cell)) < LARGEST_STEP * np.max(by_cell) else name
 
 
 def history_picture(history: Path) -> Figure:

@@ -9,6 +9,7 @@ from swashfilm.output.result import Result, framed, plotted
 from swashfilm.output.tables import Table
 from swashfilm.runs.film.history import last_of
 from swashfilm.runs.film.page import film_figure, summary_rows
+from swashfilm.runs.film.sensitivity import sensitivity_figure, sensitivity_rows
 
 if TYPE_CHECKING:
     import pandas
@@ -22,10 +23,12 @@ class FilmRun(Result):
     files: ClassVar[tuple[str, ...]] = ("summary.json", "results.nc")
 
     def tables(self) -> list[Table]:
-        """Return every number of the film; order and error where it is solved on finer meshes."""
+        """Return every number of the film; order and error where it is solved on finer meshes; sensitivities."""
         tables: list[Table] = [(f"Film {self.name}", list(summary_rows(self.summary)))]
         if found := self.summary.get("refinement"):
             tables.append(("On finer meshes", [refinement_head(found), *refinement_rows(found)]))
+        if rows := sensitivity_rows(self.summary):
+            tables.append((f"Sensitivity, the {self.summary['sensitivity']['kept']} kept as it is", rows))
         return tables
 
     def to_pandas(self) -> pandas.DataFrame:
@@ -35,3 +38,7 @@ class FilmRun(Result):
     def plot_fields(self) -> list[Axes]:
         """Draw maps of pressure, thickness, and other fields that vary; of a transient at its end."""
         return plotted(lambda: film_figure(last_of(self.to_xarray())))
+
+    def plot_sensitivity(self) -> list[Axes]:
+        """Draw maps of each output's derivative by the film thickness, none of a film solved without."""
+        return plotted(lambda: sensitivity_figure(last_of(self.to_xarray())))

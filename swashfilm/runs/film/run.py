@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -17,7 +18,9 @@ from swashfilm.runs.film.page import write_film_page
 from swashfilm.runs.film.physics import temperatures, write_history
 from swashfilm.runs.film.refine import check_refinement, refine_study
 from swashfilm.runs.film.result import FilmRun
+from swashfilm.runs.film.sensitivity import sensitivity_fields
 from swashfilm.runs.film.solve.gap import true_place
+from swashfilm.runs.film.solve.sensitivity import check_sensitivity, sensitivities
 from swashfilm.runs.film.solve.study import FilmStudy, solve_case
 from swashfilm.runs.film.summary import film_summary
 from system.work.progress import Report, silent
@@ -29,19 +32,30 @@ _STAGES = 3
 
 
 def solve_film(
-    case: FilmCase | GapCase, report: Report = silent, *, meshes: int = 1, as_table: bool = False
+    case: FilmCase | GapCase,
+    report: Report = silent,
+    *,
+    meshes: int = 1,
+    as_table: bool = False,
+    outputs: Sequence[str] = (),
 ) -> FilmRun:
     """Solve a case; its run folder holds fields for ParaView, results.nc, summary.json and report.html.
 
     With more than one of `meshes` the case is solved on finer meshes too, and refinement.csv holds order and
     error; fields and numbers are those of the case's mesh. `as_table`: write fields.csv, fields at the vertices.
-    Raises FilmNotConverged.
+    `outputs`: names of those whose derivatives by the film thickness are wanted. Raises FilmNotConverged, and
+    InputFaults for outputs that the film does not have.
     """
     if meshes > 1:
         check_refinement(case, meshes)
+    if outputs:
+        check_sensitivity(case, outputs)
     stages = _STAGES + meshes - 1
     report(0, stages, "solving")
     study = solve_case(case, lambda done, steps, what: report(0, stages, f"solving, {what} ({done} of {steps})"))
+    if outputs:
+        report(0, stages, "solving the adjoint")
+        study = replace(study, sensitivity=sensitivities(case, study.solution, study.gap, outputs))
     summary = film_summary(study)
     refined: Refinement | None = None
     if meshes > 1:
@@ -78,7 +92,7 @@ def _write_table(path: Path, fields: xarray.Dataset) -> None:
 
 def _write_films(folder: Path, study: FilmStudy, place: Callable[[Array], Array] | None) -> None:
     """Write film.vtu; for a transient film_NNNN.vtu over time, film.pvd and history.csv of its steps."""
-    write_vtu(folder / "film.vtu", study.solution, place, temperatures(study))
+    write_vtu(folder / "film.vtu", study.solution, place, temperatures(study) | sensitivity_fields(study))
     entries = [(0.0, 0, "film.vtu")]
     if study.history:
         write_history(folder / "history.csv", study.history)

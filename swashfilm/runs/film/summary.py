@@ -10,6 +10,7 @@ from reynolds.problem import FilmSolution
 from reynolds.solve.export import vertex_fields
 from reynolds.solve.loads import Loads, point_fields
 from swashfilm.runs.film.physics import physics_summary, temperatures
+from swashfilm.runs.film.sensitivity import sensitivity_fields, sensitivity_summary
 from swashfilm.runs.film.solve.gap import gap_summary
 from swashfilm.runs.film.solve.loaded import load_summary
 from swashfilm.runs.film.solve.study import FilmStudy
@@ -56,6 +57,7 @@ def film_summary(study: FilmStudy) -> dict[str, Any]:
         **(load_summary(study.loaded) if study.loaded else {}),
         **physics_summary(study),
         **(gap_summary(study.gap) if study.gap else {}),
+        **sensitivity_summary(study),
         "warnings": film_warnings(study),
     }
 
@@ -99,7 +101,7 @@ def film_dataset(study: FilmStudy) -> xarray.Dataset:
     def mean(field: np.ndarray) -> np.ndarray:
         return (np.broadcast_to(field, space.area.shape) * space.area).sum(axis=1) / cell_area
 
-    at_vertices = vertex_fields(study.solution) | temperatures(study)
+    at_vertices = vertex_fields(study.solution) | temperatures(study) | sensitivity_fields(study)
     return xarray.Dataset(
         {
             **{name: ("vertex", values, {"units": unit}) for name, (values, unit) in at_vertices.items()},

@@ -46,6 +46,7 @@ def film_warnings(study: FilmStudy) -> list[dict[str, str]]:
         *_supply_warnings(study),
         *_heat_warnings(study),
         *_size_warnings(study),
+        *_one_sided_warnings(study),
     ]
     own = [] if study.gap is None else gap_warnings(study.gap)
     return own + [{"name": name, "text": text} for name, text in found]
@@ -147,6 +148,18 @@ def _size_warnings(study: FilmStudy) -> Iterator[Warned]:
             "results_thinned",
             f"results.nc holds one of every {every} written films, to stay below {MOST_BYTES * 1e-6:g} MB; all are "
             "in film_NNNN.vtu; with fewer outputs or a coarser mesh results.nc holds all of them",
+        )
+
+
+def _one_sided_warnings(study: FilmStudy) -> Iterator[Warned]:
+    """Yield a warning of derivatives that are one-sided, since the cavity changes with the slightest change."""
+    if study.sensitivity is not None and (weak := study.sensitivity.weak):
+        yield (
+            "weakly_active_cavity",
+            f"{weak} of {study.solution.problem.space.size} unknowns neither bear pressure nor lack oil (limit: none, "
+            "to 1e-6 of the largest pressure): the cavity may open or close there with the slightest change, so that "
+            "the sensitivities hold for changes to one side only; compare with films that are a little thicker and "
+            "thinner",
         )
 
 

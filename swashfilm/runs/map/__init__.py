@@ -1,1 +1,1 @@
-"""`swashfilm map`, `duty` and `compare`."""
+"""`swashfilm map`."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import argparse
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -28,6 +28,14 @@ LEVELS = {
     "--inlet-pressures": ("INLET_PRESSURE", "25bar", "inlet pressures, gauge"),
 }
 """Member of `MapInput`, example and meaning of each axis of a map."""
+OPTIONS = {
+    "operating.speed": "--speeds", "operating.pressure": "--pressures",
+    "operating.displacement_ratio": "--displacements", "operating.temperature": "--temperatures",
+    "operating.inlet_pressure": "--inlet-pressures",
+}  # fmt: skip
+"""Option of each input by its key in a pump file."""
+MOST_LISTED = 6
+"""Largest number of levels that a fault lists."""
 FIDELITIES = (Fidelity.LUMPED, Fidelity.FIXED, Fidelity.FLOATING, Fidelity.TABLE)
 SOLVED = (Fidelity.FIXED.value, Fidelity.FLOATING.value)
 """Fidelities that solve films."""
@@ -104,22 +112,25 @@ def map_executor(options: argparse.Namespace, asked: MapCase) -> Iterator[Execut
         yield executor
 
 
-def map_case(options: argparse.Namespace) -> MapCase:
-    """Return the map of a command line; raise InputFaults with every fault."""
+def map_case(options: argparse.Namespace, axes: Sequence[MapAxis] | None = None) -> MapCase:
+    """Return the map of a command line, over these axes or over those that it states.
+
+    Raises InputFaults with every fault.
+    """
     from swashfilm.console.floating_options import floating_options
     from swashfilm.runs.map.run import MapCase
     from system.maps.plan import map_plan
     from system.pump_file.file import load_pump
 
     faults = [*_word_faults(options)]
-    axes = _axes(options, faults)
+    axes = stated_axes(options, faults) if axes is None else axes
     expect(options.pump, "pump", "film")
     try:
         pump = load_pump(options.pump)
     except InputFaults as reason:
         raise InputFaults(reason.source, [*faults, *reason.faults], reason.lines) from None
     plan = map_plan(pump, axes)
-    faults += [*plan.checked().faults, *_solver_faults(options, plan)]
+    faults += [*_by_option(plan.checked().faults), *_solver_faults(options, plan)]
     if faults:
         raise InputFaults(COMMAND_LINE, faults)
     checks = None if options.check is None else int(options.check)
@@ -129,7 +140,7 @@ def map_case(options: argparse.Namespace) -> MapCase:
     return MapCase(plan, fidelity, given, options.table, options.direct, checks, options.resume, floating)
 
 
-def _axes(options: argparse.Namespace, faults: list[Fault]) -> list[MapAxis]:
+def stated_axes(options: argparse.Namespace, faults: list[Fault]) -> list[MapAxis]:
     """Return the axes of --plan, replaced by the stated ones; add faults to `faults`."""
     from swashfilm.console.levels import map_axis
     from system.maps.plan import MapInput, paper_axes
@@ -145,6 +156,18 @@ def _axes(options: argparse.Namespace, faults: list[Fault]) -> list[MapAxis]:
         else:
             axes[found.input] = found
     return list(axes.values())
+
+
+def _by_option(found: Sequence[Fault]) -> Iterator[Fault]:
+    """Yield the faults of a plan's points under the option of their input, those that expect the same as one."""
+    alike: dict[tuple[str, str, str], list[str]] = {}
+    for fault in found:
+        path = OPTIONS.get(fault.path, fault.path)
+        alike.setdefault((path, fault.expected, fault.nearest), []).append(fault.found)
+    for (path, expected, nearest), values in alike.items():
+        more = " .." if len(values) > MOST_LISTED else ""
+        listed = "; ".join(values[:MOST_LISTED]) + more
+        yield Fault(path, listed, expected, nearest)
 
 
 def _word_faults(options: argparse.Namespace) -> Iterator[Fault]:

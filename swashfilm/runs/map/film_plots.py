@@ -7,44 +7,35 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from reynolds.numerics.arrays import Array
-from swashfilm.output.figures import figure_of
 from swashfilm.output.gap_names import TITLES
-from swashfilm.runs.map.plots import Slice, contours, held_words, levels_of, shown, slice_of
+from swashfilm.runs.map.panels import even_panel, panel_figure
+from swashfilm.runs.map.slices import Slice, held_words, main_slice
 from system.inputs.units import Dimension, in_unit
 from system.maps.data import MapData
-from system.maps.plan import MapInput
 from system.points.table.means import GAP_PAIRS
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-
 MEAN = "mean film / um"
 
 
-def film_plots(data: MapData) -> dict[str, Figure]:
-    """Return the pictures of the films by caption, over pressure and speed and over pressure and displacement."""
-    found = {}
-    for up in (MapInput.SPEED, MapInput.RATIO):
-        piece = slice_of(data, MapInput.PRESSURE, up)
-        if piece is not None and (drawn := film_plot(data, piece)) is not None:
-            found[f"Films of the gaps {held_words(data, piece)}"] = drawn
-    return found
-
-
-def film_plot(data: MapData, piece: Slice) -> Figure | None:
-    """Draw a row for each quantity that varies on the slice, a panel for each gap; None where films are given."""
-    found = _quantities(data, piece)
-    if not _varies(found[MEAN]):
-        return None
-    rows = [(words, fields) for words, fields in found.items() if _varies(fields)]
-    figure = figure_of(11.0, 3.2 * len(rows))
-    panels = figure.subplots(len(rows), len(GAP_PAIRS), squeeze=False)
-    for own, (words, fields) in zip(panels, rows, strict=True):
-        for axes, (gap, field) in zip(own, fields.items(), strict=True):
-            contours(axes, data, piece, field, levels_of(shown(data, piece, field)))
-            axes.set_title(f"{TITLES[gap]}: {words}", fontsize=9)
-    return figure
+def film_pictures(data: MapData) -> dict[str, Figure]:
+    """Return a picture of each quantity and gap on the main slice by caption; none where films are given."""
+    piece = main_slice(data)
+    if piece is None:
+        return {}
+    quantities = _quantities(data, piece)
+    if not _varies(quantities[MEAN]):
+        return {}
+    return {
+        f"{TITLES[gap]}: {words} {held_words(data, piece)}".strip(): panel_figure(
+            data, even_panel(data, f"{TITLES[gap]}: {words}", piece, field)
+        )
+        for words, fields in quantities.items()
+        if _varies(fields)
+        for gap, field in fields.items()
+    }
 
 
 def _quantities(data: MapData, piece: Slice) -> dict[str, dict[str, Array]]:

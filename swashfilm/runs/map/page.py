@@ -1,43 +1,88 @@
 """Page of an operating map: report.html from the files of the run folder."""
 
+from __future__ import annotations
+
+from collections import Counter
 from collections.abc import Iterator, Mapping
+from itertools import groupby
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from swashfilm.output.page import keep_pictures, read_summary, write_page
+from swashfilm.runs.map.answer import map_answer, overall_formula
+from swashfilm.runs.map.explorer import map_explorer
 from swashfilm.runs.map.files import MAP, read_map
-from swashfilm.runs.map.film_plots import film_plots
-from swashfilm.runs.map.plots import map_plots
+from swashfilm.runs.map.film_plots import film_pictures
+from swashfilm.runs.map.plots import definition_pictures, further_pictures, loss_pictures, main_picture
+from swashfilm.runs.map.slices import MOST_PANELS, held_levels, third_input, varied
+from system.maps.data import MapData
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 FILES = ("summary.json", "resolved.toml", MAP)
 CM3 = 1e6
-BEST_HEAD = ("definition", "overall efficiency", "at", "overall, volumetric")
+BEST_HEAD = ("definition", "best overall efficiency", "at", "formula")
 DISPLACEMENT_HEAD = ("displacement ratio", "geometric", "swept", "by Toet (ISO 8426-1)")
 ERROR_HEAD = ("number", "rms", "largest", "relative to the map's largest")
 _SHOWN = {"W": (1e-3, "kW"), "Nm": (1.0, "N m"), "m3_per_s": (6e4, "L/min")}
+FIRST, FURTHER, DEFINITIONS, LOSSES, FILMS = "efficiency", "levels", "definitions", "losses", "films"
+"""Names of the page's groups of pictures, in its order."""
 
 
 def write_map_page(folder: Path) -> Path:
     """Write report.html and plots/ of a map's folder; raise InputFaults where one of its files is missing."""
     summary = read_summary(folder, FILES, "a map's run folder")
-    data = read_map(folder / MAP)[0]
-    pictures = map_plots(data) | film_plots(data) if summary["solved"] else {}
+    data, error = read_map(folder / MAP)
+    drawn = map_pictures(data) if summary["solved"] else {}
+    explorer = map_explorer(data) if drawn else None
+    explorers = {} if explorer is None else dict.fromkeys(drawn[FIRST], explorer)
+    kept = {name: keep_pictures(folder, name, pictures, explorers) for name, pictures in drawn.items()}
+    caption, picture = next(iter(kept.pop(FIRST, {}).items()), ("", None))
     return write_page(
         folder,
         "map",
+        answer=map_answer(data, error, summary, picture, caption),
         summary=summary,
         axes=list(axis_rows(summary)),
         best=list(best_rows(summary)),
         best_head=BEST_HEAD,
+        formulas=[(one["label"], one["formula"]) for one in summary["best"] if ", " in one["formula"]],
         displacement=list(displacement_rows(summary)),
         displacement_head=DISPLACEMENT_HEAD,
         errors=list(error_rows(summary)),
         error_head=ERROR_HEAD,
-        table_errors=[(name, f"{100.0 * error:.3g} %") for name, error in (summary["table_error"] or {}).items()],
-        failed=list(failed_rows(summary)),
-        pictures=keep_pictures(folder, "map", pictures),
+        table_errors=[(name, f"{100.0 * one:.3g} %") for name, one in (summary["table_error"] or {}).items()],
+        failed=list(failure_rows(summary)),
+        further=further_words(data),
+        pictures=kept,
         resolved=(folder / "resolved.toml").read_text("utf-8"),
     )
+
+
+def map_pictures(data: MapData) -> dict[str, dict[str, Figure]]:
+    """Return the pictures of a map by group and caption, as far as it has enough levels; no empty group."""
+    first = main_picture(data)
+    groups = {
+        FIRST: {} if first is None else {first[0]: first[1]},
+        FURTHER: further_pictures(data),
+        DEFINITIONS: definition_pictures(data),
+        LOSSES: loss_pictures(data),
+        FILMS: film_pictures(data),
+    }
+    return {name: pictures for name, pictures in groups.items() if pictures}
+
+
+def further_words(data: MapData) -> str:
+    """Return which levels of further inputs the pictures leave out; empty where they leave out none."""
+    third, left = third_input(data), []
+    for axis, level in zip(data.axes, held_levels(data), strict=True):
+        count = len(axis.values)
+        if axis.input is third and count > MOST_PANELS:
+            left.append(f"{MOST_PANELS} of the {count} levels of {axis.input.words}")
+        elif axis.input in varied(data)[3:]:
+            left.append(f"{axis.input.words} {axis.input.text(axis.values[level])} of {count} levels")
+    return f"The pictures show {' and '.join(left)}; map.csv and map.nc hold all points." if left else ""
 
 
 def axis_rows(summary: Mapping[str, Any]) -> Iterator[tuple[str, str]]:
@@ -57,9 +102,15 @@ def axis_rows(summary: Mapping[str, Any]) -> Iterator[tuple[str, str]]:
 
 
 def best_rows(summary: Mapping[str, Any]) -> Iterator[tuple[str, ...]]:
-    """Yield (definition, efficiency, point, formula) of each best point."""
-    for best in summary["best"]:
-        yield best["label"], f"{100.0 * best['overall']:.2f} %", best["at"], best["formula"]
+    """Yield (definitions, efficiency, point, formulas) of each best point; equal ones together."""
+
+    def shown(best: Mapping[str, Any]) -> tuple[str, str]:
+        return f"{100.0 * best['overall']:.2f} %", best["at"]
+
+    for (overall, at), alike in groupby(sorted(summary["best"], key=shown), shown):
+        listed = list(alike)
+        formulas = dict.fromkeys(overall_formula(one["formula"]) for one in listed)
+        yield "; ".join(one["label"] for one in listed), overall, at, "; ".join(formulas)
 
 
 def displacement_rows(summary: Mapping[str, Any]) -> Iterator[tuple[str, ...]]:
@@ -88,3 +139,11 @@ def failed_rows(summary: Mapping[str, Any]) -> Iterator[tuple[str, ...]]:
     """Yield (point, state, reason) of every point without a result."""
     for point in summary["failed"]:
         yield point["at"], point["status"], point["reason"]
+
+
+def failure_rows(summary: Mapping[str, Any]) -> Iterator[tuple[str, ...]]:
+    """Yield (reason, number of points, the first of them), the most frequent reason first."""
+    counts = Counter(point["reason"] for point in summary["failed"])
+    first = {point["reason"]: point["at"] for point in reversed(summary["failed"])}
+    for reason, count in counts.most_common():
+        yield reason, str(count), first[reason]

@@ -1,9 +1,8 @@
-"""Pictures of an operating map: efficiency by definition, loss, and its parts."""
+"""Pictures of an operating map: efficiency by level and by definition, loss and its parts."""
 
 from __future__ import annotations
 
-import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
@@ -11,23 +10,31 @@ import numpy as np
 
 from reynolds.numerics.arrays import Array
 from swashfilm.output.figures import figure_of
+from swashfilm.runs.map.contour_levels import efficiency_levels, steps_words
 from swashfilm.runs.map.files import PARTS
+from swashfilm.runs.map.panels import LARGE, Panel, even_panel, panel_figure
+from swashfilm.runs.map.slices import (
+    Slice,
+    further_slices,
+    held_levels,
+    held_words,
+    main_slice,
+    place_words,
+    shown,
+    varied,
+)
 from system.maps.data import MapData
-from system.maps.interpolation import weights
 from system.maps.plan import MapInput, reading_levels
 from system.pump.efficiency import EfficiencyDefinition
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-LINES = 12
-DOWNWARDS = (1, 1, 1, 1, 2, 2, 5, 5, 10, 10, 20)
-"""Steps between contours of an efficiency from the best down, in units; the last step repeats."""
-UNITS = tuple(digit * 10.0**power for power in (-3, -2, -1, 0) for digit in (1, 2, 5))
-"""Units of these steps, percent; the first that needs at most LINES and two contours is used."""
-FINE = 61
-"""Number of points along an axis for drawing contours."""
-SHOWN_SHARES = 6
+HEADLINE = EfficiencyDefinition.ISO_SWEPT
+"""Definition of the efficiency that a page shows first."""
+ALIKE = 5e-4
+"""Difference of efficiencies below which two definitions are drawn once: a twentieth of a percentage point."""
+SHOWN_SHARES = 5
 """Number of the largest losses, which have separate panels."""
 COLOURS = (
     "#3c7a8c", "#8c5a3c", "#5b9a5b", "#b8862b", "#7a5a8c", "#a9bcc4", "#d0a98f", "#55616a", "#c8d7a0", "#d98b8b",
@@ -36,249 +43,194 @@ COLOURS = (
 
 
 @dataclass(frozen=True)
-class Slice:
-    """Two axes of a map by their index, and the constant level of each other axis."""
+class Shared:
+    """A field and the definitions of efficiency that have it."""
 
-    across: int
-    up: int
-    held: tuple[int, ...]
+    definitions: tuple[EfficiencyDefinition, ...]
+    field: Array
 
-    def of(self, values: Array) -> Array:
-        """Return the values on the slice, (levels up, levels across)."""
-        index: list[Any] = list(self.held)
-        index[self.across] = index[self.up] = slice(None)
-        found = np.asarray(values[tuple(index)])
-        return found if self.up < self.across else found.T
+    @property
+    def words(self) -> str:
+        """Names of the definitions."""
+        return "; ".join(one.label for one in self.definitions)
 
 
-def map_plots(data: MapData) -> dict[str, Figure]:
-    """Return the pictures of a map by caption, as far as it has enough levels."""
+def main_picture(data: MapData) -> tuple[str, Figure] | None:
+    """Return caption and picture of the overall efficiency over the main slice, or over the one axis; None without."""
+    piece = main_slice(data)
+    if piece is not None:
+        field = _overall(data, piece)
+        panel = Panel("overall efficiency / %", piece, field, _common_levels(data, piece), best=True)
+        caption = (
+            f"Overall efficiency in % by ISO 4409{_comma(held_words(data, piece))}. Dashed: constant shaft power; "
+            f"dots: solved points; star: the best; {steps_words(panel.levels)}"
+        )
+        return caption, panel_figure(data, panel, LARGE, powers=True)
+    if wide := varied(data):
+        return f"Efficiency in % over {wide[0].words}, by {HEADLINE.label}", efficiency_course(data, wide[0])
+    return None
+
+
+def further_pictures(data: MapData) -> dict[str, Figure]:
+    """Return the overall efficiency at the other levels of a third axis, by caption."""
+    piece = main_slice(data)
+    if piece is None:
+        return {}
+    levels = _common_levels(data, piece)
     found = {}
-    for across, up in ((MapInput.PRESSURE, MapInput.RATIO), (MapInput.PRESSURE, MapInput.SPEED)):
-        piece = slice_of(data, across, up)
-        if piece is not None:
-            where = held_words(data, piece)
-            for words, parts in (("Overall", PARTS[:1]), ("Volumetric and hydromechanical", PARTS[1:])):
-                png = efficiency_plot(data, piece, parts)
-                if png is not None:
-                    found[f"{words} efficiency in % by definition {where}; dots: solved points, star: the best"] = png
-            found[f"Loss, and the shares of its largest parts {where}"] = loss_plot(data, piece)
-    pressure = _place(data, MapInput.PRESSURE)
-    if data.shape[pressure] > 1:
-        held = _held(data)
-        words = held_words(data, Slice(pressure, pressure, held))
-        below = [name for name, loss in data.losses.items() if np.any(loss[_over_pressure(held, pressure)] < 0.0)]
-        left = f"; negative somewhere, and left out there: {', '.join(below)}" if below else ""
-        found[f"Losses by kind over pressure {words}{left}"] = share_plot(data)
+    for one in further_slices(data, piece):
+        panel = Panel("overall efficiency / %", one, _overall(data, one), levels, best=True)
+        found[f"Overall efficiency {held_words(data, one)}"] = panel_figure(data, panel, powers=True)
     return found
 
 
-def slice_of(data: MapData, across: MapInput, up: MapInput) -> Slice | None:
-    """Return the slice over two inputs, others at the last level, temperature and inlet pressure at the first.
-
-    None where one of the two has a single level.
-    """
-    places = _place(data, across), _place(data, up)
-    if min(data.shape[place] for place in places) < 2:
-        return None
-    return Slice(*places, _held(data))
+def _overall(data: MapData, piece: Slice) -> Array:
+    return 100.0 * piece.of(data.efficiency(HEADLINE).overall)
 
 
-def held_words(data: MapData, piece: Slice) -> str:
-    """Return the constant inputs of a slice, `at shaft speed 2100 rpm, ..`."""
-    levels = [
-        f"{axis.input.words} {axis.input.text(axis.values[level])}"
-        for k, (axis, level) in enumerate(zip(data.axes, piece.held, strict=True))
-        if k not in (piece.across, piece.up)
-    ]
-    return f"at {', '.join(levels)}"
+def _common_levels(data: MapData, piece: Slice) -> Array:
+    """Return the contour levels of the overall efficiency for the slice and those at the other levels."""
+    pieces = (piece, *further_slices(data, piece))
+    return efficiency_levels(*(shown(data, one, _overall(data, one)) for one in pieces))
 
 
-def _held(data: MapData) -> tuple[int, ...]:
-    last = (MapInput.SPEED, MapInput.PRESSURE, MapInput.RATIO)
-    return tuple(len(axis.values) - 1 if axis.input in last else 0 for axis in data.axes)
+def definition_pictures(data: MapData) -> dict[str, Figure]:
+    """Return volumetric, hydromechanical and overall efficiency on the main slice, each distinct one once."""
+    piece = main_slice(data)
+    found = {}
+    for part in PARTS[1:] + PARTS[:1]:
+        for panel, words in efficiency_panels(data, piece, part) if piece else ():
+            found[f"{part.capitalize()} efficiency in %: {words}"] = panel_figure(data, panel)
+    return found
 
 
-def _place(data: MapData, given: MapInput) -> int:
-    return [axis.input for axis in data.axes].index(given)
+def efficiency_panels(
+    data: MapData, piece: Slice, part: str, chosen: Sequence[EfficiencyDefinition] = tuple(EfficiencyDefinition)
+) -> list[tuple[Panel, str]]:
+    """Return a panel for each distinct efficiency on a slice, with the definitions that share it in words."""
+    groups = shared_fields({one: piece.of(getattr(data.efficiency(one), part)) for one in chosen})
+    levels = efficiency_levels(*(shown(data, piece, 100.0 * one.field) for one in groups)) if groups else np.array([])
+    return [(Panel(f"{part} / %", piece, 100.0 * one.field, levels, best=True), one.words) for one in groups]
 
 
-def efficiency_plot(
-    data: MapData,
-    piece: Slice,
-    parts: Sequence[str],
-    chosen: Sequence[EfficiencyDefinition] = tuple(EfficiencyDefinition),
-) -> Figure | None:
-    """Draw a row for each part with its own scale, a panel for each definition; equal ones share a panel."""
-    found = {part: fields for part in parts if (fields := _by_definition(data, piece, part, chosen))}
-    if not found:
-        return None
-    figure = figure_of(11.0, 3.6 * len(found))
-    rows = figure.subfigures(len(found), 1, squeeze=False)[:, 0]
-    for row, (part, fields) in zip(rows, found.items(), strict=True):
-        levels = efficiency_levels(*(shown(data, piece, 100.0 * field) for field in fields.values()))
-        panels = row.subplots(1, len(fields), squeeze=False)[0]
-        for axes, (words, field) in zip(panels, fields.items(), strict=True):
-            contours(axes, data, piece, 100.0 * field, levels)
-            x, y = _grids(data, piece)
-            best = np.unravel_index(int(np.nanargmax(field)), field.shape)
-            mark(axes, x[best], y[best], "*", "#b55a00", 12.0)
-            axes.set_title(f"{part} / %: {words}\n{100.0 * field[best]:.1f} % at best", fontsize=8)
-    return figure
+def shared_fields(fields: Mapping[EfficiencyDefinition, Array]) -> list[Shared]:
+    """Return each distinct field once with its definitions; fields that differ by less than ALIKE are one."""
+    groups: list[Shared] = []
+    for one, field in fields.items():
+        if not np.isfinite(field).any():
+            continue
+        k = next((k for k, known in enumerate(groups) if _alike(known.field, field)), None)
+        if k is None:
+            groups.append(Shared((one,), field))
+        else:
+            groups[k] = Shared((*groups[k].definitions, one), groups[k].field)
+    return groups
 
 
-def _by_definition(data: MapData, piece: Slice, part: str, chosen: Sequence[EfficiencyDefinition]) -> dict[str, Array]:
-    """Return a part of the efficiency on a slice by definition; equal ones share an entry."""
-    fields: list[tuple[str, Array]] = []
-    for one in chosen:
-        field = piece.of(getattr(data.efficiency(one), part))
-        alike = next((k for k, (_, known) in enumerate(fields) if _same(known, field)), None)
-        if alike is not None:
-            fields[alike] = (f"{fields[alike][0]}\n{one.label}", fields[alike][1])
-        elif np.isfinite(field).any():
-            fields.append((one.label, field))
-    return dict(fields)
+def _alike(one: Array, other: Array) -> bool:
+    return bool(np.allclose(one, other, rtol=0.0, atol=ALIKE, equal_nan=True))
 
 
-def _same(one: Array, other: Array) -> bool:
-    return bool(np.allclose(one, other, rtol=1e-9, equal_nan=True))
+def loss_pictures(data: MapData) -> dict[str, Figure]:
+    """Return the losses over the pressure, then the loss and its largest parts on the main slice, by caption."""
+    given, found = stacked_over(data), {}
+    if given is not None:
+        for held in dict.fromkeys((held_levels(data), _least_displacement(data))):
+            for share in (False, True):
+                figure = figure_of(6.4, 3.8)
+                draw_stack(figure.subplots(), data, given, held, share)
+                figure.legend(*_legend(figure), loc="outside right upper", fontsize=9)
+                found[_stack_caption(data, given, held, share)] = figure
+    piece = main_slice(data)
+    for panel in loss_panels(data, piece) if piece else ():
+        caption = f"{panel.title}{_comma(held_words(data, panel.piece))}"
+        found[caption[0].upper() + caption[1:]] = panel_figure(data, panel)
+    return found
 
 
-def loss_plot(data: MapData, piece: Slice) -> Figure:
-    """Draw the loss in kW and the share of each of its largest parts."""
+def stacked_over(data: MapData) -> MapInput | None:
+    """Return the input over which losses are stacked: the pressure, else the first with several levels."""
+    wide = varied(data)
+    return MapInput.PRESSURE if MapInput.PRESSURE in wide else next(iter(wide), None)
+
+
+def _least_displacement(data: MapData) -> tuple[int, ...]:
+    return tuple(
+        0 if axis.input is MapInput.RATIO else level for axis, level in zip(data.axes, held_levels(data), strict=True)
+    )
+
+
+def _stack_caption(data: MapData, given: MapInput, held: tuple[int, ...], share: bool) -> str:
+    levels = {
+        axis.input: axis.values[level]
+        for axis, level in zip(data.axes, held, strict=True)
+        if axis.input is not given and len(axis.values) > 1
+    }
+    index = _along(data, given, held)
+    below = [name for name, loss in data.losses.items() if np.any(loss[index] < 0.0)]
+    left = f"; negative somewhere, and left out there: {', '.join(below)}" if below else ""
+    where = f" at {place_words(levels)}" if levels else ""
+    return f"{'Shares of the losses' if share else 'Losses'} over {given.words}{where}{left}"
+
+
+def loss_panels(data: MapData, piece: Slice) -> Iterator[Panel]:
+    """Yield the loss in kW and the share of each of its largest parts."""
     whole = piece.of(data.loss)
     sinks = {words: piece.of(loss) for words, loss in data.losses.items()}
-    largest = sorted(sinks, key=lambda words: -float(np.nansum(sinks[words])))[: SHOWN_SHARES - 1]
-    figure = figure_of(11.0, 6.4)
-    panels = _panels(figure, len(largest) + 1)
-    axes = next(panels)
-    contours(axes, data, piece, whole * 1e-3, levels_of(shown(data, piece, whole * 1e-3)))
-    axes.set_title("loss (shaft power minus p Q) / kW", fontsize=9)
-    for axes, words in zip(panels, largest, strict=True):
-        share = 100.0 * sinks[words] / whole
-        contours(axes, data, piece, share, levels_of(shown(data, piece, share)))
-        axes.set_title(f"{words}: share / %", fontsize=9)
-    return figure
+    largest = sorted(sinks, key=lambda words: -float(np.nansum(sinks[words])))[:SHOWN_SHARES]
+    yield even_panel(data, "loss / kW", piece, whole * 1e-3)
+    for words in largest:
+        yield even_panel(data, f"{words}, share of the loss / %", piece, 100.0 * sinks[words] / whole)
 
 
-def share_plot(data: MapData) -> Figure:
-    """Draw losses stacked over the pressure: in kW, and as shares of the sum."""
-    place = _place(data, MapInput.PRESSURE)
-    index = _over_pressure(_held(data), place)
-    losses = {words: np.maximum(loss[index], 0.0) for words, loss in data.losses.items()}
-    levels, unit = reading_levels(data.axes[place])
+def share_plot(data: MapData, given: MapInput) -> Figure:
+    """Draw losses stacked over an input side by side: in kW, and as shares of the sum."""
     figure = figure_of(11.0, 4.6)
-    left, right = figure.subplots(1, 2)
-    rows, total = np.array(list(losses.values())), sum(losses.values())
-    colours = [COLOURS[k % len(COLOURS)] for k in range(len(losses))]
-    left.stackplot(levels, rows * 1e-3, labels=list(losses), colors=colours)
-    right.stackplot(levels, 100.0 * rows / total, colors=colours)
-    for axes, label in ((left, "loss / kW"), (right, "share / %")):
-        axes.set(xlabel=f"delivery pressure / {unit}", ylabel=label, xlim=(levels[0], levels[-1]))
-    right.set_ylim(0.0, 100.0)
-    figure.legend(*(side[::-1] for side in left.get_legend_handles_labels()), loc="outside right upper", fontsize=8)
+    for axes, share in zip(figure.subplots(1, 2), (False, True), strict=True):
+        draw_stack(axes, data, given, held_levels(data), share)
+    figure.legend(*_legend(figure), loc="outside right upper", fontsize=8)
     return figure
 
 
-def _over_pressure(held: tuple[int, ...], place: int) -> tuple[Any, ...]:
-    return (*held[:place], slice(None), *held[place + 1 :])
+def draw_stack(axes: Any, data: MapData, given: MapInput, held: tuple[int, ...], share: bool) -> None:
+    """Draw losses stacked over an input, in kW or as shares of their sum; negative ones are left out."""
+    index = _along(data, given, held)
+    rows = np.array([np.maximum(loss[index], 0.0) for loss in data.losses.values()])
+    shown_rows = 100.0 * rows / rows.sum(axis=0) if share else 1e-3 * rows
+    levels, unit = reading_levels(next(axis for axis in data.axes if axis.input is given))
+    colours = [COLOURS[k % len(COLOURS)] for k in range(len(rows))]
+    axes.stackplot(levels, shown_rows, labels=[*data.losses], colors=colours)
+    label = "share of the losses / %" if share else "loss / kW"
+    axes.set(xlabel=f"{given.words} / {unit or 1}", ylabel=label, xlim=(levels[0], levels[-1]))
+    if share:
+        axes.set_ylim(0.0, 100.0)
 
 
-def _panels(figure: Any, count: int) -> Iterator[Any]:
-    """Yield axes in rows of three, none left empty."""
-    rows = -(-count // 3)
-    for k in range(count):
-        yield figure.add_subplot(rows, min(3, count), k + 1)
+def _legend(figure: Any) -> tuple[list[Any], list[str]]:
+    """Return the legend of stacked losses from the uppermost down."""
+    handles, labels = figure.axes[0].get_legend_handles_labels()
+    return handles[::-1], labels[::-1]
 
 
-def contours(
-    axes: Any, data: MapData, piece: Slice, field: Array, levels: Array, colours: str = "viridis", ink: str = "white"
-) -> None:
-    """Draw a field of a slice with the map's interpolation: solved points, lines in `ink`, a colour bar."""
-    from matplotlib.colors import BoundaryNorm
-
-    x, y = _grids(data, piece)
-    between = shown(data, piece, field)
-    places = [x, y]
-    if np.all(np.isfinite(field)):
-        places = [*np.meshgrid(*(np.linspace(ends.min(), ends.max(), FINE) for ends in (x, y)))]
-    painted = axes.contourf(*places, between, levels=levels, cmap=colours, norm=BoundaryNorm(levels, 256))
-    lines = axes.contour(*places, between, levels=levels, colors=ink, linewidths=0.5)
-    axes.clabel(lines, fontsize=7)
-    axes.figure.colorbar(painted, ax=axes, ticks=levels).ax.tick_params(labelsize=7)
-    good = np.isfinite(field)
-    mark(axes, x[good], y[good], ".", "#1c2328", 2.5)
-    mark(axes, x[~good], y[~good], "x", "#b55a00", 6.0)
-    axes.set(xlabel=_label(data, piece.across), ylabel=_label(data, piece.up))
-    axes.tick_params(labelsize=8)
+def efficiency_course(data: MapData, given: MapInput) -> Figure:
+    """Draw the three efficiencies of the headline's definition over one input."""
+    index = _along(data, given, held_levels(data))
+    levels, unit = reading_levels(next(axis for axis in data.axes if axis.input is given))
+    figure = figure_of(*LARGE)
+    axes = figure.subplots()
+    found = data.efficiency(HEADLINE)
+    for part, colour in zip(PARTS, COLOURS, strict=False):
+        axes.plot(levels, 100.0 * getattr(found, part)[index], "o-", color=colour, label=part)
+    axes.set(xlabel=f"{given.words} / {unit or 1}", ylabel="efficiency / %")
+    axes.grid(visible=True, alpha=0.3)
+    axes.legend()
+    return figure
 
 
-def mark(axes: Any, x: Array, y: Array, sign: str, colour: str, size: float) -> None:
-    """Draw marks unclipped, also on the frame, without changing the limits."""
-    (drawn,) = axes.plot(x, y, sign, color=colour, markersize=size, clip_on=False)
-    drawn.set_in_layout(False)
+def _along(data: MapData, given: MapInput, held: tuple[int, ...]) -> tuple[Any, ...]:
+    """Return the index of a line of the map along an input."""
+    return tuple(slice(None) if axis.input is given else level for axis, level in zip(data.axes, held, strict=True))
 
 
-def _grids(data: MapData, piece: Slice) -> tuple[Array, Array]:
-    across, up = (reading_levels(data.axes[place])[0] for place in (piece.across, piece.up))
-    x, y = np.meshgrid(across, up)
-    return x, y
-
-
-def shown(data: MapData, piece: Slice, field: Array) -> Array:
-    """Return a field of a slice at FINE points along each axis; at its own levels where a result is missing."""
-    if not np.all(np.isfinite(field)):
-        return np.ma.masked_invalid(field)
-    across, up = (
-        weights(axis, np.linspace(axis.values[0], axis.values[-1], FINE))
-        for axis in (data.axes[place] for place in (piece.across, piece.up))
-    )
-    return np.asarray(up @ field @ across.T)
-
-
-def _label(data: MapData, place: int) -> str:
-    axis = data.axes[place]
-    unit = reading_levels(axis)[1]
-    return f"{axis.input.words} / {unit}" if unit else axis.input.words
-
-
-def efficiency_levels(*fields: Array) -> Array:
-    """Return round contour levels of efficiencies in percent, dense near the best and sparser below."""
-    least, most = _ends(*fields)
-    for unit in UNITS:
-        levels = _downwards(least / unit, most / unit)
-        if len(levels) <= LINES + 2:
-            break
-    return unit * np.array(levels[::-1], float)
-
-
-def _downwards(least: float, most: float) -> list[int]:
-    """Return whole numbers from above the largest down to below the least, multiples of growing steps."""
-    found = [math.ceil(most)]
-    while found[-1] > least or len(found) == 1:
-        step = DOWNWARDS[min(len(found), len(DOWNWARDS)) - 1]
-        found.append((found[-1] - 1) // step * step)
-    return found
-
-
-def levels_of(*fields: Array) -> Array:
-    """Return equidistant round contour levels from below the least of all fields to above their largest."""
-    least, most = _ends(*fields)
-    return _even(least, most)
-
-
-def difference_levels(field: Array) -> Array:
-    """Return equidistant round contour levels, symmetric about zero."""
-    most = max(map(abs, _ends(field)))
-    return _even(-most, most)
-
-
-def _even(least: float, most: float) -> Array:
-    from matplotlib.ticker import MaxNLocator
-
-    return np.asarray(MaxNLocator(LINES).tick_values(least, max(most, least + 1e-6)))
-
-
-def _ends(*fields: Array) -> tuple[float, float]:
-    finite = np.concatenate([np.ma.compressed(np.ma.masked_invalid(field)) for field in fields])
-    return (float(finite.min()), float(finite.max())) if finite.size else (0.0, 1.0)
+def _comma(words: str) -> str:
+    return f", {words}" if words else ""

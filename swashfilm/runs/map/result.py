@@ -1,26 +1,18 @@
-"""Results of operating maps, duty cycles and comparisons."""
+"""Result of an operating map."""
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, ClassVar
 
-from swashfilm.output.result import Result, plotted, read_netcdf, read_table
+from swashfilm.output.result import Result, plotted, read_netcdf
 from swashfilm.output.tables import Table
-from swashfilm.runs.map.compare import DIFFERENCE_HEAD, DUTY_HEAD, difference_rows, duty_rows
-from swashfilm.runs.map.duty import (
-    COURSE,
-    EFFICIENCY_HEAD,
-    ENERGY_HEAD,
-    course_of,
-    course_plot,
-    efficiency_rows,
-    energy_rows,
-    marked_rows,
-)
 from swashfilm.runs.map.files import MAP, PARTS, map_of
 from swashfilm.runs.map.page import axis_rows, best_rows, displacement_rows, failed_rows
-from swashfilm.runs.map.plots import efficiency_plot, loss_plot, share_plot, slice_of
+from swashfilm.runs.map.panels import panels_figure
+from swashfilm.runs.map.plots import efficiency_panels, loss_panels, share_plot, stacked_over
+from swashfilm.runs.map.slices import main_slice
 from system.inputs.faults import Fault, InputFaults, nearest_choice
 from system.maps.data import MapData
 from system.maps.plan import MapInput
@@ -69,10 +61,11 @@ class MapRun(Result):
         return frame
 
     def plot_efficiency(self, part: str = "overall", definition: str = "") -> list[Axes]:
-        """Draw contours of an efficiency over pressure and displacement, a panel for each definition or for one.
+        """Draw contours of an efficiency over speed and pressure, a panel for each distinct definition or for one.
 
         part: overall, volumetric, hydromechanical; definition: empty for all, "iso_4409" for both readings of that
-        standard. Raises InputFaults for another name, and for a map of one pressure or displacement.
+        standard. A map of one speed or pressure is drawn over the next inputs that vary. Raises InputFaults for
+        another name, and for a map of fewer than two such inputs.
         """
         names = [*(one.value for one in EfficiencyDefinition), "iso_4409"]
         faults = [
@@ -83,72 +76,22 @@ class MapRun(Result):
         if faults:
             raise InputFaults("plot_efficiency()", faults)
         chosen = tuple(one for one in EfficiencyDefinition if one.value.startswith(definition))
-        data, piece = self.data, slice_of(self.data, MapInput.PRESSURE, MapInput.RATIO)
+        data, piece = self.data, main_slice(self.data)
         if piece is None:
-            fault = Fault("map", "one level of pressure or displacement", "two levels of each")
-            raise InputFaults("plot_efficiency()", [fault])
-        return plotted(lambda: efficiency_plot(data, piece, (part,), chosen))
+            raise InputFaults("plot_efficiency()", [Fault("map", "fewer than two inputs with several levels", "two")])
+        panels = [
+            replace(panel, title=f"{panel.title}\n{words}")
+            for panel, words in efficiency_panels(data, piece, part, chosen)
+        ]
+        return plotted(lambda: panels_figure(data, panels))
 
     def plot_losses(self) -> list[Axes]:
-        """Draw contours of the loss and of the shares of its largest parts over pressure and displacement."""
-        data = self.data
-        piece = slice_of(data, MapInput.PRESSURE, MapInput.RATIO)
-        return plotted(lambda: None if piece is None else loss_plot(data, piece))
+        """Draw contours of the loss and of the shares of its largest parts over the first two inputs that vary."""
+        data, piece = self.data, main_slice(self.data)
+        return plotted(lambda: None if piece is None else panels_figure(data, list(loss_panels(data, piece))))
 
     def plot_shares(self) -> list[Axes]:
-        """Draw losses stacked over pressure, in kW and as shares."""
+        """Draw losses stacked over pressure, or over the first input that varies, in kW and as shares."""
         data = self.data
-        return plotted(lambda: share_plot(data))
-
-
-class DutyRun(Result):
-    """A duty cycle by a map: energies, losses, mean efficiency, with the error of interpolation."""
-
-    kinds: ClassVar[tuple[str, ...]] = ("duty",)
-    files: ClassVar[tuple[str, ...]] = ("summary.json", COURSE)
-
-    @staticmethod
-    def read_data(folder: Path) -> xarray.Dataset:
-        """Return course.csv of a run folder."""
-        return read_table(folder / COURSE)
-
-    def tables(self) -> list[Table]:
-        """Return energies, mean efficiencies, and the time between points with a warning."""
-        summary = self.summary
-        tables: list[Table] = [
-            (f"Duty of {self.name}, {summary['duration_s']:.6g} s", [ENERGY_HEAD, *energy_rows(summary)]),
-            ("Mean efficiency", [EFFICIENCY_HEAD, *efficiency_rows(summary)]),
-        ]
-        if summary["marked"]:
-            tables.append(("Time between points with a warning", list(marked_rows(summary))))
-        return tables
-
-    def plot_course(self) -> list[Axes]:
-        """Draw speed, pressure, displacement, power and efficiency over time."""
-        return plotted(lambda: course_plot(course_of(self.to_xarray())))
-
-
-class CompareRun(Result):
-    """Two maps side by side: means and largest differences."""
-
-    kinds: ClassVar[tuple[str, ...]] = ("comparison",)
-    files: ClassVar[tuple[str, ...]] = ("summary.json", "differences.csv")
-
-    @property
-    def name(self) -> str:
-        """Names of both pumps."""
-        return f"compare-{'-'.join(self.summary['pumps'])}"
-
-    @staticmethod
-    def read_data(folder: Path) -> xarray.Dataset:
-        """Return differences.csv of a run folder."""
-        return read_table(folder / "differences.csv")
-
-    def tables(self) -> list[Table]:
-        """Return differences by number, and over the cycle where there is one."""
-        summary = self.summary
-        title = " and ".join(str(name) for name in summary["names"])
-        tables: list[Table] = [(title, [DIFFERENCE_HEAD, *difference_rows(summary)])]
-        if summary["duty"]:
-            tables.append(("Over the cycle", [DUTY_HEAD, *duty_rows(summary)]))
-        return tables
+        given = stacked_over(data)
+        return plotted(lambda: None if given is None else share_plot(data, given))

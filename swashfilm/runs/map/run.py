@@ -93,7 +93,16 @@ def worth_starting(asked: MapCase, wanted: int) -> int:
 
 
 def run_map(asked: MapCase, folder: Path, executor: Executor, report: Report) -> dict[str, Any]:
-    """Solve a map's points and write points/, map.nc, map.csv, shares.csv, best.csv, summary.json and the page.
+    """Write the files of `solve_map` and the page; return the summary. Raises as `solve_map`."""
+    summary = solve_map(asked, folder, executor, report)
+    from swashfilm.runs.map.page import write_map_page
+
+    write_map_page(folder)
+    return summary
+
+
+def solve_map(asked: MapCase, folder: Path, executor: Executor, report: Report) -> dict[str, Any]:
+    """Solve a map's points and write points/, map.nc, map.csv, shares.csv, best.csv and summary.json.
 
     Returns the summary. A point that fails carries its reason. Raises InputFaults where the earlier run has no
     points or no table holds all of them, and as `build_table`.
@@ -115,9 +124,6 @@ def run_map(asked: MapCase, folder: Path, executor: Executor, report: Report) ->
     write_map(folder / "map.nc", data, error, summary | {"resolved_toml": resolved_toml(plan.pump)})
     write_tables(folder, data)
     write_json(folder / "summary.json", summary)
-    from swashfilm.runs.map.page import write_map_page
-
-    write_map_page(folder)
     return summary
 
 
@@ -159,7 +165,7 @@ def _solver(asked: MapCase, executor: Executor, report: Report) -> MapSolver:
         case Fidelity.LUMPED:
             return LumpedSolver()
         case Fidelity.TABLE:
-            return TableSolver(_kept_table(asked))
+            return TableSolver(kept_table(asked))
     solver = solver_of(Source(asked.fidelity.value), asked.floating)
     if not asked.by_table:
         return DirectSolver(solver, POINT_COST[asked.fidelity])
@@ -191,7 +197,7 @@ def at_levels(plan: MapPlan) -> PumpDescription:
     return replace(plan.pump, operating=own)
 
 
-def _kept_table(asked: MapCase) -> ResponseTable:
+def kept_table(asked: MapCase) -> ResponseTable:
     """Return the table of a file, or a stored one; raise InputFaults where it does not contain all points."""
     plan, pump = asked.plan, at_levels(asked.plan)
     middle = plan.points[len(plan.points) // 2]

@@ -22,6 +22,7 @@ from swashfilm.runs.film.revolution.data import (
     write_revolution_fields,
     write_series,
 )
+from swashfilm.runs.film.revolution.explorer import revolution_explorer
 from swashfilm.runs.film.revolution.plots import film_text, revolution_plots
 from swashfilm.runs.film.revolution.solve import RevolutionStudy, revolution_summary
 from swashfilm.runs.pump.data import GAPS
@@ -241,14 +242,22 @@ def floating_view(folder: Path, summary: Mapping[str, Any]) -> dict[str, Any]:
     for place, kind in summary["unlike"].items():
         shown += [(f"{place}/{gap}", f"{TITLES[gap]}, {chamber_numbers(kind)}", SHOWN_UNLIKE) for gap in kind["gaps"]]
     for group, title, names in shown:
-        drawn = revolution_plots(read_netcdf(folder / RESULTS, group))
-        pictures += [(inlined(drawn[name]), f"{title}: {CAPTIONS[name]}") for name in names if name in drawn]
+        data = read_netcdf(folder / RESULTS, group)
+        drawn, explorers = revolution_plots(data), {"maps": revolution_explorer(data)}
+        pictures += [
+            (inlined(drawn[name], explorers.get(name)), f"{title}: {CAPTIONS[name]}") for name in names if name in drawn
+        ]
     turns = {TITLES[gap]: read_csv(folder / f"{gap}_convergence.csv") for gap in GAPS}
     return {
-        "head": HEAD, "rows": floating_rows(summary), "pictures": pictures, "turns": turns,
-        "physics_head": PHYSICS_HEAD,
+        "head": HEAD, "rows": floating_rows(summary), "backward": backward(summary),
+        "pictures": pictures, "turns": turns, "physics_head": PHYSICS_HEAD,
         "physics": effect_rows(summary["physics_left_out"], summary["cost"]["physics_seconds"]),
     }  # fmt: skip
+
+
+def backward(summary: Mapping[str, Any]) -> list[str]:
+    """Return the names of the gaps into which on balance oil flows from the case."""
+    return [TITLES[gap] for gap, of in summary["gaps"].items() if of["leakage_flow_m3_per_s"] < 0.0]
 
 
 def floating_rows(summary: Mapping[str, Any]) -> list[tuple[str, ...]]:

@@ -10,8 +10,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from reynolds.numerics.arrays import Array
-from swashfilm.output.figures import figure_of
+from swashfilm.output.figures import figure_of, legend_below
 from swashfilm.output.page import inlined
+from swashfilm.output.picture import Picture
 from system.multibody.closure import closure
 from system.multibody.kinematics import SHAFT
 from system.multibody.retainer import guide_loss
@@ -175,12 +176,12 @@ def _laws(joints: JointForces, found: PumpPoint) -> dict[str, dict[str, float]]:
 
 @dataclass(frozen=True)
 class ForcesView:
-    """Forces on the page: rows of sizes, of laws and of closing errors; the picture, base64."""
+    """Forces on the page: rows of sizes, of laws and of closing errors; the picture."""
 
     sizes: Rows
     laws: Rows
     closure: Rows
-    picture: str
+    picture: Picture
 
 
 def forces_view(folder: Path, summary: Mapping[str, Any]) -> ForcesView | None:
@@ -234,7 +235,7 @@ def forces_plot(data: Mapping[str, Array]) -> Figure:
     right.set(ylabel="moment / N m", title="swash plate and shaft")
     for axes in (left, middle, right):
         axes.set(xlabel="shaft angle / deg", xlim=(0, 360))
-        axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.2), ncols=2, fontsize="small", frameon=False)
+        legend_below(axes)
     return figure
 
 

@@ -7,16 +7,22 @@ from typing import Any
 import numpy as np
 
 from swashfilm.console.fidelity import Fidelity
+from swashfilm.output.figures import smaller
 from swashfilm.output.gap_names import TITLES
 from swashfilm.output.page import inlined, read_summary, write_page
+from swashfilm.output.picture import Picture
 from swashfilm.output.refinement import refinement_head, refinement_rows
 from swashfilm.output.result import read_netcdf
+from swashfilm.output.touch.explorer import Explorer
 from swashfilm.runs.pump import plots as pump_plots
 from swashfilm.runs.pump.data import GAPS
 from swashfilm.runs.pump.floating import floating_view
 from swashfilm.runs.pump.forces import forces_view
+from swashfilm.runs.pump.headline.answer import pump_answer
+from swashfilm.runs.pump.headline.powers import power_parts
+from swashfilm.runs.pump.scene.view import pump_view
 from swashfilm.runs.pump.scene.views import PICTURE, TURNING
-from swashfilm.runs.pump.summary import ABBREVIATION, chamber_numbers
+from swashfilm.runs.pump.summary import chamber_numbers
 from swashfilm.runs.table.summary import TABLE_POINT_HEAD, table_point_rows
 from system.inputs.units import LPM
 from system.pump.laws.friction_pairs import Pair
@@ -35,6 +41,7 @@ def write_pump_page(folder: Path) -> Path:
     return write_page(
         folder,
         "pump",
+        answer=pump_answer(summary),
         summary=summary,
         headline=headline_rows(summary),
         efficiencies=efficiency_rows(summary),
@@ -47,13 +54,15 @@ def write_pump_page(folder: Path) -> Path:
         table_head=TABLE_POINT_HEAD,
         refinement=[refinement_head(found), *refinement_rows(found)] if (found := summary.get("refinement")) else [],
         ripple=ripple_rows(summary),
+        steady=is_steady(summary),
+        coefficients=[tuple(one[key] for key in ("key", "file", "source", "range")) for one in summary["coefficients"]],
         checks=check_rows(summary),
         forces=forces_view(folder, summary),
         pictures=_pictures(data, summary),
         gap_maps={map_caption(data, gap): inlined(png) for gap, png in pump_plots.gap_maps(data).items()},
         solid=[(gap.replace("_", " "), png) for gap in GAPS if (png := _kept(folder / f"{gap}.png"))],
-        pump=_kept(folder / PICTURE),
-        turning=_kept(folder / TURNING),
+        pump=_kept(folder / PICTURE, pump_view(folder)),
+        turning=TURNING if (folder / TURNING).is_file() else "",
         resolved=(folder / "resolved.toml").read_text("utf-8"),
     )
 
@@ -116,26 +125,29 @@ def bench_rows(summary: Mapping[str, Any]) -> Rows:
 
 
 def pair_rows(summary: Mapping[str, Any]) -> Rows:
-    """Return (pair, abbreviation, Coulomb, viscous, total, share) of the seven friction pairs and their sum."""
+    """Return (pair, Coulomb, viscous, total, share) of the seven friction pairs and their sum."""
     rows: Rows = []
     for pair in Pair:
         loss = summary["pair_loss"][pair.value]
         numbers = (f"{loss[key]:.1f} W" for key in ("coulomb_W", "viscous_W", "total_W"))
-        rows.append((pair.value.replace("_", " "), ABBREVIATION[pair], *numbers, f"{100 * loss['share']:.2f} %"))
+        rows.append((pair.words, *numbers, f"{100 * loss['share']:.2f} %"))
     total = {
         key: sum(loss[key] for loss in summary["pair_loss"].values()) for key in ("coulomb_W", "viscous_W", "total_W")
     }
-    return [*rows, ("all pairs", "", *(f"{value:.1f} W" for value in total.values()), "100 %")]
+    return [*rows, ("all pairs", *(f"{value:.1f} W" for value in total.values()), "100 %")]
 
 
 def power_rows(summary: Mapping[str, Any]) -> Rows:
-    """Return (part of the shaft power, W, share of it)."""
-    power = summary["power_balance"]
-    shaft = power["shaft_W"]
-    return [
-        (key.removesuffix("_W").replace("_", " "), f"{value:.1f} W", f"{100 * value / shaft:.3f} %")
-        for key, value in power.items()
-    ]
+    """Return (part of the shaft power, W, share of it), and the whole."""
+    shaft = summary["power_balance"]["shaft_W"]
+    parts = [(part.name, part.watts) for part in power_parts(summary)]
+    named = [*parts, ("shaft power", shaft)]
+    return [(name, f"{_plain(watts, 1)} W", f"{_plain(100.0 * watts / abs(shaft), 3)} %") for name, watts in named]
+
+
+def _plain(value: float, digits: int) -> str:
+    """Return a number with so many decimals, without the sign of a zero."""
+    return f"{round(value, digits) + 0.0:.{digits}f}"
 
 
 def gap_rows(summary: Mapping[str, Any]) -> Rows:
@@ -169,6 +181,12 @@ def ripple_rows(summary: Mapping[str, Any]) -> Rows:
     return rows
 
 
+def is_steady(summary: Mapping[str, Any]) -> bool:
+    """Return True where both port pressures are constant."""
+    ripple = summary["ripple"]
+    return all(ripple[f"{port}_pressure_peak_to_peak_Pa"] < pump_plots.STEADY for port in ("delivery", "inlet"))
+
+
 def check_rows(summary: Mapping[str, Any]) -> Rows:
     """Return (check, value): balances, convergence and effort of the solvers, with those of the gaps."""
     rows: Rows = [(key.replace("_", " "), f"{value:.3g}") for key, value in summary["checks"].items()]
@@ -179,7 +197,7 @@ def check_rows(summary: Mapping[str, Any]) -> Rows:
     return rows
 
 
-def _pictures(data: Any, summary: Mapping[str, Any]) -> dict[str, str]:
+def _pictures(data: Any, summary: Mapping[str, Any]) -> dict[str, Picture]:
     pictures = {
         "losses": pump_plots.loss_bar(summary),
         "chamber": pump_plots.chamber_plot(data, summary),
@@ -191,6 +209,6 @@ def _pictures(data: Any, summary: Mapping[str, Any]) -> dict[str, str]:
     return {name: inlined(png) for name, png in pictures.items()}
 
 
-def _kept(picture: Path) -> str:
-    """Return a picture of the folder as a page embeds it; empty where this machine could not draw it."""
-    return inlined(picture.read_bytes()) if picture.is_file() else ""
+def _kept(picture: Path, explorer: Explorer | None = None) -> Picture | None:
+    """Return a picture of the folder as a page embeds it; None where this machine could not draw it."""
+    return inlined(smaller(picture.read_bytes()), explorer) if picture.is_file() else None

@@ -9,17 +9,20 @@ import numpy as np
 
 from reynolds.numerics.arrays import Array
 from swashfilm.output.field_maps import MapField, draw_map
-from swashfilm.output.figures import figure_of
+from swashfilm.output.figures import figure_of, legend_below
 from swashfilm.output.gap_names import TITLES
 from swashfilm.runs.pump.data import GAPS, PICTURED_TURN
-from swashfilm.runs.pump.summary import ABBREVIATION
 from system.inputs.units import LPM
 from system.pump.laws.friction_pairs import Pair
 
 if TYPE_CHECKING:
     import xarray
+    from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
+DEAD = "#77828a"
+STEADY = 100.0
+"""Pa, peak to peak, below which a port pressure is constant."""
 GAP_FIELDS = (
     MapField("film_pressure", "film pressure / MPa", 1e-6),
     MapField("film_thickness", "film thickness / um", 1e6, colours="cividis"),
@@ -33,16 +36,17 @@ def loss_bar(summary: Mapping[str, Any]) -> Figure:
     """Draw losses of the seven pairs (W), stacked Coulomb and viscous parts, with the share of each pair."""
     figure = figure_of(8.4, 3.4)
     axes = figure.subplots()
-    names = [f"{ABBREVIATION[pair]}" for pair in Pair]
+    names = [pair.words for pair in Pair]
     losses = [summary["pair_loss"][pair.value] for pair in Pair]
     coulomb, viscous = ([loss[part] for loss in losses] for part in ("coulomb_W", "viscous_W"))
     axes.barh(names, coulomb, color="#8c5a3c", label="Coulomb")
     axes.barh(names, viscous, left=coulomb, color="#3c7a8c", label="viscous")
     for row, loss in enumerate(losses):
-        axes.text(loss["total_W"], row, f"  {loss['total_W']:.0f} W, {loss['share']:.1%}", va="center")
+        words, end = f"{loss['total_W']:.0f} W, {loss['share']:.1%}", (loss["total_W"], row)
+        axes.annotate(words, end, xytext=(4.0, 0.0), textcoords="offset points", va="center")
     axes.invert_yaxis()
     axes.set(xlabel="loss / W", xlim=(0.0, 1.25 * max(loss["total_W"] for loss in losses)))
-    axes.legend(loc="lower right")
+    legend_below(axes)
     return figure
 
 
@@ -63,11 +67,23 @@ def chamber_plot(data: xarray.Dataset, summary: Mapping[str, Any]) -> Figure:
         axes.set_zorder(areas.get_zorder() + 1)
         axes.patch.set_visible(False)
     handles = [*wide.get_legend_handles_labels()[0], *areas.get_legend_handles_labels()[0]]
-    wide.legend(handles=handles, loc="upper left")
-    near.set(xlabel="shaft angle from inner dead centre / deg", xlim=(160, 220), title="around the outer dead centre")
+    figure.legend(handles=handles, loc="outside upper center", ncols=3, frameon=False)
+    near.set(xlabel="shaft angle from inner dead centre / deg", xlim=(160, 220))
     inlet = summary["operating_point"]["inlet_pressure_Pa"] * 1e-6
     near.set_ylim(min(-0.5, inlet - 3.0), 1.08 * pressure.max())
+    _mark_dead_centres(wide)
+    _mark_dead_centres(near)
     return figure
+
+
+def _mark_dead_centres(axes: Axes) -> None:
+    """Mark the dead centres by lines, their names above the axes."""
+    low, high = axes.get_xlim()
+    marks = (0.0, "inner dead centre", "left"), (180.0, "outer dead centre", "center"), (360.0, "inner", "right")
+    for at, name, side in marks:
+        if low <= at <= high:
+            axes.axvline(at, color=DEAD, linewidth=1.0, linestyle=":")
+            axes.text(at, 1.01, name, transform=axes.get_xaxis_transform(), ha=side, fontsize=8, color=DEAD)
 
 
 def flow_plot(data: xarray.Dataset) -> Figure:
@@ -80,28 +96,33 @@ def flow_plot(data: xarray.Dataset) -> Figure:
     for gap in GAPS:
         right.plot(angle, data[f"{gap}_leakage"].values * LPM, label=TITLES[gap])
     right.set(xlabel="shaft angle / deg", ylabel="flow out of one chamber / L/min", xlim=(0, 360), title="gaps")
-    right.legend()
+    legend_below(right, 3)
     return figure
 
 
 def ripple_plot(data: xarray.Dataset) -> Figure:
-    """Draw port pressures (MPa, less their means), line flows (L/min), shaft torque (N m) over two pitches."""
+    """Draw line flows (L/min) and shaft torque (N m) over two pitches, and port pressures (MPa) that pulse.
+
+    Pressures are drawn less their means; constant ones are left out.
+    """
     figure = figure_of(10.0, 3.4)
-    left, middle, right = figure.subplots(1, 3)
+    pulses = any(np.ptp(data[f"{name}_pressure"].values) > STEADY for name in ("delivery", "inlet"))
+    *lefts, middle, right = figure.subplots(1, 2 + pulses)
     angle = np.degrees(data["shaft_angle"].values)
     for name, colour in (("delivery", "#b8862b"), ("inlet", "#5b9a5b")):
         pressure = data[f"{name}_pressure"].values * 1e-6
-        label = f"{name}, {pressure.mean():.2f} MPa"
-        left.plot(angle, pressure - pressure.mean(), color=colour, label=label)
+        for left in lefts:
+            left.plot(angle, pressure - pressure.mean(), color=colour, label=f"{name}, {pressure.mean():.2f} MPa")
         middle.plot(angle, data[f"{name}_line_flow"].values * LPM, color=colour, label=name)
     right.plot(angle, data["shaft_torque"].values, color="#1c2328")
-    left.set(ylabel="port pressure less its mean / MPa", title="ports")
+    for left in lefts:
+        left.set(ylabel="port pressure less its mean / MPa", title="ports")
     middle.set(ylabel="flow / L/min", title="lines, at port pressure")
     right.set(ylabel="torque / N m", title="shaft")
-    for axes in (left, middle, right):
+    for axes in (*lefts, middle, right):
         axes.set(xlabel="shaft angle / deg", xlim=(0, 2.0 * data.attrs["pitch_deg"]))
-    for axes in (left, middle):  # below the curves
-        axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.22), ncols=2, fontsize="small", frameon=False)
+    for axes in (*lefts, middle):
+        legend_below(axes)
     return figure
 
 
@@ -139,7 +160,7 @@ def film_series(data: xarray.Dataset) -> Figure:
     power.set(ylabel="friction power / W", title="one piston, one slipper")
     for axes in (films, pressures, ratio, power):
         axes.set(xlabel="shaft angle / deg", xlim=(0, 360))
-        axes.legend(fontsize="small")
+        legend_below(axes, 1 if axes is films else 3)
     return figure
 
 

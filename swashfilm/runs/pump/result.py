@@ -14,6 +14,8 @@ from swashfilm.output.result import Numbers, Result, Table, plotted
 from swashfilm.runs.pump import plots
 from swashfilm.runs.pump.data import GAPS
 from swashfilm.runs.pump.floating import HEAD, floating_rows
+from swashfilm.runs.pump.headline.powers import gathered, power_parts
+from swashfilm.runs.pump.headline.ribbons import flow_diagram
 from swashfilm.runs.pump.page import efficiency_rows, headline_rows, pair_rows
 from swashfilm.runs.table.summary import TABLE_POINT_HEAD, table_point_rows
 from system.inputs.faults import Fault, InputFaults, nearest_choice
@@ -117,6 +119,11 @@ class PumpRun(Result):
             title = f"Gaps by a table of the {summary['table']['source']} fidelity"
             tables.append((title, [TABLE_POINT_HEAD, *table_point_rows(summary)]))
         return tables
+
+    def plot_powers(self) -> list[Axes]:
+        """Draw where the shaft power goes: delivered power, friction, leakage, throttling, as ribbons."""
+        shaft = self.summary["power_balance"]["shaft_W"]
+        return plotted(lambda: flow_diagram(shaft, gathered(power_parts(self.summary))))
 
     def plot_losses(self) -> list[Axes]:
         """Draw losses of the seven pairs, Coulomb and viscous."""

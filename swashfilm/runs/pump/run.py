@@ -12,10 +12,10 @@ from swashfilm.console.assumed import scaled_warning
 from swashfilm.console.fidelity import Fidelity
 from swashfilm.output.refinement import Refinement, refinement_summary, write_refinement
 from swashfilm.output.run_folder import write_json
+from swashfilm.runs.pump.coefficients.edge_losses import loss_warnings, losses_left_out
+from swashfilm.runs.pump.coefficients.flow import coefficient_warnings
 from swashfilm.runs.pump.data import films_dataset, point_dataset, write_tables, write_unlike
-from swashfilm.runs.pump.edge_losses import loss_warnings, losses_left_out
 from swashfilm.runs.pump.floating import floating_summary, scene_of, write_floating, write_unfinished
-from swashfilm.runs.pump.flow_coefficients import coefficient_warnings
 from swashfilm.runs.pump.forces import force_warnings, forces_summary, write_forces
 from swashfilm.runs.pump.page import write_pump_page
 from swashfilm.runs.pump.refine import refine_point

@@ -9,9 +9,9 @@ import numpy as np
 from gaps.standing.gap_film import GapFilm
 from swashfilm.console.fidelity import Fidelity
 from swashfilm.output.gap_names import LARGEST_RIGID_PRESSURE, kind_folder
+from swashfilm.runs.pump.coefficients.edge_losses import loss_records
+from swashfilm.runs.pump.coefficients.flow import coefficient_records
 from swashfilm.runs.pump.data import GAPS, PARTS, named_films
-from swashfilm.runs.pump.edge_losses import loss_records
-from swashfilm.runs.pump.flow_coefficients import coefficient_records
 from system.description.pump import PumpDescription
 from system.effects.effect import EffectId
 from system.points.film_effects import effects_in_films
@@ -20,15 +20,6 @@ from system.pump.assembly import PumpPoint
 from system.pump.bench import Efficiency, energy_split, ideal_flow, ideal_torque, paper_losses
 from system.pump.laws.friction_pairs import Pair
 
-ABBREVIATION = {
-    Pair.PISTON_CYLINDER: "PCP",
-    Pair.SLIPPER_SWASH_PLATE: "SSP",
-    Pair.VALVE_PLATE_CYLINDER: "VCP",
-    Pair.BALL_GUIDE_RETAINER: "BRP",
-    Pair.PISTON_SLIPPER_SOCKET: "PSP",
-    Pair.FRONT_BEARING: "FB",
-    Pair.REAR_BEARING: "RB",
-}
 LARGEST_SAMPLING_ERROR = 0.02
 
 

@@ -5,11 +5,10 @@ from math import isfinite
 from pathlib import Path
 from typing import Any
 
-from swashfilm.output.figures import png_of
-from swashfilm.output.page import PLOTS
+from swashfilm.output.page import keep_pictures
 from swashfilm.output.run_folder import write_json
 from swashfilm.output.tables import write_csv
-from swashfilm.runs.reproduce.plots import figure_picture
+from swashfilm.runs.reproduce.plots import panel_pictures
 from system.paper.figure import FigureAxis, Panel
 from system.paper.judge import FigureResult, Judged, Range
 
@@ -18,15 +17,14 @@ Row = dict[str, Any]
 
 
 def write_reproduction(folder: Path, results: Sequence[FigureResult], summary: Row) -> None:
-    """Write claims.json, claims.csv, data/FIGURE.csv, plots/FIGURE.png and summary.json."""
+    """Write claims.json, claims.csv, data/FIGURE.csv, plots/FIGURE-N.svg and summary.json."""
     rows = claim_rows(results, summary["fidelity"])
     write_json(folder / CLAIMS, {"format": 1, "claims": rows})
     _write_table(folder / "claims.csv", rows)
     for result in (result for result in results if result.panels):
-        for name in (DATA, PLOTS):
-            (folder / name).mkdir(exist_ok=True)
+        (folder / DATA).mkdir(exist_ok=True)
         _write_curves(folder / DATA / f"{result.figure.value}.csv", result.panels)
-        (folder / PLOTS / f"{result.figure.value}.png").write_bytes(png_of(figure_picture(result.panels)))
+        keep_pictures(folder, result.figure.value, panel_pictures(result.panels))
     write_json(folder / "summary.json", summary)
 
 

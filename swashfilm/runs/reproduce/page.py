@@ -7,8 +7,10 @@ from itertools import groupby
 from pathlib import Path
 from typing import Any
 
-from swashfilm.output.page import PLOTS, inlined, read_summary, write_page
+from swashfilm.output.answer import Answer, Tile
+from swashfilm.output.page import inlined, kept_pictures, read_summary, write_page
 from swashfilm.runs.reproduce.files import CLAIMS
+from swashfilm.runs.reproduce.plots import verdict_bars
 from system.paper.judge import StatementVerdict
 
 FILES = ("summary.json", CLAIMS, "resolved.toml")
@@ -27,13 +29,11 @@ def write_reproduce_page(folder: Path) -> Path:
     return write_page(
         folder,
         "reproduce",
+        answer=reproduce_answer(summary, rows),
         summary=summary,
-        counts=count_words(rows),
         claims={figure["name"]: list(statements(rows, figure["name"])) for figure in summary["figures"]},
         pictures={
-            figure["name"]: inlined((folder / PLOTS / f"{figure['name']}.png").read_bytes())
-            for figure in summary["figures"]
-            if figure["picture"]
+            figure["name"]: kept_pictures(folder, figure["name"]) for figure in summary["figures"] if figure["picture"]
         },
         resolved=(folder / "resolved.toml").read_text("utf-8"),
     )
@@ -43,6 +43,26 @@ def _read(folder: Path) -> tuple[Row, list[Row]]:
     return read_summary(folder, FILES, "a reproduction's run folder"), json.loads((folder / CLAIMS).read_text("utf-8"))[
         "claims"
     ]
+
+
+def reproduce_answer(summary: Row, rows: Sequence[Row]) -> Answer:
+    """Return the answer of a reproduction: how many statements are reached, missed or contradicted, by figure."""
+    found, count = Counter(row["verdict"] for row in rows), len({row["id"] for row in rows})
+    tiles = [Tile(str(found[one.value]), f"{one.value}", f"of {len(rows)} readings") for one in StatementVerdict]
+    tiles.append(Tile(str(count), "statements of the paper", f"about {len(summary['figures'])} figures and tables"))
+    numbers = ", ".join(f"{found[one.value]} {one.value}" for one in StatementVerdict)
+    words = (
+        f"The paper makes {count} statements with a number or a trend that {summary['pump']} can be asked for. Some "
+        f"have two readings, which are judged separately: of {len(rows)} readings {numbers}. Contradicted means that "
+        f"the statement breaks a law of physics, whatever the pump. The pump is solved in the {summary['fidelity']} "
+        f"fidelity."
+    )
+    counts = {
+        figure["name"]: Counter(row["verdict"] for row in rows if row["figure"] == figure["name"])
+        for figure in summary["figures"]
+    }
+    bars = verdict_bars({name: own for name, own in counts.items() if own})
+    return Answer(tuple(tiles), words, inlined(bars), "Verdicts on the statements of each figure and table")
 
 
 def statements(rows: Sequence[Row], figure: str) -> Iterator[tuple[Row, list[Row]]]:

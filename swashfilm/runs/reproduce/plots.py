@@ -1,36 +1,53 @@
-"""Pictures of the paper's figures: one per figure, its panels side by side."""
+"""Pictures of the paper's figures, one for each panel, and the verdicts on all statements."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from swashfilm.output.figures import figure_of
 from system.paper.figure import FigureAxis, Panel, PanelKind, Unit
+from system.paper.judge import StatementVerdict
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 COLOURS = ("#3c7a8c", "#b55a00", "#5b9a5b", "#b8862b", "#6d5a9c", "#8c5a3c", "#9aa4ab")
-COLUMNS = 2
 LEVELS = 12
 """Number of contour lines of a field."""
 MANY = 6
 """Number of curves from which the legend is beside them."""
+VERDICT_COLOURS = {
+    StatementVerdict.REACHED: "#5b9a5b",
+    StatementVerdict.MISSED: "#b8862b",
+    StatementVerdict.CONTRADICTED: "#8c3c3c",
+}
 
 
-def figure_picture(panels: Sequence[Panel]) -> Figure:
-    """Draw the panels of a figure."""
-    columns = min(COLUMNS, len(panels))
-    lines = -(-len(panels) // columns)
-    figure = figure_of(5.6 * columns, 3.9 * lines)
-    grid = figure.subplots(lines, columns, squeeze=False).ravel()
-    for axes in grid[len(panels) :]:
-        axes.set_axis_off()
-    for axes, panel in zip(grid, panels, strict=False):
-        _draw(figure, axes, panel)
+def panel_pictures(panels: Sequence[Panel]) -> dict[str, Figure]:
+    """Return a picture of each panel of a figure by its title."""
+    found = {}
+    for panel in panels:
+        figure = figure_of(5.4, 3.9)
+        _draw(figure, figure.subplots(), panel)
+        found[panel.title] = figure
+    return found
+
+
+def verdict_bars(counts: Mapping[str, Mapping[str, int]]) -> Figure:
+    """Draw the number of statements with each verdict, a bar for each figure; `counts` by figure and verdict."""
+    figure = figure_of(6.8, max(2.0, 0.28 * len(counts) + 0.9))
+    axes, left = figure.subplots(), np.zeros(len(counts))
+    for verdict, colour in VERDICT_COLOURS.items():
+        widths = np.array([own.get(verdict.value, 0) for own in counts.values()], float)
+        axes.barh([*counts], widths, left=left, color=colour, label=verdict.value)
+        left += widths
+    axes.invert_yaxis()
+    axes.locator_params(axis="x", integer=True)
+    axes.set_xlabel("statements, each reading counted")
+    figure.legend(loc="outside upper center", ncols=len(VERDICT_COLOURS), fontsize=9)
     return figure
 
 

@@ -139,7 +139,7 @@ def _case(options: argparse.Namespace) -> tuple[TableCase, int]:
     from system.points.table.sources import Source
 
     faults: list[Fault] = []
-    single = {option for option in RANGES if ".." not in (option_value(options, option) or "..")}
+    single = {option for option in RANGES if _is_single(option_value(options, option))}
     counts = _counts(options, faults, max(1, len(RANGES) - len(single)))
     ranges = _ranges(options, faults, single)
     sources = [source.value for source in Source]
@@ -156,6 +156,13 @@ def _case(options: argparse.Namespace) -> tuple[TableCase, int]:
     speeds, pressures, ratios, temperatures = ranges
     axes = table_axes(pump, speeds, pressures, ratios, temperatures, held)
     return TableCase(pump, solver, axes, *counts[:2]), counts[2]
+
+
+def _is_single(text: str | None) -> bool:
+    """Return whether an option states one value."""
+    from swashfilm.console.levels import dashed_range
+
+    return text is not None and ".." not in text and not dashed_range(text)
 
 
 def _counts(options: argparse.Namespace, faults: list[Fault], inputs: int) -> tuple[int, int, int]:
@@ -209,14 +216,16 @@ def _ranges(options: argparse.Namespace, faults: list[Fault], single: Collection
 
 
 def _range(faults: list[Fault], option: str, text: str, dimension: object, example: str) -> Range | None:
-    """Return MIN..MAX in SI; None after a fault."""
+    """Return MIN..MAX in SI, the unit of MAX also that of a MIN without one; None after a fault."""
+    from swashfilm.console.levels import dashed_range, with_units
     from system.inputs.units import Dimension, QuantityError, parse_quantity
 
-    ends = text.split("..")
+    kind = dimension if isinstance(dimension, Dimension) else None
+    ends = with_units([text], kind)[0].split("..")
     try:
         if len(ends) != 2:
-            raise QuantityError(repr(text), "two ends with .. between them")
-        low, high = (parse_quantity(end, dimension) if isinstance(dimension, Dimension) else float(end) for end in ends)
+            raise QuantityError(repr(text), "two ends with .. between them", dashed_range(text))
+        low, high = (float(end) if kind is None else parse_quantity(end, kind) for end in ends)
         if not low < high:
             raise QuantityError(repr(text), "the lower end first")
     except QuantityError as reason:

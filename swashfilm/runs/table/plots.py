@@ -19,6 +19,8 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 COLOURS = {"piston": "#3c7a8c", "slipper": "#8c5a3c", "valve_plate": "#5b9a5b", "socket": "#b8862b", "": "#3c7a8c"}
+NEGLIGIBLE = 1e-4
+"""Error below which outputs share a row of a table, and are left out of a picture."""
 COURSE = 80
 """Points of a line."""
 COLUMNS = 5
@@ -55,15 +57,18 @@ def words_of(name: str) -> str:
 
 
 def _errors(response: Response) -> Figure:
-    figure = figure_of(9.0, max(2.4, 0.25 * len(response.outputs)))
-    axes = figure.subplots()
-    error, rows = response.held_out_error, np.arange(len(response.outputs))
-    axes.barh(rows - 0.2, np.maximum(error.largest, 1e-6), 0.38, color="#c8a27c", label="largest")
-    axes.barh(rows + 0.2, np.maximum(error.rms, 1e-6), 0.38, color="#3c7a8c", label="rms")
+    """Draw rms and largest error of each output as bars, negligible ones left out."""
+    error = response.held_out_error
+    told = np.flatnonzero(error.largest >= NEGLIGIBLE)
+    figure = figure_of(6.8, max(2.4, 0.3 * len(told)))
+    axes, rows = figure.subplots(), np.arange(len(told))
+    axes.barh(rows - 0.2, error.largest[told], 0.38, color="#c8a27c", label="largest")
+    axes.barh(rows + 0.2, error.rms[told], 0.38, color="#3c7a8c", label="rms")
     axes.axvline(LARGE_ERROR, color="#b55a00", linestyle="--")
-    axes.set_yticks(rows, [f"{words_of(output.name)} ({output.measure.value})" for output in response.outputs])
-    axes.set(xscale="log", xlabel="error", xlim=(1e-5, max(0.1, 1.3 * float(error.largest.max()))))
-    axes.tick_params(axis="y", labelsize=8)
+    names = [f"{words_of(response.outputs[k].name)} ({response.outputs[k].measure.value})" for k in told]
+    axes.set_yticks(rows, names)
+    most = float(error.largest.max())
+    axes.set(xscale="log", xlabel="error", xlim=(0.1 * NEGLIGIBLE, max(0.1, 1.3 * most)))
     axes.invert_yaxis()
     axes.legend(loc="best", fontsize=8)
     axes.grid(visible=True, axis="x", alpha=0.3)

@@ -6,9 +6,11 @@ from typing import Any
 
 import numpy as np
 
+from swashfilm.output.answer import Answer
 from swashfilm.output.page import inlined, read_summary, write_page
 from swashfilm.output.result import read_netcdf
 from swashfilm.runs.transient import plots as transient_plots
+from swashfilm.runs.transient.answer import transient_tiles, transient_words
 from system.inputs.units import LPM
 
 FILES = ("summary.json", "resolved.toml", "results.nc")
@@ -18,21 +20,24 @@ def write_transient_page(folder: Path) -> Path:
     """Write report.html of a transient's run folder; raise InputFaults where one of its files is missing."""
     summary = read_summary(folder, FILES, "a transient's run folder")
     data = read_netcdf(folder / "results.nc")
-    pictures = {
+    figures = {
         "Swash angle, control pressure and actuator pressure": transient_plots.plate_plot(data),
         "Moments on the swash plate by cause; positive: increase the angle; thick: means over a piston pitch":
             transient_plots.moment_plot(data),
         "Flows and drive torque of the pump; thick: means over a piston pitch": transient_plots.pump_plot(data),
         "Pressure of the chambers": transient_plots.chamber_plot(data),
     }  # fmt: skip
+    shown = {text: inlined(figure) for text, figure in figures.items()}
+    caption, first = next(iter(shown.items()))
     return write_page(
         folder,
         "transient",
+        answer=Answer(tuple(transient_tiles(summary)), transient_words(summary), first, caption),
         summary=summary,
         rows=transient_rows(summary),
         turns=turn_rows(summary),
         checks=check_rows(summary),
-        pictures={text: inlined(png) for text, png in pictures.items()},
+        pictures={text: picture for text, picture in shown.items() if text != caption},
         resolved=(folder / "resolved.toml").read_text("utf-8"),
     )
 

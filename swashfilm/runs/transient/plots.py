@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from reynolds.numerics.arrays import Array
-from swashfilm.output.figures import figure_of
+from swashfilm.output.figures import figure_of, legend_below, legend_beside
 from system.inputs.units import LPM
 
 if TYPE_CHECKING:
@@ -50,7 +50,7 @@ def plate_plot(data: xarray.Dataset) -> Figure:
     right.plot(time, mean * 1e-6, color="#b8862b", label="actuator")
     right.plot(time, data["control_pressure"].values * 1e-6, color="#1c2328", label="control")
     right.set(ylabel="pressure, gauge / MPa", title="actuator")
-    right.legend()
+    legend_below(right)
     for axes in (left, right):
         axes.set(xlabel="time / ms", xlim=(time[0], time[-1]))
     return figure
@@ -67,7 +67,7 @@ def moment_plot(data: xarray.Dataset) -> Figure:
             (line,) = axes.plot(time, values, alpha=PALE)
             axes.plot(time, over_a_pitch(data, values), color=line.get_color(), label=label)
     axes.set(xlabel="time / ms", ylabel="moment on the plate / N m", xlim=(time[0], time[-1]))
-    axes.legend(loc="upper left", bbox_to_anchor=(1.0, 1.0), frameon=False)
+    legend_beside(axes)
     return figure
 
 
@@ -85,7 +85,7 @@ def pump_plot(data: xarray.Dataset) -> Figure:
         axes.plot(time[1:], values[1:], color=colour, alpha=PALE)
         axes.plot(time, over_a_pitch(data, values), color=colour, label=label)
     left.set(ylabel="flow at its port / L/min", title="ports")
-    left.legend()
+    legend_below(left)
     right.set(ylabel="torque / N m", title="shaft")
     for axes in (left, right):
         axes.set(xlabel="time / ms", xlim=(time[0], time[-1]))
@@ -100,5 +100,5 @@ def chamber_plot(data: xarray.Dataset) -> Figure:
     axes.fill_between(time, pressure.min(axis=1), pressure.max(axis=1), color="#b8862b", alpha=PALE, label="all")
     axes.plot(time, pressure[:, 0], color="#1c2328", linewidth=0.7, label="chamber 1")
     axes.set(xlabel="time / ms", ylabel="pressure, gauge / MPa", xlim=(time[0], time[-1]))
-    axes.legend(loc="upper right")
+    legend_beside(axes)
     return figure

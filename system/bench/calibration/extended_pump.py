@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from reynolds.numerics.arrays import Array
-from system.bench.parameters import BEARINGS, GUIDE, pump_with
+from system.bench.parameters import BEARINGS, FILE_KEYS, GUIDE, pump_with
 from system.description.effects import PhysicsSection
 from system.description.pump import PumpDescription
 from system.effects.extension import Extension
@@ -61,17 +61,22 @@ def extended_pump(
 def calibrated_pump(pump: PumpDescription, fit: Posterior, laws: Sequence[Extension] = ()) -> PumpDescription:
     """The pump with a fit's values, and with `laws` switched on; [tolerance] holds the fit's own sigmas.
 
-    A key of [tolerance] for several parameters takes the widest of them. Others keep their tolerance. Raises
-    ValueError for values outside an effect's limits.
+    A key of [tolerance] for several parameters takes the widest of them. Others keep their tolerance; the drawing's of
+    a fitted dimension is left out. Raises ValueError for values outside an effect's limits.
     """
     own = extended_pump(pump, values_by_name(fit.parameters, fit.values), laws)
     sigma = np.sqrt(np.diag(fit.covariance))
     stated = {one.name for one in fields(own.tolerance)}
-    known: dict[str, float] = {}
+    known: dict[str, Any] = {}
     for parameter, width in zip(fit.parameters, sigma, strict=True):
         key = _OF_FRICTION.get(parameter.name, parameter.name.partition(".")[0])
         if key in stated:
             known[key] = max(known.get(key, 0.0), float(parameter.spread * width))
+    fitted = {FILE_KEYS.get(parameter.name) for parameter in fit.parameters}
+    drawn = own.tolerance
+    known["dimension"] = tuple(one for one in drawn.dimension if one.key not in fitted)
+    known["fit"] = tuple(one for one in drawn.fit if one.key not in fitted)
+    known["correlation"] = tuple(one for one in drawn.correlation if fitted.isdisjoint((one.one, one.other)))
     return replace(own, tolerance=replace(own.tolerance, **known))
 
 

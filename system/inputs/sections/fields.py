@@ -103,6 +103,8 @@ class Text(Enum):
     NAME = "a name, such as 'film'"
     NAMES = "a list of names, such as ['bottom', 'rim']"
     COLUMN = "the name of a column"
+    KEY = "table and key of a number of this file, such as 'piston.radial_clearance'"
+    QUANTITY = "a quantity with its unit, or a share of the stated value in %, such as '3 um' or '4 %'"
     WORDS = "a text"
 
 

@@ -26,6 +26,20 @@ class Pair(Enum):
     FRONT_BEARING = "front_bearing"
     REAR_BEARING = "rear_bearing"
 
+    @property
+    def words(self) -> str:
+        """Name for people, both parts of the pair with a hyphen."""
+        return _WORDS.get(self, self.value.replace("_", " "))
+
+
+_WORDS = {
+    Pair.PISTON_CYLINDER: "piston-cylinder",
+    Pair.SLIPPER_SWASH_PLATE: "slipper-swash plate",
+    Pair.VALVE_PLATE_CYLINDER: "valve plate-cylinder",
+    Pair.BALL_GUIDE_RETAINER: "ball guide-retainer",
+    Pair.PISTON_SLIPPER_SOCKET: "piston-slipper socket",
+}
+
 
 @dataclass(frozen=True)
 class PairLoss(Generic[Number]):

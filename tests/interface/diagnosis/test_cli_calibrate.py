@@ -77,7 +77,10 @@ def test_from_files_to_files(tmp_path: Path, capsys: pytest.CaptureFixture[str])
     words = ["calibrate", "ref90", str(recording), "-o", str(out), "--models", "wilson"]
     assert main(words) == 0
     told = capsys.readouterr().out
-    assert "slipper swash plate" in told
+    assert "friction coefficient, slipper-swash plate" in told
+    page = (out / "report.html").read_text("utf-8")
+    assert page.index("The recording determines") < page.index("<nav>") < page.index("chi-square")
+    assert "e-05 m" not in page
     found = {row["name"]: row for row in _table(out, "parameters.csv")}
     for name, planted in PLANTED.items():
         assert abs(float(found[name]["mean"]) - planted) < 3 * float(found[name]["sigma"])

@@ -105,7 +105,10 @@ def test_a_turn_leaves_tables_fields_pictures_and_a_page(capsys):
     page = Path("out/report.html")
     page.unlink()
     assert main(["report", "out"]) == 0
-    assert page.read_text("utf-8").count("data:image/") == 5
+    text = page.read_text("utf-8")
+    assert text.count("data:image/") == 6
+    assert "data:image/gif" in text
+    assert text.index("least film of the turn") < text.index("<nav>") < text.index("The step error is")
 
 
 def documented(summary: dict[str, object]) -> None:

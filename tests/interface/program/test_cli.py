@@ -272,7 +272,16 @@ def test_check_shows_what_a_file_means_without_running_it(capsys):
 def test_doctor_tells_packages_caches_and_graphics(capsys):
     assert main(["doctor"]) == 0
     out = capsys.readouterr().out
-    for word in ("python", "numpy", "scikit-fem", "cores", "memory", "compiled kernels, reynolds", "3D picture"):
+    for word in (
+        "python",
+        "numpy",
+        "scikit-fem",
+        "cores",
+        "memory",
+        "compiled kernels, reynolds",
+        "C compiler",
+        "3D picture",
+    ):
         assert word in out
 
 

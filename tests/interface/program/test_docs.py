@@ -226,7 +226,7 @@ def test_film_summary_keys_are_documented():
     every, added, switches = re.split("A gap adds:|Switches add:", part)
     assert _first_column(every) == free
     assert _first_column(added) == gap - free - switched
-    assert _first_column(switches) == switched - free | {"refinement"}
+    assert _first_column(switches) == switched - free | {"refinement", "sensitivity"}
 
 
 def test_results_variables_are_documented(films):

@@ -2,49 +2,25 @@
 
 import re
 import shlex
-from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pandas
 import pint
 import pytest
-from bench_pump import BENCH
+from kept_maps import LEVELS, kept_map
 from scipy.io import loadmat
 
 import swashfilm as sf
 from swashfilm.__main__ import main
 from swashfilm.runs.export.numbers import TABLES, numbers
-from swashfilm.runs.map.files import read_map, write_map
-from system import load_pump
+from swashfilm.runs.map.files import read_map
 from system.inputs.units import RPM
-from system.maps.data import map_data
-from system.maps.plan import MapAxis, MapInput, map_plan
-from system.maps.point import LumpedSolver, MapWork
-from system.work.tasks import PartStatus, done_part
+from system.maps.plan import MapInput
 
-LEVELS = {
-    MapInput.SPEED: tuple(RPM * speed for speed in (1000.0, 1500.0, 2000.0)),
-    MapInput.PRESSURE: (10e6, 20e6, 25e6, 30e6),
-    MapInput.RATIO: (0.5, 1.0),
-    MapInput.TEMPERATURE: (313.15, 333.15),
-}
 MODELICA_TABLE = re.compile(r"double (\w+)\((\d+),(\d+)\)")
 AMESIM_UNITS = {"rev/min": RPM, "bar": 1e5, "Nm": 1.0, "L/min": 1.0 / 6e4, "W": 1.0, "mm": 1e-3}
 """SI value of Amesim's units."""
-
-
-def kept_map(folder, levels, without=()):
-    """The lumped map of the bench pump in a run folder, some points without a result."""
-    plan = map_plan(load_pump(str(BENCH)), [MapAxis(given, values) for given, values in levels.items()])
-    work = MapWork(plan.pump, LumpedSolver())
-    outcomes = [done_part(work, point) for point in plan.points]
-    for k in without:
-        outcomes[k] = replace(outcomes[k], status=PartStatus.NOT_CONVERGED, reason="no film", record={})
-    folder.mkdir()
-    about = {"stated": {}, "resolved_toml": "", "assumptions": []}
-    write_map(folder / "map.nc", map_data(plan, work, tuple(outcomes)), None, about)
-    return folder
 
 
 @pytest.fixture(scope="module")
@@ -202,7 +178,7 @@ def test_csv_has_a_line_for_each_point_in_the_units_of_its_heads(holed, tmp_path
         np.testing.assert_allclose(si, np.ravel(number.values), rtol=1e-11, atol=1e-18)
 
 
-@pytest.mark.parametrize("to", ["modelica", "amesim"])
+@pytest.mark.parametrize("to", ["modelica", "amesim", "fmu"])
 def test_a_format_without_holes_refuses_them(to, holed, tmp_path, capsys):
     assert main(["export", str(holed), "--to", to]) == 2
     error = capsys.readouterr().err
@@ -250,6 +226,11 @@ def test_a_single_point_is_a_line_of_csv_and_no_table(tmp_path, capsys):
     assert main(["export", str(folder), "--to", "matlab"]) == 2
     assert "--to csv" in capsys.readouterr().err
     assert sf.export(folder, "csv") == (Path("ref90.csv"),)
+
+
+def test_holes_are_a_warning_in_python(holed):
+    with pytest.warns(UserWarning, match="2 of 48 points without a result.*written as nan"):
+        sf.export(holed, "csv")
 
 
 def test_a_map_is_exported_from_python(whole, tmp_path):

@@ -13,8 +13,9 @@ from bench_pump import BENCH
 from reynolds import NotConverged
 from swashfilm.__main__ import main
 from swashfilm.console.levels import map_axis
+from swashfilm.runs.duty.cycle_file import read_cycle
+from swashfilm.runs.map.contour_levels import efficiency_levels
 from swashfilm.runs.map.files import read_map
-from swashfilm.runs.map.plots import efficiency_levels
 from system import Fault
 from system.maps import point as map_point
 from system.maps.plan import MapInput
@@ -35,8 +36,8 @@ def run(tmp_path_factory):
 
 @pytest.fixture(autouse=True)
 def no_pictures(run, monkeypatch):
-    for place in ("page.map_plots", "page.film_plots", "duty.duty_plots", "compare.compare_plots"):
-        monkeypatch.setattr(f"swashfilm.runs.map.{place}", lambda *_: {})
+    for place in ("map.page.map_pictures", "compare.run.compare_pictures"):
+        monkeypatch.setattr(f"swashfilm.runs.{place}", lambda *_: {})
 
 
 @pytest.mark.parametrize(
@@ -52,6 +53,18 @@ def no_pictures(run, monkeypatch):
 def test_levels_are_read(text, given, levels):
     scale = np.pi / 30.0 if given is MapInput.SPEED else 1.0
     assert map_axis("--x", text, given, "").values == pytest.approx([scale * level for level in levels])
+
+
+@pytest.mark.parametrize(
+    ("text", "given", "remedy"),
+    [
+        ("5-35MPa", MapInput.PRESSURE, "5..35MPa:7"),
+        ("5..35MPa", MapInput.PRESSURE, "5MPa..35MPa:7"),
+        ("80%", MapInput.RATIO, "0.8"),
+    ],
+)
+def test_habits_get_a_remedy(text, given, remedy):
+    assert map_axis("--x", text, given, "").nearest == remedy
 
 
 @pytest.mark.parametrize(
@@ -73,10 +86,11 @@ def test_a_map_leaves_its_files(run):
     shares = list(csv.reader((run / "shares.csv").open()))
     np.testing.assert_allclose([sum(map(float, row[6:])) for row in shares[1:]], 100.0, atol=0.1)
     page = (run / "report.html").read_text()
-    captions = json.loads((run / "plots" / "map.json").read_text())
-    assert page.count("data:image/") == len(captions) == 7
-    assert all((run / "plots" / name).is_file() for name in captions)
-    assert "Best point of each definition" in page
+    pictures = [name for own in (run / "plots").glob("*.json") for name in json.loads(own.read_text())]
+    assert page.count("data:image/") == len(pictures)
+    assert all((run / "plots" / name).is_file() for name in pictures)
+    assert len(page) < 1e6
+    assert page.index("best overall efficiency") < page.index("<nav>") < page.index("Efficiency by definition")
     (run / "report.html").unlink()
     assert main(["report", str(run)]) == 0
     assert (run / "report.html").is_file()
@@ -162,8 +176,11 @@ def test_a_point_that_fails_stops_no_other(tmp_path, monkeypatch, capsys):
     ("words", "told"),
     [
         (["--speeds", "1000", "--plan", "papr", "--workers", "0"], ["--speeds", "--plan", "--workers"]),
-        (["--pressures", "10bar", "--fidelity", "lumped"], ["operating.pressure", "inlet_pressure"]),
-        (["--displacements", "1.2", "--fidelity", "lumped"], ["operating.displacement_ratio"]),
+        (
+            ["--pressures", "5..25bar:3", "--fidelity", "lumped"],
+            ["1 fault", "--pressures", "2.5 MPa gauge\n", "inlet_pressure"],
+        ),
+        (["--displacements", "1.2", "--fidelity", "lumped"], ["--displacements"]),
         (["--inlet-pressures", "10,25bar"], ["--inlet-pressures", "--direct needs about 22400 s"]),
         (["--fidelity", "lumped", "--direct"], ["--direct"]),
         (["--fidelity", "table", "--table", "no.json"], ["no.json"]),
@@ -244,6 +261,8 @@ def test_duty_and_compare_leave_their_pages(run, tmp_path, capsys):
     out = capsys.readouterr().out
     assert "Mean efficiency" in out
     assert "constant in the map: oil temperature in the case 50 degC" in out
+    page = (tmp_path / "duty" / "report.html").read_text()
+    assert page.index("energy lost") < page.index("<nav>") < page.index("Mean efficiency by definition")
     summary = json.loads((tmp_path / "duty" / "summary.json").read_text())
     assert summary["duration_s"] == 20.0
     course = list(csv.DictReader((tmp_path / "duty" / "course.csv").open()))
@@ -258,10 +277,32 @@ def test_duty_and_compare_leave_their_pages(run, tmp_path, capsys):
     assert main(["compare", str(run), str(other), "--cycle", str(cycle), "-o", str(tmp_path / "cmp")]) == 0
     rows = json.loads((tmp_path / "cmp" / "summary.json").read_text())
     differences = {row["words"]: row for row in rows["differences"]}
-    assert differences["leakage of pistons"]["largest"] > 0.0
-    assert differences["ball guide retainer"]["largest"] == pytest.approx(0.0, abs=1e-9)
+    assert differences["piston leakage"]["largest"]["value"] > 0.0
+    assert not differences["ball guide-retainer friction"]["told"]
+    assert [name.partition(" (")[2] for name in rows["names"]] == ["run)", "worn.toml)"]
     assert len(rows["duty"]) == 2
     assert main(["report", str(tmp_path / "cmp")]) == 0
+    page = (tmp_path / "cmp" / "report.html").read_text()
+    assert "No difference: ball guide-retainer friction" in page
+    assert "+0 kW" not in page
+    assert (tmp_path / "cmp" / "B" / "map.nc").is_file()
+
+
+def test_a_map_beside_itself_is_no_difference(run, tmp_path):
+    assert main(["compare", str(run), str(run / "map.nc"), "-o", str(tmp_path / "cmp")]) == 0
+    assert "no difference of overall efficiency: it is within the error of both" in (
+        tmp_path / "cmp" / "report.html"
+    ).read_text("utf-8")
+    assert main(["compare", str(run), str(run), "--fidelity", "fixed"]) == 2
+
+
+def test_a_cycle_may_have_semicolons_and_decimal_commas(run, tmp_path):
+    rows = "time [s];speed [rpm];pressure [bar];displacement ratio [1]\n0;1500;200;0,5\n1,5;1500;200,5;1\n"
+    (tmp_path / "cycle.csv").write_text(rows)
+    found = read_cycle(tmp_path / "cycle.csv", read_map(run / "map.nc")[0].axes)
+    assert found.time.tolist() == [0.0, 1.5]
+    assert found.inputs[MapInput.RATIO].tolist() == [0.5, 1.0]
+    assert found.inputs[MapInput.PRESSURE] == pytest.approx([20e6, 20.05e6])
 
 
 @pytest.mark.parametrize(
@@ -281,10 +322,11 @@ def test_duty_and_compare_leave_their_pages(run, tmp_path, capsys):
             "cycle: 2 faults",
         ),
         ("time [s], speed [rpm], pressure [bar], displacement ratio [1]\n0,nan,1,1\n1,1,inf,1\n", "2 faults"),
-        ("time [s];speed [rpm];pressure [bar];displacement ratio [1]\n0;1;1;0,5\n", "commas between columns"),
+        ("time [s];speed [rpm];pressure [bar];displacement ratio [1]\n0;1;1;0,5\n1;1.5;1;1\n", "try:      0.5"),
         ("time [s], speed [rpm], pressure [bar], displacement ratio [1]\n0,1,1,0,5\n1,1,1,0,5\n", "5 cells"),
         ("time [s], speed [rpm], speed [rpm], displacement ratio [1]\n0,1,1,1\n1,1,1,1\n", "twice"),
-        ("time, speed, pressure\n0,1,1\n1,1,1\n", "try:      speed [rpm]"),
+        ("time, speed, pressure\n0,1,1\n1,1,1\n", "1 fault"),
+        ("time, speed, pressure\n0,1,1\n1,1,1\n", "try:      time [s], speed [rpm], pressure [bar]"),
     ],
 )
 def test_what_is_wrong_with_a_cycle_is_told(run, text, told, tmp_path, capsys):

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from swashfilm.output.picture3d import THICKNESS, Frame, Solid, draw
+from swashfilm.output.scenes.picture3d import THICKNESS, Frame, Solid, draw
 
 
 @pytest.fixture

@@ -14,7 +14,7 @@ import pytest
 from diagnosis import checked_recording
 from swashfilm.__main__ import main
 from swashfilm.runs.reproduce.files import claim_rows
-from swashfilm.runs.reproduce.plots import figure_picture
+from swashfilm.runs.reproduce.plots import panel_pictures
 from swashfilm.runs.reproduce.run import about, paper_points
 from system import FloatingOptions, load_pump
 from system.paper.figure import Figure
@@ -69,7 +69,7 @@ def test_a_figure_leaves_a_run_folder(tmp_path, capsys):
     folder, page = tmp_path / "run", tmp_path / "page.md"
     assert main(["reproduce", "fig11", "--fidelity", "lumped", "-o", str(folder), "--page", str(page)]) == 0
     assert "2 reached" in capsys.readouterr().out
-    for name in ("claims.json", "claims.csv", "data/fig11.csv", "plots/fig11.png", "resolved.toml", "report.html"):
+    for name in ("claims.json", "claims.csv", "data/fig11.csv", "plots/fig11-1.svg", "resolved.toml", "report.html"):
         assert (folder / name).is_file(), name
     row = json.loads((folder / "claims.json").read_text("utf-8"))["claims"][0]
     summary = json.loads((folder / "summary.json").read_text("utf-8"))
@@ -77,6 +77,8 @@ def test_a_figure_leaves_a_run_folder(tmp_path, capsys):
     part = docs.split("# A reproduction", 1)[1].split("\n## ", 1)[0]
     assert set(row) | set(summary) <= set(re.findall(r"`([^`]+)`", part))
     assert "**fig11.small**" in page.read_text("utf-8")
+    report = (folder / "report.html").read_text("utf-8")
+    assert report.index("of 2 readings 2 reached") < report.index("<nav>") < report.index("&ldquo;")
     assert main(["report", str(folder)]) == 0
 
 
@@ -127,7 +129,7 @@ def test_floating_films_are_drawn(tmp_path):
     assert set(verdicts) == FLOATING
     assert set(verdicts.values()) == {StatementVerdict.REACHED}
     for figure in figures:
-        assert len(figure_picture(figure.panels).axes) >= len(figure.panels)
+        assert len(panel_pictures(figure.panels)) == len(figure.panels)
     assert "at the film's inner end" in figures[0].remarks[0]
     assert not run_checks((slipper_has_a_wedge,), pump).warnings
 

@@ -7,7 +7,7 @@ import json
 import pytest
 
 from swashfilm.cli.app import run_command
-from swashfilm.runs.pump.flow_coefficients import share_beyond
+from swashfilm.runs.pump.coefficients.flow import share_beyond
 from system import Dimension, InputFaults, load_pump, read_flow_coefficients, read_step_losses, resolved_toml
 from system.inputs.csv_table import read_table
 

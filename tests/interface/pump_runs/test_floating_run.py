@@ -147,7 +147,7 @@ def test_the_page_shows_the_gaps_and_can_be_made_anew(folder):
     assert page.count("data:image/") >= 16
     drawn = [name for name in ("pump.png", "pump.webp") if (folder / name).is_file()]
     assert len(drawn) == page.count("coloured by film pressure</figcaption>")  # 2, or 0 without graphics libraries
-    assert bool(drawn) != any("no 3D picture" in one for one in map(str, summary(folder)["warnings"]))
+    assert bool(drawn) != any("no_3d_picture" in one for one in map(str, summary(folder)["warnings"]))
     for word in ("Assumed values", "Convergence to a periodic turn", "largest contact load"):
         assert word in page
     assert write_pump_page(folder).read_text("utf-8") == page

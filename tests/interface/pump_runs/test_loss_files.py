@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from swashfilm.cli.app import run_command
-from swashfilm.runs.pump.edge_losses import loss_records, losses_left_out
+from swashfilm.runs.pump.coefficients.edge_losses import loss_records, losses_left_out
 from system import InputFaults, check_pump, load_pump, lumped_point, operating_point, read_step_losses, resolved_toml
 from system.inputs.coefficients.loss_files import read_groove_losses
 from system.maps.point import LumpedSolver, MapWork

@@ -127,6 +127,8 @@ def test_ctrl_c_keeps_what_is_solved(stand_in, tmp_path, capsys):
     ("words", "told"),
     [
         (["table", "ref90", "--speed", "500..900"], ["--speed", "500 rpm"]),
+        (["table", "ref90", "--speed", "500-900rpm"], ["--speed", "try:      500..900rpm"]),
+        (["table", "ref90", "--speed", "900..500rpm"], ["--speed", "the lower end first"]),
         (["table", "ref90", "--speed", "900rpm..500rpm"], ["--speed", "the lower end first"]),
         (["table", "ref90", "--displacement", "half"], ["--displacement", "bare number"]),
         (["table", "ref90", "--speed", "0.5..1..2"], ["--speed", ".. between"]),

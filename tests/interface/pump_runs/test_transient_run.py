@@ -56,7 +56,7 @@ def test_folder_holds_what_the_docs_say(folder):
     assert found["checks"]["mass_balance_error"] < 1e-12
     assert not any("actuator.area" in taken for taken in found["assumptions"])
     page = (folder / "report.html").read_text("utf-8")
-    assert page.count("<figure>") == 4
+    assert page.count("<figure") == 4
     assert "swash_plate.damping" in page
 
 

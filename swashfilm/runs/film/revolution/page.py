@@ -5,15 +5,24 @@ from pathlib import Path
 from typing import Any
 
 from swashfilm.case.gap.physics import PHYSICS_HEAD, effect_rows
+from swashfilm.output.answer import Answer
 from swashfilm.output.gap_names import TITLES
 from swashfilm.output.page import inlined, read_summary, write_page
 from swashfilm.output.refinement import refinement_head, refinement_rows
 from swashfilm.output.result import read_netcdf
 from swashfilm.output.tables import read_csv
 from swashfilm.runs.film.page import summary_rows
+from swashfilm.runs.film.revolution.answer import revolution_tiles, revolution_words
+from swashfilm.runs.film.revolution.explorer import revolution_explorer
 from swashfilm.runs.film.revolution.plots import revolution_plots
+from swashfilm.runs.film.revolution.validity import LARGEST_STEP_ERROR
 from system.description.gap import Gap
 
+ANIMATION = "animation.gif"
+CAPTION = (
+    "Film and pressure over the shaft angle, the least film with its place, and the limits of the film: where it is "
+    "full, cavitates or touches"
+)
 FILES = ("summary.json", "resolved.toml", "results.nc", "convergence.csv")
 _LISTS = ("assumptions", "physics_left_out", "physics_seconds", "gap")
 
@@ -24,14 +33,20 @@ def write_revolution_page(folder: Path) -> Path:
     The page is self-contained. Raises InputFaults where one of the four files is missing.
     """
     summary = read_summary(folder, FILES, "a film's run folder")
-    pictures = revolution_plots(read_netcdf(folder / "results.nc"))
+    data = read_netcdf(folder / "results.nc")
+    figures, explorers = revolution_plots(data), {"maps": revolution_explorer(data)}
     refinement = summary.get("refinement")
     return write_page(
         folder,
         "revolution",
+        answer=Answer(
+            tuple(revolution_tiles(summary)), revolution_words(summary), inlined(figures.pop("film")), CAPTION
+        ),
+        animation=inlined(moving.read_bytes()) if (moving := folder / ANIMATION).is_file() else "",
+        step_limit=LARGEST_STEP_ERROR,
         summary=summary,
         gap=TITLES[Gap(summary["gap"]).value],
-        pictures={name: inlined(png) for name, png in pictures.items()},
+        pictures={name: inlined(figure, explorers.get(name)) for name, figure in figures.items()},
         rows=list(revolution_rows(summary)),
         physics=[PHYSICS_HEAD, *effect_rows(summary["physics_left_out"], summary["physics_seconds"])],
         refinement=[refinement_head(refinement), *refinement_rows(refinement)] if refinement else [],

@@ -8,7 +8,7 @@ import numpy as np
 
 from gaps.films.reports import Active
 from swashfilm.output.field_maps import draw_map
-from swashfilm.output.figures import figure_of
+from swashfilm.output.figures import figure_of, legend_below, legend_beside
 from swashfilm.runs.film.revolution.data import PISTON_END, PLACES, POSITIONS, SHOWN, how_shown
 from system.description.gap import Gap
 
@@ -126,7 +126,7 @@ def path_plot(data: xarray.Dataset) -> Figure:
     for name, colour in zip(names, (INK, FILM, SECOND), strict=True):
         course.plot(angle, shown(data, name), color=colour, label=name.replace("_", " "))
     course.set(xlabel="shaft angle / deg", ylabel="coordinate / um", xlim=(0.0, span(data)))
-    course.legend(fontsize=8)
+    legend_below(course, 3)
     return figure
 
 
@@ -153,11 +153,11 @@ def _losses(data: xarray.Dataset) -> Figure:
     leakage.plot(angle, shown(data, "leakage_flow"), color=FILM, label="into the case")
     leakage.plot(angle, shown(data, "chamber_flow"), color=SECOND, linewidth=0.9, label="out of the chambers")
     leakage.set_ylabel("flow / L/min")
-    leakage.legend(fontsize=8)
+    legend_beside(leakage)
     friction.plot(angle, shown(data, "friction_power"), color=THIRD, label="friction power")
     friction.plot(angle, shown(data, "rubbing"), color="#b33a3a", linewidth=0.9, label="of which contact")
     friction.set_ylabel("friction power / W")
-    friction.legend(fontsize=8)
+    legend_beside(friction)
     friction.set(xlabel="shaft angle / deg", xlim=(0.0, span(data)))
     return figure
 

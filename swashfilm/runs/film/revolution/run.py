@@ -70,13 +70,13 @@ def run_revolution_case(
     write_convergence(folder / "convergence.csv", study)
     write_revolution_fields(folder, study)
     write_json(folder / "summary.json", summary)
-    report(0, 1, "drawing")
-    from swashfilm.runs.film.revolution.page import write_revolution_page
-
-    write_revolution_page(folder)
     if animated:
         from swashfilm.runs.film.revolution.animation import write_animation
 
         write_animation(folder, data, report)
+    report(0, 1, "drawing")
+    from swashfilm.runs.film.revolution.page import write_revolution_page
+
+    write_revolution_page(folder)
     report(1, 1, "done")
     return summary

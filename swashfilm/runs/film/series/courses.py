@@ -11,7 +11,7 @@ import numpy as np
 from swashfilm.case.study import StudyCase
 from swashfilm.output.headline import named
 from swashfilm.runs.film.revolution.data import SHOWN
-from swashfilm.runs.film.series.plots import COURSES, MOST_LINES, figure_axes, where
+from swashfilm.runs.film.series.plots import COURSES, MOST_LINES, figure_axes, name_lines, where
 from swashfilm.runs.film.series.points import COURSE, StudyOutcome
 
 if TYPE_CHECKING:
@@ -19,7 +19,6 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 ANGLE = "shaft_angle_deg"
-LEGEND_LINE = 0.17  # height of a line of the legend, inches
 
 
 def course_variables(
@@ -70,8 +69,5 @@ def _picture(data: xarray.Dataset, name: str) -> Figure:
     axes.set(xlabel="shaft angle / deg", ylabel=f"{words} / {how.unit}", title=f"{words} over the revolution")
     axes.grid(visible=True, alpha=0.3)
     lines = min(len(points), MOST_LINES)
-    title = None if lines == len(points) else f"{lines} of {len(points)} points"
-    width, height = figure.get_size_inches()
-    figure.set_size_inches(width, height + LEGEND_LINE * lines)
-    figure.legend(fontsize=7, title=title, loc="outside lower center")
+    name_lines(axes, None if lines == len(points) else f"{lines} of {len(points)} points")
     return figure

@@ -1,18 +1,20 @@
 """Run folder of a study: its run, tables, plots and page."""
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
 from swashfilm.case.study import StudyCase
+from swashfilm.output.answer import Answer
 from swashfilm.output.figures import png_of
 from swashfilm.output.headline import named
 from swashfilm.output.page import PLOTS, inlined, read_summary, write_page
 from swashfilm.output.result import read_netcdf
 from swashfilm.output.run_folder import write_json
+from swashfilm.runs.film.series.answer import main_spans, place, study_tiles, study_words
 from swashfilm.runs.film.series.courses import course_plots
 from swashfilm.runs.film.series.data import study_dataset, study_summary, write_study_table
-from swashfilm.runs.film.series.plots import study_plots
+from swashfilm.runs.film.series.plots import COURSES, study_plots
 from swashfilm.runs.film.series.points import run_points
 from system.work.progress import Report
 
@@ -38,21 +40,39 @@ def write_study_page(folder: Path) -> Path:
     """Write report.html and plots/ of a study's run folder from its summary.json, study.nc and input.toml."""
     summary = read_summary(folder, ("summary.json", "study.nc", "input.toml"), "a study's run folder")
     data = read_netcdf(folder / "study.nc")
-    pictures = {key: png_of(figure) for key, figure in (course_plots(data) | study_plots(data)).items()}
+    figures = study_plots(data) | course_plots(data)
     (folder / PLOTS).mkdir(exist_ok=True)
-    for key, png in pictures.items():
-        (folder / PLOTS / f"{key}.png").write_bytes(png)
+    for key, figure in figures.items():
+        (folder / PLOTS / f"{key}.png").write_bytes(png_of(figure))
+    first = first_picture(summary, figures)
+    picture = inlined(figures[first]) if first else None
     return write_page(
         folder,
         "study",
+        answer=Answer(tuple(study_tiles(summary)), study_words(summary), picture, caption(first) if first else ""),
         name=summary["name"],
         warnings=summary["warnings"],
-        pictures={key: inlined(png) for key, png in pictures.items()},
+        pictures={caption(key): inlined(figure) for key, figure in figures.items() if key != first},
         rows=list(span_rows(summary)),
         failed=list(failed_rows(summary)),
         case=(folder / "input.toml").read_text("utf-8"),
         summary=summary,
     )
+
+
+def first_picture(summary: Mapping[str, Any], keys: Iterable[str]) -> str | None:
+    """Return the key of the picture that shows the answer: the Stribeck curve, or the first main number that varies."""
+    known = list(keys)
+    wanted = ["stribeck", *(key for key, _ in main_spans(summary)), *known]
+    return next((key for key in wanted if key in known), None)
+
+
+def caption(key: str) -> str:
+    """Return the name of a picture in words."""
+    if key == "stribeck":
+        return "Stribeck curve: friction coefficient over the Hersey number"
+    words = named(key.removeprefix(COURSES))[0]
+    return f"{words} over the revolution" if key.startswith(COURSES) else words
 
 
 def span_rows(summary: Mapping[str, Any]) -> Iterator[tuple[str, ...]]:
@@ -61,19 +81,11 @@ def span_rows(summary: Mapping[str, Any]) -> Iterator[tuple[str, ...]]:
         words, unit = named(key)
         yield (
             words,
-            *(
-                text
-                for end in ("min", "max")
-                for text in (f"{span[end]:.6g} {unit}".strip(), _where(span[f"{end}_at"]))
-            ),
+            *(text for end in ("min", "max") for text in (f"{span[end]:.6g} {unit}".strip(), place(span[f"{end}_at"]))),
         )
 
 
 def failed_rows(summary: Mapping[str, Any]) -> Iterator[tuple[str, ...]]:
     """Yield (point, state, reason) of every point without a result."""
     for point in summary["failed"]:
-        yield _where(point["values"]), point["status"], point["reason"]
-
-
-def _where(values: Mapping[str, Any]) -> str:
-    return ", ".join(f"{key} = {value}" for key, value in values.items())
+        yield place(point["values"]), point["status"], point["reason"]

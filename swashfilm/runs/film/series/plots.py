@@ -20,6 +20,7 @@ LEAST_CHANGE = 1e-5  # relative variation below which a number is not drawn
 LOG_FROM = 30.0  # ratio of an axis' ends above which the axis is logarithmic
 LOG_TO = 1e6  # ratio of an axis' ends above which the small end counts as zero
 MOST_LINES = 12
+LEGEND_LINE = 0.17  # height of a line of the legend, inches
 STRIBECK = ("friction_coefficient", "hersey_number_m")
 CONTACT = "contact_load_fraction"
 COURSES = "course_"  # series over the shaft angle, drawn by `courses`
@@ -31,13 +32,27 @@ def study_plots(data: xarray.Dataset) -> dict[str, Figure]:
     Three keys and more yield lines over the first, one for each value of the others. `stribeck`, where the Hersey
     number varies, is the friction coefficient over it.
     """
-    ordered = data.sortby([dim for dim in data.dims if dim in data.coords and _is_numeric(data[dim].values)])
+    ordered, keys = _ordered(data), _varying(data)
+    stribeck = stribeck_plot(data)
+    first = {} if stribeck is None else {"stribeck": stribeck}
+    return first | {key: number_plot(ordered, key) for key in keys}
+
+
+def stribeck_plot(data: xarray.Dataset) -> Figure | None:
+    """Draw the friction coefficient over the Hersey number; None where one of them does not vary."""
+    return _stribeck(_ordered(data)) if set(STRIBECK) <= set(_varying(data)) else None
+
+
+def _ordered(data: xarray.Dataset) -> xarray.Dataset:
+    return data.sortby([dim for dim in data.dims if dim in data.coords and _is_numeric(data[dim].values)])
+
+
+def _varying(data: xarray.Dataset) -> list[str]:
+    """Return the keys of the numbers that vary."""
     variables = [str(key) for key in data.data_vars if key not in ("status", "reason")]
     numbers = {key: data[key].values for key in variables if not key.startswith(COURSES)}
     size = sizes({key: float(np.nanmax(np.abs(values))) for key, values in numbers.items()}, {})
-    keys = [key for key, values in numbers.items() if np.nanmax(values) - np.nanmin(values) > LEAST_CHANGE * size[key]]
-    first = {"stribeck": _stribeck(ordered)} if set(STRIBECK) <= set(keys) else {}
-    return first | {key: number_plot(ordered, key) for key in keys}
+    return [key for key, values in numbers.items() if np.nanmax(values) - np.nanmin(values) > LEAST_CHANGE * size[key]]
 
 
 def _is_numeric(values: np.ndarray) -> bool:
@@ -66,7 +81,7 @@ def _lines(axes: Any, data: xarray.Dataset, key: str) -> None:
         at = dict(zip(others, index, strict=True))
         axes.plot(places, field.isel(at).values, "o-", markersize=3.5, label=where(data, at) or None)
     if others:
-        axes.legend(fontsize=7, title=None if len(lines) <= MOST_LINES else f"{MOST_LINES} of {len(lines)} lines")
+        name_lines(axes, None if len(lines) <= MOST_LINES else f"{MOST_LINES} of {len(lines)} lines")
     if labels:
         axes.set_xticks(places, labels, rotation=20, ha="right", fontsize=7)
     elif _is_geometric(places):
@@ -125,7 +140,7 @@ def _stribeck(data: xarray.Dataset) -> Figure:
     axes.set(xlabel="Hersey number mu U/p_mean / m", ylabel="friction coefficient", title="Stribeck curve")
     axes.grid(visible=True, alpha=0.3)
     if others:
-        axes.legend(fontsize=7)
+        name_lines(axes)
     else:
         _with_least_and_contact(axes, data, along)
     return figure
@@ -137,10 +152,7 @@ def _with_least_and_contact(axes: Any, data: xarray.Dataset, along: str) -> None
     least = int(np.nanargmin(friction))
     if 0 < least < len(friction) - 1:
         axes.plot(hersey[least], friction[least], "v", color="black")
-        axes.annotate(
-            f"least {friction[least]:.3g}", (hersey[least], friction[least]), (0, -14), ha="center", fontsize=8,
-            textcoords="offset points",
-        )  # fmt: skip
+        axes.set_title(f"Stribeck curve, least {friction[least]:.3g} (triangle)")
     if CONTACT in data:
         beside = axes.twinx()
         beside.plot(hersey, sorted_by_hersey[CONTACT].values, "--", color="tab:orange", linewidth=1.0)
@@ -191,6 +203,14 @@ def _is_geometric(places: np.ndarray) -> bool:
     if len(places) < 3 or not places.min() > 0.0:
         return _is_wide(places)
     return _is_wide(places) or bool(np.ptp(np.diff(np.log(places))) < 1e-6)
+
+
+def name_lines(axes: Any, title: str | None = None) -> None:
+    """Name the lines below the picture, which grows by the height of the names."""
+    figure, (_, labels) = axes.figure, axes.get_legend_handles_labels()
+    width, height = figure.get_size_inches()
+    figure.set_size_inches(width, height + LEGEND_LINE * len(labels))
+    figure.legend(fontsize=7, title=title, loc="outside lower center")
 
 
 def figure_axes() -> tuple[Figure, Axes]:

@@ -8,7 +8,7 @@ from swashfilm.output.page import expect_files
 from swashfilm.output.result import Result, plotted, read_netcdf
 from swashfilm.output.tables import Table
 from swashfilm.runs.film.series.page import failed_rows, span_rows
-from swashfilm.runs.film.series.plots import number_plot
+from swashfilm.runs.film.series.plots import number_plot, stribeck_plot
 from system.inputs.faults import Fault, InputFaults, nearest_choice
 
 if TYPE_CHECKING:
@@ -44,6 +44,10 @@ class StudyRun(Result):
         """Return one row per point, the varied keys as index; units in the data set's attributes."""
         data = self.to_xarray()
         return data[[name for name in data.data_vars if "shaft_angle_deg" not in data[name].dims]].to_dataframe()
+
+    def plot_stribeck(self) -> list[Axes]:
+        """Draw the friction coefficient over the Hersey number; nothing where neither varies."""
+        return plotted(lambda: stribeck_plot(self.to_xarray()))
 
     def plot_number(self, key: str) -> list[Axes]:
         """Draw a number by its key, such as "load_N", over the varied keys; raise InputFaults for another key."""

@@ -59,13 +59,18 @@ def solve_gap(case: GapCase) -> GapStudy:
     Raises FilmNotConverged where the film does not converge, and where the part has no equilibrium: pulled off, or
     pressed on walls that do not support it.
     """
-    drives = _loaded(case, instant_drives(case.rotor, case.parts, case.shaft_angle, case.chamber_pressure))
-    gap = standing_gap(case.gap, case.rotor, case.parts, drives, case.physics, case.finer)
+    gap = case_gap(case)
     stage = _at_rest(gap, case) if case.position is None else gap.held_at(case.shaft_angle, case.position)
     found = gap.report(stage)
     source = PositionSource.REST if case.position is None else PositionSource.GIVEN
     doubts = unresolved_profiles(case.rotor, case.parts, found.solution) if case.gap is Gap.PISTON else ()
     return GapStudy(found, source, (NO_RUBBING, *(str(one) for one in case.parts.taken)), tuple(doubts))
+
+
+def case_gap(case: GapCase) -> StandingGap[Any, Any]:
+    """Return the gap of a case under its load, ready to be held or to come to rest."""
+    drives = _loaded(case, instant_drives(case.rotor, case.parts, case.shaft_angle, case.chamber_pressure))
+    return standing_gap(case.gap, case.rotor, case.parts, drives, case.physics, case.finer)
 
 
 def _at_rest(gap: StandingGap[Any, Any], case: GapCase) -> FloatingStage:

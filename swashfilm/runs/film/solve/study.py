@@ -1,8 +1,9 @@
 """Solution of a film case."""
 
+from __future__ import annotations
+
 import time
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 from reynolds.problem import FilmSolution
 from reynolds.solve.load_search import LoadedFilm
@@ -13,11 +14,9 @@ from swashfilm.case.gap.instant import GapCase
 from swashfilm.runs.film.solve.gap import GapStudy, solve_gap
 from swashfilm.runs.film.solve.loaded import solve_loaded
 from swashfilm.runs.film.solve.oil import film_of, heat_of, oil_solver
+from swashfilm.runs.film.solve.sensitivity import Sensitivities
 from swashfilm.runs.film.solve.transient import Moment, transient
 from system.work.progress import Report, silent
-
-if TYPE_CHECKING:
-    pass
 
 
 @dataclass(frozen=True)
@@ -25,7 +24,7 @@ class FilmStudy:
     """A solved case: solution, integrals and computing time (s); None for parts that the case does not have.
 
     gap: gap of a pump; heat: temperature; history: steps of a transient, with `solution` at its end; loaded:
-    position at which the film supports its load.
+    position at which the film supports its load; sensitivity: derivatives by the film thickness.
     """
 
     name: str
@@ -36,6 +35,7 @@ class FilmStudy:
     heat: FilmTemperature | None = None
     history: tuple[Moment, ...] = ()
     loaded: LoadedFilm | None = None
+    sensitivity: Sensitivities | None = None
 
 
 def solve_case(case: FilmCase | GapCase, report: Report = silent) -> FilmStudy:

@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 
 from swashfilm.output.gap_names import FIELDS, vtu_name
-from swashfilm.output.picture3d import Frame, Solid, draw
+from swashfilm.output.scenes.picture3d import Frame, Solid, draw
 from swashfilm.runs.pump.data import PICTURED_TURN
 from swashfilm.runs.pump.scene.blocks import OIL, Blocks, Scene, nearest
 from swashfilm.runs.pump.scene.surfaces import TURN
@@ -26,14 +26,15 @@ LOOKS = {
 def frame_of(folder: Path, blocks: Blocks, degrees: float) -> Frame:
     """Return the view of the pump at a shaft angle, with the numbers of the chambers at the slippers."""
     films = [folder / path for name, path in blocks if name.endswith(FILM)]
-    solids = [Solid(folder / path, *LOOKS[_part(name)]) for name, path in blocks if not name.endswith(FILM)]
+    solids = [Solid(folder / path, *LOOKS[part_of(name)]) for name, path in blocks if not name.endswith(FILM)]
     slippers = {name.removesuffix(FILM): folder / path for name, path in blocks if name.endswith(FILM)}
-    marks = [(name.split()[1], path) for name, path in slippers.items() if _part(name) == "slipper"]
+    marks = [(name.split()[1], path) for name, path in slippers.items() if part_of(name) == "slipper"]
     return Frame(films, solids, marks, f"shaft angle {degrees:.0f} deg")
 
 
-def _part(name: str) -> str:
-    return name.rstrip("0123456789").strip()
+def part_of(name: str) -> str:
+    """Return the part that a block shows: its name without the chamber's number."""
+    return name.removesuffix(FILM).rstrip("0123456789").strip()
 
 
 def draw_pump(folder: Path, scene: Scene, blocks: Sequence[Blocks]) -> list[str]:
@@ -54,4 +55,4 @@ def draw_pump(folder: Path, scene: Scene, blocks: Sequence[Blocks]) -> list[str]
     frames = [frame_of(folder, one, float(at)) for one, at in zip(blocks, degrees, strict=True)]
     pump = {folder / PICTURE: [frames[nearest(scene.times, TURN, pictured)]], folder / TURNING: frames}
     reason = draw(drawings | pump).reason
-    return [reason] if reason else []
+    return [f"no_3d_picture: {reason}"] if reason else []

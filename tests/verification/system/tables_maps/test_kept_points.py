@@ -181,3 +181,21 @@ def test_a_killed_run_costs_what_was_at_work(solves, tmp_path):
 if __name__ == "__main__":
     with process_pool(2) as executor:
         run_kept(Squares(Path(sys.argv[1]), seconds=0.4), PARTS, KeptPoints(Path(sys.argv[2])), executor)
+
+
+@pytest.mark.slow
+def test_points_of_a_row_under_way_are_told(solves, tmp_path):
+    work, told = Squares(solves, seconds=2.5), []
+    with process_pool(2) as executor:
+        run_kept(
+            work,
+            PARTS[:6],
+            KeptPoints(tmp_path / "points"),
+            executor,
+            batch=3,
+            report=lambda *step: told.append(step[0]),
+        )
+    assert told == sorted(set(told))
+    assert told[0] == 0
+    assert told[-1] == 6
+    assert 0 < told[1] < 3  # before the first row of three is whole

@@ -1,0 +1,175 @@
+"""Outputs of a film whose derivatives are wanted: each gives its value, as `Loads` has it, and its slopes."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import Enum
+from typing import ClassVar, Protocol
+
+import numpy as np
+
+from reynolds.adjoint.flow import flow_slopes
+from reynolds.adjoint.heat import heat_slopes
+from reynolds.adjoint.shear import shear_slopes
+from reynolds.adjoint.solved import OutputSlopes, SolvedFilm, slopes_of
+from reynolds.errors import FilmInputError
+from reynolds.laws.contact import contact_pressure
+from reynolds.problem import FilmProblem
+from reynolds.solve.loads import point_fields
+
+
+class Wall(Enum):
+    """A wall of the film."""
+
+    MOVING = "moving"
+    FIXED = "fixed"
+
+
+class Axis(Enum):
+    """A direction in the film plane."""
+
+    X = "x"
+    Y = "y"
+
+
+class Output(Protocol):
+    """An output of a film: its unit and its slopes."""
+
+    @property
+    def unit(self) -> str:
+        """SI unit of the value."""
+
+    def slopes(self, film: SolvedFilm) -> OutputSlopes:
+        """Value and slopes; raises FilmInputError where the film has no such output."""
+
+
+@dataclass(frozen=True)
+class LoadOutput:
+    """Load of the film, N: integral of p."""
+
+    unit: ClassVar[str] = "N"
+
+    def slopes(self, film: SolvedFilm) -> OutputSlopes:
+        """As `Output`."""
+        value = float(np.sum(film.pressure[0] * film.space.axial_area))
+        return slopes_of(film, value, by_pressure=film.on_unknowns(film.space.axial_area))
+
+
+@dataclass(frozen=True)
+class ContactLoadOutput:
+    """Load of the asperities, N; raises FilmInputError for walls without asperities."""
+
+    unit: ClassVar[str] = "N"
+
+    def slopes(self, film: SolvedFilm) -> OutputSlopes:
+        """As `Output`."""
+        asperities, area = film.problem.asperities, film.space.area
+        if asperities is None:
+            raise FilmInputError("contact load", "walls without asperities", "a problem with `asperities`")
+        bears = contact_pressure(asperities, film.solution.gap)
+        return slopes_of(film, float(np.sum(bears.value * area)), by_gap=bears.slope * area)
+
+
+@dataclass(frozen=True)
+class MomentOutput:
+    """Moment about an axis, N m: integral of p y about x, of -p x about y, p with the contact's pressure."""
+
+    axis: Axis
+    unit: ClassVar[str] = "N m"
+
+    def slopes(self, film: SolvedFilm) -> OutputSlopes:
+        """As `Output`."""
+        x, y, _ = film.space.points_in_space
+        lever = film.space.area * (y if self.axis is Axis.X else -x)
+        pressed, by_gap = film.pressure[0], None
+        if film.problem.asperities is not None:
+            bears = contact_pressure(film.problem.asperities, film.solution.gap)
+            pressed, by_gap = pressed + bears.value, bears.slope * lever
+        value = float(np.sum(pressed * lever))
+        return slopes_of(film, value, by_pressure=film.on_unknowns(lever), by_gap=by_gap)
+
+
+@dataclass(frozen=True)
+class FlowOutput:
+    """Flow out through a named boundary, m3/s; raises FilmInputError for one that is closed or not of the film."""
+
+    boundary: str
+    unit: ClassVar[str] = "m3/s"
+
+    def slopes(self, film: SolvedFilm) -> OutputSlopes:
+        """As `Output`."""
+        return flow_slopes(film, self.boundary)
+
+
+@dataclass(frozen=True)
+class FrictionOutput:
+    """Force of oil and contact on a wall along an axis, N."""
+
+    axis: Axis
+    wall: Wall = Wall.MOVING
+    unit: ClassVar[str] = "N"
+
+    def slopes(self, film: SolvedFilm) -> OutputSlopes:
+        """As `Output`."""
+        one, nothing = np.ones((1, 1)), np.zeros((1, 1))
+        along = (one, nothing) if self.axis is Axis.X else (nothing, one)
+        return shear_slopes(film, along, on_moving=self.wall is Wall.MOVING)
+
+
+@dataclass(frozen=True)
+class FrictionForceOutput:
+    """Magnitude of the force of oil and contact on the moving wall, N; raises FilmInputError where there is none."""
+
+    unit: ClassVar[str] = "N"
+
+    def slopes(self, film: SolvedFilm) -> OutputSlopes:
+        """As `Output`."""
+        stress = point_fields(film.solution).shear_moving
+        x, y = (float(np.sum(part * film.space.area * film.weight)) for part in stress)
+        size = float(np.hypot(x, y))
+        if size == 0.0:
+            raise FilmInputError("friction", "no force on the moving wall", "friction_torque, or a wall that slides")
+        return shear_slopes(film, (np.full((1, 1), x / size), np.full((1, 1), y / size)), on_moving=True)
+
+
+@dataclass(frozen=True)
+class FrictionTorqueOutput:
+    """Torque of oil and contact on a wall about the origin, N m."""
+
+    wall: Wall = Wall.MOVING
+    unit: ClassVar[str] = "N m"
+
+    def slopes(self, film: SolvedFilm) -> OutputSlopes:
+        """As `Output`."""
+        x, y, _ = film.space.points_in_space
+        return shear_slopes(film, (-y, x), on_moving=self.wall is Wall.MOVING)
+
+
+@dataclass(frozen=True)
+class DissipationOutput:
+    """Heat of the film, W, contact included."""
+
+    unit: ClassVar[str] = "W"
+
+    def slopes(self, film: SolvedFilm) -> OutputSlopes:
+        """As `Output`."""
+        return heat_slopes(film)
+
+
+def output_names(problem: FilmProblem) -> dict[str, Output]:
+    """The outputs of a film by name.
+
+    load; contact_load of asperities; moment_x, moment_y; flow.NAME of each boundary with a condition; friction, the
+    magnitude of the force on the moving wall, friction_x, friction_y, friction_torque, and friction_fixed_x,
+    friction_fixed_y, friction_fixed_torque of the fixed wall; dissipation.
+    """
+    names: dict[str, Output] = {"load": LoadOutput()}
+    if problem.asperities is not None:
+        names["contact_load"] = ContactLoadOutput()
+    names |= {f"moment_{axis.value}": MomentOutput(axis) for axis in Axis}
+    names |= {f"flow.{name}": FlowOutput(name) for name in problem.boundary}
+    names["friction"] = FrictionForceOutput()
+    for wall, stem in ((Wall.MOVING, "friction"), (Wall.FIXED, "friction_fixed")):
+        names |= {f"{stem}_{axis.value}": FrictionOutput(axis, wall) for axis in Axis}
+        names[f"{stem}_torque"] = FrictionTorqueOutput(wall)
+    return names | {"dissipation": DissipationOutput()}

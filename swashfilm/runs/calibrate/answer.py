@@ -1,0 +1,97 @@
+"""Answer of a calibration: what was learnt, how well the readings are met, what the data do not determine."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from typing import Any
+
+import numpy as np
+
+from diagnosis.report.format import CHANNELS, listed
+from swashfilm.output.answer import Answer, Tile
+from swashfilm.output.picture import Picture
+from swashfilm.runs.calibrate.words import (
+    AS_ASSUMED,
+    DETERMINED,
+    assumed_text,
+    fitted_parts,
+    how_far,
+    is_sensor,
+    parameter_words,
+)
+from system.inputs.channels import ChannelName
+
+Row = Mapping[str, str]
+MOST_LEARNT = 3
+"""Number of the best determined values that have a tile."""
+MOST_MISFITS = 2
+"""Number of channels, the worst met, that have a tile."""
+MOST_NAMED = 6
+"""Number of parameters that the words name."""
+WITHIN = 1.2
+"""Deviation in multiples of the scatter up to which readings are met within it."""
+CAPTION = "Measured less fitted, each reading, over the reading. Band: scatter of the meter, one sigma"
+
+
+def calibrate_answer(
+    summary: Mapping[str, Any], parameters: Sequence[Row], residuals: Sequence[Row], picture: Picture | None = None
+) -> Answer:
+    """Return the answer of a calibration's page: tiles, words, the picture of fit and readings."""
+    own = sorted((row for row in parameters if not is_sensor(row)), key=lambda row: float(row["sigma_over_prior [1]"]))
+    learnt = [row for row in own if how_far(row) == DETERMINED]
+    tiles = [_tile(row) for row in own[:MOST_LEARNT]]
+    tiles.append(Tile(f"{len(learnt)} of {len(own)}", "values of the pump determined", "error halved at least"))
+    worst = sorted(_misfits(residuals), key=lambda one: -one[2] / one[3])[:MOST_MISFITS]
+    tiles += [
+        Tile(f"{rms:.2g} {unit}", f"{words}, error of the fit", f"rms; scatter of the meter {scatter:.2g} {unit}")
+        for words, unit, rms, scatter in worst
+    ]
+    words = (*_fit_words(summary, residuals), *_learnt_words(own, learnt), *_law_words(summary))
+    return Answer(tuple(tiles), " ".join(words), picture, CAPTION if picture else "")
+
+
+def _tile(row: Row) -> Tile:
+    value, sigma = fitted_parts(row)
+    return Tile(value, parameter_words(row["name"]), f"+- {sigma}; assumed {assumed_text(row)}")
+
+
+def _misfits(residuals: Sequence[Row]) -> Iterator[tuple[str, str, float, float]]:
+    """Yield (channel, unit, rms of measured less fitted, rms of its scatter)."""
+    for channel in dict.fromkeys(row["channel"] for row in residuals):
+        own = [row for row in residuals if row["channel"] == channel]
+        off = np.array([float(row["measured"]) - float(row["fitted"]) for row in own])
+        scatter = np.array([abs(apart / float(row["pull"])) for apart, row in zip(off, own, strict=True) if apart])
+        size = float(np.sqrt(np.mean(scatter**2))) if scatter.size else 1.0
+        yield CHANNELS.get(ChannelName.named(channel), channel), own[0]["unit"], float(np.sqrt(np.mean(off**2))), size
+
+
+def _fit_words(summary: Mapping[str, Any], residuals: Sequence[Row]) -> Iterator[str]:
+    misfits = list(_misfits(residuals))
+    met = listed(f"{words} to {rms:.2g} {unit}" for words, unit, rms, _ in misfits)
+    yield f"The fitted pump meets {summary['readings']} readings at {summary['points']} points: {met} (rms)."
+    beyond = [f"{words} ({rms / scatter:.1f} times)" for words, _, rms, scatter in misfits if rms > WITHIN * scatter]
+    if beyond:
+        yield f"Beyond the scatter of its meter is {listed(beyond)}: the model lacks something there."
+    else:
+        yield "That is within the scatter of the meters."
+
+
+def _learnt_words(own: Sequence[Row], learnt: Sequence[Row]) -> Iterator[str]:
+    if learnt:
+        yield f"The recording determines: {listed(_named(learnt))}."
+    else:
+        yield "The recording determines no value of the pump better than half of what was assumed."
+    if left := [row for row in own if how_far(row) == AS_ASSUMED]:
+        yield f"These stay as assumed: {listed(_named(left))}."
+
+
+def _named(rows: Sequence[Row]) -> list[str]:
+    names = [parameter_words(row["name"]).replace(", ", " of ", 1) for row in rows[:MOST_NAMED]]
+    more = len(rows) - MOST_NAMED
+    return [*names, f"{more} more"] if more > 0 else names
+
+
+def _law_words(summary: Mapping[str, Any]) -> Iterator[str]:
+    if (law := summary["hersey"]) is not None:
+        words = "Friction changes" if law["supported"] else "Nothing shows that friction changes"
+        yield f"{words} with speed, viscosity and load (Hersey number)."

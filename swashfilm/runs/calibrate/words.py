@@ -1,0 +1,87 @@
+"""Parameters of a calibration as people read them: name, value with sigma in units of the trade, how far known."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from math import floor, log10
+
+from diagnosis.recording.units import BENCH_UNITS
+from diagnosis.report.format import CHANNELS
+from system.inputs.channels import ChannelName
+from system.inputs.units import Dimension, in_unit, reading_unit
+from system.pump.laws.friction_pairs import Pair
+
+Row = Mapping[str, str]
+WELL, PARTLY = 0.5, 0.9
+"""Share of the assumed uncertainty left by the fit, up to which a parameter is determined well, or in part."""
+DETERMINED, IN_PART, AS_ASSUMED = "determined", "in part", "as assumed"
+FRICTION = "friction."
+STIFF = 1e8
+"""Pa from which a pressure is a modulus."""
+_GAIN = "gain"
+_INPUTS = {
+    "speed": "shaft speed", "p_out": "delivery pressure", "p_in": "inlet pressure", "p_case": "case pressure",
+    "T_in": "inlet temperature", "T_case": "case temperature",
+}  # fmt: skip
+_FACTORS = {"viscosity": "viscosity factor", "displacement": "displacement factor"}
+"""Parameters that multiply a value of the pump file."""
+
+
+def parameter_words(name: str) -> str:
+    """Return the name of a parameter in words: "film thickness, piston", "gain of delivery flow (Q_out)"."""
+    first, _, rest = name.partition(".")
+    if name.startswith(FRICTION):
+        pair = next((pair for pair in Pair if pair.value == rest), None)
+        return f"friction coefficient, {pair.words if pair else rest.replace('_', ' ')}"
+    channel = next((one for one in ChannelName if one.value == first), None)
+    if channel is not None and rest:
+        words = CHANNELS.get(channel) or _INPUTS.get(first)
+        return f"{rest.replace('_', ' ')} of {f'{words} ({first})' if words else first.replace('_', ' ')}"
+    return _FACTORS.get(name) or name.replace("_", " ").replace(".", ", ")
+
+
+def is_sensor(row: Row) -> bool:
+    """Return whether a parameter belongs to a meter of the bench, not to the pump."""
+    return row["name"].partition(".")[0] in {one.value for one in ChannelName} and "." in row["name"]
+
+
+def how_far(row: Row) -> str:
+    """Return how far the recording determines a parameter."""
+    left = float(row["sigma_over_prior [1]"])
+    return DETERMINED if left < WELL else IN_PART if left < PARTLY else AS_ASSUMED
+
+
+def fitted_parts(row: Row) -> tuple[str, str]:
+    """Return the fitted value and its sigma, each with its unit: "15.11 um", "0.68 um"."""
+    value, sigma = float(row["mean"]), float(row["sigma"])
+    factor, unit = _unit(row, max(abs(value), sigma))
+    digits = max(0, 1 - floor(log10(factor * sigma))) if sigma > 0.0 else 3
+    shown, width = (f"{factor * number:.{digits}f} {unit}".rstrip() for number in (value, sigma))
+    return shown, width
+
+
+def fitted_text(row: Row) -> str:
+    """Return the fitted value with one sigma and its unit: "15.11 +- 0.68 um"."""
+    value, sigma = fitted_parts(row)
+    return f"{value.split()[0]} +- {sigma}"
+
+
+def assumed_text(row: Row) -> str:
+    """Return the values within one sigma before the fit: "13.8 to 16.2 um"."""
+    low, high = float(row["prior_low"]), float(row["prior_high"])
+    factor, unit = _unit(row, max(abs(low), abs(high)))
+    digits = max(0, 1 - floor(log10(factor * (high - low)))) if high > low else 3
+    return f"{factor * low:.{digits}f} to {factor * high:.{digits}f} {unit}".rstrip()
+
+
+def _unit(row: Row, size: float) -> tuple[float, str]:
+    """Return factor and name of the unit in which a number of this size (SI) is read; gains are in percent."""
+    if row["name"].endswith(f".{_GAIN}"):
+        return 100.0, "%"
+    dimension = next((one for one in Dimension if one.si_unit == row["unit"]), None)
+    if dimension is None or dimension is Dimension.TEMPERATURE:
+        return 1.0, "" if row["unit"] == "1" else row["unit"]
+    if dimension is Dimension.PRESSURE and size >= STIFF:
+        dimension = Dimension.MODULUS
+    unit = BENCH_UNITS.get(dimension, reading_unit(size, dimension))
+    return in_unit(1.0, unit, dimension) - in_unit(0.0, unit, dimension), unit

@@ -1,0 +1,1 @@
+"""`swashfilm compare`: two maps side by side."""

@@ -1,0 +1,207 @@
+"""Page of a comparison: report.html from summary.json and the plots of the run folder."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from pathlib import Path
+from typing import Any
+
+from swashfilm.output.answer import Answer, Tile
+from swashfilm.output.page import kept_pictures, read_summary, write_page
+from swashfilm.output.picture import Picture
+from swashfilm.runs.compare.plots import FIRST
+from swashfilm.runs.duty.page import energy_text
+from swashfilm.runs.map.answer import percent
+from swashfilm.runs.map.plots import HEADLINE
+from swashfilm.runs.map.slices import place_words
+from system.maps.data import LOSSES
+from system.maps.plan import MapInput
+
+DIFFERENCE_HEAD = ("", "A, mean", "B, mean", "B - A, mean", "largest B - A", "at", "error of both there")
+EFFICIENCY_HEAD = (
+    "overall efficiency", "A, mean", "B, mean", "B - A, mean", "largest B - A", "at", "error of both there",
+)  # fmt: skip
+DUTY_HEAD = ("", "A", "B", "B - A", "error of both")
+NOTHING = "no difference"
+"""Words for a difference within the error of both."""
+EFFICIENCY = "overall efficiency, "
+_SCALES = {"W": (1e-3, "kW"), "m3/s": (6e4, "L/min"), "1": (100.0, "%"), "N m": (1.0, "N m")}
+_POINTS = "percentage points"
+Row = Mapping[str, Any]
+
+
+def write_compare_page(folder: Path) -> Path:
+    """Write report.html of a comparison's run folder from its summary.json and plots/."""
+    summary = read_summary(folder)
+    pictures = {name: kept_pictures(folder, name) for name in summary["pictures"]}
+    caption, picture = next(iter(pictures.pop(FIRST, {}).items()), ("", None))
+    return write_page(
+        folder,
+        "compare",
+        answer=compare_answer(summary, picture, caption),
+        summary=summary,
+        box=[
+            (box["words"], f"{box['from']} .. {box['to']}" if box["from"] != box["to"] else box["from"])
+            for box in summary["box"]
+        ],
+        efficiencies=efficiency_rows(summary),
+        efficiency_head=EFFICIENCY_HEAD,
+        differences=list(difference_rows(summary)),
+        difference_head=DIFFERENCE_HEAD,
+        duty=list(duty_rows(summary)) if summary["duty"] else [],
+        duty_head=DUTY_HEAD,
+        pictures=pictures,
+    )
+
+
+def compare_answer(summary: Row, picture: Picture | None = None, caption: str = "") -> Answer:
+    """Return the answer of a comparison: which is better, by how much, where, and what is within the error of both."""
+    one, other = summary["names"]
+    row = next((row for row in summary["differences"] if row["words"] == f"{EFFICIENCY}{HEADLINE.label}"), None)
+    tiles = [*(_efficiency_tiles(row, summary) if row else ()), *_loss_tiles(summary)]
+    words = [
+        f"A is {one}, B is {other}.",
+        *(_duty_words(summary) if summary["duty"] else ()),
+        *(_efficiency_words(row, summary) if row else ()),
+        *_loss_words(summary),
+    ]
+    return Answer(tuple(tiles), " ".join(words), picture, caption)
+
+
+def _efficiency_tiles(row: Row, summary: Row) -> Iterator[Tile]:
+    for letter, name, key in zip("AB", summary["names"], ("one", "other"), strict=True):
+        yield Tile(percent(row[key]), f"{letter}: {name}", "mean overall efficiency (ISO 4409)")
+    yield Tile(_apart(row, "1"), "B - A", f"{_POINTS} in the mean; error of both {100.0 * row['error']:.1g}")
+    for key, words in (("rise", "B better by up to"), ("fall", "A better by up to")):
+        if row[key]["told"] and (row[key]["value"] > 0.0) is (key == "rise"):
+            yield Tile(f"{abs(100.0 * row[key]['value']):.3g}", words, f"{_POINTS}, at {_place(row[key], summary)}")
+
+
+def _loss_tiles(summary: Row) -> Iterator[Tile]:
+    one, other = _mean_loss(summary)
+    yield Tile(f"{(other - one) * 1e-3:+.2g} kW", "B - A, mean loss", f"A {one * 1e-3:.3g} kW, B {other * 1e-3:.3g} kW")
+
+
+def _mean_loss(summary: Row) -> tuple[float, float]:
+    rows = [row for row in summary["differences"] if row["words"] in LOSSES.values()]
+    return sum(row["one"] for row in rows), sum(row["other"] for row in rows)
+
+
+def _efficiency_words(row: Row, summary: Row) -> Iterator[str]:
+    apart = row["other"] - row["one"]
+    if not row["told"]:
+        yield "There is no difference of overall efficiency: it is within the error of both at every point."
+        return
+    better, worse = ("B", "A") if apart > 0.0 else ("A", "B")
+    if abs(apart) > row["error"]:
+        yield (
+            f"{better} is better: over the common levels its overall efficiency by ISO 4409 is "
+            f"{abs(100.0 * apart):.3g} {_POINTS} above that of {worse} in the mean."
+        )
+    else:
+        yield "In the mean of the common levels there is no difference of overall efficiency."
+    for letter, key, share in (("B", "rise", row["above"]), ("A", "fall", row["below"])):
+        if share > 0.0:
+            yield (
+                f"{letter} is better at {_share(share)} of the points, by up to {abs(100.0 * row[key]['value']):.3g} "
+                f"{_POINTS} at {_place(row[key], summary)}."
+            )
+
+
+def _duty_words(summary: Row) -> Iterator[str]:
+    losses = [side["energy_J"]["loss"] for side in summary["duty"]]
+    lost = losses[1]["value"] - losses[0]["value"]
+    if abs(lost) <= sum(one["error"] for one in losses):
+        yield "Over the cycle there is no difference of the energy lost."
+        return
+    one, other = (percent(side["efficiency"][HEADLINE.value]["value"]) for side in summary["duty"])
+    yield (
+        f"Over the cycle B loses {energy_text(abs(lost), 3)} {'more' if lost > 0.0 else 'less'} than A "
+        f"({energy_text(losses[1]['value'])} against {energy_text(losses[0]['value'])}); its mean efficiency is "
+        f"{other} against {one}."
+    )
+
+
+def _share(share: float) -> str:
+    return "all" if share == 1.0 else f"{100.0 * share:.0f} %"
+
+
+def _loss_words(summary: Row) -> Iterator[str]:
+    losses = [row for row in summary["differences"] if row["words"] in LOSSES.values()]
+    told = sorted((row for row in losses if row["told"]), key=lambda row: -abs(row["other"] - row["one"]))
+    if told:
+        named = ", ".join(f"{row['words']} ({_apart(row, row['unit'])} kW)" for row in told[:3])
+        yield f"The losses that differ most, B less A in the mean: {named}."
+    if alike := [row["words"] for row in losses if not row["told"]]:
+        yield f"No difference: {', '.join(alike)}."
+
+
+def _apart(row: Row, unit: str) -> str:
+    """Return the difference of the means, without unit."""
+    apart = row["other"] - row["one"]
+    return f"{_SCALES[unit][0] * apart:+.3g}" if abs(apart) > row["error"] else NOTHING
+
+
+def _place(extreme: Row, summary: Row) -> str:
+    varied = {box["words"] for box in summary["box"] if box["from"] != box["to"]}
+    return place_words({given: extreme["at"][given.value] for given in MapInput if given.words in varied})
+
+
+def efficiency_rows(summary: Row) -> list[tuple[str, ...]]:
+    """Return (definitions, means of A and B, mean and largest difference, its point, error of both); equal rows once.
+
+    Efficiencies in %, differences in percentage points.
+    """
+    shown: dict[tuple[str, ...], list[str]] = {}
+    for row in summary["differences"]:
+        if row["unit"] == "1":
+            cells = (
+                f"{100.0 * row['one']:.1f} %",
+                f"{100.0 * row['other']:.1f} %",
+                *_difference_cells(row, summary, ""),
+            )
+            shown.setdefault(cells, []).append(row["words"].removeprefix(EFFICIENCY))
+    return [("; ".join(words), *cells) for cells, words in shown.items()]
+
+
+def difference_rows(summary: Row) -> Iterator[tuple[str, ...]]:
+    """Yield (number, means of A and B, mean and largest difference, its point, error of both), no efficiencies."""
+    for row in summary["differences"]:
+        scale, unit = _SCALES[row["unit"]]
+        if row["unit"] != "1":
+            means = (f"{row[which] * scale:.4g} {unit}" for which in ("one", "other"))
+            yield row["words"], *means, *_difference_cells(row, summary, f" {unit}")
+
+
+def _difference_cells(row: Row, summary: Row, unit: str) -> tuple[str, ...]:
+    """Return mean and largest difference, its point, and the error of both there."""
+    scale, largest = _SCALES[row["unit"]][0], row["largest"]
+    error = f"{largest['error'] * scale:.1g}{unit}"
+    if not row["told"]:
+        return NOTHING, "", "", error
+    mean = _apart(row, row["unit"])
+    apart = mean if mean == NOTHING else f"{mean}{unit}"
+    return apart, f"{largest['value'] * scale:+.3g}{unit}", _place(largest, summary), error
+
+
+def duty_rows(summary: Row) -> Iterator[tuple[str, ...]]:
+    """Yield (energy, of A, of B, difference, error of both)."""
+    one, other = (side["energy_J"] for side in summary["duty"])
+    for words in dict.fromkeys([*one, *other]):
+        nothing = {"value": 0.0, "error": 0.0}
+        mine, theirs = one.get(words, nothing), other.get(words, nothing)
+        apart, error = theirs["value"] - mine["value"], mine["error"] + theirs["error"]
+        yield (
+            words,
+            *(energy_text(side["value"], 5) for side in (mine, theirs)),
+            ("+" if apart > 0.0 else "") + energy_text(apart) if abs(apart) > error else NOTHING,
+            energy_text(error, 2),
+        )
+    efficiency = [side["efficiency"][HEADLINE.value] for side in summary["duty"]]
+    apart, error = efficiency[1]["value"] - efficiency[0]["value"], sum(one["error"] for one in efficiency)
+    yield (
+        "mean overall efficiency (ISO 4409)",
+        *(f"{100.0 * one['value']:.2f} %" for one in efficiency),
+        f"{100.0 * apart:+.3g} {_POINTS}" if abs(apart) > error else NOTHING,
+        f"{100.0 * error:.1g} {_POINTS}",
+    )

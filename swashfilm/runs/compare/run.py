@@ -1,0 +1,166 @@
+"""Comparison of two maps: differences, duty cycle, files."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import asdict, dataclass
+from pathlib import Path
+from typing import Any
+
+from swashfilm.output.page import keep_pictures
+from swashfilm.output.run_folder import write_json
+from swashfilm.output.tables import write_csv
+from swashfilm.runs.compare.page import write_compare_page
+from swashfilm.runs.compare.plots import compare_pictures
+from swashfilm.runs.duty.run import duty_summary, known_error
+from swashfilm.runs.map.files import MAP, read_map
+from swashfilm.runs.map.run import MapCase, solve_map, worth_starting
+from system.maps.compare import Difference, Extreme, compare
+from system.maps.data import MapData
+from system.maps.duty import Cycle, duty
+from system.maps.interpolation import MapError, MapInterpolant
+from system.maps.plan import MapAxis, MapInput
+from system.work.processes import process_pool
+from system.work.progress import Report
+
+
+@dataclass(frozen=True)
+class Side:
+    """One of two maps: its path or pump on the command line, its numbers, and its error between levels."""
+
+    given: str
+    data: MapData
+    error: MapError | None
+
+    @property
+    def name(self) -> str:
+        """Name of the pump."""
+        return self.data.name
+
+    @property
+    def axes(self) -> tuple[MapAxis, ...]:
+        """Axes of the map."""
+        return self.data.axes
+
+    @property
+    def points(self) -> int:
+        """Number of points to solve: none."""
+        return 0
+
+    def solved(self, _folder: Path, _workers: int, _report: Report) -> Side:
+        """Return the map itself."""
+        return self
+
+
+@dataclass(frozen=True)
+class SideToSolve:
+    """A map to solve: its pump on the command line, and the case of `swashfilm map`."""
+
+    given: str
+    case: MapCase
+
+    @property
+    def name(self) -> str:
+        """Name of the pump."""
+        return self.case.plan.pump.name
+
+    @property
+    def axes(self) -> tuple[MapAxis, ...]:
+        """Axes of the map."""
+        return self.case.plan.axes
+
+    @property
+    def points(self) -> int:
+        """Number of points to solve."""
+        return len(self.case.plan.points)
+
+    def solved(self, folder: Path, workers: int, report: Report) -> Side:
+        """Solve the map in a new folder and return it."""
+        folder.mkdir()
+        with process_pool(worth_starting(self.case, workers)) as executor:
+            solve_map(self.case, folder, executor, report)
+        return Side(self.given, *read_map(folder / MAP))
+
+
+Sides = tuple[Side, Side]
+
+
+def side_names(both: Sides) -> tuple[str, str]:
+    """Return the names of both sides: of the pumps; where these are equal with how they were solved, or the path."""
+    for names in (
+        tuple(side.data.name for side in both),
+        tuple(f"{side.data.name}, {side.data.words}" for side in both),
+        tuple(f"{side.data.name} ({Path(side.given).name})" for side in both),
+        tuple(f"{side.data.name} ({side.given})" for side in both),
+    ):
+        if names[0] != names[1]:
+            break
+    return names[0], names[1]
+
+
+def run_compare(both: Sides, cycle: Cycle | None, folder: Path) -> dict[str, Any]:
+    """Write differences.csv, summary.json, plots and report.html of a comparison; return the summary.
+
+    Raises InputFaults as `compare`, and for a cycle beyond the maps.
+    """
+    one, other = both
+    found = compare(one.data, other.data, (one.error, other.error))
+    names = side_names(both)
+    pictures = compare_pictures(found, names)
+    summary = {
+        "format": 2,
+        "kind": "comparison",
+        "names": list(names),
+        "given": [side.given for side in both],
+        "pumps": [side.data.name for side in both],
+        "solvers": [side.data.words for side in both],
+        "warnings": list(_warnings(both)),
+        "box": [
+            {"words": axis.input.words, "from": axis.input.text(axis.values[0]), "to": axis.input.text(axis.values[-1])}
+            for axis in found.one.axes
+        ],
+        "same_levels": found.one.axes == both[0].data.axes == both[1].data.axes,
+        "differences": [_row(one) for one in found.differences],
+        "duty": [] if cycle is None else [_duty(side, cycle) for side in both],
+        "pictures": list(pictures),
+    }
+    write_json(folder / "summary.json", summary)
+    _write_table(folder / "differences.csv", found.differences)
+    for name, own in pictures.items():
+        keep_pictures(folder, name, own)
+    write_compare_page(folder)
+    return summary
+
+
+def _warnings(both: Sides) -> Iterator[str]:
+    """Yield warnings on the differences."""
+    one, other = (side.data.words for side in both)
+    if one != other:
+        yield f"A is {one}, B is {other}: differences contain those between the fidelities, not only the pumps"
+
+
+def _row(one: Difference) -> dict[str, Any]:
+    found: Mapping[str, Any] = asdict(one)
+    extremes = {name: _extreme(getattr(one, name)) for name in ("rise", "fall", "largest")}
+    return {**found, **extremes, "told": one.significant}
+
+
+def _extreme(one: Extreme) -> dict[str, Any]:
+    at = {given.value: value for given, value in one.at.items()}
+    return {"value": one.value, "at": at, "error": one.error, "told": one.significant}
+
+
+def _duty(side: Side, cycle: Cycle) -> dict[str, Any]:
+    known = known_error(side.data, side.error)
+    return duty_summary(side.data, duty(MapInterpolant(side.data), cycle, known))
+
+
+def _write_table(path: Path, differences: tuple[Difference, ...]) -> None:
+    places = [f"at {given.words} [{given.unit}]" for given in MapInput]
+    heads = "number", "unit", "A mean", "B mean", "largest B - A", "error of both"
+    rows = []
+    for row in differences:
+        at = row.largest.at
+        numbers = [row.one, row.other, row.largest.value, row.largest.error, *(at[given] for given in MapInput)]
+        rows.append([row.words, row.unit, *(f"{number:.8g}" for number in numbers)])
+    write_csv(path, [*heads, *places], rows)

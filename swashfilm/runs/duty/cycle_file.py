@@ -1,0 +1,131 @@
+"""Duty cycle of a CSV file: time and operating point of the pump, one column each, units in the head."""
+
+import math
+from collections.abc import Iterator, Mapping, Sequence
+from pathlib import Path
+
+import numpy as np
+
+from reynolds.errors import InputError
+from reynolds.numerics.arrays import Array
+from system.inputs.csv_table import Line, head_columns, read_csv_text
+from system.inputs.faults import Fault, InputFaults, nearest_choice
+from system.inputs.units import Dimension, QuantityError, unit_scale, with_point
+from system.maps.duty import Cycle
+from system.maps.plan import MapAxis, MapInput
+
+TIME = "time"
+HEADS = {
+    "speed": MapInput.SPEED,
+    "pressure": MapInput.PRESSURE,
+    "displacement ratio": MapInput.RATIO,
+    "temperature": MapInput.TEMPERATURE,
+    "inlet pressure": MapInput.INLET_PRESSURE,
+}
+UNITS = {
+    TIME: "s",
+    "speed": "rpm",
+    "pressure": "bar",
+    "displacement ratio": "1",
+    "temperature": "degC",
+    "inlet pressure": "bar",
+}
+"""Example unit of each column, for messages."""
+EXAMPLE = "time [s], speed [rpm], pressure [bar], displacement ratio [1]"
+_RATIO_UNITS = {"1": 1.0, "-": 1.0, "%": 0.01}
+
+
+def read_cycle(path: Path, axes: tuple[MapAxis, ...]) -> Cycle:
+    """Return the cycle of a file for a map of these axes: columns in any order and unit, `#` begins a comment.
+
+    Columns are parted by commas, or by semicolons or tabs, where numbers may have a decimal comma. Inputs with one
+    level in the map may be left out. Raises InputFaults with every fault.
+    """
+    try:
+        text = read_csv_text(path, f"a CSV file with columns {EXAMPLE}")
+    except QuantityError as reason:
+        raise InputFaults("command line", [Fault("cycle", reason.found, reason.expected, reason.nearest)]) from None
+    if len(text.rows) < 2:
+        raise InputFaults(str(path), [Fault("rows", str(len(text.rows)), f"at least two, under {EXAMPLE}")])
+    faults: list[Fault] = []
+    columns = dict(_columns(text.head, faults))
+    needed = [TIME, *(head for head, given in HEADS.items() if _levels(axes, given) > 1)]
+    lacking = [name for name in needed if name not in columns]
+    if lacking and not faults:
+        found = ", ".join(columns)
+        heads = ", ".join(f"{name} [{UNITS[name]}]" for name in lacking)
+        faults.append(Fault("head", found, f"columns {heads} too: a cycle has a time, and the inputs of its map"))
+    if faults:
+        raise InputFaults(str(path), faults)
+    values = dict(_values(text.rows, len(text.head), columns, faults))
+    if faults:
+        raise InputFaults(str(path), faults)
+    try:
+        return Cycle(values[TIME], {HEADS[name]: array for name, array in values.items() if name != TIME})
+    except InputError as reason:
+        raise InputFaults(str(path), [Fault(TIME, reason.found, reason.expected)]) from None
+
+
+def _levels(axes: tuple[MapAxis, ...], given: MapInput) -> int:
+    return next(len(axis.values) for axis in axes if axis.input is given)
+
+
+def _columns(head: list[str], faults: list[Fault]) -> Iterator[tuple[str, tuple[int, float, float]]]:
+    """Yield the name of each column, its index, and factor and offset to SI."""
+    known, named = [TIME, *HEADS], set[str]()
+    if all(column.unit is None for column in head_columns(head)):
+        meant = dict.fromkeys(nearest_choice(cell.strip().lower(), known) for cell in head)
+        units = ", ".join(f"{name} [{UNITS[name]}]" for name in meant if name)
+        faults.append(Fault("head", f"'{','.join(head)}', without units", EXAMPLE, units))
+        return
+    for place, (cell, column) in enumerate(zip(head, head_columns(head), strict=True)):
+        name, unit = column.name, column.unit
+        if unit is None or name not in known:
+            near = nearest_choice(name.lower(), known)
+            faults.append(Fault("head", f"'{cell.strip()}'", EXAMPLE, f"{near} [{UNITS[near]}]" if near else ""))
+            continue
+        if name in named:
+            faults.append(Fault(f"head {name}", "twice", "each column once"))
+            continue
+        named.add(name)
+        dimension = Dimension.TIME if name == TIME else HEADS[name].dimension
+        try:
+            yield name, (place, *_scale(unit, dimension))
+        except QuantityError as reason:
+            faults.append(Fault(f"head {name}", reason.found, reason.expected, reason.nearest))
+
+
+def _scale(unit: str, dimension: Dimension | None) -> tuple[float, float]:
+    if dimension is not None:
+        return unit_scale(unit, dimension)
+    if unit not in _RATIO_UNITS:
+        raise QuantityError(repr(unit), f"one of {', '.join(_RATIO_UNITS)}")
+    return _RATIO_UNITS[unit], 0.0
+
+
+def _values(
+    rows: Sequence[Line], width: int, columns: Mapping[str, tuple[int, float, float]], faults: list[Fault]
+) -> Iterator[tuple[str, Array]]:
+    """Return each column in SI; list a fault for rows with another number of cells than the head."""
+    uneven = [(number, len(cells)) for number, cells in rows if len(cells) != width]
+    if uneven:
+        found = f"{uneven[0][1]} cells, so in {len(uneven)} rows" if len(uneven) > 1 else f"{uneven[0][1]} cells"
+        remedy = "decimals with a point: 1.5"
+        faults.append(Fault(f"line {uneven[0][0]}", found, f"{width}, the number of columns in the head", remedy))
+        return
+    for name, (place, factor, offset) in columns.items():
+        numbers = []
+        for number, cells in rows:
+            text = cells[place].strip() if place < len(cells) else ""
+            try:
+                numbers.append(factor * _finite(text) + offset)
+            except ValueError:
+                faults.append(Fault(f"{name}, line {number}", repr(text), "a number", with_point(text)))
+        yield name, np.array(numbers)
+
+
+def _finite(text: str) -> float:
+    """Return the number of a text; raise ValueError for any other text, nan and inf."""
+    if not math.isfinite(number := float(text)):
+        raise ValueError
+    return number

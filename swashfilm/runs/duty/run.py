@@ -1,0 +1,96 @@
+"""Duty cycle by a map: energies, losses, mean efficiency."""
+
+from __future__ import annotations
+
+import shutil
+from dataclasses import asdict
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from swashfilm.output.run_folder import write_json
+from swashfilm.output.tables import write_csv
+from swashfilm.runs.duty.page import COURSE, write_duty_page
+from system.inputs.faults import Fault, InputFaults
+from system.maps.data import MapData
+from system.maps.duty import Cycle, Duty, duty
+from system.maps.interpolation import MapError, MapInterpolant, left_out_error
+from system.maps.plan import MapInput
+
+FINE = 400
+"""Number of instants in the written and drawn time series."""
+
+
+def run_duty(data: MapData, error: MapError | None, cycle: Cycle, given: Path, folder: Path) -> dict[str, Any]:
+    """Run a cycle, of the file `given`, by a map; write cycle.csv, course.csv, summary.json, report.html.
+
+    Returns the summary. The error is that of the map's file; without it, the error at inner levels left out.
+    Raises InputFaults for a cycle beyond the map, and for an incomplete map.
+    """
+    interpolant = MapInterpolant(data)
+    found = duty(interpolant, cycle, known_error(data, error))
+    shutil.copy(given, folder / "cycle.csv")
+    _write_course(folder / COURSE, interpolant, cycle)
+    summary = duty_summary(data, found)
+    write_json(folder / "summary.json", summary)
+    write_duty_page(folder)
+    return summary
+
+
+def known_error(data: MapData, error: MapError | None) -> MapError:
+    """Return the error of a map between levels; without one, that at inner levels left out.
+
+    Raises InputFaults for a map with neither.
+    """
+    known = error or left_out_error(data)
+    if known is None:
+        expected = "a map with three levels of an input, or checked at fresh points (--check N)"
+        raise InputFaults(data.name, [Fault("map", "no measure of its error between levels", expected)])
+    return known
+
+
+def duty_summary(data: MapData, found: Duty) -> dict[str, Any]:
+    """Return the summary of a cycle, SI."""
+    return {
+        "format": 1,
+        "kind": "duty",
+        "name": data.name,
+        "solver": data.words,
+        "duration_s": found.duration,
+        "shown_by": found.shown_by,
+        "held": held_inputs(data),
+        "volume_m3": asdict(found.volume),
+        "energy_J": {words: asdict(energy) for words, energy in found.energies.items()},
+        "efficiency": {
+            definition.value: asdict(energy) | {"label": definition.label, "formula": definition.formula}
+            for definition, energy in found.efficiency.items()
+        },
+        "marked": dict(found.marked),
+    }
+
+
+def held_inputs(data: MapData) -> str:
+    """Return the inputs with one level in the map, in words."""
+    held = [axis for axis in data.axes if len(axis.values) == 1 and axis.input is not MapInput.RATIO]
+    return ", ".join(f"{axis.input.words} {axis.input.text(axis.values[0])}" for axis in held)
+
+
+def _write_course(path: Path, interpolant: MapInterpolant, cycle: Cycle) -> None:
+    """Write inputs, loss and efficiency over time, evenly and at every row of the cycle (both sides of a step)."""
+    even = np.setdiff1d(np.linspace(cycle.time[0], cycle.time[-1], FINE), cycle.time)
+    before = np.searchsorted(cycle.time, even)
+    time = np.insert(cycle.time, before, even)
+    inputs = {
+        given: np.insert(values, before, np.interp(even, cycle.time, values)) for given, values in cycle.inputs.items()
+    }
+    numbers = interpolant.at(inputs)
+    shown = {"time [s]": time}
+    for given, values in inputs.items():
+        shown[f"{given.words} [{given.unit}]"] = values
+    power = {"shaft power [W]": numbers["shaft_power"], "hydraulic power [W]": numbers["hydraulic_power"]}
+    power["loss [W]"] = numbers["shaft_power"] - numbers["hydraulic_power"]
+    power["sum p Q / shaft power [1]"] = numbers["hydraulic_power"] / numbers["shaft_power"]
+    power["delivery flow [m3/s]"] = numbers["delivery_flow"]
+    rows = zip(*(np.broadcast_to(one, time.shape) for one in (shown | power).values()), strict=True)
+    write_csv(path, [*shown, *power], ([f"{value:.8g}" for value in row] for row in rows))

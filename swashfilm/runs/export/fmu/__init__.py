@@ -1,0 +1,1 @@
+"""A map as co-simulation unit by FMI 3.0: model description, C sources, binaries."""

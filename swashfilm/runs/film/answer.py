@@ -1,0 +1,99 @@
+"""Answer of one film: load, flow, friction, least film, and what limits it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from typing import Any
+
+from swashfilm.output.answer import Tile
+from swashfilm.output.refinement import bar_text
+from system.inputs.units import Dimension, format_quantity
+
+DIGITS = 4
+LEAST_SHARE = 1e-4
+"""Share of area or load below which cavities and contact are not worth a word."""
+ROUGH = 3.0
+"""Ratio of film to roughness above which walls do not feel each other."""
+
+
+def film_tiles(summary: Mapping[str, Any]) -> Iterator[Tile]:
+    """Yield the headline numbers of a film from its summary, with error bars where it is refined."""
+    of_gap = "required_load_N" in summary
+    key = "carried_load_N" if of_gap else "load_N"
+    required = f"of {amount(summary['required_load_N'], Dimension.FORCE)} required" if of_gap else ""
+    yield Tile(amount(summary[key], Dimension.FORCE), "load", _note(summary, key, Dimension.FORCE, required))
+    for name, key, dimension in (
+        ("leakage", "leakage_flow_m3_per_s", Dimension.VOLUME_FLOW),
+        ("friction power", "friction_power_W" if "friction_power_W" in summary else "dissipation_W", Dimension.POWER),
+        ("least film", "film_thickness_min_m", Dimension.LENGTH),
+        ("largest pressure", "pressure_max_Pa", Dimension.PRESSURE),
+        ("hottest oil", "temperature_max_K", Dimension.TEMPERATURE),
+    ):
+        if key in summary:
+            note = _coefficient(summary) if dimension is Dimension.POWER else ""
+            yield Tile(amount(summary[key], dimension), name, _note(summary, key, dimension, note))
+
+
+def film_words(summary: Mapping[str, Any]) -> str:
+    """Return a paragraph on a film from its summary."""
+    return " ".join((*_load_words(summary), _flow_words(summary), *_limit_words(summary)))
+
+
+def amount(value: float, dimension: Dimension) -> str:
+    """Return a number in the unit that suits its size."""
+    return format_quantity(value, dimension, digits=DIGITS)
+
+
+def _note(summary: Mapping[str, Any], key: str, dimension: Dimension, words: str) -> str:
+    bar = bar_text(summary, key, dimension)
+    return "; ".join(part for part in (bar, words) if part)
+
+
+def _coefficient(summary: Mapping[str, Any]) -> str:
+    found = summary.get("friction_coefficient")
+    return "" if found is None else f"friction coefficient {found:.3g}"
+
+
+def _load_words(summary: Mapping[str, Any]) -> Iterator[str]:
+    when = f"After {amount(summary['time_s'], Dimension.TIME)} the film" if "time_s" in summary else "The film"
+    if "required_load_N" not in summary:
+        yield f"{when} carries {amount(summary['load_N'], Dimension.FORCE)}."
+    elif summary["position_source"] == "rest":
+        load = amount(summary["required_load_N"], Dimension.FORCE)
+        yield f"The part rests where film and outer forces balance, under a load of {load}."
+    else:
+        carried, required = (amount(summary[f"{of}_load_N"], Dimension.FORCE) for of in ("carried", "required"))
+        yield f"At the given position the film with its pockets carries {carried} of {required}."
+    if "load_of_time_max_N" in summary:
+        low, high = (amount(summary[f"load_of_time_{end}_N"], Dimension.FORCE) for end in ("min", "max"))
+        yield f"Over the whole time the load lies between {low} and {high}."
+
+
+def _flow_words(summary: Mapping[str, Any]) -> str:
+    least, pressure = summary["film_thickness_min_m"], summary["pressure_max_Pa"]
+    key = "friction_power_W" if "friction_power_W" in summary else "dissipation_W"
+    out = summary["leakage_flow_m3_per_s"]
+    leak = f"{amount(out, Dimension.VOLUME_FLOW)} leak out" if out else "Nothing leaks out"
+    return (
+        f"It is {amount(least, Dimension.LENGTH)} thick at its thinnest place, and its pressure reaches "
+        f"{amount(pressure, Dimension.PRESSURE)}. {leak}, and {amount(summary[key], Dimension.POWER)} are lost to "
+        "friction."
+    )
+
+
+def _limit_words(summary: Mapping[str, Any]) -> Iterator[str]:
+    """Yield what limits the film: cavities, contact, roughness, heat."""
+    cavities, carried = summary["cavitated_area_fraction"], summary.get("contact_load_N", 0.0)
+    touching = carried > LEAST_SHARE * max(abs(summary["load_N"]), carried)
+    if cavities > LEAST_SHARE:
+        yield f"{_percent(cavities)} of its area cavitates."
+    if touching:
+        yield f"Contact of the walls carries {amount(carried, Dimension.FORCE)}."
+    if not touching and (ratio := summary.get("lambda_ratio_min", ROUGH)) < ROUGH:
+        yield f"At the thinnest place the film is only {ratio:.2g} times as thick as the walls are rough."
+    if not touching and cavities <= LEAST_SHARE:
+        yield "The film is full everywhere, and the walls do not touch."
+
+
+def _percent(share: float) -> str:
+    return f"{100.0 * share:.2g} %"

@@ -1,0 +1,1 @@
+"""Files of coefficients in a run: source, range, and warnings beyond the range."""

@@ -1,0 +1,1 @@
+"""Command `swashfilm sensitivity`: what a change of each dimension of a pump costs."""

@@ -1,0 +1,69 @@
+"""Table and data set of a sensitivity's run folder."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from swashfilm.output.tables import write_csv
+from swashfilm.runs.variation.case import VariedCase
+from system.variation.differences import Verdict
+from system.variation.measures import NUMBERS
+from system.variation.sensitivity import Sensitivity
+
+DATA, TABLE = "results.nc", "sensitivity.csv"
+
+
+def write_table(path: Path, found: Sensitivity) -> None:
+    """Write a row for each dimension: value, change, and what each measure changes by it, in SI."""
+    heads = ["key", "value [SI]", "change [SI]", "side", "sigma [SI]"]
+    heads += [f"{one.name} [{one.unit}]" for one in found.measures]
+    heads += [f"{one.name} error [{one.unit}]" for one in found.measures]
+    rows = []
+    for one in found.slopes:
+        known = one.verdict != Verdict.NOT_SMOOTH
+        changes = [f"{value * one.unit:.8g}" if good else "" for value, good in zip(one.value, known, strict=True)]
+        errors = [f"{value * one.unit:.3g}" if good else "" for value, good in zip(one.error, known, strict=True)]
+        sigma = "" if one.sigma is None else f"{one.sigma:.8g}"
+        rows.append(
+            [one.key.path, f"{one.key.value:.8g}", f"{one.unit:.8g}", one.stencil.side.value, sigma, *changes, *errors]
+        )
+    write_csv(path, heads, rows)
+
+
+def write_data(path: Path, case: VariedCase, found: Sensitivity) -> None:
+    """Write derivatives over dimensions and measures, and of every number at every operating point; SI."""
+    import xarray
+
+    def stacked(part: str) -> Any:
+        return np.stack([getattr(one, part) for one in found.slopes])
+
+    points = case.work.sites.points
+    inputs: Mapping[str, Any] = {
+        name: ("point", [getattr(point, name) for point in points]) for name in vars(points[0])
+    }
+    smooth = np.stack([one.verdict == Verdict.SMOOTH for one in found.slopes])
+    none = np.stack([one.verdict == Verdict.NO_EFFECT for one in found.slopes])
+    data = xarray.Dataset(
+        {
+            "derivative": (("key", "measure"), np.where(smooth, stacked("value"), np.where(none, 0.0, np.nan))),
+            "derivative_error": (("key", "measure"), np.where(smooth | none, stacked("error"), np.nan)),
+            "middle": ("measure", found.middle),
+            "derivative_at_point": (("key", "point", "number"), stacked("sites")),
+            "derivative_at_point_error": (("key", "point", "number"), stacked("sites_error")),
+            "value": ("key", [one.key.value for one in found.slopes]),
+            "change": ("key", [one.unit for one in found.slopes]),
+            "weight": ("point", case.work.sites.weights),
+            **inputs,
+        },
+        coords={
+            "key": [one.key.path for one in found.slopes],
+            "measure": [one.name for one in found.measures],
+            "number": list(NUMBERS),
+        },
+        attrs={"pump": case.pump.name, "units": "SI: number per SI unit of the key", "fidelity": case.fidelity.value},
+    )
+    data.to_netcdf(path, engine="h5netcdf")

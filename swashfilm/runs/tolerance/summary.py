@@ -1,0 +1,101 @@
+"""Summary of a tolerance's run."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import asdict
+from typing import Any
+
+import numpy as np
+
+from swashfilm.runs.variation.case import VariedCase
+from swashfilm.runs.variation.words import size_text, where
+from system.description.drawn import Drawing, Drawn, DrawnFit, pump_sigma
+from system.description.keys import pump_keys
+from system.maps.plan import point_words
+from system.variation.scatter import CONFIDENCE, QUANTILES, Scatter
+from system.variation.tolerance import Tolerance
+
+
+def tolerance_summary(case: VariedCase, drawing: Drawing, seed: int, found: Tolerance) -> dict[str, Any]:
+    """Return the summary: scatter, shares, limits and counts; SI."""
+    return {
+        "format": 1,
+        "kind": "tolerance",
+        "name": case.pump.name,
+        **where(case),
+        "pumps": {"drawn": found.pumps, "solved": len(found.numbers), "refused": found.refused, "failed": found.failed},
+        "seed": seed,
+        "confidence": CONFIDENCE,
+        "quantiles": list(QUANTILES),
+        "dimensions": _dimension_rows(case, drawing),
+        "correlation": [{"one": a, "other": b, "coefficient": c} for (a, b), c in drawing.correlation.items()],
+        "not_drawn": list(drawing.unused),
+        "measures": {
+            one.name: {
+                "words": one.words,
+                "unit": one.unit,
+                **_scatter(found.scatters[k]),
+                "surface_held_out": float(found.surface.held_out[k]),
+                "shares": [asdict(share) | {"names": list(share.names)} for share in found.shares[k]],
+            }
+            for k, one in enumerate(found.measures)
+        },
+        "at_points": [
+            {"point": point_words(point)} | {one.name: _scatter(own[k]) for k, one in enumerate(found.measures)}
+            for point, own in zip(case.work.sites.points, found.at_sites, strict=True)
+        ],
+        "limits": [
+            {"limit": one.limit.text, "measure": one.limit.measure.name, "value": one.limit.value,
+             "missing": asdict(one.missing), "missing_at_a_point": asdict(one.anywhere)}
+            for one in found.limits
+        ],
+        "warnings": _warnings(found),
+        "internal_error": found.internal,
+        "cost": {"processor_s": found.seconds},
+    }  # fmt: skip
+
+
+def _scatter(found: Scatter) -> dict[str, Any]:
+    return {"mean": found.mean, "deviation": found.deviation, "quantiles": [asdict(one) for one in found.quantiles]}
+
+
+def _dimension_rows(case: VariedCase, drawing: Drawing) -> list[dict[str, Any]]:
+    known, rows = pump_keys(case.pump), []
+    for one in drawing.members:
+        key = known[one.keys[0]]
+        sigma = pump_sigma(one)
+        rows.append(
+            {
+                "name": one.name, "keys": list(one.keys), "value": key.value, "text": key.text,
+                "unit": key.dimension.si_unit if key.dimension else "1", "shape": one.shape.value,
+                "sigma": sigma, "sigma_text": size_text(key, sigma), "words": _words(one, key.shown),
+            }
+        )  # fmt: skip
+    return rows
+
+
+def _words(one: Drawn | DrawnFit, shown: Callable[[float], str]) -> str:
+    """Return the tolerance in words."""
+    several = f"; {one.parts} parts of a pump, each its own" if one.parts > 1 else ""
+    if isinstance(one, DrawnFit):
+        hole, shaft = (f"{shown(part[0])} to {shown(part[1])}" for part in (one.hole, one.shaft))
+        sorting = f", paired in {one.classes} classes" if one.classes > 1 else ""
+        return f"{one.shape.value}: hole {hole}, shaft {shaft}{sorting}{several}"
+    if np.isfinite(one.least):
+        return f"{one.shape.value}, {shown(one.least)} to {shown(one.most)}{several}"
+    together = f"; {', '.join(one.keys[1:])} in proportion" if one.keys[1:] else ""
+    return f"{one.shape.value} about {shown(one.middle)}{together}{several}"
+
+
+def _warnings(found: Tolerance) -> list[str]:
+    """Return what keeps pumps from a result, and numbers that the surface does not describe."""
+    said = [
+        f"{count} of {found.pumps} pumps are refused by the geometry and have no part in the scatter: {reason}"
+        for reason, count in found.refused.items()
+    ]
+    said += [f"{count} of {found.pumps} pumps have no result: {reason}" for reason, count in found.failed.items()]
+    rough = [one.words for one, part in zip(found.measures, found.surface.held_out, strict=True) if part < 0.9]
+    if rough:
+        said.append(f"a quadratic surface explains less than 90 % of {', '.join(rough)}: their shares are a guide only")
+    return said

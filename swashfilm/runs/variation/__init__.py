@@ -1,0 +1,1 @@
+"""Inputs that both commands on varied pumps share: pump, operating points, fidelity, dimensions."""

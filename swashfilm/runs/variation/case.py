@@ -1,0 +1,125 @@
+"""A pump to vary, by a command line: its work at its operating points, and its dimensions."""
+
+from __future__ import annotations
+
+import argparse
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from swashfilm.console.fidelity import Fidelity
+from swashfilm.console.floating_options import alike_faults, floating_faults, floating_options
+from swashfilm.console.inputs import COMMAND_LINE, expect, given_text
+from swashfilm.runs.duty.cycle_file import read_cycle
+from swashfilm.runs.map.command import stated_axes
+from swashfilm.runs.map.run import POINT_COST, MapCase, kept_table
+from swashfilm.runs.variation.options import chosen_keys, needs_keys, word_faults
+from system.description.keys import PumpKey, pump_keys
+from system.description.pump import PumpDescription
+from system.inputs.faults import Fault, InputFaults
+from system.maps.plan import MapAxis, MapInput, MapPlan, map_plan
+from system.maps.point import DirectSolver, LumpedSolver, MapSolver, TableSolver
+from system.points.table.sources import Source, solver_of
+from system.pump_file.file import load_pump
+from system.variation.sites import Sites, cycle_sites, plan_sites
+from system.variation.solving import VariedWork, variable_keys
+from system.variation.together import TogetherSolver, solves_together
+
+CYCLE_LEVELS = {MapInput.PRESSURE: 5}
+"""Levels of an input that a duty cycle varies and no option states; four of the others."""
+
+
+@dataclass(frozen=True)
+class VariedCase:
+    """A pump to vary: the work, the chosen dimensions, the plan and the text of its file; fixed: dimensions that the
+    fidelity cannot vary."""
+
+    work: VariedWork
+    keys: Mapping[str, PumpKey]
+    fixed: tuple[str, ...]
+    fidelity: Fidelity
+    plan: MapPlan
+    given: str
+    cycle: Path | None
+    resume: Path | None
+
+    @property
+    def pump(self) -> PumpDescription:
+        """The pump as stated."""
+        return self.work.pump
+
+    def seconds(self, pumps: int) -> float:
+        """Return the processor time (s), about, of so many pumps."""
+        return pumps * self.work.solver.cost * len(self.work.sites.points)
+
+
+def no_faults(pump: PumpDescription) -> Sequence[Fault]:
+    """Return no fault: the command expects nothing else of a pump."""
+    return ()
+
+
+def varied_case(
+    options: argparse.Namespace,
+    more: Sequence[Fault] = (),
+    of_pump: Callable[[PumpDescription], Sequence[Fault]] = no_faults,
+    *,
+    together: bool = False,
+) -> VariedCase:
+    """Return the pump to vary; raise InputFaults with every fault, those of the command itself (`more`) and those
+    that it finds in the pump (`of_pump`) too.
+
+    together: lumped points of a pump are solved at once, without its course over the turn.
+    """
+    faults = [*word_faults(options), *more]
+    axes = stated_axes(options, faults)
+    expect(options.pump, "pump", "film")
+    try:
+        pump = load_pump(options.pump)
+    except InputFaults as reason:
+        raise InputFaults(reason.source, [*faults, *reason.faults], reason.lines) from None
+    plan = map_plan(pump, axes if options.cycle is None else _cycle_axes(pump, axes, options.cycle))
+    faults += [*plan.checked().faults, *alike_faults(pump), *of_pump(pump)]
+    known = variable_keys(pump, options.fidelity == Fidelity.TABLE.value)
+    stated = pump_keys(pump)
+    keys = chosen_keys(options, known, stated, faults)
+    if needs_keys(options):
+        faults.append(Fault("--keys", "missing", "chosen dimensions: floating films of each would take hours", "oil.*"))
+    if not faults:
+        faults += floating_faults(options, pump, options.fidelity)
+    if faults:
+        raise InputFaults(COMMAND_LINE, faults)
+    fidelity = Fidelity(options.fidelity)
+    at_once = together and fidelity is Fidelity.LUMPED and solves_together(pump)
+    solver = TogetherSolver() if at_once else _solver(options, plan, fidelity)
+    work = VariedWork(pump, solver, _sites(plan, options.cycle))
+    fixed = tuple(path for path in stated if path not in known)
+    return VariedCase(work, keys, fixed, fidelity, plan, given_text(options.pump, {}), options.cycle, options.resume)
+
+
+def _cycle_axes(pump: PumpDescription, axes: Sequence[MapAxis], cycle: Path) -> list[MapAxis]:
+    """Return the stated axes, and levels over the range of the cycle for the others that it varies."""
+    stated = {axis.input for axis in axes}
+    inputs = read_cycle(cycle, map_plan(pump, ()).axes).inputs
+    return [*axes, *(_over(given, inputs[given]) for given in inputs if given not in stated)]
+
+
+def _over(given: MapInput, values: np.ndarray) -> MapAxis:
+    least, most = float(values.min()), float(values.max())
+    if least == most:
+        return MapAxis(given, (least,))
+    return MapAxis(given, tuple(map(float, np.linspace(least, most, CYCLE_LEVELS.get(given, 4)))))
+
+
+def _sites(plan: MapPlan, cycle: Path | None) -> Sites:
+    return plan_sites(plan) if cycle is None else cycle_sites(plan, read_cycle(cycle, plan.axes))
+
+
+def _solver(options: argparse.Namespace, plan: MapPlan, fidelity: Fidelity) -> MapSolver:
+    if fidelity is Fidelity.LUMPED:
+        return LumpedSolver()
+    floating = floating_options(options, plan.pump)
+    if fidelity is Fidelity.TABLE:
+        return TableSolver(kept_table(MapCase(plan, fidelity, table=options.table)))
+    return DirectSolver(solver_of(Source(fidelity.value), floating), POINT_COST[fidelity])

@@ -1,0 +1,121 @@
+"""Options of commands that vary a pump: pump, operating points, fidelity, dimensions, processes."""
+
+from __future__ import annotations
+
+import argparse
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
+from fnmatch import fnmatchcase
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from swashfilm.case.gap.switches import add_floating_options
+from swashfilm.console.fidelity import Fidelity
+from swashfilm.console.inputs import option_value
+from swashfilm.runs.map.command import FIDELITIES, LEVELS, PLANS, SOLVED
+from system.inputs.faults import Fault, nearest_choice
+
+if TYPE_CHECKING:
+    from system.description.keys import PumpKey
+    from system.work.tasks import Executor
+
+
+def add_varied_options(command: argparse.ArgumentParser) -> None:
+    """Add the arguments of a varied pump to the parser of a command."""
+    command.add_argument("pump", nargs="?", default="ref90", metavar="PUMP", help="built-in name or pump file")
+    for option, (_, example, what) in LEVELS.items():
+        command.add_argument(option, metavar=example, help=f"{what}; a..b:n: n levels; one value: constant")
+    command.add_argument(
+        "--plan", metavar=f"{{{','.join(PLANS)}}}", default="point",
+        help="levels of axes that are not stated: the pump's own point (point), or the paper's 112 points (paper)",
+    )  # fmt: skip
+    command.add_argument(
+        "--cycle",
+        type=Path,
+        metavar="CYCLE.csv",
+        help="mean over a duty cycle; axes not stated get levels over its range",
+    )
+    command.add_argument(
+        "--fidelity", metavar=f"{{{','.join(one.value for one in FIDELITIES)}}}", default=Fidelity.LUMPED.value,
+        help="films of given thickness (lumped, default), solved at given positions (fixed), by balance of forces "
+        "(floating), or by a response table (table), whose films do not change with the dimensions",
+    )  # fmt: skip
+    command.add_argument("--table", type=Path, metavar="FILE.json", help="--fidelity table: file of the table")
+    add_floating_options(command)
+    command.add_argument("--keys", metavar="KEY,..", help="these dimensions alone: table.key, or a pattern (oil.*)")
+    command.add_argument("--workers", metavar="N", help="processes that solve pumps side by side (all cores)")
+    command.add_argument("--resume", type=Path, metavar="DIR", help="run folder with solved pumps of this run")
+
+
+def word_faults(options: argparse.Namespace) -> Iterator[Fault]:
+    """Yield the faults of words that do not depend on the pump."""
+    names = [fidelity.value for fidelity in FIDELITIES]
+    for option, known in (("--plan", PLANS), ("--fidelity", names)):
+        word = option_value(options, option)
+        if word not in known:
+            yield Fault(option, repr(word), f"one of {', '.join(known)}", nearest_choice(word, known))
+    if options.workers is not None and not (options.workers.isdecimal() and 1 <= int(options.workers) <= 256):
+        yield Fault("--workers", repr(options.workers), "a number, 1 to 256")
+    if options.table and options.fidelity != Fidelity.TABLE.value:
+        yield Fault("--table", f"beside --fidelity {options.fidelity}", "no table, or --fidelity table")
+    if options.resume is not None:
+        yield from _resume_faults(options.resume)
+
+
+def _resume_faults(folder: Path) -> Iterator[Fault]:
+    from system.inputs.faults import InputFaults
+    from system.work.kept_results import points_of_run
+
+    try:
+        points_of_run(folder)
+    except InputFaults as reason:
+        yield from reason.faults
+
+
+def chosen_keys(
+    options: argparse.Namespace, known: Mapping[str, PumpKey], stated: Mapping[str, PumpKey], faults: list[Fault]
+) -> dict[str, PumpKey]:
+    """Return the dimensions of --keys, all known ones without it; add the fault of each word that names none.
+
+    known: that may vary; stated: all of the pump, for the reason why one of them may not.
+    """
+    from system.description.keys import unknown_key
+
+    if options.keys is None:
+        return dict(known)
+    found: dict[str, PumpKey] = {}
+    for word in (one.strip() for one in options.keys.split(",")):
+        own = {path: key for path, key in known.items() if fnmatchcase(path, word)}
+        if not own and word in stated:
+            why = "a dimension on which the films of a response table depend"
+            faults.append(Fault("--keys", f"'{word}', {why}", "--fidelity lumped, fixed or floating"))
+        elif not own:
+            faults.append(unknown_key("--keys", word, known))
+        found |= own
+    return found
+
+
+def needs_keys(options: argparse.Namespace) -> bool:
+    """True where every dimension would cost too much: films that float."""
+    return options.fidelity == Fidelity.FLOATING.value and options.keys is None
+
+
+def solves_films(fidelity: Fidelity) -> bool:
+    """True for a fidelity that knows films."""
+    return fidelity is not Fidelity.LUMPED
+
+
+def costly(fidelity: Fidelity) -> bool:
+    """True for a fidelity that solves films anew for each pump."""
+    return fidelity.value in SOLVED
+
+
+@contextmanager
+def varied_executor(options: argparse.Namespace, seconds: float) -> Iterator[Executor]:
+    """Yield the processes that solve pumps: as many as have work for the seconds that they need to start."""
+    from swashfilm.runs.map.run import START
+    from system.work.processes import cores, process_pool
+
+    wanted = cores() if options.workers is None else int(options.workers)
+    with process_pool(max(1, min(wanted, int(seconds / START)))) as executor:
+        yield executor

@@ -1,0 +1,59 @@
+"""Words of both commands on varied pumps: where the pump is solved, and changes as people read them."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from swashfilm.runs.variation.case import VariedCase
+from system.description.keys import PumpKey
+from system.inputs.units import Dimension, format_quantity
+from system.maps.plan import MapInput, point_words
+from system.variation.sensitivity import one_of, unit_change
+
+
+def where(case: VariedCase) -> dict[str, Any]:
+    """Return the entries of a summary that say at which operating points and how a pump is solved."""
+    levels = {axis.input.value: list(axis.values) for axis in case.plan.axes}
+    points = case.work.sites.points
+    words = point_words(points[0]) if len(points) == 1 else _levels_words(case)
+    return {
+        "fidelity": case.fidelity.value,
+        "solver": case.work.solver.words,
+        "at": f"{case.work.sites.words}: {words}",
+        "points": len(points),
+        "levels": levels,
+        "weights": case.work.sites.weights.tolist(),
+    }
+
+
+def _levels_words(case: VariedCase) -> str:
+    parts = []
+    for axis in case.plan.axes:
+        ends = " to ".join(dict.fromkeys(axis.input.text(value) for value in (axis.values[0], axis.values[-1])))
+        parts.append(f"{axis.input.words} {ends}" if axis.input is not MapInput.RATIO else f"ratio {ends}")
+    return ", ".join(parts)
+
+
+def change_text(key: PumpKey) -> str:
+    """Return the change that a cost is told by: "1 um", "1 deg", "1 %" with its size."""
+    if key.dimension is Dimension.LENGTH:
+        return "1 um"
+    if key.dimension is Dimension.ANGLE:
+        return "1 deg"
+    return "1 %" if key.value != 0.0 else size_text(key, unit_change(key))
+
+
+def percent_of(key: PumpKey) -> float:
+    """Return 1 % of a dimension, SI; of one that is zero, of the size of its kind."""
+    return 0.01 * one_of(key)
+
+
+def size_text(key: PumpKey, size: float) -> str:
+    """Return a difference of a dimension as people read it."""
+    if key.dimension is None:
+        return f"{size:.3g}"
+    if key.dimension is Dimension.ANGLE:
+        return f"{np.degrees(size):.3g} deg"
+    return format_quantity(size, key.dimension, digits=3)

@@ -1,0 +1,248 @@
+"""Sensitivity of a pump: derivatives of its numbers by every dimension, at its operating points."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from functools import partial
+from pathlib import Path
+
+import numpy as np
+
+from reynolds.errors import NotConverged
+from reynolds.numerics.arrays import Array
+from system.description.drawing import drawing_of
+from system.description.drawn import pump_sigma
+from system.description.keys import PumpKey
+from system.description.pump import PumpDescription
+from system.inputs.faults import InputFaults
+from system.inputs.units import Dimension
+from system.variation.differences import Side, Stencil, Verdict, one_of, stencils, usual_step, verdicts
+from system.variation.measures import Measure, measured
+from system.variation.solving import Variant, VariedWork, numbers_in, solved_variants, varied
+from system.work.kept_results import KeptPoints
+from system.work.progress import Report
+from system.work.tasks import Executor, PartOutcome, PartStatus
+
+PERCENT = 0.01
+
+
+@dataclass(frozen=True)
+class Accuracy:
+    """Accuracy of a fidelity's differences.
+
+    step: share of a value by which it is varied; noise: of the solver, of a number; rounds: of falling steps.
+    """
+
+    step: float
+    noise: float
+    rounds: int
+
+
+@dataclass(frozen=True)
+class KeySlopes:
+    """Derivatives by one dimension, SI per SI: of the measures, arrays (M,), verdict by `Verdict`.
+
+    sites, sites_error: of the NUMBERS at each operating point, (P, NUMBERS). sigma: one standard deviation that
+    [tolerance] states, SI, None where it states none.
+    """
+
+    stencil: Stencil
+    value: Array
+    error: Array
+    verdict: np.ndarray
+    sites: Array
+    sites_error: Array
+    sigma: float | None
+
+    @property
+    def key(self) -> PumpKey:
+        """The dimension."""
+        return self.stencil.key
+
+    @property
+    def unit(self) -> float:
+        """The change (SI) that people ask for: 1 um of a length, 1 deg of an angle, else 1 %."""
+        return unit_change(self.key)
+
+
+@dataclass(frozen=True)
+class Refused:
+    """A dimension without a derivative, and why."""
+
+    key: PumpKey
+    reason: str
+
+
+@dataclass(frozen=True)
+class Sensitivity:
+    """Derivatives of all measures by all dimensions; middle: the measures (M,) of the pump as stated."""
+
+    measures: tuple[Measure, ...]
+    middle: Array
+    slopes: tuple[KeySlopes, ...]
+    refused: tuple[Refused, ...]
+    warnings: tuple[str, ...]
+    solved: int
+    seconds: float
+
+    def place(self, name: str) -> int:
+        """Return the place of a measure."""
+        return next(at for at, one in enumerate(self.measures) if one.name == name)
+
+    def ranked(self, name: str) -> list[KeySlopes]:
+        """Return the dimensions with a number for a measure, the dearest first by their unit change."""
+        at = self.place(name)
+        known = [one for one in self.slopes if one.verdict[at] is Verdict.SMOOTH]
+        return sorted(known, key=lambda one: -abs(one.value[at] * one.unit))
+
+
+def unit_change(key: PumpKey) -> float:
+    """Return the change (SI) of a dimension that its cost is told by: 1 um, 1 deg, or 1 % of it."""
+    return {Dimension.LENGTH: 1e-6, Dimension.ANGLE: float(np.radians(1.0))}.get(
+        key.dimension or Dimension.TIME, PERCENT * one_of(key)
+    )
+
+
+def sensitivity(
+    work: VariedWork,
+    keys: Mapping[str, PumpKey],
+    measures: tuple[Measure, ...],
+    accuracy: Accuracy,
+    folder: Path,
+    executor: Executor,
+    report: Report,
+    earlier: KeptPoints | None = None,
+) -> Sensitivity:
+    """Return the derivatives of the measures by dimensions of a pump, each by differences of `Stencil`.
+
+    Where numbers of a dimension do not converge, its step falls to a quarter, `accuracy.rounds` times in all; each
+    number is that of the first step at which it converges. Where a pump has no result the next stencil is tried.
+    Raises NotConverged where the stated pump has no result.
+    """
+    chosen, refused = _chosen(work.pump, keys, accuracy)
+    known: dict[Variant, PartOutcome] = {}
+
+    def solve(todo: Sequence[Stencil]) -> None:
+        wanted = [(), *(((one.key.path, value),) for one in todo for value in one.values)]
+        new = [variant for variant in dict.fromkeys(wanted) if variant not in known]
+        if not new:
+            return
+        known.update(zip(new, solved_variants(work, new, folder, executor, report, earlier), strict=True))
+
+    left = {path: iter(options) for path, options in chosen.items()}
+    todo, found, rounds = [next(options) for options in left.values()], dict[str, KeySlopes](), Counter[str]()
+    sigmas = _sigmas(work.pump)
+    solve(todo)
+    middle = _middle(known[()])
+    while todo:
+        following: list[Stencil] = []
+        for stencil in todo:
+            path = stencil.key.path
+            made = _slopes(stencil, known, middle, work, measures, accuracy.noise, sigmas)
+            if isinstance(made, KeySlopes):
+                rounds[path] += 1
+                found[path] = _better(found.get(path), made)
+                if Verdict.NOT_SMOOTH in found[path].verdict and rounds[path] < accuracy.rounds:
+                    following.append(replace(stencil, step=0.25 * stencil.step))
+            elif (smaller := next(left[path], None)) is not None and path not in found:
+                following.append(smaller)
+            elif path not in found:
+                refused.append(made)
+        todo = following
+        solve(todo)
+    return Sensitivity(
+        measures, measured(middle, work.sites.weights, measures), tuple(found.values()), tuple(refused),
+        tuple(known[()].record["warnings"]), len(known), sum(one.seconds for one in known.values()),
+    )  # fmt: skip
+
+
+def variants_needed(count: int) -> int:
+    """Return the number of pumps that the first round solves for so many dimensions."""
+    return 1 + 4 * count
+
+
+def _chosen(
+    pump: PumpDescription, keys: Mapping[str, PumpKey], accuracy: Accuracy
+) -> tuple[dict[str, list[Stencil]], list[Refused]]:
+    """Return the stencils of each dimension that has any, and the others with what the geometry says."""
+    chosen, refused = dict[str, list[Stencil]](), list[Refused]()
+    for path, key in keys.items():
+        step = usual_step(key, accuracy.step)
+        options = list(stencils(key, step, partial(_varied_to, pump, path)))
+        if options:
+            chosen[path] = options
+        else:
+            refused.append(Refused(key, _why(pump, key, step)))
+    return chosen, refused
+
+
+def _varied_to(pump: PumpDescription, path: str, value: float) -> PumpDescription:
+    return varied(pump, ((path, value),))
+
+
+def _why(pump: PumpDescription, key: PumpKey, step: float) -> str:
+    try:
+        varied(pump, ((key.path, key.value + step),))
+    except InputFaults as reason:
+        first = reason.faults[0]
+        return f"the geometry refuses both sides: {first.path}: {first.found}, expected {first.expected}"
+    return "no step is admitted"
+
+
+def _middle(outcome: PartOutcome) -> Array:
+    if outcome.status is not PartStatus.SOLVED:
+        raise NotConverged(f"the pump as stated: {outcome.reason}")
+    return numbers_in(outcome)
+
+
+def _slopes(
+    stencil: Stencil,
+    known: Mapping[Variant, PartOutcome],
+    middle: Array,
+    work: VariedWork,
+    measures: tuple[Measure, ...],
+    noise: float,
+    sigmas: Mapping[str, float],
+) -> KeySlopes | Refused:
+    outcomes = [known[((stencil.key.path, value),)] for value in stencil.values]
+    lacking = [one for one in outcomes if one.status is not PartStatus.SOLVED]
+    if lacking:
+        return Refused(stencil.key, f"{lacking[0].status.value}: {lacking[0].reason}")
+    sites = np.stack([numbers_in(one) for one in outcomes])
+    value, error = stencil.derivative(middle, sites)
+    weights = work.sites.weights
+    whole = measured(middle, weights, measures)
+    of_all, of_all_error = stencil.derivative(whole, measured(sites, weights, measures))
+    verdict = verdicts(stencil, whole, of_all, of_all_error, noise)
+    return KeySlopes(stencil, of_all, of_all_error, verdict, value, error, sigmas.get(stencil.key.path))
+
+
+def _better(before: KeySlopes | None, after: KeySlopes) -> KeySlopes:
+    """Return the slopes of which each is that of the step that converges, with the smaller error."""
+    if before is None:
+        return after
+    rough = before.verdict == Verdict.NOT_SMOOTH
+    mended = rough & (after.verdict != Verdict.NOT_SMOOTH)
+    finer = after.sites_error < before.sites_error
+    return KeySlopes(
+        after.stencil,
+        np.where(mended, after.value, before.value),
+        np.where(mended, after.error, before.error),
+        np.where(mended, after.verdict, before.verdict),
+        np.where(finer, after.sites, before.sites),
+        np.where(finer, after.sites_error, before.sites_error),
+        before.sigma,
+    )
+
+
+def _sigmas(pump: PumpDescription) -> dict[str, float]:
+    """Return the standard deviations that [tolerance] states, by path."""
+    drawn = drawing_of(pump)
+    return {one.name: pump_sigma(one) for one in drawn.members if len(one.keys) == 1}
+
+
+def one_sided(found: Sensitivity) -> list[KeySlopes]:
+    """Return the dimensions whose difference the geometry allows on one side only."""
+    return [one for one in found.slopes if one.stencil.side is not Side.BOTH]

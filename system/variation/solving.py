@@ -1,0 +1,120 @@
+"""Varied pumps solved at all operating points, as work in parts whose results are kept."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+from importlib.metadata import version
+from pathlib import Path
+
+import numpy as np
+
+from reynolds.errors import InputError
+from reynolds.numerics.arrays import Array
+from reynolds.numerics.cache import content_key
+from system.description.keys import PumpKey, pump_keys, with_values
+from system.description.pump import PumpDescription
+from system.description.tolerance import ToleranceSection
+from system.inputs.faults import Fault, InputFaults
+from system.maps.point import KEY_LENGTH, MapSolver
+from system.pump_file.file import check_pump, resolved_toml
+from system.variation.measures import point_numbers
+from system.variation.sites import Sites
+from system.variation.together import TogetherSolver
+from system.work.kept_results import KeptPoints, run_kept
+from system.work.progress import Report
+from system.work.tasks import Executor, PartOutcome
+
+FORMAT = 1
+"""Raised when the same pump gives other numbers: by the laws behind it, or by what is kept."""
+PART = 0.3
+"""Least seconds of work in a batch, for which the data sent with it are negligible."""
+_OF_TABLE = (
+    "ports.", "delivery_line.", "suction_line.", "bearings.", "pump.dead_volume", "oil.bulk_modulus",
+    "oil.kinematic_viscosity", "ball_guide.radius", "ball_guide.contact_latitude", "friction.ball_guide_retainer",
+    "friction.front_bearing", "friction.rear_bearing", "friction.piston_slipper_socket",
+)  # fmt: skip
+"""Dimensions that the films of a response table do not know: they act beside the gaps, or by the table's viscosity."""
+
+Variant = tuple[tuple[str, float], ...]
+"""Paths of a pump's dimensions with the values (SI) that stand in place of its own."""
+
+
+def varied(pump: PumpDescription, variant: Variant) -> PumpDescription:
+    """Return the pump with the values of a variant; raise InputFaults where no pump has them.
+
+    The faults are those of the single value and of the geometry: nothing is cut to a limit.
+    """
+    try:
+        made = with_values(pump, dict(variant))
+        faults = check_pump(made).faults
+    except InputError as reason:
+        faults = (Fault(reason.where, reason.found, reason.expected),)
+    except ValueError as reason:
+        faults = (Fault(", ".join(path for path, _ in variant), str(reason), "a value that a pump can have"),)
+    if faults:
+        raise InputFaults(pump.name, faults)
+    return made
+
+
+def variable_keys(pump: PumpDescription, by_table: bool) -> dict[str, PumpKey]:
+    """Return the dimensions that may vary: all of a pump's, of a response table those beside its films."""
+    return {path: one for path, one in pump_keys(pump).items() if not by_table or path.startswith(_OF_TABLE)}
+
+
+@dataclass(frozen=True)
+class VariedWork:
+    """Variants of a pump as work in parts: each is solved at all sites."""
+
+    pump: PumpDescription
+    solver: MapSolver | TogetherSolver
+    sites: Sites
+
+    def key(self, variant: Variant) -> str:
+        """Name of all that a variant's numbers depend on."""
+        made_by = "varied pump", FORMAT, version("swashfilm"), sorted(self.solver.stated.items()), self._read
+        points = np.array([list(vars(point).values()) for point in self.sites.points])
+        paths, values = [path for path, _ in variant], np.array([value for _, value in variant])
+        return content_key(*made_by, self.pump.file_contents, points, paths, values)[:KEY_LENGTH]
+
+    def solve(self, variant: Variant) -> dict[str, object]:
+        """The numbers of all sites, and the names of their warnings, which points solved together have not."""
+        pump = varied(self.pump, variant)
+        if isinstance(self.solver, TogetherSolver):
+            return {"numbers": self.solver.solve_all(pump, self.sites.of(pump)), "warnings": []}
+        solver = self.solver.row()
+        solved = [solver.solve(pump, point) for point in self.sites.of(pump)]
+        names = sorted({remark.warning.value for one in solved for remark in one.pump_point.warnings})
+        return {"numbers": [point_numbers(one) for one in solved], "warnings": names}
+
+    @cached_property
+    def _read(self) -> str:
+        return resolved_toml(replace(self.solver.reads(self.pump), name="", tolerance=ToleranceSection()))
+
+
+def solved_variants(
+    work: VariedWork,
+    variants: Sequence[Variant],
+    folder: Path,
+    executor: Executor,
+    report: Report,
+    earlier: KeptPoints | None = None,
+) -> tuple[PartOutcome, ...]:
+    """Return the outcome of every variant; each is kept in a folder as soon as it is known."""
+    cost = work.solver.cost * len(work.sites.points)
+    batch = max(1, round(PART / cost))
+    found = run_kept(
+        work, variants, KeptPoints(folder), executor, earlier=earlier, batch=batch, described=_progress, report=report
+    )
+    return found.outcomes
+
+
+def numbers_in(outcome: PartOutcome) -> Array:
+    """Return the numbers (P, NUMBERS) of a solved variant."""
+    return np.array(outcome.record["numbers"], dtype=float)
+
+
+def _progress(variant: Variant, outcome: PartOutcome) -> str:
+    where = ", ".join(path for path, _ in variant) if len(variant) < 3 else f"{len(variant)} dimensions"
+    return f"{where or 'as stated'}: {outcome.status.value}"

@@ -1,0 +1,223 @@
+"""`swashfilm sensitivity` and `tolerance`: what they write, print and refuse."""
+
+import json
+
+import numpy as np
+import pytest
+from stand_in_films import ThinningFilms
+
+import swashfilm as sf
+from swashfilm.__main__ import main
+from swashfilm.runs.tolerance.limits import limit_of
+from system.points.table import sources
+from system.variation.measures import measures_of
+from system.variation.scatter import Bound
+
+KEYS = "slipper.film_thickness,ports.groove_start,oil.bulk_modulus,bearings.front_share,friction.*"
+FIT = """
+[[tolerance.fit]]
+key = "piston.radial_clearance"
+shape = "uniform"
+hole_least = "22.01 mm"
+hole_most = "22.05 mm"
+shaft_least = "22.00 mm"
+shaft_most = "22.02 mm"
+"""
+
+
+@pytest.fixture(scope="module")
+def costs(tmp_path_factory):
+    """Run folder of a sensitivity of some dimensions."""
+    place = tmp_path_factory.mktemp("sensitivity") / "run"
+    assert main(["sensitivity", "ref90", "--keys", KEYS, "-o", str(place)]) == 0
+    return place
+
+
+@pytest.fixture(scope="module")
+def series(tmp_path_factory):
+    """Run folder of a series whose piston clearance may cross zero, with its pump file."""
+    place = tmp_path_factory.mktemp("tolerance")
+    text = (sf.run("ref90", fidelity="lumped").save(place / "pump") / "input.toml").read_text("utf-8")
+    (place / "pump.toml").write_text(text.replace("[operating]", FIT + "\n[operating]"))
+    words = ["--pumps", "300", "--keys", "piston.radial_clearance,slipper.*", "--pressures", "10,30MPa"]
+    limits = ["--limit", "efficiency >= 80 %", "--limit", "case drain <= 0.5 L/min"]
+    assert main(["tolerance", str(place / "pump.toml"), *words, *limits, "-o", str(place / "run")]) == 0
+    return place / "run"
+
+
+def test_files_of_a_sensitivity(costs):
+    summary = json.loads((costs / "summary.json").read_text())
+    assert summary["kind"] == "sensitivity"
+    rows = {row["key"]: row for row in summary["dimensions"]}
+    assert rows["slipper.film_thickness"]["change_text"] == "1 um"
+    assert rows["ports.groove_start"]["change"] == pytest.approx(np.radians(1.0))
+    assert rows["slipper.film_thickness"]["sigma"] == pytest.approx(0.8e-6)
+    assert [one["key"] for one in summary["refused"]] == ["bearings.front_share"]
+    page = (costs / "report.html").read_text()
+    assert "dearest by +1 um" in page
+    assert "Dimensions without a derivative" in page
+    assert (costs / "sensitivity.csv").read_text().startswith("key,value [SI]")
+
+
+def test_sensitivity_prints_the_dearest_first(costs, capsys):
+    result = sf.open(costs)
+    table = dict(result.tables())["Cost of each dimension, the dearest first"]
+    assert table[1][0] == "slipper.film_thickness"
+    assert table[1][3].startswith("-1")  # W for one more micrometre
+    data = result.to_xarray()
+    assert data["derivative"].sel(key="slipper.film_thickness", measure="loss") < 0.0
+    assert result.to_pandas().loc["oil.bulk_modulus", "loss"] < 0.0
+    assert result.plot_costs()
+    assert result.plot_tolerances()
+    assert main(["report", str(costs)]) == 0
+    capsys.readouterr()
+
+
+def test_sensitivity_is_resumed(costs, tmp_path, capsys):
+    place = tmp_path / "again"
+    assert main(["sensitivity", "--keys", KEYS, "--resume", str(costs), "-o", str(place)]) == 0
+    assert "points kept" in capsys.readouterr().err
+    one, other = (json.loads((folder / "summary.json").read_text()) for folder in (costs, place))
+    assert one["dimensions"] == other["dimensions"]
+
+
+def test_sensitivity_over_a_cycle(tmp_path):
+    cycle = tmp_path / "cycle.csv"
+    cycle.write_text("time [s],pressure [bar]\n0,100\n10,300\n")
+    found = sf.sensitivity("ref90", keys=["slipper.film_thickness"], cycle=cycle)
+    assert found.points == 5
+    assert sum(found.summary["weights"]) == pytest.approx(1.0)
+    assert "duty cycle of 10 s" in found.summary["at"]
+
+
+def test_files_of_a_tolerance(series):
+    summary = json.loads((series / "summary.json").read_text())
+    pumps = summary["pumps"]
+    assert sum(pumps["refused"].values()) == pumps["drawn"] - pumps["solved"] > 5
+    assert any("refused by the geometry" in one for one in summary["warnings"])
+    assert [one["limit"] for one in summary["limits"]] == ["efficiency >= 80 %", "case drain <= 0.5 L/min"]
+    shares = summary["measures"]["drain_flow"]["shares"]
+    assert sum(one["first"]["value"] for one in shares) == pytest.approx(1.0, abs=0.05)
+    assert len(summary["at_points"]) == 2
+    page = (series / "report.html").read_text()
+    for words in ("Scatter at each operating point", "hole 22.01 mm to 22.05 mm", "a third tighter", "of 100"):
+        assert words in page
+    rows = (series / "pumps.csv").read_text().splitlines()
+    assert len(rows) == pumps["solved"] + 1
+    assert main(["report", str(series)]) == 0
+
+
+def test_result_of_a_tolerance(series):
+    found = sf.open(series)
+    assert found.to_xarray()["dimension"].shape == (found.pumps["solved"], 2)
+    assert "drain_flow" in found.to_pandas().columns
+    assert found.plot_scatter()
+    assert found.plot_shares()
+    assert [title for title, _ in found.tables()][-1] == "Limits"
+
+
+def test_both_as_functions(tmp_path):
+    found = sf.tolerance("ref90", pumps=100, keys="slipper.film_thickness", limit="loss <= 20 kW")
+    assert found.limits[0]["missing"]["value"] == 0.0
+    assert (found.save(tmp_path / "run") / "report.html").is_file()
+    with pytest.raises(sf.InputFaults, match="no dimension"):
+        sf.sensitivity("ref90", keys="oil.densty")
+
+
+@pytest.mark.parametrize(
+    ("words", "expected"),
+    [
+        (["sensitivity", "--keys", "piston.clearance"], ["--keys", "piston.radial_clearance"]),
+        (["sensitivity", "--keys", "pump.displacement"], ["it follows from the geometry"]),
+        (["sensitivity", "--fidelity", "floating"], ["--keys", "hours"]),
+        (["sensitivity", "--fidelity", "lumpd", "--plan", "papr"], ["lumped", "paper"]),
+        (["sensitivity", "--table", "t.json"], ["--table", "--fidelity table"]),
+        (["sensitivity", "--resume", "nowhere"], ["--resume", "which holds no points"]),
+        (["sensitivity", "--workers", "0"], ["--workers"]),
+        (["sensitivity", "--steps", "36"], ["--steps", "--fidelity lumped"]),
+        (["sensitivity", "--cycle", "nowhere.csv"], ["nowhere.csv"]),
+        (["sensitivity", "nowhere.toml"], ["nowhere.toml"]),
+        (["tolerance", "--keys", "oil.density"], ["without a tolerance"]),
+        (["tolerance", "--keys", "oil.densty"], ["oil.density"]),
+        (["tolerance", "--pumps", "99"], ["--pumps", "100 to"]),
+        (["tolerance", "--pumps", "150"], ["--pumps", "315 at least"]),
+        (["tolerance", "--seed", "one"], ["--seed"]),
+        (["tolerance", "--limit", "eficiency >= 88 %"], ["eficiency", "efficiency"]),
+        (["tolerance", "--limit", "case drain <= 1.5 bar"], ["not a volume flow"]),
+        (["tolerance", "--limit", "efficiency >= much"], ["a share"]),
+        (["tolerance", "--limit", "88 %"], ["a quantity, >= or <="]),
+        (["tolerance", "--limit", "least film, slipper >= 1 um"], ["no quantity of a pump at this fidelity"]),
+    ],
+)
+def test_faults(words, expected, capsys):
+    assert main(words) == 2
+    error = capsys.readouterr().err
+    for word in expected:
+        assert word in error
+
+
+def test_all_faults_at_once(capsys):
+    words = ["tolerance", "--limit", "hm", "--pumps", "7", "--keys", "oil.density", "--plan", "none"]
+    assert main(words) == 2
+    assert "4 faults" in capsys.readouterr().err
+
+
+def test_a_pump_without_tolerances(tmp_path, capsys):
+    text = (sf.run("ref90", fidelity="lumped").save(tmp_path / "pump") / "input.toml").read_text("utf-8")
+    before, _, after = text.partition("[tolerance]")
+    bare = before + "[operating]" + after.partition("[operating]")[2]
+    (tmp_path / "bare.toml").write_text(bare)
+    assert main(["tolerance", str(tmp_path / "bare.toml")]) == 2
+    assert "no dimension that scatters" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    ("text", "name", "bound", "value"),
+    [
+        ("efficiency >= 88 %", "efficiency.overall", Bound.LEAST, 0.88),
+        ("volumetric efficiency >= 0.95", "efficiency.volumetric", Bound.LEAST, 0.95),
+        ("case drain <= 1.5 L/min", "drain_flow", Bound.MOST, 2.5e-5),
+        ("leakage.piston<=60 mL/min", "leakage.piston", Bound.MOST, 1e-6),
+        ("Loss <= 2 kW", "loss", Bound.MOST, 2000.0),
+        ("hottest oil, slipper <= 90 degC", "film_temperature.slipper", Bound.MOST, 363.15),
+    ],
+)
+def test_limits_as_text(text, name, bound, value):
+    faults = []
+    found = limit_of(text, measures_of(films=True), faults)
+    assert not faults
+    assert (found.measure.name, found.bound, found.value) == (name, bound, pytest.approx(value))
+
+
+@pytest.fixture(scope="module")
+def film_table(tmp_path_factory):
+    """File of a response table of REF90 over pressure and viscosity, whose points a stand-in solves."""
+    place = tmp_path_factory.mktemp("table")
+    with pytest.MonkeyPatch.context() as patched:
+        patched.setenv("SWASHFILM_CACHE", str(place / "cache"))
+        patched.setattr(sources, "solver_of", lambda source, options: ThinningFilms())
+        held = ["--speed", "2100rpm", "--displacement", "1", "--points", "24", "--held-out", "6"]
+        assert main(["table", "ref90", "--pressure", "15MPa..38MPa", *held, "-o", str(place / "run")]) == 0
+    return place / "run" / "table.json"
+
+
+def test_sensitivity_by_a_response_table(film_table):
+    """Dimensions beside the films, and the viscosity, which the table has as an axis."""
+    of_table = {"fidelity": "table", "table": film_table}
+    found = sf.sensitivity("ref90", keys="ports.groove_*,oil.kinematic_viscosity_40C", **of_table)
+    rows = {row["key"]: row["measures"] for row in found.summary["dimensions"]}
+    assert rows["oil.kinematic_viscosity_40C"]["film_least.slipper"]["derivative"] > 0.0  # thicker on thicker oil
+    assert rows["ports.groove_start"]["loss"]["derivative"] < 0.0
+    assert "slipper.film_thickness" in found.summary["held_by_fidelity"]
+    with pytest.raises(sf.InputFaults, match="the films of a response table depend"):
+        sf.sensitivity("ref90", keys="slipper.film_thickness", **of_table)
+
+
+def test_tolerance_by_a_response_table(film_table):
+    of_table = {"fidelity": "table", "table": film_table, "pumps": 100}
+    found = sf.tolerance("ref90", keys="oil.kinematic_viscosity_40C", limit="least film, slipper >= 1 um", **of_table)
+    shares = found.summary["measures"]["film_least.slipper"]["shares"]
+    assert shares[0]["total"]["value"] == pytest.approx(1.0, abs=0.02)
+    with pytest.raises(sf.InputFaults, match=r"slipper.film_thickness.*the films of a response table") as reason:
+        sf.tolerance("ref90", **of_table | {"pumps": 400})
+    assert "oil.kinematic_viscosity_40C" in reason.value.faults[0].nearest
