@@ -14,6 +14,7 @@ from diagnosis.report.json_file import read_diagnosis
 from reynolds.numerics.arrays import Array
 from swashfilm.output.answer import Answer
 from swashfilm.output.page import inlined, read_summary, write_page
+from swashfilm.output.picture import Picture
 from swashfilm.runs.diagnose import plots as diagnose_plots
 from swashfilm.runs.diagnose.fields import film_pictures
 from swashfilm.runs.diagnose.files import TRACES, read_rows
@@ -115,8 +116,8 @@ def _answer(
     found: Mapping[str, Any],
     summary: Mapping[str, Any],
     tables: Mapping[str, Sequence[Mapping[str, str]]],
-    pictures: Mapping[str, str],
-) -> tuple[Answer, dict[str, str]]:
+    pictures: Mapping[str, Picture],
+) -> tuple[Answer, dict[str, Picture]]:
     """What the page says first, and the pictures that are left for its sections."""
     told, first = found["answer"], "course" if "course" in pictures else "maps"
     caption = COURSE_CAPTION if first == "course" else _map_caption(bool(found["effects"]))
