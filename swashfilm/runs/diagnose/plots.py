@@ -119,7 +119,7 @@ def effect_courses(rows: Sequence[Row], courses: Sequence[tuple[str, str]]) -> F
         place, added = _column(own, axis), _column(own, "added")
         left = _column(own, "measured") - (_column(own, "after") - added)
         axes.errorbar(place, left, _column(own, "sigma"), fmt="none", ecolor=NOISE, alpha=0.8)
-        label = "measured - simulated without the finding"
+        label = "difference without it"
         axes.plot(place, left, "o", color=BEFORE, markersize=4, markerfacecolor="none", label=label, alpha=0.8)
         axes.plot(place, added, "x", color=AFTER, markeredgewidth=1.8, label="what the finding adds", zorder=3)
         axes.axhline(0.0, color="#1c2328", linewidth=0.8)
