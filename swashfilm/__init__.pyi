@@ -19,6 +19,7 @@ from .api import (
     table as table,
     tolerance as tolerance,
     transient as transient,
+    vary as vary,
 )
 from .runs.table.gap_run import read_gap_table as read_gap_table
 from .version import __version__ as __version__

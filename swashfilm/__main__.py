@@ -17,6 +17,10 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
     An internal error ends it with 1 and one line; `--debug` shows the traceback.
     """
+    if "_ARGCOMPLETE" in os.environ:  # the shell asks for words that may follow
+        from swashfilm.cli.completion import complete_line
+
+        complete_line()
     words = list(sys.argv[1:] if arguments is None else arguments)
     if "--debug" in words:
         words.remove("--debug")

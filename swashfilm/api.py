@@ -35,6 +35,7 @@ if TYPE_CHECKING:
     from swashfilm.runs.film.series.result import StudyRun
     from swashfilm.runs.map.result import MapRun
     from swashfilm.runs.pump.result import PumpRun
+    from swashfilm.runs.pump.vary.result import VariedRun
     from swashfilm.runs.reference.result import ReferenceRun
     from swashfilm.runs.reproduce.result import Reproduction
     from swashfilm.runs.sensitivity.result import SensitivityRun
@@ -52,10 +53,21 @@ _SI = {
     **dict.fromkeys(("speed", "speeds"), "rad/s"), **dict.fromkeys(("temperature", "temperatures"), "K"),
     **dict.fromkeys(("pressure", "pressures", "inlet_pressure", "inlet_pressures", "case_pressure"), "Pa"),
 }  # fmt: skip
-_OF_COMMAND_LINE = ("-o", "--output", "--help", "--csv", "--animate", "--apply", "--page", "--watch")
+_OF_COMMAND_LINE = (
+    "-o",
+    "--output",
+    "--help",
+    "--csv",
+    "--animate",
+    "--apply",
+    "--page",
+    "--watch",
+    "--excel",
+    "--units",
+)
 _RESULTS = (
-    "pump", "film", "film.revolution", "film.series", "map", "duty", "compare", "table", "transient", "reference",
-    "reproduce", "diagnose", "calibrate", "sensitivity", "tolerance",
+    "pump", "pump.vary", "film", "film.revolution", "film.series", "map", "duty", "compare", "table", "transient",
+    "reference", "reproduce", "diagnose", "calibrate", "sensitivity", "tolerance",
 )  # fmt: skip
 """Rooms of `swashfilm.runs` with results."""
 
@@ -89,13 +101,41 @@ def run(
         "case_pressure": case_pressure,
         "fidelity": fidelity,
         "table": table,
-        "set": [f"{key}={value}" for key, value in (set or {}).items()],
+        "set": set,
     }
+    if several := [name for name in ("vary", "workers", "resume") if name in options]:
+        raise InputFaults(
+            "swashfilm.run()", [Fault(one, "an argument of several points", "swashfilm.vary()") for one in several]
+        )
     with _door("run"), _pump_file(pump) as name:
         from swashfilm.runs.pump.command import pump_case
         from swashfilm.runs.pump.run import solve_pump
 
         return solve_pump(pump_case(_words("run", [name], given | options)), report)
+
+
+def vary(
+    pump: str | Path | PumpDescription,
+    over: Mapping[str, str],
+    *,
+    workers: int = 1,
+    resume: str | Path | None = None,
+    report: Report = silent,
+    **options: object,
+) -> VariedRun:
+    """Solve a pump over levels of keys of its file, as `swashfilm run --vary`.
+
+    over: {"valve_plate.film_thickness": "6..14um:9"}, several keys: a grid. options: those of `run`. A point
+    without a result has its reason. Raises InputFaults.
+    """
+    given = {"vary": over, "workers": workers if workers > 1 else None, "resume": resume}
+    with _door("vary"), _pump_file(pump) as name:
+        from swashfilm.runs.pump.command import varied_case
+        from swashfilm.runs.pump.vary.result import VariedRun, run_varied
+
+        words = _words("run", [name], given | options)
+        study, count = varied_case(words)
+        return VariedRun.ran(lambda folder: run_varied(study, folder, report, resumed=words.resume, workers=count))
 
 
 def film(
@@ -469,7 +509,9 @@ def _words(command: str, positional: Sequence[object], given: Mapping[str, objec
         option = f"--{name.replace('_', '-')}"
         if value is True:
             words.append(option)
-        elif isinstance(value, list) and name in ("set", "limit"):
+        elif isinstance(value, Mapping):
+            words += [f"{option}={key}={one}" for key, one in value.items()]
+        elif isinstance(value, list) and name == "limit":
             words += [f"{option}={one}" for one in value]
         elif value is not None and value is not False:
             words.append(f"{option}={_text(name, value)}")

@@ -14,7 +14,7 @@ import numpy as np
 from diagnosis.next_point.forecast import Contender, Forecast
 from diagnosis.next_point.operating_box import BenchBox
 from diagnosis.recording.units import channel_unit, difference, reading
-from diagnosis.report.format import PLACES, if_words
+from diagnosis.report.format import PLACES, if_words, pressure_text
 from diagnosis.study.model import Study
 from diagnosis.thresholds import NextPointLimits
 from reynolds.numerics.arrays import Array
@@ -56,7 +56,7 @@ class GapLeakTest:
         )
         speed, pressure, warm = (float(one[0]) for one in (self.point.speed, self.point.p_out, self.point.T_case))
         where = (
-            f"{reading(ChannelName.SPEED, speed):.0f} r/min, {reading(ChannelName.P_OUT, pressure):.0f} bar, "
+            f"{reading(ChannelName.SPEED, speed):.0f} r/min, {pressure_text(pressure)}, "
             f"{reading(ChannelName.T_CASE, warm):.0f} degC in the case"
         )
         return (

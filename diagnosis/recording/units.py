@@ -5,9 +5,10 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from system.inputs.channels import ChannelName
+from system.inputs.shown import PressureUnit, pressure_unit
 from system.inputs.units import Dimension, in_unit
 
-BENCH_UNITS = {Dimension.PRESSURE: "bar", Dimension.TEMPERATURE: "degC", Dimension.VOLUME_FLOW: "L/min"}
+BENCH_UNITS = {Dimension.TEMPERATURE: "degC", Dimension.VOLUME_FLOW: "L/min"}
 """Reading units of a bench where they are not the usual ones."""
 OTHER_UNITS: Mapping[Dimension, tuple[str, ...]] = {
     Dimension.PRESSURE: ("bar", "MPa", "kPa", "psi", "Pa"),
@@ -24,7 +25,14 @@ def channel_unit(channel: ChannelName) -> str:
     dimension = channel.dimension
     if dimension is None:
         return "1"
+    if dimension is Dimension.PRESSURE:
+        return pressure_unit(PressureUnit.BAR).value
     return BENCH_UNITS.get(dimension, dimension.reading_units[0])
+
+
+def channel_head(channel: ChannelName) -> str:
+    """The head of a column of readings, such as "p_out [bar]"."""
+    return f"{channel.value} [{channel_unit(channel)}]"
 
 
 def difference_unit(channel: ChannelName) -> str:

@@ -9,7 +9,7 @@ import numpy as np
 from diagnosis.explain.explained import explained_mismatch
 from diagnosis.explain.scaling import Scaling
 from diagnosis.recording.units import difference, difference_unit, reading
-from diagnosis.report.format import listed
+from diagnosis.report.format import listed, pressure_text
 from diagnosis.study.map_axes import axis_values
 from diagnosis.study.model import Study
 from diagnosis.verdict.diagnosis import Diagnosis, VerdictStatus
@@ -90,7 +90,7 @@ def _level(axis: ChannelName, value: float) -> str:
     shown = reading(axis, value)
     forms = {
         ChannelName.SPEED: f"{shown:.0f} r/min",
-        ChannelName.P_OUT: f"{shown:.0f} bar",
+        ChannelName.P_OUT: pressure_text(value),
         ChannelName.DISPLACEMENT_RATIO: f"{100.0 * shown:.0f} % stroke",
         ChannelName.T_CASE: f"{shown:.0f} degC in the case",
     }

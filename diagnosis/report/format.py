@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-from diagnosis.recording.units import reading
+from diagnosis.recording.units import channel_unit, reading
 from system.description.gap import Gap
 from system.effects.effect import EffectId
 from system.inputs.channels import ChannelName
+from system.inputs.units import Dimension, in_unit, reading_unit
 
 MOST_ODDS = 1000000
 """Odds beyond which a number means nothing: models are not that true."""
@@ -34,8 +35,23 @@ def channel_words(channel: ChannelName) -> str:
 
 def setting_text(speed: float, pressure: float, stroke: float) -> str:
     """An operating point in SI in the words of a bench: "1000 r/min, 374 bar, 28 % stroke"."""
-    turns, bar = reading(ChannelName.SPEED, speed), reading(ChannelName.P_OUT, pressure)
-    return f"{turns:.0f} r/min, {bar:.0f} bar, {100.0 * stroke:.0f} % stroke"
+    turns, load = reading(ChannelName.SPEED, speed), pressure_text(pressure)
+    return f"{turns:.0f} r/min, {load}, {100.0 * stroke:.0f} % stroke"
+
+
+def pressure_text(pressure: float) -> str:
+    """A delivery pressure in Pa with the unit that is asked for: "374 bar"."""
+    return f"{reading(ChannelName.P_OUT, pressure):.3g} {channel_unit(ChannelName.P_OUT)}"
+
+
+def parameter_unit(dimension: Dimension | None, size: float) -> tuple[str, float]:
+    """Unit that a parameter of this size (SI) is read in, and its factor on SI; temperatures are differences."""
+    if dimension is None:
+        return "1", 1.0
+    if dimension is Dimension.TEMPERATURE:
+        return "K", 1.0
+    unit = reading_unit(size, dimension)
+    return unit, in_unit(1.0, unit, dimension)
 
 
 def last_word(name: str) -> str:

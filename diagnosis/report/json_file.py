@@ -167,7 +167,7 @@ def _next_test(found: NextPoint) -> dict[str, Any]:
     return {
         "point": {
             "speed_rpm": reading(ChannelName.SPEED, point.shaft_speed),
-            "p_out_bar": reading(ChannelName.P_OUT, point.delivery_pressure),
+            "p_out_bar": point.delivery_pressure * 1e-5,
             "displacement_ratio": point.displacement_ratio,
             "T_in_degC": reading(ChannelName.T_IN, found.inlet_temperature),
             "T_case_degC": reading(ChannelName.T_CASE, point.temperature),

@@ -7,11 +7,10 @@ from dataclasses import dataclass
 from math import floor, log10, pi, sqrt
 from string import Formatter
 
-from diagnosis.report.format import PLACES, last_word, listed
+from diagnosis.report.format import PLACES, last_word, listed, parameter_unit
 from diagnosis.verdict.diagnosis import ClaimedEffect, Diagnosis, Estimate
 from system.effects.catalogue.bench_words import BENCH_WORDS
 from system.effects.catalogue.entries import entry_of
-from system.inputs.units import Dimension, in_unit, reading_unit
 
 PER_PRESSURE = 1e7
 """Pa: coefficients of pressure are told as shares per 100 bar."""
@@ -57,14 +56,8 @@ def size_words(claim: ClaimedEffect) -> str:
 
 def quantity(one: Estimate) -> str:
     """A value with one sigma, to the digits that count: "0.207 +- 0.008 mm2". Temperatures are differences, in K."""
-    value, sigma, unit = one.value, one.sigma, ""
-    if one.dimension is Dimension.TEMPERATURE:
-        unit = " K"
-    elif one.dimension is not None:
-        name = reading_unit(one.value, one.dimension)
-        value, sigma = (in_unit(number, name, one.dimension) for number in (value, sigma))
-        unit = f" {name}"
-    return f"{_rounded(value, sigma)}{unit}"
+    unit, factor = parameter_unit(one.dimension, one.value)
+    return f"{_rounded(one.value * factor, one.sigma * factor)} {unit.removesuffix('1')}".rstrip()
 
 
 def _fields(claim: ClaimedEffect, diagnosis: Diagnosis) -> dict[str, object]:

@@ -13,15 +13,14 @@ import numpy as np
 from diagnosis.explain.explained import explained_mismatch
 from diagnosis.next_point.choose import NextPoint
 from diagnosis.recording.model import Recording
-from diagnosis.recording.units import channel_unit, difference, reading
+from diagnosis.recording.units import channel_head, channel_unit, difference, reading
+from diagnosis.report.format import parameter_unit
 from diagnosis.study.model import Study
 from diagnosis.verdict.diagnosis import Diagnosis
 from diagnosis.verdict.row_numbers import table_rows
 from reynolds.numerics.arrays import Array
-from system.estimation.parameters import Parameter
 from system.estimation.posterior import Posterior
 from system.inputs.channels import ChannelName
-from system.inputs.units import Dimension
 
 AXES = (ChannelName.SPEED, ChannelName.P_OUT, ChannelName.DISPLACEMENT_RATIO, ChannelName.T_CASE)
 Row = Mapping[str, str]
@@ -35,7 +34,7 @@ def steady_rows(recording: Recording) -> Iterator[Row]:
     for number, values in zip(table_rows(recording), table.values, strict=True):
         row = {"point": str(number)}
         for name in recorded:
-            row[f"{name.value} [{channel_unit(name)}]"] = _reading(name, float(values[names.index(name)]))
+            row[channel_head(name)] = _reading(name, float(values[names.index(name)]))
         yield row
 
 
@@ -60,9 +59,7 @@ def residual_rows(study: Study, diagnosis: Diagnosis) -> Iterator[Row]:
         channel = study.channels[at]
         measured, one = study.observations.values[point, at], sigma[point, at]
         place = {
-            f"{axis.value} [{channel_unit(axis)}]": _reading(
-                axis, float(study.recording.steady.values[point, order.index(axis)])
-            )
+            channel_head(axis): _reading(axis, float(study.recording.steady.values[point, order.index(axis)]))
             for axis in AXES
         }
         yield {
@@ -110,24 +107,29 @@ def parameter_rows(diagnosis: Diagnosis) -> Iterator[Row]:
     for at, fitted in enumerate(after.parameters):
         had = before.index(fitted.name) if fitted.name in known else None
         parameter = fitted if had is None else before.parameters[had]
+        found, spread = float(after.values[at]), abs(parameter.stretch(0.0))
+        unit, factor = parameter_unit(parameter.dimension, found or parameter.centre or spread)
         yield {
             "name": parameter.name,
-            "unit": _unit(parameter),
+            "unit": unit,
             "role": parameter.role.value,
-            "prior": _text(parameter.centre),
-            "prior_sigma": _text(abs(parameter.stretch(0.0))),
-            "before": _text(float(before.values[had])) if had is not None else "",
-            "after": _text(float(after.values[at])),
-            "sigma": _text(after.sigma(parameter.name)),
+            "prior": _text(factor * parameter.centre),
+            "prior_sigma": _text(factor * spread),
+            "before": _text(factor * float(before.values[had])) if had is not None else "",
+            "after": _text(factor * found),
+            "sigma": _text(factor * after.sigma(parameter.name)),
             "pull_before": _text(float(before.pulls[had])) if had is not None else "",
             "pull_after": "" if parameter.name in free else _text(float(after.pulls[at])),
             "source": parameter.source,
         }
 
 
-NEXT_POINT_HEAD = (
-    "speed [rpm]", "p_out [bar]", "displacement_ratio [1]", "T_in [degC]", "T_case [degC]", "gain [nats]",
-)  # fmt: skip
+def next_point_head() -> tuple[str, ...]:
+    """Columns of the points for a next measurement."""
+    inputs = (
+        ChannelName.SPEED, ChannelName.P_OUT, ChannelName.DISPLACEMENT_RATIO, ChannelName.T_IN, ChannelName.T_CASE,
+    )  # fmt: skip
+    return (*map(channel_head, inputs), "gain [nats]")
 
 
 def next_point_rows(found: NextPoint | None) -> Iterator[Row]:
@@ -142,7 +144,7 @@ def next_point_rows(found: NextPoint | None) -> Iterator[Row]:
             _reading(ChannelName.T_CASE, point.temperature),
             _text(one.gain),
         )
-        yield dict(zip(NEXT_POINT_HEAD, values, strict=True))
+        yield dict(zip(next_point_head(), values, strict=True))
 
 
 def pull_sums(before: Posterior, after: Posterior) -> tuple[float, float]:
@@ -168,12 +170,6 @@ def _set_free(before: Posterior, after: Posterior) -> Iterator[str]:
 def _reading(channel: ChannelName, value: float) -> str:
     """A reading in SI in its unit, empty where there is none."""
     return _text(reading(channel, value)) if np.isfinite(value) else ""
-
-
-def _unit(parameter: Parameter) -> str:
-    if parameter.dimension is Dimension.TEMPERATURE:
-        return "K"
-    return parameter.dimension.si_unit if parameter.dimension else "1"
 
 
 def _text(value: float) -> str:

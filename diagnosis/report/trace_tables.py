@@ -21,7 +21,7 @@ def trace_residual_rows(study: Study, diagnosis: Diagnosis) -> Iterator[Row]:
 
     sigma is that of the recorded mean, an angle known to its step; point: row of the steady table, from 1.
     """
-    numbers = table_rows(study.recording)
+    numbers, unit = table_rows(study.recording), channel_unit(ChannelName.P_CHAMBER)
     for trace in study.traces:
         point, angle = trace.block.point, trace.block.angle
         before, after = simulated_traces(study, diagnosis, (point,), angle)
@@ -30,10 +30,10 @@ def trace_residual_rows(study: Study, diagnosis: Diagnosis) -> Iterator[Row]:
             yield {
                 "point": str(numbers[point]),
                 ANGLE: f"{reading(ChannelName.ANGLE, float(angle[at])):.6g}",
-                "measured [bar]": _bar(float(measured)),
-                "before [bar]": _bar(float(before[0, at])),
-                "after [bar]": _bar(float(after[0, at])),
-                "sigma [bar]": f"{difference(ChannelName.P_CHAMBER, float(one)):.4g}",
+                f"measured [{unit}]": _pressure(float(measured)),
+                f"before [{unit}]": _pressure(float(before[0, at])),
+                f"after [{unit}]": _pressure(float(after[0, at])),
+                f"sigma [{unit}]": f"{difference(ChannelName.P_CHAMBER, float(one)):.4g}",
                 "pull_before": f"{(measured - before[0, at]) / one:.4g}",
                 "pull_after": f"{(measured - after[0, at]) / one:.4g}",
             }
@@ -52,5 +52,5 @@ def simulated_traces(study: Study, diagnosis: Diagnosis, points: tuple[int, ...]
     return before, simulator.traces(own.posterior.values, points, angle)
 
 
-def _bar(pressure: float) -> str:
+def _pressure(pressure: float) -> str:
     return f"{reading(ChannelName.P_CHAMBER, pressure):.6g}"

@@ -8,14 +8,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from diagnosis.recording.model import Recording
+from diagnosis.recording.units import channel_unit
 from reynolds.numerics.arrays import Array
 from system.inputs.channels import ChannelName
-from system.inputs.units import Dimension, in_unit
+from system.inputs.units import in_unit
 
 AXES = (ChannelName.SPEED, ChannelName.P_OUT, ChannelName.DISPLACEMENT_RATIO, ChannelName.T_CASE)
 LEAST_SPAN = 0.05  # of the largest value: set points that scatter by less are one
 LEAST_WARMING = 3.0  # K, the same for temperatures
-UNITS = {Dimension.ANGULAR_SPEED: "rpm", Dimension.PRESSURE: "bar", Dimension.TEMPERATURE: "degC"}
 
 
 def axis_values(recording: Recording) -> Mapping[ChannelName, Array]:
@@ -74,7 +74,7 @@ def _moves(axis: ChannelName, values: Array) -> bool:
 
 
 def _unit(axis: ChannelName) -> str:
-    return "" if axis.dimension is None else UNITS[axis.dimension]
+    return "" if axis.dimension is None else channel_unit(axis)
 
 
 def _number(axis: ChannelName, value: float) -> str:

@@ -4,13 +4,14 @@
 
 The piston clearances of pump and motor scatter as [[tolerance.fit]] of ../pumps/hst196.toml states; all else is in the
 middle of its range (band.py). All pistons of a machine may be of one clearance, the most that the drawing allows, or
-each of its own, as parts that are not sorted. Chambers add their flows, so that a machine of unlike pistons loses the
-mean of what like ones lose. MEASURED.csv: as for band.py.
+each of its own, as parts that are not sorted: the machine then leaks as one whose pistons have the cube root of the
+mean cube. MEASURED.csv: as for band.py.
 """
 
 from __future__ import annotations
 
 import sys
+from dataclasses import replace
 from pathlib import Path
 
 import band
@@ -19,15 +20,17 @@ import numpy as np
 from reynolds import Array
 from system import drawing_of, drawn_series, load_pump
 
-KEY = "piston.radial_clearance"
 COUNT, SEED = 20_000, 196
 NODES = 4
 """Clearances of the tolerance at which a machine is solved, for the cubic through them."""
 
 
-def clearances(count: int, seed: int = SEED) -> Array:
-    """Return clearances (count,) in m drawn as the pump file states."""
-    return np.asarray(drawn_series(drawing_of(load_pump(band.PUMP)), count, seed).values[:, 0])
+def clearances(count: int, parts: int) -> Array:
+    """Return clearances (count,) in m of machines, drawn as the pump file states; parts: clearances of a machine."""
+    pump = load_pump(band.PUMP)
+    (fit,) = pump.tolerance.fit
+    drawn = replace(pump, tolerance=replace(pump.tolerance, fit=(replace(fit, parts=parts),)))
+    return np.asarray(drawn_series(drawing_of(drawn), count, SEED).values[:, 0])
 
 
 def efficiency_at(**clearance: float) -> float:
@@ -50,13 +53,11 @@ def effects() -> dict[str, np.polynomial.Polynomial]:
     return found
 
 
-def series(count: int = COUNT, each: int = 1) -> Array:
-    """Return the efficiency (count,) of transmissions; each: pistons of a machine with a clearance of their own."""
-    found = np.full(count, efficiency_at())
-    drawn = clearances(2 * count * each).reshape(2, count, each)
-    for (_, effect), own in zip(effects().items(), drawn, strict=True):
-        found += effect(own).mean(axis=1)
-    return found
+def series(count: int = COUNT, parts: int = 1) -> Array:
+    """Return the efficiency (count,) of transmissions; parts: pistons of a machine with a clearance of their own."""
+    drawn = np.split(clearances(2 * count, parts), 2)
+    changes = [effect(own) for effect, own in zip(effects().values(), drawn, strict=True)]
+    return np.asarray(efficiency_at() + sum(changes))
 
 
 def picture(measured: Array, alike: Array, unlike: Array, path: Path) -> None:
@@ -84,7 +85,7 @@ def picture(measured: Array, alike: Array, unlike: Array, path: Path) -> None:
 def main(arguments: list[str]) -> None:
     """Print mean and standard deviation of each distribution; draw them where a picture is named."""
     measured = band.measured(Path(arguments[0]))
-    alike, unlike = series(), series(each=9)
+    alike, unlike = series(), series(parts=9)
     for name, values in (("measured", measured), ("pistons alike", alike), ("each piston its own", unlike)):
         print(f"{name:20s} mean {values.mean():.2%}, standard deviation {np.std(values, ddof=1):.3%}")
     print(f"of the measured shared by forward and reverse: {band.shared_spread(Path(arguments[0])):.3%}")

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import copy
-import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from enum import Enum
@@ -15,12 +14,12 @@ import numpy as np
 
 from swashfilm.case.file import Case, read_case
 from swashfilm.case.gap.switches import switches_of
+from swashfilm.case.settings import STEP, put, read_set, with_comments
 from system.inputs.faults import Fault, InputFaults, nearest_choice
-from system.inputs.toml_table import Table, fault_lines, quoted, read_toml
+from system.inputs.toml_table import Table, fault_lines, quoted
 from system.inputs.units import Dimension, QuantityError, format_quantity, parse_quantity
 
 MOST_POINTS = 10_000
-_STEP = re.compile(r"([^\[\].]+)(?:\[(\d+)\])?")
 Point = tuple[int, ...]
 
 
@@ -54,19 +53,13 @@ class StudyAxis:
 
 
 @dataclass(frozen=True)
-class StudyCase:
-    """A study: the case's tables without [study], the varied keys, and their combination.
-
-    `path` and `text` are those of the file, `where` is the table of the keys.
-    """
+class Study:
+    """Points over varied keys: their name, the text of the file, the keys and their combination."""
 
     name: str
-    path: Path
     text: str
-    tables: Mapping[str, Any]
     axes: tuple[StudyAxis, ...]
     combine: Combine
-    where: str = "study"
 
     @property
     def shape(self) -> tuple[int, ...]:
@@ -85,6 +78,15 @@ class StudyCase:
         """Return the varied keys of a point and their values as written in a case."""
         return {axis.key: axis.values[k] for axis, k in zip(self.axes, point, strict=True)}
 
+
+@dataclass(frozen=True)
+class StudyCase(Study):
+    """A study of films: the path of its file, its tables without [study], and the table of the keys, `where`."""
+
+    path: Path
+    tables: Mapping[str, Any]
+    where: str = "study"
+
     def case(self, point: Point) -> Case:
         """Return the case of a point; raise InputFaults with its faults."""
         return self.case_with(self.values(point))
@@ -93,34 +95,34 @@ class StudyCase:
         """Return the case with these values of its keys; raise InputFaults with its faults."""
         tables = copy.deepcopy(dict(self.tables))
         for key, value in values.items():
-            _put(tables, key, value)
+            put(tables, key, value)
         text = "".join(f"# {self.where}: {key} = {value}\n" for key, value in values.items()) + self.text
         return read_case(self.path, text, tables)
 
 
-def load_film(path: Path, switched: Mapping[str, str] | None = None) -> Case | StudyCase:
+def load_film(
+    path: Path, switched: Mapping[str, str] | None = None, values: Mapping[str, object] | None = None
+) -> Case | StudyCase:
     """Return the content of a film case file: a film, a pump gap, or a study. Raise InputFaults with every fault.
 
-    `switched`: values of [revolution], by key, that the command line sets.
+    `switched`: values of [revolution], by key, that the command line sets; `values`: those of dotted keys.
     """
-    text, tables = read_switched(path, switched or {})
+    text, tables = read_switched(path, switched or {}, values or {})
     if "table" in tables:
         fault = Fault("table", "ranges of a response table", "a film without [table]", f"swashfilm table {path}")
         raise InputFaults(str(path), [fault], fault_lines(text, [fault]))
     return read_study(path, text, tables) if "study" in tables else read_case(path, text, tables)
 
 
-def read_switched(path: Path, switched: Mapping[str, str]) -> tuple[str, dict[str, Any]]:
+def read_switched(path: Path, switched: Mapping[str, str], values: Mapping[str, object]) -> tuple[str, dict[str, Any]]:
     """Return text and tables of a case file, values of [revolution] replaced by key with `switched`.
 
-    Raises InputFaults as `read_toml`, and for a case without revolution.
+    `values`: of dotted keys. Raises InputFaults as `read_toml`, and for a case without revolution.
     """
-    text, tables = read_toml(path)
+    text, tables = read_set(path, values)
     if switched:
         _switch(tables, switched)
-        text = "".join(
-            [f"{text.rstrip()}\n", *(f"# command line: revolution.{k} = {v}\n" for k, v in switched.items())]
-        )
+        text = with_comments(text, {f"revolution.{key}": value for key, value in switched.items()})
     return text, tables
 
 
@@ -132,7 +134,7 @@ def _switch(tables: dict[str, Any], switched: Mapping[str, str]) -> None:
         faults = [Fault(switch, "a switch of floating gaps", case) for switch in switches_of(switched)]
         raise InputFaults("command line", faults)
     for key, value in switched.items():
-        _put(tables, f"revolution.{key}", value)
+        put(tables, f"revolution.{key}", value)
 
 
 def read_study(path: Path, text: str, tables: Mapping[str, Any]) -> StudyCase:
@@ -150,7 +152,7 @@ def read_study(path: Path, text: str, tables: Mapping[str, Any]) -> StudyCase:
         table.faults.append(Fault("study", "no varied key", '"film.KEY" = [...] or { from, to, points }'))
     base = {key: value for key, value in tables.items() if key != "study"}
     found = [axis for axis in axes if axis]
-    study = StudyCase(path.stem, path, text, base, tuple(found), combine or Combine.ALL)
+    study = StudyCase(path.stem, text, tuple(found), combine or Combine.ALL, path, base)
     if not table.faults:
         _check_size(table, study)
     hold_to_case(study, table.faults)
@@ -169,7 +171,7 @@ def _axis(table: Table, key: str) -> StudyAxis | None:
     if not is_key_of_case(table, key):
         return None
     if isinstance(raw, list) and raw:
-        return _listed(key, raw)
+        return listed_axis(key, raw)
     if isinstance(raw, dict):
         return _ranged(Table(_named(table.path, key), raw, table.faults), key)
     expected = "a list of values, or a range { from, to, points }"
@@ -179,14 +181,14 @@ def _axis(table: Table, key: str) -> StudyAxis | None:
 
 def is_key_of_case(table: Table, key: str) -> bool:
     """Return whether a key of [study] or [table] is a dotted key of the case; its fault is listed."""
-    if "." in key and all(_STEP.fullmatch(step) for step in key.split(".")):
+    if "." in key and all(STEP.fullmatch(step) for step in key.split(".")):
         return True
     expected = 'a key of the case in quotes, such as "film.thickness"'
     table.faults.append(Fault(_named(table.path, key), f"'{key}'", expected))
     return False
 
 
-def _listed(key: str, values: Sequence[Any]) -> StudyAxis:
+def listed_axis(key: str, values: Sequence[Any]) -> StudyAxis:
     """Return an axis of listed values, with numbers where all are bare numbers or of one dimension."""
     if all(isinstance(value, (int, float)) and not isinstance(value, bool) for value in values):
         return StudyAxis(key, tuple(values), tuple(float(value) for value in values), "")
@@ -323,24 +325,6 @@ def _at_study(fault: Fault, study: StudyCase) -> Fault:
             nearest = f'"{near}.{rest}"' if near else ""
             return Fault(_named(study.where, axis.key), "unknown key", fault.expected, nearest)
     return fault
-
-
-def _put(tables: dict[str, Any], key: str, value: Any) -> None:
-    """Set a dotted key, such as `film.velocity[0]`; create the tables above it."""
-    at: Any = tables
-    steps = [match.groups() for step in key.split(".") if (match := _STEP.fullmatch(step))]
-    for name, _ in steps[:-1]:
-        if not isinstance(at.get(name), dict):
-            at[name] = {}
-        at = at[name]
-    name, index = steps[-1]
-    if index is None:
-        at[name] = value
-    elif isinstance(at.get(name), list) and int(index) < len(at[name]):
-        at[name][int(index)] = value
-    else:
-        # Filled up so that the reader of the key names the missing entries.
-        at[name] = [None] * int(index) + [value]
 
 
 def _named(where: str, key: str) -> str:

@@ -11,6 +11,7 @@ from swashfilm.cli import check, doctor, report, schema
 from swashfilm.cli.new import command as new
 from swashfilm.console.command import Command
 from swashfilm.console.inputs import COMMAND_LINE
+from swashfilm.console.pressures import pressures_of
 from swashfilm.console.terminal import show
 from swashfilm.runs.calibrate import command as calibrate
 from swashfilm.runs.compare import command as compare
@@ -41,7 +42,8 @@ def run_command(words: Sequence[str]) -> int:
     if options.command is None:
         build_parser().print_help()
         return 0
-    return COMMANDS[options.command].run(options)
+    with pressures_of(options):
+        return COMMANDS[options.command].run(options)
 
 
 def parse(words: Sequence[str]) -> argparse.Namespace:

@@ -8,6 +8,7 @@ from pathlib import Path
 
 from swashfilm.console.command import Command
 from swashfilm.console.inputs import COMMAND_LINE
+from swashfilm.console.pressures import add_units_option
 from swashfilm.console.terminal import show
 from system.inputs.faults import Fault, InputFaults, nearest_path
 
@@ -17,6 +18,7 @@ PAGES = {
     "film": "swashfilm.runs.film.page.write_film_page",
     "film_revolution": "swashfilm.runs.film.revolution.page.write_revolution_page",
     "film_study": "swashfilm.runs.film.series.page.write_study_page",
+    "pump_study": "swashfilm.runs.film.series.page.write_study_page",
     "pump": "swashfilm.runs.pump.page.write_pump_page",
     "comparison": "swashfilm.runs.compare.page.write_compare_page",
     "duty": "swashfilm.runs.duty.page.write_duty_page",
@@ -64,6 +66,7 @@ def _page_of(folder: Path) -> Callable[[Path], Path]:
 
 def _add_options(command: argparse.ArgumentParser) -> None:
     command.add_argument("folder", type=Path, metavar="DIR", help="the run folder")
+    add_units_option(command)
 
 
 COMMAND = Command("report", "write the report of a run folder again", _add_options, run_report, in_folder=False)

@@ -5,6 +5,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
+from swashfilm.console.pressures import add_units_option
 from system.inputs.faults import Fault
 
 
@@ -18,7 +19,7 @@ class Command:
     """A command of `swashfilm`.
 
     add: adds its options to a parser; run: runs it and returns the exit code; in_folder: it has -o DIR for its run
-    folder; faults: further faults, reported together with unknown options.
+    folder, and with it --excel and --units; faults: further faults, reported together with unknown options.
     """
 
     name: str
@@ -35,3 +36,5 @@ class Command:
             parser.add_argument(
                 "-o", "--output", type=Path, metavar="DIR", help="run folder (default runs/NAME-N, the next free N)"
             )
+            parser.add_argument("--excel", action="store_true", help="write the tables also as a workbook, NAME.xlsx")
+            add_units_option(parser)

@@ -1,6 +1,7 @@
 """Levels of an input on the command line: `1000,1300,1700rpm`, `500..2500rpm:9`, or both in one list."""
 
 import re
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -21,17 +22,36 @@ def map_axis(option: str, text: str, given: MapInput, example: str) -> MapAxis |
     The unit of an item holds for items before it without a unit; `a..b:n` are n equally spaced levels from a to b.
     """
     try:
-        items = with_units([item.strip() for item in text.split(",")], given.dimension)
-        values = sorted({value for item in items for value in _levels(item, given.dimension)})
+        items = level_texts(text) if given.dimension else [_item(item.strip()) for item in text.split(",")]
+        values = sorted({value for item in items for value in item.levels(given.dimension)})
     except QuantityError as reason:
         return Fault(option, reason.found, f"{reason.expected}: {example}", reason.nearest)
     return MapAxis(given, tuple(values))
 
 
-def with_units(items: list[str], dimension: Dimension | None) -> list[str]:
+@dataclass(frozen=True)
+class LevelText:
+    """An item of a list of levels: one level, or two ends and the number of levels between them."""
+
+    ends: tuple[str, ...]
+    count: int = 1
+
+    def levels(self, dimension: Dimension | None) -> list[float]:
+        """Return the levels in SI; raise QuantityError for ends that are not of the dimension."""
+        ends = [_value(end, dimension) for end in self.ends]
+        return [float(value) for value in np.linspace(ends[0], ends[-1], self.count)]
+
+
+def level_texts(text: str) -> list[LevelText]:
+    """Return the items of a text such as `1000,1300..1700rpm:5`, each with the unit of its list.
+
+    Raises QuantityError for a range without a number of levels.
+    """
+    return [_item(item) for item in with_units([item.strip() for item in text.split(",")])]
+
+
+def with_units(items: list[str]) -> list[str]:
     """Return the items, each without a unit completed by the unit of the next item that has one."""
-    if dimension is None:
-        return items
     found, unit = [], ""
     for item in reversed(items):
         ends, colon, count = item.partition(":")
@@ -47,7 +67,7 @@ def with_units(items: list[str], dimension: Dimension | None) -> list[str]:
     return found[::-1]
 
 
-def _levels(item: str, dimension: Dimension | None) -> list[float]:
+def _item(item: str) -> LevelText:
     if dashed := dashed_range(item):
         raise QuantityError(repr(item), "a level, or a range with a number of levels", f"{dashed}:{_USUAL}")
     ends, colon, count = item.partition(":")
@@ -56,10 +76,10 @@ def _levels(item: str, dimension: Dimension | None) -> list[float]:
         remedy = f"{item}:{_USUAL}" if dots else ""
         raise QuantityError(repr(item), "a level, or a range with a number of levels", remedy)
     if not dots:
-        return [_value(low, dimension)]
+        return LevelText((low,))
     if not (count.strip().isdecimal() and 2 <= int(count) <= _MOST):
         raise QuantityError(f"{count!r} levels", f"2 to {_MOST} levels")
-    return [float(value) for value in np.linspace(_value(low, dimension), _value(high, dimension), int(count))]
+    return LevelText((low, high), int(count))
 
 
 def _value(text: str, dimension: Dimension | None) -> float:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from swashfilm.output.picture import Picture
+from swashfilm.output.touch.picture import Picture
 
 
 @dataclass(frozen=True)

@@ -6,6 +6,7 @@ from typing import Any
 import numpy as np
 
 from swashfilm.output.touch.fields import keep_field, on_grid
+from system.inputs.shown import shown_in, title_in
 
 UNIFORM = 1e-9
 """Variation of a field, relative to its size, below which it is uniform."""
@@ -13,18 +14,22 @@ UNIFORM = 1e-9
 
 @dataclass(frozen=True)
 class MapField:
-    """A field on a page: (value - zero) x scale under its title; drawn `always`, or only where it varies."""
+    """A field on a page: its name, words and SI unit; drawn `always`, or only where it varies."""
 
     name: str
-    title: str
-    scale: float = 1.0
-    zero: float = 0.0
+    words: str
+    unit: str
     colours: str = "viridis"
     always: bool = False
 
+    @property
+    def title(self) -> str:
+        """Words and unit."""
+        return title_in(self.words, self.unit)
+
     def in_unit(self, values: np.ndarray) -> np.ndarray:
         """Return the values in the title's unit."""
-        return np.asarray((values - self.zero) * self.scale)
+        return np.asarray(shown_in(self.unit, self.words).of(values))
 
 
 def draw_map(
@@ -33,7 +38,7 @@ def draw_map(
     cells: np.ndarray,
     values: np.ndarray,
     title: str,
-    labels: tuple[str, str] = ("x / mm", "y / mm"),
+    labels: tuple[str, str] = ("x [mm]", "y [mm]"),
     colours: str = "viridis",
     limits: tuple[float, float] | None = None,
 ) -> Any:
@@ -46,7 +51,7 @@ def draw_map(
     uniform = bool(np.ptp(values) <= UNIFORM * np.max(np.abs(values)))
     drawn = paint(axes, place, cells, np.full_like(values, np.mean(values)) if uniform else values, colours, limits)
     axes.set(xlabel=labels[0], ylabel=labels[1], title=title)
-    if labels == ("x / mm", "y / mm") and np.ptp(x) < 5.0 * np.ptp(y) and np.ptp(y) < 5.0 * np.ptp(x):
+    if labels == ("x [mm]", "y [mm]") and np.ptp(x) < 5.0 * np.ptp(y) and np.ptp(y) < 5.0 * np.ptp(x):
         axes.set_aspect("equal")
     if uniform and limits is None:
         axes.set_title(f"{title}: {float(np.mean(values)):.4g} everywhere")

@@ -18,8 +18,8 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 _MANY, _FEW = 3000, 100
-LARGE = 30_000
-"""Bytes of an SVG that a page holds; what is larger becomes a picture of pixels, mostly a tenth as large."""
+LARGE = 16_000
+"""Bytes of an SVG that a page holds; what is larger becomes a picture of pixels, mostly a third as large."""
 _INKS = 32
 """Number of colours of a picture of lines."""
 _FIELD_QUALITY, _FIELD_DPI, _LINES_DPI = 50, 64, 90

@@ -1,17 +1,22 @@
 """Headline numbers of a film's summary, each with its name and unit."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any
 
+from system.inputs.shown import DIGITS, Shown, largest_of_units, round_off, shown_in, significant, titled
+
+CHECK_DIGITS = 2
+"""Significant digits of balances and effort."""
 UNITS = {
-    "_m3_per_s": "m3/s", "_Nm": "N m", "_Pa": "Pa", "_N": "N", "_W": "W", "_K": "K", "_m": "m", "_kg": "kg",
-    "_rad": "rad", "_seconds": "s", "_s": "s", "_deg": "deg",
+    "_m3_per_s": "m3/s", "_m3_per_rev": "m3/rev", "_rad_per_s": "rad/s", "_Pa_s": "Pa s", "_Nms": "N m s", "_Nm": "N m",
+    "_Pa": "Pa", "_N": "N", "_W": "W", "_J": "J", "_K": "K", "_m2": "m2", "_m3": "m3", "_m": "m", "_kg": "kg",
+    "_rad": "rad", "_seconds": "s", "_s": "s", "_deg": "deg", "_Hz": "Hz",
 }  # fmt: skip
 EFFORT = (
     "format", "kind", "name", "warnings", "mass_balance_error", "energy_balance_error", "imbalance", "dofs",
     "iterations", "solve_seconds", "pressure_max_at_m", "temperature_max_at_m", "time_s", "thermal_rounds",
     "load_rest", "films_solved", "span_deg", "turns", "turn_change_m", "step_error", "steps", "physics_left_out",
-    "physics_seconds", "assumptions",
+    "physics_seconds", "assumptions", "scale",
 )  # fmt: skip
 # Numbers of one family share a scale of round-off: the largest of them.
 _FAMILIES = {
@@ -50,18 +55,50 @@ def named(key: str) -> tuple[str, str]:
         if stem.endswith(ending):
             words, unit = ("solve" if stem == "solve_seconds" else stem.removesuffix(ending)), symbol
             break
-    return words.replace("_", " ") + (f", {part}" if part else ""), unit
+    return words.replace("_", " ") + (f", {part.replace('_', ' ')}" if part else ""), unit
 
 
-def titled(key: str) -> str:
-    """Return the title of a column or an axis, such as `load / N`."""
+def shown_of(key: str) -> Shown:
+    """Return the unit in which the number of a key is shown."""
     words, unit = named(key)
-    return f"{words} / {bracketed(unit)}" if unit else words
+    return shown_in(unit, words.partition(",")[0])
 
 
-def bracketed(unit: str) -> str:
-    """Return the unit as it stands behind a stroke: in brackets where it has a blank or a stroke itself."""
-    return f"({unit})" if any(sign in unit for sign in " /") else unit
+def about(key: str) -> dict[str, str]:
+    """Return the attributes of the variable of a key in a NetCDF file."""
+    words, unit = named(key)
+    return {"units": unit or "1", "long_name": words}
+
+
+def titled_key(key: str) -> str:
+    """Return the title of a column or an axis, such as `load [N]`."""
+    return titled(named(key)[0], shown_of(key).symbol)
+
+
+def summary_scales(summary: Mapping[str, Any]) -> Mapping[str, float]:
+    """Return the scale of round-off of each SI unit: the largest number of it, and those stated in `scale`."""
+    stated = headline_numbers({f"scale_{key}": value for key, value in summary.get("scale", {}).items()})
+    numbers = headline_numbers(summary) | stated
+    return largest_of_units((named(key)[1], [value]) for key, value in numbers.items())
+
+
+def number_text(key: str, value: float, scales: Mapping[str, float]) -> str:
+    """Return the number of a key, rounded, in the unit that people read; round-off as 0, and a check with two digits.
+
+    scales: of round-off by SI unit.
+    """
+    shown = shown_of(key)
+    if value != 0.0 and abs(value) < round_off(key, named(key)[1], scales):
+        return " ".join(filter(None, ("0", shown.symbol, "(round-off)")))
+    return shown.text(value, CHECK_DIGITS if key in EFFORT else DIGITS)
+
+
+def numbers_text(key: str, values: Sequence[float], scales: Mapping[str, float]) -> str:
+    """Return a list of numbers of a key, such as the two parts of a force, with one unit."""
+    shown = shown_of(key)
+    least = round_off(key, named(key)[1], scales)
+    parts = ("0" if abs(value) < least else significant(shown.of(value)) for value in values)
+    return f"({', '.join(parts)}) {shown.symbol}".rstrip()
 
 
 def sizes(numbers: Mapping[str, float], least: Mapping[str, float]) -> dict[str, float]:

@@ -11,10 +11,10 @@ from typing import TYPE_CHECKING, Any
 
 from swashfilm.output.answer import Answer
 from swashfilm.output.figures import compact
-from swashfilm.output.picture import Picture
 from swashfilm.output.touch.curves import touchable
 from swashfilm.output.touch.explorer import Explorer
 from swashfilm.output.touch.library import embedded
+from swashfilm.output.touch.picture import Picture
 from swashfilm.output.warnings import causes, counted
 from system.inputs.faults import Fault, InputFaults
 

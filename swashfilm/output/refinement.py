@@ -7,10 +7,15 @@ from typing import Any
 
 import numpy as np
 
-from swashfilm.output.convergence import Convergence, ConvergenceKind
-from swashfilm.output.headline import named
+from reynolds.numerics.convergence import Convergence, ConvergenceKind
+from swashfilm.output.data.files import CSV_DIGITS
+from swashfilm.output.headline import named, shown_of, titled_key
 from swashfilm.output.tables import write_csv
+from system.inputs.shown import Shown, significant
 from system.inputs.units import Dimension, format_quantity
+
+DIGITS = 6
+"""Significant digits of numbers whose change from mesh to mesh is of interest."""
 
 
 @dataclass(frozen=True)
@@ -44,24 +49,26 @@ def refinement_rows(found: Mapping[str, Any]) -> Iterator[tuple[str, ...]]:
     """Yield (number and unit, value on each mesh, order, limit and error bar, verdict) of a `refinement`."""
     for key, number in found["numbers"].items():
         order = "-" if number["order"] is None else f"{number['order']:.2f}"
-        values = [f"{value:.6g}" for value in number["values"]]
-        words, unit = named(key)
-        limit = _with_bar(number["extrapolated"], number["error"])
-        yield (f"{words} {f'({unit})' if unit else ''}".strip(), *values, order, limit, number["verdict"])
+        shown = shown_of(key)
+        least = number["error"] if number["verdict"] == ConvergenceKind.CONVERGED.value else 0.0
+        values = [significant(shown.of(value) if abs(value) > least else 0.0, DIGITS) for value in number["values"]]
+        limit = _with_bar(shown, number["extrapolated"], number["error"])
+        yield (titled_key(key), *values, order, limit, number["verdict"])
 
 
-def _with_bar(limit: float | None, error: float | None) -> str:
-    """Return the limit, rounded to the digit of its error bar."""
+def _with_bar(shown: Shown, limit: float | None, error: float | None) -> str:
+    """Return the limit in its unit, rounded to the digit of its error bar."""
     if limit is None or error is None:
         return "-"
-    return f"{limit:.{_digits(limit, error)}g} +- {error:.1g}"
+    limit, error = shown.of(limit if abs(limit) > error else 0.0), shown.difference(error)
+    return f"{significant(limit, _digits(limit, error))} +- {significant(error, 1)}"
 
 
 def _digits(limit: float, error: float) -> int:
     """Return the significant digits of a limit that its error leaves."""
     if error > 0.0 and limit != 0.0:
         return int(np.clip(np.ceil(np.log10(abs(limit) / error)) + 1.0, 2, 10))
-    return 6
+    return DIGITS
 
 
 def bar_text(summary: Mapping[str, Any], key: str, dimension: Dimension) -> str:
@@ -90,7 +97,14 @@ def write_refinement(path: Path, found: Refinement) -> None:
     """Write a CSV of the numbers: key, unit, value on each mesh, order, limit, error bar, verdict."""
     rows = []
     for key, number in found.numbers.items():
-        limits = ["" if value is None else value for value in (number.order, number.extrapolated, number.error)]
-        rows.append([*named(key), *number.values, *limits, number.verdict.value])
+        shown = shown_of(key)
+        limit = None if number.extrapolated is None else shown.of(number.extrapolated)
+        error = None if number.error is None else shown.difference(number.error)
+        cells = (*(shown.of(value) for value in number.values), number.order, limit, error)
+        rows.append([named(key)[0], shown.unit, *(_cell(value) for value in cells), number.verdict.value])
     meshes = [f"{dofs} unknowns" for dofs in found.dofs]
     write_csv(path, ["number", "unit", *meshes, "order", "limit", "error", "verdict"], rows)
+
+
+def _cell(value: float | None) -> str:
+    return "" if value is None else f"{value:.{CSV_DIGITS}g}"

@@ -11,11 +11,13 @@ from html import escape
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, ClassVar, Self
 
+from swashfilm.output.data.files import read_netcdf
 from swashfilm.output.figures import pyplot_figures
 from swashfilm.output.headline import named
 from swashfilm.output.page import expect_files
 from swashfilm.output.run_folder import final_folder, run_folder
-from swashfilm.output.tables import Table, aligned
+from swashfilm.output.tables import Table, aligned, parted
+from system.inputs.shown import known_unit
 
 if TYPE_CHECKING:
     import pandas
@@ -140,12 +142,14 @@ class Result:
         """Return the run's series or rows, a column each, SI units in brackets."""
         return framed(self.to_xarray())
 
-    def save(self, folder: str | Path | None = None) -> Path:
+    def save(self, folder: str | Path | None = None, *, excel: bool = False) -> Path:
         """Write the run folder of the command and return its path; a fresh one under runs/ where none is given.
+
+        excel: also write its tables as a workbook.
 
         Raises InputFaults for a folder that holds files.
         """
-        with run_folder(self.name, None if folder is None else Path(folder)) as place:
+        with run_folder(self.name, None if folder is None else Path(folder), workbook=excel) as place:
             self.write(place)
         return final_folder(place)
 
@@ -174,24 +178,18 @@ def plotted(draw: Callable[[], Figure | None]) -> list[Axes]:
     return [] if figure is None else list(figure.axes)
 
 
-def read_netcdf(path: Path, group: str | None = None) -> xarray.Dataset:
-    """Return the data set of a NetCDF file, or of one group in it, loaded whole."""
-    import xarray
-
-    with xarray.open_dataset(path, group=group, engine="h5netcdf") as data:
-        return data.load()
-
-
 def read_table(path: Path) -> xarray.Dataset:
-    """Return a CSV file with heads `name [unit]` as variables over `row`; units in the attributes."""
+    """Return a CSV file with heads `name [unit]` as variables over `row`, in SI; units in the attributes."""
     import pandas
 
     frame = pandas.read_csv(path).rename_axis("row")
-    units = {head: head.partition(" [")[2].removesuffix("]") for head in frame.columns}
-    data = frame.rename(columns={head: head.partition(" [")[0] for head in frame.columns}).to_xarray()
-    for head, unit in units.items():
+    heads = [parted(title) for title in frame.columns]
+    frame.columns = [name for name, _ in heads]
+    data = frame.to_xarray()
+    for name, unit in heads:
         if unit:
-            data[head.partition(" [")[0]].attrs["units"] = unit
+            shown = known_unit(unit)
+            data[name] = ("row", shown.to_si(data[name].values), {"units": shown.si})
     return data
 
 

@@ -33,17 +33,22 @@ class Interrupted(KeyboardInterrupt):
 
 
 @contextmanager
-def run_folder(name: str, wanted: Path | None = None) -> Iterator[Path]:
+def run_folder(name: str, wanted: Path | None = None, *, workbook: bool = False) -> Iterator[Path]:
     """Yield a folder for a run's files; at the end it becomes `wanted`, or `runs/<name>-<n>` with the next free n.
 
-    After an error or Interrupted the `.partial` folder is kept if it holds solved points or FAILED; the error has a
-    note that names it. After Ctrl-C it is kept if it holds results, and Interrupted names it. Raises InputFaults for a
-    `wanted` that holds files or cannot be created, and where another run has filled it meanwhile (the results then
-    remain in the `.partial` folder).
+    workbook: the folder's tables are written as <folder>.xlsx into it, too. After an error or Interrupted the
+    `.partial` folder is kept if it holds solved points or FAILED; the error has a note that names it. After Ctrl-C
+    it is kept if it holds results, and Interrupted names it. Raises InputFaults for a `wanted` that holds files or
+    cannot be created, and where another run has filled it meanwhile (the results then remain in the `.partial`
+    folder).
     """
     final, partial = _claim(name, wanted)
     try:
         yield partial
+        if workbook:
+            from swashfilm.output.data.workbook import write_workbook
+
+            write_workbook(partial, partial / f"{final.name}.xlsx")
     except Interrupted:
         shutil.rmtree(partial)
         raise

@@ -1,4 +1,4 @@
-"""Tables of text: title and rows, every number with its unit."""
+"""Tables of text, on a terminal and in CSV files."""
 
 import csv
 from collections.abc import Iterable, Sequence
@@ -15,6 +15,12 @@ def aligned(rows: Sequence[Sequence[str]]) -> list[str]:
     return [
         "  " + "  ".join(f"{cell:<{width}}" for cell, width in zip(row, widths, strict=False)).rstrip() for row in rows
     ]
+
+
+def parted(title: str) -> tuple[str, str]:
+    """Return name and unit of a head `name [unit]`; the unit is empty where there is none."""
+    name, _, unit = title.partition(" [")
+    return name, unit.removesuffix("]")
 
 
 def write_csv(path: Path, head: Iterable[str], rows: Iterable[Iterable[object]]) -> None:

@@ -12,7 +12,8 @@ from itertools import product
 from reynolds.errors import InputError
 from system.description.pump import PumpDescription
 from system.inputs.faults import Fault
-from system.inputs.units import RPM, Dimension, format_quantity, in_unit, reading_unit
+from system.inputs.shown import Shown, shown_in
+from system.inputs.units import RPM, Dimension
 from system.pump.operating import OperatingPoint, operating_point
 from system.pump_file.check import CheckWarning
 from system.pump_file.operating import check_operating_point
@@ -49,8 +50,12 @@ class MapInput(Enum):
 
     def text(self, value: float) -> str:
         """A value as people read it."""
-        dimension = self.dimension
-        return f"{value:.6g}" if dimension is None else format_quantity(value, dimension, digits=6)
+        return self.shown.stated(value)
+
+    @property
+    def shown(self) -> Shown:
+        """The unit that people read its levels in."""
+        return shown_in(self.unit, self.value)
 
 
 _DIMENSIONS = {
@@ -136,10 +141,6 @@ def point_words(point: OperatingPoint) -> str:
     return ", ".join(f"{given.words} {given.text(getattr(point, given.value))}" for given in MapInput)
 
 
-def reading_levels(axis: MapAxis) -> tuple[tuple[float, ...], str]:
-    """The levels of an axis in the unit that people read them in, and that unit; empty for a bare number."""
-    dimension = axis.input.dimension
-    if dimension is None:
-        return axis.values, ""
-    unit = reading_unit(max(axis.values), dimension)
-    return tuple(in_unit(value, unit, dimension) for value in axis.values), unit
+def reading_levels(axis: MapAxis) -> tuple[float, ...]:
+    """The levels of an axis in the unit that people read them in, `axis.input.shown`."""
+    return tuple(float(f"{axis.input.shown.of(value):.12g}") for value in axis.values)

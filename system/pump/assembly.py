@@ -7,6 +7,7 @@ from enum import Enum
 import numpy as np
 
 from reynolds.numerics.arrays import Array
+from system.inputs.shown import pressure_text
 from system.inputs.units import STANDARD_ATMOSPHERE, TURN
 from system.pump.bench import NOTHING_OUTSIDE, BenchReading, Efficiency, Outside, iso_efficiency, paper_efficiency
 from system.pump.chamber.cycle import ChamberCycle
@@ -240,8 +241,8 @@ def _remarks(asked: OperatingPoint, ported: PortedCycle, reading: BenchReading) 
     if cycle.pressure[peak] > limit:
         yield Remark(
             PointWarning.CHAMBER_OVERPRESSURE,
-            f"{name} peaks at {cycle.pressure[peak] * 1e-6:.1f} MPa at {degrees[peak]:.0f} deg (limit "
-            f"{limit * 1e-6:.1f} MPa, {OVERPRESSURE - 1.0:.0%} over the port): both ports shut while the piston "
+            f"{name} peaks at {pressure_text(cycle.pressure[peak])} at {degrees[peak]:.0f} deg (limit "
+            f"{pressure_text(limit)}, {OVERPRESSURE - 1.0:.0%} over the port): both ports shut while the piston "
             "moves in; let the port shut later, or the relief groove of the next begin earlier",
         )
 
@@ -271,7 +272,7 @@ def _ports_off(asked: OperatingPoint, ported: PortedCycle) -> Iterator[Remark]:
         if abs(port.mean_pressure - pressure) > allowed:
             yield Remark(
                 PointWarning.PORT_PRESSURE_FOLLOWS_LINE,
-                f"the mean {name} pressure is {port.mean_pressure * 1e-6:.4g} MPa, what the orifice of its line "
-                f"makes of the flow, not {pressure * 1e-6:.4g} MPa (limit {allowed * 1e-6:.2g} MPa off); leave "
+                f"the mean {name} pressure is {pressure_text(port.mean_pressure)}, what the orifice of its line "
+                f"makes of the flow, not {pressure_text(pressure)} (limit {pressure_text(allowed)} off); leave "
                 "the orifice's area out and it is found",
             )

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from functools import partial
 from pathlib import Path
 
@@ -122,40 +122,88 @@ def sensitivity(
     Raises NotConverged where the stated pump has no result.
     """
     chosen, refused = _chosen(work.pump, keys, accuracy)
-    known: dict[Variant, PartOutcome] = {}
+    pumps = _Pumps(work, folder, executor, report, earlier, measures, accuracy.noise, _sigmas(work.pump))
+    first = {path: iter(options) for path, options in chosen.items()}
+    slopes, failed = _differentiated(first, pumps, accuracy.rounds)
+    stated = pumps.known[()]
+    middle = measured(pumps.middle, work.sites.weights, measures)
+    seconds = sum(one.seconds for one in pumps.known.values())
+    warnings = tuple(stated.record["warnings"])
+    return Sensitivity(measures, middle, slopes, (*refused, *failed), warnings, len(pumps.known), seconds)
 
-    def solve(todo: Sequence[Stencil]) -> None:
-        wanted = [(), *(((one.key.path, value),) for one in todo for value in one.values)]
-        new = [variant for variant in dict.fromkeys(wanted) if variant not in known]
-        if not new:
-            return
-        known.update(zip(new, solved_variants(work, new, folder, executor, report, earlier), strict=True))
 
-    left = {path: iter(options) for path, options in chosen.items()}
-    todo, found, rounds = [next(options) for options in left.values()], dict[str, KeySlopes](), Counter[str]()
-    sigmas = _sigmas(work.pump)
-    solve(todo)
-    middle = _middle(known[()])
+def _differentiated(
+    left: Mapping[str, Iterator[Stencil]], pumps: _Pumps, most: int
+) -> tuple[tuple[KeySlopes, ...], list[Refused]]:
+    """Return the slopes of each dimension by the stencils that are left to it, and those without any, with the reason.
+
+    most: rounds of a dimension whose numbers do not converge.
+    """
+    todo, refused = [next(options) for options in left.values()], list[Refused]()
+    found, rounds = dict[str, KeySlopes](), Counter[str]()
+    pumps.solve(todo)
     while todo:
         following: list[Stencil] = []
         for stencil in todo:
             path = stencil.key.path
-            made = _slopes(stencil, known, middle, work, measures, accuracy.noise, sigmas)
+            made = pumps.slopes(stencil)
             if isinstance(made, KeySlopes):
                 rounds[path] += 1
                 found[path] = _better(found.get(path), made)
-                if Verdict.NOT_SMOOTH in found[path].verdict and rounds[path] < accuracy.rounds:
+                if Verdict.NOT_SMOOTH in found[path].verdict and rounds[path] < most:
                     following.append(replace(stencil, step=0.25 * stencil.step))
-            elif (smaller := next(left[path], None)) is not None and path not in found:
-                following.append(smaller)
+            elif (other := next(left[path], None)) is not None and path not in found:
+                following.append(other)
             elif path not in found:
                 refused.append(made)
         todo = following
-        solve(todo)
-    return Sensitivity(
-        measures, measured(middle, work.sites.weights, measures), tuple(found.values()), tuple(refused),
-        tuple(known[()].record["warnings"]), len(known), sum(one.seconds for one in known.values()),
-    )  # fmt: skip
+        pumps.solve(todo)
+    return tuple(found.values()), refused
+
+
+@dataclass(frozen=True)
+class _Pumps:
+    """Varied pumps that are solved as they are needed; known: their outcomes."""
+
+    work: VariedWork
+    folder: Path
+    executor: Executor
+    report: Report
+    earlier: KeptPoints | None
+    measures: tuple[Measure, ...]
+    noise: float
+    sigmas: Mapping[str, float]
+    known: dict[Variant, PartOutcome] = field(default_factory=dict)
+
+    def solve(self, todo: Sequence[Stencil]) -> None:
+        """Solve the pump as stated and those of the stencils that are not yet known."""
+        wanted = [(), *(((one.key.path, value),) for one in todo for value in one.values)]
+        new = [variant for variant in dict.fromkeys(wanted) if variant not in self.known]
+        if new:
+            found = solved_variants(self.work, new, self.folder, self.executor, self.report, self.earlier)
+            self.known.update(zip(new, found, strict=True))
+
+    @property
+    def middle(self) -> Array:
+        """Numbers (P, NUMBERS) of the pump as stated; raises NotConverged where it has no result."""
+        stated = self.known[()]
+        if stated.status is not PartStatus.SOLVED:
+            raise NotConverged(f"the pump as stated: {stated.reason}")
+        return numbers_in(stated)
+
+    def slopes(self, stencil: Stencil) -> KeySlopes | Refused:
+        """Return the slopes by the pumps of a stencil, or the reason why one of them has no result."""
+        outcomes = [self.known[((stencil.key.path, value),)] for value in stencil.values]
+        middle, weights = self.middle, self.work.sites.weights
+        lacking = [one for one in outcomes if one.status is not PartStatus.SOLVED]
+        if lacking:
+            return Refused(stencil.key, f"{lacking[0].status.value}: {lacking[0].reason}")
+        sites = np.stack([numbers_in(one) for one in outcomes])
+        value, error = stencil.derivative(middle, sites)
+        whole = measured(middle, weights, self.measures)
+        of_all, of_all_error = stencil.derivative(whole, measured(sites, weights, self.measures))
+        verdict = verdicts(stencil, whole, of_all, of_all_error, self.noise)
+        return KeySlopes(stencil, of_all, of_all_error, verdict, value, error, self.sigmas.get(stencil.key.path))
 
 
 def variants_needed(count: int) -> int:
@@ -189,34 +237,6 @@ def _why(pump: PumpDescription, key: PumpKey, step: float) -> str:
         first = reason.faults[0]
         return f"the geometry refuses both sides: {first.path}: {first.found}, expected {first.expected}"
     return "no step is admitted"
-
-
-def _middle(outcome: PartOutcome) -> Array:
-    if outcome.status is not PartStatus.SOLVED:
-        raise NotConverged(f"the pump as stated: {outcome.reason}")
-    return numbers_in(outcome)
-
-
-def _slopes(
-    stencil: Stencil,
-    known: Mapping[Variant, PartOutcome],
-    middle: Array,
-    work: VariedWork,
-    measures: tuple[Measure, ...],
-    noise: float,
-    sigmas: Mapping[str, float],
-) -> KeySlopes | Refused:
-    outcomes = [known[((stencil.key.path, value),)] for value in stencil.values]
-    lacking = [one for one in outcomes if one.status is not PartStatus.SOLVED]
-    if lacking:
-        return Refused(stencil.key, f"{lacking[0].status.value}: {lacking[0].reason}")
-    sites = np.stack([numbers_in(one) for one in outcomes])
-    value, error = stencil.derivative(middle, sites)
-    weights = work.sites.weights
-    whole = measured(middle, weights, measures)
-    of_all, of_all_error = stencil.derivative(whole, measured(sites, weights, measures))
-    verdict = verdicts(stencil, whole, of_all, of_all_error, noise)
-    return KeySlopes(stencil, of_all, of_all_error, verdict, value, error, sigmas.get(stencil.key.path))
 
 
 def _better(before: KeySlopes | None, after: KeySlopes) -> KeySlopes:

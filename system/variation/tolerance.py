@@ -78,10 +78,7 @@ def tolerance(
     """
     drawn = drawn_series(drawing, count, seed)
     outcomes = solved_variants(work, list(drawn.variants(work.pump)), folder, executor, report, earlier)
-    solved = np.array([one.status is PartStatus.SOLVED for one in outcomes])
-    _hold_enough(outcomes, max(FEWEST, pumps_needed(len(drawing.names))), int(solved.sum()))
-    series = Series(drawing, drawn.values[solved])
-    numbers = np.array([numbers_in(one) for one in outcomes if one.status is PartStatus.SOLVED])
+    series, numbers = _solved(drawn, outcomes)
     of_all = measured(numbers, work.sites.weights, measures)
     at_each = [measured(numbers[:, [k]], np.ones(1), measures) for k in range(len(work.sites.points))]
     surface, by_measure = shares(series, of_all, seed)
@@ -93,14 +90,26 @@ def tolerance(
         of_measures=of_all,
         refused=_reasons(outcomes, (PartStatus.FAULTY,)),
         failed=_reasons(outcomes, (PartStatus.NOT_CONVERGED, PartStatus.WORKER_DIED, PartStatus.INTERNAL)),
-        scatters=tuple(scatter(column) for column in of_all.T),
-        at_sites=tuple(tuple(scatter(column) for column in one.T) for one in at_each),
+        scatters=_scatters(of_all),
+        at_sites=tuple(map(_scatters, at_each)),
         surface=surface,
         shares=tuple(tuple(own) for own in by_measure),
         limits=tuple(_limit(one, measures, of_all, at_each) for one in limits),
         seconds=sum(one.seconds for one in outcomes),
         internal=any(one.status is PartStatus.INTERNAL for one in outcomes),
     )
+
+
+def _solved(drawn: Series, outcomes: Sequence[PartOutcome]) -> tuple[Series, Array]:
+    """Return the pumps with a result and their numbers; raise InputError where they are too few."""
+    solved = np.array([one.status is PartStatus.SOLVED for one in outcomes])
+    _hold_enough(outcomes, max(FEWEST, pumps_needed(len(drawn.drawing.names))), int(solved.sum()))
+    numbers = [numbers_in(one) for one in outcomes if one.status is PartStatus.SOLVED]
+    return Series(drawn.drawing, drawn.values[solved]), np.array(numbers)
+
+
+def _scatters(numbers: Array) -> tuple[Scatter, ...]:
+    return tuple(scatter(column) for column in numbers.T)
 
 
 def _hold_enough(outcomes: Sequence[PartOutcome], needed: int, solved: int) -> None:

@@ -225,13 +225,13 @@ def test_floating_films_do_not_close_the_gap(band, floating, measured, validatio
 
 
 @pytest.mark.parametrize(
-    ("pistons", "each", "reason"),
+    ("pistons", "parts", "reason"),
     [
         ("of a machine alike", 1, "the clearances of the drawing give a fifth of the units' own scatter at most"),
         ("unlike", 9, "nine pistons of unlike clearance nearly average out"),
     ],
 )
-def test_scatter_by_the_tolerances(band_and_series, recording, validation, pistons, each, reason):
+def test_scatter_by_the_tolerances(band_and_series, recording, validation, pistons, parts, reason):
     band, series = band_and_series
     validation(
         case="Hydrostatic transmission HST 196, 1780 rpm, 207 against 14 bar",
@@ -239,7 +239,7 @@ def test_scatter_by_the_tolerances(band_and_series, recording, validation, pisto
         quantity=f"standard deviation by the drawing's clearances, pistons {pistons}",
         unit="%",
         expected=100.0 * band.shared_spread(recording),
-        obtained=100.0 * float(np.std(series.series(each=each), ddof=1)),
+        obtained=100.0 * float(np.std(series.series(parts=parts), ddof=1)),
         relative_tolerance=0.2,
         note="expected: what forward and reverse of a unit share",
         missed=reason,

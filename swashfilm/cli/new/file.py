@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-import json
 from dataclasses import dataclass
 from pathlib import Path
 
-from swashfilm.cli.schema import schema_of
+from swashfilm.console.schemas import write_new
 from system.inputs.faults import Fault, InputFaults
 
 
@@ -24,13 +23,8 @@ class NewFile:
 
         Raises InputFaults for a folder that cannot be written to, and for a file that is there by now.
         """
-        schema = self.path.parent / f"{self.kind}.schema.json"
         try:
-            if not schema.exists():
-                text = json.dumps(schema_of(self.kind), indent=1, ensure_ascii=False)
-                schema.write_text(text + "\n", encoding="utf-8")
-            with self.path.open("x", encoding="utf-8") as file:
-                file.write(f"#:schema ./{schema.name}\n{self.text}")
+            write_new(self.path, self.kind, self.text)
         except OSError as reason:
             fault = Fault("file", f"cannot be written: {reason}", "a folder that can be written to")
             raise InputFaults(str(self.path), [fault]) from None

@@ -12,6 +12,8 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import asdict, dataclass
 from pathlib import Path
 
+from system.inputs.shown import shown_in, titled
+
 REMEDY = "install the graphics libraries (Debian: apt-get install libegl1 libgl1-mesa-dri) and run it again"
 PATIENCE = 120.0  # s; a picture takes about 2 s, a turn about 8 s, software rendering of a large mesh longer
 
@@ -25,8 +27,20 @@ class PictureField:
     title: str
 
 
-PRESSURE = PictureField("film_pressure [Pa]", 1e-6, "film pressure / MPa")
-THICKNESS = PictureField("film_thickness [m]", 1e6, "film thickness / um")
+def picture_field(words: str, unit: str) -> PictureField:
+    """Return the field `words` of VTU files, in SI there, in the unit of pictures."""
+    shown = shown_in(unit, words)
+    return PictureField(f"{words.replace(' ', '_')} [{unit}]", shown.factor, titled(words, shown.unit))
+
+
+def pressure_field() -> PictureField:
+    """Return the pressure of films."""
+    return picture_field("film pressure", "Pa")
+
+
+def thickness_field() -> PictureField:
+    """Return the thickness of films."""
+    return picture_field("film thickness", "m")
 
 
 @dataclass(frozen=True)
@@ -58,18 +72,19 @@ class Pictures:
 
 def draw(
     drawings: Mapping[Path, Sequence[Frame]],
-    field: PictureField = PRESSURE,
+    field: PictureField | None = None,
     *,
     patience: float = PATIENCE,
     child: Sequence[str] = (sys.executable, "-m", "swashfilm.output.scenes.plotter3d"),
 ) -> Pictures:
-    """Draw pictures of one frame (PNG) or of several (animated WebP) with films in the colours of a field.
+    """Draw pictures of one frame (PNG) or of several (animated WebP) with films in the colours of a field (pressure).
 
     Raises nothing. Afterwards all pictures exist, or none exists and `reason` names the cause: the child process died
     (no graphics libraries), took longer than `patience` s, or could not read the files. `child` is the program that
     draws.
     """
     jobs = json.dumps({str(path): [asdict(one) for one in frames] for path, frames in drawings.items()}, default=str)
+    field = field or pressure_field()
     words = [*child, field.head, repr(field.factor), field.title]
     try:
         done = subprocess.run(words, input=jobs, capture_output=True, text=True, timeout=patience, check=False)

@@ -9,11 +9,14 @@ import numpy as np
 
 from reynolds.numerics.arrays import Array
 from swashfilm.output.touch.explorer import Control, Explorer, Pick
+from swashfilm.output.touch.meshes import coarsened, triangles
 from swashfilm.output.touch.packing import short
 from swashfilm.output.touch.traces import scale_of
 
 DIGITS = 4
-PLACE = "<br>x / mm: %{x:.4~g}<br>y / mm: %{y:.4~g}"
+PLACE = "<br>x [mm]: %{x:.4~g}<br>y [mm]: %{y:.4~g}"
+MOST, NUMBERS = 1500, 30_000
+"""Largest number of vertices, and of vertices times states; a finer mesh is thinned out."""
 HEIGHT = 520  # pixels
 LONG = 1.5
 """Length of the longer side of the film's plane in the view; the relief is as high as HIGH."""
@@ -35,8 +38,9 @@ def relief(place: tuple[Array, Array], cells: Array, fields: Sequence[ReliefFiel
     import plotly.graph_objects as go
 
     count, first = len(states), fields[0]
-    x, y = (short(one, DIGITS) for one in place)
-    corner = triangles(cells)
+    flat = np.stack([one[0] for one in place], axis=1)
+    kept, corner = coarsened(flat, triangles(cells), min(MOST, NUMBERS // count))
+    x, y = (short(one[:, kept], DIGITS) for one in place)
     trace = go.Mesh3d(
         x=x[0], y=y[0], i=corner[:, 0].tolist(), j=corner[:, 1].tolist(), k=corner[:, 2].tolist(),
         colorbar={"thickness": 12, "len": 0.8, "title": {"text": first.title, "side": "right"}},
@@ -44,7 +48,7 @@ def relief(place: tuple[Array, Array], cells: Array, fields: Sequence[ReliefFiel
     )  # fmt: skip
     ends = [_ends(one.values) for one in fields]
     tables = {
-        "x": x, "y": y, "values": [row for one in fields for row in short(one.values, DIGITS)],
+        "x": x, "y": y, "values": [row for one in fields for row in short(one.values[:, kept], DIGITS)],
         "titles": [one.title for one in fields], "scales": [_scale(one.colours) for one in fields],
         "ends": ends, "low": [low for low, _ in ends], "high": [high for _, high in ends],
         "hover": [f"{one.title}: %{{z:.4~g}}{PLACE}<extra></extra>" for one in fields],
@@ -71,13 +75,6 @@ def _highest(field: ReliefField) -> int:
     return int(np.argmax(np.nanmax(field.values, axis=1)))
 
 
-def triangles(cells: Array) -> Array:
-    """Return cells of three or four corners as triangles (n, 3)."""
-    if cells.shape[1] == 3:
-        return cells
-    return np.concatenate([cells[:, [0, 1, 2]], cells[:, [0, 2, 3]]])
-
-
 def _ends(values: Array) -> list[float]:
     low, high = float(np.nanmin(values)), float(np.nanmax(values))
     room = 0.02 * (high - low) or 0.5 * abs(high) or 1.0
@@ -94,7 +91,7 @@ def _layout(place: tuple[Array, Array], title: str) -> dict[str, object]:
     wide, deep = (float(np.ptp(one)) for one in place)
     longest = max(wide, deep)
     ratio = {"x": LONG * max(wide / longest, 0.3), "y": LONG * max(deep / longest, 0.3), "z": HIGH}
-    titles = {"x": "x / mm", "y": "y / mm", "z": title}
+    titles = {"x": "x [mm]", "y": "y [mm]", "z": title}
     axes = {f"{name}axis": {"title": {"text": text}, "showbackground": False} for name, text in titles.items()}
     scene = {"aspectmode": "manual", "aspectratio": ratio, "camera": CAMERA}
     return {"height": HEIGHT, "margin": {"l": 0, "r": 0, "t": 0, "b": 0}, "scene": scene | axes, "uirevision": "kept"}

@@ -1,7 +1,7 @@
 // Draws the packed figures of a page by plotly.js as they come into view; the static pictures stay where it cannot.
 "use strict";
 (() => {
-  const INK = "#1c2328", MPA = "/ MPa", BAR = "/ bar", BAR_PER_MPA = 10;
+  const INK = "#1c2328", MPA = "[MPa]", BAR = "[bar]", BAR_PER_MPA = 10;
   const CONFIG = { displaylogo: false, responsive: true, modeBarButtonsToRemove: ["lasso2d", "select2d"] };
   const DIGIT = [];
   [..."0123456789ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz!#$%,()*+-;.=:?@^_`{|}~"].forEach((letter, n) => {
@@ -137,6 +137,7 @@
     if (inBar) toBar(figure);
     toTheme(figure);
     await Plotly.react(plot, figure.data, figure.layout, CONFIG);
+    plot.dataset.draws = Number(plot.dataset.draws ?? 0) + 1;
   }
 
   function element(kind, properties, ...children) {
@@ -194,7 +195,6 @@
     views.push(view);
     hideUsed(view);
     await draw(view);
-    view.plot.dataset.drawn = "yes";
   }
 
   if (!window.DecompressionStream || !window.IntersectionObserver) return;

@@ -21,6 +21,8 @@ SIGNS = {
 }  # fmt: skip
 STEPS = {"steps-pre": "vh", "steps": "vh", "steps-mid": "hvh", "steps-post": "hv", "default": "linear"}
 PIXELS = 1.4  # per point, of lines and marks
+MOST = 2000
+"""Points of a line; of a longer one, those stay that are highest and lowest in as many equal parts as pixels."""
 
 
 class Untranslated(Exception):
@@ -82,12 +84,23 @@ def _numbers(values: Any) -> Array:
     return np.atleast_1d(np.asarray(np.ma.filled(np.ma.asarray(values, dtype=float), np.nan)))
 
 
+def _thinned(x: Array, y: Array) -> tuple[Array, Array]:
+    """Return at most MOST points of a line: the ends, and the least and the largest of each part of it."""
+    if len(y) <= MOST:
+        return x, y
+    parts = np.array_split(np.arange(1, len(y) - 1), MOST // 2 - 1)
+    of_ends = [[part[np.argmin(y[part])], part[np.argmax(y[part])]] for part in parts]
+    kept = np.unique([0, *np.ravel(of_ends), len(y) - 1])
+    return x[kept], y[kept]
+
+
 def _line(line: Any, panel: Panel) -> dict[str, Any]:
     x, y = (_numbers(one) for one in line.get_data(orig=False))
     for k, inside in enumerate(line.get_transform().contains_branch_seperately(panel.axes.transData)):
         if not inside:  # a line across the panel
             low, high = (panel.axes.get_xlim, panel.axes.get_ylim)[k]()
             x, y = (low + (high - low) * x, y) if k == 0 else (x, low + (high - low) * y)
+    x, y = _thinned(x, y)
     sign, style = line.get_marker(), line.get_linestyle()
     lines, marks = style in DASHES, sign not in ("None", "none", "", " ", None)
     opacity = line.get_alpha()
@@ -138,7 +151,7 @@ def _joined(pieces: list[Array]) -> tuple[Array, Array]:
 def _area(area: Any, panel: Panel) -> dict[str, Any]:
     if area.get_array() is not None or not all(area.get_transform().contains_branch_seperately(panel.axes.transData)):
         raise Untranslated
-    x, y = _joined([path.vertices for path in area.get_paths()])
+    x, y = _joined([np.column_stack(_thinned(*path.vertices.T)) for path in area.get_paths()])
     edge = {"mode": "lines", "line": {"width": 0}, "fill": "toself", "fillcolor": colour(area.get_facecolor()[0])}
     shown = _hover(panel, _name(area)) | {"hoverinfo": "skip"}
     del shown["hovertemplate"]
@@ -189,6 +202,13 @@ def _colours(artist: Any) -> dict[str, Any]:
     return {"colorscale": scale_of(artist.get_cmap()), "cmin": float(low), "cmax": float(high), "showscale": False}
 
 
+def _stretched(scale: list[list[Any]], levels: Array) -> list[list[Any]]:
+    """Return a colour scale in which each step between levels has the same share of the colours."""
+    shares = np.linspace(0.0, 1.0, len(levels))
+    places = np.interp([place for place, _ in scale], shares, (levels - levels[0]) / (levels[-1] - levels[0]))
+    return [[float(f"{place:.4g}"), shade] for place, (_, shade) in zip(places, scale, strict=True)]
+
+
 def _field(artist: Any, field: GridField, panel: Panel) -> list[dict[str, Any]]:
     """Return a field as areas between its levels, or as a smooth map."""
     title = bar_title(artist, panel)
@@ -198,6 +218,7 @@ def _field(artist: Any, field: GridField, panel: Panel) -> list[dict[str, Any]]:
     grid = {"x": short(field.x), "y": short(field.y), "z": short(field.values, 4)}
     if field.levels is None:
         return [{"type": "heatmap", "zsmooth": "best", **grid, **look, **hover}]
+    look["colorscale"] = _stretched(look["colorscale"], field.levels)
     labels = {"coloring": "heatmap", "showlabels": True, "labelfont": {"size": 10, "color": "white"}}
     lines = {"ncontours": len(field.levels), "contours": labels, "line": {"color": "white", "width": 0.5}}
     return [{"type": "contour", **lines, **grid, **look, **hover}]
@@ -223,7 +244,8 @@ def _bars(group: Any, panel: Panel) -> dict[str, Any]:
     along, across = ("x", "y") if lying else ("y", "x")
     axis = getattr(panel.axes, f"{across}axis")
     ticks, texts = axis.get_majorticklocs(), tick_texts(axis)
-    names = [texts[int(np.argmin(np.abs(ticks - at)))] for at in place] if len(ticks) else [""] * len(place)
+    named = 0 < len(ticks) == len(texts)  # an inner panel of a shared axis has no texts
+    names = [texts[int(np.argmin(np.abs(ticks - at)))] if named else "" for at in place]
     faces = [colour(bar.get_facecolor()) for bar in group.patches]
     name, title = _name(group), panel.titles[0 if lying else 1]
     return {

@@ -9,7 +9,7 @@ import numpy as np
 
 from diagnosis.report.format import CHANNELS, listed
 from swashfilm.output.answer import Answer, Tile
-from swashfilm.output.picture import Picture
+from swashfilm.output.touch.picture import Picture
 from swashfilm.runs.calibrate.words import (
     AS_ASSUMED,
     DETERMINED,

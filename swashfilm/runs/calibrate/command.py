@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 from swashfilm.console.command import Command
 from swashfilm.console.inputs import COMMAND_LINE, RECORDING
+from swashfilm.console.settings import add_set_option, set_values_of
 from swashfilm.console.terminal import show, show_table
 from system.inputs.faults import Fault, InputFaults, nearest_choice
 
@@ -22,6 +23,7 @@ def add_calibrate_options(command: argparse.ArgumentParser) -> None:
     """Add the arguments of `swashfilm calibrate`."""
     command.add_argument("pump", metavar="PUMP", help="built-in name (ref90) or pump file (a few sizes suffice)")
     command.add_argument("recording", type=Path, metavar="RECORDING", help=RECORDING)
+    add_set_option(command)
     what = "friction law tried beside constant coefficients: over the Hersey number, or none"
     command.add_argument("--laws", metavar=f"{{{','.join(LAWS)}}}", default=LAWS[0], help=what)
     what = "loss models compared by the same cross-validation: names separated by commas, all, or none"
@@ -41,12 +43,12 @@ def run_calibrate_command(options: argparse.Namespace) -> int:
     from swashfilm.runs.diagnose.told import show_contradictions
     from system.pump_file.file import load_known_pump
 
-    known = load_known_pump(options.pump)
+    known = load_known_pump(options.pump, set_values_of(options))
     recording = checked_recording(options.recording, known)
     show_contradictions(recording)
     title = recording.title or options.recording.stem
     with (
-        run_folder(f"calibrate-{title}", options.output) as folder,
+        run_folder(f"calibrate-{title}", options.output, workbook=options.excel) as folder,
         progress(1, f"calibrate {known.pump.name}") as report,
     ):
         found = calibrate(known, recording, report, models, options.laws == LAWS[0])

@@ -7,14 +7,15 @@ from typing import Any
 import numpy as np
 
 from diagnosis.calibration import Calibration
-from diagnosis.recording.units import channel_unit, difference, difference_unit, reading
+from diagnosis.recording.units import channel_head, channel_unit, difference, difference_unit, reading
+from diagnosis.report.format import parameter_unit
 from diagnosis.verdict.row_numbers import table_rows
 from swashfilm.output.run_folder import write_json
 from swashfilm.runs.diagnose.files import write_rows
 from system.bench.calibration.held_out import PHYSICS
 from system.estimation.posterior import Posterior
 from system.inputs.channels import ChannelName
-from system.inputs.units import RPM, Dimension
+from system.inputs.units import RPM
 from system.pump_file.file import resolved_toml
 
 KIND = "calibration"
@@ -66,16 +67,18 @@ def parameter_rows(fit: Posterior) -> Iterator[Row]:
     for at, parameter in enumerate(fit.parameters):
         sigma = float(np.sqrt(fit.covariance[at, at]))
         held = fit.xi[at] <= parameter.lowest or fit.xi[at] >= parameter.highest
+        mean = float(fit.values[at])
+        unit, factor = parameter_unit(parameter.dimension, mean or parameter.centre)
         yield {
             "name": parameter.name,
-            "unit": _unit(parameter.dimension),
-            "prior_low": _text(max(parameter.value(-1.0), parameter.lower)),
-            "prior": _text(parameter.centre),
-            "prior_high": _text(min(parameter.value(1.0), parameter.upper)),
-            "lower": _text(parameter.lower),
-            "upper": _text(parameter.upper),
-            "mean": _text(float(fit.values[at])),
-            "sigma": _text(fit.sigma(parameter.name)),
+            "unit": unit,
+            "prior_low": _text(factor * max(parameter.value(-1.0), parameter.lower)),
+            "prior": _text(factor * parameter.centre),
+            "prior_high": _text(factor * min(parameter.value(1.0), parameter.upper)),
+            "lower": _text(factor * parameter.lower),
+            "upper": _text(factor * parameter.upper),
+            "mean": _text(factor * mean),
+            "sigma": _text(factor * fit.sigma(parameter.name)),
             "sigma_over_prior [1]": _text(sigma),
             "at_bound": "yes" if held else "no",
             "source": parameter.source,
@@ -151,7 +154,7 @@ def residual_rows(found: Calibration) -> Iterator[Row]:
             "channel": channel.value,
             "unit": channel_unit(channel),
             "speed [rpm]": _text(points.speed[point] / RPM),
-            "p_out [bar]": _text(points.p_out[point] * 1e-5),
+            channel_head(ChannelName.P_OUT): _text(reading(ChannelName.P_OUT, points.p_out[point])),
             "displacement_ratio [1]": _text(points.displacement_ratio[point]),
             "measured": _text(reading(channel, measured)),
             "fitted": _text(reading(channel, fitted)),
@@ -162,12 +165,6 @@ def residual_rows(found: Calibration) -> Iterator[Row]:
 def _chi2(fit: Posterior) -> float:
     """Chi-square per reading."""
     return float(fit.residual @ fit.residual) / fit.residual.size
-
-
-def _unit(dimension: Dimension | None) -> str:
-    if dimension is Dimension.TEMPERATURE:
-        return "K"
-    return dimension.si_unit if dimension else "1"
 
 
 def _text(value: float) -> str:

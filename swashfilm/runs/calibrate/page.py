@@ -133,7 +133,7 @@ def held_out_tables(folder: Path) -> list[Table]:
             count = next(iter(cells.values()))["coefficients"]
             name = "this pump" if model == PHYSICS else model.replace("_", " ")
             lines.append((name, count, *(f"{float(cells[one]['rms']):.3g}" for one in splits)))
-        words = f"{channel} / {own[0]['unit']}; scatter of the meter {float(own[0]['noise']):.2g}"
+        words = f"{channel} [{own[0]['unit']}]; scatter of the meter {float(own[0]['noise']):.2g}"
         found.append((f"Error of models, rms, {words}", lines))
     return found
 

@@ -46,8 +46,8 @@ def coefficients_over_displacement(rows: Sequence[Row]) -> Figure:
             fmt="o", color=OWN, capsize=3, label="one displacement",
         )  # fmt: skip
         axes.set_title(name.replace("_", " "), fontsize=9)
-        axes.set_xlabel("displacement ratio / 1", fontsize=8)
-        axes.set_ylabel("coefficient / 1", fontsize=8)
+        axes.set_xlabel("displacement ratio", fontsize=8)
+        axes.set_ylabel("coefficient", fontsize=8)
         axes.set_ylim(bottom=0.0)
         axes.tick_params(labelsize=7)
         axes.grid(visible=True, alpha=0.3)
@@ -88,8 +88,8 @@ def friction_curves(rows: Sequence[Row]) -> Figure:
         )
         axes.semilogx(number, friction, color=colour, label=gap.replace("_", " "))
         axes.fill_between(number, np.maximum(friction - sigma, 0.0), friction + sigma, color=colour, alpha=0.2)
-    axes.set_xlabel("Hersey number mu v w/N / 1")
-    axes.set_ylabel("friction coefficient / 1")
+    axes.set_xlabel("Hersey number mu v w/N")
+    axes.set_ylabel("friction coefficient")
     axes.set_ylim(bottom=0.0)
     axes.legend(fontsize=8)
     axes.grid(visible=True, alpha=0.3, which="both")

@@ -49,7 +49,10 @@ def run_compare_command(options: argparse.Namespace) -> int:
     asked = compare_case(options)
     for name in asked.given:
         show_assumed(name)
-    with run_folder(asked.name, options.output) as folder, progress(asked.points, asked.name) as report:
+    with (
+        run_folder(asked.name, options.output, workbook=options.excel) as folder,
+        progress(asked.points, asked.name) as report,
+    ):
         asked.run(folder, report)
         found = CompareRun.opened(folder)
     show_result(found, folder)

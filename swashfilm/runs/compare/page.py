@@ -8,7 +8,7 @@ from typing import Any
 
 from swashfilm.output.answer import Answer, Tile
 from swashfilm.output.page import kept_pictures, read_summary, write_page
-from swashfilm.output.picture import Picture
+from swashfilm.output.touch.picture import Picture
 from swashfilm.runs.compare.plots import FIRST
 from swashfilm.runs.duty.page import energy_text
 from swashfilm.runs.map.answer import percent

@@ -65,7 +65,7 @@ def _efficiencies(found: MapComparison, piece: Slice, names: Names) -> dict[str,
     where = held_words(found.one, piece)
     return {
         f"{letter}, {name}: overall efficiency in % by ISO 4409{f', {where}' if where else ''}": panel_figure(
-            found.one, Panel(f"{letter}: overall efficiency / %", piece, field, levels, best=True)
+            found.one, Panel(f"{letter}: overall efficiency [%]", piece, field, levels, best=True)
         )
         for letter, name, field in zip("AB", names, fields, strict=True)
     }
@@ -84,7 +84,7 @@ def _losses(found: MapComparison) -> Figure:
     axes.barh(rows + 0.2, other, 0.38, color="#8c5a3c", label="B")
     axes.set_yticks(rows, list(sinks))
     axes.invert_yaxis()
-    axes.set_xlabel("mean loss / kW")
+    axes.set_xlabel("mean loss [kW]")
     axes.legend()
     axes.grid(visible=True, axis="x", alpha=0.3)
     return figure

@@ -15,6 +15,7 @@ from swashfilm.runs.compare.plots import compare_pictures
 from swashfilm.runs.duty.run import duty_summary, known_error
 from swashfilm.runs.map.files import MAP, read_map
 from swashfilm.runs.map.run import MapCase, solve_map, worth_starting
+from system.inputs.shown import shown_in
 from system.maps.compare import Difference, Extreme, compare
 from system.maps.data import MapData
 from system.maps.duty import Cycle, duty
@@ -156,11 +157,13 @@ def _duty(side: Side, cycle: Cycle) -> dict[str, Any]:
 
 
 def _write_table(path: Path, differences: tuple[Difference, ...]) -> None:
-    places = [f"at {given.words} [{given.unit}]" for given in MapInput]
+    places = [f"at {given.words} [{given.shown.unit}]" for given in MapInput]
     heads = "number", "unit", "A mean", "B mean", "largest B - A", "error of both"
     rows = []
     for row in differences:
-        at = row.largest.at
-        numbers = [row.one, row.other, row.largest.value, row.largest.error, *(at[given] for given in MapInput)]
-        rows.append([row.words, row.unit, *(f"{number:.8g}" for number in numbers)])
+        at, shown = row.largest.at, shown_in(row.unit)
+        means = shown.of(row.one), shown.of(row.other)
+        changes = shown.difference(row.largest.value), shown.difference(row.largest.error)
+        numbers = [*means, *changes, *(given.shown.of(at[given]) for given in MapInput)]
+        rows.append([row.words, shown.unit, *(f"{number:.8g}" for number in numbers)])
     write_csv(path, [*heads, *places], rows)

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import argparse
-import shutil
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from swashfilm.console.command import Command
 from swashfilm.console.inputs import COMMAND_LINE, RECORDING, whole
+from swashfilm.console.schemas import write_new
+from swashfilm.console.settings import add_set_option, set_values_of
 from swashfilm.console.terminal import show, show_at_once, show_table
 from swashfilm.runs.diagnose.films import FLOATING, add_film_options
 from system.inputs.faults import Fault, InputFaults
@@ -25,6 +26,7 @@ def add_diagnose_options(command: argparse.ArgumentParser) -> None:
     """Add the arguments of `swashfilm diagnose`."""
     command.add_argument("pump", metavar="PUMP", help="built-in name (ref90) or pump file (a few sizes suffice)")
     command.add_argument("recording", type=Path, metavar="RECORDING", help=RECORDING)
+    add_set_option(command)
     what = "write the fitted pump with the effects found, its origin and tolerances, for `swashfilm run FILE.toml`"
     command.add_argument("--apply", type=Path, metavar="FILE.toml", help=what)
     what = f"processes that fit hypotheses side by side (as many as cores, {USUAL_WORKERS} at most)"
@@ -54,12 +56,12 @@ def run_diagnose_command(options: argparse.Namespace) -> int:
     from system.effects.effect import Kind
     from system.pump_file.file import load_known_pump
 
-    known = load_known_pump(options.pump)
+    known = load_known_pump(options.pump, set_values_of(options))
     film_options = film_options_of(options, known)
     recording = checked_recording(options.recording, known)
     show_contradictions(recording)
     name = f"diagnose-{recording.title or options.recording.stem}"
-    with run_folder(name, options.output) as folder, progress(1, "diagnosis") as report:
+    with run_folder(name, options.output, workbook=options.excel) as folder, progress(1, "diagnosis") as report:
         catalogue = with_films_solved(known.pump, report) if options.film_tables else CATALOGUE
         try:
             films = film_model_of(known.pump, recording, film_options, workers, report)
@@ -71,7 +73,7 @@ def run_diagnose_command(options: argparse.Namespace) -> int:
     for line in answer_lines(found.record["answer"], MOST_LINES - (apply is not None)):
         show(line)
     if apply is not None and found.effects:
-        shutil.copyfile(final_folder(folder) / EXTENDED, apply)
+        write_new(apply, "pump", (final_folder(folder) / EXTENDED).read_text("utf-8"))
         what = "without the sensor's fault" if finding.diagnosis.kind is Kind.SENSOR_FAULT else "with it"
         fidelity = " --fidelity lumped" if films is None else ""  # floating films have all physics by default
         show(f"the pump as fitted, {what}: swashfilm run {apply}{fidelity}")
@@ -92,7 +94,7 @@ def _watch(options: argparse.Namespace, workers: int) -> None:
     from system.pump_file.file import load_known_pump
     from system.work.progress import silent
 
-    known = load_known_pump(options.pump)
+    known = load_known_pump(options.pump, set_values_of(options))
     catalogue = with_films_solved(known.pump, silent) if options.film_tables else CATALOGUE
 
     def diagnosed() -> Answer:

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from diagnosis.procedure.pump_comparison import OF_FILMS
+from swashfilm.output.data.files import write_netcdf
 from swashfilm.output.field_maps import MapField, draw_map
 from swashfilm.output.figures import figure_of
 from swashfilm.runs.diagnose.floating_fields import floating_pictures
@@ -36,7 +37,7 @@ def write_film_fields(folder: Path, films: FilmsPoint) -> None:
     write_fields(folder, films)
     data = films_dataset(films)
     data.attrs |= {"temperature": films.rotor.point.temperature, "viscosity": films.rotor.point.viscosity}
-    data.to_netcdf(folder / FIELDS_FILE, engine="h5netcdf")
+    write_netcdf(data, folder / FIELDS_FILE)
 
 
 def film_pictures(folder: Path, names: tuple[str, str], found: Mapping[str, Any]) -> dict[str, Figure]:

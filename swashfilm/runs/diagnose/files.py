@@ -10,12 +10,12 @@ import numpy as np
 from diagnosis.checks.notes import note_text
 from diagnosis.procedure.compared import NO_COMPARISON, WITH, WITHOUT, FilmComparison, PumpComparison
 from diagnosis.recording.model import NoteKind
-from diagnosis.recording.units import reading
+from diagnosis.recording.units import channel_unit, reading
 from diagnosis.report.answer import PlainAnswer
 from diagnosis.report.json_file import write_diagnosis
 from diagnosis.report.tables import (
-    NEXT_POINT_HEAD,
     hypothesis_rows,
+    next_point_head,
     next_point_rows,
     parameter_rows,
     pull_sums,
@@ -26,6 +26,7 @@ from diagnosis.report.trace_tables import trace_residual_rows
 from diagnosis.study.model import Study
 from diagnosis.verdict.diagnosis import Diagnosis
 from swashfilm.output.run_folder import write_json
+from swashfilm.output.tables import parted
 from system.inputs.channels import ChannelName
 
 KIND = "diagnosis"
@@ -54,7 +55,7 @@ def write_diagnosis_files(
         write_rows(folder / TRACES, with_stated(study, trace_residual_rows(study, diagnosis)))
     write_rows(folder / "hypotheses.csv", hypothesis_rows(diagnosis))
     write_rows(folder / "parameters.csv", parameter_rows(diagnosis))
-    write_rows(folder / "next_points.csv", next_point_rows(diagnosis.next_point), NEXT_POINT_HEAD)
+    write_rows(folder / "next_points.csv", next_point_rows(diagnosis.next_point), next_point_head())
     write_rows(folder / "changes.csv", change_rows(comparison), CHANGE_HEAD)
     write_rows(folder / "films.csv", film_rows(comparison.films), FILM_HEAD)
     write_diagnosis(folder / "diagnosis.json", diagnosis, answer)
@@ -82,8 +83,9 @@ def film_rows(comparison: FilmComparison) -> Iterator[Mapping[str, str]]:
 def with_stated(study: Study, rows: Iterable[Mapping[str, str]]) -> Iterator[Mapping[str, str]]:
     """The rows of the traces, in their order, with the pressure of the pump as described, not fitted."""
     stated = np.concatenate([trace.block.mean - trace.residual for trace in study.traces])
+    head = f"stated [{channel_unit(ChannelName.P_CHAMBER)}]"
     for row, pressure in zip(rows, stated, strict=True):
-        yield {**row, "stated [bar]": f"{reading(ChannelName.P_CHAMBER, float(pressure)):.6g}"}
+        yield {**row, head: f"{reading(ChannelName.P_CHAMBER, float(pressure)):.6g}"}
 
 
 def diagnosis_summary(study: Study, diagnosis: Diagnosis, assumptions: Sequence[str]) -> dict[str, Any]:
@@ -114,6 +116,14 @@ def write_rows(path: Path, rows: Iterable[Mapping[str, str]], head: Sequence[str
         writer = csv.DictWriter(file, list(listed[0]) if listed else head, lineterminator="\n")
         writer.writeheader()
         writer.writerows(listed)
+
+
+def head_of(row: Mapping[str, str], name: str) -> str:
+    """Return the head of the column `name` of a table, with its unit; raise KeyError where it has none."""
+    for head in row:
+        if parted(head)[0] == name:
+            return head
+    raise KeyError(name)
 
 
 def read_rows(path: Path) -> list[dict[str, str]]:

@@ -8,12 +8,12 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from swashfilm.output.data.files import read_netcdf
 from swashfilm.output.field_maps import draw_map
 from swashfilm.output.figures import figure_of
 from swashfilm.output.gap_names import TITLES
-from swashfilm.output.result import read_netcdf
-from swashfilm.runs.film.revolution.data import SHOWN
-from swashfilm.runs.film.revolution.plots import MAPPED
+from swashfilm.runs.film.revolution.plots import MAPPED, unit_of
+from system.inputs.shown import titled
 
 if TYPE_CHECKING:
     import xarray
@@ -62,8 +62,8 @@ def _beside(data: Sequence[xarray.Dataset], names: Sequence[str], at: int) -> Fi
 
 def _draw(axes: Any, data: xarray.Dataset, field: str, at: int, name: str, limits: tuple[float, float]) -> None:
     """A film's field in its customary unit; limits: ends of its colours, SI."""
-    how, (words, colours) = SHOWN[data[field].attrs["units"]], MAPPED[field]
+    how, (words, colours) = unit_of(data, field), MAPPED[field]
     low, high = map(float, how.of(np.array(limits)))
     place = data["x"].values[at] * 1e3, data["y"].values[at] * 1e3
     values, cells = how.of(data[field].values[at]), data["cells"].values
-    draw_map(axes, place, cells, values, f"{words} / {how.unit}, {name}", colours=colours, limits=(low, high))
+    draw_map(axes, place, cells, values, f"{titled(words, how.unit)}, {name}", colours=colours, limits=(low, high))

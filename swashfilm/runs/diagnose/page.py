@@ -14,10 +14,11 @@ from diagnosis.report.json_file import read_diagnosis
 from reynolds.numerics.arrays import Array
 from swashfilm.output.answer import Answer
 from swashfilm.output.page import inlined, read_summary, write_page
-from swashfilm.output.picture import Picture
+from swashfilm.output.tables import parted
+from swashfilm.output.touch.picture import Picture
 from swashfilm.runs.diagnose import plots as diagnose_plots
 from swashfilm.runs.diagnose.fields import film_pictures
-from swashfilm.runs.diagnose.files import TRACES, read_rows
+from swashfilm.runs.diagnose.files import TRACES, head_of, read_rows
 from swashfilm.runs.diagnose.rows import (
     AGREED_HEAD,
     AGREED_PARAMETER_HEAD,
@@ -48,7 +49,7 @@ FILES = (
 )  # fmt: skip
 TABLES = ("residuals", "hypotheses", "parameters", "next_points", "changes", "films")
 MOST_POINTS = 8
-AXES = ("p_out [bar]", "speed [rpm]", "displacement_ratio [1]", "T_case [degC]")
+AXES = ("p_out", "speed", "displacement_ratio", "T_case")
 FAINT = 0.3  # sigma, rms: smaller additions to a channel are not drawn
 MOST_COURSES = 2
 
@@ -167,16 +168,13 @@ def _settings(residuals: Sequence[Mapping[str, str]]) -> dict[str, str]:
     """Each point with its settings: "point 7: 1000 rpm, 374 bar, displacement ratio 0.28"."""
     texts = {}
     for row in residuals:
-        known = [(row[f"{name} [{unit}]"], words) for name, unit, words in _SET if row[f"{name} [{unit}]"]]
-        values = ", ".join(words.format(float(value)) for value, words in known)
+        known = [(row[head_of(row, name)], parted(head_of(row, name))[1], words) for name, words in _SET]
+        values = ", ".join(words.format(float(value), unit) for value, unit, words in known if value)
         texts[row["point"]] = f"point {row['point']}: {values}"
     return texts
 
 
-_SET = (
-    ("speed", "rpm", "{:.0f} r/min"), ("p_out", "bar", "{:.0f} bar"),
-    ("displacement_ratio", "1", "stroke {:.0%}"),
-)  # fmt: skip
+_SET = (("speed", "{:.0f} r/min"), ("p_out", "{:.3g} {}"), ("displacement_ratio", "stroke {:.0%}"))
 
 
 def strongest_courses(residuals: Sequence[Mapping[str, str]]) -> list[tuple[str, str]]:
@@ -187,7 +185,7 @@ def strongest_courses(residuals: Sequence[Mapping[str, str]]) -> list[tuple[str,
     strength, courses = {}, {}
     for channel in dict.fromkeys(row["channel"] for row in residuals):
         own = [row for row in residuals if row["channel"] == channel]
-        known = [axis for axis in AXES if all(row[axis] for row in own)]
+        known = [head for axis in AXES if all(row[head := head_of(own[0], axis)] for row in own)]
         if not known:
             continue
         added = np.array([float(row["added"]) for row in own])

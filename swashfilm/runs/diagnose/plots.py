@@ -9,6 +9,9 @@ import numpy as np
 
 from reynolds.numerics.arrays import Array
 from swashfilm.output.figures import figure_of
+from swashfilm.output.tables import parted
+from swashfilm.runs.diagnose.files import head_of
+from system.inputs.shown import titled
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -21,8 +24,6 @@ AXIS_WORDS = {
 }  # fmt: skip
 BEFORE, AFTER, NOISE = "#b55a00", "#3c7a8c", "#9aa4ab"
 WIDTH = 10.0  # inches, of every picture that is as wide as the page
-SPEED = "speed [rpm]"
-ACROSS = {SPEED: "speed / (r/min)", "T_case [degC]": "case temperature / degC"}
 LEAST_SPREAD = 0.05  # of an axis, by its largest value: a smaller one is that of one level
 MOST_BARS = 12
 MOST_LEVELS = 4
@@ -47,17 +48,17 @@ def residual_maps(rows: Sequence[Row], claimed: bool = True) -> Figure:
     figure = figure_of(max(WIDTH, 1.5 + 2.3 * columns), height)
     grid = figure.subplots(len(lines), columns, squeeze=False, sharex=True, sharey=True)
     most = max(3.0, float(np.nanpercentile(np.abs(_column(rows, "pull_before")), 98)))
-    across = _across(rows)
     drawn: Any = None
+    at = _across(rows), head_of(rows[0], "p_out")
     for line, (channel, keys) in zip(grid, lines, strict=True):
         places = [(level, key) for level in levels for key in keys]
         for axes, (level, key) in zip(line, places, strict=True):
             own = [row for row in rows if row["channel"] == channel and _of_level(row, level)]
-            drawn = _map(axes, own, key, across, most)
+            drawn = _map(axes, own, at, key, most)
             axes.set_title(", ".join(filter(None, (FITS[key] if claimed else "", _title(level)))), fontsize=8, pad=3)
-        line[0].set_ylabel(f"{channel}\np_out / bar", fontsize=8)
+        line[0].set_ylabel(f"{channel}\n{at[1]}", fontsize=8)
     for axes in grid[-1]:
-        axes.set_xlabel(ACROSS[across], fontsize=8)
+        axes.set_xlabel(axis_title(at[0]), fontsize=8)
     bar = figure.colorbar(drawn, ax=grid.ravel().tolist(), shrink=min(0.8, 6.0 / (1.5 * len(lines))), extend="both")
     bar.set_label("measured - simulated,\nin scatters of the meter", fontsize=8)
     return figure
@@ -123,9 +124,8 @@ def effect_courses(rows: Sequence[Row], courses: Sequence[tuple[str, str]]) -> F
         axes.plot(place, left, "o", color=BEFORE, markersize=4, markerfacecolor="none", label=label, alpha=0.8)
         axes.plot(place, added, "x", color=AFTER, markeredgewidth=1.8, label="what the finding adds", zorder=3)
         axes.axhline(0.0, color="#1c2328", linewidth=0.8)
-        name, _, unit = axis.partition(" [")
-        axes.set_xlabel(f"{AXIS_WORDS[name]} / {unit.rstrip(']').replace('rpm', '(r/min)')}".removesuffix(" / 1"))
-        axes.set_ylabel(f"difference in {channel} / {own[0]['unit'].replace('degC', 'K')}")
+        axes.set_xlabel(axis_title(axis))
+        axes.set_ylabel(titled(f"difference in {channel}", own[0]["unit"].replace("degC", "K")))
         axes.grid(visible=True, alpha=0.3)
     _legend_above(axes)
     return figure
@@ -138,7 +138,7 @@ def loss_bars(rows: Sequence[Row], whole: Mapping[str, float]) -> Figure:
     shown = {name: both for name, both in shares.items() if max(map(abs, both)) >= LEAST_LOSS}
     figure = figure_of(WIDTH, 1.0 + 0.36 * len(shown))
     sizes = {run: [both[at] for both in shown.values()] for at, run in enumerate(runs)}
-    _paired_bars(figure.subplots(), list(shown), sizes, "share of the shaft power / %")
+    _paired_bars(figure.subplots(), list(shown), sizes, "share of the shaft power [%]")
     return figure
 
 
@@ -159,22 +159,28 @@ def _legend_above(axes: Axes) -> None:
     axes.legend(fontsize=8, ncols=3, loc="lower right", bbox_to_anchor=(1.0, 1.0), frameon=False)
 
 
+def axis_title(head: str) -> str:
+    """The title of an axis by the head of its column, in words."""
+    name, unit = parted(head)
+    return titled(AXIS_WORDS[name], unit.replace("rpm", "r/min").removesuffix("1"))
+
+
 def _across(rows: Sequence[Row]) -> str:
     """The axis of maps beside pressure: the speed; the case temperature where it varies and the speed does not."""
     spread = {}
-    for axis in ACROSS:
+    for axis in (head_of(rows[0], "speed"), head_of(rows[0], "T_case")):
         known = _column(rows, axis)[np.isfinite(_column(rows, axis))]
         spread[axis] = float(np.ptp(known) / np.abs(known).max()) if np.any(known) else 0.0
     speed, warm = spread
     return warm if spread[speed] < LEAST_SPREAD < spread[warm] else speed
 
 
-def _map(axes: Axes, rows: Sequence[Row], key: str, across: str, most: float) -> Any:
-    """One map of pulls; points at one place (of other temperatures) are side by side."""
-    speed, pressure = _place(axes, rows, across, 0.02), _place(axes, rows, "p_out [bar]", 0.1)
+def _map(axes: Axes, rows: Sequence[Row], at: tuple[str, str], key: str, most: float) -> Any:
+    """One map of pulls over speed, or temperature, and pressure, `at`; points at one place are side by side."""
+    speed, pressure = (_place(axes, rows, head, height) for head, height in zip(at, (0.02, 0.1), strict=True))
     warm = _column(rows, "T_case [degC]")
     spread = np.ptp(warm[np.isfinite(warm)]) if np.any(np.isfinite(warm)) else 0.0
-    shift = np.nan_to_num((warm - np.nanmean(warm)) / spread) if spread > 0 and across == SPEED else 0.0
+    shift = np.nan_to_num((warm - np.nanmean(warm)) / spread) if spread > 0 and parted(at[0])[0] == "speed" else 0.0
     width = 0.1 * (float(np.ptp(pressure)) if pressure.size else 0.0) or 1.0
     axes.tick_params(labelsize=7)
     return axes.scatter(

@@ -9,17 +9,20 @@ import numpy as np
 
 from reynolds.numerics.arrays import Array
 from swashfilm.output.figures import figure_of
+from swashfilm.output.tables import parted
+from swashfilm.runs.diagnose.files import head_of
+from system.inputs.shown import titled
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 Row = Mapping[str, str]
 FITS = {
-    "stated [bar]": ("#a274ad", "pump as described"),
-    "before [bar]": ("#b55a00", "fit without the finding"),
-    "after [bar]": ("#3c7a8c", "fit with it"),
+    "stated": ("#a274ad", "pump as described"),
+    "before": ("#b55a00", "fit without the finding"),
+    "after": ("#3c7a8c", "fit with it"),
 }
-AGREED_FITS = {"stated [bar]": FITS["stated [bar]"], "before [bar]": ("#b55a00", "its fit")}
+AGREED_FITS = {"stated": FITS["stated"], "before": ("#b55a00", "its fit")}
 NOISE, WINDOW = "#9aa4ab", "#e8d9a0"
 MOST_TRACES, AGREED_TRACES = 4, 2
 QUARTERS = np.arange(0, 361, 90)
@@ -35,22 +38,23 @@ def trace_residuals(
     """
     points = worst_points(rows, MOST_TRACES if claimed else AGREED_TRACES)
     rows = [row for row in rows if row["point"] in points]
+    unit = parted(head_of(rows[0], "measured"))[1]
     figure = figure_of(10.0, 0.8 + 1.9 * len(points))
     fits = FITS if claimed else AGREED_FITS
     most = max(float(np.max(np.abs(_residual(rows, key)))) for key in fits)
     grid = figure.subplots(len(points), 2, squeeze=False, sharex=True, sharey="col", width_ratios=(1, 2))
     for line, point in zip(grid, points, strict=True):
         own = [row for row in rows if row["point"] == point]
-        angle, measured, sigma = (_column(own, key) for key in ("angle [deg]", "measured [bar]", "sigma [bar]"))
+        angle, measured, sigma = (_column(own, key) for key in ("angle", "measured", "sigma"))
         line[0].plot(angle, measured, color="#1c2328", linewidth=1.0)
-        line[0].set_ylabel("p_chamber / bar", fontsize=8)
+        line[0].set_ylabel(titled("p_chamber", unit), fontsize=8)
         line[0].set_title(settings.get(point, ""), fontsize=8, loc="left")
         line[1].fill_between(
             angle, -2 * sigma, 2 * sigma, color=NOISE, alpha=0.35, linewidth=0, label="twice the scatter"
         )
         for key, (colour, label) in fits.items():
             line[1].plot(angle, _residual(own, key), color=colour, linewidth=1.2, label=label)
-        line[1].set_ylabel("measured - simulated / bar", fontsize=8)
+        line[1].set_ylabel(titled("measured - simulated", unit), fontsize=8)
         line[1].set_ylim(-1.1 * most, 1.1 * most)
         for axes in line:
             for start, end in _spans(window):
@@ -60,13 +64,13 @@ def trace_residuals(
             axes.grid(visible=True, alpha=0.3)
     grid[0, 1].legend(fontsize=8, ncols=4, loc="lower right", bbox_to_anchor=(1.0, 1.0), frameon=False)
     for axes in grid[-1]:
-        axes.set_xlabel("shaft angle from the inner dead centre / deg", fontsize=8)
+        axes.set_xlabel("shaft angle from the inner dead centre [deg]", fontsize=8)
     return figure
 
 
 def _residual(rows: Sequence[Row], key: str) -> Array:
-    """Measured minus predicted, bar."""
-    return _column(rows, "measured [bar]") - _column(rows, key)
+    """Measured minus predicted."""
+    return _column(rows, "measured") - _column(rows, key)
 
 
 def _spans(window: Sequence[float] | None) -> list[tuple[float, float]]:
@@ -86,5 +90,6 @@ def worst_points(rows: Sequence[Row], most: int = MOST_TRACES) -> list[str]:
     return sorted(worst, key=int)
 
 
-def _column(rows: Sequence[Row], key: str) -> Array:
-    return np.array([float(row[key]) for row in rows])
+def _column(rows: Sequence[Row], name: str) -> Array:
+    head = head_of(rows[0], name)
+    return np.array([float(row[head]) for row in rows])

@@ -25,7 +25,7 @@ def run_duty_command(options: argparse.Namespace) -> int:
 
     data, error = read_map(map_file(options.map))
     cycle = read_cycle(options.cycle, data.axes)
-    with run_folder(f"duty-{data.name}", options.output) as folder:
+    with run_folder(f"duty-{data.name}", options.output, workbook=options.excel) as folder:
         run_duty(data, error, cycle, options.cycle, folder)
         found = DutyRun.opened(folder)
     if held := found.summary["held"]:

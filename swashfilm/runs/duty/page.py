@@ -7,19 +7,17 @@ from itertools import groupby
 from pathlib import Path
 from typing import Any
 
-import numpy as np
-
 from swashfilm.output.answer import Answer, Tile
+from swashfilm.output.data.files import read_columns
 from swashfilm.output.page import keep_pictures, read_summary, write_page
-from swashfilm.output.picture import Picture
-from swashfilm.output.tables import read_csv
+from swashfilm.output.touch.picture import Picture
 from swashfilm.runs.duty.plots import BALANCE, course_plot, sinks_of, sinks_plot
 from swashfilm.runs.map.answer import overall_formula, points_text
 from swashfilm.runs.map.plots import HEADLINE
 
 COURSE = "course.csv"
 ENERGY_HEAD = ("", "energy", "error", "mean power", "share of the loss")
-EFFICIENCY_HEAD = ("definition", "mean efficiency", "error / percentage points", "formula")
+EFFICIENCY_HEAD = ("definition", "mean efficiency", "error [percentage points]", "formula")
 SINKS, OVER_TIME = "losses", "course"
 """Names of the page's pictures."""
 
@@ -27,8 +25,7 @@ SINKS, OVER_TIME = "losses", "course"
 def write_duty_page(folder: Path) -> Path:
     """Write report.html and plots/ of a duty's run folder from its summary.json and course.csv."""
     summary = read_summary(folder, ("summary.json", COURSE), "a duty cycle's run folder")
-    head, *rows = read_csv(folder / COURSE)
-    course = dict(zip(head, np.array(rows, dtype=float).T, strict=True))
+    course = read_columns(folder / COURSE)
     caption = "Energy lost over the cycle by kind, with its share of the loss"
     sinks = keep_pictures(folder, SINKS, {caption: sinks_plot(summary)})
     over_time = {"Inputs, loss, and hydraulic power over shaft power during the cycle": course_plot(course)}

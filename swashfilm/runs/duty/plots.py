@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
-import numpy as np
-
 from reynolds.numerics.arrays import Array
 from swashfilm.output.figures import figure_of
 from swashfilm.runs.map.plots import COLOURS
+from system.inputs.shown import titled
+from system.maps.plan import MapInput
 
 if TYPE_CHECKING:
     import xarray
@@ -17,31 +17,29 @@ if TYPE_CHECKING:
 
 BALANCE = ("shaft", "hydraulic", "loss")
 """Energies of a cycle that are no kind of loss."""
-_INPUTS = {
-    "shaft speed [rad/s]": (30.0 / np.pi, "speed / rpm"),
-    "delivery pressure [Pa]": (1e-6, "pressure / MPa"),
-    "displacement ratio [1]": (1.0, "displacement ratio"),
-}
+_INPUTS = {MapInput.SPEED: "speed", MapInput.PRESSURE: "pressure", MapInput.RATIO: "displacement ratio"}
+"""Inputs that the picture of a cycle shows, with their short names."""
+RATIO = "sum p Q over shaft power"
 
 
 def course_of(data: xarray.Dataset) -> dict[str, Array]:
-    """Return the columns of course.csv by head, `name [unit]`."""
-    return {f"{name} [{column.attrs['units']}]": column.values for name, column in data.data_vars.items()}
+    """Return the columns of course.csv by name, SI."""
+    return {str(name): column.values for name, column in data.data_vars.items()}
 
 
 def course_plot(course: Mapping[str, Array]) -> Figure:
     """Draw the cycle over time: inputs, loss, and sum p Q over shaft power."""
-    shown = {head: row for head, row in _INPUTS.items() if head in course}
+    shown = [given for given in _INPUTS if given.words in course]
     figure = figure_of(7.6, 1.5 * (len(shown) + 2))
     panels = figure.subplots(len(shown) + 2, 1, sharex=True)
-    time = course["time [s]"]
-    for axes, (head, (scale, label)) in zip(panels, shown.items(), strict=False):
-        axes.plot(time, course[head] * scale, color="#3c7a8c")
-        axes.set_ylabel(label)
-    panels[-2].plot(time, course["loss [W]"] * 1e-3, color="#8c5a3c")
-    panels[-2].set_ylabel("loss / kW")
-    panels[-1].plot(time, 100.0 * course["sum p Q / shaft power [1]"], color="#5b9a5b")
-    panels[-1].set(ylabel="sum p Q / (w T) / %", xlabel="time / s")
+    time = course["time"]
+    for axes, given in zip(panels, shown, strict=False):
+        axes.plot(time, given.shown.of(course[given.words]), color="#3c7a8c")
+        axes.set_ylabel(titled(_INPUTS[given], given.shown.unit))
+    panels[-2].plot(time, course["loss"] * 1e-3, color="#8c5a3c")
+    panels[-2].set_ylabel("loss [kW]")
+    panels[-1].plot(time, 100.0 * course[RATIO], color="#5b9a5b")
+    panels[-1].set(ylabel="sum p Q / (w T) [%]", xlabel="time [s]")
     for axes in panels:
         axes.grid(visible=True, alpha=0.3)
         axes.set_xlim(time[0], time[-1])
@@ -64,6 +62,6 @@ def sinks_plot(summary: Mapping[str, Any]) -> Figure:
     axes.bar_label(bars, [f"{1e5 * value / loss:.1f} %" for value in values], padding=4, fontsize=9)
     axes.invert_yaxis()
     axes.margins(x=0.12)
-    axes.set_xlabel("energy lost / kJ")
+    axes.set_xlabel("energy lost [kJ]")
     axes.grid(visible=True, axis="x", alpha=0.3)
     return figure

@@ -9,9 +9,10 @@ from typing import Any
 
 import numpy as np
 
+from swashfilm.output.data.files import Column, write_columns
 from swashfilm.output.run_folder import write_json
-from swashfilm.output.tables import write_csv
 from swashfilm.runs.duty.page import COURSE, write_duty_page
+from swashfilm.runs.duty.plots import RATIO
 from system.inputs.faults import Fault, InputFaults
 from system.maps.data import MapData
 from system.maps.duty import Cycle, Duty, duty
@@ -85,12 +86,16 @@ def _write_course(path: Path, interpolant: MapInterpolant, cycle: Cycle) -> None
         given: np.insert(values, before, np.interp(even, cycle.time, values)) for given, values in cycle.inputs.items()
     }
     numbers = interpolant.at(inputs)
-    shown = {"time [s]": time}
-    for given, values in inputs.items():
-        shown[f"{given.words} [{given.unit}]"] = values
-    power = {"shaft power [W]": numbers["shaft_power"], "hydraulic power [W]": numbers["hydraulic_power"]}
-    power["loss [W]"] = numbers["shaft_power"] - numbers["hydraulic_power"]
-    power["sum p Q / shaft power [1]"] = numbers["hydraulic_power"] / numbers["shaft_power"]
-    power["delivery flow [m3/s]"] = numbers["delivery_flow"]
-    rows = zip(*(np.broadcast_to(one, time.shape) for one in (shown | power).values()), strict=True)
-    write_csv(path, [*shown, *power], ([f"{value:.8g}" for value in row] for row in rows))
+    shaft, hydraulic = numbers["shaft_power"], numbers["hydraulic_power"]
+    columns = {
+        "time": (time, "s"),
+        **{given.words: (values, given.unit) for given, values in inputs.items()},
+        "shaft power": (shaft, "W"),
+        "hydraulic power": (hydraulic, "W"),
+        "loss": (shaft - hydraulic, "W"),
+        RATIO: (hydraulic / shaft, "1"),
+        "delivery flow": (numbers["delivery_flow"], "m3/s"),
+    }
+    write_columns(
+        path, [Column(name, np.broadcast_to(values, time.shape), unit) for name, (values, unit) in columns.items()]
+    )

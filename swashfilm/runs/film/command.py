@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 from swashfilm.case.gap.switches import add_switches, switched_keys
 from swashfilm.console.command import Command
 from swashfilm.console.inputs import COMMAND_LINE, expect, whole
+from swashfilm.console.settings import add_set_option, set_values
 from swashfilm.console.terminal import show, show_result
 from system.inputs.faults import Fault, InputFaults
 
@@ -17,6 +18,7 @@ if TYPE_CHECKING:
     from swashfilm.case.gap.revolution import RevolutionCase
     from swashfilm.case.study import StudyCase
 
+EXAMPLE = "film.thickness=12um"
 SOFT_PRICE = "elastic walls take about ten times as long as --rigid --isoviscous; a smaller 'finer' is faster"
 
 
@@ -34,6 +36,7 @@ def add_film_options(command: argparse.ArgumentParser) -> None:
     command.add_argument(
         "--animate", action="store_true", help="of a revolution: write animation.gif (and .mp4 by ffmpeg)"
     )
+    add_set_option(command, "the case", EXAMPLE)
     add_switches(command)
 
 
@@ -52,7 +55,10 @@ def run_film(options: argparse.Namespace) -> int:
         return _study(case, options, workers)
     if isinstance(case, RevolutionCase):
         return _revolution(case, options, meshes)
-    with run_folder(case.name, options.output) as folder, progress(3, f"film {case.name}") as report:
+    with (
+        run_folder(case.name, options.output, workbook=options.excel) as folder,
+        progress(3, f"film {case.name}") as report,
+    ):
         found = solve_film(case, report, meshes=meshes, as_table=options.csv, outputs=outputs_of(options))
         found.write(folder)
     show_result(found, folder)
@@ -69,10 +75,11 @@ def film_case(options: argparse.Namespace) -> tuple[Case | StudyCase, int, int]:
     expect(options.case, "film", "run")
     faults: list[Fault] = []
     meshes = whole(faults, "--refine", options.refine, 1, (2, 5), "a number of meshes")
+    stated = set_values(options.set, faults, EXAMPLE)
     workers = whole(faults, "--workers", options.workers, 1, (1, 64), "a number of processes")
     if faults:
         raise InputFaults(COMMAND_LINE, faults)
-    case = load_film(options.case, switched_keys(options))
+    case = load_film(options.case, switched_keys(options), stated)
     _check_options(options, case)
     if not isinstance(case, (StudyCase, RevolutionCase)):
         if meshes > 1:
@@ -98,7 +105,10 @@ def _revolution(case: RevolutionCase, options: argparse.Namespace, meshes: int) 
     if Effect.ELASTIC_WALLS not in case.options.physics.left_out:
         show(SOFT_PRICE)
     label = f"film {case.name}"
-    with run_folder(case.name, options.output) as folder, progress(case.options.steps, label) as report:
+    with (
+        run_folder(case.name, options.output, workbook=options.excel) as folder,
+        progress(case.options.steps, label) as report,
+    ):
         run_revolution_case(case, folder, report, meshes=meshes, animated=options.animate)
         found = RevolutionRun.opened(folder)
     show_result(found, folder)
@@ -113,7 +123,10 @@ def _study(study: StudyCase, options: argparse.Namespace, workers: int) -> int:
     from swashfilm.runs.film.series.result import StudyRun
 
     label = f"study {study.name}"
-    with run_folder(study.name, options.output) as folder, progress(len(study.points), label) as report:
+    with (
+        run_folder(study.name, options.output, workbook=options.excel) as folder,
+        progress(len(study.points), label) as report,
+    ):
         run_study(study, folder, report, resumed=options.resume, workers=workers)
         found = StudyRun.opened(folder)
     show_result(found, folder)

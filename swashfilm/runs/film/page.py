@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import csv
 from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -10,12 +9,15 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from swashfilm.output.answer import Answer
+from swashfilm.output.data.files import read_columns, read_netcdf
 from swashfilm.output.field_maps import MapField, draw_map
 from swashfilm.output.figures import figure_of
-from swashfilm.output.headline import named
+from swashfilm.output.headline import named, number_text, numbers_text, shown_of, summary_scales, titled_key
 from swashfilm.output.page import inlined, read_summary, write_page
 from swashfilm.output.refinement import refinement_head, refinement_rows
-from swashfilm.output.result import read_netcdf
+from swashfilm.output.touch.explorer import Explorer
+from swashfilm.output.touch.meshes import triangles
+from swashfilm.output.touch.relief import ReliefField, relief
 from swashfilm.runs.film.answer import film_tiles, film_words
 from swashfilm.runs.film.history import last_of
 from swashfilm.runs.film.sensitivity import sensitivity_figure, sensitivity_rows
@@ -25,19 +27,19 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 FIELDS = (
-    MapField("film_pressure", "film pressure / MPa", 1e-6, always=True),
-    MapField("film_thickness_cell", "film thickness / um", 1e6, colours="cividis", always=True),
-    MapField("film_fraction", "film fraction", colours="Blues"),
-    MapField("temperature", "film temperature, mean over the thickness / degC", zero=273.15, colours="inferno"),
-    MapField("deformation", "deformation of the walls / um", 1e6, colours="cividis"),
-    MapField("contact_pressure", "contact pressure / MPa", 1e-6, colours="magma"),
+    MapField("film_pressure", "film pressure", "Pa", always=True),
+    MapField("film_thickness_cell", "film thickness", "m", colours="cividis", always=True),
+    MapField("film_fraction", "film fraction", "1", colours="Blues"),
+    MapField("temperature", "film temperature, mean over the thickness", "K", colours="inferno"),
+    MapField("deformation", "deformation of the walls", "m", colours="cividis"),
+    MapField("contact_pressure", "contact pressure", "Pa", colours="magma"),
 )
 
 
 LARGEST_STEP = 0.02
 """Difference, relative to the thickest film, of a cell and its corners above which the film has a step."""
 CAPTION = "Maps of the film over its plane; pressures are gauge"
-HISTORY = ("load / N", "pressure max / Pa", "film thickness min / m", "temperature max / K")
+HISTORY = ("load_N", "pressure_max_Pa", "film_thickness_min_m", "temperature_max_K")
 
 
 def write_film_page(folder: Path) -> Path:
@@ -53,6 +55,7 @@ def write_film_page(folder: Path) -> Path:
         "film",
         answer=Answer(tuple(film_tiles(summary)), film_words(summary), picture, CAPTION),
         name=summary["name"],
+        surface=inlined(surface_figure(fields), film_relief(fields)),
         of_gap="required_load_N" in summary,
         sensitivity=sensitivity_rows(summary),
         kept=summary.get("sensitivity", {}).get("kept", ""),
@@ -68,21 +71,22 @@ def write_film_page(folder: Path) -> Path:
 
 def summary_rows(summary: Mapping[str, Any]) -> Iterator[tuple[str, str]]:
     """Yield (name, value with its unit) of every number of a film's summary, in its order."""
+    scales = summary_scales(summary)
     for key, value in summary.items():
-        if key in ("format", "kind", "name", "warnings", "refinement", "assumptions", "sensitivity"):
+        if key in ("format", "kind", "name", "warnings", "refinement", "assumptions", "scale", "sensitivity"):
             continue
-        words, unit = named(key)
+        words = named(key)[0]
         if value is None:
             yield words, "none"
         elif isinstance(value, dict):
             for part, number in value.items():
-                yield f"{words}, {part}", f"{number:.6g} {unit}".strip()
+                yield f"{words}, {part}", number_text(key, number, scales)
         elif isinstance(value, list):
-            yield words, f"({', '.join(f'{number:.6g}' for number in value)}) {unit}".strip()
+            yield words, numbers_text(key, value, scales)
         elif isinstance(value, float):
-            yield words, f"{value:.6g} {unit}".strip()
+            yield words, number_text(key, value, scales)
         else:
-            yield words, f"{value} {unit}".strip()
+            yield words, f"{value} {named(key)[1]}".strip()
 
 
 def film_figure(fields: xarray.Dataset) -> Figure:
@@ -101,6 +105,29 @@ def film_figure(fields: xarray.Dataset) -> Figure:
     return figure
 
 
+def surface_figure(fields: xarray.Dataset) -> Figure:
+    """Draw film pressure as a surface over the film plane (mm)."""
+    figure, pressure = figure_of(8.0, 5.0), FIELDS[0]
+    axes = figure.add_subplot(projection="3d")
+    place = (fields[axis].values * 1e3 for axis in "xy")
+    height, corners = pressure.in_unit(fields[pressure.name].values), triangles(fields["cells"].values)
+    axes.plot_trisurf(*place, height, triangles=corners, cmap=pressure.colours, rasterized=True)
+    axes.set(xlabel="x [mm]", ylabel="y [mm]", zlabel=pressure.title)
+    return figure
+
+
+def film_relief(fields: xarray.Dataset) -> Explorer:
+    """Return the relief of the fields of FIELDS at the vertices."""
+    known = [(field, smooth_name(fields, field.name)) for field in FIELDS if field.name in fields]
+    shown = [
+        ReliefField(field.title, field.in_unit(fields[name].values[None]), field.colours)
+        for field, name in known
+        if fields[name].dims == fields["x"].dims
+    ]
+    place = fields["x"].values[None] * 1e3, fields["y"].values[None] * 1e3
+    return relief(place, fields["cells"].values, shown, ("as solved",))
+
+
 def smooth_name(fields: xarray.Dataset, name: str) -> str:
     """Return the field at the vertices in place of that of the cells, `name`, where no step lies between the cells."""
     at_vertices = name.removesuffix("_cell")
@@ -113,13 +140,12 @@ def smooth_name(fields: xarray.Dataset, name: str) -> str:
 
 def history_picture(history: Path) -> Figure:
     """Draw load, largest pressure, least film and temperature (if any) over time, from history.csv."""
-    with history.open(newline="", encoding="utf-8") as file:
-        steps = list(csv.DictReader(file))
-    shown = [name for name in HISTORY if name in steps[0]]
+    steps = read_columns(history)
+    shown = [key for key in HISTORY if named(key)[0] in steps]
     figure = figure_of(8.0, 2.2 * len(shown))
-    for axes, name in zip(figure.subplots(len(shown), 1, sharex=True), shown, strict=True):
-        axes.plot(*([float(step[key]) for step in steps] for key in ("time / s", name)))
-        axes.set_ylabel(name)
+    for axes, key in zip(figure.subplots(len(shown), 1, sharex=True), shown, strict=True):
+        axes.plot(steps["time"], shown_of(key).of(steps[named(key)[0]]))
+        axes.set_ylabel(titled_key(key))
         axes.grid(visible=True, alpha=0.3)
-    axes.set_xlabel("time / s")
+    axes.set_xlabel("time [s]")
     return figure

@@ -10,8 +10,7 @@ import numpy as np
 
 from reynolds.laws.contact import boundary_shear, contact_area, contact_pressure, lambda_ratio
 from reynolds.laws.roughness import beyond_range
-from swashfilm.output.headline import titled
-from swashfilm.output.tables import write_csv
+from swashfilm.output.data.files import column_of, write_columns
 from swashfilm.runs.film.solve.transient import Moment
 
 if TYPE_CHECKING:
@@ -104,9 +103,8 @@ def history_columns(history: Sequence[Moment]) -> dict[str, list[float]]:
 
 
 def write_history(path: Path, history: Sequence[Moment]) -> None:
-    """Write a CSV with one line per step: time and headline numbers, SI, units in the heads."""
-    columns = history_columns(history)
-    write_csv(path, [titled(key) for key in columns], zip(*columns.values(), strict=True))
+    """Write a CSV with one line per step: time and headline numbers, units in the heads."""
+    write_columns(path, [column_of(key, values) for key, values in history_columns(history).items()])
 
 
 def temperatures(study: FilmStudy) -> dict[str, tuple[np.ndarray, str]]:

@@ -2,16 +2,14 @@
 
 import numpy as np
 
-from reynolds.problem import FilmSolution
-from reynolds.solve.loads import point_fields
+from reynolds.numerics.convergence import convergence
 from swashfilm.case.fields.mesh import MOST_CELLS
 from swashfilm.case.file import FilmCase
 from swashfilm.case.gap.instant import GapCase
-from swashfilm.output.convergence import convergence
 from swashfilm.output.headline import headline_numbers, sizes
 from swashfilm.output.refinement import Refinement
 from swashfilm.runs.film.solve.study import FilmStudy, solve_case
-from swashfilm.runs.film.summary import film_summary
+from swashfilm.runs.film.summary import film_summary, natural_sizes
 from system.inputs.faults import Fault, InputFaults
 from system.work.progress import Report
 
@@ -38,7 +36,7 @@ def refine_study(case: FilmCase | GapCase, study: FilmStudy, meshes: int, report
         studies.append(solve_case(case))
     rows = [headline_numbers(film_summary(one)) for one in studies]
     expected = expected_orders(studies[-1])
-    size = sizes(rows[-1], _natural_sizes(studies[-1].solution))
+    size = sizes(rows[-1], natural_sizes(studies[-1].solution))
     return Refinement(
         tuple(one.solution.problem.space.size for one in studies),
         expected,
@@ -55,17 +53,3 @@ def expected_orders(study: FilmStudy) -> tuple[float, float]:
     if study.solution.problem.space.degree == 2:
         return 2.0, 4.0
     return (1.0, 2.0) if study.heat or np.any(study.solution.cavity) else (2.0, 2.0)
-
-
-def _natural_sizes(solution: FilmSolution) -> dict[str, float]:
-    """Return sizes of moments, torques (N m) and wall forces (N) without cancellation by symmetry."""
-    space = solution.problem.space
-    fields = point_fields(solution)
-    reach = float(np.abs(space.vertices).max())
-    shear = (*fields.shear_moving, *fields.shear_fixed)
-    friction = float(sum(np.sum(np.abs(part) * space.area) for part in shear))
-    return {
-        "moment": reach * float(np.sum(np.abs(fields.pressure) * space.area)),
-        "friction": friction,
-        "torque": reach * friction,
-    }

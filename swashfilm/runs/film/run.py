@@ -11,6 +11,7 @@ from reynolds.numerics.arrays import Array
 from reynolds.solve.export import write_pvd, write_vtu
 from swashfilm.case.file import FilmCase
 from swashfilm.case.gap.instant import GapCase
+from swashfilm.output.data.files import Column, write_columns, write_netcdf
 from swashfilm.output.refinement import Refinement, refinement_summary, write_refinement
 from swashfilm.output.run_folder import write_json
 from swashfilm.runs.film.history import at_moment, fields_over_time, last_of, written
@@ -70,7 +71,7 @@ def solve_film(
         report(stages - 2, stages, "writing fields")
         _write_films(folder, study, true_place(case) if isinstance(case, GapCase) else None)
         fields = fields_over_time(study)
-        fields.to_netcdf(folder / "results.nc", engine="h5netcdf")
+        write_netcdf(fields, folder / "results.nc")
         if as_table:
             _write_table(folder / "fields.csv", last_of(fields))
         write_json(folder / "summary.json", summary)
@@ -84,10 +85,8 @@ def solve_film(
 
 def _write_table(path: Path, fields: xarray.Dataset) -> None:
     """Write the fields at the vertices as a table, the unit in each head."""
-    table = fields.drop_dims(["cell", "corner"])
-    units = {name: array.attrs.get("units") for name, array in table.variables.items()}
-    heads = {name: f"{name} / {unit}" for name, unit in units.items() if unit and unit != "1"}
-    table.to_dataframe().rename(columns=heads).to_csv(path, index=False)
+    table = fields.drop_dims(["cell", "corner"]).variables
+    write_columns(path, [Column(str(name), one.values, one.attrs.get("units", "1")) for name, one in table.items()])
 
 
 def _write_films(folder: Path, study: FilmStudy, place: Callable[[Array], Array] | None) -> None:

@@ -19,6 +19,7 @@ from swashfilm.runs.film.validity import film_warnings
 if TYPE_CHECKING:
     import xarray
 
+_SCALE_UNITS = {"moment": "Nm", "friction": "N", "torque": "Nm"}
 LARGEST_COEFFICIENT = 1e6  # of friction; beyond, the load is round-off of the solver, as for a parallel film
 
 
@@ -57,8 +58,23 @@ def film_summary(study: FilmStudy) -> dict[str, Any]:
         **(load_summary(study.loaded) if study.loaded else {}),
         **physics_summary(study),
         **(gap_summary(study.gap) if study.gap else {}),
+        "scale": {f"{name}_{_SCALE_UNITS[name]}": size for name, size in natural_sizes(solution).items()},
         **sensitivity_summary(study),
         "warnings": film_warnings(study),
+    }
+
+
+def natural_sizes(solution: FilmSolution) -> dict[str, float]:
+    """Return sizes of moments, torques (N m) and wall forces (N) without cancellation by symmetry."""
+    space = solution.problem.space
+    fields = point_fields(solution)
+    reach = float(np.abs(space.vertices).max())
+    shear = (*fields.shear_moving, *fields.shear_fixed)
+    friction = float(sum(np.sum(np.abs(part) * space.area) for part in shear))
+    return {
+        "moment": reach * float(np.sum(np.abs(fields.pressure) * space.area)),
+        "friction": friction,
+        "torque": reach * friction,
     }
 
 

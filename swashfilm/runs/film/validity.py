@@ -13,6 +13,7 @@ from reynolds.laws.roughness import beyond_range
 from reynolds.problem import Cavitation, FilmSolution
 from reynolds.solve.loads import dissipated
 from swashfilm.runs.film.solve.gap import gap_warnings
+from system.inputs.shown import pressure_text
 
 if TYPE_CHECKING:
     from swashfilm.runs.film.solve.study import FilmStudy
@@ -201,9 +202,9 @@ def _pressure_warnings(study: FilmStudy) -> Iterator[Warned]:
     if constant and not study.gap and highest > LARGEST_ISOVISCOUS_PRESSURE:
         yield (
             "viscosity_without_pressure",
-            f"the film reaches {highest * 1e-6:.3g} MPa (limit {LARGEST_ISOVISCOUS_PRESSURE * 1e-6:g} "
-            "MPa for a constant viscosity): viscosity is several times higher; add pressure_law in [oil], and "
-            "elastic walls, [elastic]",
+            f"the film reaches {pressure_text(highest)} (limit {pressure_text(LARGEST_ISOVISCOUS_PRESSURE)} for a "
+            "constant viscosity): viscosity is several times higher; add pressure_law in [oil], and elastic walls, "
+            "[elastic]",
         )
 
 
@@ -219,8 +220,8 @@ def _supply_warnings(study: FilmStudy) -> Iterator[Warned]:
     if problem.cavitation is not Cavitation.NONE and problem.cavitation_pressure < VACUUM:
         yield (
             "cavitation_below_vacuum",
-            f"the cavitation pressure is {problem.cavitation_pressure * 1e-5:.4g} bar gauge (vacuum: "
-            f"{VACUUM * 1e-5:.4g} bar): oil cavitates before; is the value absolute, not gauge?",
+            f"the cavitation pressure is {pressure_text(problem.cavitation_pressure, 4)} gauge (vacuum: "
+            f"{pressure_text(VACUUM, 4)}): oil cavitates before; is the value absolute, not gauge?",
         )
 
 

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from swashfilm.output.answer import Answer, Tile
-from swashfilm.output.picture import Picture
+from swashfilm.output.touch.picture import Picture
 from swashfilm.runs.map.plots import HEADLINE
 from swashfilm.runs.map.slices import held_levels, place_of
 from system.maps.data import MapData
@@ -71,7 +71,7 @@ def _loss_tiles(data: MapData) -> Iterator[Tile]:
     loss, flow = 1e-3 * data.loss, FLOW * data.values["delivery_flow"]
     if np.isfinite(loss).any():
         yield Tile(f"{np.nanmax(loss):.3g} kW", "largest loss", f"least {np.nanmin(loss):.3g} kW")
-        yield Tile(f"{np.nanmax(flow):.4g} L/min", "largest delivery flow", f"least {np.nanmin(flow):.3g} L/min")
+        yield Tile(f"{np.nanmax(flow):.3g} L/min", "largest delivery flow", f"least {np.nanmin(flow):.3g} L/min")
 
 
 def _point_tiles(summary: Mapping[str, Any]) -> Iterator[Tile]:

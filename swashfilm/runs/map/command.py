@@ -12,6 +12,7 @@ from swashfilm.case.gap.switches import add_floating_options
 from swashfilm.console.command import Command
 from swashfilm.console.fidelity import Fidelity
 from swashfilm.console.inputs import COMMAND_LINE, expect, given_text, option_value
+from swashfilm.console.settings import add_set_option, set_values
 from swashfilm.console.terminal import show, show_result
 from system.inputs.faults import Fault, InputFaults, nearest_choice
 
@@ -49,6 +50,7 @@ def add_map_options(command: argparse.ArgumentParser) -> None:
     command.add_argument("pump", nargs="?", default="ref90", metavar="PUMP", help="built-in name or pump file")
     for option, (_, example, what) in LEVELS.items():
         command.add_argument(option, metavar=example, help=f"{what}; a..b:n: n levels; one value: constant")
+    add_set_option(command)
     command.add_argument(
         "--plan", metavar=f"{{{','.join(PLANS)}}}", default="paper",
         help="levels of axes that are not stated: the paper's 112 points (paper), or the pump's own point (point)",
@@ -86,7 +88,7 @@ def run_map_command(options: argparse.Namespace) -> int:
     name = asked.plan.pump.name
     with (
         map_executor(options, asked) as executor,
-        run_folder(f"map-{name}", options.output) as folder,
+        run_folder(f"map-{name}", options.output, workbook=options.excel) as folder,
         progress(len(asked.plan.points), f"map {name}") as report,
     ):
         run_map(asked, folder, executor, report)
@@ -123,10 +125,11 @@ def map_case(options: argparse.Namespace, axes: Sequence[MapAxis] | None = None)
     from system.pump_file.file import load_pump
 
     faults = [*_word_faults(options)]
+    stated = set_values(options.set, faults)
     axes = stated_axes(options, faults) if axes is None else axes
     expect(options.pump, "pump", "film")
     try:
-        pump = load_pump(options.pump)
+        pump = load_pump(options.pump, stated)
     except InputFaults as reason:
         raise InputFaults(reason.source, [*faults, *reason.faults], reason.lines) from None
     plan = map_plan(pump, axes)
@@ -135,7 +138,7 @@ def map_case(options: argparse.Namespace, axes: Sequence[MapAxis] | None = None)
         raise InputFaults(COMMAND_LINE, faults)
     checks = None if options.check is None else int(options.check)
     fidelity = Fidelity(options.fidelity)
-    given = given_text(options.pump, {})
+    given = given_text(options.pump, stated)
     floating = floating_options(options, pump)
     return MapCase(plan, fidelity, given, options.table, options.direct, checks, options.resume, floating)
 

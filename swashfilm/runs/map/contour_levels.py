@@ -30,8 +30,8 @@ def steps_words(levels: Array) -> str:
     steps = np.diff(levels)
     fine, coarse = float(steps[-1]), float(steps.max())
     if math.isclose(fine, coarse):
-        return f"one colour is {fine:g} percentage points"
-    return f"one colour is {fine:g} percentage points near the best, up to {coarse:g} far from it"
+        return f"{fine:g} percentage points"
+    return f"{fine:g} percentage points near the best, up to {coarse:g} far from it"
 
 
 def _downwards(least: float, most: float) -> list[int]:

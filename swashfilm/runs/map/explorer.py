@@ -13,6 +13,9 @@ from swashfilm.output.gap_names import TITLES
 from swashfilm.output.touch.explorer import Control, Explorer
 from swashfilm.output.touch.packing import short
 from swashfilm.output.touch.traces import scale_of
+from swashfilm.runs.map.files import PARTS
+from swashfilm.runs.map.plots import HEADLINE, shared_fields
+from system.inputs.shown import titled
 from system.maps.data import MapData
 from system.maps.interpolation import weights
 from system.maps.plan import MapAxis, MapInput, reading_levels
@@ -23,18 +26,17 @@ CSV_DIGITS = 8
 FINE = 41
 """Points along an axis of the interpolated field."""
 HEIGHT = 520  # pixels
-PARTS = ("overall", "volumetric", "hydromechanical")
 ACROSS = (MapInput.SPEED, MapInput.PRESSURE)
 """Axes of the first slice, as far as they have several levels."""
 NUMBERS = {
-    "delivery_flow": ("delivery flow / L/min", 6e4), "drain_flow": ("case drain flow / L/min", 6e4),
-    "shaft_torque": ("shaft torque / N m", 1.0), "shaft_power": ("shaft power / kW", 1e-3),
-    "chamber_pressure_peak": ("highest chamber pressure / MPa", 1e-6),
+    "delivery_flow": ("delivery flow [L/min]", 6e4), "drain_flow": ("case drain flow [L/min]", 6e4),
+    "shaft_torque": ("shaft torque [N m]", 1.0), "shaft_power": ("shaft power [kW]", 1e-3),
+    "chamber_pressure_peak": ("highest chamber pressure [MPa]", 1e-6),
 }  # fmt: skip
 """Numbers of the pump, their titles and factors from SI."""
 OF_GAPS = {
-    "leakage_flow": ("leakage / L/min", 6e4, 0.0), "film_mean": ("mean film / um", 1e6, 0.0),
-    "film_least": ("least film / um", 1e6, 0.0), "film_temperature": ("hottest oil / degC", 1.0, 273.15),
+    "leakage_flow": ("leakage [L/min]", 6e4, 0.0), "film_mean": ("mean film [um]", 1e6, 0.0),
+    "film_least": ("least film [um]", 1e6, 0.0), "film_temperature": ("hottest oil [degC]", 1.0, 273.15),
 }  # fmt: skip
 """Numbers of each gap, their titles, factors and zeros from SI."""
 
@@ -77,15 +79,12 @@ def _first(axis: MapAxis) -> int:
 def _quantities(data: MapData) -> Iterator[tuple[str, Array]]:
     """Yield (title with unit, values over the axes)."""
     for part in PARTS:
-        known: list[Array] = []
-        for definition in EfficiencyDefinition:
-            values = 100.0 * getattr(data.efficiency(definition), part)
-            if not any(np.allclose(values, one, rtol=1e-9, equal_nan=True) for one in known):
-                known.append(values)
-                yield f"{part} efficiency / %, {definition.label}", values
-    yield "loss (shaft power less p Q) / kW", 1e-3 * data.loss
+        fields = {one: getattr(data.efficiency(one), part) for one in (HEADLINE, *EfficiencyDefinition)}
+        for shared in shared_fields(fields):
+            yield f"{part} efficiency [%], {shared.definitions[0].label}", 100.0 * shared.field
+    yield "loss (shaft power less p Q) [kW]", 1e-3 * data.loss
     for words, loss in data.losses.items():
-        yield f"{words} / W", loss
+        yield f"{words} [W]", loss
     for name, (title, factor) in NUMBERS.items():
         yield title, factor * data.values[name]
     for name, (title, factor, zero) in OF_GAPS.items():
@@ -95,10 +94,10 @@ def _quantities(data: MapData) -> Iterator[tuple[str, Array]]:
 
 def _axis(axis: MapAxis) -> dict[str, Any]:
     """Return title, levels, and points between them with their weights of the levels' values."""
-    levels, unit = reading_levels(axis)
+    levels = reading_levels(axis)
     fine = np.linspace(axis.values[0], axis.values[-1], FINE if len(axis.values) > 1 else 1)
     return {
-        "title": f"{axis.input.words} / {unit}" if unit else axis.input.words,
+        "title": titled(axis.input.words, axis.input.shown.unit),
         "levels": short(levels),
         "fine": short(np.linspace(levels[0], levels[-1], len(fine))),
         "weights": short(weights(axis, fine)),

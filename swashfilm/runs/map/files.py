@@ -11,12 +11,11 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from swashfilm.output.result import read_netcdf
-from swashfilm.output.tables import write_csv
+from swashfilm.output.data.files import Column, read_netcdf, write_columns, write_netcdf
 from system.inputs.faults import Fault, InputFaults, nearest_path
 from system.maps.data import MapData, best_points, objects
 from system.maps.interpolation import MapError
-from system.maps.plan import MapAxis, MapInput, reading_levels
+from system.maps.plan import MapAxis, MapInput
 from system.maps.point import QUANTITIES, Members
 from system.pump.efficiency import EfficiencyDefinition
 from system.work.kept_results import POINTS
@@ -49,7 +48,7 @@ def write_map(path: Path, data: MapData, error: MapError | None, summary: Mappin
         "interpolation_error": f"{error.count} {error.shown_by}" if error else "",
         "bulk_modulus": data.bulk_modulus,
     }
-    dataset.to_netcdf(path, engine="h5netcdf")
+    write_netcdf(dataset, path)
 
 
 def map_dataset(data: MapData, error: MapError | None) -> xarray.Dataset:
@@ -185,47 +184,37 @@ def _columns(dataset: xarray.Dataset, before: str) -> Any:
 
 def write_tables(folder: Path, data: MapData) -> None:
     """Write map.csv (one line per point), shares.csv (of each loss) and best.csv, units in the heads."""
-    inputs = _input_columns(data)
-    numbers = {
-        f"{column} [{quantity.unit}]": data.values[column] for quantity in QUANTITIES for column in quantity.columns
-    }
+    inputs = _inputs(data)
+    numbers = [
+        Column(column, data.values[column].ravel(), quantity.unit)
+        for quantity in QUANTITIES
+        for column in quantity.columns
+    ]
     for definition in EfficiencyDefinition:
         found = data.efficiency(definition)
-        numbers |= {f"{definition.value}.{part} [1]": getattr(found, part) for part in PARTS}
-    texts = {"status": data.status, "reason": data.reason}
-    _write(folder / "map.csv", inputs | numbers | texts)
+        numbers += [Column(f"{definition.value}.{part}", getattr(found, part).ravel(), "1") for part in PARTS]
+    texts = [Column("status", data.status.ravel()), Column("reason", data.reason.ravel())]
+    write_columns(folder / "map.csv", [*inputs, *numbers, *texts])
     losses, whole = data.losses, data.loss
-    shares = {f"{words} [%]": 100.0 * loss / whole for words, loss in losses.items()}
-    _write(folder / "shares.csv", inputs | {"loss [W]": whole} | shares)
-    rows = [
-        [best.definition.value, f"{100.0 * best.overall:.6g}", *(f"{one[best.index]:.8g}" for one in inputs.values())]
-        for best in best_points(data)
-    ]
-    write_csv(folder / "best.csv", ["definition", "overall efficiency [%]", *inputs], rows)
+    shares = [Column(words, (100.0 * loss / whole).ravel(), "%") for words, loss in losses.items()]
+    write_columns(folder / "shares.csv", [*inputs, Column("loss", whole.ravel(), "W"), *shares])
+    best = best_points(data)
+    at = [np.ravel_multi_index(one.index, data.shape) for one in best]
+    definitions = Column("definition", [one.definition.value for one in best])
+    overall = Column("overall efficiency", [100.0 * one.overall for one in best], "%")
+    places = [Column(one.name, np.asarray(one.values)[at], one.unit) for one in inputs]
+    write_columns(folder / "best.csv", [definitions, overall, *places])
 
 
-def _input_columns(data: MapData) -> dict[str, np.ndarray]:
-    """Return the inputs at every point in customary units, by their head."""
-    found = {}
+def _inputs(data: MapData) -> list[Column]:
+    """Return the inputs at every point."""
+    found = []
     for k, axis in enumerate(data.axes):
-        levels, unit = reading_levels(axis)
         shape = [1] * len(data.axes)
-        shape[k] = len(levels)
-        found[f"{axis.input.words} [{unit or '1'}]"] = np.broadcast_to(np.reshape(levels, shape), data.shape)
+        shape[k] = len(axis.values)
+        values = np.broadcast_to(np.reshape(axis.values, shape), data.shape).ravel()
+        found.append(Column(axis.input.words, values, axis.input.unit))
     return found
-
-
-def _write(path: Path, columns: Mapping[str, np.ndarray]) -> None:
-    rows = zip(*(values.flat for values in columns.values()), strict=True)
-    write_csv(path, columns, ([_cell(value) for value in row] for row in rows))
-
-
-def _cell(value: object) -> str:
-    """Return a number with eight digits, empty where there is none; a text unchanged."""
-    if isinstance(value, str):
-        return value
-    number = float(value)  # type: ignore[arg-type]  # columns are of numbers or of texts
-    return f"{number:.8g}" if np.isfinite(number) else ""
 
 
 def _about(unit: str, words: str) -> dict[str, str]:

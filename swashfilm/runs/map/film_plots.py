@@ -17,7 +17,7 @@ from system.points.table.means import GAP_PAIRS
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-MEAN = "mean film / um"
+MEAN = "mean film [um]"
 
 
 def film_pictures(data: MapData) -> dict[str, Figure]:
@@ -43,9 +43,9 @@ def _quantities(data: MapData, piece: Slice) -> dict[str, dict[str, Array]]:
     values = data.values
     return {
         MEAN: {gap: 1e6 * piece.of(values[f"film_mean.{gap}"]) for gap in GAP_PAIRS},
-        "least film / um": {gap: 1e6 * piece.of(values[f"film_least.{gap}"]) for gap in GAP_PAIRS},
-        "hottest oil / degC": {gap: _celsius(piece.of(values[f"film_temperature.{gap}"])) for gap in GAP_PAIRS},
-        "contact / W": {
+        "least film [um]": {gap: 1e6 * piece.of(values[f"film_least.{gap}"]) for gap in GAP_PAIRS},
+        "hottest oil [degC]": {gap: _celsius(piece.of(values[f"film_temperature.{gap}"])) for gap in GAP_PAIRS},
+        "contact [W]": {
             gap: piece.of(values[f"pair_loss_coulomb.{pair.value}"]) for gap, pair in GAP_PAIRS.items()
         },
     }  # fmt: skip

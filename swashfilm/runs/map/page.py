@@ -28,6 +28,8 @@ ERROR_HEAD = ("number", "rms", "largest", "relative to the map's largest")
 _SHOWN = {"W": (1e-3, "kW"), "Nm": (1.0, "N m"), "m3_per_s": (6e4, "L/min")}
 FIRST, FURTHER, DEFINITIONS, LOSSES, FILMS = "efficiency", "levels", "definitions", "losses", "films"
 """Names of the page's groups of pictures, in its order."""
+EXPLORED = "explored"
+TO_EXPLORE = "Any number of the map over any two of its axes; circles: solved points"
 
 
 def write_map_page(folder: Path) -> Path:
@@ -35,9 +37,12 @@ def write_map_page(folder: Path) -> Path:
     summary = read_summary(folder, FILES, "a map's run folder")
     data, error = read_map(folder / MAP)
     drawn = map_pictures(data) if summary["solved"] else {}
-    explorer = map_explorer(data) if drawn else None
-    explorers = {} if explorer is None else dict.fromkeys(drawn[FIRST], explorer)
-    kept = {name: keep_pictures(folder, name, pictures, explorers) for name, pictures in drawn.items()}
+    if FIRST in drawn and (explorer := map_explorer(data)) is not None:
+        figure = next(iter(drawn[FIRST].values()))
+        explored = keep_pictures(folder, EXPLORED, {TO_EXPLORE: figure}, {TO_EXPLORE: explorer})
+    else:
+        explored = {}
+    kept = {EXPLORED: explored} | {name: keep_pictures(folder, name, pictures) for name, pictures in drawn.items()}
     caption, picture = next(iter(kept.pop(FIRST, {}).items()), ("", None))
     return write_page(
         folder,
@@ -114,14 +119,14 @@ def best_rows(summary: Mapping[str, Any]) -> Iterator[tuple[str, ...]]:
 
 
 def displacement_rows(summary: Mapping[str, Any]) -> Iterator[tuple[str, ...]]:
-    """Yield (setting, geometric, swept, by Toet) in cm3 per revolution."""
+    """Yield (setting, geometric, swept, by Toet) in mL/r."""
     for row in summary["displacement"]:
         toet, sigma = row["toet_m3_per_rev"], row["toet_sigma_m3_per_rev"]
         by_toet = "void" if toet is None else f"{toet * CM3:.3f}" + (f" +- {sigma * CM3:.2g}" if sigma else "")
         yield (
             row["at"],
-            *(f"{row[name] * CM3:.3f} cm3/rev" for name in ("geometric_m3_per_rev", "swept_m3_per_rev")),
-            f"{by_toet} cm3/rev" if toet is not None else by_toet,
+            *(f"{row[name] * CM3:.3f} mL/r" for name in ("geometric_m3_per_rev", "swept_m3_per_rev")),
+            f"{by_toet} mL/r" if toet is not None else by_toet,
         )
 
 

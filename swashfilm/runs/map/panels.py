@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, cast
 
 import numpy as np
 
@@ -85,17 +85,20 @@ def draw_panel(axes: Any, data: MapData, panel: Panel) -> None:
 
 def _power_lines(axes: Any, data: MapData, piece: Slice) -> None:
     """Draw dashed lines of constant shaft power with their value in kW."""
+    from contourpy import contour_generator
     from matplotlib.ticker import MaxNLocator
 
     power = 1e-3 * piece.of(data.values["shaft_power"])
     x, y = grids(data, piece)
     whole = np.all(np.isfinite(power))
     levels = MaxNLocator(POWERS).tick_values(float(np.nanmin(power)), float(np.nanmax(power)))
-    places = _fine(x, y) if whole else [x, y]
-    lines = axes.contour(
-        *places, shown(data, piece, power), levels=levels, colors=POWER_INK, linewidths=1.0, linestyles="dashed"
-    )
-    axes.clabel(lines, fontsize=8, fmt="%g kW")
+    across, up = _fine(x, y) if whole else [x, y]
+    curves = contour_generator(across, up, shown(data, piece, power), line_type="Separate")
+    for level in levels:
+        for line in cast("list[Array]", curves.lines(level)):
+            axes.plot(*line.T, "--", color=POWER_INK, linewidth=1.0)
+            middle = line[len(line) // 2]
+            axes.text(*middle, f"{level:g} kW", color=POWER_INK, fontsize=8, ha="center", va="bottom", clip_on=True)
 
 
 def _fine(x: Array, y: Array) -> list[Array]:

@@ -23,6 +23,7 @@ from swashfilm.runs.map.slices import (
     shown,
     varied,
 )
+from system.inputs.shown import titled
 from system.maps.data import MapData
 from system.maps.plan import MapInput, reading_levels
 from system.pump.efficiency import EfficiencyDefinition
@@ -60,10 +61,10 @@ def main_picture(data: MapData) -> tuple[str, Figure] | None:
     piece = main_slice(data)
     if piece is not None:
         field = _overall(data, piece)
-        panel = Panel("overall efficiency / %", piece, field, _common_levels(data, piece), best=True)
+        panel = Panel("overall efficiency [%]", piece, field, _common_levels(data, piece), best=True)
         caption = (
             f"Overall efficiency in % by ISO 4409{_comma(held_words(data, piece))}. Dashed: constant shaft power; "
-            f"dots: solved points; star: the best; {steps_words(panel.levels)}"
+            f"dots: solved points; star: the best; a step of colour: {steps_words(panel.levels)}"
         )
         return caption, panel_figure(data, panel, LARGE, powers=True)
     if wide := varied(data):
@@ -79,7 +80,7 @@ def further_pictures(data: MapData) -> dict[str, Figure]:
     levels = _common_levels(data, piece)
     found = {}
     for one in further_slices(data, piece):
-        panel = Panel("overall efficiency / %", one, _overall(data, one), levels, best=True)
+        panel = Panel("overall efficiency [%]", one, _overall(data, one), levels, best=True)
         found[f"Overall efficiency {held_words(data, one)}"] = panel_figure(data, panel, powers=True)
     return found
 
@@ -110,7 +111,7 @@ def efficiency_panels(
     """Return a panel for each distinct efficiency on a slice, with the definitions that share it in words."""
     groups = shared_fields({one: piece.of(getattr(data.efficiency(one), part)) for one in chosen})
     levels = efficiency_levels(*(shown(data, piece, 100.0 * one.field) for one in groups)) if groups else np.array([])
-    return [(Panel(f"{part} / %", piece, 100.0 * one.field, levels, best=True), one.words) for one in groups]
+    return [(Panel(f"{part} [%]", piece, 100.0 * one.field, levels, best=True), one.words) for one in groups]
 
 
 def shared_fields(fields: Mapping[EfficiencyDefinition, Array]) -> list[Shared]:
@@ -178,9 +179,9 @@ def loss_panels(data: MapData, piece: Slice) -> Iterator[Panel]:
     whole = piece.of(data.loss)
     sinks = {words: piece.of(loss) for words, loss in data.losses.items()}
     largest = sorted(sinks, key=lambda words: -float(np.nansum(sinks[words])))[:SHOWN_SHARES]
-    yield even_panel(data, "loss / kW", piece, whole * 1e-3)
+    yield even_panel(data, "loss [kW]", piece, whole * 1e-3)
     for words in largest:
-        yield even_panel(data, f"{words}, share of the loss / %", piece, 100.0 * sinks[words] / whole)
+        yield even_panel(data, f"{words}, share of the loss [%]", piece, 100.0 * sinks[words] / whole)
 
 
 def share_plot(data: MapData, given: MapInput) -> Figure:
@@ -197,11 +198,11 @@ def draw_stack(axes: Any, data: MapData, given: MapInput, held: tuple[int, ...],
     index = _along(data, given, held)
     rows = np.array([np.maximum(loss[index], 0.0) for loss in data.losses.values()])
     shown_rows = 100.0 * rows / rows.sum(axis=0) if share else 1e-3 * rows
-    levels, unit = reading_levels(next(axis for axis in data.axes if axis.input is given))
+    levels = reading_levels(next(axis for axis in data.axes if axis.input is given))
     colours = [COLOURS[k % len(COLOURS)] for k in range(len(rows))]
     axes.stackplot(levels, shown_rows, labels=[*data.losses], colors=colours)
-    label = "share of the losses / %" if share else "loss / kW"
-    axes.set(xlabel=f"{given.words} / {unit or 1}", ylabel=label, xlim=(levels[0], levels[-1]))
+    label = "share of the losses [%]" if share else "loss [kW]"
+    axes.set(xlabel=titled(given.words, given.shown.unit), ylabel=label, xlim=(levels[0], levels[-1]))
     if share:
         axes.set_ylim(0.0, 100.0)
 
@@ -215,13 +216,13 @@ def _legend(figure: Any) -> tuple[list[Any], list[str]]:
 def efficiency_course(data: MapData, given: MapInput) -> Figure:
     """Draw the three efficiencies of the headline's definition over one input."""
     index = _along(data, given, held_levels(data))
-    levels, unit = reading_levels(next(axis for axis in data.axes if axis.input is given))
+    levels = reading_levels(next(axis for axis in data.axes if axis.input is given))
     figure = figure_of(*LARGE)
     axes = figure.subplots()
     found = data.efficiency(HEADLINE)
     for part, colour in zip(PARTS, COLOURS, strict=False):
         axes.plot(levels, 100.0 * getattr(found, part)[index], "o-", color=colour, label=part)
-    axes.set(xlabel=f"{given.words} / {unit or 1}", ylabel="efficiency / %")
+    axes.set(xlabel=titled(given.words, given.shown.unit), ylabel="efficiency [%]")
     axes.grid(visible=True, alpha=0.3)
     axes.legend()
     return figure

@@ -6,7 +6,8 @@ from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, ClassVar
 
-from swashfilm.output.result import Result, plotted, read_netcdf
+from swashfilm.output.data.files import read_netcdf
+from swashfilm.output.result import Result, plotted
 from swashfilm.output.tables import Table
 from swashfilm.runs.map.files import MAP, PARTS, map_of
 from swashfilm.runs.map.page import axis_rows, best_rows, displacement_rows, failed_rows

@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from reynolds.numerics.arrays import Array
+from system.inputs.shown import titled
 from system.inputs.units import format_quantity
 from system.maps.data import MapData
 from system.maps.interpolation import weights
@@ -123,7 +124,7 @@ def _place(data: MapData, given: MapInput) -> int:
 
 def grids(data: MapData, piece: Slice) -> tuple[Array, Array]:
     """Return both inputs of a slice at its points, in the units that people read, (levels up, levels across)."""
-    across, up = (reading_levels(data.axes[place])[0] for place in (piece.across, piece.up))
+    across, up = (reading_levels(data.axes[place]) for place in (piece.across, piece.up))
     x, y = np.meshgrid(across, up)
     return x, y
 
@@ -142,5 +143,4 @@ def shown(data: MapData, piece: Slice, field: Array) -> Array:
 def axis_label(data: MapData, place: int) -> str:
     """Return the name of an axis with its unit."""
     axis = data.axes[place]
-    unit = reading_levels(axis)[1]
-    return f"{axis.input.words} / {unit}" if unit else axis.input.words
+    return titled(axis.input.words, axis.input.shown.unit)

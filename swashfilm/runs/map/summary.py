@@ -57,13 +57,13 @@ def map_summary(
 
 
 def _axis(axis: MapAxis) -> dict[str, Any]:
-    levels, unit = reading_levels(axis)
+    levels = reading_levels(axis)
     return {
         "input": axis.input.value,
         "words": axis.input.words,
         "values": list(axis.values),
         "unit": axis.input.unit,
-        "levels": ", ".join(f"{level:.6g}" for level in levels) + f" {unit}".rstrip(),
+        "levels": ", ".join(f"{level:.6g}" for level in levels) + f" {axis.input.shown.symbol}".rstrip(),
     }
 
 

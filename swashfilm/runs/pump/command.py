@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import argparse
-import tomllib
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -12,12 +12,14 @@ from swashfilm.case.gap.switches import add_floating_options
 from swashfilm.console.command import Command
 from swashfilm.console.fidelity import Fidelity
 from swashfilm.console.inputs import COMMAND_LINE, expect, given_text, option_value, whole
+from swashfilm.console.settings import LEVELS_EXAMPLE, add_set_option, set_values
 from swashfilm.console.terminal import show, show_result
 from system.inputs.faults import Fault, InputFaults, nearest_choice
 from system.inputs.units import with_point
 
 if TYPE_CHECKING:
     from swashfilm.runs.pump.run import PumpCase
+    from swashfilm.runs.pump.vary.points import PumpStudy
 
 _TEMPERATURE = "operating.temperature"
 _OVERRIDES = {
@@ -46,13 +48,18 @@ def add_run_options(command: argparse.ArgumentParser) -> None:
     command.add_argument("--table", type=Path, metavar="FILE.json", help=what)
     what = "floating gaps: solve N times, cells, angles and steps each twice finer; report order and limit"
     command.add_argument("--refine", metavar="N", help=what)
-    what = "another value of a key of the pump file, such as valve_plate.film_thickness=10um; may be repeated"
-    command.add_argument("--set", action="append", default=[], metavar="KEY=VALUE", help=what)
+    add_set_option(command)
+    what = f"solve over levels of a key of the pump file, such as {LEVELS_EXAMPLE}; may be repeated: a grid"
+    command.add_argument("--vary", action="append", default=[], metavar="KEY=A..B:N", help=what)
+    command.add_argument("--resume", type=Path, metavar="DIR", help="of --vary: run folder with finished points")
+    command.add_argument("--workers", metavar="N", help="of --vary: processes that solve points side by side (1)")
     add_floating_options(command)
 
 
 def run_pump_command(options: argparse.Namespace) -> int:
     """Run `swashfilm run` and return its exit code; raise InputFaults with every fault of pump and options."""
+    if options.vary:
+        return _run_varied(options)
     case = pump_case(options)
     from swashfilm.console.assumed import show_assumptions
     from swashfilm.console.progress import progress
@@ -64,7 +71,7 @@ def run_pump_command(options: argparse.Namespace) -> int:
     name = case.pump.name
     if case.fidelity is Fidelity.FLOATING and (times := work_of(case.pump)) > 1.0:
         show(f"chambers differ: their floating gaps take about {times:.0f} times as long as identical ones")
-    with run_folder(name, options.output) as folder, progress(1, f"run {name}") as report:
+    with run_folder(name, options.output, workbook=options.excel) as folder, progress(1, f"run {name}") as report:
         with unfinished_kept(case, folder) as solved:
             found = solve_pump(case, report, solved)
         added = found.write(folder)
@@ -72,8 +79,53 @@ def run_pump_command(options: argparse.Namespace) -> int:
     return 0
 
 
-def pump_case(options: argparse.Namespace) -> PumpCase:
-    """Return the case of a command line; raise InputFaults with every fault of pump file and options."""
+def _run_varied(options: argparse.Namespace) -> int:
+    """Run `swashfilm run --vary` and return its exit code."""
+    study, workers = varied_case(options)
+    from swashfilm.console.points import ended
+    from swashfilm.console.progress import progress
+    from swashfilm.output.run_folder import final_folder, run_folder
+    from swashfilm.runs.pump.vary.result import VariedRun, run_varied
+
+    with (
+        run_folder(study.name, options.output, workbook=options.excel) as folder,
+        progress(len(study.points), f"vary {study.name}") as report,
+    ):
+        run_varied(study, folder, report, resumed=options.resume, workers=workers)
+    found = VariedRun.opened(final_folder(folder))
+    show_result(found, folder)
+    return ended(found.summary)
+
+
+def varied_case(options: argparse.Namespace) -> tuple[PumpStudy, int]:
+    """Return the pump over the keys of --vary, and the number of processes; raise InputFaults with every fault."""
+    from swashfilm.case.study import Combine
+    from swashfilm.runs.pump.vary.axes import pump_faults as faults_of_points, vary_axes
+    from swashfilm.runs.pump.vary.points import PumpStudy
+
+    faults: list[Fault] = []
+    workers = whole(faults, "--workers", options.workers, 1, (1, 64), "a number of processes")
+    if options.refine is not None:
+        faults.append(Fault("--refine", "beside --vary", "one of the two"))
+    axes = vary_axes(options.vary, faults)
+    if faults:
+        raise InputFaults(COMMAND_LINE, faults)
+    one = argparse.Namespace(**{**vars(options), "vary": [], "workers": None, "resume": None})
+    case_of = partial(pump_case, one)
+    comments = "".join(f"# command line: {text} in levels\n" for text in options.vary)
+    given = comments + given_text(options.pump, set_values(options.set, faults))
+    name = f"{Path(options.pump).stem}-vary"
+    study = PumpStudy(name, given, axes, Combine.ALL, case_of, Fidelity(options.fidelity))
+    if faults := faults_of_points(axes, study.points, case_of):
+        raise InputFaults(COMMAND_LINE, faults)
+    return study, workers
+
+
+def pump_case(options: argparse.Namespace, values: Mapping[str, object] | None = None) -> PumpCase:
+    """Return the case of a command line; raise InputFaults with every fault of pump file and options.
+
+    values: of keys of the pump file, beside those of the options.
+    """
     from swashfilm.console.floating_options import alike_faults, floating_faults, floating_options
     from swashfilm.runs.pump.run import PumpCase
     from system.pump.film_thickness import moved_to
@@ -81,6 +133,12 @@ def pump_case(options: argparse.Namespace) -> PumpCase:
     from system.work.processes import cores
 
     stated, faults = _overrides(options)
+    stated |= values or {}
+    faults += [
+        Fault(option, "without --vary", "--vary KEY=A..B:N")
+        for option in ("--resume", "--workers")
+        if option_value(options, option)
+    ]
     if options.fidelity not in _FIDELITIES:
         nearest = nearest_choice(options.fidelity, _FIDELITIES)
         faults.append(Fault("--fidelity", repr(options.fidelity), f"one of {', '.join(_FIDELITIES)}", nearest))
@@ -124,14 +182,8 @@ def pump_faults(options: argparse.Namespace, words: Sequence[str]) -> list[Fault
 
 def _overrides(options: argparse.Namespace) -> tuple[dict[str, object], list[Fault]]:
     """Return the entries of the pump file that the options replace, and the faults of the options."""
-    stated: dict[str, object] = {}
-    faults = []
-    for text in options.set:
-        key, equals, value = text.partition("=")
-        if not (equals and key.strip() and value.strip()):
-            faults.append(Fault("--set", repr(text), "KEY=VALUE, such as valve_plate.film_thickness=10um"))
-        else:
-            stated[key.strip()] = toml_value(value.strip())
+    faults: list[Fault] = []
+    stated = set_values(options.set, faults)
     for option, (path, example, what) in _OVERRIDES.items():
         text = option_value(options, option)
         if text is None:
@@ -145,14 +197,6 @@ def _overrides(options: argparse.Namespace) -> tuple[dict[str, object], list[Fau
                 faults.append(Fault(option, repr(text), wanted, with_point(text)))
                 del stated[path]
     return stated, faults
-
-
-def toml_value(text: str) -> object:
-    """Return the value of a TOML text; text that is not a TOML value, such as `10um`, is a string."""
-    try:
-        return tomllib.loads(f"value = {text}")["value"]
-    except tomllib.TOMLDecodeError:
-        return text
 
 
 def _at_options(reason: InputFaults, stated: dict[str, object], faults: list[Fault]) -> InputFaults:

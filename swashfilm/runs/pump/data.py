@@ -9,8 +9,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from gaps.standing.gap_film import GapFilm
+from swashfilm.output.data.files import columns_of, write_columns, write_netcdf
 from swashfilm.output.gap_names import kind_folder
-from swashfilm.runs.pump.oil_fields import UNITS, oil_state
+from system.films.oil_state import UNITS, oil_state
 from system.points.films import FilmsPoint
 from system.pump.assembly import PumpPoint
 from system.pump.laws.friction_pairs import Pair
@@ -129,8 +130,7 @@ def _oil_fields(gap: str, angle: str, films: FilmsPoint, series: Sequence[GapFil
 
 def write_tables(folder: Path, data: xarray.Dataset) -> None:
     """Write revolution.csv and, for solved films, `write_gap_tables`."""
-    revolution = data.drop_dims(set(data.dims) - {"shaft_angle"})
-    _write_csv(folder / "revolution.csv", revolution, "shaft_angle")
+    write_columns(folder / "revolution.csv", columns_of(data, "shaft_angle"))
     write_gap_tables(folder, data)
 
 
@@ -138,8 +138,7 @@ def write_gap_tables(folder: Path, data: xarray.Dataset) -> None:
     """Write one table per gap of the data, with units in the heads."""
     for gap in GAPS:
         if f"{gap}_angle" in data.dims:
-            series = data.drop_dims(set(data.dims) - {f"{gap}_angle"})
-            _write_csv(folder / f"{gap}.csv", series, f"{gap}_angle")
+            write_columns(folder / f"{gap}.csv", columns_of(data, f"{gap}_angle"))
 
 
 def write_unlike(folder: Path, films: FilmsPoint) -> None:
@@ -148,13 +147,4 @@ def write_unlike(folder: Path, films: FilmsPoint) -> None:
         place, data = kind_folder(kind.chambers), films_dataset(films, number)
         (folder / place).mkdir()
         write_gap_tables(folder / place, data)
-        data.to_netcdf(folder / RESULTS, mode="a", group=place, engine="h5netcdf")
-
-
-def _write_csv(path: Path, data: xarray.Dataset, angle: str) -> None:
-    frame = data.to_dataframe().reset_index()
-    frame[angle] = np.degrees(frame[angle])
-    units = {name: data[name].attrs.get("units", "1") for name in frame.columns}
-    units[angle] = "deg"
-    frame.columns = [f"{name} [{units[name]}]" for name in frame.columns]
-    frame.to_csv(path, index=False, float_format="%.10g")
+        write_netcdf(data, folder / RESULTS, place)

@@ -11,9 +11,9 @@ from gaps.films.physics import Effect
 from gaps.revolution.march import GapRevolution, Leg
 from swashfilm.case.gap.physics import PHYSICS_HEAD, effect_rows
 from swashfilm.console.fidelity import Fidelity
+from swashfilm.output.data.files import read_netcdf, write_netcdf
 from swashfilm.output.gap_names import TITLES, kind_folder
 from swashfilm.output.page import inlined
-from swashfilm.output.result import read_netcdf
 from swashfilm.output.run_folder import FAILED, write_json
 from swashfilm.output.tables import read_csv
 from swashfilm.runs.film.revolution.data import (
@@ -191,7 +191,7 @@ def _chambers(kind: FloatingKind, place: str) -> ChamberKind:
 def _write_gap(folder: Path, path: Path, study: RevolutionStudy) -> None:
     """Write series, kept films and turns of one gap to folder/path and its group of results.nc."""
     data = revolution_dataset(study)
-    data.to_netcdf(folder / RESULTS, mode="a", group=path.as_posix(), engine="h5netcdf")
+    write_netcdf(data, folder / RESULTS, path.as_posix())
     (folder / path.parent).mkdir(exist_ok=True)
     write_series(folder / f"{path}.csv", data)
     write_convergence(folder / f"{path}_convergence.csv", study)

@@ -10,9 +10,10 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from reynolds.numerics.arrays import Array
+from swashfilm.output.data.files import Column, read_columns, write_columns
 from swashfilm.output.figures import figure_of, legend_below
 from swashfilm.output.page import inlined
-from swashfilm.output.picture import Picture
+from swashfilm.output.touch.picture import Picture
 from system.multibody.closure import closure
 from system.multibody.kinematics import SHAFT
 from system.multibody.retainer import guide_loss
@@ -76,18 +77,13 @@ def _vector(name: str, values: Array, axes: str = "xyz", unit: str = "N") -> Col
 
 def write_forces(folder: Path, joints: JointForces) -> None:
     """Write forces.csv, units in the head."""
-    columns = {"shaft_angle": ("deg", np.degrees(joints.group.shaft_angle)), **force_columns(joints)}
-    head = ",".join(f"{name} [{unit}]" for name, (unit, _) in columns.items())
-    rows = np.stack([values for _, values in columns.values()], axis=-1)
-    np.savetxt(folder / TABLE, rows, fmt="%.10g", delimiter=",", header=head, comments="")
+    columns = {"shaft_angle": ("rad", joints.group.shaft_angle), **force_columns(joints)}
+    write_columns(folder / TABLE, [Column(name, values, unit) for name, (unit, values) in columns.items()])
 
 
 def read_forces(folder: Path) -> dict[str, Array]:
-    """Return the columns of a folder's forces.csv by name, without units."""
-    path = folder / TABLE
-    names = path.read_text("utf-8").splitlines()[0].split(",")
-    values = np.loadtxt(path, delimiter=",", skiprows=1, ndmin=2)
-    return {name.partition(" [")[0]: values[:, k] for k, name in enumerate(names)}
+    """Return the columns of a folder's forces.csv by name, SI."""
+    return read_columns(folder / TABLE)
 
 
 def forces_summary(joints: JointForces, found: PumpPoint) -> dict[str, Any]:
@@ -213,7 +209,7 @@ def forces_plot(data: Mapping[str, Array]) -> Figure:
     """Draw forces of one piston and slipper, of splines and bearings (kN), moments (N m) over the shaft angle."""
     figure = figure_of(10.0, 3.6)
     left, middle, right = figure.subplots(1, 3)
-    angle = data["shaft_angle"]
+    angle = np.degrees(data["shaft_angle"])
     chamber = {
         "ball joint": _size(data, "piston_on_slipper"),
         "swash plate, normal": data["plate_on_slipper_normal"],
@@ -230,11 +226,11 @@ def forces_plot(data: Mapping[str, Array]) -> Figure:
             axes.plot(angle, 1e-3 * force, label=name)
     right.plot(angle, data["control_moment_on_plate"], label="control, on the plate")
     right.plot(angle, data["drive_torque_on_shaft"], label="drive, on the shaft")
-    left.set(ylabel="force / kN", title="one piston and slipper")
-    middle.set(ylabel="force across the shaft / kN", title="shaft", ylim=(0.0, None))
-    right.set(ylabel="moment / N m", title="swash plate and shaft")
+    left.set(ylabel="force [kN]", title="one piston and slipper")
+    middle.set(ylabel="force across the shaft [kN]", title="shaft", ylim=(0.0, None))
+    right.set(ylabel="moment [N m]", title="swash plate and shaft")
     for axes in (left, middle, right):
-        axes.set(xlabel="shaft angle / deg", xlim=(0, 360))
+        axes.set(xlabel="shaft angle [deg]", xlim=(0, 360))
         legend_below(axes)
     return figure
 

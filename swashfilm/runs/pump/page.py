@@ -7,23 +7,25 @@ from typing import Any
 import numpy as np
 
 from swashfilm.console.fidelity import Fidelity
+from swashfilm.output.data.files import read_netcdf
 from swashfilm.output.figures import smaller
 from swashfilm.output.gap_names import TITLES
 from swashfilm.output.page import inlined, read_summary, write_page
-from swashfilm.output.picture import Picture
 from swashfilm.output.refinement import refinement_head, refinement_rows
-from swashfilm.output.result import read_netcdf
 from swashfilm.output.touch.explorer import Explorer
+from swashfilm.output.touch.picture import Picture
 from swashfilm.runs.pump import plots as pump_plots
 from swashfilm.runs.pump.data import GAPS
 from swashfilm.runs.pump.floating import floating_view
 from swashfilm.runs.pump.forces import forces_view
+from swashfilm.runs.pump.gap_explorer import gap_explorer
 from swashfilm.runs.pump.headline.answer import pump_answer
 from swashfilm.runs.pump.headline.powers import power_parts
 from swashfilm.runs.pump.scene.view import pump_view
 from swashfilm.runs.pump.scene.views import PICTURE, TURNING
 from swashfilm.runs.pump.summary import chamber_numbers
 from swashfilm.runs.table.summary import TABLE_POINT_HEAD, table_point_rows
+from system.inputs.shown import pressure_text, shown_in
 from system.inputs.units import LPM
 from system.pump.laws.friction_pairs import Pair
 
@@ -59,7 +61,10 @@ def write_pump_page(folder: Path) -> Path:
         checks=check_rows(summary),
         forces=forces_view(folder, summary),
         pictures=_pictures(data, summary),
-        gap_maps={map_caption(data, gap): inlined(png) for gap, png in pump_plots.gap_maps(data).items()},
+        gap_maps={
+            map_caption(data, gap): inlined(drawn, gap_explorer(data, gap))
+            for gap, drawn in pump_plots.gap_maps(data).items()
+        },
         solid=[(gap.replace("_", " "), png) for gap in GAPS if (png := _kept(folder / f"{gap}.png"))],
         pump=_kept(folder / PICTURE, pump_view(folder)),
         turning=TURNING if (folder / TURNING).is_file() else "",
@@ -81,9 +86,9 @@ def headline_rows(summary: Mapping[str, Any]) -> Rows:
     ripple, errors = summary["ripple"], summary["checks"]
     return [
         ("shaft speed", f"{at['shaft_speed_rad_per_s'] * 30 / np.pi:.1f} r/min"),
-        ("delivery pressure (gauge)", f"{at['delivery_pressure_Pa'] * 1e-6:.3f} MPa"),
-        ("inlet pressure (gauge)", f"{at['inlet_pressure_Pa'] * 1e-6:.3f} MPa"),
-        ("case pressure (gauge)", f"{at['case_pressure_Pa'] * 1e-6:.3f} MPa"),
+        ("delivery pressure (gauge)", shown_in("Pa").text(at["delivery_pressure_Pa"])),
+        ("inlet pressure (gauge)", shown_in("Pa").text(at["inlet_pressure_Pa"])),
+        ("case pressure (gauge)", shown_in("Pa").text(at["case_pressure_Pa"])),
         ("displacement ratio", f"{at['displacement_ratio']:.3f}"),
         ("swash angle", f"{np.degrees(at['swash_angle_rad']):.3f} deg"),
         ("oil temperature", f"{at['temperature_K'] - 273.15:.1f} degC"),
@@ -98,7 +103,7 @@ def headline_rows(summary: Mapping[str, Any]) -> Rows:
         ("torque, shaft", f"{torque['shaft_Nm']:.2f} N m"),
         ("torque, ideal at delivery pressure", f"{torque['ideal_delivery_Nm']:.2f} N m"),
         ("torque, ideal at pressure difference", f"{torque['ideal_difference_Nm']:.2f} N m"),
-        ("ripple, delivery pressure", f"{ripple['delivery_pressure_peak_to_peak_Pa'] * 1e-6:.4f} MPa peak to peak"),
+        ("ripple, delivery pressure", f"{pressure_text(ripple['delivery_pressure_peak_to_peak_Pa'], 4)} peak to peak"),
         ("ripple, delivery flow", f"{ripple['delivery_flow_peak_to_peak_m3_per_s'] * LPM:.3f} L/min peak to peak"),
         ("ripple, shaft torque", f"{ripple['shaft_torque_peak_to_peak_Nm']:.2f} N m peak to peak"),
         ("energy balance error, torque from forces", f"{errors['energy_balance_error']:.2g} of the shaft power"),
@@ -170,14 +175,12 @@ def gap_rows(summary: Mapping[str, Any]) -> Rows:
 def ripple_rows(summary: Mapping[str, Any]) -> Rows:
     """Return (ripple, peak to peak, its orders z, 2 z and 3 z)."""
     ripple = summary["ripple"]
-    shown_in = {
-        "delivery_pressure": (1e-6, "MPa"), "delivery_flow": (LPM, "L/min"), "inlet_pressure": (1e-6, "MPa"),
-        "inlet_flow": (LPM, "L/min"), "shaft_torque": (1.0, "N m"),
-    }  # fmt: skip
+    units = {"pressure": "Pa", "flow": "m3/s", "torque": "N m"}
     rows: Rows = []
-    for name, (scale, shown) in shown_in.items():
+    for name in ("delivery_pressure", "delivery_flow", "inlet_pressure", "inlet_flow", "shaft_torque"):
+        shown = shown_in(units[name.rpartition("_")[2]])
         keys = [key for key in ripple if key.startswith(name)]
-        rows.append((name.replace("_", " "), *(f"{scale * ripple[key]:.3g} {shown}" for key in keys)))
+        rows.append((name.replace("_", " "), *(shown.text(ripple[key], 3) for key in keys)))
     return rows
 
 

@@ -5,7 +5,7 @@ from dataclasses import asdict, replace
 from typing import Any
 
 from gaps.revolution.march import GapRevolution
-from swashfilm.output.convergence import convergence
+from reynolds.numerics.convergence import convergence
 from swashfilm.output.headline import sizes
 from swashfilm.output.refinement import Refinement
 from system.points.floating import FloatingPoint

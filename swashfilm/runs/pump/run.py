@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any, assert_never
 
 from swashfilm.console.assumed import scaled_warning
 from swashfilm.console.fidelity import Fidelity
+from swashfilm.output.data.files import Column, write_columns, write_netcdf
 from swashfilm.output.refinement import Refinement, refinement_summary, write_refinement
 from swashfilm.output.run_folder import write_json
 from swashfilm.runs.pump.coefficients.edge_losses import loss_warnings, losses_left_out
@@ -172,7 +173,7 @@ def _run(
     def write(folder: Path) -> list[str]:
         _write_input(folder, case)
         arrays = data()
-        arrays.to_netcdf(folder / "results.nc", engine="h5netcdf")
+        write_netcdf(arrays, folder / "results.nc")
         write_tables(folder, arrays)
         write_pair_table(folder / "pairs.csv", point, summary)
         write_forces(folder, joints)
@@ -197,11 +198,10 @@ def _warnings(pump: PumpDescription, point: PumpPoint) -> list[str]:
 
 def write_pair_table(path: Path, point: PumpPoint, summary: dict[str, Any]) -> None:
     """Write the loss of the seven pairs as CSV, units in the head."""
-    lines = ["pair,count [1],coulomb [W],viscous [W],total [W],share [%]"]
-    for name, loss in summary["pair_loss"].items():
-        count = getattr(point.pairs, name).count
-        lines.append(
-            f"{name},{count},{loss['coulomb_W']:.6g},{loss['viscous_W']:.6g},{loss['total_W']:.6g},"
-            f"{100.0 * loss['share']:.6g}"
-        )
-    path.write_text("\n".join(lines) + "\n", encoding="utf-8")
+    losses = summary["pair_loss"]
+    counts = Column("count", [getattr(point.pairs, name).count for name in losses], "1")
+    parts = [
+        Column(part, [loss[f"{part}_W"] for loss in losses.values()], "W") for part in ("coulomb", "viscous", "total")
+    ]
+    share = Column("share", [100.0 * loss["share"] for loss in losses.values()], "%")
+    write_columns(path, [Column("pair", list(losses)), counts, *parts, share])

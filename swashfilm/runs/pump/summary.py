@@ -14,6 +14,7 @@ from swashfilm.runs.pump.coefficients.flow import coefficient_records
 from swashfilm.runs.pump.data import GAPS, PARTS, named_films
 from system.description.pump import PumpDescription
 from system.effects.effect import EffectId
+from system.inputs.shown import pressure_text
 from system.points.film_effects import effects_in_films
 from system.points.films import FilmsKind, FilmsPoint
 from system.pump.assembly import PumpPoint
@@ -238,8 +239,8 @@ def impossible_pressures(films: FilmsPoint) -> list[str]:
         peak = max(film.loads.pressure_max for film in series)
         if peak > LARGEST_RIGID_PRESSURE:
             found.append(
-                f"film_pressure_beyond_rigid: {name}: film pressure up to {peak * 1e-6:.0f} MPa "
-                f"(limit {LARGEST_RIGID_PRESSURE * 1e-6:.0f} MPa: walls deform and viscosity rises before); state "
+                f"film_pressure_beyond_rigid: {name}: film pressure up to {pressure_text(peak)} "
+                f"(limit {pressure_text(LARGEST_RIGID_PRESSURE)}: walls deform and viscosity rises before); state "
                 "a smaller eccentricity or tilt, a larger clearance, or both effects in [physics]: "
                 f"compliance in [physics.elastic_opening.{gap}] and [physics.viscosity_pressure]"
             )

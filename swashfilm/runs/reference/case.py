@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from enum import Enum
 from itertools import product
@@ -9,12 +10,13 @@ from pathlib import Path
 from typing import Annotated, Literal, assert_never
 
 from reynolds.errors import InputError
+from swashfilm.case.settings import read_set
 from swashfilm.runs.reference.passages import GroovePassage, OrificePassage, Passage, SlotPassage, StepPassage
 from system.inputs.faults import InputFaults
 from system.inputs.sections.fields import Format, Length, Limits, Positive, Several
 from system.inputs.sections.json_schema import Schema, file_schema, section_schema
 from system.inputs.sections.reader import Reading, read_section
-from system.inputs.toml_table import fault_lines, read_toml
+from system.inputs.toml_table import fault_lines
 from system.inputs.units import Dimension
 
 CELLS, FEWEST_CELLS, MOST_CELLS = 6, 2, 24
@@ -117,9 +119,9 @@ class ReferenceCase:
     cells: int
 
 
-def load_reference(path: Path) -> ReferenceCase:
-    """Return the case of a file; raise InputFaults with every fault."""
-    text, tables = read_toml(path)
+def load_reference(path: Path, values: Mapping[str, object] | None = None) -> ReferenceCase:
+    """Return the case of a file with other `values` of dotted keys; raise InputFaults with every fault."""
+    text, tables = read_set(path, values or {})
     reading = Reading()
     section = getattr(read_section("", ReferenceFile, tables, reading), "reference", None)
     if reading.faults or section is None:

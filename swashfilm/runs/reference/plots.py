@@ -22,7 +22,7 @@ NEAR = 5.0
 """Film thicknesses or diameters on either side of the passage in a picture."""
 GRID = 240
 MOST_NAMED = 12
-RIGHT = {"flow_coefficient": "flow coefficient / 1", "whole_extra_length": "whole extra length / h"}
+RIGHT = {"flow_coefficient": "flow coefficient", "whole_extra_length": "whole extra length / h"}
 """Quantity in the right picture, for a port and for a film."""
 
 
@@ -42,10 +42,10 @@ def coefficient_plot(summary: Mapping[str, Any]) -> Figure:
         numbers = [row["reynolds"] for row in rows]
         left.plot(numbers, [row["loss_factor"] for row in rows], "o-", markersize=4, label=passage["words"])
         right.plot(numbers, [row[shown] for row in rows], "o-", markersize=4)
-    left.set_ylabel("loss factor / 1")
+    left.set_ylabel("loss factor")
     right.set_ylabel(words)
     for axes in (left, right):
-        axes.set_xlabel("Reynolds number / 1")
+        axes.set_xlabel("Reynolds number")
         axes.set_xscale("symlog", linthresh=1.0)
         axes.grid(visible=True, alpha=0.3)
     if named:

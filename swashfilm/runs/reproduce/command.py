@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 from swashfilm.case.gap.switches import SWITCHES, add_floating_options
 from swashfilm.console.command import Command
 from swashfilm.console.inputs import COMMAND_LINE, option_value, whole
+from swashfilm.console.settings import add_set_option, set_values
 from swashfilm.console.terminal import show, show_result, show_table
 from system.inputs.faults import Fault, InputFaults, nearest_choice
 
@@ -33,6 +34,7 @@ def add_reproduce_options(command: argparse.ArgumentParser) -> None:
         "minutes), or floating (the default: hours for all figures; points are kept between runs)",
     )  # fmt: skip
     command.add_argument("--pump", default="ref90", metavar="PUMP", help="built-in name or pump file (ref90)")
+    add_set_option(command)
     command.add_argument(
         "--recording", type=Path, metavar="RECORDING",
         help="fig13: fit to readings of a bench (folder of a recording.toml), not to computed ones",
@@ -61,7 +63,7 @@ def run_reproduce_command(options: argparse.Namespace) -> int:
 
     with (
         process_pool(workers) as executor,
-        run_folder("reproduce", options.output) as folder,
+        run_folder("reproduce", options.output, workbook=options.excel) as folder,
         progress(1, f"reproduce {options.figure}") as report,
     ):
         run_reproduce(asked, executor, folder, report)
@@ -96,8 +98,9 @@ def reproduce_case(options: argparse.Namespace) -> tuple[ReproduceCase, int]:
 
     options.fidelity = options.fidelity or (_FLOATING if options.recording is None else _LUMPED)
     faults = _word_faults(options)
+    stated = set_values(options.set, faults)
     try:
-        pump = load_pump(options.pump)
+        pump = load_pump(options.pump, stated)
     except InputFaults as reason:
         raise InputFaults(reason.source, [*faults, *reason.faults], reason.lines) from None
     faults += floating_faults(options, pump, options.fidelity)
@@ -154,6 +157,7 @@ def _command(options: argparse.Namespace) -> str:
     names = ("--fidelity", "--pump", "--recording", "--steps", "--finer")
     stated = {name: option_value(options, name) for name in names}
     words = [f" {name} {text}" for name, text in stated.items() if text not in (None, _FLOATING, "ref90")]
+    words += [f" --set {text}" for text in options.set]
     words += [f" {switch}" for switch in SWITCHES if option_value(options, switch)]
     return f"swashfilm reproduce {options.figure}{''.join(words)} --page {options.page}"
 

@@ -57,12 +57,15 @@ def reproduce_answer(summary: Row, rows: Sequence[Row]) -> Answer:
         f"the statement breaks a law of physics, whatever the pump. The pump is solved in the {summary['fidelity']} "
         f"fidelity."
     )
-    counts = {
-        figure["name"]: Counter(row["verdict"] for row in rows if row["figure"] == figure["name"])
-        for figure in summary["figures"]
-    }
-    bars = verdict_bars({name: own for name, own in counts.items() if own})
+    bars = verdict_bars(verdict_counts(summary, rows))
     return Answer(tuple(tiles), words, inlined(bars), "Verdicts on the statements of each figure and table")
+
+
+def verdict_counts(summary: Row, rows: Sequence[Row]) -> dict[str, Counter[str]]:
+    """Return the number of readings with each verdict, of each figure with any."""
+    names = [figure["name"] for figure in summary["figures"]]
+    counts = {name: Counter(row["verdict"] for row in rows if row["figure"] == name) for name in names}
+    return {name: own for name, own in counts.items() if own}
 
 
 def statements(rows: Sequence[Row], figure: str) -> Iterator[tuple[Row, list[Row]]]:

@@ -135,4 +135,4 @@ def _field(figure: Any, axes: Any, panel: Panel) -> None:
 
 
 def _words(axis: FigureAxis) -> str:
-    return axis.words if axis.unit is Unit.NUMBER else f"{axis.words} / {axis.unit.shown}"
+    return axis.words if axis.unit is Unit.NUMBER else f"{axis.words} [{axis.unit.shown}]"

@@ -6,13 +6,15 @@ import json
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, ClassVar
 
-from swashfilm.output.result import Result, read_table
+from swashfilm.output.result import Result, plotted, read_table
 from swashfilm.output.tables import Table
 from swashfilm.runs.reproduce.files import CLAIMS
-from swashfilm.runs.reproduce.page import FILES, verdict_rows
+from swashfilm.runs.reproduce.page import FILES, verdict_counts, verdict_rows
+from swashfilm.runs.reproduce.plots import verdict_bars
 
 if TYPE_CHECKING:
     import xarray
+    from matplotlib.axes import Axes
 
 HEAD = ("statement", "reading", "the paper", "computed", "verdict")
 
@@ -40,6 +42,10 @@ class Reproduction(Result):
     def read_data(folder: Path) -> xarray.Dataset:
         """Return claims.csv of a run folder."""
         return read_table(folder / "claims.csv")
+
+    def plot_verdicts(self) -> list[Axes]:
+        """Draw the number of statements of each figure by verdict."""
+        return plotted(lambda: verdict_bars(verdict_counts(self.summary, self.claims)))
 
     def tables(self) -> list[Table]:
         """Return every statement with its reading, the paper's range, the computed number and the verdict."""

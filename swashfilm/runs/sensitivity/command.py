@@ -29,7 +29,7 @@ def run_sensitivity_command(options: argparse.Namespace) -> int:
     name = f"sensitivity-{case.pump.name}"
     with (
         varied_executor(options, case.seconds(pumps)) as executor,
-        run_folder(name, options.output) as folder,
+        run_folder(name, options.output, workbook=options.excel) as folder,
         progress(pumps, name) as report,
     ):
         run_sensitivity(case, folder, executor, report)

@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from swashfilm.output.data.files import write_netcdf
 from swashfilm.output.tables import write_csv
 from swashfilm.runs.variation.case import VariedCase
 from system.variation.differences import Verdict
@@ -66,4 +67,4 @@ def write_data(path: Path, case: VariedCase, found: Sensitivity) -> None:
         },
         attrs={"pump": case.pump.name, "units": "SI: number per SI unit of the key", "fidelity": case.fidelity.value},
     )
-    data.to_netcdf(path, engine="h5netcdf")
+    write_netcdf(data, path)

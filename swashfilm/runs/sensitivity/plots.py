@@ -36,7 +36,7 @@ def cost_plot(summary: Mapping[str, Any]) -> Figure | None:
         _bars(right, rows, EFFICIENCY, 100.0)
         left.set_title(PANELS[kind], loc="left", fontsize=10)
         right.set_yticklabels([])
-        left.set_xlabel("change of the loss / W")
+        left.set_xlabel("change of the loss [W]")
         right.set_xlabel("change of the overall efficiency / points")
     return figure
 
@@ -50,7 +50,7 @@ def tolerance_plot(summary: Mapping[str, Any]) -> Figure | None:
     figure = figure_of(10.0, 0.28 * len(rows) + 1.0)
     axes = figure.subplots()
     _bars(axes, rows, LOSS, 1.0, "sigma", [f"{row['key']}, {row['sigma_text']}" for row in rows])
-    axes.set_xlabel("change of the loss / W")
+    axes.set_xlabel("change of the loss [W]")
     return figure
 
 

@@ -25,8 +25,8 @@ from system.work.tasks import Executor
 ACCURACY = {
     Fidelity.LUMPED: Accuracy(step=0.01, noise=1e-6, rounds=2),
     Fidelity.TABLE: Accuracy(step=0.01, noise=1e-5, rounds=2),
-    Fidelity.FIXED: Accuracy(step=0.02, noise=1e-4, rounds=1),
-    Fidelity.FLOATING: Accuracy(step=0.05, noise=1e-3, rounds=1),
+    Fidelity.FIXED: Accuracy(step=0.02, noise=1e-5, rounds=1),
+    Fidelity.FLOATING: Accuracy(step=0.05, noise=1e-4, rounds=1),
 }
 """Steps of each fidelity: the wider, the larger the noise of its solvers."""
 

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING
 from swashfilm.case.gap.switches import add_floating_options, switched_keys
 from swashfilm.console.command import Command
 from swashfilm.console.inputs import COMMAND_LINE, option_value, whole
+from swashfilm.console.settings import add_set_option, set_values
 from swashfilm.console.terminal import show_result
 from system.inputs.faults import Fault, InputFaults, nearest_choice
 from system.inputs.units import with_point
@@ -51,6 +52,7 @@ def add_table_options(command: argparse.ArgumentParser) -> None:
         command.add_argument(option, metavar=example, help=f"{what}; one value: constant")
     for option, (_, example, what) in HELD.items():
         command.add_argument(option, metavar=example, help=f"{what}; default: that of the pump file")
+    add_set_option(command, "the pump file or the case")
     command.add_argument(
         "--source", metavar="{fixed,floating}", default=_SOURCE, help="fidelity of the solved points (fixed)"
     )
@@ -73,7 +75,7 @@ def run_table_command(options: argparse.Namespace) -> int:
     if not is_film_case(options.pump):
         show_assumed(options.pump)
     with (
-        run_folder(f"table-{asked.name}", options.output) as folder,
+        run_folder(f"table-{asked.name}", options.output, workbook=options.excel) as folder,
         progress(asked.points, f"table {asked.name}") as report,
     ):
         try:
@@ -123,7 +125,7 @@ def _gap_case(options: argparse.Namespace) -> tuple[GapTableCase, int]:
     given["--source"] = None if options.source == _SOURCE else options.source
     stated = "a key of [table] or of the case"
     faults = [Fault(name, "an option beside a gap's case", stated) for name, text in given.items() if text]
-    case = load_gap_table(Path(options.pump), switched_keys(options))
+    case = load_gap_table(Path(options.pump), switched_keys(options), set_values(options.set, faults))
     learnt, held_out, workers = _counts(options, faults, len(case.axes))
     if faults:
         raise InputFaults(COMMAND_LINE, faults)
@@ -182,9 +184,8 @@ def _pump(options: argparse.Namespace, faults: list[Fault], single: Collection[s
     from system.pump_file.file import load_pump
 
     keys = HELD | {option: RANGES[option] for option in single}
-    stated: dict[str, object] = {
-        path: text for option, (path, *_) in keys.items() if (text := option_value(options, option)) is not None
-    }
+    stated = set_values(options.set, faults)
+    stated |= {path: text for option, (path, *_) in keys.items() if (text := option_value(options, option)) is not None}
     if "--displacement" in single:
         try:
             stated["operating.displacement_ratio"] = float(options.displacement)
@@ -221,7 +222,7 @@ def _range(faults: list[Fault], option: str, text: str, dimension: object, examp
     from system.inputs.units import Dimension, QuantityError, parse_quantity
 
     kind = dimension if isinstance(dimension, Dimension) else None
-    ends = with_units([text], kind)[0].split("..")
+    ends = with_units([text])[0].split("..")
     try:
         if len(ends) != 2:
             raise QuantityError(repr(text), "two ends with .. between them", dashed_range(text))

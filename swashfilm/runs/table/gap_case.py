@@ -89,13 +89,16 @@ class GapTableCase:
         return np.array([numbers[key] for key in self.outputs])
 
 
-def load_gap_table(path: Path, switched: Mapping[str, str] | None = None) -> GapTableCase:
+def load_gap_table(
+    path: Path, switched: Mapping[str, str] | None = None, values: Mapping[str, object] | None = None
+) -> GapTableCase:
     """Return the response table of a file with a table [table], by default with the points of `usual_counts`.
 
-    `switched`: values of [revolution], by key, that replace those of the file. Raises InputFaults with every
-    fault: ranges, unknown keys, a film that is not a gap of a pump, or no corner of the box with a valid case.
+    `switched`: values of [revolution], by key, that replace those of the file; `values`: those of dotted keys.
+    Raises InputFaults with every fault: ranges, unknown keys, a film that is not a gap of a pump, or no corner of
+    the box with a valid case.
     """
-    text, tables = read_switched(path, switched or {})
+    text, tables = read_switched(path, switched or {}, values or {})
     given = tables.get(TABLE)
     ranges = Table(TABLE, given if isinstance(given, dict) else {}, [])
     if not ranges.values:
@@ -107,7 +110,7 @@ def load_gap_table(path: Path, switched: Mapping[str, str] | None = None) -> Gap
         ranges.faults.append(Fault(TABLE, f"{len(ends)} keys", f"at most {MOST_INPUTS}"))
     base = {key: value for key, value in tables.items() if key not in (TABLE, "study")}
     corners = tuple(stepped(key, (of.low, of.high), of.dimension) for key, of in ends.items())
-    study = StudyCase(path.stem, path, text, base, corners, Combine.ALL, TABLE)
+    study = StudyCase(path.stem, text, corners, Combine.ALL, path, base, TABLE)
     hold_to_case(study, ranges.faults)
     case = _first_case(study)
     if isinstance(case, FilmCase):

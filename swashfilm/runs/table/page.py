@@ -7,7 +7,7 @@ from typing import Any
 from gaps.response import Measure
 from swashfilm.output.answer import Answer, Tile
 from swashfilm.output.page import inlined, read_summary, write_page
-from swashfilm.output.picture import Picture
+from swashfilm.output.touch.picture import Picture
 from swashfilm.runs.table.plots import NEGLIGIBLE, table_plots, words_of
 from system.inputs.units import Dimension, format_quantity
 from system.points.table.store import read_response

@@ -11,8 +11,8 @@ from gaps.response import Axis, Response, Spacing
 from reynolds.numerics.arrays import Array
 from swashfilm.output.figures import figure_of
 from swashfilm.output.headline import named
-from swashfilm.runs.film.revolution.data import SHOWN
-from system.inputs.units import Dimension, in_unit, reading_unit
+from system.inputs.shown import Shown, shown_in, titled
+from system.inputs.units import Dimension
 from system.points.table.response_table import LARGE_ERROR
 
 if TYPE_CHECKING:
@@ -82,10 +82,10 @@ def _parity(response: Response, record: Mapping[str, Any]) -> Figure:
     solved, by_table = response.held_out.values, response.at(response.held_out.points)
     places = figure.subplots(lines, COLUMNS, squeeze=False).ravel()
     for axes, (what, members) in zip(places, groups.items(), strict=False):
-        title, factor = _shown(what, members, record)
+        title, how = _shown(what, members, record)
         for whose, k in members:
             axes.plot(
-                factor * solved[:, k], factor * by_table[:, k], "o", markersize=3.5, alpha=0.8,
+                how.of(solved[:, k]), how.of(by_table[:, k]), "o", markersize=3.5, alpha=0.8,
                 color=COLOURS[whose], label=words_of(whose),
             )  # fmt: skip
         ends = [*axes.get_xlim(), *axes.get_ylim()]
@@ -112,11 +112,11 @@ def _courses(response: Response, record: Mapping[str, Any]) -> Figure:
         by_table, label = response.at(along), _axis_words(axis, row)
         places, dots = (_places(row, values[:, j]) for values in (along, response.held_out.points))
         for i, (what, members) in enumerate(groups.items()):
-            title, factor = _shown(what, members, record)
+            title, how = _shown(what, members, record)
             axes = grid[i, j]
             for whose, k in members:
-                axes.plot(places, factor * by_table[:, k], color=COLOURS[whose], label=words_of(whose))
-                axes.plot(dots, factor * response.held_out.values[:, k], ".", color=COLOURS[whose], alpha=0.35)
+                axes.plot(places, how.of(by_table[:, k]), color=COLOURS[whose], label=words_of(whose))
+                axes.plot(dots, how.of(response.held_out.values[:, k]), ".", color=COLOURS[whose], alpha=0.35)
             if axis.spacing is Spacing.LOGARITHMIC:
                 _logarithmic(axes)
             axes.grid(visible=True, alpha=0.3)
@@ -128,27 +128,24 @@ def _courses(response: Response, record: Mapping[str, Any]) -> Figure:
     return figure
 
 
-def _shown(what: str, members: Sequence[tuple[str, int]], record: Mapping[str, Any]) -> tuple[str, float]:
-    """Return the title of outputs in one picture, with their unit, and its factor on SI."""
-    how = SHOWN[record["outputs"][members[0][1]]["unit"]]
-    return (words_of(what) if how.unit == "-" else f"{words_of(what)} / {how.unit}"), how.factor
+def _shown(what: str, members: Sequence[tuple[str, int]], record: Mapping[str, Any]) -> tuple[str, Shown]:
+    """Return the title of outputs in one picture, with their unit, and that unit."""
+    how = shown_in(record["outputs"][members[0][1]]["unit"], what)
+    return titled(words_of(what), how.unit), how
 
 
 def _axis_words(axis: Axis, row: Mapping[str, Any]) -> str:
-    words = axis.name.replace("_", " ")
-    return words if row["dimension"] is None else f"{words} / {_unit(row)}"
+    return titled(axis.name.replace("_", " "), _unit(row).unit)
 
 
-def _unit(row: Mapping[str, Any]) -> str:
-    return reading_unit(row["lower"], Dimension[row["dimension"]])
+def _unit(row: Mapping[str, Any]) -> Shown:
+    unit = Dimension[row["dimension"]].si_unit if row["dimension"] else "1"
+    return shown_in(unit, row["name"], row["upper"])
 
 
 def _places(row: Mapping[str, Any], values: Array) -> Array:
     """Return values of an input in the unit of its axis."""
-    if row["dimension"] is None:
-        return values
-    unit, dimension = _unit(row), Dimension[row["dimension"]]
-    return np.array([in_unit(float(value), unit, dimension) for value in values])
+    return np.asarray(_unit(row).of(values))
 
 
 def _legend(figure: Any) -> None:

@@ -7,6 +7,8 @@ from typing import Any
 import numpy as np
 
 from gaps.response import ErrorRegion, Response
+from swashfilm.output.data.files import Column, write_columns
+from swashfilm.output.headline import named
 from swashfilm.output.run_folder import write_json
 from swashfilm.runs.table.page import input_text, place_text
 from system.films.parts import floating_parts
@@ -119,15 +121,14 @@ def _failures(record: Mapping[str, Any]) -> Iterator[str]:
 
 def write_points(path: Path, response: Response, summary: Mapping[str, Any]) -> None:
     """Write every point: fitted or held out, inputs with units, outputs as solved and by the table."""
+    sets = {"learnt": response.learnt, "held out": response.held_out}
+    points, solved = (np.vstack([getattr(one, name) for one in sets.values()]) for name in ("points", "values"))
+    kinds = [kind for kind, samples in sets.items() for _ in samples.points]
     inputs = [
-        f"{axis['name']} [{Dimension[axis['dimension']].si_unit if axis['dimension'] else '1'}]"
-        for axis in summary["axes"]
+        (axis["name"], Dimension[axis["dimension"]].si_unit if axis["dimension"] else "1") for axis in summary["axes"]
     ]
-    outputs = [(row["name"], row["unit"]) for row in summary["outputs"]]
-    by_table = [f"{name} by table [{unit}]" for name, unit in outputs]
-    rows = [",".join(["set", *inputs, *(f"{name} [{unit}]" for name, unit in outputs), *by_table])]
-    for kind, samples in (("learnt", response.learnt), ("held out", response.held_out)):
-        predicted = response.at(samples.points)
-        for numbers in np.hstack([samples.points, samples.values, predicted]):
-            rows.append(",".join([kind, *(f"{value:.8g}" for value in numbers)]))
-    path.write_text("\n".join(rows) + "\n", encoding="utf-8")
+    outputs = [(named(row["name"])[0], row["unit"]) for row in summary["outputs"]]
+    by_table = [(f"{name} by table", unit) for name, unit in outputs]
+    numbers = np.hstack([points, solved, response.at(points)]).T
+    columns = zip([*inputs, *outputs, *by_table], numbers, strict=True)
+    write_columns(path, [Column("set", kinds), *(Column(name, values, unit) for (name, unit), values in columns)])

@@ -43,7 +43,7 @@ def run_tolerance_command(options: argparse.Namespace) -> int:
     name = f"tolerance-{case.varied.pump.name}"
     with (
         varied_executor(options, case.varied.seconds(case.pumps)) as executor,
-        run_folder(name, options.output) as folder,
+        run_folder(name, options.output, workbook=options.excel) as folder,
         progress(case.pumps, name) as report,
     ):
         run_tolerance(case, folder, executor, report)

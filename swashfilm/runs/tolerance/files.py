@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 
+from swashfilm.output.data.files import write_netcdf
 from swashfilm.output.tables import write_csv
 from swashfilm.runs.variation.case import VariedCase
 from system.variation.measures import NUMBERS
@@ -59,4 +60,4 @@ def write_data(path: Path, case: VariedCase, found: Tolerance) -> None:
         },
         attrs={"pump": case.pump.name, "units": "SI", "fidelity": case.fidelity.value},
     )
-    data.to_netcdf(path, engine="h5netcdf")
+    write_netcdf(data, path)

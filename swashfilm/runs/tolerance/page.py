@@ -7,8 +7,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from swashfilm.output.answer import Answer, Tile
+from swashfilm.output.data.files import read_netcdf
 from swashfilm.output.page import inlined, read_summary, write_page
-from swashfilm.output.result import read_netcdf
 from swashfilm.runs.tolerance import rows
 from swashfilm.runs.tolerance.files import DATA
 from swashfilm.runs.tolerance.plots import SHOWN, scatter_plot, share_plot

@@ -63,6 +63,6 @@ def _bars(axes: Axes, rows: list[Mapping[str, Any]]) -> None:
     axes.barh(places, first, height=0.4, color=COLOUR, label="alone")
     axes.set_yticks(places, ["\n".join(one["names"]) for one in rows], fontsize=8)
     axes.invert_yaxis()
-    axes.set_xlabel("share of the variance / %")
+    axes.set_xlabel("share of the variance [%]")
     axes.grid(visible=True, axis="x", alpha=0.3)
     axes.legend(fontsize=8, loc="lower right")

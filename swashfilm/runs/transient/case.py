@@ -8,12 +8,13 @@ from typing import Annotated
 import numpy as np
 
 from swashfilm.case.gap.pump import CasePump, own_rows, pump_tables_schema, read_case_pump
+from swashfilm.case.settings import read_set
 from system.inputs.faults import InputFaults
 from system.inputs.sections.fields import Points, Positive, Text
 from system.inputs.sections.json_schema import Schema, quantity_schema, section_schema, tables_schema
 from system.inputs.sections.reader import Reading, read_section
 from system.inputs.sections.writer import section_rows
-from system.inputs.toml_table import Table, fault_lines, read_toml
+from system.inputs.toml_table import Table, fault_lines
 from system.inputs.units import TURN, Dimension, QuantityError, format_quantity, parse_quantity
 from system.multibody.kinematics import swash_angle
 from system.multibody.transient.solver import ControlPressure, TransientCase, Transition
@@ -51,9 +52,9 @@ class StatedTransient:
     asked: TransientCase
 
 
-def load_transient(path: Path) -> StatedTransient:
-    """Return the transient of a file; raise InputFaults with every fault."""
-    text, tables = read_toml(path)
+def load_transient(path: Path, values: Mapping[str, object] | None = None) -> StatedTransient:
+    """Return the transient of a file with other `values` of dotted keys; raise InputFaults with every fault."""
+    text, tables = read_set(path, values or {})
     top = Table("", tables, [])
     if top.get("format") != FORMAT:
         top.fault("format", repr(tables.get("format")), f"format = {FORMAT}")

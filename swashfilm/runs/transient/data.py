@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from reynolds.numerics.arrays import Array
+from swashfilm.output.data.files import columns_of, write_columns
 from swashfilm.runs.pump.summary import effect_lists
 from system.effects.switched import switched_on
 from system.multibody.transient import kernels as kernel
@@ -69,13 +70,8 @@ def transient_dataset(found: Transient, name: str) -> xarray.Dataset:
 
 
 def write_course(folder: Path, data: xarray.Dataset) -> None:
-    """Write course.csv, units in the head, angles in degrees."""
-    frame = data.drop_dims("chamber").to_dataframe().reset_index()
-    units = {name: data[name].attrs["units"] for name in frame.columns}
-    for name in [name for name, unit in units.items() if unit.startswith("rad")]:
-        frame[name], units[name] = np.degrees(frame[name]), units[name].replace("rad", "deg")
-    frame.columns = [f"{name} [{units[name]}]" for name in frame.columns]
-    frame.to_csv(folder / COURSE, index=False, float_format="%.10g")
+    """Write course.csv, units in the head."""
+    write_columns(folder / COURSE, columns_of(data, "time"))
 
 
 def transient_summary(found: Transient, name: str, data: xarray.Dataset) -> dict[str, Any]:

@@ -7,10 +7,11 @@ from typing import Any
 import numpy as np
 
 from swashfilm.output.answer import Answer
+from swashfilm.output.data.files import read_netcdf
 from swashfilm.output.page import inlined, read_summary, write_page
-from swashfilm.output.result import read_netcdf
 from swashfilm.runs.transient import plots as transient_plots
 from swashfilm.runs.transient.answer import transient_tiles, transient_words
+from system.inputs.shown import shown_in
 from system.inputs.units import LPM
 
 FILES = ("summary.json", "resolved.toml", "results.nc")
@@ -53,8 +54,8 @@ def transient_rows(summary: Mapping[str, Any]) -> list[tuple[str, str]]:
         ("displacement ratio, end", f"{summary['displacement_ratio_end']:.4f}"),
         ("time from 10 to 90 % of the way", "no motion" if travel is None else f"{travel * 1e3:.1f} ms"),
         ("largest speed of the swash angle", f"{np.degrees(angle['fastest_rad_per_s']):.1f} deg/s"),
-        ("largest chamber pressure (gauge)", f"{summary['chamber_pressure_largest_Pa'] * 1e-6:.2f} MPa"),
-        ("largest actuator pressure (gauge)", f"{summary['actuator_pressure_largest_Pa'] * 1e-6:.2f} MPa"),
+        ("largest chamber pressure (gauge)", shown_in("Pa").text(summary["chamber_pressure_largest_Pa"])),
+        ("largest actuator pressure (gauge)", shown_in("Pa").text(summary["actuator_pressure_largest_Pa"])),
         ("impacts on a stop", f"{stops['strikes']}, the largest {stops['largest_impulse_Nms']:.3g} N m s"),
         ("natural frequency of the plate on its oil", f"{summary['plate_frequency_Hz']:.0f} Hz"),
     ]

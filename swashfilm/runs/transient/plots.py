@@ -8,6 +8,7 @@ import numpy as np
 
 from reynolds.numerics.arrays import Array
 from swashfilm.output.figures import figure_of, legend_below, legend_beside
+from system.inputs.shown import shown_in, title_in
 from system.inputs.units import LPM
 
 if TYPE_CHECKING:
@@ -39,20 +40,20 @@ def over_a_pitch(data: xarray.Dataset, values: Array) -> Array:
 
 
 def plate_plot(data: xarray.Dataset) -> Figure:
-    """Draw swash angle (deg) and displacement ratio, control and actuator pressure (MPa), over time (ms)."""
+    """Draw swash angle (deg) and displacement ratio, control and actuator pressure, over time (ms)."""
     figure = figure_of(10.0, 3.4)
     left, right = figure.subplots(1, 2)
     time = data["time"].values * 1e3
     left.plot(time, np.degrees(data["swash_angle"].values), color="#1c2328")
-    left.set(ylabel="swash angle / deg", title="plate")
-    right.plot(time, data["actuator_pressure"].values * 1e-6, color="#b8862b", alpha=PALE)
+    left.set(ylabel="swash angle [deg]", title="plate")
+    right.plot(time, shown_in("Pa").of(data["actuator_pressure"].values), color="#b8862b", alpha=PALE)
     mean = over_a_pitch(data, data["actuator_pressure"].values)
-    right.plot(time, mean * 1e-6, color="#b8862b", label="actuator")
-    right.plot(time, data["control_pressure"].values * 1e-6, color="#1c2328", label="control")
-    right.set(ylabel="pressure, gauge / MPa", title="actuator")
+    right.plot(time, shown_in("Pa").of(mean), color="#b8862b", label="actuator")
+    right.plot(time, shown_in("Pa").of(data["control_pressure"].values), color="#1c2328", label="control")
+    right.set(ylabel=title_in("pressure, gauge", "Pa"), title="actuator")
     legend_below(right)
     for axes in (left, right):
-        axes.set(xlabel="time / ms", xlim=(time[0], time[-1]))
+        axes.set(xlabel="time [ms]", xlim=(time[0], time[-1]))
     return figure
 
 
@@ -66,7 +67,7 @@ def moment_plot(data: xarray.Dataset) -> Figure:
         if np.any(values):
             (line,) = axes.plot(time, values, alpha=PALE)
             axes.plot(time, over_a_pitch(data, values), color=line.get_color(), label=label)
-    axes.set(xlabel="time / ms", ylabel="moment on the plate / N m", xlim=(time[0], time[-1]))
+    axes.set(xlabel="time [ms]", ylabel="moment on the plate [N m]", xlim=(time[0], time[-1]))
     legend_beside(axes)
     return figure
 
@@ -84,21 +85,21 @@ def pump_plot(data: xarray.Dataset) -> Figure:
         values = scale * data[name].values
         axes.plot(time[1:], values[1:], color=colour, alpha=PALE)
         axes.plot(time, over_a_pitch(data, values), color=colour, label=label)
-    left.set(ylabel="flow at its port / L/min", title="ports")
+    left.set(ylabel="flow at its port [L/min]", title="ports")
     legend_below(left)
-    right.set(ylabel="torque / N m", title="shaft")
+    right.set(ylabel="torque [N m]", title="shaft")
     for axes in (left, right):
-        axes.set(xlabel="time / ms", xlim=(time[0], time[-1]))
+        axes.set(xlabel="time [ms]", xlim=(time[0], time[-1]))
     return figure
 
 
 def chamber_plot(data: xarray.Dataset) -> Figure:
-    """Draw the pressure of chamber 1 and the range of all chambers (MPa) over time (ms)."""
+    """Draw the pressure of chamber 1 and the range of all chambers over time (ms)."""
     figure = figure_of(10.0, 3.0)
     axes = figure.subplots()
-    time, pressure = data["time"].values * 1e3, data["chamber_pressure"].values * 1e-6
+    time, pressure = data["time"].values * 1e3, shown_in("Pa").of(data["chamber_pressure"].values)
     axes.fill_between(time, pressure.min(axis=1), pressure.max(axis=1), color="#b8862b", alpha=PALE, label="all")
     axes.plot(time, pressure[:, 0], color="#1c2328", linewidth=0.7, label="chamber 1")
-    axes.set(xlabel="time / ms", ylabel="pressure, gauge / MPa", xlim=(time[0], time[-1]))
+    axes.set(xlabel="time [ms]", ylabel=title_in("pressure, gauge", "Pa"), xlim=(time[0], time[-1]))
     legend_beside(axes)
     return figure

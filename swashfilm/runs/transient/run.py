@@ -2,6 +2,7 @@
 
 from pathlib import Path
 
+from swashfilm.output.data.files import write_netcdf
 from swashfilm.output.run_folder import write_json
 from swashfilm.runs.transient.case import StatedTransient
 from swashfilm.runs.transient.data import transient_dataset, transient_summary, write_course
@@ -22,7 +23,7 @@ def solve_transient(stated: StatedTransient) -> TransientRun:
     def write(folder: Path) -> tuple[str, ...]:
         (folder / "input.toml").write_text(stated.text, encoding="utf-8")
         (folder / "resolved.toml").write_text(stated.resolved, encoding="utf-8")
-        data.to_netcdf(folder / "results.nc", engine="h5netcdf")
+        write_netcdf(data, folder / "results.nc")
         write_course(folder, data)
         write_json(folder / "summary.json", summary)
         write_transient_page(folder)

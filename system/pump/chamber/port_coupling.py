@@ -15,6 +15,7 @@ import numpy as np
 from reynolds.errors import NotConverged
 from reynolds.numerics.anderson import History
 from reynolds.numerics.arrays import Array
+from system.inputs.shown import pressure_text
 from system.inputs.units import TURN
 from system.pump.chamber.cycle import TOLERANCE, ChamberCycle, bubbly_volume, flow_energy, solve_cycle
 from system.pump.chamber.layout import CAVITY_PRESSURE
@@ -216,8 +217,8 @@ class _Side:
         if pressure.min() < CAVITY_PRESSURE:
             name = ("delivery", "suction")[self.index]
             raise NotConverged(
-                f"{name} port: its pressure falls to {pressure.min() * 1e-6:.3g} MPa, expected liquid oil, above "
-                f"{CAVITY_PRESSURE * 1e-6:.3g} MPa; give a larger volume, orifice or mean pressure"
+                f"{name} port: its pressure falls to {pressure_text(pressure.min())}, expected liquid oil, above "
+                f"{pressure_text(CAVITY_PRESSURE)}; give a larger volume, orifice or mean pressure"
             )
 
     def _through(self, pressure: float, solved: _Solved) -> Array:

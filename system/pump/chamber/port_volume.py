@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 
 from reynolds.errors import NotConverged
 from reynolds.numerics.arrays import Array
+from system.inputs.shown import pressure_text
 from system.inputs.units import TURN
 from system.pump.chamber.cycle import flow_energy
 from system.pump.chamber.problem import ChamberProblem
@@ -146,7 +147,7 @@ def _area_for(line: OrificeLine, pressure: Array, supply: Supply, oil: ChamberPr
         if abs(ratio - 1.0) < AREA_TOLERANCE:
             return area
     raise NotConverged(
-        f"orifice of a line: {needed * 6e4:.4g} L/min to pass at {np.mean(drop) * 1e-6:.4g} MPa over the tank, "
+        f"orifice of a line: {needed * 6e4:.4g} L/min to pass at {pressure_text(float(np.mean(drop)))} over the tank, "
         "expected both of one sign; state the orifice's area, another tank pressure, or a held pressure"
     )
 

@@ -113,7 +113,8 @@ def test_an_effect_left_out_is_named_and_applied(tmp_path: Path) -> None:
     (size,) = claim["parameters"]
     assert abs(size["value"] - 1.0) < 4.0 * size["sigma"]
     _reads_as_recorded(pump)
-    head, described = pump.read_text("utf-8"), load_pump(pump)
+    (schema, _, head), described = pump.read_text("utf-8").partition("\n"), load_pump(pump)
+    assert schema == "#:schema ./pump.schema.json"
     assert head.startswith("# ref90 as fitted to the recording 'made', 24 points, on 20")
     assert f"churning, probability {claim['probability']:.2f}: " in head
     assert "--fidelity fixed has churning as closed-form laws" in head

@@ -20,7 +20,7 @@ from diagnosis.report.json_file import diagnosis_record
 from diagnosis.report.tables import pull_sums
 from diagnosis.verdict.diagnosis import ClaimedEffect
 from swashfilm.__main__ import main
-from swashfilm.runs.diagnose.files import read_rows, write_diagnosis_files
+from swashfilm.runs.diagnose.files import head_of, read_rows, write_diagnosis_files
 from swashfilm.runs.diagnose.page import AXES, strongest_courses, write_diagnose_page
 from swashfilm.runs.diagnose.plots import effect_courses, residual_maps
 from swashfilm.runs.diagnose.rows import claim_rows, moved_words, place_rows, tiles
@@ -188,7 +188,7 @@ def test_what_is_added_is_drawn_over_an_axis_that_is_there(study: Study, named: 
     assert courses
     assert {axis for _, axis in courses} == {"speed [rpm]"}
     assert effect_courses(rows, courses).axes
-    assert strongest_courses([row | dict.fromkeys(AXES, "") for row in rows]) == []
+    assert strongest_courses([row | {head_of(row, axis): "" for axis in AXES} for row in rows]) == []
 
 
 def test_where_is_told_by_what_shows_there(named: Diagnosis) -> None:
@@ -270,7 +270,7 @@ def test_the_terminal_has_few_short_lines(named: Diagnosis) -> None:
 def test_maps_of_one_speed_are_drawn_over_temperature(study: Study, named: Diagnosis, tmp_path: Path) -> None:
     write_diagnosis_files(tmp_path, study, named, its_answer(named))
     rows = read_rows(tmp_path / "residuals.csv")
-    assert residual_maps(rows).axes[-2].get_xlabel() == "speed / (r/min)"
+    assert residual_maps(rows).axes[-2].get_xlabel() == "speed [r/min]"
     for at, row in enumerate(rows):
         row |= {"speed [rpm]": "", "T_case [degC]": str(30 + at)}
-    assert residual_maps(rows).axes[-2].get_xlabel() == "case temperature / degC"
+    assert residual_maps(rows).axes[-2].get_xlabel() == "case temperature [degC]"

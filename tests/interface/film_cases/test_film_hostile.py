@@ -199,4 +199,4 @@ def test_the_table_of_fields_has_a_unit_in_every_head(tmp_path):
     (tmp_path / "case.toml").write_text(CASE, encoding="utf-8")
     assert main(["film", str(tmp_path / "case.toml"), "-o", str(tmp_path / "run"), "--csv"]) == 0
     heads = (tmp_path / "run" / "fields.csv").read_text("utf-8").splitlines()[0].split(",")
-    assert {"x / m", "y / m", "film_pressure / Pa", "film_thickness / m", "film_fraction"} == set(heads)
+    assert {"x [mm]", "y [mm]", "film_pressure [MPa]", "film_thickness [um]", "film_fraction [1]"} == set(heads)

@@ -83,9 +83,9 @@ def test_a_study_leaves_tables_plots_and_a_page(capsys):
     with open("run/study.csv", encoding="utf-8") as file:
         rows = list(csv.DictReader(file))
     assert len(rows) == 6
-    loads = {(row["film.velocity[0] / (m/s)"], row["film.thickness"]): float(row["load / N"]) for row in rows}
-    assert loads["4.0", "1e-5*(2 - x/0.01)"] == pytest.approx(4.0 * loads["1.0", "1e-5*(2 - x/0.01)"])
-    assert loads["1.0", "1e-5*(2 - x/0.01)"] == pytest.approx(4.0 * loads["1.0", "2e-5*(2 - x/0.01)"])
+    loads = {(row["film.velocity[0] [m/s]"], row["film.thickness"]): float(row["load [N]"]) for row in rows}
+    assert loads["4", "1e-5*(2 - x/0.01)"] == pytest.approx(4.0 * loads["1", "1e-5*(2 - x/0.01)"])
+    assert loads["1", "1e-5*(2 - x/0.01)"] == pytest.approx(4.0 * loads["1", "2e-5*(2 - x/0.01)"])
     with xarray.open_dataset("run/study.nc", engine="h5netcdf") as data:
         assert data["load_N"].dims == ("film.velocity[0]", "film.thickness")
         assert data["load_N"].attrs["units"] == "N"

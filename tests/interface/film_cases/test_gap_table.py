@@ -85,8 +85,8 @@ def test_a_piston_in_the_middle_is_learnt_as_the_power_law_that_it_is(capsys):
     assert any(one.startswith("piston.guide_length") for one in summary["assumptions"])
     with Path("out/points.csv").open(encoding="utf-8") as file:
         head, *rows = csv.reader(file)
-    assert head[1:3] == ["film.chamber_pressure [Pa]", "pump.piston.radial_clearance [m]"]
-    assert "leakage_flow_m3_per_s by table [m3/s]" in head
+    assert head[1:3] == ["film.chamber_pressure [MPa]", "pump.piston.radial_clearance [um]"]
+    assert "leakage flow by table [L/min]" in head
     assert len(rows) == 11
     page = Path("out/report.html")
     page.unlink()

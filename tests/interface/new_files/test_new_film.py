@@ -6,7 +6,7 @@ from jsonschema import Draft202012Validator
 import swashfilm as sf
 from swashfilm.__main__ import main
 from swashfilm.cli.new.film import film_kinds
-from swashfilm.cli.schema import schema_of
+from swashfilm.console.schemas import schema_of
 from system.inputs.toml_table import read_toml
 
 KINDS = list(film_kinds())

@@ -9,7 +9,7 @@ from jsonschema import Draft202012Validator
 
 import swashfilm as sf
 from swashfilm.__main__ import main
-from swashfilm.cli.schema import schema_of
+from swashfilm.console.schemas import schema_of
 from system import check_pump, load_pump
 from system.inputs.toml_table import read_toml
 from system.pump_file.file import load_known_pump

@@ -14,7 +14,7 @@ from diagnosis.recording.guess.channels import guessed_columns
 from diagnosis.recording.tables.table import TableColumns
 from diagnosis.study.acceptance import checked_recording
 from swashfilm.__main__ import main
-from swashfilm.cli.schema import schema_of
+from swashfilm.console.schemas import schema_of
 from system.inputs.channels import ChannelName
 from system.inputs.toml_table import read_toml
 from system.pump_file.file import load_known_pump

@@ -149,7 +149,7 @@ def test_a_film_leaves_a_run_folder_with_everything_in_it(capsys):
     assert links
     assert all(link.startswith("#s") or (folder / link).exists() for link in links)
     out = capsys.readouterr()
-    assert re.search(r"load +5 N", out.out)
+    assert re.search(r"load +5.000 N", out.out)
     assert "results in runs/pad-1" in out.out
     assert re.search(r"film pad: 3/3 done \(.* s\)", out.err)
 
@@ -291,7 +291,7 @@ def test_run_writes_a_lumped_point(capsys):
     assert 'pressure = "20 MPa"' in Path("point/resolved.toml").read_text("utf-8")
     assert Path("point/input.toml").read_text("utf-8").startswith("# command line: operating.pressure = 20MPa\n")
     assert summary_of(Path("point"))["kind"] == "pump"
-    assert re.search(r"delivery pressure.* 20.000 MPa", capsys.readouterr().out)
+    assert re.search(r"delivery pressure.* 20.00 MPa", capsys.readouterr().out)
     assert main(["report", "point"]) == 0
 
 

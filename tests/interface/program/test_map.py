@@ -82,7 +82,7 @@ def test_a_map_leaves_its_files(run):
     assert len(list((run / "points").glob("*.json"))) == 22
     rows = list(csv.DictReader((run / "map.csv").open()))
     assert len(rows) == 18
-    assert {"shaft speed [rpm]", "delivery pressure [MPa]", "shaft_torque [N m]", "paper.overall [1]"} <= set(rows[0])
+    assert {"shaft speed [r/min]", "delivery pressure [MPa]", "shaft_torque [N m]", "paper.overall [1]"} <= set(rows[0])
     shares = list(csv.reader((run / "shares.csv").open()))
     np.testing.assert_allclose([sum(map(float, row[6:])) for row in shares[1:]], 100.0, atol=0.1)
     page = (run / "report.html").read_text()
@@ -266,8 +266,8 @@ def test_duty_and_compare_leave_their_pages(run, tmp_path, capsys):
     summary = json.loads((tmp_path / "duty" / "summary.json").read_text())
     assert summary["duration_s"] == 20.0
     course = list(csv.DictReader((tmp_path / "duty" / "course.csv").open()))
-    step = [float(row["delivery pressure [Pa]"]) for row in course if float(row["time [s]"]) == 10.0]
-    assert step == pytest.approx([28e6, 15e6])
+    step = [float(row["delivery pressure [MPa]"]) for row in course if float(row["time [s]"]) == 10.0]
+    assert step == pytest.approx([28.0, 15.0])
     assert summary["energy_J"]["loss"]["error"] < 0.05 * summary["energy_J"]["loss"]["value"]
     assert main(["report", str(tmp_path / "duty")]) == 0
     other = tmp_path / "worn.toml"

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from swashfilm.output.scenes.picture3d import THICKNESS, Frame, Solid, draw
+from swashfilm.output.scenes.picture3d import Frame, Solid, draw, thickness_field
 
 
 @pytest.fixture
@@ -33,7 +33,7 @@ def test_a_picture_is_drawn_or_missed_for_a_reason_with_its_remedy(film, tmp_pat
         tmp_path / "one.png": [Frame([film])], tmp_path / "two.png": [Frame([film, film])],
         tmp_path / "turn.webp": turn,
     }  # fmt: skip
-    pictures = draw(wanted, THICKNESS)
+    pictures = draw(wanted, thickness_field())
     if not pictures.paths:
         assert "libegl1" in pictures.reason
     else:

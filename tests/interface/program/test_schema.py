@@ -11,7 +11,7 @@ import pytest
 from jsonschema import Draft202012Validator
 
 from swashfilm.cli.app import run_command
-from swashfilm.cli.schema import SCHEMAS, schema_of
+from swashfilm.console.schemas import SCHEMAS, schema_of
 from system import load_pump, resolved_toml
 from system.inputs.sections.fields import fields_of
 

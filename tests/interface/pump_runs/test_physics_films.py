@@ -14,9 +14,9 @@ from swashfilm.__main__ import main
 from swashfilm.runs.diagnose.fields import FIELDS_FILE, film_pictures, write_film_fields
 from swashfilm.runs.diagnose.files import film_rows
 from swashfilm.runs.pump.data import PICTURED_TURN
-from swashfilm.runs.pump.oil_fields import oil_state
 from system import SMOOTH, EffectId, films_point, load_pump, lumped_point, operating_point, resolved_toml
 from system.description.effects import PhysicsSection
+from system.films.oil_state import oil_state
 from system.inputs.sections.reader import section_of
 from system.maps.point import LumpedSolver, MapWork
 from system.points.film_effects import SOLVED

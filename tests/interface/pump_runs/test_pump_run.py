@@ -68,7 +68,7 @@ def test_every_headline_number_carries_its_unit(lumped):
 def test_tables_carry_units_and_agree_with_the_summary(lumped):
     revolution = pandas.read_csv(lumped / "revolution.csv")
     assert "shaft_angle [deg]" in revolution.columns
-    assert "chamber_pressure [Pa]" in revolution.columns
+    assert "chamber_pressure [MPa]" in revolution.columns
     assert len(revolution) == 360
     pairs = pandas.read_csv(lumped / "pairs.csv").set_index("pair")
     for name, loss in summary(lumped)["pair_loss"].items():
@@ -90,11 +90,11 @@ def test_a_delivery_line_ripples(lumped, tmp_path):
     assert found["operating_point"]["delivery_pressure_Pa"] == pytest.approx(20e6, rel=1e-5)
     ripple = found["ripple"]
     revolution = pandas.read_csv(tmp_path / "run" / "revolution.csv")
-    swing = np.ptp(revolution["delivery_pressure [Pa]"])
+    swing = 1e6 * np.ptp(revolution["delivery_pressure [MPa]"])
     assert ripple["delivery_pressure_peak_to_peak_Pa"] == pytest.approx(swing, rel=1e-6)
     assert 0.0 < ripple["delivery_pressure_order_z_Pa"] < swing
     assert 1e-6 < ripple["delivery_orifice_area_m2"] < 1e-4
-    assert np.mean(revolution["delivery_line_flow [m3/s]"]) == pytest.approx(
+    assert np.mean(revolution["delivery_line_flow [L/min]"]) / 6e4 == pytest.approx(
         found["flow"]["delivery_m3_per_s"], rel=1e-3
     )
     assert np.mean(revolution["shaft_torque [N m]"]) == pytest.approx(found["torque"]["shaft_Nm"], rel=1e-3)

@@ -77,7 +77,7 @@ def test_a_table_is_built_told_and_run(stand_in, tmp_path, capsys):
     assert max(row["held_out_largest"] for row in record["numbers"]) < 0.03
     assert "Error of runs by the table" in (folder / "report.html").read_text("utf-8")
     head, *rows = (folder / "points.csv").read_text().splitlines()
-    assert head.startswith("set,shaft_speed [rad/s],delivery_pressure [Pa],displacement_ratio [1],viscosity [Pa s]")
+    assert head.startswith("set,shaft_speed [r/min],delivery_pressure [MPa],displacement_ratio [1],viscosity [mPa s]")
     assert len(rows) == 38
 
     run = tmp_path / "run"

@@ -48,7 +48,7 @@ def test_folder_holds_what_the_docs_say(folder):
     names = {path.name for path in folder.iterdir()}
     assert names == {"input.toml", "resolved.toml", "course.csv", "results.nc", "summary.json", "report.html"}
     course = pandas.read_csv(folder / "course.csv")
-    assert all(re.search(r" \[(s|deg|deg/s|1|Pa|N m|m3/s)\]$", name) for name in course.columns)
+    assert all(re.search(r" \[(s|deg|deg/s|1|MPa|N m|L/min)\]$", name) for name in course.columns)
     assert course["time [s]"].iloc[-1] == pytest.approx(20e-3, abs=1e-4)
     assert course["swash_angle [deg]"].iloc[-1] < course["swash_angle [deg]"].iloc[0]
     found = json.loads((folder / "summary.json").read_text("utf-8"))
@@ -84,7 +84,7 @@ def test_effects_of_the_pump_act_and_are_named(tmp_path):
     for name, text in (("plain", SHORT + warm), ("affected", SHORT + effects + warm)):
         (tmp_path / f"{name}.toml").write_text(text, "utf-8")
         assert run_command(["transient", str(tmp_path / f"{name}.toml"), "-o", str(tmp_path / name)]) == 0
-        drained[name] = pandas.read_csv(tmp_path / name / "course.csv")["drain_flow [m3/s]"].iloc[1:100].mean()
+        drained[name] = pandas.read_csv(tmp_path / name / "course.csv")["drain_flow [L/min]"].iloc[1:100].mean()
     found = json.loads((tmp_path / "affected" / "summary.json").read_text("utf-8"))
     assert found["physics"]["closed_laws"] == ["thermal_clearance", "churning"]
     assert "thermal clearance, churning" in (tmp_path / "affected" / "report.html").read_text("utf-8")

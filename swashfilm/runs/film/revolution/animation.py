@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from swashfilm.output.field_maps import draw_map, paint
-from swashfilm.runs.film.revolution.data import SHOWN
-from swashfilm.runs.film.revolution.plots import FILM, INK, degrees, shown, span
+from swashfilm.runs.film.revolution.plots import FILM, INK, degrees, shown, span, unit_of
+from system.inputs.shown import titled
 from system.work.progress import Report
 
 if TYPE_CHECKING:
@@ -55,15 +55,15 @@ def _first(figure: Any, data: xarray.Dataset) -> tuple[dict[str, Any], Any, Any]
     mosaic = figure.subplot_mosaic([list(FIELDS), ["course", "course"]], height_ratios=(3, 1))
     painted = {}
     for name, (title, colours) in FIELDS.items():
-        how = SHOWN[data[name].attrs["units"]]
+        how = unit_of(data, name)
         whole, axes = how.of(data[name].values), mosaic[name]
         limits = float(whole.min()), float(whole.max())
-        painted[name] = draw_map(axes, *_film(data, 0, name), f"{title} / {how.unit}", colours=colours, limits=limits)
+        painted[name] = draw_map(axes, *_film(data, 0, name), titled(title, how.unit), colours=colours, limits=limits)
         axes.set(xlim=_ends(data["x"].values), ylim=_ends(data["y"].values))
     course = mosaic["course"]
     for name, colour in (("film_thickness_min", INK), ("film_thickness_mean", FILM)):
         course.plot(degrees(data), shown(data, name), color=colour)
-    course.set(xlabel="shaft angle / deg", ylabel="film / um", ylim=(0.0, None), xlim=(0.0, span(data)))
+    course.set(xlabel="shaft angle [deg]", ylabel="film [um]", ylim=(0.0, None), xlim=(0.0, span(data)))
     course.set_title("0 deg", fontsize=9)
     course.legend(["least", "mean"], fontsize=7, loc="upper right")
     return painted, course.axvline(0.0, color="#b33a3a"), course
@@ -72,7 +72,7 @@ def _first(figure: Any, data: xarray.Dataset) -> tuple[dict[str, Any], Any, Any]
 def _film(data: xarray.Dataset, k: int, name: str) -> tuple[tuple[np.ndarray, np.ndarray], np.ndarray, np.ndarray]:
     """Return vertices (mm), cells and values, in the unit of the picture, of the k-th kept film."""
     place = data["x"].values[k] * 1e3, data["y"].values[k] * 1e3
-    return place, data["cells"].values, SHOWN[data[name].attrs["units"]].of(data[name].values[k])
+    return place, data["cells"].values, unit_of(data, name).of(data[name].values[k])
 
 
 def _ends(places: np.ndarray) -> tuple[float, float]:

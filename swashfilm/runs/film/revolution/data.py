@@ -14,8 +14,8 @@ from gaps.revolution.course import GapInstant
 from reynolds.equation.rough_overlap import vertex_thickness
 from reynolds.numerics.arrays import Array
 from reynolds.solve.export import write_pvd, write_vtu
+from swashfilm.output.data.files import Column, columns_of, write_columns
 from swashfilm.output.gap_names import FIELDS, vtu_name
-from swashfilm.output.tables import write_csv
 from swashfilm.runs.film.revolution.solve import RevolutionStudy, friction_power, tilt
 from system.description.gap import Gap
 from system.films.places import place_of
@@ -44,26 +44,6 @@ PISTON_END = ("eccentricity_x_end", "eccentricity_y_end")
 """Eccentricity of the piston's axis at the inner end of its film, m."""
 
 
-@dataclass(frozen=True)
-class Shown:
-    """Unit of an SI number in tables and pictures: (value - zero) x factor."""
-
-    unit: str
-    factor: float = 1.0
-    zero: float = 0.0
-
-    def of(self, values: Array) -> Array:
-        """Return SI values in the unit."""
-        return (values - self.zero) * self.factor
-
-
-SHOWN = {
-    "m": Shown("um", 1e6), "rad": Shown("mrad", 1e3), "m3/s": Shown("L/min", 6e4), "W": Shown("W"),
-    "N": Shown("N"), "Pa": Shown("MPa", 1e-6), "K": Shown("degC", 1.0, 273.15), "1": Shown("-"),
-}  # fmt: skip
-"""Units in tables and pictures by SI unit."""
-SHOWN_PLACE = {"m": Shown("mm", 1e3), "rad": Shown("deg", 180.0 / np.pi)}
-"""The same of places in a film."""
 Instant = GapInstant[Any]
 
 
@@ -146,12 +126,6 @@ def thinnest(study: RevolutionStudy) -> tuple[Array, Array]:
     return np.arctan2(y, x) % (2.0 * np.pi), np.hypot(x, y)
 
 
-def how_shown(data: xarray.Dataset, name: str) -> Shown:
-    """Return the customary unit of a series."""
-    places = PLACES[Gap(data.attrs["gap"])]
-    return (SHOWN_PLACE if name in places else SHOWN)[data[name].attrs["units"]]
-
-
 def piston_end(study: RevolutionStudy) -> Array:
     """Return the eccentricity (2, n) m of the piston's axis at the film's inner end: of piston or guide."""
     guide = study.parts.piston.guide_length
@@ -189,27 +163,23 @@ def film_temperatures(study: RevolutionStudy) -> Array | None:
 
 def write_series(path: Path, data: xarray.Dataset) -> None:
     """Write a CSV of the series: one line per shaft angle, units in the heads; `active` names the limits."""
-    names = [str(name) for name in data.data_vars if data[name].dims == ("shaft_angle",)]
-    numbers = [name for name in names if not name.startswith("active_")]
-    shown = {name: how_shown(data, name) for name in numbers}
-    columns = [np.degrees(data["shaft_angle"].values), *(how.of(data[name].values) for name, how in shown.items())]
-    active = {kind.value: data[f"active_{kind.value}"].values for kind in Active}
-    rows = [
-        [*(f"{value:.8g}" for value in numbers_here), "+".join(name for name, limits in active.items() if limits[k])]
-        for k, numbers_here in enumerate(zip(*columns, strict=True))
-    ]
-    write_csv(path, ["shaft_angle [deg]", *(f"{name} [{how.unit}]" for name, how in shown.items()), "active"], rows)
+    columns = columns_of(data, "shaft_angle")
+    limits = {kind.value: data[f"active_{kind.value}"].values for kind in Active}
+    active = ["+".join(name for name, on in limits.items() if on[k]) for k in range(data.sizes["shaft_angle"])]
+    numbers = [column for column in columns if not column.name.startswith("active_")]
+    write_columns(path, [*numbers, Column("active", active)])
 
 
 def write_convergence(path: Path, study: RevolutionStudy) -> None:
     """Write a CSV of the turns: change of position in each, and the multipliers of the last one."""
     closing = study.revolution.closing
     sizes = sorted(np.abs(closing.multipliers), reverse=True)
-    rows = [
-        [turn, f"{change * 1e6:.6g}", *(f"{size:.6g}" if turn == closing.turns else "" for size in sizes)]
-        for turn, change in enumerate(closing.changes, start=1)
+    turns = np.arange(1, closing.turns + 1)
+    last = [
+        Column(f"multiplier_{k}", np.where(turns == closing.turns, size, np.nan), "1")
+        for k, size in enumerate(sizes, 1)
     ]
-    write_csv(path, ["turn", "change [um]", *(f"multiplier_{k + 1} [-]" for k in range(len(sizes)))], rows)
+    write_columns(path, [Column("turn", turns), Column("change", closing.changes, "m"), *last])
 
 
 def write_revolution_fields(folder: Path, study: RevolutionStudy) -> None:

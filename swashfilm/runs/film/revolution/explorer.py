@@ -8,8 +8,8 @@ import numpy as np
 
 from swashfilm.output.touch.explorer import Explorer
 from swashfilm.output.touch.relief import ReliefField, relief
-from swashfilm.runs.film.revolution.data import SHOWN
-from swashfilm.runs.film.revolution.plots import MAPPED
+from swashfilm.runs.film.revolution.plots import MAPPED, unit_of
+from system.inputs.shown import titled
 
 if TYPE_CHECKING:
     import xarray
@@ -20,8 +20,8 @@ def revolution_explorer(data: xarray.Dataset) -> Explorer:
     fields = []
     for name, (words, colours) in MAPPED.items():
         if name in data:
-            how = SHOWN[data[name].attrs["units"]]
-            fields.append(ReliefField(f"{words} / {how.unit}", how.of(data[name].values), colours))
+            how = unit_of(data, name)
+            fields.append(ReliefField(titled(words, how.unit), how.of(data[name].values), colours))
     angles = [f"{angle:.0f} deg" for angle in np.degrees(data["film_angle"].values)]
     place = data["x"].values * 1e3, data["y"].values * 1e3
     return relief(place, data["cells"].values, fields, angles)

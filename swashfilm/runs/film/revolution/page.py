@@ -6,10 +6,10 @@ from typing import Any
 
 from swashfilm.case.gap.physics import PHYSICS_HEAD, effect_rows
 from swashfilm.output.answer import Answer
+from swashfilm.output.data.files import read_netcdf
 from swashfilm.output.gap_names import TITLES
 from swashfilm.output.page import inlined, read_summary, write_page
 from swashfilm.output.refinement import refinement_head, refinement_rows
-from swashfilm.output.result import read_netcdf
 from swashfilm.output.tables import read_csv
 from swashfilm.runs.film.page import summary_rows
 from swashfilm.runs.film.revolution.answer import revolution_tiles, revolution_words

@@ -9,8 +9,9 @@ import numpy as np
 from gaps.films.reports import Active
 from swashfilm.output.field_maps import draw_map
 from swashfilm.output.figures import figure_of, legend_below, legend_beside
-from swashfilm.runs.film.revolution.data import PISTON_END, PLACES, POSITIONS, SHOWN, how_shown
+from swashfilm.runs.film.revolution.data import PISTON_END, PLACES, POSITIONS
 from system.description.gap import Gap
+from system.inputs.shown import Shown, shown_in, title_in, titled
 
 if TYPE_CHECKING:
     import xarray
@@ -25,8 +26,8 @@ MAPPED = {
     TEMPERATURE: ("temperature", "inferno"),
 }  # fmt: skip
 """Fields of the maps, their titles and colours."""
-LEAST_SHOWN = {"contact_load": 1.0, "cavitated_area_fraction": 0.01, "film_pressure_max": 0.1}
-"""Least upper ends of axes, so that negligible values look negligible."""
+LEAST_SHOWN = {"contact_load": 1.0, "cavitated_area_fraction": 0.01, "film_pressure_max": 1e5}
+"""Least upper ends of axes, SI, so that negligible values look negligible."""
 INK, FILM, SECOND, THIRD = "#1c2328", "#3c7a8c", "#b8862b", "#8c5a3c"
 PLACED = {
     Gap.PISTON: "from the guide's inner end", Gap.SLIPPER: "from the middle", Gap.VALVE_PLATE: "from the shaft's axis",
@@ -37,7 +38,7 @@ BANDS = {
 }  # fmt: skip
 MEANING = {
     Active.CONTACT: "contact", Active.CAVITATION: "cavitation", Active.RETAINER: "retainer force",
-    Active.LIFT: "full film only",
+    Active.LIFT: "full film",
 }  # fmt: skip
 
 
@@ -60,7 +61,7 @@ def film_text(thickness: float) -> str:
 
 def place_text(data: xarray.Dataset, k: int) -> str:
     """Return the place of the least film at the k-th reported angle in words."""
-    around, along = (float(how_shown(data, name).of(data[name].values[k])) for name in PLACES[Gap(data.attrs["gap"])])
+    around, along = (float(unit_of(data, name).of(data[name].values[k])) for name in PLACES[Gap(data.attrs["gap"])])
     return f"{around:.0f} deg around, {along:.1f} mm {PLACED[Gap(data.attrs['gap'])]}"
 
 
@@ -80,16 +81,16 @@ def film_plot(data: xarray.Dataset) -> Figure:
     axes.plot(angle[at], least[at], "v", color=INK)
     marked = f"{film_text(least[at])} at {angle[at]:.0f} deg of the shaft; {place_text(data, at - 1)}"
     axes.set_title(f"least film (triangle): {marked}", loc="left", fontsize=9)
-    axes.set(ylabel="film / um", ylim=(0.0, None))
+    axes.set(ylabel="film [um]", ylim=(0.0, None))
     chamber, name = shown(data, "chamber_pressure"), "chamber pressure"
     if span(data) < WHOLE:
         chamber[0], name = np.nan, "pressure of chamber 1"  # after a pitch another one is in its place
     pressures.plot(angle, shown(data, "film_pressure_max"), color=THIRD, label="largest film pressure")
     pressures.plot(angle, chamber, color=SECOND, linestyle="--", label=name)
-    pressures.set(ylabel="pressure, gauge / MPa", ylim=(min(0.0, float(np.nanmin(chamber))), None))
-    figure.legend(loc="outside upper right", fontsize=8, ncols=4)
+    pressures.set(ylabel=title_in("pressure, gauge", "Pa"), ylim=(min(0.0, float(np.nanmin(chamber))), None))
+    figure.legend(loc="outside upper right", fontsize=8, ncols=2)
     draw_bands(bands, data)
-    bands.set(xlabel="shaft angle from inner dead centre / deg", xlim=(0.0, span(data)))
+    bands.set(xlabel="shaft angle from inner dead centre [deg]", xlim=(0.0, span(data)))
     return figure
 
 
@@ -118,14 +119,14 @@ def path_plot(data: xarray.Dataset) -> Figure:
         for axes, (title, pair) in zip(figure.subplots(1, 2), ends, strict=True):
             axes.plot(clearance * np.cos(circle), clearance * np.sin(circle), color="#9aa4ab", linewidth=1.0)
             _orbit(axes, shown(data, pair[0]), shown(data, pair[1]), angle)
-            axes.set(title=title, xlabel="eccentricity, to inner dead centre / um", ylabel="across / um")
+            axes.set(title=title, xlabel="eccentricity, to inner dead centre [um]", ylabel="across [um]")
         return figure
     orbit, course = figure.subplots(1, 2)
     _orbit(orbit, shown(data, "rise_x"), shown(data, "rise_y"), angle)
-    orbit.set(title="tilt", xlabel="rise along x over the rim's radius / um", ylabel="rise along y / um")
+    orbit.set(title="tilt", xlabel="rise along x over the rim's radius [um]", ylabel="rise along y [um]")
     for name, colour in zip(names, (INK, FILM, SECOND), strict=True):
         course.plot(angle, shown(data, name), color=colour, label=name.replace("_", " "))
-    course.set(xlabel="shaft angle / deg", ylabel="coordinate / um", xlim=(0.0, span(data)))
+    course.set(xlabel="shaft angle [deg]", ylabel="coordinate [um]", xlim=(0.0, span(data)))
     legend_below(course, 3)
     return figure
 
@@ -140,7 +141,7 @@ def _orbit(axes: Any, x: np.ndarray, y: np.ndarray, angle: np.ndarray) -> None:
     axes.axhline(0.0, color="#e3e7ea", linewidth=0.8, zorder=0)
     axes.axvline(0.0, color="#e3e7ea", linewidth=0.8, zorder=0)
     axes.set_aspect("equal", adjustable="datalim")
-    axes.figure.colorbar(dots, ax=axes, label="shaft angle / deg", shrink=0.8)
+    axes.figure.colorbar(dots, ax=axes, label="shaft angle [deg]", shrink=0.8)
 
 
 def _losses(data: xarray.Dataset) -> Figure:
@@ -149,16 +150,16 @@ def _losses(data: xarray.Dataset) -> Figure:
     tilt, leakage, friction = figure.subplots(3, 1, sharex=True)
     angle = degrees(data)
     tilt.plot(angle, shown(data, "tilt"), color=INK)
-    tilt.set_ylabel("tilt / mrad")
+    tilt.set_ylabel("tilt [mrad]")
     leakage.plot(angle, shown(data, "leakage_flow"), color=FILM, label="into the case")
     leakage.plot(angle, shown(data, "chamber_flow"), color=SECOND, linewidth=0.9, label="out of the chambers")
-    leakage.set_ylabel("flow / L/min")
+    leakage.set_ylabel("flow [L/min]")
     legend_beside(leakage)
     friction.plot(angle, shown(data, "friction_power"), color=THIRD, label="friction power")
     friction.plot(angle, shown(data, "rubbing"), color="#b33a3a", linewidth=0.9, label="of which contact")
-    friction.set_ylabel("friction power / W")
+    friction.set_ylabel("friction power [W]")
     legend_beside(friction)
-    friction.set(xlabel="shaft angle / deg", xlim=(0.0, span(data)))
+    friction.set(xlabel="shaft angle [deg]", xlim=(0.0, span(data)))
     return figure
 
 
@@ -166,16 +167,16 @@ def _contact(data: xarray.Dataset) -> Figure:
     """Draw contact load (N), cavitated share of the area and largest film pressure (MPa) over the shaft angle."""
     figure = figure_of(9.0, 5.0)
     rows = {
-        "contact_load": ("contact / N", "#b33a3a"),
+        "contact_load": ("contact [N]", "#b33a3a"),
         "cavitated_area_fraction": ("cavitated share", "#4d8bb8"),
-        "film_pressure_max": ("highest pressure / MPa", INK),
+        "film_pressure_max": (title_in("highest pressure", "Pa"), INK),
     }
     for axes, (name, (title, colour)) in zip(figure.subplots(3, 1, sharex=True), rows.items(), strict=True):
         axes.fill_between(degrees(data), shown(data, name), color=colour, alpha=0.25, linewidth=0.0)
         axes.plot(degrees(data), shown(data, name), color=colour)
-        most = max(1.05 * float(shown(data, name).max()), LEAST_SHOWN[name])
+        most = max(1.05 * float(shown(data, name).max()), float(unit_of(data, name).of(LEAST_SHOWN[name])))
         axes.set(ylabel=title, ylim=(0.0, most), xlim=(0.0, span(data)))
-    axes.set_xlabel("shaft angle / deg")
+    axes.set_xlabel("shaft angle [deg]")
     return figure
 
 
@@ -199,10 +200,10 @@ def _temperature(data: xarray.Dataset) -> Figure:
     axes.plot(angle, shown(data, "film_temperature_max"), color=BANDS[Active.CONTACT], label="maximum of the film")
     axes.plot(angle, shown(data, "film_temperature_mean"), color=FILM, label="mean of the film")
     for wall, style in (("fixed", "--"), ("moving", ":")):
-        at = float(SHOWN["K"].of(data.attrs[f"{wall}_wall_temperature_K"]))
+        at = float(shown_in("K").of(data.attrs[f"{wall}_wall_temperature_K"]))
         axes.axhline(at, color=INK, linestyle=style, linewidth=0.9, label=f"{wall} wall")
-    axes.set(xlabel="shaft angle / deg", ylabel="temperature / degC", xlim=(0.0, span(data)))
-    figure.legend(loc="outside upper right", fontsize=8, ncols=4)
+    axes.set(xlabel="shaft angle [deg]", ylabel="temperature [degC]", xlim=(0.0, span(data)))
+    figure.legend(loc="outside upper right", fontsize=8, ncols=2)
     axes.grid(visible=True, alpha=0.3)
     return figure
 
@@ -210,14 +211,19 @@ def _temperature(data: xarray.Dataset) -> Figure:
 def draw_film(axes: Any, data: xarray.Dataset, k: int, name: str) -> None:
     """Draw the map of a field of the k-th kept film."""
     place = data["x"].values[k] * 1e3, data["y"].values[k] * 1e3
-    how, (words, colours) = SHOWN[data[name].attrs["units"]], MAPPED[name]
-    title = f"{words} / {how.unit}, {np.degrees(data['film_angle'].values[k]):.0f} deg"
+    how, (words, colours) = unit_of(data, name), MAPPED[name]
+    title = f"{titled(words, how.unit)}, {np.degrees(data['film_angle'].values[k]):.0f} deg"
     draw_map(axes, place, data["cells"].values, how.of(data[name].values[k]), title, colours=colours)
+
+
+def unit_of(data: xarray.Dataset, name: str) -> Shown:
+    """Return the unit in which a series or a field is shown."""
+    return shown_in(data[name].attrs["units"], name)
 
 
 def shown(data: xarray.Dataset, name: str) -> np.ndarray:
     """Return a series in its customary unit, from angle 0 to the end of the turn (both ends are equal)."""
-    values = SHOWN[data[name].attrs["units"]].of(data[name].values)
+    values = unit_of(data, name).of(data[name].values)
     return np.append(values[-1], values)
 
 

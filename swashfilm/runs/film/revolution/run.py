@@ -3,8 +3,9 @@
 from pathlib import Path
 from typing import Any
 
+from reynolds.numerics.convergence import convergence
 from swashfilm.case.gap.revolution import RevolutionCase
-from swashfilm.output.convergence import convergence
+from swashfilm.output.data.files import write_netcdf
 from swashfilm.output.refinement import Refinement, refinement_summary, write_refinement
 from swashfilm.output.run_folder import write_json
 from swashfilm.runs.film.revolution.data import (
@@ -65,7 +66,7 @@ def run_revolution_case(
         write_refinement(folder / "refinement.csv", found)
     report(0, 1, "writing fields")
     data = revolution_dataset(study)
-    data.to_netcdf(folder / "results.nc", engine="h5netcdf")
+    write_netcdf(data, folder / "results.nc")
     write_series(folder / f"{case.gap.value}.csv", data)
     write_convergence(folder / "convergence.csv", study)
     write_revolution_fields(folder, study)

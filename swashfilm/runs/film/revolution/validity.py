@@ -14,6 +14,7 @@ from swashfilm.runs.film.solve.profiles import unresolved_profiles
 from system.description.gap import Gap
 from system.films.drives import slipper_retainer
 from system.films.parts import FloatingParts
+from system.inputs.shown import pressure_text
 from system.pump_file.check import run_checks
 from system.pump_file.floating import block_tips, slipper_has_a_wedge
 
@@ -81,7 +82,7 @@ def _pressures(case: GapOverTurn, found: GapRevolution[Any]) -> Iterator[tuple[s
     if Effect.ELASTIC_WALLS in left_out and peak > LARGEST_RIGID_PRESSURE:
         yield (
             "film_pressure_beyond_rigid",
-            f"film pressure up to {peak * 1e-6:.0f} MPa (limit {LARGEST_RIGID_PRESSURE * 1e-6:.0f} MPa for rigid "
+            f"film pressure up to {pressure_text(peak)} (limit {pressure_text(LARGEST_RIGID_PRESSURE)} for rigid "
             "walls: they deform by micrometres); use elastic walls",
         )
     lowest = min(float(film.pressure.min()) for film in turn.films.values())

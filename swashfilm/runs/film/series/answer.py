@@ -51,9 +51,17 @@ def main_spans(summary: Mapping[str, Any]) -> list[tuple[str, Mapping[str, Any]]
     return [(key, span) for key, span in found if _varies(span)][:MOST]
 
 
+_LONG = re.compile(r"^-?\d+\.\d{6,}")
+"""Number with more digits than it is worth, at the begin of a value."""
+
+
 def place(values: Mapping[str, Any]) -> str:
     """Return the values of the varied keys at a point."""
-    return ", ".join(f"{key} = {value}" for key, value in values.items())
+    return ", ".join(f"{key} = {_LONG.sub(_rounded, str(value))}" for key, value in values.items())
+
+
+def _rounded(number: re.Match[str]) -> str:
+    return f"{float(number[0]):.6g}"
 
 
 def _at(values: Mapping[str, Any]) -> str:

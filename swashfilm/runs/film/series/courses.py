@@ -8,11 +8,11 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from swashfilm.case.study import StudyCase
-from swashfilm.output.headline import named
-from swashfilm.runs.film.revolution.data import SHOWN
+from swashfilm.case.study import Study
+from swashfilm.output.headline import about, named, shown_of
 from swashfilm.runs.film.series.plots import COURSES, MOST_LINES, figure_axes, name_lines, where
 from swashfilm.runs.film.series.points import COURSE, StudyOutcome
+from system.inputs.shown import titled
 
 if TYPE_CHECKING:
     import xarray
@@ -21,9 +21,7 @@ if TYPE_CHECKING:
 ANGLE = "shaft_angle_deg"
 
 
-def course_variables(
-    study: StudyCase, outcomes: Sequence[StudyOutcome], dims: Sequence[str]
-) -> dict[str, tuple[Any, ...]]:
+def course_variables(study: Study, outcomes: Sequence[StudyOutcome], dims: Sequence[str]) -> dict[str, tuple[Any, ...]]:
     """Return variables `course_KEY` over the study's dimensions and the shaft angle (deg); none for other films.
 
     The angles are those of the first point with a series; other points are interpolated to them, linearly and
@@ -40,7 +38,7 @@ def course_variables(
             continue
         curves = [_at(angles, course, key) for course in courses]
         values = np.array(curves).reshape(*study.shape, len(angles))
-        found[COURSES + key] = ((*dims, ANGLE), values, {"units": named(key)[1]})
+        found[COURSES + key] = ((*dims, ANGLE), values, about(key))
     return found
 
 
@@ -59,14 +57,14 @@ def course_plots(data: xarray.Dataset) -> dict[str, Figure]:
 def _picture(data: xarray.Dataset, name: str) -> Figure:
     figure, axes = figure_axes()
     field = data[name]
-    how = SHOWN[field.attrs["units"]]
+    how = shown_of(name.removeprefix(COURSES))
     dims = [str(dim) for dim in field.dims if dim != ANGLE]
     points = list(product(*(range(data.sizes[dim]) for dim in dims)))
     for index in points[:MOST_LINES]:
         at = dict(zip(dims, index, strict=True))
         axes.plot(data[ANGLE].values, how.of(field.isel(at).values), linewidth=1.2, label=where(data, at))
     words, _ = named(name.removeprefix(COURSES))
-    axes.set(xlabel="shaft angle / deg", ylabel=f"{words} / {how.unit}", title=f"{words} over the revolution")
+    axes.set(xlabel="shaft angle [deg]", ylabel=titled(words, how.unit), title=f"{words} over the revolution")
     axes.grid(visible=True, alpha=0.3)
     lines = min(len(points), MOST_LINES)
     name_lines(axes, None if lines == len(points) else f"{lines} of {len(points)} points")

@@ -9,9 +9,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from swashfilm.case.study import Combine, StudyCase
-from swashfilm.output.headline import bracketed, headline_numbers, named, titled
-from swashfilm.output.tables import write_csv
+from swashfilm.case.study import Combine, Study
+from swashfilm.output.data.files import Column, column_of, write_columns
+from swashfilm.output.headline import about, headline_numbers
 from swashfilm.runs.film.series.courses import course_variables
 from swashfilm.runs.film.series.points import StudyOutcome
 from system.work.tasks import PartStatus
@@ -20,7 +20,11 @@ if TYPE_CHECKING:
     import xarray
 
 
-def study_dataset(study: StudyCase, outcomes: Sequence[StudyOutcome]) -> xarray.Dataset:
+FILM_STUDY = "film_study"
+"""Kind of a study of films, in its files."""
+
+
+def study_dataset(study: Study, outcomes: Sequence[StudyOutcome], kind: str = FILM_STUDY) -> xarray.Dataset:
     """Return headline numbers over the varied keys (over `point` where they vary together); NaN where missing.
 
     Coordinates are SI numbers with their unit, or texts; `status` and `reason` describe each point.
@@ -32,8 +36,7 @@ def study_dataset(study: StudyCase, outcomes: Sequence[StudyOutcome]) -> xarray.
     together = study.combine is Combine.TOGETHER
     dims = ["point"] if together else [axis.key for axis in study.axes]
     variables: dict[str, Any] = {
-        key: (dims, np.array([row.get(key, np.nan) for row in rows]).reshape(study.shape), {"units": named(key)[1]})
-        for key in keys
+        key: (dims, np.array([row.get(key, np.nan) for row in rows]).reshape(study.shape), about(key)) for key in keys
     }
     for name, texts in (("status", [o.status.value for o in outcomes]), ("reason", [o.reason for o in outcomes])):
         variables[name] = (dims, np.array(texts, dtype=object).reshape(study.shape))
@@ -46,18 +49,18 @@ def study_dataset(study: StudyCase, outcomes: Sequence[StudyOutcome]) -> xarray.
         )
         for axis in study.axes
     }
-    attributes = {"name": study.name, "kind": "film_study", "combine": study.combine.value}
+    attributes = {"name": study.name, "kind": kind, "combine": study.combine.value}
     return xarray.Dataset(variables, coords=coordinates, attrs=attributes)
 
 
-def study_summary(study: StudyCase, outcomes: Sequence[StudyOutcome]) -> dict[str, Any]:
+def study_summary(study: Study, outcomes: Sequence[StudyOutcome], kind: str = FILM_STUDY) -> dict[str, Any]:
     """Return varied keys, solved points, span of every number, points without a result, and warnings."""
     solved = [outcome for outcome in outcomes if outcome.status is PartStatus.SOLVED]
     rows = [headline_numbers(outcome.summary) for outcome in solved]
     keys = list(dict.fromkeys(key for row in rows for key in row))
     return {
         "format": 1,
-        "kind": "film_study",
+        "kind": kind,
         "name": study.name,
         "combine": study.combine.value,
         "axes": [
@@ -81,7 +84,7 @@ def study_summary(study: StudyCase, outcomes: Sequence[StudyOutcome]) -> dict[st
     }
 
 
-def _span(found: list[tuple[float, int]], study: StudyCase, solved: Sequence[StudyOutcome]) -> dict[str, Any]:
+def _span(found: list[tuple[float, int]], study: Study, solved: Sequence[StudyOutcome]) -> dict[str, Any]:
     (least, at_least), (most, at_most) = min(found), max(found)
     return {
         "min": least,
@@ -101,14 +104,14 @@ def _warnings(solved: Sequence[StudyOutcome]) -> list[dict[str, str]]:
     return [{"name": name, "text": f"at {count[name]} points; at the first: {text}"} for name, text in texts.items()]
 
 
-def write_study_table(path: Path, study: StudyCase, outcomes: Sequence[StudyOutcome]) -> None:
-    """Write a CSV with one line per point: varied keys, headline numbers (SI), status and reason."""
+def write_study_table(path: Path, study: Study, outcomes: Sequence[StudyOutcome]) -> None:
+    """Write a CSV with one line per point: varied keys, headline numbers, status and reason."""
     rows: list[Mapping[str, float]] = [headline_numbers(outcome.summary) for outcome in outcomes]
     keys = list(dict.fromkeys(key for row in rows for key in row))
-    axes = [f"{axis.key} / {bracketed(axis.unit)}" if axis.unit else axis.key for axis in study.axes]
-    lines = []
-    for outcome, row in zip(outcomes, rows, strict=True):
-        places = zip(study.axes, outcome.point, strict=True)
-        values = [axis.labels[k] if axis.numbers is None else axis.numbers[k] for axis, k in places]
-        lines.append([*values, *(row.get(key, "") for key in keys), outcome.status.value, outcome.reason])
-    write_csv(path, [*axes, *(titled(key) for key in keys), "status", "reason"], lines)
+    axes = []
+    for place, axis in enumerate(study.axes):
+        values, unit = (axis.labels, None) if axis.numbers is None else (axis.numbers, axis.unit or "1")
+        axes.append(Column(axis.key, [values[outcome.point[place]] for outcome in outcomes], unit))
+    numbers = [column_of(key, [row.get(key, np.nan) for row in rows]) for key in keys]
+    status = Column("status", [outcome.status.value for outcome in outcomes])
+    write_columns(path, [*axes, *numbers, status, Column("reason", [outcome.reason for outcome in outcomes])])

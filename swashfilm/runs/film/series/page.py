@@ -1,21 +1,21 @@
 """Run folder of a study: its run, tables, plots and page."""
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from swashfilm.case.study import StudyCase
+from swashfilm.case.study import Study, StudyCase
 from swashfilm.output.answer import Answer
+from swashfilm.output.data.files import read_netcdf, write_netcdf
 from swashfilm.output.figures import png_of
-from swashfilm.output.headline import named
+from swashfilm.output.headline import named, number_text, summary_scales
 from swashfilm.output.page import PLOTS, inlined, read_summary, write_page
-from swashfilm.output.result import read_netcdf
 from swashfilm.output.run_folder import write_json
 from swashfilm.runs.film.series.answer import main_spans, place, study_tiles, study_words
 from swashfilm.runs.film.series.courses import course_plots
-from swashfilm.runs.film.series.data import study_dataset, study_summary, write_study_table
+from swashfilm.runs.film.series.data import FILM_STUDY, study_dataset, study_summary, write_study_table
 from swashfilm.runs.film.series.plots import COURSES, study_plots
-from swashfilm.runs.film.series.points import run_points
+from swashfilm.runs.film.series.points import StudyOutcome, run_points
 from system.work.progress import Report
 
 
@@ -26,11 +26,16 @@ def run_study(
 
     Returns the summary. Raises InputFaults as `run_points`; the tables list points that fail.
     """
-    (folder / "input.toml").write_text(study.text, encoding="utf-8")
     outcomes = run_points(study, folder, report, resumed=resumed, workers=workers)
+    return write_study(study, outcomes, folder, FILM_STUDY)
+
+
+def write_study(study: Study, outcomes: Sequence[StudyOutcome], folder: Path, kind: str) -> dict[str, Any]:
+    """Write the files of a study of this kind, without points/, from its points; return the summary."""
+    (folder / "input.toml").write_text(study.text, encoding="utf-8")
     write_study_table(folder / "study.csv", study, outcomes)
-    study_dataset(study, outcomes).to_netcdf(folder / "study.nc", engine="h5netcdf")
-    summary = study_summary(study, outcomes)
+    write_netcdf(study_dataset(study, outcomes, kind), folder / "study.nc")
+    summary = study_summary(study, outcomes, kind)
     write_json(folder / "summary.json", summary)
     write_study_page(folder)
     return summary
@@ -77,11 +82,16 @@ def caption(key: str) -> str:
 
 def span_rows(summary: Mapping[str, Any]) -> Iterator[tuple[str, ...]]:
     """Yield (number, least with its unit, point, largest, point) of every number of a study."""
+    largest = {key: max(abs(span["min"]), abs(span["max"])) for key, span in summary["numbers"].items()}
+    scales = summary_scales(largest)
     for key, span in summary["numbers"].items():
-        words, unit = named(key)
         yield (
-            words,
-            *(text for end in ("min", "max") for text in (f"{span[end]:.6g} {unit}".strip(), place(span[f"{end}_at"]))),
+            named(key)[0],
+            *(
+                text
+                for end in ("min", "max")
+                for text in (number_text(key, span[end], scales), place(span[f"{end}_at"]))
+            ),
         )
 
 

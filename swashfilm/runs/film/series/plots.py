@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from swashfilm.output.figures import figure_of
-from swashfilm.output.headline import bracketed, sizes, titled
+from swashfilm.output.headline import shown_of, sizes, titled_key
+from system.inputs.shown import Shown, shown_in, titled
 
 if TYPE_CHECKING:
     import xarray
@@ -68,7 +69,7 @@ def number_plot(data: xarray.Dataset, key: str) -> Figure:
         _map(figure, axes, data, key)
     else:
         _lines(axes, data, key)
-    axes.set_title(titled(key), fontsize=10)
+    axes.set_title(titled_key(key), fontsize=10)
     return figure
 
 
@@ -79,7 +80,7 @@ def _lines(axes: Any, data: xarray.Dataset, key: str) -> None:
     lines = list(product(*(range(data.sizes[dim]) for dim in others)))
     for index in lines[:MOST_LINES]:
         at = dict(zip(others, index, strict=True))
-        axes.plot(places, field.isel(at).values, "o-", markersize=3.5, label=where(data, at) or None)
+        axes.plot(places, shown_of(key).of(field.isel(at).values), "o-", markersize=3.5, label=where(data, at) or None)
     if others:
         name_lines(axes, None if len(lines) <= MOST_LINES else f"{MOST_LINES} of {len(lines)} lines")
     if labels:
@@ -88,14 +89,15 @@ def _lines(axes: Any, data: xarray.Dataset, key: str) -> None:
         axes.set_xscale("log")
     if _is_wide(field.values):
         axes.set_yscale("log")
-    axes.set(xlabel=_axis_title(data, str(along)), ylabel=titled(key))
+    axes.set(xlabel=_axis_title(data, str(along)), ylabel=titled_key(key))
     axes.grid(visible=True, alpha=0.3)
 
 
 def _map(figure: Any, axes: Any, data: xarray.Dataset, key: str) -> None:
     """Draw colours and contours over two keys, logarithmic for a number with a large span."""
     across, along = (str(dim) for dim in data[key].dims)
-    x, y, values = data[across].values, data[along].values, data[key].values.T
+    x, y = (axis_unit(data, dim).of(data[dim].values) for dim in (across, along))
+    values = shown_of(key).of(data[key].values.T)
     for places, scale in ((x, axes.set_xscale), (y, axes.set_yscale)):
         if _is_geometric(places):
             scale("log")
@@ -125,19 +127,22 @@ def _levels(values: np.ndarray) -> np.ndarray:
 def _stribeck(data: xarray.Dataset) -> Figure:
     """Draw the friction coefficient over the Hersey number: one line with the contact's share, or many."""
     figure, axes = figure_axes()
-    friction, hersey = (data[key].transpose(*data[STRIBECK[0]].dims) for key in STRIBECK)
+    friction, speeds = (data[key].transpose(*data[STRIBECK[0]].dims) for key in STRIBECK)
+    hersey = shown_of(STRIBECK[1])
     along, *others = (str(dim) for dim in friction.dims)
     lines = list(product(*(range(data.sizes[dim]) for dim in others)))[:MOST_LINES]
     for index in lines:
         at = dict(zip(others, index, strict=True))
-        y, x = friction.isel(at).values, hersey.isel(at).values
+        y, x = friction.isel(at).values, speeds.isel(at).values
         order = np.argsort(x)
-        axes.plot(x[order], y[order], "o-", markersize=3.5, label=where(data, at) or None)
+        axes.plot(hersey.of(x[order]), y[order], "o-", markersize=3.5, label=where(data, at) or None)
     axes.set_xscale("log")
     if _is_wide(friction.values):
         axes.set_yscale("log")
     axes.margins(y=0.15)
-    axes.set(xlabel="Hersey number mu U/p_mean / m", ylabel="friction coefficient", title="Stribeck curve")
+    axes.set(
+        xlabel=titled("Hersey number mu U/p_mean", hersey.unit), ylabel="friction coefficient", title="Stribeck curve"
+    )
     axes.grid(visible=True, alpha=0.3)
     if others:
         name_lines(axes)
@@ -148,7 +153,7 @@ def _stribeck(data: xarray.Dataset) -> Figure:
 
 def _with_least_and_contact(axes: Any, data: xarray.Dataset, along: str) -> None:
     sorted_by_hersey = data.isel({along: np.argsort(data[STRIBECK[1]].values)})
-    friction, hersey = (sorted_by_hersey[key].values for key in STRIBECK)
+    friction, hersey = (shown_of(key).of(sorted_by_hersey[key].values) for key in STRIBECK)
     least = int(np.nanargmin(friction))
     if 0 < least < len(friction) - 1:
         axes.plot(hersey[least], friction[least], "v", color="black")
@@ -162,16 +167,20 @@ def _with_least_and_contact(axes: Any, data: xarray.Dataset, along: str) -> None
 
 def where(data: xarray.Dataset, at: Mapping[Any, int]) -> str:
     """Return the values of a line's keys, with their units."""
-    return ", ".join(
-        f"{dim} = {_text(data[dim].values[k])} {data[dim].attrs.get('units', '')}".strip() for dim, k in at.items()
-    )
+    return ", ".join(f"{dim} = {value_text(data, str(dim), k)}" for dim, k in at.items())
+
+
+def value_text(data: xarray.Dataset, dim: str, k: int) -> str:
+    """Return the k-th value of a varied key, with its unit."""
+    value = data[dim].values[k]
+    return axis_unit(data, dim).stated(float(value)) if _is_numeric(data[dim].values) else _text(value)
 
 
 def _places(data: xarray.Dataset, dim: str) -> tuple[np.ndarray, list[str]]:
     """Return the positions of a dimension's points, and their labels where they are texts."""
     values = data[dim].values if dim in data.coords else None
     if values is not None and _is_numeric(values):
-        return values, []
+        return np.asarray(axis_unit(data, dim).of(values)), []
     count = data.sizes[dim]
     if values is not None:
         return np.arange(count), [_text(value) for value in values]
@@ -182,8 +191,13 @@ def _places(data: xarray.Dataset, dim: str) -> tuple[np.ndarray, list[str]]:
 def _axis_title(data: xarray.Dataset, dim: str) -> str:
     if dim not in data.coords:
         return ", ".join(_axis_title(data, str(name)) for name in data.coords if data[name].dims == (dim,))
-    unit = data[dim].attrs.get("units", "")
-    return f"{dim} / {bracketed(unit)}" if unit else dim
+    return titled(dim, axis_unit(data, dim).symbol)
+
+
+def axis_unit(data: xarray.Dataset, dim: str) -> Shown:
+    """Return the unit in which the numbers of a varied key are shown."""
+    largest = float(np.max(np.abs(data[dim].values))) if _is_numeric(data[dim].values) else 0.0
+    return shown_in(data[dim].attrs.get("units", ""), dim, largest)
 
 
 def _text(value: object) -> str:

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, ClassVar
 
+from swashfilm.output.data.files import read_netcdf
 from swashfilm.output.page import expect_files
-from swashfilm.output.result import Result, plotted, read_netcdf
+from swashfilm.output.result import Result, plotted
 from swashfilm.output.tables import Table
 from swashfilm.runs.film.series.page import failed_rows, span_rows
 from swashfilm.runs.film.series.plots import number_plot, stribeck_plot

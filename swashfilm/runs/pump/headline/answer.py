@@ -21,6 +21,7 @@ from swashfilm.runs.pump.headline.powers import (
     share_text,
 )
 from swashfilm.runs.pump.headline.ribbons import flow_diagram
+from system.inputs.shown import pressure_text
 from system.inputs.units import LPM
 
 CAPTION = (
@@ -110,7 +111,7 @@ def _delivery_words(summary: Mapping[str, Any]) -> str:
     ratio = at["displacement_ratio"]
     stroke = "full displacement" if abs(ratio - 1.0) < 5e-4 else f"{100.0 * ratio:.4g} % displacement"
     speed = f"{at['shaft_speed_rad_per_s'] * 30.0 / np.pi:.0f} r/min"
-    where = f"At {speed}, {at['delivery_pressure_Pa'] * 1e-6:.4g} MPa and {stroke}"
+    where = f"At {speed}, {pressure_text(at['delivery_pressure_Pa'], 4)} and {stroke}"
     torque = f"takes {summary['torque']['shaft_Nm']:.1f} N m at its shaft"
     if flow > 0.0:
         return f"{where} the pump delivers {flow:.1f} L/min and {torque}."

@@ -8,9 +8,9 @@ from gaps.films.over_turn import TURN, PeriodicCurve
 from reynolds.solve.export import write_pvd, write_vtu
 from swashfilm.output.gap_names import FIELDS, kind_folder, vtu_name
 from swashfilm.runs.pump.data import GAPS, PARTS
-from swashfilm.runs.pump.oil_fields import UNITS, oil_state
 from swashfilm.runs.pump.scene.blocks import Blocks, ChamberKind, Scene, write_pump
 from system.description.gap import Gap
+from system.films.oil_state import UNITS, oil_state
 from system.films.places import place_of
 from system.points.films import FilmsKind, FilmsPoint
 

@@ -15,8 +15,8 @@ import numpy as np
 
 from reynolds.numerics.arrays import Array
 from swashfilm.output.touch.explorer import Control, Copies, Explorer, Move, Pick
+from swashfilm.output.touch.meshes import coarsened, triangles
 from swashfilm.output.touch.packing import short
-from swashfilm.output.touch.relief import triangles
 from swashfilm.output.touch.traces import scale_of
 from swashfilm.runs.pump.data import PICTURED_TURN
 from swashfilm.runs.pump.scene.blocks import OIL, PUMP, nearest
@@ -26,10 +26,12 @@ from swashfilm.runs.pump.scene.views import FILM, LOOKS, part_of
 MM = 1e3
 PLACE_DECIMALS = 2  # of mm
 DIGITS = 3  # of fields
+MOST, NUMBERS = 1000, 42_000
+"""Largest number of vertices of a film, and of those of all kept films; finer meshes are thinned out."""
 BEYOND = 0.02
 """Share of the vertices whose values may lie above the scale."""
-RIGID = 1e-6
-"""Largest departure of a solid from a rigid motion, m: single precision of its file."""
+RIGID = 2e-5
+"""Largest departure of a body from a rigid motion, m: the single precision of its file, and no visible one."""
 CAMERA = {"eye": {"x": 0.3, "y": -1.0, "z": 0.42}, "projection": {"type": "orthographic"}}
 HEIGHT = 620  # pixels
 
@@ -46,9 +48,9 @@ class ViewField:
 
 
 FIELDS = (
-    ViewField("film_pressure [Pa]", "film pressure / MPa", 1e-6, 0.0, "viridis"),
-    ViewField("film_thickness [m]", "film thickness / um", 1e6, 0.0, "cividis"),
-    ViewField("film_temperature [K]", "film temperature / degC", 1.0, 273.15, "inferno"),
+    ViewField("film_pressure [Pa]", "film pressure [MPa]", 1e-6, 0.0, "viridis"),
+    ViewField("film_thickness [m]", "film thickness [um]", 1e6, 0.0, "cividis"),
+    ViewField("film_temperature [K]", "film temperature [degC]", 1.0, 273.15, "inferno"),
 )
 
 
@@ -125,10 +127,14 @@ def _rows(blocks: Blocks, names: Sequence[str]) -> tuple[list[str], list[list[in
     return files, [[number[one[name]] for name in names] for one in blocks]
 
 
-def _corners(mesh: Any) -> dict[str, list[int]]:
-    """Return the triangles of a mesh as plotly's three lists."""
-    every = np.concatenate([triangles(cells.data) for cells in mesh.cells])
-    return {name: column.tolist() for name, column in zip("ijk", every.T, strict=True)}
+def _corners(mesh: Any) -> np.ndarray:
+    """Return the triangles (n, 3) of a mesh."""
+    return np.concatenate([triangles(cells.data) for cells in mesh.cells])
+
+
+def _lists(corners: np.ndarray) -> dict[str, list[int]]:
+    """Return triangles as plotly's three lists."""
+    return {name: column.tolist() for name, column in zip("ijk", corners.T, strict=True)}
 
 
 def _solid(view: _View, folder: Path, blocks: Blocks, part: str, names: Sequence[str]) -> None:
@@ -138,20 +144,31 @@ def _solid(view: _View, folder: Path, blocks: Blocks, part: str, names: Sequence
     files, rows = _rows(blocks, names)
     meshes = [_mesh(folder, file) for file in files]
     colour, opacity = LOOKS[part]
-    points = meshes[0].points.astype(float) * MM
-    table = f"{part} {len(view.traces)}"
-    view.tables[table] = [np.round(motion(points, one.points.astype(float) * MM), 6).tolist() for one in meshes]
-    view.copies.append(Copies(len(view.traces), len(names), len(points)))
-    view.moves.append(Move(len(view.traces), np.round(points, PLACE_DECIMALS).tolist(), table, (1,), rows))
+    at = len(view.traces)
+    view.copies.append(Copies(at, len(names), len(meshes[0].points)))
+    _place(view, [one.points.astype(float) * MM for one in meshes], f"place {at}", rows)
     view.traces.append(
         go.Mesh3d(
-            **_corners(meshes[0]), color=colour, opacity=opacity, hoverinfo="skip", flatshading=True, name=part,
+            **_lists(_corners(meshes[0])), color=colour, opacity=opacity, hoverinfo="skip", flatshading=True, name=part,
         )
     )  # fmt: skip
 
 
-def motion(start: Array, end: Array) -> Array:
-    """Return the rigid motion [R | t] (3, 4) of points (n, 3), by Kabsch's method; raise ValueError for another one.
+def _place(view: _View, places: Sequence[Array], table: str, rows: list[list[int]]) -> None:
+    """Add the places (n, 3) mm of the next trace's bodies, as motions of the first one where all are rigid."""
+    at = len(view.traces)
+    motions = [motion(places[0], one) for one in places]
+    if all(one is not None for one in motions):
+        view.tables[table] = [np.round(one, 6).tolist() for one in motions if one is not None]
+        view.moves.append(Move(at, np.round(places[0], PLACE_DECIMALS).tolist(), table, (1,), rows))
+        return
+    for k, letter in enumerate("xyz"):
+        view.tables[f"{table} {letter}"] = [np.round(one[:, k], PLACE_DECIMALS).tolist() for one in places]
+        view.picks.append(Pick(("data", at, letter), f"{table} {letter}", (1,), rows))
+
+
+def motion(start: Array, end: Array) -> Array | None:
+    """Return the rigid motion [R | t] (3, 4) of points (n, 3) mm, by Kabsch's method; None where it is none.
 
     Source: Kabsch, Acta Crystallographica A32 (1976) 922.
     """
@@ -161,9 +178,7 @@ def motion(start: Array, end: Array) -> Array:
     rotation = right.T @ turned @ left.T
     found = np.column_stack([rotation, reached - rotation @ middle])
     error = float(np.abs(start @ rotation.T + found[:, 3] - end).max())
-    if error > RIGID * MM:
-        raise ValueError(f"points depart from a rigid motion by {error:.2g} mm")
-    return found
+    return found if error <= RIGID * MM else None
 
 
 def _films(view: _View, folder: Path, blocks: Blocks, names: Sequence[str]) -> list[ViewField]:
@@ -186,12 +201,11 @@ def _films(view: _View, folder: Path, blocks: Blocks, names: Sequence[str]) -> l
     }  # fmt: skip
     for (own, files, rows), parts, shown in zip(kinds, meshes, values, strict=True):
         at = len(view.traces)
-        view.copies.append(Copies(at, len(own), len(parts[0].points)))
-        for k, letter in enumerate("xyz"):
-            table = f"{letter} {at}"
-            view.tables[table] = [np.round(mesh.points[:, k] * MM, PLACE_DECIMALS).tolist() for mesh in parts]
-            view.picks.append(Pick(("data", at, letter), table, (1,), rows))
-        view.tables[f"fields {at}"] = [row for one in shown for row in short(one, DIGITS)]
+        most = min(MOST, NUMBERS // (len(files) * len(kinds)))
+        kept, corners = coarsened(parts[0].points, _corners(parts[0]), most)
+        view.copies.append(Copies(at, len(own), len(kept)))
+        _place(view, [mesh.points[kept].astype(float) * MM for mesh in parts], f"place {at}", rows)
+        view.tables[f"fields {at}"] = [row for one in shown for row in short(one[:, kept], DIGITS)]
         both = [[k * len(files) + row for row in some] for k in which for some in rows]
         view.picks += [Pick(("data", at, name), f"fields {at}", (0, 1), both) for name in ("intensity", "text")]
         by_field = {"cmin": "low", "cmax": "high", "colorscale": "scales", "hovertemplate": "hover"}
@@ -199,7 +213,7 @@ def _films(view: _View, folder: Path, blocks: Blocks, names: Sequence[str]) -> l
         view.picks.append(Pick(("data", at, "colorbar", "title", "text"), "titles", (0,), which))
         view.traces.append(
             go.Mesh3d(
-                **_corners(parts[0]), showscale=at == 0, name=f"{part_of(own[0])}{FILM}",
+                **_lists(corners), showscale=at == 0, name=f"{part_of(own[0])}{FILM}",
                 lighting={"ambient": 0.9, "diffuse": 0.2, "specular": 0.0},
                 colorbar={"thickness": 12, "len": 0.8, "title": {"text": fields[0].title, "side": "right"}},
             )

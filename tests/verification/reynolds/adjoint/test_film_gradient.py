@@ -1,7 +1,8 @@
-"""Derivatives of a film's outputs by its thickness: against differences of the films themselves, and closed forms.
+"""Film equation: derivatives by the film thickness.
 
-Each film is solved once more a little thicker and thinner along a random field, with the same cavity; every output that
-`loads` has follows its gradient. The compiled film takes no complex numbers, so that steps are real.
+Against differences of the films themselves, and closed forms. Each film is solved once more a little thicker and
+thinner along a random field, with the same cavity; every output that `loads` has follows its gradient. The compiled
+film takes no complex numbers, so that steps are real.
 """
 
 from __future__ import annotations
@@ -262,7 +263,7 @@ def test_differences_converge_to_the_gradient_with_their_order():
 
 
 @pytest.mark.parametrize("cells", [16, 32])
-def test_density_of_a_parallel_film_in_closed_form(cells):
+def test_density_of_a_parallel_film_in_closed_form(cells, validation):
     """Oil from p to 0 through a parallel film of length L: dW/dh(x) = 1.5 p/h (1 - 2 x/L) per area."""
     height, pressure = 20e-6, 1e6
     space = film_space(rectangle((0.02, 0.01), (cells, 2), cell=Cell.QUADRILATERAL))
@@ -274,6 +275,16 @@ def test_density_of_a_parallel_film_in_closed_form(cells):
     inside = (x > 0.0) & (x < 0.02)
     expected = 1.5 * pressure / height * (1.0 - 2.0 * x / 0.02)
     assert load.density[inside] == pytest.approx(expected[inside], rel=1e-9, abs=1e-6 * pressure / height)
+    quarter = np.flatnonzero((np.abs(x - 0.005) < 1e-9) & (space.vertices[:, 1] == 0.0))[0]
+    validation(
+        case="Parallel film under pressure, adjoint",
+        source="closed form dW/dh = 1.5 p/h (1 - 2 x/L)",
+        quantity=f"load by film thickness at L/4, {cells} cells",
+        unit="N/(mm2 um)",
+        expected=1e-12 * 0.75 * pressure / height,
+        obtained=1e-12 * load.density[quarter],
+        relative_tolerance=1e-9,
+    )
     assert load.uniform == pytest.approx(0.0, abs=1e-9 * pressure * 2e-4 / height)
     assert load.nodal.sum() == pytest.approx(load.uniform, abs=1e-9 * pressure * 2e-4 / height)
 
@@ -297,7 +308,7 @@ def test_density_does_not_depend_on_the_mesh():
 HALF = np.full((1, 1), 0.5)
 
 
-def test_derivatives_at_held_load():
+def test_derivatives_at_held_load(validation):
     """Loss at held load: against films whose separation is found anew."""
     solved = _solved(CASES["jfo"])
     gradients, growth = solved.gradients(), _growth(solved.problem.space)
@@ -316,7 +327,15 @@ def test_derivatives_at_held_load():
 
     step = 1e-4 * 50e-6
     expected = (loss(step) - loss(-step)) / (2.0 * step)
-    assert held.along(space.sample_vertices(growth), growth) == pytest.approx(expected, rel=1e-5)
+    validation(
+        case="Journal bearing that keeps its load (JFO), adjoint",
+        source="differences of films whose separation is found anew",
+        quantity="dissipation by a random growth of the film",
+        unit="W/um",
+        expected=1e-6 * expected,
+        obtained=1e-6 * held.along(space.sample_vertices(growth), growth),
+        relative_tolerance=1e-5,
+    )
     with pytest.raises(FilmInputError, match="as many coordinates"):
         held_gradient(gradients["dissipation"], [gradients["load"]], [np.zeros((1, 1))])
 

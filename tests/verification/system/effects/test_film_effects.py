@@ -10,7 +10,6 @@ from gaps import Effect, Pose
 from gaps.walls.pair import BoreWalls, PlateWalls
 from gaps.walls.springs import SpringBore, SpringPlates
 from reynolds import InputError, NotConverged
-from swashfilm.runs.pump.oil_fields import oil_state
 from system import (
     EXTENSIONS,
     SMOOTH,
@@ -27,6 +26,7 @@ from system.description.effects import PhysicsSection
 from system.effects.friction import OF_GAP
 from system.effects.laws.film import barus_flow, opening_flow
 from system.films.cycle import PLAIN, GapKind, GapPhysics, gap_cycles
+from system.films.oil_state import oil_state
 from system.inputs.sections.reader import section_of
 from system.points.film_effects import SOLVED, effects_in_films, even_rise, film_effects, resisting
 from system.points.films import leak_table

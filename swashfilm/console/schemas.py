@@ -1,0 +1,37 @@
+"""JSON Schemas of the kinds of files, and files that name theirs, so that an editor completes and checks keys."""
+
+import json
+from importlib import import_module
+from pathlib import Path
+
+SCHEMAS = {
+    "case": "swashfilm.case.schema.case_schema",
+    "pump": "system.pump_file.schema.pump_schema",
+    "recording": "diagnosis.recording.form.recording_schema",
+    "reference": "swashfilm.runs.reference.case.reference_schema",
+    "transient": "swashfilm.runs.transient.case.transient_schema",
+}
+"""Functions that return a schema, by the kind of file."""
+
+
+def schema_of(kind: str) -> dict[str, object]:
+    """Return the JSON Schema (draft 2020-12) of a kind of file, one of SCHEMAS."""
+    module, _, name = SCHEMAS[kind].rpartition(".")
+    return getattr(import_module(module), name)()
+
+
+def schema_text(kind: str) -> str:
+    """Return the schema of a kind of file as text."""
+    return json.dumps(schema_of(kind), indent=1, ensure_ascii=False)
+
+
+def write_new(path: Path, kind: str, text: str) -> None:
+    """Write a new file whose first line names its schema, and the schema beside it where there is none.
+
+    Raises OSError for a folder that cannot be written to, and for a file that exists.
+    """
+    schema = path.parent / f"{kind}.schema.json"
+    if not schema.exists():
+        schema.write_text(schema_text(kind) + "\n", encoding="utf-8")
+    with path.open("x", encoding="utf-8") as file:
+        file.write(f"#:schema ./{schema.name}\n{text}")

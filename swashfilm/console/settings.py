@@ -1,0 +1,47 @@
+"""Option --set: other values of keys of a pump file or a case."""
+
+import argparse
+import tomllib
+from collections.abc import Iterable
+
+from swashfilm.console.inputs import COMMAND_LINE
+from system.inputs.faults import Fault, InputFaults
+
+EXAMPLE = "valve_plate.film_thickness=10um"
+LEVELS_EXAMPLE = "valve_plate.film_thickness=6..14um:9"
+"""Of --vary, which has levels where --set has a value."""
+
+
+def add_set_option(parser: argparse.ArgumentParser, of: str = "the pump file", example: str = EXAMPLE) -> None:
+    """Add --set to a parser; of: the file whose keys it sets."""
+    what = f"another value of a key of {of}, such as {example}; may be repeated"
+    parser.add_argument("--set", action="append", default=[], metavar="KEY=VALUE", help=what)
+
+
+def set_values(texts: Iterable[str], faults: list[Fault], example: str = EXAMPLE) -> dict[str, object]:
+    """Return the values of --set by key, as written in a file; list the fault of a text that is no KEY=VALUE."""
+    stated: dict[str, object] = {}
+    for text in texts:
+        key, equals, value = text.partition("=")
+        if equals and key.strip() and value.strip():
+            stated[key.strip()] = toml_value(value.strip())
+        else:
+            faults.append(Fault("--set", repr(text), f"KEY=VALUE, such as {example}"))
+    return stated
+
+
+def set_values_of(options: argparse.Namespace, example: str = EXAMPLE) -> dict[str, object]:
+    """Return the values of a command line's --set by key; raise InputFaults for texts that are no KEY=VALUE."""
+    faults: list[Fault] = []
+    stated = set_values(options.set, faults, example)
+    if faults:
+        raise InputFaults(COMMAND_LINE, faults)
+    return stated
+
+
+def toml_value(text: str) -> object:
+    """Return the value of a TOML text; text that is not a TOML value, such as `10um`, is a string."""
+    try:
+        return tomllib.loads(f"value = {text}")["value"]
+    except tomllib.TOMLDecodeError:
+        return text

@@ -1,0 +1,1 @@
+"""Data of runs as files: CSV, NetCDF, and a workbook."""

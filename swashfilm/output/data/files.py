@@ -1,0 +1,97 @@
+"""Data files of runs: CSV files of columns, in units that people read, and NetCDF files in SI."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from swashfilm.output.headline import named
+from swashfilm.output.tables import parted, read_csv, write_csv
+from system.inputs.shown import known_unit, largest_of_units, round_off, shown_in
+
+if TYPE_CHECKING:
+    import xarray
+
+    from reynolds.numerics.arrays import Array
+
+CSV_DIGITS = 8
+
+
+@dataclass(frozen=True)
+class Column:
+    """A column of a table: its name, its numbers in SI with their unit, or texts (unit None)."""
+
+    name: str
+    values: Sequence[Any] | np.ndarray
+    unit: str | None = None
+
+
+def column_of(key: str, values: Sequence[float]) -> Column:
+    """Return the numbers of a key as a column of a table."""
+    words, unit = named(key)
+    return Column(words, values, unit or "1")
+
+
+def write_columns(path: Path, columns: Iterable[Column]) -> None:
+    """Write columns of equal length as CSV, heads `name [unit]` and numbers in the unit that people read.
+
+    A number that is round-off beside the largest of its unit is written as 0, one that is not finite as an empty cell.
+    """
+    listed = list(columns)
+    scales = largest_of_units((one.unit, one.values) for one in listed if one.unit is not None)
+    heads, cells = [], []
+    for column in listed:
+        if column.unit is None:
+            heads.append(column.name)
+            cells.append([str(value) for value in column.values])
+            continue
+        values = np.array(column.values, dtype=float)
+        shown = shown_in(
+            column.unit, column.name, float(np.max(np.abs(values), initial=0.0, where=np.isfinite(values)))
+        )
+        values[np.abs(values) < round_off(column.name, column.unit, scales)] = 0.0
+        heads.append(f"{column.name} [{shown.unit}]")
+        cells.append([f"{value:.{CSV_DIGITS}g}" if np.isfinite(value) else "" for value in shown.of(values)])
+    write_csv(path, heads, zip(*cells, strict=True))
+
+
+def read_columns(path: Path) -> dict[str, Array]:
+    """Return the columns of numbers of a CSV file by name, in SI; raise ValueError for a column of texts."""
+    head, *rows = read_csv(path)
+    found = {}
+    for title, cells in zip(head, zip(*rows, strict=True), strict=True):
+        name, unit = parted(title)
+        found[name] = known_unit(unit).to_si(np.array([float(cell or "nan") for cell in cells]))
+    return found
+
+
+def columns_of(data: xarray.Dataset, along: str) -> list[Column]:
+    """Return the variables of a data set over one dimension as columns, its coordinate first."""
+    series = data.drop_dims([dim for dim in data.sizes if dim != along])
+    names = [along, *(str(name) for name in series.data_vars)]
+    return [Column(name, series[name].values, series[name].attrs.get("units", "1")) for name in names]
+
+
+def write_netcdf(data: xarray.Dataset, path: Path, group: str | None = None) -> None:
+    """Write a data set, or add it as a group to a file; every variable has `units` (SI) and `long_name`."""
+    described(data).to_netcdf(path, mode="a" if group else "w", group=group, engine="h5netcdf")
+
+
+def described(data: xarray.Dataset) -> xarray.Dataset:
+    """Return the data set with the attributes `units` and `long_name` of every variable: 1, and its name in words."""
+    found = data.copy()
+    for name, variable in found.variables.items():
+        variable.attrs = {"units": "1", "long_name": str(name).replace("_", " "), **variable.attrs}
+    return found
+
+
+def read_netcdf(path: Path, group: str | None = None) -> xarray.Dataset:
+    """Return the data set of a NetCDF file, or of one group in it, loaded whole."""
+    import xarray
+
+    with xarray.open_dataset(path, group=group, engine="h5netcdf") as data:
+        return data.load()

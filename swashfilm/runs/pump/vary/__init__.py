@@ -1,0 +1,1 @@
+"""`swashfilm run --vary`: a pump over ranges of keys of its file."""

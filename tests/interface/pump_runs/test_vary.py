@@ -1,0 +1,97 @@
+"""A pump over ranges of keys: `swashfilm run --vary`, and keys set by `--set` on other commands."""
+
+import csv
+import json
+
+import pytest
+
+import swashfilm as sf
+from swashfilm.__main__ import main
+from swashfilm.console.levels import level_texts
+from swashfilm.runs.pump.vary.axes import vary_axes
+from system.inputs.faults import InputFaults
+
+FILM = "valve_plate.film_thickness"
+LUMPED = ["run", "ref90", "--fidelity", "lumped"]
+
+
+def told(words, capsys):
+    """Return what the command tells of its faults."""
+    assert main(words) == 2
+    return capsys.readouterr().err
+
+
+def test_levels_are_read_with_their_unit():
+    faults = []
+    film, grade, turns = vary_axes([f"{FILM}=6..14um:5", "oil.grade=ISO VG 32,ISO VG 46", "a.b=1,2.5"], faults)
+    assert not faults
+    assert film.numbers == pytest.approx((6e-6, 8e-6, 10e-6, 12e-6, 14e-6))
+    assert film.unit == "m"
+    assert grade.values == ("ISO VG 32", "ISO VG 46")
+    assert grade.numbers is None
+    assert turns.numbers == (1.0, 2.5)
+    assert [item.ends for item in level_texts("1,2..4bar:3")] == [("1bar",), ("2bar", "4bar")]
+
+
+def test_a_pump_over_a_key_leaves_a_study(tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
+    assert main([*LUMPED, "--vary", f"{FILM}=6..14um:3", "--excel", "-o", "run"]) == 0
+    out = capsys.readouterr().out
+    assert "3 of 3 points" in out
+    assert "delivery flow [L/min]" in out
+    with open("run/study.csv", encoding="utf-8") as file:
+        rows = list(csv.DictReader(file))
+    assert [float(row[f"{FILM} [um]"]) for row in rows] == [6.0, 10.0, 14.0]
+    leaks = [float(row["leakage flow, valve plate [L/min]"]) for row in rows]
+    assert leaks[2] / leaks[0] == pytest.approx((14 / 6) ** 3, rel=1e-2)
+    names = {path.name for path in (tmp_path / "run").iterdir()}
+    assert names >= {"study.nc", "summary.json", "report.html", "points", "plots", "run.xlsx"}
+    assert main(["report", "run"]) == 0
+    assert sf.open("run").summary["kind"] == "pump_study"
+    capsys.readouterr()
+    assert main([*LUMPED, "--vary", f"{FILM}=6..18um:4", "--resume", "run", "-o", "more"]) == 0
+    assert "3 points kept" in capsys.readouterr().err
+
+
+def test_two_keys_make_a_grid():
+    found = sf.vary("ref90", {FILM: "8..12um:2", "operating.pressure": "100,300bar"}, fidelity="lumped")
+    flow = found.to_xarray()["delivery_flow_m3_per_s"]
+    assert flow.shape == (2, 2)
+    one = sf.run("ref90", fidelity="lumped", pressure="300 bar", set={FILM: "12 um"})
+    assert float(flow[1, 1]) == pytest.approx(one.flow_delivery, rel=1e-9)
+
+
+def test_what_is_wrong_with_a_range_is_told_before_a_point_is_solved(tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
+    assert "try:      film_thickness" in told([*LUMPED, "--vary", "valve_plate.film_thicknes=6..14um:3"], capsys)
+    assert "which is not a length" in told([*LUMPED, "--vary", f"{FILM}=6..14bar:3"], capsys)
+    assert "a range with a number of levels" in told([*LUMPED, "--vary", f"{FILM}=6..14um"], capsys)
+    assert "KEY=LEVELS" in told([*LUMPED, "--vary", FILM], capsys)
+    text = told([*LUMPED, "--vary", "operating.displacement_ratio=0.2..1.4:7"], capsys)
+    assert "operating.displacement_ratio from 0.2 to 1.0" in text
+    assert "2 points have such a fault" in text
+    assert "--vary" in told([*LUMPED, "--resume", "."], capsys)
+    assert "--vary" in told([*LUMPED, "--vary", f"{FILM}=6..14um:3", "--refine", "2"], capsys)
+    assert not list(tmp_path.rglob("*"))
+    with pytest.raises(InputFaults, match=r"swashfilm\.vary"):
+        sf.run("ref90", fidelity="lumped", vary={FILM: "6..14um:3"})
+
+
+def test_a_map_and_a_case_take_other_values_of_keys(tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
+    case = '[film]\nthickness = "10 um"\nviscosity = "30 mPa s"\nvelocity = ["1 m/s", "0 m/s"]\n'
+    mesh = 'mesh = { kind = "rectangle", size = ["10 mm", "10 mm"], cells = [2, 2] }\n'
+    edges = '[boundary]\nleft = { pressure = "0 bar" }\nright = { pressure = "0 bar" }\n'
+    (tmp_path / "pad.toml").write_text("format = 1\n" + case + mesh + edges, encoding="utf-8")
+    assert (
+        main(["film", "pad.toml", "--set", "film.thickness=20um", "--set", "film.velocity[0]=2 m/s", "-o", "out"]) == 0
+    )
+    found = json.loads((tmp_path / "out" / "summary.json").read_text("utf-8"))
+    assert found["film_thickness_min_m"] == pytest.approx(20e-6)
+    assert "# command line: film.thickness = 20um" in (tmp_path / "out" / "input.toml").read_text("utf-8")
+    assert "try:      thickness" in told(["film", "pad.toml", "--set", "film.thicknes=20um"], capsys)
+    assert "KEY=VALUE" in told(["film", "pad.toml", "--set", "film.thickness"], capsys)
+    point = ["map", "ref90", "--fidelity", "lumped", "--plan", "point", "--check", "0"]
+    assert main([*point, "--set", f"{FILM}=12um", "-o", "map"]) == 0
+    assert f"# command line: {FILM} = 12um" in (tmp_path / "map" / "input.toml").read_text("utf-8")
+    assert "film_thickness" in told([*point, "--set", "valve_plate.film_thicknes=12um"], capsys)
