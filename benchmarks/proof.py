@@ -7,6 +7,7 @@
     python benchmarks/proof.py --workers 2                side by side
     python benchmarks/proof.py --cases 0                  runs nothing, writes the page from what is there
     python benchmarks/proof.py --development --page FILE  other draws, to look at before a mend
+    python benchmarks/proof.py --record                   the track record in diagnosis/report, from the outcomes
     python benchmarks/proof.py --write graded 3 FOLDER    writes the recording of a case, for `swashfilm diagnose`
 
 Each case's result is a file of its own in --results: Ctrl-C loses only the case in hand, the next call goes on.
@@ -41,6 +42,8 @@ def main() -> int:
     if options.write:
         part, number, folder = options.write
         return _write(cases(Part(part), seed)[int(number)], Path(folder))
+    if options.record:
+        return _record(options.results)
     parts = [part for part in Part if options.part in (None, part.value)]
     listed = [case for part in parts for case in cases(part, seed)[: options.cases]]
     folders = [] if options.part not in (None, GIVEN) else given()[: options.cases]
@@ -63,6 +66,7 @@ def _options() -> argparse.Namespace:
     reader.add_argument("--page", type=Path, default=ROOT / "docs" / "proof.md", metavar="FILE")
     reader.add_argument("--development", action="store_true", help="the seeds of the development set")
     reader.add_argument("--workers", type=int, default=1, metavar="N", help="processes side by side")
+    reader.add_argument("--record", action="store_true", help="write the track record that the package carries")
     reader.add_argument("--write", nargs=3, metavar=("PART", "NUMBER", "FOLDER"), help="write one recording")
     return reader.parse_args()
 
@@ -140,6 +144,21 @@ def _write(case, folder: Path) -> int:
     made = make(case)
     write_recording(folder, case.name, made.readings, campaigns()[case.campaign].circuit)
     print(f"{case.name}: score {made.score:.1f}, sizes {made.sizes}, in {folder}")
+    return 0
+
+
+def _record(results: Path) -> int:
+    """Write the track record from all outcomes that are there; 1 where there is none."""
+    from proof.record import write_record
+    from proof.store import outcomes
+
+    known = outcomes(results)
+    if not known:
+        print(f"no outcome in {results}")
+        return 1
+    path = ROOT / "diagnosis" / "report" / "track_record.json"
+    write_record(known, path)
+    print(f"{len(known)} outcomes, record in {path}")
     return 0
 
 

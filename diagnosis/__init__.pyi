@@ -14,6 +14,7 @@ from .recording.model import (
     TraceBlock as TraceBlock,
 )
 from .recording.reader import read_recording as read_recording
+from .report.answer import Look as Look, PlainAnswer as PlainAnswer, plain_answer as plain_answer
 from .report.json_file import write_diagnosis as write_diagnosis
 from .report.text import statement as statement
 from .study.acceptance import checked_recording as checked_recording

@@ -3,13 +3,17 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from functools import cached_property
 from pathlib import Path
 
 from diagnosis.procedure.compared import PumpComparison
+from diagnosis.procedure.cost import cost_words
 from diagnosis.procedure.next_test import with_next_point
 from diagnosis.procedure.pump_comparison import claimed_pump, compare_pumps
 from diagnosis.procedure.recorded import diagnose_recording
 from diagnosis.recording.model import Recording
+from diagnosis.report.answer import PlainAnswer, plain_answer
+from diagnosis.report.measure import NO_NEXT_POINT
 from diagnosis.study.acceptance import accepted_recording, refuse_too_few, refuse_too_smooth
 from diagnosis.study.levels import levelled
 from diagnosis.study.model import Study
@@ -27,16 +31,13 @@ from system.points.table.film_physics import FilmModel
 from system.pump_file.file import KnownPump, known_pump
 from system.work.progress import Report, silent
 
-NO_NEXT_POINT = "no next point can be proposed"
-"""First words of the note that gives the reason."""
-
 
 @dataclass(frozen=True)
 class DiagnosisResult:
     """A diagnosis with all that it was made from.
 
     assumptions: of the pump and of its tolerances, as text; extended_pump: the pump with what is claimed, None
-    where nothing is; comparison: the pump without and with it at one operating point.
+    where nothing is; comparison: the pump without and with it at one operating point; answer: in plain words.
     """
 
     pump: PumpDescription
@@ -45,6 +46,11 @@ class DiagnosisResult:
     assumptions: tuple[str, ...]
     extended_pump: PumpDescription | None
     comparison: PumpComparison
+
+    @cached_property
+    def answer(self) -> PlainAnswer:
+        """The diagnosis in plain words."""
+        return plain_answer(self.study, self.diagnosis, cost_words(self.comparison))
 
 
 def diagnose(

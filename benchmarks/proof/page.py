@@ -38,6 +38,7 @@ of sigma.
     mkdir -p build/proof && tar -xf benchmarks/proof/outcomes.tar.xz -C build/proof    unpacks the outcomes of this page
     python benchmarks/proof.py                 runs the missing cases, then writes this page
     python benchmarks/proof.py --cases 0       writes this page from the outcomes
+    python benchmarks/proof.py --record        writes the track record that a diagnosis tells of itself
     python benchmarks/proof.py --write graded 3 FOLDER    one recording, of examples/recordings/bench_pump.toml
     python benchmarks/proof.py --part rough-null          the missing cases of one part
 

@@ -75,6 +75,12 @@ def load(folder: Path, name: str) -> Outcome | None:
     return from_plain(json.loads(path.read_text("utf-8"))) if path.exists() else None
 
 
+def outcomes(folder: Path) -> list[Outcome]:
+    """All outcomes of a folder, in the order of their names; the page's other sections are there too, and are none."""
+    read = (json.loads(path.read_text("utf-8")) for path in sorted(folder.glob("*.json")))
+    return [from_plain(data) for data in read if "truth" in data]
+
+
 def keep(folder: Path, name: str, outcome: Outcome) -> None:
     """Write an outcome whole or not at all."""
     folder.mkdir(parents=True, exist_ok=True)

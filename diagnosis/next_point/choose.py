@@ -36,6 +36,29 @@ class RankedPoint:
 
 
 @dataclass(frozen=True)
+class ExpectedReading:
+    """The reading in which two explanations differ most at a point: by the first, by the second, SI.
+
+    apart: difference in sigma of one reading.
+    """
+
+    channel: str
+    dimension: Dimension | None
+    first: float
+    second: float
+    apart: float
+
+    @property
+    def texts(self) -> tuple[str, str]:
+        """Both values with their unit."""
+        one, other = (
+            f"{value:.4g}" if self.dimension is None else format_quantity(value, self.dimension, digits=4)
+            for value in (self.first, self.second)
+        )
+        return one, other
+
+
+@dataclass(frozen=True)
 class NextPoint:
     """The best point of a box for two explanations, and the odds after `limits.readings` readings there.
 
@@ -43,8 +66,9 @@ class NextPoint:
     as text, the likelier first; separates: their ids. before: ln odds of the first against the second by the recording;
     gain: mean gain of the readings in nats; after: mean ln odds for the true one; chance: of odds of 20 to 1 for it,
     each the lesser of both cases (first or second true). repeats: readings for a gain of `limits.enough`, None if
-    `limits.most_repeats` do not reach it. why: the reason as text; ranked: all points with a computed gain, this one
-    first; instead: another test that settles the two, as text; beyond: the box exceeds the recorded range.
+    `limits.most_repeats` do not reach it. expected: the reading in which the two differ most there; ranked: all points
+    with a computed gain, this one first; instead: another test that settles the two, as text; beyond: the box exceeds
+    the recorded range.
     """
 
     box: BenchBox
@@ -57,7 +81,7 @@ class NextPoint:
     after: float
     chance: float
     repeats: int | None
-    why: str
+    expected: ExpectedReading
     limits: NextPointLimits
     ranked: tuple[RankedPoint, ...] = ()
     beyond: bool = False
@@ -101,7 +125,7 @@ def next_point(
         after=after,
         chance=chance,
         repeats=next((n for n in range(1, limits.most_repeats + 1) if found[at].gain(n) >= limits.enough), None),
-        why=_why(study, first, second, rows(some, np.array([at]))),
+        expected=_expected(study, first, second, rows(some, np.array([at]))),
         limits=limits,
         ranked=ranked,
     )
@@ -126,19 +150,11 @@ def _separation(study: Study, first: Contender, second: Contender, points: Bench
     return np.asarray(squares.sum(axis=1), dtype=float)
 
 
-def _why(study: Study, first: Contender, second: Contender, point: BenchPoints) -> str:
-    """The channel in which the two differ most at the point, and the difference, as text."""
+def _expected(study: Study, first: Contender, second: Contender, point: BenchPoints) -> ExpectedReading:
+    """The reading in which the two differ most at the point."""
     one, other = (predicted(contender, point)[0] for contender in (first, second))
     read = readings(study, one[None])
     apart = np.where(read.measured[0], np.abs(other - one) / read.sigma[0], 0.0)
     most = int(np.argmax(apart))
     channel = read.channels[most]
-    values = [_quantity(value[most], channel.dimension) for value in (one, other)]
-    return (
-        f"there {channel.name} is {values[0]} by {first.text} and {values[1]} by {second.text}, "
-        f"{apart[most]:.1f} sigma of one reading apart"
-    )
-
-
-def _quantity(value: float, dimension: Dimension | None) -> str:
-    return f"{value:.4g}" if dimension is None else format_quantity(float(value), dimension, digits=4)
+    return ExpectedReading(channel.name, channel.dimension, float(one[most]), float(other[most]), float(apart[most]))

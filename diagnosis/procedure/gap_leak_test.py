@@ -14,7 +14,7 @@ import numpy as np
 from diagnosis.next_point.forecast import Contender, Forecast
 from diagnosis.next_point.operating_box import BenchBox
 from diagnosis.recording.units import channel_unit, difference, reading
-from diagnosis.report.format import PLACES
+from diagnosis.report.format import PLACES, if_words, pressure_text
 from diagnosis.study.model import Study
 from diagnosis.thresholds import NextPointLimits
 from reynolds.numerics.arrays import Array
@@ -34,9 +34,13 @@ STEP = 0.1  # of slopes, in spreads of a parameter
 
 @dataclass(frozen=True)
 class GapLeakTest:
-    """Leakage of one gap at a point by two explanations, SI, one sigma of a reading, and its gain in nats."""
+    """Leakage of one gap at a point by two explanations, SI, one sigma of a reading, and its gain in nats.
+
+    between: the two explanations as text.
+    """
 
     gap: Gap
+    between: tuple[str, str]
     point: BenchPoints
     leaks: tuple[float, float]
     sigma: float
@@ -46,17 +50,18 @@ class GapLeakTest:
     def text(self) -> str:
         """The measurement, its operating point, and the expected values."""
         drain, unit = ChannelName.Q_CASE, channel_unit(ChannelName.Q_CASE)
-        one, other = (f"{reading(drain, leak):.3g}" for leak in self.leaks)
-        at = {
-            ChannelName.SPEED: self.point.speed,
-            ChannelName.P_OUT: self.point.p_out,
-            ChannelName.T_CASE: self.point.T_case,
-        }
-        where = ", ".join(f"{each.value} {reading(each, v[0]):.4g} {channel_unit(each)}" for each, v in at.items())
+        leaks = (
+            f"{reading(drain, leak):.3g} {unit} {cause}"
+            for leak, cause in zip(self.leaks, if_words(*self.between), strict=True)
+        )
+        speed, pressure, warm = (float(one[0]) for one in (self.point.speed, self.point.p_out, self.point.T_case))
+        where = (
+            f"{reading(ChannelName.SPEED, speed):.0f} r/min, {pressure_text(pressure)}, "
+            f"{reading(ChannelName.T_CASE, warm):.0f} degC in the case"
+        )
         return (
-            f"Measure the leakage of {PLACES[self.gap]} by itself, by its own drain or a gauge of the film: at "
-            f"{where} it is {one} {unit} by the first and {other} {unit} by the second; the reading must be "
-            f"accurate to {difference(drain, self.sigma):.2g} {unit}."
+            f"Measure the leakage of {PLACES[self.gap]} by itself, by its own drain or a gauge of the film, at "
+            f"{where}: {', '.join(leaks)}. The reading must be accurate to {difference(drain, self.sigma):.2g} {unit}."
         )
 
 
@@ -73,13 +78,14 @@ def gap_leak_test(
         return None
     place = _loaded(box)
     known = [_leaks(study, contender, place) for contender in (first, second)]
+    between = first.text, second.text
     found = []
     for at, gap in enumerate(LEAKS):
         (one, one_spread), (other, other_spread) = ((leak[at], spread[at]) for leak, spread in known)
         sigma = meter.sigma + limits.gauge * abs(one)
         first_spread, second_spread = (np.array([[each @ each / sigma**2]]) for each in (one_spread, other_spread))
         gain = Forecast(np.array([(other - one) / sigma]), first_spread, second_spread).gain(limits.readings)
-        found.append(GapLeakTest(gap, place, (float(one), float(other)), float(sigma), gain))
+        found.append(GapLeakTest(gap, between, place, (float(one), float(other)), float(sigma), gain))
     best = max(found, key=lambda each: each.gain)
     return best if best.gain >= limits.settled else None
 

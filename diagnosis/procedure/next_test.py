@@ -11,7 +11,7 @@ from diagnosis.next_point.choose import NextPoint, next_point
 from diagnosis.next_point.forecast import Contender
 from diagnosis.next_point.operating_box import ordinary_box, rig_box
 from diagnosis.procedure.gap_leak_test import gap_leak_test
-from diagnosis.report.text import explanation_words
+from diagnosis.report.explanations import explanation_words
 from diagnosis.study.model import Study
 from diagnosis.thresholds import NextPointLimits, Thresholds
 from diagnosis.verdict.diagnosis import Diagnosis

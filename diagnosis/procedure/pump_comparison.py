@@ -18,6 +18,7 @@ from diagnosis.procedure.compared import (
 )
 from diagnosis.procedure.floating_comparison import compare_floating, varied_pump
 from diagnosis.recording.units import channel_unit, reading
+from diagnosis.report.format import setting_text
 from diagnosis.report.tables import added_by_claim
 from diagnosis.study.inputs import bench_points
 from diagnosis.study.model import Study
@@ -143,13 +144,9 @@ def _at(pump: PumpDescription, point: OperatingPoint) -> PumpDescription:
 
 
 def _setting(point: OperatingPoint) -> str:
-    speed = reading(ChannelName.SPEED, point.shaft_speed)
-    pressure = reading(ChannelName.P_OUT, point.delivery_pressure)
     warm = reading(ChannelName.T_CASE, point.temperature)
-    return (
-        f"{speed:.4g} {channel_unit(ChannelName.SPEED)}, {pressure:.4g} {channel_unit(ChannelName.P_OUT)}, "
-        f"displacement ratio {point.displacement_ratio:.3g}, case at {warm:.3g} {channel_unit(ChannelName.T_CASE)}"
-    )
+    setting = setting_text(point.shaft_speed, point.delivery_pressure, point.displacement_ratio)
+    return f"{setting}, case at {warm:.3g} {channel_unit(ChannelName.T_CASE)}"
 
 
 def _changes(points: Mapping[str, PumpPoint]) -> Iterator[Change]:

@@ -122,7 +122,7 @@ class RecordingSection:
     format: Annotated[int, Format(1, "recording")]
     title: Words = ""  # left out: the folder's name
     pump: Words = ""  # the pump on the bench
-    oil: Words = ""  # for the reader
+    oil: Words = ""  # on the bench; compared with the pump file's
     order: Words = ""  # for the reader: the order of the points
     circuit: Circuit = Circuit.OPEN
     pressure_reference: PressureReference | None = None  # left out: gauge, with a note

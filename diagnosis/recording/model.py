@@ -20,12 +20,13 @@ class Circuit(Enum):
 
 
 class NoteKind(Enum):
-    """Kind of a note on the data."""
+    """Kind of a note on the data; CONTRADICTED: the recording and the pump's file cannot both be right."""
 
     FAULT = "fault"
     REMOVED = "removed"
     SUSPECT = "suspect"
     NOTED = "noted"
+    CONTRADICTED = "contradicted"
 
 
 @dataclass(frozen=True)

@@ -1,10 +1,10 @@
-"""Numbers of a diagnosis as people read them: the unit of each quantity, values with their sigma, ids as words."""
+"""Words and numbers of a diagnosis as people read them: places, channels, settings, odds, ids as words."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable
 
-from diagnosis.verdict.diagnosis import Estimate
+from diagnosis.recording.units import channel_unit, reading
 from system.description.gap import Gap
 from system.effects.effect import EffectId
 from system.inputs.channels import ChannelName
@@ -12,6 +12,9 @@ from system.inputs.units import Dimension, in_unit, reading_unit
 
 MOST_ODDS = 1000000
 """Odds beyond which a number means nothing: models are not that true."""
+
+NOTHING = "no mismatch"
+"""The explanation by no effect at all, in words."""
 
 PLACES = {Gap.PISTON: "the pistons", Gap.SLIPPER: "the slippers", Gap.VALVE_PLATE: "the valve plate"}
 
@@ -30,11 +33,15 @@ def channel_words(channel: ChannelName) -> str:
     return f"{words} ({channel.value})" if words else channel.value
 
 
-def estimate_text(estimate: Estimate) -> str:
-    """A parameter with one sigma: "opening 22 +- 2 1/GPa". Temperatures are differences, in K."""
-    unit, factor = parameter_unit(estimate.dimension, estimate.value)
-    size = f"{estimate.value * factor:.3g} +- {estimate.sigma * factor:.2g}"
-    return f"{last_word(estimate.name)} {size} {unit.removesuffix('1')}".rstrip()
+def setting_text(speed: float, pressure: float, stroke: float) -> str:
+    """An operating point in SI in the words of a bench: "1000 r/min, 374 bar, 28 % stroke"."""
+    turns, load = reading(ChannelName.SPEED, speed), pressure_text(pressure)
+    return f"{turns:.0f} r/min, {load}, {100.0 * stroke:.0f} % stroke"
+
+
+def pressure_text(pressure: float) -> str:
+    """A delivery pressure in Pa with the unit that is asked for: "374 bar"."""
+    return f"{reading(ChannelName.P_OUT, pressure):.3g} {channel_unit(ChannelName.P_OUT)}"
 
 
 def parameter_unit(dimension: Dimension | None, size: float) -> tuple[str, float]:
@@ -56,6 +63,21 @@ def effect_words(effects: Iterable[EffectId], pair: Gap | None = None) -> str:
     """Ids as words: "elastic opening of the slippers", "churning and torque offset", "nothing"."""
     words = listed(effect.value.replace("_", " ") for effect in effects) or "nothing"
     return f"{words} at {PLACES[pair]}" if pair else words
+
+
+def if_words(first: str, second: str) -> tuple[str, str]:
+    """Conditions that either of two explanations is true, short where they differ by their place alone.
+
+    "if the cause is churning" and "if nothing is wrong"; "if it is the pistons" and "if it is the slippers".
+    """
+    (one, _, here), (other, _, there) = first.partition(" at "), second.partition(" at ")
+    if one == other and here and there:
+        return f"if it is {here}", f"if it is {there}"
+    return _if(first), _if(second)
+
+
+def _if(explanation: str) -> str:
+    return "if nothing is wrong" if explanation == NOTHING else f"if the cause is {explanation}"
 
 
 def listed(words: Iterable[str], last: str = "and") -> str:

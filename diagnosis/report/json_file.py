@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Mapping
+from dataclasses import asdict
 from math import degrees, isfinite
 from pathlib import Path
 from typing import Any
@@ -12,7 +13,8 @@ from diagnosis.detect.time_scan import TimeKind, TimeMark
 from diagnosis.explain.ranked import Explanation, HeldOut
 from diagnosis.next_point.choose import NextPoint
 from diagnosis.recording.units import difference, difference_unit, reading
-from diagnosis.report.format import last_word
+from diagnosis.report.answer import PlainAnswer
+from diagnosis.report.format import if_words, last_word
 from diagnosis.report.text import paragraphs, statement
 from diagnosis.verdict.diagnosis import ClaimedEffect, Diagnosis, Estimate
 from system.effects.effect import Kind
@@ -22,13 +24,13 @@ from system.inputs.faults import Fault, InputFaults
 FORMAT = 1
 KEYS = (
     "format", "verdict", "status", "statement", "details", "mismatch", "where", "effects", "hypotheses", "fit",
-    "scaling", "next_test", "not_identifiable", "notes",
+    "scaling", "next_test", "not_identifiable", "notes", "answer",
 )  # fmt: skip
 
 
-def write_diagnosis(path: Path, diagnosis: Diagnosis) -> None:
-    """Write a diagnosis as JSON (docs/files.md). Raises ValueError for nan or inf."""
-    text = json.dumps(diagnosis_record(diagnosis), indent=1, allow_nan=False)
+def write_diagnosis(path: Path, diagnosis: Diagnosis, answer: PlainAnswer) -> None:
+    """Write a diagnosis and its answer in plain words as JSON (docs/files.md). Raises ValueError for nan or inf."""
+    text = json.dumps(diagnosis_record(diagnosis) | {"answer": asdict(answer)}, indent=1, allow_nan=False)
     path.write_text(text + "\n", encoding="utf-8")
 
 
@@ -48,7 +50,7 @@ def read_diagnosis(path: Path) -> dict[str, Any]:
 
 
 def diagnosis_record(diagnosis: Diagnosis) -> dict[str, Any]:
-    """Content of diagnosis.json, as plain values."""
+    """Content of diagnosis.json without the answer, as plain values."""
     return {
         "format": FORMAT,
         "verdict": diagnosis.kind.value,
@@ -179,6 +181,14 @@ def _next_test(found: NextPoint) -> dict[str, Any]:
         "log_odds": {"now": found.before, "predicted": found.after},
         "beyond_recorded": found.beyond,
         "repeats": found.repeats,
-        "why": found.why,
+        "why": _why(found),
         "instead": found.instead,
     }
+
+
+def _why(found: NextPoint) -> str:
+    """The reading in which the two differ most at the point."""
+    expected = found.expected
+    reads = zip(expected.texts, if_words(*found.between), strict=True)
+    one, other = (f"{value} {cause}" for value, cause in reads)
+    return f"there {expected.channel} is {one} and {other}, {expected.apart:.1f} sigma of one reading apart"

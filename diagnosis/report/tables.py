@@ -124,18 +124,27 @@ def parameter_rows(diagnosis: Diagnosis) -> Iterator[Row]:
         }
 
 
+def next_point_head() -> tuple[str, ...]:
+    """Columns of the points for a next measurement."""
+    inputs = (
+        ChannelName.SPEED, ChannelName.P_OUT, ChannelName.DISPLACEMENT_RATIO, ChannelName.T_IN, ChannelName.T_CASE,
+    )  # fmt: skip
+    return (*map(channel_head, inputs), "gain [nats]")
+
+
 def next_point_rows(found: NextPoint | None) -> Iterator[Row]:
     """Points of the rig's box by the gain of readings there, in nats, the best first."""
     for one in () if found is None else found.ranked:
         point = one.point
-        yield {
-            channel_head(ChannelName.SPEED): _reading(ChannelName.SPEED, point.shaft_speed),
-            channel_head(ChannelName.P_OUT): _reading(ChannelName.P_OUT, point.delivery_pressure),
-            "displacement_ratio [1]": _text(point.displacement_ratio),
-            "T_in [degC]": _reading(ChannelName.T_IN, one.inlet_temperature),
-            "T_case [degC]": _reading(ChannelName.T_CASE, point.temperature),
-            "gain [nats]": _text(one.gain),
-        }
+        values = (
+            _reading(ChannelName.SPEED, point.shaft_speed),
+            _reading(ChannelName.P_OUT, point.delivery_pressure),
+            _text(point.displacement_ratio),
+            _reading(ChannelName.T_IN, one.inlet_temperature),
+            _reading(ChannelName.T_CASE, point.temperature),
+            _text(one.gain),
+        )
+        yield dict(zip(next_point_head(), values, strict=True))
 
 
 def pull_sums(before: Posterior, after: Posterior) -> tuple[float, float]:

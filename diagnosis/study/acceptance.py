@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
@@ -14,6 +15,10 @@ from diagnosis.study.model import Study
 from diagnosis.thresholds import load_thresholds
 from system.inputs.faults import Fault, InputFaults
 from system.pump_file.file import KnownPump, builtin_pumps, load_known_pump
+
+GRADE_BAND = 0.101
+"""Of the viscosity that an ISO grade names, with a little for what a file rounds."""
+_GRADE = re.compile(r"\bVG\s*(\d+)", re.IGNORECASE)
 
 
 def accepted_recording(source: Recording | Path, known: KnownPump) -> Recording:
@@ -31,18 +36,32 @@ def checked_recording(path: Path, known: KnownPump | None = None) -> Recording:
         known = load_known_pump(recording.pump)
     displacement = None if known is None else known.pump.pump.displacement
     recording = check_recording(recording, displacement, load_thresholds().data)
-    recording = replace(recording, notes=(*recording.notes, *other_pump(recording, known)))
+    recording = replace(recording, notes=(*recording.notes, *contradictions(recording, known)))
     faults = [note for note in recording.notes if note.kind is NoteKind.FAULT]
     if faults:
         raise InputFaults(str(path), [_fault(note) for note in faults])
     return recording
 
 
-def other_pump(recording: Recording, known: KnownPump | None) -> Iterator[DataNote]:
-    """A note if the recording names another pump than the one that it is compared with."""
-    if known is not None and recording.pump not in ("", known.pump.name):
+def contradictions(recording: Recording, known: KnownPump | None) -> Iterator[DataNote]:
+    """Notes where the recording names another pump, or an oil of another grade, than the pump that it is compared with.
+
+    ISO 3448 allows a grade 10 % either side of its viscosity at 40 degC. An oil without a grade in its name says
+    nothing.
+    """
+    if known is None:
+        return
+    if recording.pump not in ("", known.pump.name):
         text = f"the recording is of {recording.pump}; it is compared with {known.pump.name}"
-        yield DataNote(NoteKind.NOTED, None, (), text)
+        yield DataNote(NoteKind.CONTRADICTED, None, (), text)
+    grade = _GRADE.search(recording.oil)
+    own = 1e6 * known.pump.oil.kinematic_viscosity_40C
+    if grade is not None and not 1.0 - GRADE_BAND <= own / float(grade[1]) <= 1.0 + GRADE_BAND:
+        text = (
+            f"the recording was made with {recording.oil}; the pump's file has an oil of {own:.3g} mm2/s at 40 degC. "
+            "Leakage and friction go with the viscosity: correct the one that is wrong"
+        )
+        yield DataNote(NoteKind.CONTRADICTED, None, (), text)
 
 
 def refuse_too_few(study: Study) -> None:

@@ -57,7 +57,7 @@ format = 1
 title = "the paper's 112 points, artificial"
 pump = "ref90 with other friction"
 circuit = "closed"
-oil = "ISO VG 46"
+oil = "ISO VG 68"
 pressure_reference = "gauge"
 
 [steady]

@@ -11,8 +11,8 @@ from reynolds.numerics.convergence import Convergence, ConvergenceKind
 from swashfilm.output.data.files import CSV_DIGITS
 from swashfilm.output.headline import named, shown_of, titled_key
 from swashfilm.output.tables import write_csv
-from system.inputs.shown import Shown, significant
-from system.inputs.units import Dimension, format_quantity
+from system.inputs.shown import Shown, quantity_text, significant
+from system.inputs.units import Dimension
 
 DIGITS = 6
 """Significant digits of numbers whose change from mesh to mesh is of interest."""
@@ -85,7 +85,7 @@ def bar_text(summary: Mapping[str, Any], key: str, dimension: Dimension) -> str:
     if limit is None or error is None:
         return f"{number['verdict']}: no error bar"
     digits = _digits(limit, error)
-    return f"limit {format_quantity(limit, dimension, digits=digits)} +- {format_quantity(error, dimension, digits=1)}"
+    return f"limit {quantity_text(limit, dimension, digits=digits)} +- {quantity_text(error, dimension, digits=1)}"
 
 
 def refinement_head(found: Mapping[str, Any]) -> tuple[str, ...]:

@@ -14,7 +14,7 @@ from enum import Enum
 from math import floor, isfinite, log10, pi
 from typing import TYPE_CHECKING, Any, overload
 
-from system.inputs.units import LPM, RPM
+from system.inputs.units import LPM, RPM, Dimension, format_quantity
 
 if TYPE_CHECKING:
     from reynolds.numerics.arrays import Array
@@ -135,6 +135,15 @@ def pressure_text(value: float, digits: int = 3) -> str:
     """Return a pressure in Pa for a sentence, rounded to significant digits, with the unit in which it is shown."""
     shown = shown_in("Pa")
     return f"{float(f'{shown.of(value):.{digits}g}'):g} {shown.unit}"
+
+
+def quantity_text(value: float, dimension: Dimension, digits: int = 3) -> str:
+    """Return an SI value for a sentence in the unit that suits its size; pressures in the unit that is asked for."""
+    if dimension is Dimension.PRESSURE:
+        return pressure_text(value, digits)
+    if dimension is Dimension.ANGULAR_SPEED:
+        return f"{value / RPM:.{digits}g} r/min"
+    return format_quantity(value, dimension, digits=digits)
 
 
 def known_unit(unit: str) -> Shown:

@@ -13,18 +13,20 @@ from diagnosis import (
     Diagnosis,
     Explanation,
     NoteKind,
+    PlainAnswer,
     RecordedChannel,
     Recording,
     SteadyTable,
     Study,
     load_thresholds,
+    plain_answer,
 )
 from diagnosis.detect.mismatch import ChannelMisfit, Detection
 from diagnosis.detect.regions import MapRegion
 from diagnosis.explain.hypotheses import Hypothesis
 from diagnosis.explain.ranked import HeldOut
 from diagnosis.explain.scaling import Scaling
-from diagnosis.next_point.choose import NextPoint
+from diagnosis.next_point.choose import ExpectedReading, NextPoint
 from diagnosis.recording.model import DataNote
 from diagnosis.verdict.diagnosis import ClaimedEffect, Estimate, VerdictStatus
 from diagnosis.verdict.locate import Location
@@ -156,7 +158,7 @@ def named_diagnosis() -> Diagnosis:
             after=4.3,
             chance=0.87,
             repeats=3,
-            why="there Q_case parts",
+            expected=ExpectedReading("Q_case", Dimension.VOLUME_FLOW, 2.4 * LPM, 2.1 * LPM, 12.0),
             limits=load_thresholds().next_point,
         ),
         not_identifiable=("film_thickness slipper vs film_thickness piston",),
@@ -182,6 +184,11 @@ def its_study(named: Diagnosis) -> Study:
     recording = Recording("Bench <4>", "ref90", "ISO VG 46", Circuit.CLOSED, channels, steady, (), notes)
     lines: Any = Lines(named.before.parameters)
     return Study(recording, lines, readings(), named.before, (), {}, np.zeros((PRESSURE.size, 4)))
+
+
+def its_answer(diagnosis: Diagnosis, cost: str = "") -> PlainAnswer:
+    """The answer in plain words."""
+    return plain_answer(its_study(diagnosis), diagnosis, cost)
 
 
 def agreeing(diagnosis: Diagnosis) -> Diagnosis:

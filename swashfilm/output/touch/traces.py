@@ -177,7 +177,9 @@ def _scatter(dots: Any, panel: Panel) -> dict[str, Any]:
         marker |= {"color": short(dots.get_array()), **_colours(dots)}
         extra = "<br>%{marker.color:.5~g}"
         if dots.colorbar is not None:
-            extra = f"<br>{bar_title(dots, panel)}: %{{marker.color:.5~g}}"
+            title = bar_title(dots, panel)
+            extra = f"<br>{title}: %{{marker.color:.5~g}}"
+            marker |= _bar(dots, panel, title) | {"showscale": True}
     else:
         faces = dots.get_facecolor() if len(dots.get_facecolor()) else dots.get_edgecolor()
         colours = [colour(one) for one in faces]

@@ -35,15 +35,17 @@ def run_calibrate_command(options: argparse.Namespace) -> int:
     models = loss_models(options)
     from diagnosis.calibration import calibrate
     from diagnosis.recording.model import NoteKind
-    from diagnosis.study.acceptance import checked_recording, other_pump
+    from diagnosis.study.acceptance import checked_recording
     from swashfilm.console.progress import progress
     from swashfilm.output.run_folder import final_folder, run_folder
     from swashfilm.runs.calibrate.files import CALIBRATED, write_calibration_files
     from swashfilm.runs.calibrate.result import CalibrationRun
+    from swashfilm.runs.diagnose.told import show_contradictions
     from system.pump_file.file import load_known_pump
 
     known = load_known_pump(options.pump, set_values_of(options))
     recording = checked_recording(options.recording, known)
+    show_contradictions(recording)
     title = recording.title or options.recording.stem
     with (
         run_folder(f"calibrate-{title}", options.output, workbook=options.excel) as folder,
@@ -52,7 +54,7 @@ def run_calibrate_command(options: argparse.Namespace) -> int:
         found = calibrate(known, recording, report, models, options.laws == LAWS[0])
         write_calibration_files(folder, found, title)
         run = CalibrationRun.opened(folder)
-    for text in (*(note.text for note in other_pump(recording, known)), *run.paragraphs):
+    for text in run.paragraphs:
         show(text)
     for heading, rows in run.tables():
         show_table(heading, rows)

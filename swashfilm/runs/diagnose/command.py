@@ -44,13 +44,14 @@ def run_diagnose_command(options: argparse.Namespace) -> int:
     if options.watch:
         _watch(options, workers)
     from diagnosis.finding import diagnose
-    from diagnosis.recording.model import NoteKind
-    from diagnosis.study.acceptance import checked_recording, other_pump
+    from diagnosis.study.acceptance import checked_recording
     from swashfilm.console.progress import progress
+    from swashfilm.output.page import PAGE
     from swashfilm.output.run_folder import Interrupted, final_folder, run_folder
     from swashfilm.runs.diagnose.films import film_model_of, film_options_of
     from swashfilm.runs.diagnose.result import DiagnosisRun
     from swashfilm.runs.diagnose.run import EXTENDED, write_finding
+    from swashfilm.runs.diagnose.told import MOST_LINES, answer_lines, show_contradictions
     from system.effects.catalogue.entries import CATALOGUE, with_films_solved
     from system.effects.effect import Kind
     from system.pump_file.file import load_known_pump
@@ -58,6 +59,7 @@ def run_diagnose_command(options: argparse.Namespace) -> int:
     known = load_known_pump(options.pump, set_values_of(options))
     film_options = film_options_of(options, known)
     recording = checked_recording(options.recording, known)
+    show_contradictions(recording)
     name = f"diagnose-{recording.title or options.recording.stem}"
     with run_folder(name, options.output, workbook=options.excel) as folder, progress(1, "diagnosis") as report:
         catalogue = with_films_solved(known.pump, report) if options.film_tables else CATALOGUE
@@ -68,22 +70,16 @@ def run_diagnose_command(options: argparse.Namespace) -> int:
         finding = diagnose(known, recording, report, workers, catalogue, films)
         write_finding(folder, finding)
         found = DiagnosisRun.opened(folder)
-    for text in (*(note.text for note in other_pump(recording, known)), *found.paragraphs):
-        show(text)
-    for title, rows in found.tables():
-        show_table(title, rows)
-    removed = (note for note in finding.diagnosis.notes if note.startswith(NoteKind.REMOVED.value))
-    for note in (*found.notes, *removed):
-        show(note)
+    for line in answer_lines(found.record["answer"], MOST_LINES - (apply is not None)):
+        show(line)
     if apply is not None and found.effects:
         write_new(apply, "pump", (final_folder(folder) / EXTENDED).read_text("utf-8"))
         what = "without the sensor's fault" if finding.diagnosis.kind is Kind.SENSOR_FAULT else "with it"
         fidelity = " --fidelity lumped" if films is None else ""  # floating films have all physics by default
-        show(f"the pump as fitted, {what}, is {apply}: swashfilm run {apply}{fidelity}")
-        show("its head has its origin, and the other fidelities that run it")
+        show(f"the pump as fitted, {what}: swashfilm run {apply}{fidelity}")
     elif apply is not None:
         show(f"nothing is claimed: {apply} is not written")
-    show(f"results in {final_folder(folder)}")
+    show(f"results in {final_folder(folder)}; {PAGE} there has the evidence")
     return 0
 
 

@@ -9,10 +9,13 @@ import numpy as np
 
 from diagnosis.checks.notes import note_text
 from diagnosis.procedure.compared import NO_COMPARISON, WITH, WITHOUT, FilmComparison, PumpComparison
+from diagnosis.recording.model import NoteKind
 from diagnosis.recording.units import channel_unit, reading
+from diagnosis.report.answer import PlainAnswer
 from diagnosis.report.json_file import write_diagnosis
 from diagnosis.report.tables import (
     hypothesis_rows,
+    next_point_head,
     next_point_rows,
     parameter_rows,
     pull_sums,
@@ -27,6 +30,9 @@ from swashfilm.output.tables import parted
 from system.inputs.channels import ChannelName
 
 KIND = "diagnosis"
+CHANGE_HEAD = ("quantity", "unit", WITHOUT, WITH, "change")
+FILM_HEAD = ("quantity", "unit", *(f"{kind}_{name}" for kind in ("lumped", "films") for name in (WITHOUT, WITH)))
+"""Columns of a table without rows."""
 TRACES = "trace_residuals.csv"
 """Table of the traces in the run folder of a recording, as residuals.csv is of the steady readings."""
 
@@ -35,12 +41,13 @@ def write_diagnosis_files(
     folder: Path,
     study: Study,
     diagnosis: Diagnosis,
+    answer: PlainAnswer,
     assumptions: Sequence[str] = (),
     comparison: PumpComparison = NO_COMPARISON,
 ) -> None:
     """Write diagnosis.json, summary.json, and seven tables (of traces an eighth) into a run folder.
 
-    assumptions: of the pump; comparison: the pump without and with the finding.
+    answer: the diagnosis in plain words; assumptions: of the pump; comparison: the pump without and with the finding.
     """
     write_rows(folder / "steady.csv", steady_rows(study.recording))
     write_rows(folder / "residuals.csv", residual_rows(study, diagnosis))
@@ -48,10 +55,10 @@ def write_diagnosis_files(
         write_rows(folder / TRACES, with_stated(study, trace_residual_rows(study, diagnosis)))
     write_rows(folder / "hypotheses.csv", hypothesis_rows(diagnosis))
     write_rows(folder / "parameters.csv", parameter_rows(diagnosis))
-    write_rows(folder / "next_points.csv", next_point_rows(diagnosis.next_point))
-    write_rows(folder / "changes.csv", change_rows(comparison))
-    write_rows(folder / "films.csv", film_rows(comparison.films))
-    write_diagnosis(folder / "diagnosis.json", diagnosis)
+    write_rows(folder / "next_points.csv", next_point_rows(diagnosis.next_point), next_point_head())
+    write_rows(folder / "changes.csv", change_rows(comparison), CHANGE_HEAD)
+    write_rows(folder / "films.csv", film_rows(comparison.films), FILM_HEAD)
+    write_diagnosis(folder / "diagnosis.json", diagnosis, answer)
     summary = diagnosis_summary(study, diagnosis, assumptions)
     write_json(folder / "summary.json", summary | {"runs": comparison.text, "films": comparison.films.text})
 
@@ -93,7 +100,8 @@ def diagnosis_summary(study: Study, diagnosis: Diagnosis, assumptions: Sequence[
         "oil": recording.oil,
         "points": len(recording.steady.values),
         "channels": [channel.name.value for channel in recording.channels],
-        "data_notes": [note_text(note) for note in recording.notes],
+        "warnings": [note.text for note in recording.notes if note.kind is NoteKind.CONTRADICTED],
+        "data_notes": [note_text(note) for note in recording.notes if note.kind is not NoteKind.CONTRADICTED],
         "assumptions": list(assumptions),
         "squared_pulls": {"before": before, "after": after},
         "thresholds_sha256": diagnosis.thresholds.digest,
@@ -101,11 +109,11 @@ def diagnosis_summary(study: Study, diagnosis: Diagnosis, assumptions: Sequence[
     }
 
 
-def write_rows(path: Path, rows: Iterable[Mapping[str, str]]) -> None:
-    """Write rows of one set of columns as CSV."""
+def write_rows(path: Path, rows: Iterable[Mapping[str, str]], head: Sequence[str] = ()) -> None:
+    """Write rows of one set of columns as CSV; head: the columns where there is no row."""
     listed = list(rows)
     with path.open("w", encoding="utf-8", newline="") as file:
-        writer = csv.DictWriter(file, list(listed[0]) if listed else [], lineterminator="\n")
+        writer = csv.DictWriter(file, list(listed[0]) if listed else head, lineterminator="\n")
         writer.writeheader()
         writer.writerows(listed)
 

@@ -2,25 +2,43 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from diagnosis.finding import NO_NEXT_POINT
 from diagnosis.procedure.compared import WITH, WITHOUT
 from diagnosis.procedure.pump_comparison import HYDRAULIC, SHAFT
-from diagnosis.report.format import chance
 from diagnosis.report.json_file import read_diagnosis
 from reynolds.numerics.arrays import Array
+from swashfilm.output.answer import Answer
 from swashfilm.output.page import inlined, read_summary, write_page
 from swashfilm.output.tables import parted
+from swashfilm.output.touch.picture import Picture
 from swashfilm.runs.diagnose import plots as diagnose_plots
 from swashfilm.runs.diagnose.fields import film_pictures
 from swashfilm.runs.diagnose.files import TRACES, head_of, read_rows
+from swashfilm.runs.diagnose.rows import (
+    AGREED_HEAD,
+    AGREED_PARAMETER_HEAD,
+    CHANNEL_HEAD,
+    FILM_HEADS,
+    HELD_OUT,
+    PARAMETER_HEAD,
+    change_rows,
+    channel_rows,
+    claim_rows,
+    film_kinds,
+    film_rows,
+    misfit_rows,
+    moved_words,
+    parameter_rows,
+    place_rows,
+    shaft_power,
+    tiles,
+)
 from swashfilm.runs.diagnose.trace_plots import trace_residuals
-from system.inputs.units import Dimension, in_unit, reading_unit
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -36,184 +54,113 @@ FAINT = 0.3  # sigma, rms: smaller additions to a channel are not drawn
 MOST_COURSES = 2
 
 
+WORDS = ("headline", "finding", "cost", "doubt", "course")
+"""Of the answer in plain words, what the page says first."""
+COURSE_CAPTION = (
+    "Crosses: what the finding adds to the readings. Circles: measured minus simulated without the finding, with the "
+    "scatter of the meter. Where crosses lie on circles, the finding explains the difference."
+)
+MAP_CAPTION = (
+    "Measured minus simulated, in multiples of the meter's scatter, over pressure and speed or temperature{both}. "
+    "White: agreement; red: more is measured; blue: less. Points of other case temperatures stand side by side."
+)
+TRACE_CAPTION = (
+    "Recorded chamber pressures that differ most, and measured minus simulated on one scale: for the pump as described"
+    "{fits}. All samples are in trace_residuals.csv."
+)
+
+
 def write_diagnose_page(folder: Path) -> Path:
     """Write report.html of a diagnosis; raises InputFaults where one of its files is not there."""
     summary = read_summary(folder, FILES, "a diagnosis's run folder")
     found = read_diagnosis(folder / "diagnosis.json")
     tables = {name: read_rows(folder / f"{name}.csv") for name in TABLES}
-    kinds = film_kinds(tables["films"])
     if (folder / TRACES).is_file():
         tables["traces"] = read_rows(folder / TRACES)
+    kinds, claimed = film_kinds(tables["films"]), bool(found["effects"])
+    pictures = {name: inlined(figure) for name, figure in _pictures(found, tables).items()}
+    answer, below = _answer(found, summary, tables, pictures)
     return write_page(
         folder,
         "diagnose",
+        answer=answer,
         summary=summary,
         found=found,
+        told=found["answer"],
         channels=list(channel_rows(found)),
-        channel_head=CHANNEL_HEAD,
+        channel_head=CHANNEL_HEAD if claimed else AGREED_HEAD,
+        misfits=list(misfit_rows(found)),
         place=list(place_rows(found)),
         claims=list(claim_rows(found)),
-        parameters=list(parameter_rows(tables["parameters"])),
+        moved=moved_words(tables["parameters"]) if claimed else "",
+        parameters=list(parameter_rows(tables["parameters"], claimed)),
+        parameter_head=PARAMETER_HEAD if claimed else AGREED_PARAMETER_HEAD,
         next_points=[tuple(row.values()) for row in tables["next_points"][:MOST_POINTS]],
         next_head=tuple(next(iter(tables["next_points"]), {})),
         changes=list(change_rows(tables["changes"])),
         films=list(film_rows(tables["films"])),
         film_head=("all gaps of a kind", *(f"{FILM_HEADS[kind]}, without -> with" for kind in kinds)),
         floating=kinds == ["films"],
-        film_pictures={name: inlined(png) for name, png in film_pictures(folder, (WITHOUT, WITH), found).items()},
+        film_pictures={name: inlined(one) for name, one in film_pictures(folder, (WITHOUT, WITH), found).items()},
         remarks=remarks(found, summary),
-        next_point=next_point_words(found),
-        pictures={name: inlined(png) for name, png in _pictures(found, tables).items()},
+        pictures=below,
+        map_caption=_map_caption(claimed),
+        trace_caption=TRACE_CAPTION.format(
+            fits=", for its fit without the finding, which may shift stated values, and for the fit with it"
+            if claimed
+            else " and for its fit"
+        ),
     )
 
 
-def channel_rows(found: Mapping[str, Any]) -> Iterator[tuple[str, ...]]:
-    """(channel, chi2 per reading, share, held-out rms before, after, noise) of each channel."""
-    for name, misfit in found["mismatch"]["channels"].items():
-        fit = found["fit"]["heldout"].get(name, {})
-        shown = (f"{fit[key]:.3g} {fit['unit']}" if fit.get(key) is not None else "" for key in _HELD_OUT)
-        yield name, f"{misfit['chi2_per_dof']:.3g}", f"{100 * misfit['share']:.0f} %", *shown
+def _answer(
+    found: Mapping[str, Any],
+    summary: Mapping[str, Any],
+    tables: Mapping[str, Sequence[Mapping[str, str]]],
+    pictures: Mapping[str, Picture],
+) -> tuple[Answer, dict[str, Picture]]:
+    """What the page says first, and the pictures that are left for its sections."""
+    told, first = found["answer"], "course" if "course" in pictures else "maps"
+    caption = COURSE_CAPTION if first == "course" else _map_caption(bool(found["effects"]))
+    words = " ".join(text for text in (told[key] for key in WORDS) if text)
+    answer = Answer(tiles(found, summary, tables["changes"]), words, pictures[first], caption)
+    return answer, {name: picture for name, picture in pictures.items() if name != first}
 
 
-_HELD_OUT = ("before", "after", "noise")
-CHANNEL_HEAD = ("channel", "chi2 per reading", "share", "held out, before", "after", "noise")
-
-
-def place_rows(found: Mapping[str, Any]) -> Iterator[tuple[str, str]]:
-    """(property, value) of the place of the mismatch, or of a local mismatch without a claim."""
-    where, steady = found["where"], set(found["where"]["channels"]) - {"p_chamber"}
-    if where["channels"]:
-        yield "channels", ", ".join(where["channels"])
-    if steady:  # a region is of the map, on which traces have no place
-        yield "region of the map", where["region"] or "everywhere"
-    if where["components"] and steady:
-        yield "component", " or ".join(where["components"]).replace("_", " ")
-    if where["pair"]:
-        yield "pair", where["pair"].replace("_", " ")
-    if where["shaft_angle_deg"]:
-        yield "shaft angle", " to ".join(f"{angle:.3g}" for angle in where["shaft_angle_deg"]) + " deg"
-    if time := where["time"]:
-        yield time["kind"], time["channel"] + (f" from point {time['point']} on" if time["point"] else "")
-
-
-def claim_rows(found: Mapping[str, Any]) -> Iterator[tuple[str, ...]]:
-    """(effect, pair, probability, ids and gaps that cannot be separated from it with their shares, parameters)."""
-    for claim in found["effects"]:
-        sizes = (
-            f"{one['name'].replace('_', ' ')} {_quantity(one['unit'], one['value'], one['sigma'])}"
-            for one in claim["parameters"]
-        )
-        yield (
-            claim["id"],
-            (claim["pair"] or "").replace("_", " "),
-            chance(claim["probability"]),
-            ", ".join([*claim["equivalent"], *_other_gaps(claim)]),
-            "; ".join(sizes),
-        )
-
-
-def _other_gaps(claim: Mapping[str, Any]) -> Iterator[str]:
-    for gap, share in claim["other_pairs"].items():
-        yield f"at the {gap.replace('_', ' ')} ({share:.2f})"
-
-
-def parameter_rows(rows: Sequence[Mapping[str, str]]) -> Iterator[tuple[str, ...]]:
-    """(parameter, stated, before, after, pulls): free parameters first, then by pull."""
-    ranked = sorted(rows, key=lambda row: -abs(float(row["pull_after"] or "inf")))
-    for row in ranked:
-        unit, pull = row["unit"], f"{float(row['pull_after']):.2f}" if row["pull_after"] else "free"
-        yield (
-            row["name"],
-            _quantity(unit, float(row["prior"]), float(row["prior_sigma"])),
-            _quantity(unit, float(row["before"])) if row["before"] else "not in the fit",
-            _quantity(unit, float(row["after"]), float(row["sigma"])),
-            f"{float(row['pull_before']):.2f} -> {pull}" if row["pull_before"] else f"- -> {pull}",
-        )
-
-
-def change_rows(rows: Sequence[Mapping[str, str]]) -> Iterator[tuple[str, ...]]:
-    """(quantity, without, with, change, share of the shaft power of both) of a point run without and with it."""
-    shaft = shaft_power(rows)
-    for row in rows:
-        both = (f"{_plain(float(row[key]), 4)} {row['unit']}" for key in (WITHOUT, WITH))
-        moved = f"{_plain(float(row['change']), 3)} {'points' if row['unit'] == '%' else row['unit']}"
-        shares = (f"{100.0 * float(row[key]) / whole:.2f} %" for key, whole in shaft.items() if row["unit"] == "W")
-        yield row["quantity"], *both, moved, " -> ".join(shares)
-
-
-FILM_HEADS = {"lumped": "closed-form laws", "films": "films"}
-"""Source of a gap's quantities, by the first part of their columns."""
-
-
-def film_kinds(rows: Sequence[Mapping[str, str]]) -> list[str]:
-    """Sources of the quantities in films.csv; floating films have no closed-form laws beside them."""
-    return [kind for kind in FILM_HEADS if rows and f"{kind}_{WITHOUT}" in rows[0]]
-
-
-def film_rows(rows: Sequence[Mapping[str, str]]) -> Iterator[tuple[str, ...]]:
-    """(quantity, by closed-form laws where films.csv has them, by films): without -> with the finding, the factor."""
-    for row in rows:
-        films = []
-        for kind in film_kinds(rows):
-            one, other = (float(row[f"{kind}_{name}"]) for name in (WITHOUT, WITH))
-            times = f" (x {other / one:.3g})" if one else ""
-            films.append(f"{_plain(one, 4)} -> {_plain(other, 4)} {row['unit']}{times}")
-        yield row["quantity"], *films
-
-
-def shaft_power(rows: Sequence[Mapping[str, str]]) -> dict[str, float]:
-    """Shaft power in W without and with the finding; empty where nothing was run."""
-    return {key: float(row[key]) for row in rows if row["quantity"] == SHAFT for key in (WITHOUT, WITH)}
+def _map_caption(claimed: bool) -> str:
+    both = "; without the finding and with it" if claimed else ""
+    return MAP_CAPTION.format(both=both)
 
 
 def remarks(found: Mapping[str, Any], summary: Mapping[str, Any]) -> list[str]:
     """Notes of the verdict that are not on the data."""
-    return [note for note in found["notes"] if not any(line.endswith(note) for line in summary["data_notes"])]
-
-
-def next_point_words(found: Mapping[str, Any]) -> str:
-    """The next point to record, or the reason for none; empty without a claim."""
-    if found["next_test"]:
-        return str(found["details"][-1])
-    if not found["effects"]:
-        return ""
-    failed = (note for note in found["notes"] if note.startswith(NO_NEXT_POINT))
-    reason = next(failed, "no fitted rival remains that a point would have to separate")
-    return f"{reason[0].upper()}{reason[1:].rstrip('.')}."
-
-
-def _quantity(unit: str, value: float, sigma: float | None = None) -> str:
-    """A value in SI, with its sigma, in its reading unit; temperatures are differences."""
-    dimension = next((one for one in Dimension if one.si_unit == unit), None)
-    if dimension is not None and dimension is not Dimension.TEMPERATURE:
-        unit = reading_unit(value or sigma or 0.0, dimension)
-        value, sigma = in_unit(value, unit, dimension), sigma and in_unit(sigma, unit, dimension)
-    shown = _plain(value, 4) if sigma is None else f"{_plain(value, 4)} +- {_plain(sigma, 2)}"
-    return shown if unit == "1" else f"{shown} {unit}"
-
-
-def _plain(value: float, digits: int) -> str:
-    """A number of `digits` significant digits, or all digits before the decimal point where these are more."""
-    return f"{value:.{digits}g}" if abs(value) < 10.0**digits else f"{value:.0f}"
+    known = (*summary["data_notes"], *summary["warnings"])
+    return [note for note in found["notes"] if not any(line.endswith(note) for line in known)]
 
 
 def _pictures(found: Mapping[str, Any], tables: Mapping[str, Sequence[Mapping[str, str]]]) -> dict[str, Figure]:
-    """Captions and PNGs."""
-    residuals = tables["residuals"]
-    held_out = {name: row for name, row in found["fit"]["heldout"].items() if all(row[key] for key in _HELD_OUT)}
-    pictures = {"maps": diagnose_plots.residual_maps(residuals)}
-    if courses := strongest_courses(residuals) if found["effects"] else []:
+    """Pictures by name. Where nothing is claimed, one fit is drawn, not the same one twice."""
+    residuals, claimed = tables["residuals"], bool(found["effects"])
+    held_out = {name: row for name, row in found["fit"]["heldout"].items() if all(row[key] for key in HELD_OUT)}
+    shown = {row["channel"] for row in residuals} & set(found["where"]["channels"] if claimed else [])
+    mine, others = ([row for row in residuals if (row["channel"] in shown) is side] for side in (True, False))
+    pictures = {"maps": diagnose_plots.residual_maps(mine or others, claimed)}
+    if mine and others:
+        pictures["others"] = diagnose_plots.residual_maps(others, claimed)
+    if courses := strongest_courses(residuals) if claimed else []:
         pictures["course"] = diagnose_plots.effect_courses(residuals, courses)
-    if held_out:
+    if held_out and claimed:
         pictures["held_out"] = diagnose_plots.held_out_bars(held_out)
     if tables["hypotheses"]:
         pictures["hypotheses"] = diagnose_plots.hypothesis_bars(tables["hypotheses"])
     if tables.get("traces"):
-        pictures["traces"] = trace_residuals(tables["traces"], found["where"]["shaft_angle_deg"], _settings(residuals))
+        window, settings = found["where"]["shaft_angle_deg"], _settings(residuals)
+        pictures["traces"] = trace_residuals(tables["traces"], window, settings, claimed)
     if whole := shaft_power(tables["changes"]):
         losses = [row for row in tables["changes"] if row["unit"] == "W" and row["quantity"] not in (SHAFT, HYDRAULIC)]
         pictures["losses"] = diagnose_plots.loss_bars(losses, whole)
-    pictures["pulls"] = diagnose_plots.pull_changes(tables["parameters"])
+    if claimed:
+        pictures["pulls"] = diagnose_plots.pull_changes(tables["parameters"])
     return pictures
 
 
@@ -227,7 +174,7 @@ def _settings(residuals: Sequence[Mapping[str, str]]) -> dict[str, str]:
     return texts
 
 
-_SET = (("speed", "{:.0f} {}"), ("p_out", "{:.3g} {}"), ("displacement_ratio", "displacement {:.2g}"))
+_SET = (("speed", "{:.0f} r/min"), ("p_out", "{:.3g} {}"), ("displacement_ratio", "stroke {:.0%}"))
 
 
 def strongest_courses(residuals: Sequence[Mapping[str, str]]) -> list[tuple[str, str]]:

@@ -9,6 +9,7 @@ import numpy as np
 
 from reynolds.numerics.arrays import Array
 from swashfilm.output.figures import figure_of
+from swashfilm.output.tables import parted
 from swashfilm.runs.diagnose.files import head_of
 from system.inputs.shown import titled
 
@@ -17,8 +18,13 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 Row = Mapping[str, str]
+FITS = {"pull_before": "without the finding", "pull_after": "with it"}
+AXIS_WORDS = {
+    "p_out": "delivery pressure", "speed": "speed", "displacement_ratio": "stroke", "T_case": "case temperature",
+}  # fmt: skip
 BEFORE, AFTER, NOISE = "#b55a00", "#3c7a8c", "#9aa4ab"
 WIDTH = 10.0  # inches, of every picture that is as wide as the page
+LEAST_SPREAD = 0.05  # of an axis, by its largest value: a smaller one is that of one level
 MOST_BARS = 12
 MOST_LEVELS = 4
 LEAST_LOSS = 0.05  # % of the shaft power, below which a loss is not drawn
@@ -26,43 +32,48 @@ RATIO_STEP = 0.1
 """Points whose displacement ratios differ by less are drawn together."""
 
 
-def residual_maps(rows: Sequence[Row]) -> Figure:
-    """Pulls over speed and pressure by channel and displacement, before beside after on one scale.
+def residual_maps(rows: Sequence[Row], claimed: bool = True) -> Figure:
+    """Pulls over speed and pressure by channel and displacement, without the claim beside with it on one scale.
 
-    For more than two displacements, before is above after, so that each panel stays legible.
+    For more than two displacements, without is above with, so that each panel stays legible. Without a claim there is
+    one fit.
     """
     channels = list(dict.fromkeys(row["channel"] for row in rows))
     levels = _levels(_column(rows, "displacement_ratio [1]"))
-    both = ("pull_before", "pull_after")
+    both = ("pull_before", "pull_after") if claimed else ("pull_before",)
     kinds = [both] if len(levels) < 3 else [(key,) for key in both]
     lines = [(channel, keys) for channel in channels for keys in kinds]
     columns = len(levels) * len(kinds[0])
-    figure = figure_of(1.5 + 2.3 * columns, 0.6 + (2.1 if len(levels) < 3 else 1.5) * len(lines))
+    height = max(3.0, 0.6 + (2.1 if len(levels) < 3 else 1.5) * len(lines))
+    figure = figure_of(max(WIDTH, 1.5 + 2.3 * columns), height)
     grid = figure.subplots(len(lines), columns, squeeze=False, sharex=True, sharey=True)
     most = max(3.0, float(np.nanpercentile(np.abs(_column(rows, "pull_before")), 98)))
     drawn: Any = None
-    at = head_of(rows[0], "speed"), head_of(rows[0], "p_out")
+    at = _across(rows), head_of(rows[0], "p_out")
     for line, (channel, keys) in zip(grid, lines, strict=True):
         places = [(level, key) for level in levels for key in keys]
         for axes, (level, key) in zip(line, places, strict=True):
             own = [row for row in rows if row["channel"] == channel and _of_level(row, level)]
             drawn = _map(axes, own, at, key, most)
-            axes.set_title(f"{key.removeprefix('pull_')}{_title(level)}", fontsize=8, pad=3)
+            axes.set_title(", ".join(filter(None, (FITS[key] if claimed else "", _title(level)))), fontsize=8, pad=3)
         line[0].set_ylabel(f"{channel}\n{at[1]}", fontsize=8)
     for axes in grid[-1]:
-        axes.set_xlabel(at[0], fontsize=8)
+        axes.set_xlabel(axis_title(at[0]), fontsize=8)
     bar = figure.colorbar(drawn, ax=grid.ravel().tolist(), shrink=min(0.8, 6.0 / (1.5 * len(lines))), extend="both")
-    bar.set_label("(measured - simulated) / sigma", fontsize=8)
+    bar.set_label("measured - simulated,\nin scatters of the meter", fontsize=8)
     return figure
 
 
 def held_out_bars(held_out: Mapping[str, Mapping[str, Any]]) -> Figure:
     """RMS of held-out residuals before and after, in units of each channel's noise."""
-    sizes = {key: [one[key] / one["noise"] for one in held_out.values()] for key in ("before", "after")}
+    sizes = {
+        words: [one[key] / one["noise"] for one in held_out.values()]
+        for key, words in (("before", "without the finding"), ("after", "with it"))
+    }
     figure = figure_of(WIDTH, 1.2 + 0.5 * len(held_out))
     axes = figure.subplots()
-    axes.axvline(1.0, color=NOISE, linestyle="--", label="noise")
-    _paired_bars(axes, list(held_out), sizes, "rms of held-out residuals / noise")
+    axes.axvline(1.0, color=NOISE, linestyle="--", label="scatter of the meter")
+    _paired_bars(axes, list(held_out), sizes, "rms difference at points not used in the fit / scatter of the meter")
     return figure
 
 
@@ -92,7 +103,7 @@ def pull_changes(rows: Sequence[Row]) -> Figure:
     ends = [np.array([float(row[key]) for row in ranked]) for key in ("pull_before", "pull_after")]
     axes.axvspan(-2, 2, color=NOISE, alpha=0.2)
     axes.hlines(places, ends[0], ends[1], color=NOISE)
-    for values, colour, label in zip(ends, (BEFORE, AFTER), ("before", "after"), strict=True):
+    for values, colour, label in zip(ends, (BEFORE, AFTER), FITS.values(), strict=True):
         axes.plot(values, places, "o", color=colour, label=label)
     axes.set_yticks(places, [row["name"] for row in ranked], fontsize=8)
     axes.set_xlabel("pull; grey: within two, as for most values that are stated correctly")
@@ -108,14 +119,13 @@ def effect_courses(rows: Sequence[Row], courses: Sequence[tuple[str, str]]) -> F
         own = [row for row in rows if row["channel"] == channel and row[axis]]
         place, added = _column(own, axis), _column(own, "added")
         left = _column(own, "measured") - (_column(own, "after") - added)
-        axes.errorbar(
-            place, left, _column(own, "sigma"), fmt="o", markersize=4, color=BEFORE, markerfacecolor="none",
-            ecolor=NOISE, label="measured - simulated without it", alpha=0.8,
-        )  # fmt: skip
-        axes.plot(place, added, "x", color=AFTER, markeredgewidth=1.8, label="contribution of the finding", zorder=3)
+        axes.errorbar(place, left, _column(own, "sigma"), fmt="none", ecolor=NOISE, alpha=0.8)
+        label = "difference without it"
+        axes.plot(place, left, "o", color=BEFORE, markersize=4, markerfacecolor="none", label=label, alpha=0.8)
+        axes.plot(place, added, "x", color=AFTER, markeredgewidth=1.8, label="what the finding adds", zorder=3)
         axes.axhline(0.0, color="#1c2328", linewidth=0.8)
-        axes.set_xlabel(axis)
-        axes.set_ylabel(titled(channel, own[0]["unit"].replace("degC", "K")))
+        axes.set_xlabel(axis_title(axis))
+        axes.set_ylabel(titled(f"difference in {channel}", own[0]["unit"].replace("degC", "K")))
         axes.grid(visible=True, alpha=0.3)
     _legend_above(axes)
     return figure
@@ -149,12 +159,28 @@ def _legend_above(axes: Axes) -> None:
     axes.legend(fontsize=8, ncols=3, loc="lower right", bbox_to_anchor=(1.0, 1.0), frameon=False)
 
 
+def axis_title(head: str) -> str:
+    """The title of an axis by the head of its column, in words."""
+    name, unit = parted(head)
+    return titled(AXIS_WORDS[name], unit.replace("rpm", "r/min").removesuffix("1"))
+
+
+def _across(rows: Sequence[Row]) -> str:
+    """The axis of maps beside pressure: the speed; the case temperature where it varies and the speed does not."""
+    spread = {}
+    for axis in (head_of(rows[0], "speed"), head_of(rows[0], "T_case")):
+        known = _column(rows, axis)[np.isfinite(_column(rows, axis))]
+        spread[axis] = float(np.ptp(known) / np.abs(known).max()) if np.any(known) else 0.0
+    speed, warm = spread
+    return warm if spread[speed] < LEAST_SPREAD < spread[warm] else speed
+
+
 def _map(axes: Axes, rows: Sequence[Row], at: tuple[str, str], key: str, most: float) -> Any:
-    """One map of pulls over speed and pressure, `at`; points at one place, of other temperatures, are side by side."""
+    """One map of pulls over speed, or temperature, and pressure, `at`; points at one place are side by side."""
     speed, pressure = (_place(axes, rows, head, height) for head, height in zip(at, (0.02, 0.1), strict=True))
     warm = _column(rows, "T_case [degC]")
     spread = np.ptp(warm[np.isfinite(warm)]) if np.any(np.isfinite(warm)) else 0.0
-    shift = np.nan_to_num((warm - np.nanmean(warm)) / spread) if spread > 0 else 0.0
+    shift = np.nan_to_num((warm - np.nanmean(warm)) / spread) if spread > 0 and parted(at[0])[0] == "speed" else 0.0
     width = 0.1 * (float(np.ptp(pressure)) if pressure.size else 0.0) or 1.0
     axes.tick_params(labelsize=7)
     return axes.scatter(
@@ -191,12 +217,13 @@ def _of_level(row: Row, level: tuple[float, float]) -> bool:
 
 
 def _title(level: tuple[float, float]) -> str:
-    """Text behind the time: displacements of the points, none if all."""
+    """Strokes of the points, none if all."""
     if not np.all(np.isfinite(level)):
         return ""
     lower, upper = level
-    one = f"{(lower + upper) / 2:.2g}" if upper - lower < RATIO_STEP / 2 else f"{lower:.2g} to {upper:.2g}"
-    return f", displacement {one}"
+    middle = (lower + upper) / 2
+    one = f"{middle:.0%}" if upper - lower < RATIO_STEP / 2 else f"{lower:.0%} to {upper:.0%}"
+    return f"stroke {one}"
 
 
 def _column(rows: Sequence[Row], key: str) -> Array:

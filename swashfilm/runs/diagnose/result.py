@@ -11,7 +11,8 @@ from swashfilm.output.result import Result, plotted, read_table
 from swashfilm.output.tables import Table
 from swashfilm.runs.diagnose import plots
 from swashfilm.runs.diagnose.files import read_rows
-from swashfilm.runs.diagnose.page import CHANNEL_HEAD, FILES, channel_rows, remarks, strongest_courses
+from swashfilm.runs.diagnose.page import FILES, remarks, strongest_courses
+from swashfilm.runs.diagnose.rows import AGREED_HEAD, CHANNEL_HEAD, channel_rows
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -48,8 +49,14 @@ class DiagnosisRun(Result):
 
     @property
     def paragraphs(self) -> tuple[str, ...]:
-        """The verdict, residuals of held-out points, rivals, and the next point."""
+        """The verdict, points not used in the fit, rivals, and the next measurement."""
         return (self.statement, *self.record["details"])
+
+    @property
+    def answer(self) -> Mapping[str, Any]:
+        """The answer in plain words by part: finding, cost, certainty, what to look at, what to measure next."""
+        found: Mapping[str, Any] = self.record["answer"]
+        return found
 
     @property
     def effects(self) -> list[dict[str, Any]]:
@@ -63,7 +70,8 @@ class DiagnosisRun(Result):
 
     def tables(self) -> list[Table]:
         """The channels with their residuals."""
-        return [("Channels", [CHANNEL_HEAD, *channel_rows(self.record)])]
+        head = CHANNEL_HEAD if self.effects else AGREED_HEAD
+        return [("Channels", [head, *channel_rows(self.record)])]
 
     def __repr__(self) -> str:
         return "\n".join([*self.paragraphs, super().__repr__()])
@@ -75,7 +83,7 @@ class DiagnosisRun(Result):
 
     def plot_residuals(self) -> list[Axes]:
         """Maps of the residuals in multiples of their sigma, without and with the finding."""
-        return plotted(lambda: plots.residual_maps(self._rows["residuals"]))
+        return plotted(lambda: plots.residual_maps(self._rows["residuals"], bool(self.effects)))
 
     def plot_evidence(self) -> list[Axes]:
         """Probabilities of the hypotheses."""

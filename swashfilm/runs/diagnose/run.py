@@ -24,7 +24,7 @@ def write_finding(folder: Path, found: DiagnosisResult) -> None:
         text = applied_toml(found, found.extended_pump, date.today())
         (folder / EXTENDED).write_text(text, encoding="utf-8")
     _write_pumps(folder, found.comparison)
-    write_diagnosis_files(folder, found.study, found.diagnosis, found.assumptions, found.comparison)
+    write_diagnosis_files(folder, found.study, found.diagnosis, found.answer, found.assumptions, found.comparison)
     write_diagnose_page(folder)
 
 

@@ -19,24 +19,29 @@ if TYPE_CHECKING:
 Row = Mapping[str, str]
 FITS = {
     "stated": ("#a274ad", "pump as described"),
-    "before": ("#b55a00", "before: fit without the finding"),
-    "after": ("#3c7a8c", "after"),
+    "before": ("#b55a00", "fit without the finding"),
+    "after": ("#3c7a8c", "fit with it"),
 }
+AGREED_FITS = {"stated": FITS["stated"], "before": ("#b55a00", "its fit")}
 NOISE, WINDOW = "#9aa4ab", "#e8d9a0"
-MOST_TRACES = 4
+MOST_TRACES, AGREED_TRACES = 4, 2
 QUARTERS = np.arange(0, 361, 90)
 
 
-def trace_residuals(rows: Sequence[Row], window: Sequence[float] | None, settings: Mapping[str, str]) -> Figure:
+def trace_residuals(
+    rows: Sequence[Row], window: Sequence[float] | None, settings: Mapping[str, str], claimed: bool = True
+) -> Figure:
     """The traces that differ most before: recorded pressure, and recorded less simulated, on one scale.
 
-    window: shaft angles in deg of the local mismatch; settings: by point, the text above it.
+    window: shaft angles in deg of the local mismatch; settings: by point, the text above it. Without a claim there
+    is one fit.
     """
-    points = worst_points(rows)
+    points = worst_points(rows, MOST_TRACES if claimed else AGREED_TRACES)
     rows = [row for row in rows if row["point"] in points]
     unit = parted(head_of(rows[0], "measured"))[1]
     figure = figure_of(10.0, 0.8 + 1.9 * len(points))
-    most = max(float(np.max(np.abs(_residual(rows, key)))) for key in FITS)
+    fits = FITS if claimed else AGREED_FITS
+    most = max(float(np.max(np.abs(_residual(rows, key)))) for key in fits)
     grid = figure.subplots(len(points), 2, squeeze=False, sharex=True, sharey="col", width_ratios=(1, 2))
     for line, point in zip(grid, points, strict=True):
         own = [row for row in rows if row["point"] == point]
@@ -44,10 +49,12 @@ def trace_residuals(rows: Sequence[Row], window: Sequence[float] | None, setting
         line[0].plot(angle, measured, color="#1c2328", linewidth=1.0)
         line[0].set_ylabel(titled("p_chamber", unit), fontsize=8)
         line[0].set_title(settings.get(point, ""), fontsize=8, loc="left")
-        line[1].fill_between(angle, -2 * sigma, 2 * sigma, color=NOISE, alpha=0.35, linewidth=0, label="two sigma")
-        for key, (colour, label) in FITS.items():
+        line[1].fill_between(
+            angle, -2 * sigma, 2 * sigma, color=NOISE, alpha=0.35, linewidth=0, label="twice the scatter"
+        )
+        for key, (colour, label) in fits.items():
             line[1].plot(angle, _residual(own, key), color=colour, linewidth=1.2, label=label)
-        line[1].set_ylabel(titled("residual", unit), fontsize=8)
+        line[1].set_ylabel(titled("measured - simulated", unit), fontsize=8)
         line[1].set_ylim(-1.1 * most, 1.1 * most)
         for axes in line:
             for start, end in _spans(window):
@@ -74,12 +81,12 @@ def _spans(window: Sequence[float] | None) -> list[tuple[float, float]]:
     return [(start, end)] if start <= end else [(start, 360.0), (0.0, end)]
 
 
-def worst_points(rows: Sequence[Row]) -> list[str]:
+def worst_points(rows: Sequence[Row], most: int = MOST_TRACES) -> list[str]:
     """Points of the traces with the largest misfit before, in the order of the recording."""
     misfit: dict[str, float] = {}
     for row in rows:
         misfit[row["point"]] = misfit.get(row["point"], 0.0) + float(row["pull_before"]) ** 2
-    worst = sorted(misfit, key=lambda point: -misfit[point])[:MOST_TRACES]
+    worst = sorted(misfit, key=lambda point: -misfit[point])[:most]
     return sorted(worst, key=int)
 
 

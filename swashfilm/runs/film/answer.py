@@ -7,7 +7,8 @@ from typing import Any
 
 from swashfilm.output.answer import Tile
 from swashfilm.output.refinement import bar_text
-from system.inputs.units import Dimension, format_quantity
+from system.inputs.shown import quantity_text
+from system.inputs.units import Dimension
 
 DIGITS = 4
 LEAST_SHARE = 1e-4
@@ -41,7 +42,7 @@ def film_words(summary: Mapping[str, Any]) -> str:
 
 def amount(value: float, dimension: Dimension) -> str:
     """Return a number in the unit that suits its size."""
-    return format_quantity(value, dimension, digits=DIGITS)
+    return quantity_text(value, dimension, digits=DIGITS)
 
 
 def _note(summary: Mapping[str, Any], key: str, dimension: Dimension, words: str) -> str:

@@ -61,10 +61,8 @@ def _efficiency_tiles(data: MapData, error: MapError | None) -> Iterator[Tile]:
     if least != best:
         yield Tile(percent(overall[least]), "lowest overall efficiency", f"at {place_of(data, least)}")
     if error is not None:
-        off = f"{100.0 * efficiency_error(data, error, best):.2g}"
-        yield Tile(
-            f"+- {off}", "percentage points, error between levels", f"of the best; {error.count} {error.shown_by}"
-        )
+        off = f"+- {100.0 * efficiency_error(data, error, best):.1g} points"
+        yield Tile(off, "error between levels", f"of the best efficiency; {error.count} {error.shown_by}")
 
 
 def _loss_tiles(data: MapData) -> Iterator[Tile]:

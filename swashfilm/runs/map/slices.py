@@ -10,7 +10,6 @@ import numpy as np
 
 from reynolds.numerics.arrays import Array
 from system.inputs.shown import titled
-from system.inputs.units import format_quantity
 from system.maps.data import MapData
 from system.maps.interpolation import weights
 from system.maps.plan import MapInput, reading_levels
@@ -94,14 +93,14 @@ def held_words(data: MapData, piece: Slice) -> str:
 
 
 def place_words(levels: Mapping[MapInput, float]) -> str:
-    """Return levels of inputs in words: `1000 rpm, 30 MPa, full displacement`."""
+    """Return levels of inputs in words: `1000 r/min, 30 MPa, full displacement`."""
     return ", ".join(_level_words(given, value) for given, value in levels.items()) or "the one point"
 
 
 def _level_words(given: MapInput, value: float) -> str:
     if given.dimension is None:
         return "full displacement" if value == 1.0 else f"{100.0 * value:.4g} % displacement"
-    shown = format_quantity(value, given.dimension, digits=4)
+    shown = given.text(value)
     match given:
         case MapInput.TEMPERATURE:
             return f"oil of {shown}"

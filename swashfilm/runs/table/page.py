@@ -9,7 +9,8 @@ from swashfilm.output.answer import Answer, Tile
 from swashfilm.output.page import inlined, read_summary, write_page
 from swashfilm.output.touch.picture import Picture
 from swashfilm.runs.table.plots import NEGLIGIBLE, table_plots, words_of
-from system.inputs.units import Dimension, format_quantity
+from system.inputs.shown import quantity_text
+from system.inputs.units import Dimension
 from system.points.table.store import read_response
 
 KINDS = NUMBERS, OUTPUTS = "numbers", "outputs"
@@ -125,7 +126,7 @@ def input_text(axis: Mapping[str, Any], value: float) -> str:
     """Return a value of an axis (a row of the record) with its unit."""
     if axis["dimension"] is None:
         return f"{value:.4g}"
-    return format_quantity(float(value), Dimension[axis["dimension"]], digits=4)
+    return quantity_text(float(value), Dimension[axis["dimension"]], digits=4)
 
 
 def place_text(axes: Sequence[Mapping[str, Any]], at: Sequence[float]) -> str:

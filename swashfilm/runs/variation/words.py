@@ -8,7 +8,8 @@ import numpy as np
 
 from swashfilm.runs.variation.case import VariedCase
 from system.description.keys import PumpKey
-from system.inputs.units import Dimension, format_quantity
+from system.inputs.shown import quantity_text
+from system.inputs.units import Dimension
 from system.maps.plan import MapInput, point_words
 from system.variation.sensitivity import one_of, unit_change
 
@@ -56,4 +57,4 @@ def size_text(key: PumpKey, size: float) -> str:
         return f"{size:.3g}"
     if key.dimension is Dimension.ANGLE:
         return f"{np.degrees(size):.3g} deg"
-    return format_quantity(size, key.dimension, digits=3)
+    return quantity_text(size, key.dimension, digits=3)

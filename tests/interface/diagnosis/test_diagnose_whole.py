@@ -92,7 +92,7 @@ def test_nothing_left_out_is_no_mismatch(
     assert "no next point can be proposed: the pump at 400 bar" in found["notes"]
     assert "the recording is of A10VSO 45; it is compared with ref90" in found["notes"]
     told = capsys.readouterr().out
-    assert "agree within noise and tolerance" in told
+    assert "No mismatch. Simulation and recording agree" in told
     assert "nothing is claimed" in told
 
 

@@ -9,7 +9,8 @@ from typing import Any
 from swashfilm.output.answer import Tile
 from swashfilm.output.headline import named
 from swashfilm.runs.film.series.plots import LEAST_CHANGE
-from system.inputs.units import Dimension, format_quantity
+from system.inputs.shown import quantity_text
+from system.inputs.units import Dimension
 
 MAIN = {
     "load_N": Dimension.FORCE,
@@ -84,7 +85,7 @@ def _varies(span: Mapping[str, Any]) -> bool:
 
 def _text(key: str, value: float) -> str:
     dimension = MAIN[key]
-    return f"{value:.3g}" if dimension is None else format_quantity(value, dimension, digits=3)
+    return f"{value:.3g}" if dimension is None else quantity_text(value, dimension, digits=3)
 
 
 def _varied(summary: Mapping[str, Any]) -> str:

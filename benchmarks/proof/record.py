@@ -1,0 +1,74 @@
+"""The track record that a diagnosis tells of itself: answers of each kind and certainty, right ones and all."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Sequence
+from itertools import pairwise
+from pathlib import Path
+
+from .judged import is_named, is_wrong_name
+from .outcome import Claimed, Outcome
+from .parts import Part, Plant, plant_of
+
+EDGES = (0.0, 0.8, 0.9, 0.99, 1.0)
+"""Bands of the stated probability; the upper edge belongs to the last."""
+COMMAND = "python benchmarks/proof.py --record"
+
+
+def write_record(outcomes: Sequence[Outcome], path: Path) -> None:
+    """Write the counts of all parts as JSON; recordings that were at hand in development do not count.
+
+    A row: answer (name; part, a name that leaves a part of the mismatch; unknown; suspicion; nothing), pump (stated in
+    a file, or by its type_plate), band of the stated probability, right ones, cases. A name is right if all that it
+    claims is concealed, a suspicion if anything is, nothing if nothing is.
+    """
+    known = {part.value for part in Part}
+    counted = [one for one in outcomes if one.part in known and not one.failed]
+    found = [(_answer(one), _pump(one), *_band(_stated(one)), _right(one)) for one in counted]
+    rows = []
+    for key in sorted({one[:4] for one in found}):
+        right = [one[4] for one in found if one[:4] == key]
+        rows.append(dict(zip(("answer", "pump", "from", "to"), key, strict=True)) | _counts(right))
+    lines = ",\n".join(f"  {json.dumps(row)}" for row in rows)
+    path.write_text(f'{{"command": "{COMMAND}", "cases": {len(counted)}, "rows": [\n{lines}\n]}}\n', encoding="utf-8")
+
+
+def _counts(right: Sequence[bool]) -> dict[str, int]:
+    return {"right": sum(right), "cases": len(right)}
+
+
+def _answer(outcome: Outcome) -> str:
+    if outcome.status == "suspicion":
+        return "suspicion"
+    if outcome.verdict in ("no_mismatch", "unknown_physics"):
+        return outcome.verdict.removeprefix("no_mismatch").removesuffix("_physics") or "nothing"
+    return "part" if outcome.status == "incomplete" else "name"
+
+
+def _pump(outcome: Outcome) -> str:
+    return "type_plate" if plant_of(outcome.part) is Plant.ROUGH else "stated"
+
+
+def _stated(outcome: Outcome) -> float:
+    """The probability of an answer as stated: of a name that of its least sure class."""
+    if outcome.claims:
+        return min(_of_class(outcome, one) for one in outcome.claims)
+    if is_named(outcome):
+        return sum(one.probability for one in outcome.ranked if "unknown_physics" in one.effects)
+    return outcome.nothing if outcome.status != "suspicion" else 1.0 - outcome.nothing
+
+
+def _of_class(outcome: Outcome, claim: Claimed) -> float:
+    members = {claim.effect, *claim.equivalent}
+    return sum(one.probability for one in outcome.ranked if members & set(one.effects))
+
+
+def _band(probability: float) -> tuple[float, float]:
+    return next(band for band in pairwise(EDGES) if probability < band[1] or band[1] == EDGES[-1])
+
+
+def _right(outcome: Outcome) -> bool:
+    if is_named(outcome):
+        return not is_wrong_name(outcome)
+    return (outcome.truth == "no_mismatch") == (outcome.verdict == "no_mismatch" and outcome.status != "suspicion")

@@ -1,0 +1,106 @@
+"""The answer of a diagnosis as a bench engineer reads it in ten minutes."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from diagnosis.report.certainty import certainty, record_words, sure_words
+from diagnosis.report.course import course_words
+from diagnosis.report.evidence import evidence
+from diagnosis.report.explanations import explained_by
+from diagnosis.report.format import PLACES, effect_words, listed
+from diagnosis.report.measure import measure_words
+from diagnosis.report.sizes import size_words
+from diagnosis.report.text import doubt, finding, fit_words, headline, rivals_words, where_words
+from diagnosis.study.model import Study
+from diagnosis.verdict.diagnosis import Diagnosis, VerdictStatus
+from system.description.gap import Gap
+from system.effects.catalogue.bench_words import BENCH_WORDS, PARTS
+from system.effects.effect import EffectId, Kind
+
+SUSPECTS = 2
+"""Likeliest explanations of a suspicion of which is told what to look at."""
+
+
+@dataclass(frozen=True)
+class Look:
+    """What to look at for one effect: its id, its name with the place, and the parts or meters to inspect."""
+
+    id: str
+    name: str
+    text: str
+
+
+@dataclass(frozen=True)
+class PlainAnswer:
+    """The answer in sentences, in the order in which it is read; empty where there is nothing to say.
+
+    headline: kind of answer; finding: what happens, with sizes; cost: in flow, torque and efficiency; doubt: what
+    cannot be told apart from it, and what it leaves; course: how far readings are from the simulation; where: channels
+    and part of the map; certainty: with the record of such answers; rivals: what else is possible, what is ruled out;
+    look: parts to inspect; measure: what to measure next; fit: points not used in the fit; evidence: sentences of
+    statistics. sizes: of each claim; sure, record: certainty and the record of such answers in a word or two each.
+    """
+
+    headline: str
+    finding: str
+    cost: str
+    doubt: str
+    course: str
+    where: str
+    certainty: str
+    rivals: str
+    look: tuple[Look, ...]
+    measure: str
+    fit: str
+    evidence: tuple[str, ...]
+    sizes: tuple[str, ...]
+    sure: str
+    record: str
+
+
+def plain_answer(study: Study, diagnosis: Diagnosis, cost: str) -> PlainAnswer:
+    """The answer on a study; cost: of the finding, as a sentence."""
+    return PlainAnswer(
+        headline=headline(diagnosis),
+        finding=finding(diagnosis),
+        cost=cost,
+        doubt=doubt(diagnosis),
+        course=course_words(study, diagnosis),
+        where=where_words(diagnosis),
+        certainty=certainty(diagnosis, study.scant),
+        rivals=rivals_words(diagnosis),
+        look=tuple(_looks(diagnosis)),
+        measure=measure_words(diagnosis),
+        fit=fit_words(diagnosis),
+        evidence=evidence(diagnosis),
+        sizes=tuple(map(size_words, diagnosis.effects)),
+        sure=sure_words(diagnosis, study.scant),
+        record=record_words(diagnosis, study.scant),
+    )
+
+
+def _looks(diagnosis: Diagnosis) -> Iterator[Look]:
+    """Of all that is claimed and that cannot be told from it; of a suspicion the likeliest; of the unknown itself."""
+    places: dict[EffectId, list[Gap]] = {}
+    for effect, pair in _suspects(diagnosis):
+        known = places.setdefault(effect, [])
+        known += [pair] if pair is not None and pair not in known else []
+    for effect, gaps in places.items():
+        where = f" at {listed((PLACES[gap] for gap in gaps), 'or')}" if gaps else ""
+        parts = listed(PARTS[gap] for gap in gaps or Gap)
+        yield Look(effect.value, effect_words([effect]) + where, BENCH_WORDS[effect].look.format(parts=parts))
+
+
+def _suspects(diagnosis: Diagnosis) -> Iterator[tuple[EffectId, Gap | None]]:
+    if diagnosis.status is VerdictStatus.SUSPICION:
+        known = [one.hypothesis for one in explained_by(diagnosis)]
+        likely = [own for own in known if EffectId.UNKNOWN_PHYSICS not in own.effects][:SUSPECTS]
+        yield from (pair for own in likely for pair in zip(own.effects, own.places, strict=True))
+    elif diagnosis.kind is Kind.UNKNOWN_PHYSICS:
+        yield EffectId.UNKNOWN_PHYSICS, None
+    for claim in diagnosis.effects:
+        yield claim.effect, claim.pair
+        yield from ((claim.effect, gap) for gap, _ in claim.elsewhere)
+        yield from ((one, None) for one in claim.equivalent)

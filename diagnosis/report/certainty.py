@@ -1,0 +1,144 @@
+"""How sure an answer is, in words, with the record of such answers on other simulators beside it."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator
+from dataclasses import dataclass
+from enum import Enum
+from functools import cache
+from importlib.resources import files
+
+from scipy.stats import binomtest
+
+from diagnosis.report.format import chance
+from diagnosis.verdict.diagnosis import ClaimedEffect, Diagnosis, VerdictStatus
+from system.effects.effect import Kind
+
+ENOUGH = 10
+"""Trials of a band of probability below which all bands of the answer count together."""
+GRADES = ((0.9, "very sure"), (0.75, "fairly sure"), (0.5, "likely"))
+
+
+class AnswerKind(Enum):
+    """Kinds of an answer with a record of their own, by their names in track_record.json."""
+
+    NAME = "name"
+    PART = "part"
+    UNKNOWN = "unknown"
+    SUSPICION = "suspicion"
+    NOTHING = "nothing"
+
+
+@dataclass(frozen=True)
+class Record:
+    """Right answers among `cases` of one kind in the proof, on pumps with a file or known by their type plate.
+
+    banded: only those of like probability count.
+    """
+
+    right: int
+    cases: int
+    banded: bool
+
+    @property
+    def interval(self) -> tuple[float, float]:
+        """The 95 % interval of the share of right ones (Wilson 1927)."""
+        found = binomtest(self.right, self.cases).proportion_ci(0.95, method="wilson")
+        return float(found.low), float(found.high)
+
+
+@cache
+def _rows() -> tuple[dict[str, str | float], ...]:
+    text = files("diagnosis.report").joinpath("track_record.json").read_text("utf-8")
+    return tuple(json.loads(text)["rows"])
+
+
+def record_of(kind: AnswerKind, scant: bool, probability: float) -> Record | None:
+    """The record of answers of a kind and of like probability; of any probability where those are fewer than `ENOUGH`.
+
+    scant: of pumps known by their type plate. None where there is no such trial.
+    """
+    pump = "type_plate" if scant else "stated"
+    rows = [row for row in _rows() if (row["answer"], row["pump"]) == (kind.value, pump)]
+    own = [row for row in rows if float(row["from"]) <= probability < float(row["to"]) or probability == row["to"]]
+    banded = sum(int(row["cases"]) for row in own) >= ENOUGH
+    counted = own if banded else rows
+    cases = sum(int(row["cases"]) for row in counted)
+    return Record(sum(int(row["right"]) for row in counted), cases, banded) if cases else None
+
+
+def stated_probability(diagnosis: Diagnosis) -> float:
+    """The probability of the answer: of claims that of the least sure class; of a suspicion that of any mismatch."""
+    if diagnosis.effects:
+        return min(_of_class(claim, diagnosis) for claim in diagnosis.effects)
+    wanted = Kind.UNKNOWN_PHYSICS if _kind(diagnosis) is AnswerKind.UNKNOWN else Kind.NO_MISMATCH
+    found = sum(one.probability for one in diagnosis.hypotheses if one.hypothesis.kind is wanted)
+    return 1.0 - found if diagnosis.status is VerdictStatus.SUSPICION else found
+
+
+def certainty(diagnosis: Diagnosis, scant: bool) -> str:
+    """How sure the answer is, the record of such answers with its interval, and what the recording leaves open."""
+    return " ".join(_sentences(diagnosis, scant))
+
+
+def sure_words(diagnosis: Diagnosis, scant: bool) -> str:
+    """Certainty in a word or two, by the lesser of the stated probability and the share of right answers on record."""
+    if diagnosis.status is VerdictStatus.SUSPICION:
+        return "not sure"
+    probability = stated_probability(diagnosis)
+    record = record_of(_kind(diagnosis), scant, probability)
+    trust = min(probability, record.right / record.cases) if record else probability
+    return next((words for least, words in GRADES if trust >= least), "open")
+
+
+def record_words(diagnosis: Diagnosis, scant: bool) -> str:
+    """The record of such answers in a few words: "29 of 31 such answers right"; empty where there is none."""
+    record = record_of(_kind(diagnosis), scant, stated_probability(diagnosis))
+    return f"{record.right} of {record.cases} such answers right" if record else ""
+
+
+def record_text(record: Record, kind: AnswerKind, scant: bool) -> str:
+    """The record as a sentence, with the interval."""
+    low, high = (100.0 * end for end in record.interval)
+    like = " with such certainty" if record.banded else ""
+    of = " on pumps known by their type plate" if scant else ""
+    return (
+        f"In trials on other simulators{of}, {_RIGHT[kind].format(right=record.right, cases=record.cases, like=like)} "
+        f"(95 % interval {low:.0f} to {high:.0f} %)."
+    )
+
+
+_RIGHT = {
+    AnswerKind.NAME: "{right} of {cases} names given{like} proved right",
+    AnswerKind.PART: "{right} of {cases} names that left a part unexplained proved right",
+    AnswerKind.UNKNOWN: "{right} of {cases} answers of this kind proved right",
+    AnswerKind.SUSPICION: "{right} of {cases} suspicions had a cause",
+    AnswerKind.NOTHING: "{right} of {cases} answers of this kind{like} proved right, the others missed an effect",
+}
+
+
+def _sentences(diagnosis: Diagnosis, scant: bool) -> Iterator[str]:
+    kind, probability = _kind(diagnosis), stated_probability(diagnosis)
+    words = sure_words(diagnosis, scant)
+    alike = any(claim.equivalent or claim.elsewhere for claim in diagnosis.effects)
+    of = " that it is one of these" if alike else " that there is a cause" if kind is AnswerKind.SUSPICION else ""
+    yield f"{words[0].upper()}{words[1:]}{of} (stated probability {chance(probability)})."
+    record = record_of(kind, scant, probability)
+    if record is not None:
+        yield record_text(record, kind, scant)
+
+
+def _kind(diagnosis: Diagnosis) -> AnswerKind:
+    if diagnosis.status is VerdictStatus.SUSPICION:
+        return AnswerKind.SUSPICION
+    if diagnosis.kind is Kind.NO_MISMATCH:
+        return AnswerKind.NOTHING
+    if diagnosis.kind is Kind.UNKNOWN_PHYSICS:
+        return AnswerKind.UNKNOWN
+    return AnswerKind.PART if diagnosis.status is VerdictStatus.INCOMPLETE else AnswerKind.NAME
+
+
+def _of_class(claim: ClaimedEffect, diagnosis: Diagnosis) -> float:
+    members = {claim.effect, *claim.equivalent}
+    return min(1.0, sum(one.probability for one in diagnosis.hypotheses if members & set(one.hypothesis.effects)))

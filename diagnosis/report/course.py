@@ -1,0 +1,105 @@
+"""What is missing, in words: how far readings are from the simulation, and along which input that changes."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import numpy as np
+
+from diagnosis.explain.explained import explained_mismatch
+from diagnosis.explain.scaling import Scaling
+from diagnosis.recording.units import difference, difference_unit, reading
+from diagnosis.report.format import listed, pressure_text
+from diagnosis.study.map_axes import axis_values
+from diagnosis.study.model import Study
+from diagnosis.verdict.diagnosis import Diagnosis, VerdictStatus
+from reynolds.errors import NotConverged
+from reynolds.numerics.arrays import Array
+from system.effects.effect import Kind
+from system.inputs.channels import ChannelName
+
+ENDS = 0.15
+"""Of an axis: the parts at its ends of which the difference is told."""
+SIDES = {
+    ChannelName.Q_OUT: ("The pump delivers more oil than simulated", "The pump delivers less oil than simulated"),
+    ChannelName.Q_IN: ("The pump takes in more oil than simulated", "The pump takes in less oil than simulated"),
+    ChannelName.Q_CASE: ("The case drains more oil than simulated", "The case drains less oil than simulated"),
+    ChannelName.TORQUE: ("The shaft takes more torque than simulated", "The shaft takes less torque than simulated"),
+    ChannelName.T_OUT: ("The oil leaves warmer than simulated", "The oil leaves cooler than simulated"),
+    ChannelName.ELECTRIC_POWER: ("The motor takes more power than simulated", "The motor takes less than simulated"),
+}
+"""A channel that reads more, and less, than simulated."""
+SAME = {"speed": "speed", "pressure": "pressure", "displacement": "stroke", "viscosity": "oil viscosity"}
+
+
+def course_words(study: Study, diagnosis: Diagnosis) -> str:
+    """How far the readings of the first channel are from the simulation at both ends of the input that matters most.
+
+    By the explanation's addition, which has no noise. Empty where nothing is explained, and for traces alone.
+    """
+    channel = _channel(study, diagnosis)
+    if channel is None:
+        return ""
+    try:
+        added = explained_mismatch(study, diagnosis.hypotheses[0], diagnosis.thresholds).added
+    except NotConverged:  # the explanation's own simulation stands; without the effect there is none to subtract from
+        return ""
+    own = added[:, study.channels.index(channel)]
+    measured = study.observations.measured[:, study.channels.index(channel)]
+    if not np.any(own[measured]):
+        return ""
+    more, less = SIDES[channel]
+    ends = _ends(channel, own[measured], {name: x[measured] for name, x in axis_values(study.recording).items()})
+    same = _same(diagnosis.scaling, diagnosis.thresholds.form.flat)
+    return (
+        f"{more if float(np.sum(own[measured])) > 0.0 else less}: {', '.join(part for part in (ends, same) if part)}."
+    )
+
+
+def _channel(study: Study, diagnosis: Diagnosis) -> ChannelName | None:
+    """The channel to tell of: the first one of the map in which the mismatch shows."""
+    agreed = diagnosis.kind is Kind.NO_MISMATCH or diagnosis.status is VerdictStatus.SUSPICION
+    steady = [one for one in diagnosis.location.channels if one in study.channels and one in SIDES]
+    return None if agreed or not steady else steady[0]
+
+
+def _ends(channel: ChannelName, added: Array, axes: Mapping[ChannelName, Array]) -> str:
+    """The differences at both ends of the axis of largest correlation; the median one where no axis moves."""
+    if not axes or np.ptp(added) == 0.0:
+        return _difference(channel, float(np.median(added)))
+    axis = max(axes, key=lambda name: abs(_correlation(axes[name], added)))
+    x = axes[axis]
+    reach = ENDS * np.ptp(x)
+    low, high = x <= x.min() + reach, x >= x.max() - reach
+    return ", ".join(
+        f"{_difference(channel, float(np.median(added[part])))} at {_level(axis, float(np.median(x[part])))}"
+        for part in (low, high)
+    )
+
+
+def _correlation(one: Array, other: Array) -> float:
+    return float(np.corrcoef(one, other)[0, 1]) if np.ptp(one) > 0.0 else 0.0
+
+
+def _difference(channel: ChannelName, value: float) -> str:
+    size = difference(channel, value)
+    return f"{abs(size):.2g} {difference_unit(channel)} {'more' if size > 0.0 else 'less'}"
+
+
+def _level(axis: ChannelName, value: float) -> str:
+    shown = reading(axis, value)
+    forms = {
+        ChannelName.SPEED: f"{shown:.0f} r/min",
+        ChannelName.P_OUT: pressure_text(value),
+        ChannelName.DISPLACEMENT_RATIO: f"{100.0 * shown:.0f} % stroke",
+        ChannelName.T_CASE: f"{shown:.0f} degC in the case",
+    }
+    return forms[axis]
+
+
+def _same(scaling: Scaling | None, flat: float) -> str:
+    """Inputs on which the difference does not depend, where exponents are known."""
+    if scaling is None:
+        return ""
+    names = [SAME[name] for name, power in scaling.exponents.items() if abs(power) <= flat >= scaling.sigma[name]]
+    return f"at any {listed(names)} alike" if names else ""

@@ -1,0 +1,67 @@
+"""What to measure next: the point or the test that decides, with the readings to expect under each explanation."""
+
+from __future__ import annotations
+
+from diagnosis.next_point.choose import NextPoint
+from diagnosis.recording.units import channel_unit, reading
+from diagnosis.report.certainty import stated_probability
+from diagnosis.report.format import channel_words, if_words, setting_text
+from diagnosis.verdict.diagnosis import Diagnosis, VerdictStatus
+from system.effects.effect import Kind
+from system.inputs.channels import ChannelName
+
+NO_NEXT_POINT = "no next point can be proposed"
+"""First words of the note that gives the reason."""
+NOTHING_ELSE = "No further measurement is needed: nothing else fits."
+NO_POINT_TELLS = (
+    "No further point would tell more: nothing else that could be fitted comes near. More of the pump's own data "
+    "would: clearances, valve plate, ports."
+)
+
+
+def measure_words(diagnosis: Diagnosis) -> str:
+    """The measurement that decides between what is still open, in one to three sentences; or that none is needed."""
+    found = diagnosis.next_point
+    if found is not None and (found.is_open or diagnosis.status is VerdictStatus.SUSPICION):
+        return next_point_text(found)
+    failed = next((note for note in diagnosis.notes if note.startswith(NO_NEXT_POINT)), "")
+    if found is None and failed:
+        return f"{failed[0].upper()}{failed[1:].rstrip('.')}."
+    if diagnosis.kind is Kind.NO_MISMATCH and diagnosis.status is not VerdictStatus.SUSPICION:
+        return "No further measurement is needed."
+    if not diagnosis.effects:
+        return "Read the points with the largest difference again."
+    if diagnosis.status is VerdictStatus.INCOMPLETE:
+        return "Read the points again that still differ most: nothing else that could be fitted explains them better."
+    return NOTHING_ELSE if stated_probability(diagnosis) >= diagnosis.thresholds.name.probability else NO_POINT_TELLS
+
+
+def next_point_text(found: NextPoint) -> str:
+    """The next point to record with the expected readings; or that no point decides, and what would instead."""
+    at, (one, other), (first, second) = point_words(found), found.expected.texts, if_words(*found.between)
+    reads = f"{_channel(found.expected.channel)} reads {one} {first}, {other} {second}."
+    if found.settles:
+        beyond = " This is outside the range recorded." if found.beyond else ""
+        sure = f"{found.limits.readings} readings decide with a chance of {100.0 * min(found.chance, 0.99):.0f} %."
+        return f"Record {at}: {reads} {sure}{beyond}"
+    if found.instead:
+        return f"Another steady point will hardly decide. {found.instead}"
+    repeats = f" {found.repeats} readings there decide." if found.repeats else " One point alone will hardly decide."
+    return f"Record {at}: {reads}{repeats}"
+
+
+def point_words(found: NextPoint) -> str:
+    """The operating point with the temperatures of inlet and case."""
+    point = found.point
+    warm = (
+        f"{reading(ChannelName.T_IN, value):.0f} {channel_unit(ChannelName.T_IN)}"
+        for value in (found.inlet_temperature, point.temperature)
+    )
+    inlet, case = warm
+    setting = setting_text(point.shaft_speed, point.delivery_pressure, point.displacement_ratio)
+    return f"{setting}, oil at {inlet} in the inlet and {case} in the case"
+
+
+def _channel(name: str) -> str:
+    channel = next((one for one in ChannelName if one.value == name), None)
+    return f"the {channel_words(channel)}" if channel else name

@@ -1,0 +1,74 @@
+"""A diagnosis on the terminal: the answer in a few lines; contradictions of recording and pump before the fit."""
+
+from __future__ import annotations
+
+import re
+import textwrap
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Any
+
+from swashfilm.console.terminal import show_at_once
+
+if TYPE_CHECKING:
+    from diagnosis.recording.model import Recording
+
+WIDTH = 100
+MOST_LINES = 11
+"""Of the answer: with the line on files twelve."""
+MORE = " .."
+"""Where the page has more."""
+_END = re.compile(r"(?<=\.) (?=[A-Z])")
+
+
+def show_contradictions(recording: Recording) -> None:
+    """Print where recording and pump file contradict each other."""
+    from diagnosis.recording.model import NoteKind
+
+    for note in recording.notes:
+        if note.kind is NoteKind.CONTRADICTED:
+            show_at_once(f"warning: {note.text}")
+
+
+def answer_lines(answer: Mapping[str, Any], most: int = MOST_LINES) -> list[str]:
+    """The answer of a diagnosis in at most `most` lines of at most `WIDTH` columns.
+
+    Where it is longer, last sentences are left to the page: of what to look at, of the measurement, the points not
+    used in the fit, of certainty, and of the finding, in this order.
+    """
+    told = list(_paragraphs(answer))
+    while len(lines := [line for one in told for line in textwrap.wrap(one.text, WIDTH)]) > most:
+        longer = [at for at, one in enumerate(told) if len(one.sentences) > one.least]
+        if not longer:
+            return [*lines[: most - 1], f"{lines[most - 1][: WIDTH - len(MORE)]}{MORE}"]
+        at = min(longer, key=lambda at: told[at].rank)
+        told[at] = replace(told[at], sentences=told[at].sentences[:-1], cut=MORE)
+    return lines
+
+
+@dataclass(frozen=True)
+class _Paragraph:
+    """Sentences behind a heading, of which the last ones may be cut down to `least`; the lowest rank first."""
+
+    heading: str
+    sentences: tuple[str, ...]
+    least: int
+    rank: int
+    cut: str = ""
+
+    @property
+    def text(self) -> str:
+        return f"{self.heading}{' '.join(self.sentences)}{self.cut}" if self.sentences else ""
+
+
+def _paragraphs(answer: Mapping[str, Any]) -> Iterator[_Paragraph]:
+    finding = " ".join(filter(None, (answer[key] for key in ("headline", "finding", "cost", "doubt"))))
+    yield _Paragraph("", _sentences(finding), 2, 4)
+    yield _Paragraph("How sure: ", _sentences(answer["certainty"]), 1, 3)
+    yield _Paragraph("", _sentences(" ".join(one["text"] for one in answer["look"])), 1, 0)
+    yield _Paragraph("Next: ", _sentences(answer["measure"]), 2, 1)
+    yield _Paragraph("", _sentences(answer["fit"]), 0, 2)
+
+
+def _sentences(text: str) -> tuple[str, ...]:
+    return tuple(_END.split(text)) if text else ()

@@ -1,0 +1,186 @@
+"""The parts of an answer in plain words: what to look at, how sure, what it costs, what is missing, contradictions."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from string import Formatter
+
+import numpy as np
+import pytest
+from made_diagnosis import PRESSURE, hypothesis, its_answer
+
+from diagnosis import Diagnosis, Study
+from diagnosis.explain.explained import ExplainedMismatch
+from diagnosis.procedure.compared import NO_COMPARISON, WITH, Change, PumpComparison
+from diagnosis.procedure.cost import cost_words
+from diagnosis.report import course
+from diagnosis.report.certainty import (
+    AnswerKind,
+    Record,
+    certainty,
+    record_of,
+    record_text,
+    stated_probability,
+    sure_words,
+)
+from diagnosis.report.sizes import FORMS, finding_sentence
+from diagnosis.study.acceptance import contradictions
+from diagnosis.verdict.diagnosis import ClaimedEffect, Estimate, VerdictStatus
+from system import Dimension, EffectId, Gap, Kind, load_pump
+from system.effects.catalogue.bench_words import BENCH_WORDS, PARTS
+from system.effects.catalogue.entries import CATALOGUE, entry_of
+from system.pump_file.file import load_known_pump
+
+E = EffectId
+FIELDS = {"place", "part", "stated", "size"}
+
+
+def test_every_effect_and_meter_has_words_for_the_bench() -> None:
+    assert set(BENCH_WORDS) == set(EffectId)
+    assert set(PARTS) == set(Gap)
+
+
+@pytest.mark.parametrize("effect", EffectId)
+def test_words_ask_for_sizes_that_the_effect_has(effect: EffectId) -> None:
+    """Fields of the finding are parameters of the effect's laws in a known form; what to look at is whole sentences."""
+    words = BENCH_WORDS[effect]
+    law = {one.name.rpartition(".")[2] for entry in CATALOGUE if entry.id is effect for extension in entry.extensions
+           for one in extension.free}  # fmt: skip
+    of_meter = {"zero", "gain", "drift", "lag"} if entry_is(effect, Kind.SENSOR_FAULT) else set()
+    for _, name, form, _ in Formatter().parse(words.finding):
+        assert name is None or name in law | of_meter | FIELDS
+        assert (form or "") in FORMS
+    assert not words.finding.endswith(".")
+    assert {name for _, name, _, _ in Formatter().parse(words.look) if name} <= {"parts"}
+    assert words.look.endswith(".")
+    assert 60 <= len(words.look) <= 220
+
+
+def entry_is(effect: EffectId, kind: Kind) -> bool:
+    return effect is not E.UNKNOWN_PHYSICS and entry_of(effect).verdict is kind
+
+
+def _claim(effect: EffectId, size: Estimate, pair: Gap | None = None) -> ClaimedEffect:
+    return ClaimedEffect(effect, pair, 0.99, (), (size,))
+
+
+AREA = Estimate("area", 0.2074e-6, 0.0076e-6, Dimension.AREA)
+GAIN, FACTOR = Estimate("torque.gain", -0.0212, 0.0014, None), Estimate("viscosity", 1.31, 0.02, None)
+ZERO = Estimate("Q_case.zero", 6.7e-6, 2e-7, Dimension.VOLUME_FLOW)
+COEFFICIENT = Estimate("coefficient", 2.1e-8, 2e-9, Dimension.PRESSURE_COEFFICIENT)
+SHARE = Estimate("compliance", 0.8, 0.1, None)
+
+
+@pytest.mark.parametrize(
+    ("claim", "told"),
+    [
+        (_claim(E.PORT_SHORT_CIRCUIT, AREA), "an opening of 0.207 +- 0.008 mm2 (a hole of 0.51 mm)"),
+        (_claim(E.TORQUE_GAIN, GAIN), "reads 2.12 +- 0.14 % too low: its gain is off"),
+        (_claim(E.Q_CASE_OFFSET, ZERO), "reads 402 +- 12 mL/min too high"),
+        (_claim(E.VISCOSITY_GRADE, FACTOR), "viscosity is 31 +- 2 % more than stated"),
+        (_claim(E.VISCOSITY_PRESSURE, COEFFICIENT), "by 21 +- 2 % per 100 bar"),
+        (_claim(E.ELASTIC_OPENING, SHARE, Gap.SLIPPER), "the slippers: compliance 0.80 +- 0.10"),
+    ],
+)
+def test_a_finding_is_told_with_its_size(named: Diagnosis, claim: ClaimedEffect, told: str) -> None:
+    """In the form of the sentence; behind a colon where the fit has another size than the sentence asks for."""
+    assert told in finding_sentence(claim, named)
+
+
+def test_a_wrong_value_is_told_beside_the_stated_one(named: Diagnosis) -> None:
+    claim = ClaimedEffect(E.DEAD_VOLUME, None, 0.99, (), (Estimate("film", 1.2, 0.03, None),))
+    assert "The dead volume of a chamber is 1.20 +- 0.03, not 1 as stated" in finding_sentence(claim, named)
+
+
+def test_what_to_look_at_names_all_that_may_be_the_cause(named: Diagnosis) -> None:
+    claim = replace(named.effects[0], elsewhere=((Gap.SLIPPER, 0.3),), equivalent=(E.FILM_HEATING,))
+    found = replace(named, status=VerdictStatus.CLASS, effects=(claim,))
+    first, second = its_answer(found).look
+    assert first.name == "elastic opening at the valve plate or the slippers"
+    assert PARTS[Gap.VALVE_PLATE] in first.text
+    assert PARTS[Gap.SLIPPER] in first.text
+    assert second.id == "film_heating"
+    suspicion = replace(named, status=VerdictStatus.SUSPICION, effects=())
+    assert [one.id for one in its_answer(suspicion).look] == ["elastic_opening", "film_heating"]
+
+
+def test_certainty_stands_beside_its_record(named: Diagnosis) -> None:
+    """By probability where trials of a band are enough, else of all; each with its interval."""
+    sure = record_of(AnswerKind.NAME, False, 0.999)
+    assert sure is not None
+    assert sure.banded
+    few = record_of(AnswerKind.NAME, False, 0.95)
+    assert few is not None
+    assert not few.banded
+    assert few.cases > sure.cases
+    low, high = Record(9, 10, True).interval
+    assert (low, high) == (pytest.approx(0.596, abs=1e-3), pytest.approx(0.982, abs=1e-3))  # Wilson 1927
+    text = record_text(Record(9, 10, True), AnswerKind.NAME, True)
+    assert (
+        "known by their type plate, 9 of 10 names given with such certainty proved right (95 % interval 60 to 98 %)"
+        in text
+    )
+    assert stated_probability(named) == pytest.approx(0.93)
+    assert certainty(named, False).startswith("Very sure (stated probability 0.93). In trials on other simulators, ")
+
+
+def test_words_of_certainty_go_by_the_record_too(named: Diagnosis) -> None:
+    """An answer that is stated to be sure, of a kind that often failed, is open."""
+    first, *others = named.hypotheses
+    unknown = replace(first, hypothesis=hypothesis(E.UNKNOWN_PHYSICS, kind=Kind.UNKNOWN_PHYSICS), probability=0.995)
+    found = replace(named, kind=Kind.UNKNOWN_PHYSICS, effects=(), hypotheses=(unknown, *others))
+    record = record_of(AnswerKind.UNKNOWN, False, 0.995)
+    assert record is not None
+    assert record.right < 0.5 * record.cases
+    assert sure_words(found, False) == "open"
+    assert sure_words(replace(named, status=VerdictStatus.SUSPICION), False) == "not sure"
+
+
+@pytest.mark.parametrize("kind", AnswerKind)
+@pytest.mark.parametrize("scant", [False, True])
+def test_every_kind_of_answer_has_a_record(kind: AnswerKind, scant: bool) -> None:
+    record = record_of(kind, scant, 0.95)
+    assert record is not None
+    assert 0 <= record.right <= record.cases
+    assert record_text(record, kind, scant).endswith(" %).")
+
+
+def test_cost_is_told_where_a_finding_shows_most() -> None:
+    """What is lost and what is saved, without changes that cannot be seen."""
+    pump = load_pump("ref90")
+    changes = (
+        Change("delivery flow", "L/min", 100.0, 97.5), Change("shaft torque", "N m", 200.0, 200.1),
+        Change("efficiency, overall (ISO 4409)", "%", 80.0, 77.9), Change("case drain", "L/min", 1.0, 0.5),
+    )  # fmt: skip
+    text = cost_words(PumpComparison({WITH: pump}, {}, changes, "Point 7."))
+    assert text.startswith(
+        "It costs 2.1 points of efficiency and 2.5 L/min of delivery and saves 0.5 L/min through the case"
+    )
+    assert text.endswith("where it shows most (2100 r/min, 350 bar, 100 % stroke).")
+    assert "less than can be seen" in cost_words(PumpComparison({WITH: pump}, {}, changes[1:2], ""))
+    assert cost_words(NO_COMPARISON) == ""
+    reason = "A sensor's fault changes nothing in the pump."
+    assert cost_words(replace(NO_COMPARISON, text=reason)) == reason
+
+
+def test_what_is_missing_is_told_at_both_ends(study: Study, named: Diagnosis, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Along the input that matters most, with the inputs that do not matter."""
+    added = np.stack([1e-9 * PRESSURE / 60.0, 0.0 * PRESSURE], axis=1)
+    monkeypatch.setattr(course, "explained_mismatch", lambda *given: ExplainedMismatch(added, added))
+    text = course.course_words(study, named)
+    assert text == (
+        "The case drains more oil than simulated: 5 L/min more at 50 bar, 35 L/min more at 350 bar, at any speed and "
+        "stroke alike."
+    )
+
+
+def test_another_pump_and_another_oil_are_told(study: Study) -> None:
+    """By the ISO grade in the oil's name; an oil without one, or of the pump's own grade, says nothing."""
+    recording, known = replace(study.recording, oil="ISO VG 68"), load_known_pump("ref90")
+    assert list(contradictions(recording, known)) == []
+    (pump,) = contradictions(replace(recording, pump="A10VSO 45"), known)
+    assert pump.text == "the recording is of A10VSO 45; it is compared with ref90"
+    (oil,) = contradictions(replace(recording, oil="HLP, iso vg 32"), known)
+    assert "the pump's file has an oil of 68 mm2/s at 40 degC" in oil.text
+    assert list(contradictions(replace(recording, oil="Tellus"), known)) == []
+    assert list(contradictions(replace(recording, oil="ISO VG 32"), None)) == []
