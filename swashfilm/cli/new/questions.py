@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import sys
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
@@ -21,6 +22,7 @@ Tables = Mapping[str, Mapping[str, Any]]
 Answered = Callable[[str, list[Fault]], Tables]
 """Function from an answer to the entries of a pump file, by table and key; faults of the answer are added."""
 CIRCUITS = [circuit.value for circuit in Circuit]
+_SHORT_GRADE = re.compile(r"(?:ISO )?(?:VG ?)?(\d+)", re.IGNORECASE)
 
 
 @dataclass(frozen=True)
@@ -93,17 +95,19 @@ def _at_rated(path: str, key: str) -> Answered:
 
 
 def _oil(text: str, faults: list[Fault]) -> Tables:
-    """Return [oil] of an ISO grade, or of the viscosities at 40 and 100 degC parted by a comma."""
+    """Return [oil] of an ISO grade, also "VG 46" or "46", or of the viscosities at 40 and 100 degC parted by a comma."""
     parts = [part.strip() for part in text.split(",")]
     if len(parts) == len(GRADE_KEYS):
         reading = Reading(faults=faults)
         for key, part in zip(GRADE_KEYS, parts, strict=True):
             _hold(f"oil.{key}", fields_of(OilSection)[key], part, reading)
         return {"oil": dict(zip(GRADE_KEYS, parts, strict=True))}
-    if text not in ISO_GRADES:
+    short = _SHORT_GRADE.fullmatch(text)
+    grade = f"ISO VG {short[1]}" if short else text
+    if grade not in ISO_GRADES:
         expected = f"one of {', '.join(ISO_GRADES)}, or the viscosities at 40 and 100 degC, '46 mm2/s, 6.8 mm2/s'"
-        faults.append(Fault("oil.grade", repr(text), expected, nearest_choice(text, ISO_GRADES)))
-    return {"oil": {"grade": text}}
+        faults.append(Fault("oil.grade", repr(text), expected, nearest_choice(grade, ISO_GRADES)))
+    return {"oil": {"grade": grade}}
 
 
 def _circuit(text: str, faults: list[Fault]) -> Tables:

@@ -75,6 +75,11 @@ def test_two_viscosities_in_place_of_a_grade(tmp_path):
     assert (oil.kinematic_viscosity_40C, oil.kinematic_viscosity_100C) == (46e-6, 6.8e-6)
 
 
+@pytest.mark.parametrize("short", ["VG 46", "iso vg 46", "VG46", "46"])
+def test_short_names_of_a_grade(tmp_path, short):
+    assert 'grade = "ISO VG 46"' in _written(tmp_path, oil=short).read_text("utf-8")
+
+
 def test_numbers_are_si(tmp_path):
     pump = load_pump(_written(tmp_path, displacement=71e-6, speed=260.0, pressure=35e6))
     assert pump.pump.displacement == pytest.approx(71e-6 / (2 * 3.141592653589793) * 6.283185307179586)
@@ -84,7 +89,7 @@ def test_numbers_are_si(tmp_path):
 def test_faults_all_at_once_and_nothing_is_overwritten(tmp_path):
     before = _written(tmp_path).read_text("utf-8")
     with pytest.raises(sf.InputFaults) as refused:
-        _written(tmp_path, displacement="60 mm", pistons=3, oil="VG 46", speed="0 rpm", pressure=None, circuit="opn")
+        _written(tmp_path, displacement="60 mm", pistons=3, oil="VG 47", speed="0 rpm", pressure=None, circuit="opn")
     faults = {fault.path: fault for fault in refused.value.faults}
     assert set(faults) == {"output", "displacement", "pistons", "oil", "speed", "pressure", "circuit"}
     assert faults["oil"].nearest == "ISO VG 46"

@@ -36,6 +36,7 @@ PAGES = [
     ROOT / "examples" / "README.md",
     ROOT / "meshes" / "README.md",
     *sorted((ROOT / "docs").glob("*.md")),
+    *sorted((ROOT / "docs" / "examples").glob("*.md")),
 ]
 FILES = ROOT / "docs" / "files.md"
 LINK = re.compile(r"\[[^\]]+\]\(([^)\s]+)\)")

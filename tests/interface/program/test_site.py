@@ -11,6 +11,12 @@ import pytest
 ROOT = Path(__file__).parents[3]
 
 
+@pytest.fixture(autouse=True)
+def beside_each_other(monkeypatch):
+    """The site's scripts import each other by their names."""
+    monkeypatch.syspath_prepend(ROOT / "docs" / "site")
+
+
 def _script(name: str) -> ModuleType:
     spec = importlib.util.spec_from_file_location(name, ROOT / "docs" / "site" / f"{name}.py")
     assert spec is not None
@@ -43,6 +49,64 @@ def test_gallery_is_not_stale():
     pictures = {path.stem for path in (ROOT / "docs" / "gallery").glob("*.png")}
     assert pictures == {example.name for example in gallery.EXAMPLES}, "draw it anew: make gallery"
     assert (ROOT / "docs" / "gallery.md").read_text("utf-8") == gallery.page()
+
+
+def test_every_example_has_a_page():
+    """Cases, recordings and scripts that examples/README.md links or runs, and no others."""
+    readme = (ROOT / "examples" / "README.md").read_text("utf-8")
+    linked = {name for name in re.findall(r"\]\(([\w/-]+\.toml)\)", readme) if name != "recordings/bench_pump.toml"}
+    scripts = set(re.findall(r"^python examples/(\S+\.py)", readme, re.MULTILINE))
+    listed = {example.file.removeprefix("examples/") for example in _script("listed").EXAMPLES}
+    assert listed == linked | scripts
+    cases = {str(path.relative_to(ROOT / "examples")) for path in (ROOT / "examples").rglob("*.toml")}
+    assert cases - {"recordings/bench_pump.toml"} == linked
+    pages = {path.stem for path in (ROOT / "docs" / "examples").glob("*.md")}
+    assert pages == {example.name for example in _script("listed").EXAMPLES} | {"index"}
+
+
+def test_pages_of_examples_are_not_stale():
+    examples = _script("examples")
+    for example in examples.EXAMPLES:
+        text = (ROOT / "docs" / "examples" / f"{example.name}.md").read_text("utf-8")
+        anew = f"write it anew: python docs/site/examples.py {example.name}"
+        assert text == examples.page(
+            example, text.partition("\n```sh\n")[2].partition("```\n\n")[2].rpartition("\n<details>")[0]
+        ), anew
+    index = (ROOT / "docs" / "examples" / "index.md").read_text("utf-8")
+    assert index == examples.index(), "write it anew: make examples"
+
+
+def test_pages_of_examples_have_the_commands_of_their_readme():
+    """A case that stands for others of its folder shows their command, too."""
+
+    def general(command: str) -> str:
+        return re.sub(r"(examples/\w+)/[\w-]+(?:\.toml)?(?= |$)", r"\1/*", command)
+
+    blocks = re.findall(
+        r"^```sh\n(.*?)^```", (ROOT / "examples" / "README.md").read_text("utf-8"), re.MULTILINE | re.DOTALL
+    )
+    known = {general(line) for block in blocks for line in block.splitlines()}
+    commands = {general(example.command) for example in _script("listed").EXAMPLES}
+    assert commands <= known
+
+
+def test_pictures_of_examples_are_small():
+    pictures = list((ROOT / "docs" / "examples").glob("*.png"))
+    assert len(pictures) > 20
+    assert [path.name for path in pictures if path.stat().st_size > 60_000] == []
+
+
+def test_answer_of_a_run_page_becomes_markdown():
+    report = (
+        '<div class="tiles"><div class="tile"><span class="name">load</span><b>47&nbsp;N</b></div>'
+        '<div class="tile"><span class="name">a|b</span><b>2</b><span class="note">of 3</span></div></div>'
+        '<p class="answer">It carries 47&#160;N &amp; leaks.</p><nav></nav><b>other</b>'
+    )
+    assert _script("examples").answered(report) == (
+        "It carries 47 N & leaks.\n\n| number | value | |\n|---|---|---|\n| load | 47 N |  |\n| a\\|b | 2 | of 3 |\n"
+    )
+    with pytest.raises(ValueError, match="no answer"):
+        _script("examples").answered("<p>text</p>")
 
 
 @pytest.mark.parametrize(
