@@ -18,6 +18,8 @@ from pictures import DOCS, ROOT, picture, ran, write_thumbnail
 
 PAGES = DOCS / "examples"
 WIDTH, ACROSS = 720, 3
+PARTS = ("name", "b", "note")
+"""Class or tag of the three texts of a number."""
 LANGUAGES = {".toml": "toml", ".py": "python"}
 
 
@@ -29,25 +31,29 @@ class AnswerReader(HTMLParser):
         self.numbers: list[list[str]] = []
         self.words = ""
         self._inside = ""
+        self._in_tile = False
 
     def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
         """Begin a number, or one of its three texts, or the words."""
         kind = dict(attrs).get("class") or tag
         if kind == "tile":
             self.numbers.append(["", "", ""])
-        self._inside = kind if kind in ("name", "b", "note", "answer") else self._inside
+            self._in_tile = True
+        if kind == "answer" or (self._in_tile and kind in PARTS):
+            self._inside = kind
 
     def handle_endtag(self, tag: str) -> None:
-        """End a text of a number, or the words."""
+        """End a number, a text of it, or the words."""
         if tag in ("span", "b", "p"):
             self._inside = ""
+        self._in_tile = self._in_tile and tag != "div"
 
     def handle_data(self, data: str) -> None:
         """Take a text to where it belongs."""
         if self._inside == "answer":
             self.words += data
-        elif self._inside and self.numbers:
-            self.numbers[-1][("name", "b", "note").index(self._inside)] += data
+        elif self._inside:
+            self.numbers[-1][PARTS.index(self._inside)] += data
 
 
 def main(names: list[str]) -> int:
@@ -93,27 +99,34 @@ def _cell(text: str) -> str:
 
 
 def page(example: Example, answer: str) -> str:
-    """The page of an example: title, picture, what it is, command, answer, its file, links."""
+    """The page of an example, with what it finds."""
+    return f"{head(example)}{answer}\n{tail(example)}"
+
+
+def head(example: Example) -> str:
+    """The page up to the answer: title, picture, what the file says of itself, command."""
     shown = f"![{title(example)}]({example.shown})\n\n" if example.shown else ""
+    return f"# {title(example)}\n\n{shown}{told(example)}```sh\n{example.command}\n```\n\n"
+
+
+def tail(example: Example) -> str:
+    """The page from the answer on: the file, folded, and links."""
+    path = ROOT / example.file
+    fence = f"```{LANGUAGES[path.suffix]}\n{path.read_text('utf-8').rstrip()}\n```"
     return (
-        f"# {title(example)}\n\n{shown}{told(example)}\n\n```sh\n{example.command}\n```\n\n{answer}\n"
-        f"{filed(example)}\nOther [examples](index.md); [keys](../files.md) of every file.\n"
+        f"<details>\n<summary>The file</summary>\n\n{fence}\n\n</details>\n\n"
+        f"The file is [{example.file}](../../{example.file}).\n\n"
+        f"Other [examples](index.md); [keys](../files.md) of every file.\n"
     )
 
 
 def told(example: Example) -> str:
-    """What the file says of itself, as a paragraph or, where a script says more, as literal text."""
+    """What the file says of itself, beyond the page's title: a paragraph, of a script literal text."""
+    if example.opening.rstrip(".").lower() == title(example).lower():
+        return ""
     if example.file.endswith(".py"):
-        return f"```text\n{example.opening}\n```"
-    return re.sub(r"([*_|<])", r"\\\1", example.opening)
-
-
-def filed(example: Example) -> str:
-    """The file of an example, folded, and a link to it."""
-    path = ROOT / example.file
-    fence = f"```{LANGUAGES[path.suffix]}\n{path.read_text('utf-8').rstrip()}\n```"
-    linked = f"[{example.file}](../../{example.file})"
-    return f"<details>\n<summary>The file</summary>\n\n{fence}\n\n</details>\n\nThe file is {linked}.\n"
+        return f"```text\n{example.opening}\n```\n\n"
+    return re.sub(r"([*_|<])", r"\\\1", example.opening) + "\n\n"
 
 
 def index() -> str:

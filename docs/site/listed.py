@@ -99,7 +99,7 @@ GROUPS = (
     Group("Gaps of a pump", (
         _film("ref90_piston"), _film("ref90_slipper"), _film("ref90_valve_plate"),
         _film("own_slipper", "plot_film"),
-        _film("worn_piston", "plot_number load_N"),
+        _film("worn_piston", "plot_number carried_load_N"),
         _film("floating_slipper_study", "plot_number film_thickness_least_m"),
     )),
     Group("Pumps", (

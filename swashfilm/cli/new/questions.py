@@ -95,7 +95,7 @@ def _at_rated(path: str, key: str) -> Answered:
 
 
 def _oil(text: str, faults: list[Fault]) -> Tables:
-    """Return [oil] of an ISO grade, also "VG 46" or "46", or of the viscosities at 40 and 100 degC parted by a comma."""
+    """Return [oil] of an ISO grade, also "VG 46" or "46", or of the viscosities at 40 and 100 degC, with a comma."""
     parts = [part.strip() for part in text.split(",")]
     if len(parts) == len(GRADE_KEYS):
         reading = Reading(faults=faults)
