@@ -100,7 +100,7 @@ GROUPS = (
         _film("ref90_piston"), _film("ref90_slipper"), _film("ref90_valve_plate"),
         _film("own_slipper", "plot_film"),
         _film("worn_piston", "plot_number carried_load_N"),
-        _film("floating_slipper_study", "plot_number film_thickness_least_m"),
+        _film("floating_slipper_study", "plot_number film_thickness_min_m"),
     )),
     Group("Pumps", (
         *(_pump(name) for name in ("ref90_worn", "ref90_edges", "cylindrical_block", "hst196")),
