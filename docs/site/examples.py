@@ -72,7 +72,7 @@ def found(example: Example) -> str:
         return f"{example.needs} [Examples](../../examples/README.md) tells what comes out.\n"
     program, _, words = example.command.partition(" ")
     if program == "python":
-        return _printed(words.replace(example.left_out, ""), example.left_out)
+        return _printed(words.removesuffix(example.left_out), example.left_out)
     with ran(words) as folder:
         write_thumbnail(picture(folder, example.picture), PAGES / f"{example.name}.png", WIDTH)
         return answered((folder / "report.html").read_text("utf-8"))

@@ -78,7 +78,7 @@ def _pump(name: str) -> Example:
 
 
 BENCH, RECORDINGS = "examples/recordings/bench_pump.toml", "examples/recordings"
-MEASURED = " hst196_production_tests.csv"
+MEASURED = "hst196_production_tests.csv"
 UCI = "The data are not part of this repository; the script says where they are. A run takes a minute or two."
 
 
@@ -122,10 +122,10 @@ GROUPS = (
         _recorded("paper_points", "reproduce fig13 --recording", "plot_verdicts"),
     )),
     Group("A transmission and its series", (
-        Example("examples/hst196/band.py", f"python examples/hst196/band.py{MEASURED}", left_out=MEASURED),
-        Example("examples/hst196/series.py", f"python examples/hst196/series.py{MEASURED} series.png",
+        Example("examples/hst196/band.py", f"python examples/hst196/band.py {MEASURED}", left_out=MEASURED),
+        Example("examples/hst196/series.py", f"python examples/hst196/series.py {MEASURED} series.png",
                 "hst196_series.png", needs="The table of measured units is not part of this repository."),
-        Example("examples/hst196/floating.py", f"python examples/hst196/floating.py --rigid{MEASURED}",
+        Example("examples/hst196/floating.py", f"python examples/hst196/floating.py --rigid {MEASURED}",
                 left_out=MEASURED),
     )),
     Group("Other models and rigs", (
