@@ -45,7 +45,7 @@ def read_summary(folder: Path, needed: Sequence[str] = (), whose: str = "") -> d
     return json.loads((folder / "summary.json").read_text("utf-8"))
 
 
-def write_page(folder: Path, template: str, *, answer: Answer | None = None, **content: Any) -> Path:
+def write_page(folder: Path, template: str, *, answer: Answer, **content: Any) -> Path:
     """Write report.html, one self-contained file, from a template of this room; return its path.
 
     The page begins with title, answer and warnings; then come a list of its sections, the sections, and links to the

@@ -66,13 +66,20 @@ class Measure:
 
     def text(self, value: float, digits: int = 4) -> str:
         """Return a value as people read it; a temperature in degC."""
-        number = value - 273.15 if self.unit == "K" else value * self.scale
-        return f"{significant(number, digits)} {self.shown}"
+        return f"{significant(float(self.read(np.asarray(value))), digits)} {self.shown}"
+
+    def read(self, values: Array) -> Array:
+        """Return SI values in the unit that people read."""
+        return values - 273.15 if self.unit == "K" else values * self.scale
+
+    @property
+    def unit_of_change(self) -> str:
+        """The unit of a change as people read it: percentage points of a share, K of a temperature."""
+        return {"%": "points", "degC": "K"}.get(self.shown, self.shown)
 
     def change(self, value: float, digits: int = 3) -> str:
         """Return a change as people read it, with its sign."""
-        shown = {"%": "points", "degC": "K"}.get(self.shown, self.shown)
-        return f"{'+' if value >= 0.0 else ''}{significant(value * self.scale, digits)} {shown}"
+        return f"{'+' if value >= 0.0 else ''}{significant(value * self.scale, digits)} {self.unit_of_change}"
 
 
 def _mean(name: str) -> Callable[[Columns, Array], Array]:
@@ -125,7 +132,7 @@ MEASURES = {
         Measure(RIPPLE, "delivery flow ripple", "m3/s", "L/min", LPM, _mean(RIPPLE)),
         Measure("shaft_torque", "shaft torque", "N m", "N m", 1.0, _mean("shaft_torque")),
         Measure(
-            "chamber_pressure_peak", "highest chamber pressure", "Pa", "bar", 1e-5,
+            "chamber_pressure_peak", "highest chamber pressure", "Pa", "MPa", 1e-6,
             lambda numbers, _: np.asarray(np.max(numbers["chamber_pressure_peak"], axis=-1)),
         ),
         *(_gap("film_least", gap, "least film", most=False) for gap in GAPS),

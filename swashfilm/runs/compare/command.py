@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 from swashfilm.console.command import Command
 from swashfilm.console.fidelity import Fidelity
 from swashfilm.console.inputs import COMMAND_LINE
+from swashfilm.console.settings import add_set_option
 from swashfilm.console.terminal import show_result
 from swashfilm.runs.map.command import FIDELITIES, add_map_options, map_case
 from system.inputs.faults import Fault, InputFaults, nearest_choice, nearest_path
@@ -36,6 +37,7 @@ def add_compare_options(command: argparse.ArgumentParser) -> None:
         "--fidelity", metavar=f"{{{','.join(one.value for one in FIDELITIES)}}}",
         help="fidelity of the map of a pump, as of swashfilm map (lumped)",
     )  # fmt: skip
+    add_set_option(command, "B, a pump")
     command.add_argument("--workers", metavar="N", help="processes that solve points side by side (all cores)")
 
 
@@ -47,7 +49,7 @@ def run_compare_command(options: argparse.Namespace) -> int:
     from swashfilm.runs.compare.result import CompareRun
 
     asked = compare_case(options)
-    for name in asked.given:
+    for name in (options.one, options.other):
         show_assumed(name)
     with (
         run_folder(asked.name, options.output, workbook=options.excel) as folder,
@@ -66,11 +68,6 @@ class CompareCase:
     both: tuple[Side | SideToSolve, Side | SideToSolve]
     workers: int
     cycle: Cycle | None
-
-    @property
-    def given(self) -> tuple[str, ...]:
-        """Words of both on the command line."""
-        return tuple(side.given for side in self.both)
 
     @property
     def name(self) -> str:
@@ -115,6 +112,8 @@ def _option_faults(options: argparse.Namespace, pumps: Sequence[bool]) -> Iterat
         yield Fault("--fidelity", repr(options.fidelity), f"one of {', '.join(words)}", near)
     if options.fidelity is not None and not any(pumps):
         yield Fault("--fidelity", "beside two maps", "a pump as A or B, whose map is solved")
+    if options.set and not pumps[1]:
+        yield Fault("--set", f"beside the map {options.other}", "a pump as B, whose keys it sets")
     if options.workers is not None and not (options.workers.isdecimal() and 1 <= int(options.workers) <= MOST):
         yield Fault("--workers", repr(options.workers), f"a number, 1 to {MOST}")
 
@@ -131,7 +130,7 @@ def _both(
     for k in sorted(range(len(names)), key=lambda k: pumps[k]):
         axes = next((side.axes for side in found.values()), None)
         try:
-            found[k] = _to_solve(names[k], axes, options.fidelity) if pumps[k] else _read(names[k])
+            found[k] = _to_solve(names[k], axes, options, k) if pumps[k] else _read(names[k])
         except InputFaults as reason:
             wrong[k] = reason
     if wrong:
@@ -155,14 +154,16 @@ def _read(name: str) -> Side:
     return Side(name, *read_map(map_file(Path(name))))
 
 
-def _to_solve(name: str, axes: Sequence[MapAxis] | None, fidelity: str | None) -> SideToSolve:
-    """Return the map of a pump to solve, with the options of `swashfilm map`."""
+def _to_solve(name: str, axes: Sequence[MapAxis] | None, options: argparse.Namespace, side: int) -> SideToSolve:
+    """Return the map of a pump to solve, with the options of `swashfilm map`; B with the values of --set."""
     from swashfilm.runs.compare.run import SideToSolve
 
     parser = argparse.ArgumentParser()
     add_map_options(parser)
-    words = parser.parse_args([name, "--fidelity", fidelity or Fidelity.LUMPED.value])
-    return SideToSolve(name, map_case(words, axes))
+    stated = options.set if side == 1 else []
+    words = [name, "--fidelity", options.fidelity or Fidelity.LUMPED.value, *(f"--set={one}" for one in stated)]
+    given = f"{name} with {', '.join(stated)}" if stated else name
+    return SideToSolve(given, map_case(parser.parse_args(words), axes))
 
 
 def _is_pump(name: str) -> bool:

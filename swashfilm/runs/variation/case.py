@@ -12,6 +12,7 @@ import numpy as np
 from swashfilm.console.fidelity import Fidelity
 from swashfilm.console.floating_options import alike_faults, floating_faults, floating_options
 from swashfilm.console.inputs import COMMAND_LINE, expect, given_text
+from swashfilm.console.settings import set_values
 from swashfilm.runs.map.command import stated_axes
 from swashfilm.runs.map.duty.cycle_file import read_cycle
 from swashfilm.runs.map.run import POINT_COST, MapCase, kept_table
@@ -73,10 +74,11 @@ def varied_case(
     together: lumped points of a pump are solved at once, without its course over the turn.
     """
     faults = [*word_faults(options), *more]
+    set_keys = set_values(options.set, faults)
     axes = stated_axes(options, faults)
     expect(options.pump, "pump", "film")
     try:
-        pump = load_pump(options.pump)
+        pump = load_pump(options.pump, set_keys)
     except InputFaults as reason:
         raise InputFaults(reason.source, [*faults, *reason.faults], reason.lines) from None
     plan = map_plan(pump, axes if options.cycle is None else _cycle_axes(pump, axes, options.cycle))
@@ -95,7 +97,9 @@ def varied_case(
     solver = TogetherSolver() if at_once else _solver(options, plan, fidelity)
     work = VariedWork(pump, solver, _sites(plan, options.cycle))
     fixed = tuple(path for path in stated if path not in known)
-    return VariedCase(work, keys, fixed, fidelity, plan, given_text(options.pump, {}), options.cycle, options.resume)
+    return VariedCase(
+        work, keys, fixed, fidelity, plan, given_text(options.pump, set_keys), options.cycle, options.resume
+    )
 
 
 def _cycle_axes(pump: PumpDescription, axes: Sequence[MapAxis], cycle: Path) -> list[MapAxis]:

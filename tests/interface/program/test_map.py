@@ -287,6 +287,14 @@ def test_duty_and_compare_leave_their_pages(run, tmp_path, capsys):
     assert "No difference: ball guide-retainer friction" in page
     assert "+0 kW" not in page
     assert (tmp_path / "cmp" / "B" / "map.nc").is_file()
+    set_one = ["--set", "piston.radial_clearance=25um"]
+    assert main(["compare", str(run), str(run / "resolved.toml"), *set_one, "-o", str(tmp_path / "set")]) == 0
+    found = json.loads((tmp_path / "set" / "summary.json").read_text())
+    leaks = next(row for row in found["differences"] if row["words"] == "piston leakage")
+    assert leaks["other"] == pytest.approx(differences["piston leakage"]["other"], rel=1e-6)
+    assert found["names"][1].endswith("resolved.toml with piston.radial_clearance=25um)")
+    assert main(["compare", str(run), str(run), *set_one]) == 2
+    assert "a pump as B, whose keys it sets" in capsys.readouterr().err
 
 
 def test_a_map_beside_itself_is_no_difference(run, tmp_path):

@@ -45,6 +45,14 @@ def series(tmp_path_factory):
     return place / "run"
 
 
+def test_dimensions_set_on_the_command_line(tmp_path):
+    words = ["--set", "valve_plate.film_thickness=6um", "--keys", "valve_plate.film_thickness"]
+    assert main(["sensitivity", *words, "-o", str(tmp_path / "run")]) == 0
+    (row,) = json.loads((tmp_path / "run" / "summary.json").read_text())["dimensions"]
+    assert row["value"] == pytest.approx(6e-6)
+    assert "command line: valve_plate.film_thickness = 6um" in (tmp_path / "run" / "input.toml").read_text()
+
+
 def test_files_of_a_sensitivity(costs):
     summary = json.loads((costs / "summary.json").read_text())
     assert summary["kind"] == "sensitivity"
@@ -56,7 +64,7 @@ def test_files_of_a_sensitivity(costs):
     page = (costs / "report.html").read_text()
     assert "dearest by +1 um" in page
     assert "Dimensions without a derivative" in page
-    assert (costs / "sensitivity.csv").read_text().startswith("key,value [SI]")
+    assert (costs / "sensitivity.csv").read_text().startswith("key,unit,value,change,side,sigma,loss [W]")
 
 
 def test_sensitivity_prints_the_dearest_first(costs, capsys):
@@ -99,7 +107,7 @@ def test_files_of_a_tolerance(series):
     shares = summary["measures"]["drain_flow"]["shares"]
     assert sum(one["first"]["value"] for one in shares) == pytest.approx(1.0, abs=0.05)
     assert len(summary["at_points"]) == 2
-    page = (series / "report.html").read_text()
+    page = (series / "report.html").read_text().replace("\u00a0", " ")
     for words in ("Scatter at each operating point", "hole 22.01 mm to 22.05 mm", "a third tighter", "of 100"):
         assert words in page
     rows = (series / "pumps.csv").read_text().splitlines()
@@ -137,6 +145,7 @@ def test_both_as_functions(tmp_path):
         (["sensitivity", "--steps", "36"], ["--steps", "--fidelity lumped"]),
         (["sensitivity", "--cycle", "nowhere.csv"], ["nowhere.csv"]),
         (["sensitivity", "nowhere.toml"], ["nowhere.toml"]),
+        (["sensitivity", "--set", "oil.densty=900kg/m3"], ["oil.densty", "try:      density"]),
         (["tolerance", "--keys", "oil.density"], ["without a tolerance"]),
         (["tolerance", "--keys", "oil.densty"], ["oil.density"]),
         (["tolerance", "--pumps", "99"], ["--pumps", "100 to"]),

@@ -11,6 +11,8 @@ import numpy as np
 from swashfilm.output.data.files import write_netcdf
 from swashfilm.output.tables import write_csv
 from swashfilm.runs.variation.case import VariedCase
+from system.description.keys import PumpKey
+from system.inputs.units import Dimension, in_unit, reading_unit
 from system.variation.differences import Verdict
 from system.variation.measures import NUMBERS
 from system.variation.sensitivity import Sensitivity
@@ -19,20 +21,37 @@ DATA, TABLE = "results.nc", "sensitivity.csv"
 
 
 def write_table(path: Path, found: Sensitivity) -> None:
-    """Write a row for each dimension: value, change, and what each measure changes by it, in SI."""
-    heads = ["key", "value [SI]", "change [SI]", "side", "sigma [SI]"]
-    heads += [f"{one.name} [{one.unit}]" for one in found.measures]
-    heads += [f"{one.name} error [{one.unit}]" for one in found.measures]
+    """Write a row for each dimension: value, change and sigma in its unit, and what each measure changes by it."""
+    heads = ["key", "unit", "value", "change", "side", "sigma"]
+    heads += [f"{one.name} [{one.unit_of_change}]" for one in found.measures]
+    heads += [f"{one.name} error [{one.unit_of_change}]" for one in found.measures]
+    scale = np.array([one.scale for one in found.measures])
     rows = []
     for one in found.slopes:
         known = one.verdict != Verdict.NOT_SMOOTH
-        changes = [f"{value * one.unit:.8g}" if good else "" for value, good in zip(one.value, known, strict=True)]
-        errors = [f"{value * one.unit:.3g}" if good else "" for value, good in zip(one.error, known, strict=True)]
-        sigma = "" if one.sigma is None else f"{one.sigma:.8g}"
-        rows.append(
-            [one.key.path, f"{one.key.value:.8g}", f"{one.unit:.8g}", one.stencil.side.value, sigma, *changes, *errors]
-        )
+        changes = [
+            f"{value:.8g}" if good else "" for value, good in zip(one.value * one.unit * scale, known, strict=True)
+        ]
+        errors = [
+            f"{value:.3g}" if good else "" for value, good in zip(one.error * one.unit * scale, known, strict=True)
+        ]
+        unit, factor = _unit_of(one.key)
+        sigma = "" if one.sigma is None else f"{one.sigma * factor:.8g}"
+        value, change = f"{one.key.value * factor:.8g}", f"{one.unit * factor:.8g}"
+        rows.append([one.key.path, unit, value, change, one.stencil.side.value, sigma, *changes, *errors])
     write_csv(path, heads, rows)
+
+
+def _unit_of(key: PumpKey) -> tuple[str, float]:
+    """Return the unit that people read a dimension in, and its factor on SI; a temperature in K."""
+    if key.dimension is None:
+        return "1", 1.0
+    if key.dimension is Dimension.TEMPERATURE:
+        return "K", 1.0
+    if key.dimension is Dimension.ANGLE:
+        return "deg", 180.0 / np.pi
+    unit = reading_unit(key.value, key.dimension)
+    return unit, in_unit(1.0, unit, key.dimension)
 
 
 def write_data(path: Path, case: VariedCase, found: Sensitivity) -> None:
@@ -67,4 +86,8 @@ def write_data(path: Path, case: VariedCase, found: Sensitivity) -> None:
         },
         attrs={"pump": case.pump.name, "units": "SI: number per SI unit of the key", "fidelity": case.fidelity.value},
     )
+    for name in ("derivative", "derivative_error", "derivative_at_point", "derivative_at_point_error"):
+        data[name].attrs["units"] = "SI of the number per SI of the dimension"
+    for name in ("value", "change", "middle"):
+        data[name].attrs["units"] = "SI of each"
     write_netcdf(data, path)

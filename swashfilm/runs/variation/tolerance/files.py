@@ -19,9 +19,13 @@ DATA, PUMPS_TABLE, SHARES_TABLE = "results.nc", "pumps.csv", "shares.csv"
 
 
 def write_pumps(path: Path, found: Tolerance) -> None:
-    """Write a row for each pump with a result: its dimensions and its numbers, SI."""
-    heads = [*found.series.drawing.names, *(f"{one.name} [{one.unit}]" for one in found.measures)]
-    rows = np.column_stack([found.series.values, found.of_measures])
+    """Write a row for each pump with a result: its dimensions (SI), and its numbers in the units that people read."""
+    heads = [
+        *(f"{name} [SI]" for name in found.series.drawing.names),
+        *(f"{one.name} [{one.shown}]" for one in found.measures),
+    ]
+    numbers = [one.read(values) for one, values in zip(found.measures, found.of_measures.T, strict=True)]
+    rows = np.column_stack([found.series.values, *numbers])
     write_csv(path, heads, ([f"{value:.8g}" for value in row] for row in rows))
 
 
@@ -60,4 +64,6 @@ def write_data(path: Path, case: VariedCase, found: Tolerance) -> None:
         },
         attrs={"pump": case.pump.name, "units": "SI", "fidelity": case.fidelity.value},
     )
+    for name in ("dimension", "number", "value"):
+        data[name].attrs["units"] = "SI of each"
     write_netcdf(data, path)
