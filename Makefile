@@ -47,7 +47,7 @@ gallery: install
 	$(VENV)/python docs/site/gallery.py
 
 examples: install
-	$(VENV)/python docs/site/examples.py
+	$(VENV)/python docs/site/example_pages.py
 
 lock: install
 	$(VENV)/uv pip compile --quiet pyproject.toml --extra dev --extra cluster --extra recordings --universal \

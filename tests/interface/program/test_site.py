@@ -65,11 +65,11 @@ def test_every_example_has_a_page():
 
 
 def test_pages_of_examples_are_not_stale():
-    examples = _script("examples")
+    examples = _script("example_pages")
     for example in examples.EXAMPLES:
         text = (ROOT / "docs" / "examples" / f"{example.name}.md").read_text("utf-8")
         head, tail = examples.head(example), examples.tail(example)
-        stale = f"write it anew: python docs/site/examples.py {example.name}"
+        stale = f"write it anew: python docs/site/example_pages.py {example.name}"
         assert text.startswith(head), stale
         assert text.endswith(tail), stale
         assert len(text) > len(head) + len(tail) + 20, stale
@@ -103,11 +103,11 @@ def test_answer_of_a_run_page_becomes_markdown():
         '<div class="tile"><span class="name">a|b</span><b>2</b><span class="note">of 3</span></div></div>'
         '<p class="answer">It carries 47&#160;N &amp; leaks.</p><p><b>note</b></p><nav></nav><b>other</b>'
     )
-    assert _script("examples").answered(report) == (
+    assert _script("example_pages").answered(report) == (
         "It carries 47 N & leaks.\n\n| number | value | |\n|---|---|---|\n| load | 47 N |  |\n| a\\|b | 2 | of 3 |\n"
     )
     with pytest.raises(ValueError, match="no answer"):
-        _script("examples").answered("<p>text</p>")
+        _script("example_pages").answered("<p>text</p>")
 
 
 @pytest.mark.parametrize(

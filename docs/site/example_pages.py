@@ -1,6 +1,6 @@
 """Write the pages of the examples: run each, keep a picture of its result, write docs/examples/NAME.md and the index.
 
-    python docs/site/examples.py [NAME ..]
+    python docs/site/example_pages.py [NAME ..]
 
 With names, only these examples are run; the others keep their pages. `listed.py` lists the examples.
 """
