@@ -88,8 +88,7 @@ def _value(text: str, dimension: Dimension | None) -> float:
     try:
         return float(text)
     except ValueError:
-        percent = _PERCENT.fullmatch(text)
-        remedy = f"{float(percent[1]) / 100.0:g}" if percent else with_point(text)
+        remedy = share_meant(text)
         raise QuantityError(repr(text), "bare numbers", remedy) from None
 
 
@@ -97,3 +96,9 @@ def dashed_range(text: str) -> str:
     """Return `5..35MPa` of `5-35MPa`; empty for a text that is no such range."""
     match = _DASHED.fullmatch(text)
     return f"{match[1]}..{match[2]}{match[3]}" if match else ""
+
+
+def share_meant(text: str) -> str:
+    """Return what a text that is no bare number may mean: 80% is 0.8, 0,8 is 0.8; else empty."""
+    percent = _PERCENT.fullmatch(text)
+    return f"{float(percent[1]) / 100.0:g}" if percent else with_point(text)

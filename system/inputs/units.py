@@ -13,6 +13,8 @@ from fractions import Fraction
 from functools import cache
 from typing import TYPE_CHECKING
 
+from system.inputs.faults import nearest_choice
+
 if TYPE_CHECKING:
     import pint
 
@@ -237,11 +239,15 @@ def unit_scale(name: str, dimension: Dimension) -> tuple[float, float]:
 
 
 def _meant(unit_text: str, dimension: Dimension) -> str:
-    """The unit that a bench means by a text, or the text in small letters where that is one; else empty."""
-    known = _HABITS.get(dimension, {}).get(unit_text, "")
+    """The unit that a bench means by a text, the text in small letters where that is one, or the one spelt most like
+    it; else empty."""
+    if known := _HABITS.get(dimension, {}).get(unit_text, ""):
+        return known
     lowered = unit_text.lower()
-    unit = None if known or lowered == unit_text else _unit(lowered)
-    return lowered if unit is not None and _measures(unit, dimension) else known
+    unit = None if lowered == unit_text else _unit(lowered)
+    if unit is not None and _measures(unit, dimension):
+        return lowered
+    return nearest_choice(unit_text, (*dimension.reading_units, _example_unit(dimension)))
 
 
 def _in_si(number: str, unit: _Unit, dimension: Dimension) -> Fraction:

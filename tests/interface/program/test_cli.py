@@ -106,6 +106,7 @@ def test_the_version_is_that_of_the_package(capsys):
         (["film", "pda.toml"], ["no such file", "pad.toml"]),
         (["check", "none.toml"], ["no such file"]),
         (["run", "ref90", "--displacement", "0,5"], ["bare number", "try:      0.5"]),
+        (["run", "ref90", "--displacement", "80%"], ["bare number", "try:      0.8"]),
         (["run", "./pda.toml"], ["no file", "pad.toml"]),
         (["report", "nowhere"], ["summary.json", "finished run"]),
         (["--verbose"], ["--verbose", "unknown option", "--version"]),

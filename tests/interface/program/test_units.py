@@ -99,6 +99,8 @@ def test_rounded_quantities_are_near(dimension, value, digits):
         ("350 Bar", Dimension.PRESSURE, "'350 bar'"),
         ("2100 RPM", Dimension.ANGULAR_SPEED, "'2100 rpm'"),
         ("60 ccm", Dimension.DISPLACEMENT, "'60 cm3/rev'"),
+        ("2100 rmp", Dimension.ANGULAR_SPEED, "'2100 rpm'"),
+        ("35 mpa", Dimension.PRESSURE, "'35 MPa'"),
     ],
 )
 def test_what_benches_write_is_understood_as_a_hint(text, dimension, meant):
