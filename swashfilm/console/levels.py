@@ -6,12 +6,11 @@ from dataclasses import dataclass
 import numpy as np
 
 from system.inputs.faults import Fault
-from system.inputs.units import Dimension, QuantityError, parse_quantity, with_point
+from system.inputs.units import Dimension, QuantityError, parse_quantity, share_meant
 from system.maps.plan import MapAxis, MapInput
 
 _NUMBER = re.compile(r"\s*[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?\s*")
 _DASHED = re.compile(r"\s*(\d+\.?\d*)\s*-\s*(\d+\.?\d*)\s*([^\d\s].*|)")
-_PERCENT = re.compile(r"\s*(\d+\.?\d*)\s*%\s*")
 _MOST = 1000
 _USUAL = 7  # levels that a remedy proposes
 
@@ -88,17 +87,10 @@ def _value(text: str, dimension: Dimension | None) -> float:
     try:
         return float(text)
     except ValueError:
-        remedy = share_meant(text)
-        raise QuantityError(repr(text), "bare numbers", remedy) from None
+        raise QuantityError(repr(text), "bare numbers", share_meant(text)) from None
 
 
 def dashed_range(text: str) -> str:
     """Return `5..35MPa` of `5-35MPa`; empty for a text that is no such range."""
     match = _DASHED.fullmatch(text)
     return f"{match[1]}..{match[2]}{match[3]}" if match else ""
-
-
-def share_meant(text: str) -> str:
-    """Return what a text that is no bare number may mean: 80% is 0.8, 0,8 is 0.8; else empty."""
-    percent = _PERCENT.fullmatch(text)
-    return f"{float(percent[1]) / 100.0:g}" if percent else with_point(text)

@@ -106,6 +106,7 @@ _HABITS = {
 """Wrong units that benches write, each with the unit that is meant."""
 _QUANTITY = re.compile(r"\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d{1,3})?)\s*(.*?)\s*")
 _COMMA = re.compile(r"\s*([+-]?\d+),(\d+)(\s*[^\s,.\d].*|)")
+_PERCENT = re.compile(r"\s*(\d+\.?\d*)\s*%\s*")
 _ANGLE_WORDS = ("radian", "turn", "revolution", "arcminute", "arcsecond", "grade")
 _POWER = re.compile(r"(?<=[A-Za-zµμ])(?:\^|\*\*)?(-?\d)")
 _FACTOR = r"[A-Za-zµμ°]+[A-Za-z]*(?:(?:\^|\*\*)?-?\d|[²³])?"
@@ -162,6 +163,12 @@ def format_quantity(value: float, dimension: Dimension, digits: int | None = Non
         if float(_in_si(number, _unit_of(name), dimension)) == value:
             return f"{number} {name}"
     return f"{value!r} {dimension.si_unit}"
+
+
+def share_meant(text: str) -> str:
+    """Return what a text that is no bare number may mean: 80% is 0.8, and 0,8 is 0.8; else an empty string."""
+    percent = _PERCENT.fullmatch(text)
+    return f"{float(percent[1]) / 100.0:g}" if percent else with_point(text)
 
 
 def with_point(text: str) -> str:

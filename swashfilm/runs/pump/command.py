@@ -12,10 +12,10 @@ from swashfilm.case.gap.switches import add_floating_options
 from swashfilm.console.command import Command
 from swashfilm.console.fidelity import Fidelity
 from swashfilm.console.inputs import COMMAND_LINE, expect, given_text, option_value, whole
-from swashfilm.console.levels import share_meant
 from swashfilm.console.settings import LEVELS_EXAMPLE, add_set_option, set_values
 from swashfilm.console.terminal import show, show_result
 from system.inputs.faults import Fault, InputFaults, nearest_choice
+from system.inputs.units import share_meant
 
 if TYPE_CHECKING:
     from swashfilm.runs.pump.run import PumpCase

@@ -12,10 +12,10 @@ from typing import TYPE_CHECKING
 from swashfilm.case.gap.switches import add_floating_options, switched_keys
 from swashfilm.console.command import Command
 from swashfilm.console.inputs import COMMAND_LINE, option_value, whole
-from swashfilm.console.levels import share_meant
 from swashfilm.console.settings import add_set_option, set_values
 from swashfilm.console.terminal import show_result
 from system.inputs.faults import Fault, InputFaults, nearest_choice
+from system.inputs.units import share_meant
 
 if TYPE_CHECKING:
     from swashfilm.runs.table.gap_case import GapTableCase
