@@ -197,7 +197,9 @@ def _cost_tiles(changes: Sequence[Row], most: int) -> Iterator[Tile]:
 
 def _sure_tile(found: Mapping[str, Any]) -> Tile:
     told = found["answer"]
-    return Tile(told["sure"], "certainty", f"in trials {told['record']}" if told["record"] else "")
+    alike = any(claim["equivalent"] or claim["other_pairs"] for claim in found["effects"])
+    name = "that it is one of these" if alike else "certainty"
+    return Tile(told["sure"], name, f"in trials {told['record']}" if told["record"] else "")
 
 
 def _fit_tiles(found: Mapping[str, Any]) -> Iterator[Tile]:
