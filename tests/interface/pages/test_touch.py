@@ -12,6 +12,7 @@ import meshio
 import numpy as np
 import pytest
 
+from swashfilm.output.answer import Answer, Tile
 from swashfilm.output.figures import figure_of
 from swashfilm.output.page import inlined, write_page
 from swashfilm.output.touch.curves import touchable
@@ -114,7 +115,8 @@ def page(tmp_path_factory: pytest.TempPathFactory) -> Path:
     explorers = {"curve": None, "map": map_explorer(map_data()), "film": film_explorer(), "pump": view}
     pictures = {name: inlined(curve_figure(), explorer) for name, explorer in explorers.items()}
     summary = {"solved": 1, "points": 1, "assumptions": []}
-    return write_page(folder, "study", name=NAME, pictures=pictures, rows=[], failed=[], case=NAME, summary=summary)
+    content = {"pictures": pictures, "rows": [], "failed": [], "case": NAME, "summary": summary}
+    return write_page(folder, "study", answer=Answer((Tile("1 N", NAME),), NAME), name=NAME, **content)
 
 
 @pytest.fixture(scope="module")

@@ -6,6 +6,7 @@ from pathlib import Path
 
 import pytest
 
+from swashfilm.output.answer import Answer
 from swashfilm.output.page import tied, write_page
 from swashfilm.output.warnings import GRADES, Grade, causes, counted, grade_of
 from system.pump.assembly import PointWarning
@@ -92,7 +93,8 @@ def test_a_single_part_has_the_grade_of_all(name):
 def test_a_page_folds_its_warnings_and_keeps_markup_as_text(tmp_path):
     summary = {"name": "<b>x</b>", "warnings": ["film_hot: <i>130</i> degC; cool it"], "points": 1, "solved": 1}
     content = {"pictures": {}, "rows": [], "failed": [], "case": "", "name": summary["name"]}
-    page = write_page(tmp_path, "study", summary=summary, **content).read_text("utf-8")
+    answer = Answer((), "")
+    page = write_page(tmp_path, "study", answer=answer, summary=summary, **content).read_text("utf-8")
     assert "1 note: 1 needs care</summary>" in page
     assert "&lt;i&gt;130&lt;/i&gt;" in page
     assert "<b>x</b>" not in page

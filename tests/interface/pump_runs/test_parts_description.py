@@ -129,6 +129,8 @@ def test_every_key_of_the_floating_parts_is_read_and_written_back(tmp_path):
         section = pump
         for step in name.split("."):
             section = getattr(section, step)
+        if isinstance(section, tuple):
+            continue  # lists of tables, which may be empty
         absent = {key for key in fields_of(model) if getattr(section, key) is None}
         left_out = {key for key in absent - {"body", "delivery"} if not key.endswith("_file")}
         assert left_out == NOT_OF_ITS_KIND.get(name, set()), name
