@@ -1,4 +1,4 @@
-"""What a finding costs: flow, torque and efficiency of the pump with it, less those without."""
+"""Cost of a finding: flow, torque and efficiency of the pump with it, less those without."""
 
 from __future__ import annotations
 

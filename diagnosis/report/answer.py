@@ -25,7 +25,7 @@ SUSPECTS = 2
 
 @dataclass(frozen=True)
 class Look:
-    """What to look at for one effect: its id, its name with the place, and the parts or meters to inspect."""
+    """Inspection for one effect: its id, its name with the place, and the parts or meters to inspect."""
 
     id: str
     name: str

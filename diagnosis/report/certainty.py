@@ -1,4 +1,4 @@
-"""How sure an answer is, in words, with the record of such answers on other simulators beside it."""
+"""Certainty of an answer in words, with the record of such answers on other simulators beside it."""
 
 from __future__ import annotations
 
@@ -78,7 +78,7 @@ def stated_probability(diagnosis: Diagnosis) -> float:
 
 
 def certainty(diagnosis: Diagnosis, scant: bool) -> str:
-    """How sure the answer is, the record of such answers with its interval, and what the recording leaves open."""
+    """Certainty of the answer, the record of such answers with its interval, and what the recording leaves open."""
     return " ".join(_sentences(diagnosis, scant))
 
 

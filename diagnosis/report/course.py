@@ -1,4 +1,4 @@
-"""What is missing, in words: how far readings are from the simulation, and along which input that changes."""
+"""Mismatch in words: distance of the readings from the simulation, and the input along which it changes."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ SAME = {"speed": "speed", "pressure": "pressure", "displacement": "stroke", "vis
 
 
 def course_words(study: Study, diagnosis: Diagnosis) -> str:
-    """How far the readings of the first channel are from the simulation at both ends of the input that matters most.
+    """Distance of the first channel's readings from the simulation at both ends of the input that matters most.
 
     By the explanation's addition, which has no noise. Empty where nothing is explained, and for traces alone.
     """

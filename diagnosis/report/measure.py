@@ -1,4 +1,4 @@
-"""What to measure next: the point or the test that decides, with the readings to expect under each explanation."""
+"""Next measurement: the point or the test that decides, with the readings to expect under each explanation."""
 
 from __future__ import annotations
 

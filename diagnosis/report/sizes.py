@@ -27,7 +27,7 @@ class Size:
 
 
 def finding_sentence(claim: ClaimedEffect, diagnosis: Diagnosis) -> str:
-    """What happens in the pump, with sizes, without a full stop.
+    """Process in the pump, with sizes, without a full stop.
 
     The sentence of the catalogue's entry with all sizes behind a colon where the fit has not the sizes that the words
     ask for (elastic walls as solved, say, have a share of the computed opening).

@@ -53,7 +53,7 @@ def headline(diagnosis: Diagnosis) -> str:
 
 
 def finding(diagnosis: Diagnosis) -> str:
-    """What happens in the pump or its meters, with sizes."""
+    """Process in the pump or fault of its meters, with sizes."""
     if diagnosis.status is VerdictStatus.SUSPICION:
         return _suspicion(diagnosis)
     if diagnosis.kind is Kind.NO_MISMATCH:
@@ -68,7 +68,7 @@ def finding(diagnosis: Diagnosis) -> str:
 
 
 def doubt(diagnosis: Diagnosis) -> str:
-    """What cannot be told apart from a claim, and a part of the mismatch that no claim explains."""
+    """Rivals that the recording does not separate from a claim, and a part of the mismatch that no claim explains."""
     return " ".join([*_class(diagnosis), *_incomplete(diagnosis)])
 
 
@@ -84,7 +84,7 @@ def where_words(diagnosis: Diagnosis) -> str:
 
 
 def fit_words(diagnosis: Diagnosis) -> str:
-    """How well points are met that were not used in the fit, without and with the finding, by channel."""
+    """Misfit at points that were not used in the fit, without and with the finding, by channel."""
     fit = diagnosis.fit
     channels = [channel for channel in diagnosis.location.channels if channel in fit.after] or list(fit.after)
     if not diagnosis.effects or not channels:

@@ -18,7 +18,7 @@ class Tile:
 
 @dataclass(frozen=True)
 class Answer:
-    """What a page says first.
+    """First part of a page.
 
     tiles: three to seven headline numbers. words: a paragraph that can be read out in a meeting. picture: the one
     picture that shows the answer, None where there is none.

@@ -25,7 +25,7 @@ PAGE = "report.html"
 PLOTS = "plots"
 TOUCH = ".touch"
 TOUCHED = '<script type="text/plain" class="touch">'
-"""How the figures begin that the template's pictures hold."""
+"""First tag of a figure that a template's picture holds."""
 _HEADING = re.compile(r"<h2>(.*?)</h2>", re.DOTALL)
 _NUMBER = re.compile(r"[-+<>~]?\d[\d.e+-]*( \+- [\d.e-]+)?( ?[a-zA-Z%/0-9]{1,6}( [a-z/]{1,4})?)?$")
 _TIED = re.compile(r"(?<=\d) (?=\S)|(?<=\+-) (?=\d)|(?<=\bN) (?=m\b)|(?<=\bPa) (?=s\b)|(?<=mPa) (?=s\b)")

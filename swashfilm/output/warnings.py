@@ -9,7 +9,7 @@ from enum import Enum
 
 
 class Grade(Enum):
-    """What a warning asks of its reader."""
+    """Grade of a warning: care, a change of the design, or none."""
 
     CARE = "needs care"
     DESIGN = "design of the pump"

@@ -32,7 +32,7 @@ class Side(Enum):
 
 
 class Verdict(Enum):
-    """What differences say of a derivative: a number, none beyond the solver's noise, or that it does not converge."""
+    """Verdict of differences on a derivative: a number, none beyond the solver's noise, or not converged."""
 
     SMOOTH = "smooth"
     NO_EFFECT = "no effect"

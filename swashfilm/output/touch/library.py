@@ -1,4 +1,4 @@
-"""What a page with figures to touch embeds once: plotly.js, packed, the script that draws, and its styles."""
+"""Parts that a page with interactive figures embeds once: plotly.js, packed, the script that draws, and its styles."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What a matplotlib panel shows as plotly traces."""
+"""Plotly traces of a matplotlib panel."""
 
 from __future__ import annotations
 

@@ -119,7 +119,7 @@ def _answer(
     tables: Mapping[str, Sequence[Mapping[str, str]]],
     pictures: Mapping[str, Picture],
 ) -> tuple[Answer, dict[str, Picture]]:
-    """What the page says first, and the pictures that are left for its sections."""
+    """First part of the page, and the pictures that are left for its sections."""
     told, first = found["answer"], "course" if "course" in pictures else "maps"
     caption = COURSE_CAPTION if first == "course" else _map_caption(bool(found["effects"]))
     words = " ".join(text for text in (told[key] for key in WORDS) if text)

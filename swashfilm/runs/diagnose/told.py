@@ -17,7 +17,7 @@ WIDTH = 100
 MOST_LINES = 11
 """Of the answer: with the line on files twelve."""
 MORE = " .."
-"""Where the page has more."""
+"""Pointer to the page."""
 _END = re.compile(r"(?<=\.) (?=[A-Z])")
 
 

@@ -1,4 +1,4 @@
-"""What an export writes: files by their endings, and what their users have to know."""
+"""Content of an export: files by their endings, and warnings for their users."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass

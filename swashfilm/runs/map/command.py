@@ -191,10 +191,11 @@ def _word_faults(options: argparse.Namespace) -> Iterator[Fault]:
     if options.cluster is not None and options.workers is not None:
         yield Fault("--workers", "beside --cluster", "one of the two: a cluster has its own workers")
     if options.resume is not None:
-        yield from _resume_faults(options.resume)
+        yield from resume_faults(options.resume)
 
 
-def _resume_faults(folder: Path) -> Iterator[Fault]:
+def resume_faults(folder: Path) -> Iterator[Fault]:
+    """Yield the fault of a folder of --resume that holds no points."""
     from system.work.kept_results import points_of_run
 
     try:

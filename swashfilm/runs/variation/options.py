@@ -13,7 +13,7 @@ from swashfilm.case.gap.switches import add_floating_options
 from swashfilm.console.fidelity import Fidelity
 from swashfilm.console.inputs import option_value
 from swashfilm.console.settings import add_set_option
-from swashfilm.runs.map.command import FIDELITIES, LEVELS, PLANS, SOLVED
+from swashfilm.runs.map.command import FIDELITIES, LEVELS, PLANS, SOLVED, resume_faults
 from system.inputs.faults import Fault, nearest_choice
 
 if TYPE_CHECKING:
@@ -61,17 +61,7 @@ def word_faults(options: argparse.Namespace) -> Iterator[Fault]:
     if options.table and options.fidelity != Fidelity.TABLE.value:
         yield Fault("--table", f"beside --fidelity {options.fidelity}", "no table, or --fidelity table")
     if options.resume is not None:
-        yield from _resume_faults(options.resume)
-
-
-def _resume_faults(folder: Path) -> Iterator[Fault]:
-    from system.inputs.faults import InputFaults
-    from system.work.kept_results import points_of_run
-
-    try:
-        points_of_run(folder)
-    except InputFaults as reason:
-        yield from reason.faults
+        yield from resume_faults(options.resume)
 
 
 def chosen_keys(

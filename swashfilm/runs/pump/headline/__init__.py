@@ -1,1 +1,1 @@
-"""What the page of an operating point says first: tiles, words, and where the shaft power goes."""
+"""First part of an operating point's page: tiles, words, and the flow diagram of the shaft power."""

@@ -1,4 +1,4 @@
-"""Where the shaft power goes: its parts by name, and the small ones together."""
+"""Parts of the shaft power by name, the small ones together."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ CARRYING = (
 
 
 class PowerKind(Enum):
-    """What power is taken by."""
+    """Kind of a part of the shaft power."""
 
     SHAFT = "shaft"
     DELIVERED = "delivered"

@@ -56,7 +56,7 @@ FIELDS = (
 
 @dataclass
 class _View:
-    """What the explorer is made of, as it grows."""
+    """Parts of the explorer while it is built."""
 
     traces: list[Any] = field(default_factory=list)
     picks: list[Pick] = field(default_factory=list)
