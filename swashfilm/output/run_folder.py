@@ -13,9 +13,12 @@ from itertools import count
 from pathlib import Path
 from typing import Any
 
+from reynolds.numerics.files import REFUSED_BY_DISK
 from system.inputs.faults import Fault, InputFaults
 
 RUNS = Path("runs")
+LEAST_ROOM = 1_000_000
+"""Bytes on a disk below which a write that failed did so for want of room."""
 FAILED = "failed.json"
 """File of the rounds and gaps that a stopped run has solved, in its `.partial` folder."""
 
@@ -65,9 +68,30 @@ def run_folder(name: str, wanted: Path | None = None, *, workbook: bool = False)
         elif (partial / FAILED).is_file():
             reason.add_note(f"What was solved until then is kept in {partial} ({FAILED}).")
         else:
-            shutil.rmtree(partial)
+            shutil.rmtree(partial, ignore_errors=True)
+        if isinstance(reason, OSError) and _full(reason, partial):
+            raise _disk_faults(reason, final) from None
         raise
     _give_its_name(partial, final)
+
+
+def _full(reason: OSError, partial: Path) -> bool:
+    """Return True where a file could not be written; libraries that write do not always say why."""
+    return reason.errno in REFUSED_BY_DISK or (
+        reason.errno is None and shutil.disk_usage(partial.parent).free < LEAST_ROOM
+    )
+
+
+def _disk_faults(reason: OSError, final: Path) -> InputFaults:
+    """Return the fault of a folder that a run could not write to, with the notes of the error."""
+    words = reason.strerror or "No space left on device"
+    fault = Fault(
+        "-o", f"{reason.filename or final}: {words}", "a folder that can be written to, with room for the run"
+    )
+    found = InputFaults("command line", [fault])
+    for note in getattr(reason, "__notes__", ()):
+        found.add_note(note)
+    return found
 
 
 def _give_its_name(partial: Path, final: Path) -> None:

@@ -2,7 +2,6 @@
 
 import json
 import logging
-import os
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import asdict, dataclass
 from functools import partial
@@ -11,6 +10,7 @@ from pathlib import Path
 from typing import TypeVar
 
 from reynolds.errors import InputError
+from reynolds.numerics.files import is_file, read_json, replaced
 from system.inputs.faults import Fault, InputFaults, nearest_path
 from system.work.processes import WorkerDied
 from system.work.progress import Report, silent
@@ -33,10 +33,10 @@ class KeptPoints:
     def get(self, key: str) -> PartOutcome | None:
         """The outcome of that name, None if absent; a broken file counts as absent and is logged."""
         place = self.folder / f"{key}.json"
-        if not place.is_file():
+        if not is_file(place):
             return None
         try:
-            values = json.loads(place.read_text("utf-8"))
+            values = read_json(place)
             if values["format"] != FORMAT:
                 return None
             fields = (values[name] for name in ("reason", "record", "seconds", "worker"))
@@ -60,11 +60,10 @@ class KeptPoints:
             return
         record = {"format": FORMAT, **asdict(outcome), "status": outcome.status.value}
         text = json.dumps(record | {"package": version("swashfilm")}, allow_nan=False)
-        beside = self.folder / f"{outcome.key}.{os.getpid()}.tmp"
         try:
             self.folder.mkdir(parents=True, exist_ok=True)
-            beside.write_text(text + "\n", encoding="utf-8")
-            beside.replace(self.folder / f"{outcome.key}.json")
+            with replaced(self.folder / f"{outcome.key}.json") as beside:
+                beside.write_text(text + "\n", encoding="utf-8")
         except OSError as fault:
             raise InputError("kept points", f"{self.folder}: {fault.strerror}", "a folder to write in") from fault
 

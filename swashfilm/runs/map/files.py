@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from swashfilm.output.data.files import Column, read_netcdf, write_columns, write_netcdf
-from system.inputs.faults import Fault, InputFaults, nearest_path
+from system.inputs.faults import Fault, InputFaults, nearest_path, one_line
 from system.maps.data import MapData, best_points, objects
 from system.maps.interpolation import MapError
 from system.maps.plan import MapAxis, MapInput
@@ -140,10 +140,10 @@ def _makes_a_map(place: Path) -> str:
 
 def read_map(path: Path) -> tuple[MapData, MapError | None]:
     """Return the map of a file of `write_map`, with its error; raise InputFaults for any other file."""
+    dataset = read_netcdf(path)
     try:
-        dataset = read_netcdf(path)
         return map_of(dataset), _error(dataset)
-    except (OSError, KeyError, ValueError, TypeError) as reason:
+    except (ArithmeticError, AttributeError, LookupError, TypeError, ValueError) as reason:
         found = f"not a map of swashfilm ({type(reason).__name__}: {reason})"
         raise InputFaults(str(path), [Fault("map", found, f"the {MAP} of a run of `swashfilm map`")]) from None
 
@@ -154,8 +154,8 @@ def map_of(dataset: xarray.Dataset) -> MapData:
     shape = tuple(len(axis.values) for axis in axes)
     warnings = [tuple(tuple(one) for one in json.loads(str(text))) for text in dataset["warnings"].values.flat]
     return MapData(
-        name=dataset.attrs["pump"],
-        words=dataset.attrs["solver"],
+        name=one_line(dataset.attrs["pump"]),
+        words=one_line(dataset.attrs["solver"]),
         bulk_modulus=float(dataset.attrs["bulk_modulus"]),
         axes=axes,
         values=dict(_columns(dataset, "")),

@@ -10,6 +10,8 @@ import numpy as np
 
 from gaps.response import Axis, HeldOutError, Measure, Output, Response, Samples, Spacing
 from reynolds.numerics.cache import content_key
+from reynolds.numerics.files import read_json, replaced
+from reynolds.numerics.npz import read_npz, write_npz
 from system.description.pump import PumpDescription
 from system.inputs.faults import Fault, InputFaults, nearest_path
 from system.inputs.units import Dimension
@@ -42,14 +44,15 @@ def keep_table(table: ResponseTable, place: Path) -> None:
 def write_response(place: Path, response: Response, record: Mapping[str, Any]) -> None:
     """Write `place`.npz, the points of a response with values, and `place`.json, the record of the response."""
     place.parent.mkdir(parents=True, exist_ok=True)
-    np.savez(
-        place.with_suffix(".npz"),
-        learnt_points=response.learnt.points,
-        learnt_values=response.learnt.values,
-        held_out_points=response.held_out.points,
-        held_out_values=response.held_out.values,
-    )
-    place.with_suffix(".json").write_text(json.dumps(record, indent=2) + "\n", encoding="utf-8")
+    arrays = {
+        "learnt_points": response.learnt.points,
+        "learnt_values": response.learnt.values,
+        "held_out_points": response.held_out.points,
+        "held_out_values": response.held_out.values,
+    }
+    write_npz(place.with_suffix(".npz"), arrays)
+    with replaced(place.with_suffix(".json")) as beside:
+        beside.write_text(json.dumps(record, indent=2) + "\n", encoding="utf-8")
 
 
 Read = TypeVar("Read")
@@ -61,15 +64,15 @@ def read_response(path: Path, table_format: int, made: Callable[[Mapping[str, An
     Raises InputFaults where there is none, or of another format.
     """
     try:
-        record = json.loads(path.with_suffix(".json").read_text("utf-8"))
+        record = read_json(path.with_suffix(".json"))
         if record["table_format"] != table_format:
             found = f"format {record['table_format']} of {path.with_suffix('.json')}"
             raise InputFaults("response table", [Fault("table_format", found, str(table_format), "build it anew")])
-        with np.load(path.with_suffix(".npz"), allow_pickle=False) as arrays:
-            learnt = Samples(arrays["learnt_points"], arrays["learnt_values"])
-            held_out = Samples(arrays["held_out_points"], arrays["held_out_values"])
+        arrays = read_npz(path.with_suffix(".npz"))
+        learnt = Samples(arrays["learnt_points"], arrays["learnt_values"])
+        held_out = Samples(arrays["held_out_points"], arrays["held_out_values"])
         return made(record, Response(_axes(record), _outputs(record), learnt, held_out))
-    except (OSError, ValueError, KeyError, TypeError) as reason:
+    except (ArithmeticError, AttributeError, LookupError, OSError, TypeError, ValueError) as reason:
         expected = "the .json and .npz that `swashfilm table` wrote, side by side"
         near = nearest_path(path.with_suffix(".json"))
         raise InputFaults("response table", [Fault(str(path), repr(reason), expected, near)]) from None
