@@ -10,7 +10,16 @@ from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from reynolds.numerics.files import LARGEST_DATA, inside, is_file, leads_inside, read_bounded, read_json, replaced
+from reynolds.numerics.files import (
+    LARGEST_DATA,
+    inside,
+    is_file,
+    leads_inside,
+    read_bounded,
+    read_json,
+    read_text,
+    replaced,
+)
 from swashfilm.output.answer import Answer
 from swashfilm.output.figures import compact
 from swashfilm.output.touch.curves import touchable
@@ -63,12 +72,22 @@ def read_summary(folder: Path, needed: Sequence[str] = (), whose: str = "") -> d
     Raises InputFaults as `expect_files` where a file of `needed` lacks, and for a summary that no run wrote.
     """
     expect_files(folder, ("summary.json", *needed), whose or "the folder of a finished run")
-    return _read(folder, "summary.json")
+    return read_kept(folder, "summary.json")
 
 
-def _read(folder: Path, name: str) -> dict[str, Any]:
+def read_kept(folder: Path, name: str) -> dict[str, Any]:
+    """Return the content of a JSON file of a run folder; raise InputFaults for one that no run wrote."""
     try:
         return read_json(inside(folder, name))
+    except (OSError, ValueError) as reason:
+        fault = Fault(name, f"cannot be read: {reason}", "the file that a run wrote")
+        raise InputFaults(str(folder), [fault]) from None
+
+
+def kept_text(folder: Path, name: str) -> str:
+    """Return a text file of a run folder; raise InputFaults for one that cannot be read, or lies outside."""
+    try:
+        return read_text(inside(folder, name), LARGEST_DATA)
     except (OSError, ValueError) as reason:
         fault = Fault(name, f"cannot be read: {reason}", "the file that a run wrote")
         raise InputFaults(str(folder), [fault]) from None
@@ -178,7 +197,7 @@ def keep_pictures(
 
 def kept_pictures(folder: Path, stem: str) -> dict[str, Picture]:
     """Return the pictures of `keep_pictures` by caption; raise InputFaults where there are none."""
-    captions = _read(folder, f"{PLOTS}/{stem}.json")
+    captions = read_kept(folder, f"{PLOTS}/{stem}.json")
     try:
         return {str(caption): _kept(inside(folder / PLOTS, name)) for name, caption in captions.items()}
     except (OSError, ValueError) as reason:

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-import json
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, ClassVar
 
+from swashfilm.output.page import read_kept
 from swashfilm.output.result import Result, plotted, read_table
 from swashfilm.output.tables import Table
 from swashfilm.runs.reproduce.files import CLAIMS
@@ -30,7 +30,7 @@ class Reproduction(Result):
     def opened(cls, folder: Path) -> Reproduction:
         """Return the reproduction of a run folder; raise InputFaults where one of its files is missing."""
         found = super().opened(folder)
-        found.claims = json.loads((folder / CLAIMS).read_text("utf-8"))["claims"]
+        found.claims = read_kept(folder, CLAIMS)["claims"]
         return found
 
     @property
