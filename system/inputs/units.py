@@ -138,7 +138,8 @@ def parse_quantity(text: object, dimension: Dimension, *, difference: bool = Fal
     rpm, r/min, cm3, cm^3, cc/rev, mL/r, lpm, um, degC, cSt, mPa s and what pint knows are understood.
     Raises QuantityError for a bare number, a number that cannot be read, an unknown unit and a unit that
     measures something else; a turn or an angle is never left to be guessed ("90 cm3" is no displacement
-    per revolution and "35 Hz" no rotational speed). A size below 1e-30 or, by its kind, above that of any machine is refused.
+    per revolution and "35 Hz" no rotational speed). A size below 1e-30 or, by its kind,
+    above that of any machine is refused.
     Of a `difference` the unit's zero does not count: "0.3 degC" is 0.3 K.
     """
     expected = f"{dimension.noun} with its unit, such as '{dimension.example}'"
