@@ -61,7 +61,7 @@ def judged(folder: Path, ended: Ended, untouched: bool) -> tuple[Outcome, str]:
         return Outcome.OUTSIDE, "a file outside was changed"
     if ended.hung or ended.signal in (signal.SIGXCPU, signal.SIGKILL):
         return Outcome.HANG, last
-    if "MemoryError" in ended.said or ended.memory > MEMORY:
+    if ended.memory > MEMORY or ("MemoryError" in ended.said and ended.code not in (2, 3)):
         return Outcome.MEMORY, f"{ended.memory / 1e6:.0f} MB: {last}"
     if ended.code is None:
         return Outcome.CRASH, f"signal {ended.signal}: {last}"

@@ -80,10 +80,13 @@ def _meshes(place: Path) -> None:
     shutil.copyfile(EXAMPLES / "films" / "step_pad.vtu", place / "step_pad.vtu")
     shutil.copyfile(EXAMPLES / "films" / "slipper.vtu", place / "slipper.vtu")
     read = meshio.read(place / "step_pad.vtu")
-    meshio.write(place / "step_pad.msh", read, file_format="gmsh22", binary=False)
-    meshio.write(place / "binary.msh", read, file_format="gmsh22", binary=True)
+    tags = [np.ones(len(block.data), dtype=np.int32) for block in read.cells]
+    plain = meshio.Mesh(read.points, read.cells, cell_data={"gmsh:physical": tags, "gmsh:geometrical": tags})
+    meshio.write(place / "step_pad.msh", plain, file_format="gmsh22", binary=False)
+    meshio.write(place / "binary.msh", plain, file_format="gmsh22", binary=True)
     for name in ("step_pad.msh", "binary.msh"):
         text = (place / "film.toml").read_text("utf-8").replace("step_pad.vtu", name)
+        text = text.replace('"film_thickness"', '"1e-5*(2 - x/0.01)"')
         (place / f"{name.partition('.')[0]}_msh.toml").write_text(text, "utf-8")
     (place / "pump.toml").write_text((EXAMPLES / "pumps" / "ref90_worn.toml").read_text("utf-8") + BODY, "utf-8")
 

@@ -150,7 +150,7 @@ def book_part(data: bytes, draw: Random) -> bytes:
             elif how == 2 and name == changed:
                 continue
             elif how == 3 and name == sheet:
-                content = content.replace(b"</sheetData>", b"<row/>" * 10 + b" " * 300_000_000 + b"</sheetData>")
+                content = content.replace(b"</sheetData>", b"<row/>" * 10 + b" " * 40_000_000 + b"</sheetData>")
             elif how > 3 and name == changed:
                 content = draw.choice(TEXT)(content, draw)
             with warnings.catch_warnings(action="ignore"):

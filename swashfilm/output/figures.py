@@ -71,6 +71,7 @@ def _literal(figure: Figure) -> None:
     from matplotlib.text import Text
     from matplotlib.ticker import FixedFormatter
 
+    texts = figure.findobj(Text)  # makes the ticks
     axes = [axis for own in figure.axes for axis in (own.xaxis, own.yaxis)]
     powers = {
         id(label)
@@ -79,7 +80,7 @@ def _literal(figure: Figure) -> None:
         for tick in (*axis.majorTicks, *axis.minorTicks)
         for label in (tick.label1, tick.label2)
     }
-    for text in figure.findobj(Text):
+    for text in texts:
         if id(text) not in powers:
             text.set_parse_math(False)
 

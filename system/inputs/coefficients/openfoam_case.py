@@ -6,15 +6,19 @@ Incompressible cases have a kinematic pressure p/rho in m2/s2; the `dimensions` 
 from __future__ import annotations
 
 import re
+from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from system.inputs.faults import Fault, InputFaults, nearest_choice, nearest_path
+from reynolds.numerics.files import LARGEST_DATA, is_file, read_bounded
+from system.inputs.faults import Fault, InputFaults, nearest_choice, nearest_path, one_line
 
 _DIMENSIONS = re.compile(r"^\s*dimensions\s*\[([^\]]*)\]", re.MULTILINE)
+_WHOLE = re.compile(r"[+-]?\d{1,2}")
 KINEMATIC, PRESSURE = (0.0, 2.0, -2.0), (1.0, -1.0, -2.0)
 """Powers of kg, m and s in the dimensions of p."""
 IMBALANCE = 0.01
@@ -49,10 +53,11 @@ def read_case_flow(case: Path, inlet: str, outlet: str, density: float) -> CaseF
     dimensions, a flow that runs the other way, differs by more than IMBALANCE or does not fall in pressure.
     """
     control = case / "system" / "controlDict"
-    if not control.is_file():
+    if not is_file(control):
         fault = Fault("case", f"no {control}", "the folder of an OpenFOAM case", nearest_path(control))
         raise InputFaults(str(case), [fault])
-    time, boundary = _last_boundary(control)
+    with _vtk_faults(case):
+        time, boundary = _last_boundary(control)
     faults = [
         Fault("patch", f"'{name}'", f"one of {', '.join(boundary.keys())}", nearest_choice(name, boundary.keys()))
         for name in (inlet, outlet)
@@ -62,9 +67,23 @@ def read_case_flow(case: Path, inlet: str, outlet: str, density: float) -> CaseF
     if faults:
         raise InputFaults(str(case), faults)
     scale = density if _pressure_powers(case, time) == KINEMATIC else 1.0
-    (inflow, before), (outflow, behind) = (_through(boundary[name]) for name in (inlet, outlet))
+    with _vtk_faults(case):
+        (inflow, before), (outflow, behind) = (_through(boundary[name]) for name in (inlet, outlet))
     found = CaseFlow(time, -inflow, scale * (before - behind), (outflow + inflow) / max(abs(inflow), 1e-300))
     return _held(case, found)
+
+
+@contextmanager
+def _vtk_faults(case: Path) -> Iterator[None]:
+    """Convert what VTK raises, or only prints, about a broken case to InputFaults."""
+    import pyvista
+
+    try:
+        with pyvista.VtkErrorCatcher(raise_errors=True, send_to_logging=False):
+            yield
+    except Exception as reason:  # VTK and what reads its arrays have no common class of faults
+        words = one_line(str(reason).strip().partition("\n")[0]) or type(reason).__name__
+        raise InputFaults(str(case), [Fault("case", f"cannot be read: {words}", "the files of a solved case")]) from None
 
 
 def _last_boundary(control: Path) -> tuple[float, Any]:
@@ -90,9 +109,10 @@ def _field_faults(case: Path, patch: Any) -> list[Fault]:
 
 def _pressure_powers(case: Path, time: float) -> tuple[float, ...]:
     """Powers of kg, m and s in p; raises InputFaults for those of neither pressure."""
-    places = [place / "p" for place in case.iterdir() if _is_time(place.name, time) and (place / "p").is_file()]
-    found = _DIMENSIONS.search(places[0].read_text("latin-1")) if places else None
-    powers = tuple(float(word) for word in found[1].split()[:3]) if found else ()
+    places = [place / "p" for place in case.iterdir() if _is_time(place.name, time) and is_file(place / "p")]
+    text = read_bounded(places[0], LARGEST_DATA).decode("latin-1") if places else ""
+    found = _DIMENSIONS.search(text)
+    powers = tuple(float(word) for word in found[1].split()[:3] if _WHOLE.fullmatch(word)) if found else ()
     if powers not in (KINEMATIC, PRESSURE):
         stated = found[1].strip() if found else "no dimensions"
         fault = Fault("field p", f"dimensions [{stated}]", "[0 2 -2 ..] (kinematic) or [1 -1 -2 ..]")
