@@ -83,7 +83,9 @@ def _vtk_faults(case: Path) -> Iterator[None]:
             yield
     except Exception as reason:  # VTK and what reads its arrays have no common class of faults
         words = one_line(str(reason).strip().partition("\n")[0]) or type(reason).__name__
-        raise InputFaults(str(case), [Fault("case", f"cannot be read: {words}", "the files of a solved case")]) from None
+        raise InputFaults(
+            str(case), [Fault("case", f"cannot be read: {words}", "the files of a solved case")]
+        ) from None
 
 
 def _last_boundary(control: Path) -> tuple[float, Any]:
