@@ -19,19 +19,19 @@ from collections.abc import Iterable
 from dataclasses import asdict
 from pathlib import Path
 
-ROOT = Path(__file__).resolve().parents[1]
-sys.path.insert(0, str(ROOT))
-
 from hostile.doors import GOOD, Door, doors
 from hostile.judged import Outcome
 from hostile.page import counted, page_text
 from hostile.samples import make_samples
 from hostile.trial import MORE_MEMORY, PROCESSOR, Told, tried
 
+ROOT = Path(__file__).resolve().parents[1]
+
 
 def main() -> int:
     """Run the missing cases and write the page; return 1 where a case breaks the promise."""
     options = _options()
+    sys.path.insert(0, str(ROOT))
     options.results.mkdir(parents=True, exist_ok=True)
     place = options.results / "outcomes.jsonl"
     known = {(one.door, one.kind, one.number): one for one in _read(place)}
@@ -98,10 +98,11 @@ def _load(samples: Path) -> None:
         "swashfilm.runs.film.run", "swashfilm.runs.map.run", "diagnosis.recording.reader", "system.pump_file.file",
     ):  # fmt: skip
         importlib.import_module(name)
-    for sample, file in (("plain", "pump.toml"), ("plain", "scant.toml"), ("plain", "film.toml"), ("plain", "study.toml"),
-                         ("plain", "gap.toml"), ("plain", "transient.toml"), ("recording-csv", ".")):  # fmt: skip
-        with chdir(samples / sample), redirect_stdout(io.StringIO()):
+    for file in ("pump.toml", "scant.toml", "film.toml", "study.toml", "gap.toml", "transient.toml"):
+        with chdir(samples / "plain"), redirect_stdout(io.StringIO()):
             command(["check", file])
+    with chdir(samples / "recording-csv"), redirect_stdout(io.StringIO()):
+        command(["check", "."])
 
 
 def _read(place: Path) -> Iterable[Told]:

@@ -153,7 +153,8 @@ def nested(data: bytes, draw: Random) -> bytes:
     dotted = min(deep, 20_000)
     new = draw.choice((
         "[" * deep + "]" * deep, "(" * deep + "1" + ")" * deep, '{"a":' * deep + "1" + "}" * deep,
-        ".".join(["a"] * dotted), "-" * deep + "1", "1" + "**9" * min(deep, 400), "x" * deep, "sin(" * 90 + "x" + ")" * 90,
+        ".".join(["a"] * dotted), "-" * deep + "1", "1" + "**9" * min(deep, 400), "x" * deep,
+        "sin(" * 90 + "x" + ")" * 90,
         "\n[a" + ".b" * dotted + "]\n", "\nq = " + "[" * deep + "]" * deep + "\n", "{a=" * deep + "1" + "}" * deep,
     )).encode()  # fmt: skip
     return _replaced(draw.choice((_NUMBER, _WORD, _TEXT)), data, draw, new)

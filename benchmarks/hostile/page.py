@@ -19,21 +19,22 @@ HEAD = """# Hostile input
 Files of every kind that the program reads, mutated: truncated, bytes changed, numbers, names and texts replaced (NaN,
 5000 digits, markup, code, paths), other encodings, deep nesting, long files, links in circles and out of the folder,
 devices, pipes, pickles, external links, entity and zip bombs. Each is read by the command that reads such files, in a
-process with a limit of {memory:g} GB and {seconds} s of processor time. Promised is a refusal in words that names file and
-place (exit 2 or 3), or a whole and finite result.
+process with a limit of {memory:g} GB and {seconds} s of processor time. Promised is a refusal in words that names file
+and place (exit 2 or 3), or a whole and finite result.
 
     python benchmarks/hostile.py                 runs what is not there yet, then writes this page
     python benchmarks/hostile.py --door "pump file" --cases 20
 
-The seed of a case is its door and number. Outcomes are kept in `build/hostile/outcomes.jsonl` as they come; Ctrl-C loses
-the case in hand. The folder of a case that breaks the promise is left there.
+The seed of a case is its door (the file that is mutated, and its command) and its number; case -1 is the good file,
+which has to be accepted. Outcomes are kept in `build/hostile/outcomes.jsonl` as they come; Ctrl-C loses the case in
+hand. The folder of a case that breaks the promise is left there.
 
 """
 MEANING = """
 | outcome | meaning |
 |---|---|
 | refused in words | exit 2 or 3; the message names the file or the option, what was found and what is expected |
-| accepted | exit 0; the mutation leaves a valid file. Where a run folder is written it is whole, its numbers are finite |
+| accepted | exit 0; the mutation leaves a valid file. A run folder that is written is whole, its numbers are finite |
 | traceback | an exception that is not caught, or "internal error" |
 | no place told | exit 2 or 3 with a message that names no place |
 | crash | ended by a signal |

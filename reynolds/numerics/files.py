@@ -126,6 +126,21 @@ def created(path: Path) -> Iterator[Path]:
         beside.unlink(missing_ok=True)
 
 
+def expect_room(folder: Path, size: int) -> None:
+    """Raise OSError where a file of this size, in bytes, cannot be written into a folder."""
+    place = folder / f".room.{os.getpid()}.part"
+    try:
+        with place.open("wb") as file:
+            if hasattr(os, "posix_fallocate"):
+                os.posix_fallocate(file.fileno(), 0, size)
+            else:
+                file.truncate(size)
+    except OSError as reason:
+        raise OSError(reason.errno, os.strerror(reason.errno or errno.ENOSPC), str(folder)) from None
+    finally:
+        place.unlink(missing_ok=True)
+
+
 def append_whole(path: Path, data: bytes) -> None:
     """Add data to the end of a file: all of it or, where the disk is full, nothing.
 

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from reynolds.numerics.files import expect_room
 from reynolds.numerics.hdf5 import expect_contained
 from swashfilm.output.headline import named
 from swashfilm.output.tables import parted, read_csv, write_csv
@@ -21,6 +22,8 @@ if TYPE_CHECKING:
     from reynolds.numerics.arrays import Array
 
 CSV_DIGITS = 8
+HEADS = 200_000
+"""Bytes of names, attributes and the tree of a NetCDF file, at most."""
 
 
 @dataclass(frozen=True)
@@ -79,7 +82,11 @@ def columns_of(data: xarray.Dataset, along: str) -> list[Column]:
 
 
 def write_netcdf(data: xarray.Dataset, path: Path, group: str | None = None) -> None:
-    """Write a data set, or add it as a group to a file; every variable has `units` (SI) and `long_name`."""
+    """Write a data set, or add it as a group to a file; every variable has `units` (SI) and `long_name`.
+
+    Raises OSError, before anything is written, where the disk has no room: HDF5 ends in a disorder of messages there.
+    """
+    expect_room(path.parent, int(1.1 * data.nbytes) + HEADS)
     described(data).to_netcdf(path, mode="a" if group else "w", group=group, engine="h5netcdf")
 
 

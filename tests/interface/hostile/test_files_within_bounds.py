@@ -65,7 +65,9 @@ def test_a_file_larger_than_any_is_not_read(tmp_path):
         read_text(tmp_path / "large.toml")
 
 
-@pytest.mark.parametrize("text", ["NaN", '{"a": NaN}', '{"a": 1e999}', '{"a": ' + "9" * 400 + "}", "[1]", "{", "[" * 90_000])
+@pytest.mark.parametrize(
+    "text", ["NaN", '{"a": NaN}', '{"a": 1e999}', '{"a": ' + "9" * 400 + "}", "[1]", "{", "[" * 90_000]
+)
 def test_json_that_no_run_writes_is_refused(tmp_path, text):
     (tmp_path / "a.json").write_text(text, "utf-8")
     with pytest.raises(ValueError, match=r"."):
@@ -98,12 +100,13 @@ def test_broken_arrays_are_computed_anew_and_run_nothing(tmp_path, monkeypatch, 
 
 
 def test_hdf5_reaches_no_other_file(tmp_path):
-    with h5py.File(tmp_path / "secret.h5", "w") as file:
+    secret = str(tmp_path / "secret.h5")
+    with h5py.File(secret, "w") as file:
         file["x"] = np.ones(3)
     for ending, put in (
-        ("linked", lambda file: file.__setitem__("x", h5py.ExternalLink(str(tmp_path / "secret.h5"), "/x"))),
+        ("linked", lambda file: file.__setitem__("x", h5py.ExternalLink(secret, "/x"))),
         ("circular", lambda file: file.__setitem__("x", h5py.SoftLink("/x"))),
-        ("raw", lambda file: file.create_dataset("x", (3,), external=[(str(tmp_path / "secret.h5"), 0, 24)], dtype="f8")),
+        ("raw", lambda file: file.create_dataset("x", (3,), external=[(secret, 0, 24)], dtype="f8")),
         ("huge", lambda file: file.create_dataset("x", (10**6, 10**6), dtype="f8", chunks=(100, 100))),
     ):  # fmt: skip
         with h5py.File(tmp_path / f"{ending}.nc", "w") as file:

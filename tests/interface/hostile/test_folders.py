@@ -30,7 +30,7 @@ def failing(folder, number, words=""):
 
 @pytest.mark.parametrize("number", [errno.ENOSPC, errno.EFBIG, errno.EROFS, errno.EACCES])
 def test_a_disk_that_takes_no_more_is_told_and_nothing_remains(tmp_path, number):
-    with pytest.raises(InputFaults, match="results.nc") as told:
+    with pytest.raises(InputFaults, match=r"results\.nc") as told:
         failing(tmp_path / "mine", number)
     assert os.strerror(number) in str(told.value)
     assert not list(tmp_path.iterdir())

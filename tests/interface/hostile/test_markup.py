@@ -28,7 +28,14 @@ from system.inputs.faults import Fault, printable
 
 MARK = "swashfilm-hostile"
 NAME = f"</script><img src=x id={MARK} onerror=alert(1)>{{{{7*7}}}} $x^{{ &amp; ]]>"
-FORMULAS = ("=cmd|'/c calc'!A1", "+1+cmd|'/c calc'!A0", "-2+3+cmd|' /C calc'!A0", "@SUM(1+1)*cmd|' /C calc'!A0", "\t=1", "\r=1")
+FORMULAS = (
+    "=cmd|'/c calc'!A1",
+    "+1+cmd|'/c calc'!A0",
+    "-2+3+cmd|' /C calc'!A0",
+    "@SUM(1+1)*cmd|' /C calc'!A0",
+    "\t=1",
+    "\r=1",
+)
 CHROMIUM = shutil.which("chromium") or shutil.which("google-chrome")
 FILM = """format = 1
 [constants]
@@ -187,14 +194,14 @@ def test_a_pumps_name_is_text_on_every_page(tmp_path):
     pump, levels = str(own_pump(tmp_path)), ("--speeds", "1000,1500rpm", "--pressures", "10,20MPa", "--check", "2")
     lumped = ("--fidelity", "lumped")
     (tmp_path / "cycle.csv").write_text("time [s],speed [rpm],pressure [bar]\n0,1000,150\n5,1500,180\n", "utf-8")
-    places = {name: str(tmp_path / name) for name in ("run", "map", "duty", "compare", "sensitivity", "vary")}
+    places = {name: str(tmp_path / name) for name in ("run", "map", "duty", "compare", "costs", "vary")}
     point = ("--speeds", "1500rpm", "--pressures", "20MPa")
     for words in (
         ("run", pump, *lumped, "-o", places["run"]),
         ("map", pump, *lumped, *levels, "--displacements", "1.0", "--workers", "1", "-o", places["map"]),
         ("duty", places["map"], str(tmp_path / "cycle.csv"), "-o", places["duty"]),
         ("compare", places["map"], places["map"], "-o", places["compare"]),
-        ("sensitivity", pump, *point, "--keys", "piston.radial_clearance", "--workers", "1", "-o", places["sensitivity"]),
+        ("sensitivity", pump, *point, "--keys", "piston.radial_clearance", "--workers", "1", "-o", places["costs"]),
         ("run", pump, *lumped, "--vary", "operating.pressure=10..20MPa:2", "-o", places["vary"]),
         ("report", places["run"]),
     ):  # fmt: skip
