@@ -24,7 +24,7 @@ from reynolds.linear.multigrid.grid import grid_of
 from reynolds.numerics.arrays import Array
 from reynolds.problem import LEAST_FRACTION, Cavitation, FilmProblem, FilmSolution
 from reynolds.solve.boundary import BoundaryValues, pressure_sending, spread
-from reynolds.solve.cavity_guess import COARSEST, Cascade, Obstacle, active_set
+from reynolds.solve.cavity_guess import COARSEST, FINEST, Cascade, Obstacle, active_set
 from reynolds.solve.iterate import (
     Iterate,
     advanced,
@@ -154,14 +154,14 @@ class FilmSolver:
     def _cavity(self, problem: FilmProblem, setting: BoundaryValues, at: Iterate) -> NDArray[np.bool_]:
         """A first guess, from coarser problems under Reynolds' condition.
 
-        Under JFO, whose steps cost more, it is made exact for that condition; under Reynolds' the later steps do so.
+        Exact for that condition under JFO, whose steps cost more, and on meshes that the coarser ones do not resolve.
         """
         matrix, load = symmetric_step(problem, setting, at, setting.held)
         obstacle = Obstacle(matrix.data, load, setting.held)
         if self._cascade is None:
             self._cascade = Cascade(matrix, self._grid)
-        guess = self._cascade.cavity(obstacle)
-        return active_set(matrix, self._factor, obstacle, guess) if problem.cavitation is Cavitation.JFO else guess
+        guess, costly = self._cascade.cavity(obstacle), problem.cavitation is Cavitation.JFO
+        return active_set(matrix, self._factor, obstacle, guess) if costly or guess.size > FINEST else guess
 
     def _answer(self, solution: FilmSolution) -> _Answers | None:
         """The last linearised balance, if it is of that film, with the same cavity but for full unknowns."""
