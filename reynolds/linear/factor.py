@@ -60,6 +60,7 @@ class Factor:
         self._grid = grid if grid is not None and grid.unknowns.size >= GRID_LEAST else None
         self._on_grid: Multigrid | QuadraticFilm | None = quadratic
         self._direct: qdldl.Solver | None = None
+        self._taken: csc_matrix | None = None
         self._multigrid: tuple[csr_array, Any] | None = None
         self._upper: csc_array | None = None
         self._stalled = False
@@ -116,11 +117,12 @@ class Factor:
 
     def _factorise(self, upper: csc_array) -> None:
         self._multigrid = None
-        matrix = csc_matrix((upper.data, upper.indices, upper.indptr), shape=upper.shape)
         if self._direct is None:
-            self._direct = qdldl.Solver(matrix, upper=True)
+            self._taken = csc_matrix((upper.data, upper.indices, upper.indptr), shape=upper.shape)
+            self._direct = qdldl.Solver(self._taken, upper=True)
         else:
-            self._direct.update(matrix, upper=True)
+            self._taken.data = upper.data  # scipy checks every new matrix, which takes as long as a small elimination
+            self._direct.update(self._taken, upper=True)
 
 
 def multigrid(upper: csc_array, max_coarse: int = 10) -> tuple[csr_array, Any]:
