@@ -59,8 +59,7 @@ class Factor:
         """
         self._grid = grid if grid is not None and grid.unknowns.size >= GRID_LEAST else None
         self._on_grid: Multigrid | QuadraticFilm | None = quadratic
-        self._direct: qdldl.Solver | None = None
-        self._taken: csc_matrix | None = None
+        self._direct: tuple[csc_matrix, qdldl.Solver] | None = None
         self._multigrid: tuple[csr_array, Any] | None = None
         self._upper: csc_array | None = None
         self._stalled = False
@@ -104,7 +103,7 @@ class Factor:
             self._stalled = True
             self._factorise(self._upper)
         assert self._direct is not None
-        return self._direct.solve(load)
+        return np.asarray(self._direct[1].solve(load))
 
     def _leave_grid(self) -> None:
         self._grid = self._on_grid = None
@@ -118,11 +117,12 @@ class Factor:
     def _factorise(self, upper: csc_array) -> None:
         self._multigrid = None
         if self._direct is None:
-            self._taken = csc_matrix((upper.data, upper.indices, upper.indptr), shape=upper.shape)
-            self._direct = qdldl.Solver(self._taken, upper=True)
+            matrix = csc_matrix((upper.data, upper.indices, upper.indptr), shape=upper.shape)
+            self._direct = matrix, qdldl.Solver(matrix, upper=True)
         else:
-            self._taken.data = upper.data  # scipy checks every new matrix, which takes as long as a small elimination
-            self._direct.update(self._taken, upper=True)
+            matrix, direct = self._direct
+            matrix.data = upper.data  # scipy checks every new matrix, which takes as long as a small elimination
+            direct.update(matrix, upper=True)
 
 
 def multigrid(upper: csc_array, max_coarse: int = 10) -> tuple[csr_array, Any]:
