@@ -4,6 +4,7 @@ A run writes into `<folder>.partial`, which is renamed to `<folder>` when the ru
 """
 
 import json
+import math
 import os
 import re
 import shutil
@@ -13,6 +14,7 @@ from itertools import count
 from pathlib import Path
 from typing import Any
 
+from reynolds.errors import NotConverged
 from reynolds.numerics.files import REFUSED_BY_DISK
 from system.inputs.faults import Fault, InputFaults
 
@@ -112,8 +114,22 @@ def final_folder(partial: Path) -> Path:
 
 
 def write_json(path: Path, values: Mapping[str, Any]) -> None:
-    """Write values as JSON; raise ValueError for nan and inf, which no summary may hold."""
+    """Write values as JSON; raise NotConverged for nan and inf, which no summary may hold, with their key."""
+    if void := next(_not_finite(values), None):
+        raise NotConverged(f"{void}: the input lies beyond the range of the model")
     path.write_text(json.dumps(values, indent=2, allow_nan=False) + "\n", encoding="utf-8")
+
+
+def _not_finite(value: Any, key: str = "") -> Iterator[str]:
+    """Yield the key of each number that is not finite, and the number."""
+    if isinstance(value, Mapping):
+        for name, one in value.items():
+            yield from _not_finite(one, f"{key}.{name}" if key else str(name))
+    elif isinstance(value, (list, tuple)):
+        for one in value:
+            yield from _not_finite(one, key)
+    elif isinstance(value, float) and not math.isfinite(value):
+        yield f"{key} is {value}"
 
 
 def _claim(name: str, wanted: Path | None) -> tuple[Path, Path]:

@@ -101,6 +101,7 @@ _MOST = {
     Dimension.DENSITY: 10**6,
     Dimension.TEMPERATURE: 10**4,
     Dimension.DISPLACEMENT: 10**3,
+    Dimension.TIME: 10**10,
 }
 """In SI, more than any pump or oil has: beyond it numbers are finite and void."""
 

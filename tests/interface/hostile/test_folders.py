@@ -1,6 +1,7 @@
 """Run folders on a full disk, in a read-only folder, with links in them, and stopped at any moment."""
 
 import errno
+import math
 import os
 import signal
 import subprocess
@@ -10,12 +11,13 @@ from pathlib import Path
 
 import pytest
 
+from reynolds.errors import NotConverged
 from reynolds.numerics.files import append_whole, created, replaced
 from swashfilm.__main__ import main
 from swashfilm.console.schemas import write_new
 from swashfilm.output.answer import Answer
 from swashfilm.output.page import expect_files, kept_pictures, kept_text, read_summary, write_page
-from swashfilm.output.run_folder import run_folder
+from swashfilm.output.run_folder import run_folder, write_json
 from system import InputFaults
 
 NOBODY = 65534
@@ -52,6 +54,16 @@ def test_points_that_were_kept_are_told_on_a_full_disk(tmp_path):
         run()
     assert "--resume" in "".join(told.value.__notes__)
     assert (tmp_path / "mine.partial" / "points" / "a.json").is_file()
+
+
+def test_a_result_that_is_not_finite_is_none(tmp_path):
+    def run() -> None:
+        with run_folder("one", tmp_path / "mine") as place:
+            write_json(place / "summary.json", {"flow": {"case_m3_per_s": [1.0, math.inf]}})
+
+    with pytest.raises(NotConverged, match=r"flow\.case_m3_per_s is inf"):
+        run()
+    assert not list(tmp_path.iterdir())
 
 
 def test_a_file_is_whole_or_as_it_was(tmp_path):
