@@ -18,6 +18,8 @@ from reynolds.numerics.arrays import Array
 from reynolds.numerics.npz import read_npz, write_npz
 
 FORMAT = "swashfilm bodies 1"  # raised when the same input gives other arrays
+SEAL = "seal"
+"""Array with the hash of all others in a file."""
 LOG = logging.getLogger(__name__)
 
 
@@ -74,7 +76,7 @@ def kept(key: str, compute: Callable[[], Mapping[str, Array]], folder: Path | No
     arrays = dict(compute())
     try:
         place.parent.mkdir(parents=True, exist_ok=True)
-        write_npz(place, arrays)
+        write_npz(place, {**arrays, SEAL: _seal(arrays)})
     except OSError as fault:
         expected = "a folder to write in (SWASHFILM_CACHE names another)"
         raise FilmInputError("cache of bodies", f"{place.parent}: {fault.strerror}", expected) from fault
@@ -83,7 +85,16 @@ def kept(key: str, compute: Callable[[], Mapping[str, Array]], folder: Path | No
 
 def _read(place: Path) -> dict[str, Array] | None:
     try:
-        return read_npz(place)
+        found = read_npz(place)
+        if not np.array_equal(found.pop(SEAL, np.empty(0)), _seal(found)):
+            raise ValueError("its arrays are not those that were written")
+        return found
     except (OSError, ValueError) as fault:
         LOG.warning("%s is broken (%s): computed anew", place, fault)
         return None
+
+
+def _seal(arrays: Mapping[str, Array]) -> Array:
+    """The hash of arrays and their names, as numbers."""
+    key = content_key(*(part for name in sorted(arrays) for part in (name, np.asarray(arrays[name]))))
+    return np.frombuffer(bytes.fromhex(key), dtype=np.uint8)

@@ -81,6 +81,15 @@ class Runs:
         return os.system, ("touch canary",)
 
 
+def test_arrays_that_are_not_those_written_are_computed_anew(tmp_path):
+    assert kept("a", lambda: {"x": np.ones(2), "y": np.zeros(3)}, tmp_path).origin is CacheOrigin.COMPUTED
+    whole = read_npz(tmp_path / "a.npz")
+    for changed in ({**whole, "x": np.zeros(2)}, {name: one for name, one in whole.items() if name != "y"}):
+        np.savez(tmp_path / "a.npz", **changed)
+        assert kept("a", lambda: {"x": np.ones(2), "y": np.zeros(3)}, tmp_path).origin is CacheOrigin.RECOMPUTED
+    assert kept("a", dict, tmp_path).origin is CacheOrigin.CACHE
+
+
 @pytest.mark.parametrize("what", ["object", "nan", "text", "truncated", "bomb"])
 def test_broken_arrays_are_computed_anew_and_run_nothing(tmp_path, monkeypatch, what):
     monkeypatch.chdir(tmp_path)

@@ -192,7 +192,7 @@ def test_a_map_killed_at_any_moment_loses_no_kept_point(tmp_path):
         run = subprocess.Popen([*command, *resume, "-o", str(out)], stderr=subprocess.PIPE, text=True)
         partial = out.with_name(f"{out.name}.partial") / "points"
         start = time.monotonic()
-        while run.poll() is None and len(list(partial.glob("*.json"))) < known + 2 and time.monotonic() < start + 120.0:
+        while run.poll() is None and len(list(partial.glob("*.json"))) < known + 4 and time.monotonic() < start + 120.0:
             time.sleep(0.037 * (number % 3 + 1))
         if run.poll() is not None:
             break
