@@ -37,7 +37,7 @@ def main() -> int:
     known = {(one.door, one.kind, one.number): one for one in _read(place)}
     if options.again:
         known = {key: one for key, one in known.items() if one.outcome.good}
-    chosen = [door for door in doors() if options.door in (None, door.name)]
+    chosen = [door for door in doors() if not options.door or door.name in options.door]
     try:
         _run(chosen, options, place, known)
     except KeyboardInterrupt:
@@ -50,7 +50,7 @@ def main() -> int:
 
 def _options() -> argparse.Namespace:
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
-    parser.add_argument("--door", help="the cases of this door alone")
+    parser.add_argument("--door", action="append", help="the cases of this door alone; may be repeated")
     parser.add_argument("--cases", type=int, help="at most so many cases of a door")
     parser.add_argument("--again", action="store_true", help="run those anew that broke the promise")
     parser.add_argument("--results", type=Path, default=ROOT / "build" / "hostile")

@@ -59,7 +59,7 @@ def page_text(now: Counts, memory: float, seconds: float) -> str:
     """Return the page of these outcomes, with those of the first trial below."""
     text = HEAD.format(memory=memory / 1e9, seconds=seconds) + _table(now) + MEANING
     if FIRST.is_file():
-        text += "\nThe same cases before the readers were mended (26 November 2026):\n\n"
+        text += "\nA part of these cases before the readers were mended (26 November 2026):\n\n"
         text += _table(json.loads(FIRST.read_text("utf-8")))
     return text
 

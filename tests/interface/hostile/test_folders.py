@@ -19,6 +19,8 @@ from swashfilm.output.answer import Answer
 from swashfilm.output.page import expect_files, kept_pictures, kept_text, read_summary, write_page
 from swashfilm.output.run_folder import run_folder, write_json
 from system import InputFaults
+from system.work.kept_results import KeptPoints
+from system.work.tasks import PartOutcome, PartStatus
 
 NOBODY = 65534
 
@@ -54,6 +56,16 @@ def test_points_that_were_kept_are_told_on_a_full_disk(tmp_path):
         run()
     assert "--resume" in "".join(told.value.__notes__)
     assert (tmp_path / "mine.partial" / "points" / "a.json").is_file()
+
+
+def test_a_kept_point_that_was_changed_is_done_anew(tmp_path):
+    store = KeptPoints(tmp_path)
+    store.put(PartOutcome("a", PartStatus.SOLVED, "", {"flow": [1.5, 2.0], "name": "x"}, 1.0, "here"))
+    assert store.get("a") is not None
+    text = (tmp_path / "a.json").read_text()
+    for changed in (text.replace("1.5", "1.6"), text.replace("1.5", '"1.5"'), text[:-20], text.replace("2.0", "NaN")):
+        (tmp_path / "a.json").write_text(changed)
+        assert store.get("a") is None
 
 
 def test_a_result_that_is_not_finite_is_none(tmp_path):
