@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 from collections.abc import Iterator, Sequence
+from datetime import date
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -48,9 +49,10 @@ def run_diagnose_command(options: argparse.Namespace) -> int:
     from swashfilm.console.progress import progress
     from swashfilm.output.page import PAGE
     from swashfilm.output.run_folder import Interrupted, final_folder, run_folder
+    from swashfilm.runs.diagnose.applied import applied_toml
     from swashfilm.runs.diagnose.films import film_model_of, film_options_of
     from swashfilm.runs.diagnose.result import DiagnosisRun
-    from swashfilm.runs.diagnose.run import EXTENDED, write_finding
+    from swashfilm.runs.diagnose.run import write_finding
     from swashfilm.runs.diagnose.told import MOST_LINES, answer_lines, show_contradictions
     from system.effects.catalogue.entries import CATALOGUE, with_films_solved
     from system.effects.effect import Kind
@@ -72,8 +74,8 @@ def run_diagnose_command(options: argparse.Namespace) -> int:
         found = DiagnosisRun.opened(folder)
     for line in answer_lines(found.record["answer"], MOST_LINES - (apply is not None)):
         show(line)
-    if apply is not None and found.effects:
-        write_new(apply, "pump", (final_folder(folder) / EXTENDED).read_text("utf-8"))
+    if apply is not None and finding.extended_pump is not None:
+        write_new(apply, "pump", applied_toml(finding, finding.extended_pump, date.today()))
         what = "without the sensor's fault" if finding.diagnosis.kind is Kind.SENSOR_FAULT else "with it"
         fidelity = " --fidelity lumped" if films is None else ""  # floating films have all physics by default
         show(f"the pump as fitted, {what}: swashfilm run {apply}{fidelity}")

@@ -276,3 +276,23 @@ def test_a_file_without_a_diagnosis_is_refused(tmp_path: Path, text: str, fault:
     path.write_text(text, encoding="utf-8")
     with pytest.raises(InputFaults, match=fault):
         read_diagnosis(path)
+
+
+@pytest.mark.parametrize(
+    ("stated", "told"), [(None, "earlier version"), ({"headline": ""}, "none"), ({"format": 0}, "0")]
+)
+def test_a_run_of_another_version_is_refused_with_the_remedy(
+    named: Diagnosis, tmp_path: Path, stated: dict[str, Any] | None, told: str
+) -> None:
+    """Found, expected and the command to run again, where the answer in plain words is of another form."""
+    path = tmp_path / "diagnosis.json"
+    write_diagnosis(path, named, its_answer(named))
+    record = json.loads(path.read_text("utf-8"))
+    del record["answer"]
+    path.write_text(json.dumps(record | ({} if stated is None else {"answer": stated})), encoding="utf-8")
+    with pytest.raises(InputFaults) as caught:
+        read_diagnosis(path)
+    (fault,) = caught.value.faults
+    assert told in fault.found
+    assert fault.expected == "an answer of format 1"
+    assert "swashfilm diagnose PUMP RECORDING" in fault.nearest
