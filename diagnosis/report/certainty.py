@@ -89,7 +89,7 @@ def sure_words(diagnosis: Diagnosis, scant: bool) -> str:
     probability = stated_probability(diagnosis)
     record = record_of(_kind(diagnosis), scant, probability)
     trust = min(probability, record.right / record.cases) if record else probability
-    return next((words for least, words in GRADES if trust >= least), "open")
+    return next((words for least, words in GRADES if trust >= least), "not sure")
 
 
 def record_words(diagnosis: Diagnosis, scant: bool) -> str:
@@ -102,7 +102,7 @@ def record_text(record: Record, kind: AnswerKind, scant: bool) -> str:
     """The record as a sentence, with the interval."""
     low, high = (100.0 * end for end in record.interval)
     like = " with such certainty" if record.banded else ""
-    of = " on pumps known by their type plate" if scant else ""
+    of = " of pumps known by their type plate" if scant else ""
     return (
         f"In trials on other simulators{of}, {_RIGHT[kind].format(right=record.right, cases=record.cases, like=like)} "
         f"(95 % interval {low:.0f} to {high:.0f} %)."

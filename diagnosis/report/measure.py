@@ -14,8 +14,8 @@ NO_NEXT_POINT = "no next point can be proposed"
 """First words of the note that gives the reason."""
 NOTHING_ELSE = "No further measurement is needed: nothing else fits."
 NO_POINT_TELLS = (
-    "No further point would tell more: nothing else that could be fitted comes near. More of the pump's own data "
-    "would: clearances, valve plate, ports."
+    "No further operating point would tell more: nothing else that could be fitted comes near. The pump's own "
+    "dimensions would: clearances, valve plate, ports."
 )
 
 
