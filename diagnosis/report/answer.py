@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from diagnosis.report.certainty import certainty, record_words, sure_words
+from diagnosis.report.certainty import SURE, certainty, record_words, sure_words
 from diagnosis.report.course import course_words
 from diagnosis.report.evidence import evidence
 from diagnosis.report.format import PLACES, effect_words, listed
-from diagnosis.report.measure import measure_words
+from diagnosis.report.measure import hidden_words, measure_words
 from diagnosis.report.sizes import size_words
 from diagnosis.report.text import doubt, finding, fit_words, headline, rivals_words, suspected, where_words
 from diagnosis.study.model import Study
@@ -74,13 +74,20 @@ def plain_answer(study: Study, diagnosis: Diagnosis, cost: str) -> PlainAnswer:
         certainty=certainty(diagnosis, study.scant),
         rivals=rivals_words(diagnosis),
         look=tuple(_looks(diagnosis)),
-        measure=measure_words(diagnosis),
+        measure=_measure(study, diagnosis),
         fit=fit_words(diagnosis),
         evidence=evidence(diagnosis),
         sizes=tuple(map(size_words, diagnosis.effects)),
         sure=sure_words(diagnosis, study.scant),
         record=record_words(diagnosis, study.scant),
     )
+
+
+def _measure(study: Study, diagnosis: Diagnosis) -> str:
+    """What to measure next; where nothing is found and that is not sure, what would show more."""
+    found = diagnosis.kind is not Kind.NO_MISMATCH or diagnosis.status is VerdictStatus.SUSPICION
+    sure = found or sure_words(diagnosis, study.scant) in SURE
+    return measure_words(diagnosis) if sure else hidden_words(study)
 
 
 def _looks(diagnosis: Diagnosis) -> Iterator[Look]:

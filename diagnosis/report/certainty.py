@@ -18,6 +18,8 @@ from system.effects.effect import Kind
 ENOUGH = 10
 """Trials of a band of probability below which all bands of the answer count together."""
 GRADES = ((0.9, "very sure"), (0.75, "fairly sure"), (0.5, "likely"))
+SURE = ("very sure", "fairly sure")
+"""Words of certainty of answers on which a bench may rest."""
 
 
 class AnswerKind(Enum):
@@ -118,11 +120,14 @@ _RIGHT = {
 }
 
 
+_OF = {AnswerKind.SUSPICION: " that there is a cause", AnswerKind.NOTHING: " that nothing is wrong"}
+
+
 def _sentences(diagnosis: Diagnosis, scant: bool) -> Iterator[str]:
     kind, probability = _kind(diagnosis), stated_probability(diagnosis)
     words = sure_words(diagnosis, scant)
     alike = any(claim.equivalent or claim.elsewhere for claim in diagnosis.effects)
-    of = " that it is one of these" if alike else " that there is a cause" if kind is AnswerKind.SUSPICION else ""
+    of = " that it is one of these" if alike else _OF.get(kind, "")
     yield f"{words[0].upper()}{words[1:]}{of} (stated probability {chance(probability)})."
     record = record_of(kind, scant, probability)
     if record is not None:

@@ -7,13 +7,14 @@ from string import Formatter
 
 import numpy as np
 import pytest
-from made_diagnosis import PRESSURE, hypothesis, its_answer
+from made_diagnosis import PRESSURE, agreeing, hypothesis, its_answer, its_study
 
 from diagnosis import Diagnosis, Study
 from diagnosis.explain.explained import ExplainedMismatch
 from diagnosis.procedure.compared import NO_COMPARISON, WITH, Change, PumpComparison
 from diagnosis.procedure.cost import cost_words
 from diagnosis.report import course
+from diagnosis.report.answer import plain_answer
 from diagnosis.report.certainty import (
     AnswerKind,
     Record,
@@ -23,6 +24,7 @@ from diagnosis.report.certainty import (
     stated_probability,
     sure_words,
 )
+from diagnosis.report.measure import NOTHING_MORE
 from diagnosis.report.sizes import FORMS, finding_sentence
 from diagnosis.study.acceptance import contradictions
 from diagnosis.verdict.diagnosis import ClaimedEffect, Estimate, VerdictStatus
@@ -125,6 +127,21 @@ def test_certainty_stands_beside_its_record(named: Diagnosis) -> None:
     )
     assert stated_probability(named) == pytest.approx(0.93)
     assert certainty(named, False).startswith("Very sure (stated probability 0.93). In trials on other simulators, ")
+
+
+def test_agreement_that_is_not_sure_asks_for_what_would_show_more(named: Diagnosis) -> None:
+    """Meters, axes and dimensions that are missing, where half of such answers missed an effect; else nothing."""
+    found = agreeing(named)
+    nothing = replace(named.hypotheses[0], hypothesis=hypothesis(kind=Kind.NO_MISMATCH), probability=0.85)
+    found = replace(found, hypotheses=(nothing,))
+    study = its_study(named)
+    assert certainty(found, False).startswith("Fairly sure that nothing is wrong")
+    assert plain_answer(study, found, "").measure == NOTHING_MORE
+    told = plain_answer(replace(study, scant=True), found, "").measure
+    assert told.startswith("A small effect may hide here.")
+    assert "delivery flow and inlet flow measured" in told
+    assert "shaft torque" not in told
+    assert "the pump's own dimensions" in told
 
 
 def test_words_of_certainty_go_by_the_record_too(named: Diagnosis) -> None:
