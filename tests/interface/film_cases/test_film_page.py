@@ -112,7 +112,7 @@ def test_a_transient_that_does_not_move_says_so():
         "pump": "ref90", "displacement_ratio_start": 1.0, "displacement_ratio_end": 1.0, "travel_10_to_90_s": None,
         "swash_angle": {"start_rad": 0.28, "end_rad": 0.28, "fastest_rad_per_s": 0.0}, "first_turn": turn,
         "last_turn": turn, "chamber_pressure_largest_Pa": 3.5e7, "actuator_pressure_largest_Pa": 2.5e6,
-        "stops": {"strikes": 0, "largest_impulse_Nms": 0.0},
+        "stops": [],
     }  # fmt: skip
     assert "stays at 16.04 deg" in transient_words(summary)
     assert "from 10 to 90 % of the way" not in [tile.name for tile in transient_tiles(summary)]
