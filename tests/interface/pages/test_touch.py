@@ -81,7 +81,7 @@ def film_explorer() -> Explorer:
 
 
 def write_scene(folder: Path) -> None:
-    """Write blocks of a pump at three angles: a block that turns, pistons and slippers that change places, and films."""
+    """Write blocks of a pump at three angles: a block that turns, pistons and slippers that change places, films."""
     (folder / "pump").mkdir(parents=True)
     (folder / "fields").mkdir()
     square = np.array([[0.0, 0.0, 0.0], [0.02, 0.0, 0.0], [0.02, 0.02, 0.0], [0.0, 0.02, 0.01]])
