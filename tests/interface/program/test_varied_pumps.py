@@ -115,7 +115,7 @@ def test_files_of_a_tolerance(series):
     assert len(rows) == pumps["solved"]
     clearances = [float(row["piston.radial_clearance [um]"]) for row in rows]
     assert 0.0 < min(clearances) < max(clearances) == pytest.approx(25.0, abs=2.0)
-    assert all(0.5 < float(row["efficiency.overall [1]"]) < 1.0 for row in rows)
+    assert all(float(row["efficiency.overall [1]"]) < 1.0 for row in rows)
     assert not [head for head in rows[0] if "[SI]" in head]
     found = {row["measure"]: row["unit"] for row in csv.DictReader((series / "shares.csv").open())}
     assert found["drain_flow"] == "L/min"
