@@ -129,12 +129,11 @@ GROUPS = (
         Example("examples/hst196/series.py", f"python examples/hst196/series.py {MEASURED} series.png",
                 "hst196_series.png", needs="The table of measured units is not part of this repository."),
         Example("examples/hst196/floating.py", f"python examples/hst196/floating.py --rigid {MEASURED}",
-                DRAWS, left_out=MEASURED),
+                left_out=MEASURED),
     )),
     Group("Other models and rigs", (
         Example("examples/own_simulator/valve.py", "python examples/own_simulator/valve.py", DRAWS),
         Example("examples/cascaded_tanks/overflow.py", "python examples/cascaded_tanks/overflow.py dataBenchmark.csv",
-                DRAWS,
                 needs="The benchmark's data are not part of this repository; the script says where they are."),
         Example("examples/uci_hydraulic/rig.py",
                 "python examples/uci_hydraulic/rig.py uci_hydraulic recording --leak 1", DRAWS, needs=UCI),

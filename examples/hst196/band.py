@@ -207,7 +207,8 @@ def draw_band(predicted: Array, units: Array, parts: Mapping[str, float], pictur
     left, right = figure.subplots(1, 2)
     bins = np.arange(85.0, 98.0, 0.25)
     for values, name in ((predicted, "predicted, unknown values drawn"), (units, "measured units")):
-        left.hist(100.0 * values, bins=bins, density=values.size > 0, alpha=0.6, label=name)
+        if values.size:
+            left.hist(100.0 * values, bins=bins, density=True, alpha=0.6, label=name)
     left.set(xlabel="motor over pump speed [%]", ylabel="density [1/%]")
     left.legend(fontsize="small")
     ordered = sorted(parts, key=lambda name: parts[name])

@@ -360,7 +360,8 @@ def draw(change: Array, found: Ladder, picture: Path) -> None:
     for column, (axes, unit, name) in enumerate(shown):
         axes.plot(FIRST + np.arange(SECONDS), change[:, column] / unit, ".", color="#888888", label="read")
         axes.plot(FIRST + np.arange(SECONDS), found.fit.predictions[:, column] / unit, label=", ".join(found.kept))
-        axes.set(ylabel=f"change of {name}")
+        axes.set(ylabel=name)
+    panels[0].set(title="change from the mean cycle of the sound rig")
     panels[0].legend(fontsize="small")
     panels[-1].set(xlabel="time in the cycle [s]")
     figure.savefig(picture, dpi=110)
