@@ -33,10 +33,7 @@ def flow(values: Mapping[str, float]) -> Array:
 
 
 def main(leak: float = 5e-12, picture: str = "") -> tuple[str, ...]:
-    """Print what a valve with a leak in m3/(s Pa) lacks, one addition after the other; return what is kept.
-
-    picture: file of a picture of readings and models, none where empty.
-    """
+    """Print what a valve with a leak in m3/(s Pa) lacks, one addition after the other, and draw it; return it."""
     noise = SIGMA * np.random.default_rng(1).standard_normal((DROP.size, 1))
     read = independent_observations(["flow"], flow({"orifice": 1e-7, "leak": leak}) + noise, np.array([SIGMA]))
     found = ladder(FunctionSimulator(flow, (ORIFICE,)), read, POSSIBLE)
@@ -51,13 +48,11 @@ def main(leak: float = 5e-12, picture: str = "") -> tuple[str, ...]:
 
 def draw(readings: Array, found: Ladder, picture: str) -> None:
     """Draw what the orifice alone, and the model found, leave of the readings, in sigma."""
-    figure = Figure(figsize=(7.2, 3.6), layout="constrained")
-    axes = figure.subplots()
+    axes = Figure(figsize=(7.2, 3.6), layout="constrained").subplots()
     for name, fit in (("orifice", found.before), (f"orifice and {', '.join(found.kept)}", found.fit)):
         axes.plot(1e-5 * DROP, (readings - fit.predictions)[:, 0] / SIGMA, "o-", markersize=4, label=name)
     axes.set(xlabel="pressure drop [bar]", ylabel="reading less model [sigma]")
-    axes.legend()
-    figure.savefig(picture, dpi=110)
+    axes.legend().figure.savefig(picture, dpi=110)
 
 
 if __name__ == "__main__":
