@@ -127,7 +127,8 @@ def test_a_film_leaves_a_run_folder_with_everything_in_it(capsys):
     folder = Path("runs/pad-1")
     files = {path.name for path in folder.iterdir()}
     assert files == {
-        "input.toml", "resolved.toml", "summary.json", "film.vtu", "film.pvd", "results.nc", "report.html",
+        "input.toml", "resolved.toml", "summary.json", "film.vtu", "film.pvd", "results.nc", "sections.csv",
+        "report.html",
     }  # fmt: skip
     assert (folder / "input.toml").read_text("utf-8") == CASE
     assert 'cavitation = "jfo"' in (folder / "resolved.toml").read_text("utf-8")

@@ -56,7 +56,7 @@ def run_tolerance(case: ToleranceCase, folder: Path, executor: Executor, report:
     )  # fmt: skip
     summary = tolerance_summary(varied, case.drawing, case.seed, found)
     write_json(folder / "summary.json", summary)
-    write_pumps(folder / PUMPS_TABLE, found)
+    write_pumps(folder / PUMPS_TABLE, varied, found)
     write_shares(folder / SHARES_TABLE, found)
     write_data(folder / DATA, varied, found)
     write_tolerance_page(folder)
