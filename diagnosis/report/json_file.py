@@ -20,6 +20,7 @@ from diagnosis.verdict.diagnosis import ClaimedEffect, Diagnosis, Estimate
 from system.effects.effect import Kind
 from system.inputs.channels import ChannelName
 from system.inputs.faults import Fault, InputFaults
+from system.inputs.versions import version_fault
 
 FORMAT = 1
 KEYS = (
@@ -40,9 +41,9 @@ def read_diagnosis(path: Path) -> dict[str, Any]:
         record = json.loads(path.read_text("utf-8"))
     except (OSError, ValueError) as reason:
         raise InputFaults(str(path), [Fault("file", str(reason), "a diagnosis.json of a finished run")]) from None
-    if not isinstance(record, dict) or record.get("format") != FORMAT:
-        found = record.get("format") if isinstance(record, dict) else type(record).__name__
-        raise InputFaults(str(path), [Fault("format", repr(found), str(FORMAT))])
+    found = record.get("format") if isinstance(record, dict) else type(record).__name__
+    if fault := version_fault("format", found, FORMAT, "diagnosis"):
+        raise InputFaults(str(path), [fault])
     missing = [key for key in KEYS if key not in record]
     if missing:
         raise InputFaults(str(path), [Fault(key, "nothing", "a key of every diagnosis.json") for key in missing])

@@ -8,7 +8,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from swashfilm.api.calls import Quantity, door, words_of
-from system.inputs.faults import Fault, InputFaults, nearest_choice, nearest_path
+from swashfilm.formats.versions import SUMMARY, read_headed
+from system.inputs.faults import Fault, InputFaults, nearest_path
 
 if TYPE_CHECKING:
     from swashfilm.output.result import Result
@@ -59,20 +60,14 @@ def new(
 
 def open(folder: str | Path) -> Result:
     """Return the result of a finished run folder, of the class of its kind; raise InputFaults without one."""
-    import json
-
     place = Path(folder)
     with door("open"):
-        summary = place / "summary.json"
-        if not summary.is_file():
-            fault = Fault("folder", f"no {summary}", "the folder of a finished run", nearest_path(place))
-            raise InputFaults("command line", [fault])
-        kind = json.loads(summary.read_text("utf-8")).get("kind")
-        kinds = {name: found for found in _result_classes() for name in found.kinds}
-        if kind not in kinds:
-            near = nearest_choice(str(kind), kinds)
-            raise InputFaults(str(place), [Fault("kind", repr(kind), f"one of {', '.join(kinds)}", near)])
-        return kinds[kind].opened(place)
+        try:
+            kind = read_headed(place)["kind"]
+        except FileNotFoundError:
+            fault = Fault("folder", f"no {place / SUMMARY}", "the folder of a finished run", nearest_path(place))
+            raise InputFaults("command line", [fault]) from None
+        return next(found for found in _result_classes() if kind in found.kinds).opened(place)
 
 
 def _result_classes() -> Iterator[type[Result]]:

@@ -1,7 +1,6 @@
 """Command `swashfilm report`: the page of a run folder, written again."""
 
 import argparse
-import json
 from collections.abc import Callable
 from importlib import import_module
 from pathlib import Path
@@ -10,6 +9,7 @@ from swashfilm.console.command import Command
 from swashfilm.console.inputs import COMMAND_LINE
 from swashfilm.console.pressures import add_units_option
 from swashfilm.console.terminal import show
+from swashfilm.formats.versions import SUMMARY, read_headed
 from system.inputs.faults import Fault, InputFaults, nearest_path
 
 PAGES = {
@@ -48,18 +48,11 @@ def run_report(options: argparse.Namespace) -> int:
 
 def _page_of(folder: Path) -> Callable[[Path], Path]:
     """Return the function that writes the page of a run folder."""
-    summary = folder / "summary.json"
     try:
-        kind = json.loads(summary.read_text("utf-8"))["kind"]
+        kind = read_headed(folder)["kind"]
     except FileNotFoundError:
-        fault = Fault("DIR", f"no {summary}", "the folder of a finished run", nearest_path(folder))
+        fault = Fault("DIR", f"no {folder / SUMMARY}", "the folder of a finished run", nearest_path(folder))
         raise InputFaults(COMMAND_LINE, [fault]) from None
-    except (OSError, ValueError, KeyError, TypeError) as reason:
-        fault = Fault("summary.json", f"cannot be read: {reason!r}", "the summary that a run wrote")
-        raise InputFaults(str(folder), [fault]) from None
-    if kind not in PAGES:
-        expected = f"one of {', '.join(PAGES)}"
-        raise InputFaults(str(folder), [Fault("summary.json", f"kind {kind!r}", expected)])
     module, _, name = PAGES[kind].rpartition(".")
     return getattr(import_module(module), name)
 

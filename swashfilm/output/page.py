@@ -9,6 +9,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from swashfilm.formats.versions import read_headed
 from swashfilm.output.answer import Answer
 from swashfilm.output.figures import compact
 from swashfilm.output.touch.curves import touchable
@@ -40,9 +41,12 @@ def expect_files(folder: Path, names: Sequence[str], whose: str) -> None:
 
 
 def read_summary(folder: Path, needed: Sequence[str] = (), whose: str = "") -> dict[str, Any]:
-    """Return the content of a run folder's summary.json; raise as `expect_files` where a file of `needed` lacks."""
+    """Return the content of a run folder's summary.json.
+
+    Raises as `read_headed`, and as `expect_files` where a file of `needed` lacks.
+    """
     expect_files(folder, needed, whose)
-    return json.loads((folder / "summary.json").read_text("utf-8"))
+    return read_headed(folder)
 
 
 def write_page(folder: Path, template: str, *, answer: Answer, **content: Any) -> Path:

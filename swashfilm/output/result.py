@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import shutil
 import tempfile
 from collections.abc import Callable, Iterator, Mapping, Sequence
@@ -11,6 +10,7 @@ from html import escape
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, ClassVar, Self
 
+from swashfilm.formats.versions import SUMMARY, read_headed
 from swashfilm.output.data.files import read_netcdf
 from swashfilm.output.figures import pyplot_figures
 from swashfilm.output.headline import named
@@ -24,8 +24,6 @@ if TYPE_CHECKING:
     import xarray
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
-
-SUMMARY = "summary.json"
 
 
 class Numbers(Mapping[str, Any]):
@@ -89,7 +87,7 @@ class Result:
     def opened(cls, folder: Path) -> Self:
         """Return the result of a finished run folder; raise InputFaults where one of its files is missing."""
         expect_files(folder, cls.files, "the folder of a finished run")
-        summary = json.loads((folder / SUMMARY).read_text("utf-8"))
+        summary = read_headed(folder)
 
         def write(place: Path) -> tuple[str, ...]:
             shutil.copytree(folder, place, dirs_exist_ok=True)

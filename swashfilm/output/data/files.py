@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from swashfilm.formats.versions import check_stamp, stamped
 from swashfilm.output.headline import named
 from swashfilm.output.tables import parted, read_csv, write_csv
 from system.inputs.shown import known_unit, largest_of_units, round_off, shown_in
@@ -76,9 +77,14 @@ def columns_of(data: xarray.Dataset, along: str) -> list[Column]:
     return [Column(name, series[name].values, series[name].attrs.get("units", "1")) for name in names]
 
 
-def write_netcdf(data: xarray.Dataset, path: Path, group: str | None = None) -> None:
-    """Write a data set, or add it as a group to a file; every variable has `units` (SI) and `long_name`."""
-    described(data).to_netcdf(path, mode="a" if group else "w", group=group, engine="h5netcdf")
+def write_netcdf(data: xarray.Dataset, path: Path, kind: str) -> None:
+    """Write the data set of a kind of run folder; every variable has `units` (SI) and `long_name`."""
+    described(data).assign_attrs(stamped(kind)).to_netcdf(path, mode="w", engine="h5netcdf")
+
+
+def add_group(data: xarray.Dataset, path: Path, group: str) -> None:
+    """Add a data set to a NetCDF file as a group; described as `write_netcdf`."""
+    described(data).to_netcdf(path, mode="a", group=group, engine="h5netcdf")
 
 
 def described(data: xarray.Dataset) -> xarray.Dataset:
@@ -90,8 +96,12 @@ def described(data: xarray.Dataset) -> xarray.Dataset:
 
 
 def read_netcdf(path: Path, group: str | None = None) -> xarray.Dataset:
-    """Return the data set of a NetCDF file, or of one group in it, loaded whole."""
+    """Return the data set of a NetCDF file, or of one group in it, loaded whole.
+
+    Raises InputFaults for a file that a later version wrote.
+    """
     import xarray
 
     with xarray.open_dataset(path, group=group, engine="h5netcdf") as data:
+        check_stamp(path, data.attrs)
         return data.load()

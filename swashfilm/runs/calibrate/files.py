@@ -10,6 +10,7 @@ from diagnosis.calibration import Calibration
 from diagnosis.recording.units import channel_head, channel_unit, difference, difference_unit, reading
 from diagnosis.report.format import parameter_unit
 from diagnosis.verdict.row_numbers import table_rows
+from swashfilm.formats.versions import headed
 from swashfilm.output.run_folder import write_json
 from swashfilm.runs.diagnose.files import write_rows
 from system.bench.calibration.held_out import PHYSICS
@@ -44,8 +45,7 @@ def summary(found: Calibration, title: str) -> dict[str, Any]:
     """Content of summary.json."""
     fit = found.best
     return {
-        "format": 1,
-        "kind": KIND,
+        **headed(KIND),
         "name": title,
         "points": len(found.study.recording.steady.values),
         "readings": int(fit.residual.size),

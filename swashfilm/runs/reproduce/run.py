@@ -11,6 +11,7 @@ from diagnosis.recording.model import Recording
 from diagnosis.study.acceptance import checked_recording
 from reynolds.numerics.cache import cache_folder
 from swashfilm.console.fidelity import Fidelity
+from swashfilm.formats.versions import headed
 from swashfilm.runs.map.run import POINT_COST
 from swashfilm.runs.reproduce.files import claim_rows, figure_row, write_reproduction
 from system.bench.calibration.equation_21 import LOSS_CHANNELS
@@ -82,8 +83,7 @@ def run_reproduce(asked: ReproduceCase, executor: Executor, folder: Path, report
     results = _results(asked, means)
     (folder / "resolved.toml").write_text(resolved_toml(asked.pump), encoding="utf-8")
     summary = {
-        "format": 1,
-        "kind": "reproduction",
+        **headed("reproduction"),
         "pump": asked.pump.name,
         "about": about(asked.pump),
         "fidelity": asked.fidelity.value,

@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 
 from gaps.response import ErrorRegion, Response
+from swashfilm.formats.versions import headed
 from swashfilm.output.data.files import Column, write_columns
 from swashfilm.output.headline import named
 from swashfilm.output.run_folder import write_json
@@ -56,8 +57,7 @@ def table_summary(table: ResponseTable) -> dict[str, Any]:
     held = dict(origin.held) | {"inlet_pressure": origin.inlet_pressure, "case_pressure": origin.case_pressure}
     rows = [row | {"unit": "1", "meaning": MEANINGS[row["name"]]} for row in record["outputs"]]
     return record | {
-        "format": 1,
-        "kind": "response_table",
+        **headed("response_table"),
         "name": origin.pump,
         "condensed": {
             "condensed from": f"{origin.source.value} fidelity",

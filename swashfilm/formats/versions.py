@@ -1,0 +1,84 @@
+"""Version of each kind of run folder, which summary.json states as `format`, NetCDF files as `format_version`.
+
+A version covers summary.json, the NetCDF files and the tables of a folder. Readers take every version up to this one.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+from importlib.resources import files
+from pathlib import Path
+from typing import Any
+
+from system.inputs.faults import Fault, InputFaults, nearest_choice
+from system.inputs.versions import version_fault
+
+VERSIONS = {
+    "calibration": 1,
+    "comparison": 2,
+    "diagnosis": 1,
+    "duty": 1,
+    "film": 1,
+    "film_revolution": 1,
+    "film_study": 1,
+    "gap_table": 1,
+    "map": 1,
+    "pump": 1,
+    "pump_study": 1,
+    "reference": 1,
+    "reproduction": 1,
+    "response_table": 1,
+    "sensitivity": 1,
+    "tolerance": 1,
+    "transient": 1,
+}
+SUMMARY = "summary.json"
+OURS = "swashfilm "
+"""Begins the attribute `format` of a NetCDF file; the kind of its run folder follows."""
+
+
+def run_schema(kind: str) -> str:
+    """Return the JSON Schema of a kind of run folder at its version, as text: the header of each of its files."""
+    return files("swashfilm.formats").joinpath("schemas", f"run.{kind}-{VERSIONS[kind]}.json").read_text("utf-8")
+
+
+def headed(kind: str) -> dict[str, Any]:
+    """Return the first entries of the summary of a kind of run folder."""
+    return {"format": VERSIONS[kind], "kind": kind}
+
+
+def stamped(kind: str) -> dict[str, Any]:
+    """Return the attributes by which a NetCDF file states its format."""
+    return {"format": OURS + kind, "format_version": VERSIONS[kind]}
+
+
+def read_headed(folder: Path) -> dict[str, Any]:
+    """Return the content of a run folder's summary.json.
+
+    Raises InputFaults for a file that is none, for an unknown kind and for a later version; FileNotFoundError.
+    """
+    path = folder / SUMMARY
+    try:
+        summary = json.loads(path.read_text("utf-8"))
+        kind, version = summary["kind"], summary["format"]
+    except FileNotFoundError:
+        raise
+    except (OSError, ValueError, KeyError, TypeError) as reason:
+        fault = Fault(SUMMARY, f"cannot be read: {reason!r}", "the summary that a run wrote")
+        raise InputFaults(str(folder), [fault]) from None
+    if kind not in VERSIONS:
+        near = nearest_choice(str(kind), VERSIONS)
+        raise InputFaults(str(path), [Fault("kind", repr(kind), f"one of {', '.join(VERSIONS)}", near)])
+    if later := version_fault("format", version, VERSIONS[kind], f"{kind.replace('_', ' ')} run"):
+        raise InputFaults(str(path), [later])
+    return summary
+
+
+def check_stamp(path: Path, attributes: Mapping[str, Any]) -> None:
+    """Raise InputFaults for a NetCDF file of a later version; one without a stamp is older than stamps."""
+    kind = str(attributes.get("format", "")).removeprefix(OURS)
+    if kind in VERSIONS:
+        found = int(attributes["format_version"])
+        if fault := version_fault("format_version", found, VERSIONS[kind], f"{kind.replace('_', ' ')} file"):
+            raise InputFaults(str(path), [fault])

@@ -1,0 +1,32 @@
+"""Run folders against the schemas of their formats."""
+
+from __future__ import annotations
+
+import json
+from functools import cache
+from pathlib import Path
+
+from formats import Names
+from headers import folder_header
+from jsonschema import Draft202012Validator
+
+REMEDY = (
+    "Where the change is meant: `python tools/formats.py FOLDER` writes the schema of a version that no release has; "
+    "otherwise the version in swashfilm/formats/versions.py rises by one first"
+)
+
+
+@cache
+def validator(names: Names) -> Draft202012Validator:
+    """The schema of a kind and version; FileNotFoundError where there is none."""
+    return Draft202012Validator(json.loads(names.path.read_text("utf-8")))
+
+
+def folder_faults(folder: Path) -> list[str]:
+    """Where and how the files of a run folder differ from the schema of their kind and version."""
+    header = folder_header(folder)
+    names = Names(f"run.{header['summary.json']['kind']}", header["summary.json"]["format"])
+    return [
+        f"{names.key}: {'/'.join(map(str, one.absolute_path))}: {one.message[:200]}"
+        for one in validator(names).iter_errors(header)
+    ]
