@@ -5,8 +5,8 @@
     python tools/formats.py --release 0.2.0 the versions so far are those of a release: none of them changes any more
 
 A schema describes one version of a kind of run folder: the header (`headers.py`) of each of its files. A key that some
-folders lack is optional. FREE names the objects whose keys are the user's, NULL the numbers that may be null. The
-version that is written stands in `swashfilm.formats.versions`.
+folders lack is optional. `format_rules.py` says which keys are the user's and what
+may be null. The version that is written stands in `swashfilm.formats.versions`.
 """
 
 from __future__ import annotations
@@ -23,6 +23,7 @@ from pathlib import Path
 from typing import Any
 
 import tomli_w
+from format_rules import FREE, NULL, STATED
 from headers import folder_header
 
 from swashfilm.console.schemas import SCHEMAS, schema_of
@@ -35,18 +36,6 @@ FINGERPRINTS = ROOT / "tests" / "interface" / "formats" / "fingerprints.toml"
 UNRELEASED = "unreleased"
 INPUT_VERSIONS = dict.fromkeys(SCHEMAS, 1)
 DRAFT = "https://json-schema.org/draft/2020-12/schema"
-FREE = (
-    "summary.json/*numbers", "*/max_at", "*/min_at", "summary.json/energy_J",
-    "summary.json/marked", "summary.json/*flow_m3_per_s", "*/physics_seconds", "summary.json/stated", "*measures",
-    "summary.json/at_points/*", "summary.json/pumps/failed", "summary.json/pumps/refused", "summary.json/condensed",
-    "summary.json/unlike", "summary.json/drawings", "summary.json/verdicts", "*/sensitivity/outputs",
-    "*/sensitivity/outputs/*", "*/sensitivity/parameters", "diagnosis.json/fit/heldout", "*/other_pairs",
-    "diagnosis.json/scaling/*", "diagnosis.json/mismatch/channels", "study.nc/variables", "study.csv",
-    "data/FIGURE.csv",
-)  # fmt: skip
-NULL: tuple[str, ...] = ()
-STATED = ("*/units", "*/long_name", "*/dimensions/*", f"{SUMMARY}/kind", f"{SUMMARY}/format", "*.csv/*")
-"""Values that are part of a format, not results."""
 _TYPES = {bool: "boolean", int: "integer", float: "number", str: "string", list: "array", type(None): "null"}
 
 Schema = dict[str, Any]
@@ -135,8 +124,7 @@ def widened(schema: Schema | None, value: Any, path: str = "", *, of_input: bool
     """
     found = dict(schema or {"type": []})
     types = {"object" if isinstance(value, Mapping) else _TYPES[type(value)], *_types(found)}
-    if any(fnmatchcase(path, one) for one in NULL):
-        types.add("null")
+    types |= {one for pattern, other in NULL.items() if fnmatchcase(path, pattern) for one in ("null", other)}
     if "number" in types:
         types.discard("integer")
     found["type"] = sorted(types) if len(types) > 1 else next(iter(types))
