@@ -89,7 +89,9 @@ def _schemas(folders: list[Path]) -> Iterator[tuple[Names, Schema]]:
         yield Names(kind, version), schema_of(kind)
     found: dict[Names, Schema | None] = {}
     for folder in folders:
-        for summary in sorted(folder.rglob(SUMMARY)):
+        for summary in sorted(path for path in folder.rglob(SUMMARY) if path.is_file()):
+            if ".partial" in summary.parent.name:
+                continue
             head = json.loads(summary.read_text("utf-8"))
             names = run_names(head["kind"])
             if head["format"] == names.version:
@@ -171,6 +173,8 @@ def read_fingerprints() -> dict[str, dict[str, str]]:
 def write_fingerprints(prints: Mapping[str, Mapping[str, str]]) -> None:
     """Write the fingerprints of schemas by release and name."""
     ordered = {release: dict(sorted(own.items())) for release, own in prints.items() if own}
+    there = {key: one for key, one in ordered.get(UNRELEASED, {}).items() if (KEPT / f"{key}.json").is_file()}
+    ordered |= {UNRELEASED: there} if there else {}
     FINGERPRINTS.write_text(tomli_w.dumps(ordered), encoding="utf-8")
 
 

@@ -29,14 +29,15 @@ _PLACEHOLDERS = {
 
 
 def folder_header(folder: Path) -> dict[str, Any]:
-    """Return the header of every .json, .nc, .npz and .csv of a run folder by its name."""
+    """Return the header of every .json, .nc, .npz and .csv of a run folder by its name, without run folders in it."""
     return {_named(path.relative_to(folder).as_posix()): _READERS[path.suffix](path) for path in _files(folder)}
 
 
 def _files(folder: Path) -> Iterator[Path]:
+    others = [summary.parent for summary in folder.rglob("summary.json") if summary.parent != folder]
     for path in sorted(folder.rglob("*")):
-        inside = path.relative_to(folder).parts
-        own = inside[0] not in OF_THE_PROGRAM and path.name not in INPUTS and not path.name.endswith(".schema.json")
+        left_out = path.relative_to(folder).parts[0] in OF_THE_PROGRAM or any(map(path.is_relative_to, others))
+        own = not left_out and path.name not in INPUTS and not path.name.endswith(".schema.json")
         if path.suffix in _READERS and path.is_file() and own:
             yield path
 
@@ -81,7 +82,7 @@ def _npz(path: Path) -> dict[str, Any]:
 def _csv(path: Path) -> dict[str, str]:
     """Return the SI unit of each column, TEXT for a head without one."""
     with path.open(encoding="utf-8", newline="") as file:
-        head = next(csv.reader(line for line in file if not line.startswith("#")))
+        head = next(csv.reader((line for line in file if not line.startswith("#")), skipinitialspace=True))
     return {name: known_unit(unit).si if unit else TEXT for name, unit in map(parted, head)}
 
 

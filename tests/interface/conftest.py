@@ -49,7 +49,7 @@ def formats_held() -> Iterator[None]:
 
     def renamed_and_held(partial: Path, final: Path) -> None:
         rename(partial, final)
-        faults = folder_faults(final) if (final / "summary.json").is_file() else []
+        faults = folder_faults(final)
         assert not faults, "\n".join([*faults, REMEDY])
 
     with pytest.MonkeyPatch.context() as patch:

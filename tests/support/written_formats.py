@@ -23,10 +23,11 @@ def validator(names: Names) -> Draft202012Validator:
 
 
 def folder_faults(folder: Path) -> list[str]:
-    """Where and how the files of a run folder differ from the schema of their kind and version."""
-    header = folder_header(folder)
-    names = Names(f"run.{header['summary.json']['kind']}", header["summary.json"]["format"])
-    return [
-        f"{names.key}: {'/'.join(map(str, one.absolute_path))}: {one.message[:200]}"
-        for one in validator(names).iter_errors(header)
-    ]
+    """Where and how the files of a run folder, and of those in it, differ from the schemas of kind and version."""
+    found = []
+    for place in sorted(summary.parent for summary in folder.rglob("summary.json")):
+        header = folder_header(place)
+        names = Names(f"run.{header['summary.json']['kind']}", header["summary.json"]["format"])
+        for one in validator(names).iter_errors(header):
+            found.append(f"{names.key}: {'/'.join(map(str, one.absolute_path))}: {one.message[:200]}")
+    return found
