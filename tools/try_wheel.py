@@ -26,7 +26,7 @@ COMMANDS = (
     "swashfilm run ref90 --speed 2100rpm --pressure 35MPa --displacement 1.0 --fidelity lumped -o run",
     "swashfilm report run",
     "swashfilm new film slider -o slider.toml",
-    "swashfilm film slider.toml --refine 3 -o film",
+    "swashfilm film slider.toml -o film",
     "swashfilm map ref90 --fidelity lumped --speeds 1000,2000rpm --pressures 10,30MPa --displacements 1 -o map",
     "swashfilm export map --to csv -o map.csv",
     "swashfilm schema run.pump",
@@ -59,6 +59,7 @@ def installed(place: Path, python: str, lowest: bool) -> Path:
     uv = ROOT / ".venv" / "bin" / "uv"
     tool = str(uv) if uv.is_file() else shutil.which("uv") or "uv"
     wheels, venv = place / "wheels", place / "venv"
+    shutil.rmtree(wheels, ignore_errors=True)
     run([tool, "build", "--quiet", "--wheel", "--out-dir", str(wheels), str(ROOT)])
     run([tool, "venv", "--quiet", "--clear", "--python", python, str(venv)])
     install = [tool, "pip", "install", "--quiet", "--python", str(venv / "bin" / "python"), "--only-binary", ":all:"]

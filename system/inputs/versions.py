@@ -5,6 +5,7 @@ from __future__ import annotations
 from system.inputs.faults import Fault, stated
 
 LATER = "a later Swashfilm wrote the file: pip install --upgrade swashfilm"
+EARLIER = "a version before the first release wrote the file: build it anew"
 
 
 def version_fault(path: str, found: object, newest: int, what: str, oldest: int = 1) -> Fault | None:
@@ -12,9 +13,10 @@ def version_fault(path: str, found: object, newest: int, what: str, oldest: int 
 
     path: the key that holds the version; what: the kind of file in words, "pump file".
     """
-    whole = type(found) is int
-    if whole and oldest <= found <= newest:  # type: ignore[operator]
-        return None
     known = str(newest) if oldest == newest else f"{oldest} to {newest}"
-    later = LATER if whole and found > newest else ""  # type: ignore[operator]
-    return Fault(path, stated(found), f"{path} = {known}, the {what} format of this version", later)
+    remedy = ""
+    if isinstance(found, int) and not isinstance(found, bool):
+        if oldest <= found <= newest:
+            return None
+        remedy = LATER if found > newest else EARLIER if oldest > 1 else ""
+    return Fault(path, stated(found), f"{path} = {known}, the {what} format of this version", remedy)
