@@ -27,7 +27,7 @@ from format_rules import FREE, NULL, STATED
 from headers import folder_header
 
 from swashfilm.console.schemas import SCHEMAS, schema_of
-from swashfilm.formats.versions import SUMMARY, VERSIONS
+from swashfilm.formats.versions import VERSIONS
 from swashfilm.output.headline import named
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -89,7 +89,7 @@ def _schemas(folders: list[Path]) -> Iterator[tuple[Names, Schema]]:
         yield Names(kind, version), schema_of(kind)
     found: dict[Names, Schema | None] = {}
     for folder in folders:
-        for summary in sorted(path for path in folder.rglob(SUMMARY) if path.is_file()):
+        for summary in sorted(path for path in folder.rglob("summary.json") if path.is_file()):
             if ".partial" in summary.parent.name:
                 continue
             head = json.loads(summary.read_text("utf-8"))

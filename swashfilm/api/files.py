@@ -8,7 +8,6 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from swashfilm.api.calls import Quantity, door, words_of
-from swashfilm.formats.versions import SUMMARY, read_headed
 from system.inputs.faults import Fault, InputFaults, nearest_path
 
 if TYPE_CHECKING:
@@ -60,13 +59,14 @@ def new(
 
 def open(folder: str | Path) -> Result:
     """Return the result of a finished run folder, of the class of its kind; raise InputFaults without one."""
+    from swashfilm.output.page import read_summary
+
     place = Path(folder)
     with door("open"):
-        try:
-            kind = read_headed(place)["kind"]
-        except FileNotFoundError:
-            fault = Fault("folder", f"no {place / SUMMARY}", "the folder of a finished run", nearest_path(place))
-            raise InputFaults("command line", [fault]) from None
+        if not (place / "summary.json").is_file():
+            fault = Fault("folder", f"no {place / 'summary.json'}", "the folder of a finished run", nearest_path(place))
+            raise InputFaults("command line", [fault])
+        kind = read_summary(place)["kind"]
         return next(found for found in _result_classes() if kind in found.kinds).opened(place)
 
 

@@ -9,7 +9,7 @@ from swashfilm.console.command import Command
 from swashfilm.console.inputs import COMMAND_LINE
 from swashfilm.console.pressures import add_units_option
 from swashfilm.console.terminal import show
-from swashfilm.formats.versions import SUMMARY, read_headed
+from swashfilm.output.page import read_summary
 from system.inputs.faults import Fault, InputFaults, nearest_path
 
 PAGES = {
@@ -48,11 +48,10 @@ def run_report(options: argparse.Namespace) -> int:
 
 def _page_of(folder: Path) -> Callable[[Path], Path]:
     """Return the function that writes the page of a run folder."""
-    try:
-        kind = read_headed(folder)["kind"]
-    except FileNotFoundError:
-        fault = Fault("DIR", f"no {folder / SUMMARY}", "the folder of a finished run", nearest_path(folder))
-        raise InputFaults(COMMAND_LINE, [fault]) from None
+    if not (folder / "summary.json").exists():
+        fault = Fault("DIR", f"no {folder / 'summary.json'}", "the folder of a finished run", nearest_path(folder))
+        raise InputFaults(COMMAND_LINE, [fault])
+    kind = read_summary(folder)["kind"]
     module, _, name = PAGES[kind].rpartition(".")
     return getattr(import_module(module), name)
 

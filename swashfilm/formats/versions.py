@@ -5,13 +5,12 @@ A version covers summary.json, the NetCDF files and the tables of a folder. Read
 
 from __future__ import annotations
 
-import json
 from collections.abc import Mapping
 from importlib.resources import files
 from pathlib import Path
 from typing import Any
 
-from system.inputs.faults import Fault, InputFaults, nearest_choice
+from system.inputs.faults import Fault, InputFaults, nearest_choice, stated
 from system.inputs.versions import version_fault
 
 VERSIONS = {
@@ -33,7 +32,6 @@ VERSIONS = {
     "tolerance": 1,
     "transient": 1,
 }
-SUMMARY = "summary.json"
 OURS = "swashfilm "
 """Begins the attribute `format` of a NetCDF file; the kind of its run folder follows."""
 
@@ -53,26 +51,14 @@ def stamped(kind: str) -> dict[str, Any]:
     return {"format": OURS + kind, "format_version": VERSIONS[kind]}
 
 
-def read_headed(folder: Path) -> dict[str, Any]:
-    """Return the content of a run folder's summary.json.
-
-    Raises InputFaults for a file that is none, for an unknown kind and for a later version; FileNotFoundError.
-    """
-    path = folder / SUMMARY
-    try:
-        summary = json.loads(path.read_text("utf-8"))
-        kind, version = summary["kind"], summary["format"]
-    except FileNotFoundError:
-        raise
-    except (OSError, ValueError, KeyError, TypeError) as reason:
-        fault = Fault(SUMMARY, f"cannot be read: {reason!r}", "the summary that a run wrote")
-        raise InputFaults(str(folder), [fault]) from None
-    if kind not in VERSIONS:
+def expect_known(path: Path, summary: Any) -> None:
+    """Raise InputFaults for the summary of an unknown kind of run, or of a later version. path: of its file."""
+    kind, version = (summary.get(key) if isinstance(summary, dict) else None for key in ("kind", "format"))
+    if not isinstance(kind, str) or kind not in VERSIONS:
         near = nearest_choice(str(kind), VERSIONS)
-        raise InputFaults(str(path), [Fault("kind", repr(kind), f"one of {', '.join(VERSIONS)}", near)])
-    if later := version_fault("format", version, VERSIONS[kind], f"{kind.replace('_', ' ')} run"):
-        raise InputFaults(str(path), [later])
-    return summary
+        raise InputFaults(str(path), [Fault("kind", stated(kind), f"one of {', '.join(VERSIONS)}", near)])
+    if fault := version_fault("format", version, VERSIONS[kind], f"{kind.replace('_', ' ')} run"):
+        raise InputFaults(str(path), [fault])
 
 
 def check_stamp(path: Path, attributes: Mapping[str, Any]) -> None:

@@ -9,7 +9,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from swashfilm.formats.versions import read_headed
+from swashfilm.formats.versions import expect_known
 from swashfilm.output.answer import Answer
 from swashfilm.output.figures import compact
 from swashfilm.output.touch.curves import touchable
@@ -43,10 +43,17 @@ def expect_files(folder: Path, names: Sequence[str], whose: str) -> None:
 def read_summary(folder: Path, needed: Sequence[str] = (), whose: str = "") -> dict[str, Any]:
     """Return the content of a run folder's summary.json.
 
-    Raises as `read_headed`, and as `expect_files` where a file of `needed` lacks.
+    Raises InputFaults as `expect_files` where a file of `needed` lacks, for a summary that no run wrote, and as
+    `expect_known`.
     """
-    expect_files(folder, needed, whose)
-    return read_headed(folder)
+    expect_files(folder, ("summary.json", *needed), whose or "the folder of a finished run")
+    try:
+        summary = json.loads((folder / "summary.json").read_text("utf-8"))
+    except (OSError, ValueError) as reason:
+        fault = Fault("summary.json", f"cannot be read: {reason}", "the file that a run wrote")
+        raise InputFaults(str(folder), [fault]) from None
+    expect_known(folder / "summary.json", summary)
+    return summary
 
 
 def write_page(folder: Path, template: str, *, answer: Answer, **content: Any) -> Path:

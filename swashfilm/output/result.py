@@ -11,11 +11,10 @@ from io import StringIO
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, ClassVar, Self
 
-from swashfilm.formats.versions import SUMMARY, read_headed
 from swashfilm.output.data.files import read_netcdf
 from swashfilm.output.figures import pyplot_figures
 from swashfilm.output.headline import named
-from swashfilm.output.page import expect_files
+from swashfilm.output.page import expect_files, read_summary
 from swashfilm.output.run_folder import final_folder, run_folder
 from swashfilm.output.tables import Table, aligned, parted
 from system.inputs.shown import known_unit
@@ -25,6 +24,8 @@ if TYPE_CHECKING:
     import xarray
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
+
+SUMMARY = "summary.json"
 
 
 class Numbers(Mapping[str, Any]):
@@ -88,7 +89,7 @@ class Result:
     def opened(cls, folder: Path) -> Self:
         """Return the result of a finished run folder; raise InputFaults where one of its files is missing."""
         expect_files(folder, cls.files, "the folder of a finished run")
-        summary = read_headed(folder)
+        summary = read_summary(folder)
 
         def write(place: Path) -> tuple[str, ...]:
             shutil.copytree(folder, place, dirs_exist_ok=True)

@@ -102,7 +102,9 @@ def test_kept_runs_get_their_page(path, unpacked):
 
 
 def test_every_kind_has_a_kept_run():
-    assert {names.key.removeprefix("run.") for names in CURRENT if names.kind.startswith("run.")} <= {path.stem for path in RUNS}
+    assert {names.key.removeprefix("run.") for names in CURRENT if names.kind.startswith("run.")} <= {
+        path.stem for path in RUNS
+    }
 
 
 def test_what_works_on_kept_runs(unpacked, tmp_path):
