@@ -34,7 +34,6 @@ ROOT = Path(__file__).resolve().parents[1]
 KEPT = ROOT / "swashfilm" / "formats" / "schemas"
 FINGERPRINTS = ROOT / "tests" / "interface" / "formats" / "fingerprints.toml"
 UNRELEASED = "unreleased"
-INPUT_VERSIONS = dict.fromkeys(SCHEMAS, 1)
 DRAFT = "https://json-schema.org/draft/2020-12/schema"
 _TYPES = {bool: "boolean", int: "integer", float: "number", str: "string", list: "array", type(None): "null"}
 
@@ -85,8 +84,7 @@ def main(words: list[str]) -> int:
 
 def _schemas(folders: list[Path]) -> Iterator[tuple[Names, Schema]]:
     """Yield the schemas of input files, and those of the kinds of run folders below `folders`."""
-    for kind, version in INPUT_VERSIONS.items():
-        yield Names(kind, version), schema_of(kind)
+    yield from ((input_names(kind), schema_of(kind)) for kind in SCHEMAS)
     found: dict[Names, Schema | None] = {}
     for folder in folders:
         for summary in sorted(path for path in folder.rglob("summary.json") if path.is_file()):
@@ -104,6 +102,11 @@ def _schemas(folders: list[Path]) -> Iterator[tuple[Names, Schema]]:
 def run_names(kind: str) -> Names:
     """Return the names of the schema of a kind of run folder at the version that is written."""
     return Names(f"run.{kind}", VERSIONS[kind])
+
+
+def input_names(kind: str) -> Names:
+    """Return the names of the schema of a kind of input, at the version that its files state."""
+    return Names(kind, schema_of(kind)["properties"]["format"]["const"])
 
 
 def _text(names: Names) -> str:

@@ -10,21 +10,21 @@ from pathlib import Path
 import formats
 import h5py
 import pytest
-from formats import FINGERPRINTS, INPUT_VERSIONS, KEPT, Names, fingerprint, main as write_formats, run_names
+from formats import FINGERPRINTS, KEPT, fingerprint, input_names, main as write_formats, run_names
 from written_formats import folder_faults
 
 import swashfilm as sf
 from diagnosis.report.json_file import read_diagnosis
 from swashfilm.__main__ import main
 from swashfilm.cli.report import PAGES
-from swashfilm.console.schemas import schema_of
+from swashfilm.console.schemas import SCHEMAS, schema_of
 from swashfilm.formats.versions import VERSIONS
 from swashfilm.runs.map.files import read_map
 from system import InputFaults, load_pump
 
 FILES = Path(__file__).parent / "kept"
 RUNS = sorted(FILES.glob("*.zip"))
-CURRENT = [*(run_names(kind) for kind in VERSIONS), *(Names(*one) for one in INPUT_VERSIONS.items())]
+CURRENT = [*map(run_names, VERSIONS), *map(input_names, SCHEMAS)]
 
 
 @pytest.fixture
@@ -54,9 +54,9 @@ def test_every_version_has_a_schema_and_its_fingerprint():
     assert set(PAGES) == set(VERSIONS)
 
 
-@pytest.mark.parametrize("kind", INPUT_VERSIONS)
+@pytest.mark.parametrize("kind", SCHEMAS)
 def test_the_schema_of_an_input_is_the_kept_one(kind):
-    kept = Names(kind, INPUT_VERSIONS[kind]).path.read_text("utf-8")
+    kept = input_names(kind).path.read_text("utf-8")
     assert formats.schema_text(schema_of(kind)) == kept, "python tools/formats.py, or a new version of the input"
 
 
