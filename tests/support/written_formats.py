@@ -28,6 +28,9 @@ def folder_faults(folder: Path) -> list[str]:
     for place in sorted(summary.parent for summary in folder.rglob("summary.json")):
         header = folder_header(place)
         names = Names(f"run.{header['summary.json']['kind']}", header["summary.json"]["format"])
+        if not names.path.is_file():
+            found.append(f"{names.key}: no schema of this kind and version")
+            continue
         for one in validator(names).iter_errors(header):
             found.append(f"{names.key}: {'/'.join(map(str, one.absolute_path))}: {one.message[:200]}")
     return found
