@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from importlib.resources import files
+from numbers import Integral
 from pathlib import Path
 from typing import Any
 
@@ -65,6 +66,7 @@ def check_stamp(path: Path, attributes: Mapping[str, Any]) -> None:
     """Raise InputFaults for a NetCDF file of a later version; one without a stamp is older than stamps."""
     kind = str(attributes.get("format", "")).removeprefix(OURS)
     if kind in VERSIONS:
-        found = int(attributes["format_version"])
+        stamp = attributes.get("format_version")
+        found = int(stamp) if isinstance(stamp, Integral) else stamp
         if fault := version_fault("format_version", found, VERSIONS[kind], f"{kind.replace('_', ' ')} file"):
             raise InputFaults(str(path), [fault])
