@@ -21,6 +21,7 @@ from reynolds.numerics.files import read_json
 from system.effects.effect import Kind
 from system.inputs.channels import ChannelName
 from system.inputs.faults import Fault, InputFaults
+from system.inputs.versions import version_fault
 
 FORMAT = 1
 ANSWER_FORMAT = 1
@@ -46,8 +47,9 @@ def read_diagnosis(path: Path) -> dict[str, Any]:
         record = read_json(path)
     except (OSError, ValueError) as reason:
         raise InputFaults(str(path), [Fault("file", str(reason), "a diagnosis.json of a finished run")]) from None
-    if record.get("format") != FORMAT:
-        raise InputFaults(str(path), [Fault("format", repr(record.get("format")), str(FORMAT), AGAIN)])
+    found = record.get("format") if isinstance(record, dict) else type(record).__name__
+    if fault := version_fault("format", found, FORMAT, "diagnosis"):
+        raise InputFaults(str(path), [fault])
     faults = [Fault(key, "nothing", "a key of every diagnosis.json", AGAIN) for key in KEYS if key not in record]
     if faults := faults or list(_answer_faults(record.get("answer"))):
         raise InputFaults(str(path), faults)

@@ -19,7 +19,8 @@ CONTENTS = {
                    "hostile",
                    "Reproduction <reproduction>",
                    "Reproduction with films <reproduction_fixed>",
-                   "Reproduction with floating films <reproduction_floating>", "benchmarks", "/CHANGELOG"),
+                   "Reproduction with floating films <reproduction_floating>", "benchmarks"),
+    "Project": ("/CHANGELOG", "/CONTRIBUTING", "/CODE_OF_CONDUCT", "/SECURITY", "/THIRD_PARTY"),
 }  # fmt: skip
 """Pages by their place in the menu, relative to docs/; a title in front of <page> stands for the page's own."""
 FRONT = '<!doctype html><meta charset="utf-8"><meta http-equiv="refresh" content="0; url=docs/index.html">'

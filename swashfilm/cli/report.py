@@ -61,8 +61,8 @@ def _page_of(folder: Path) -> Callable[[Path], Path]:
     if not (folder / "summary.json").exists():
         fault = Fault("DIR", f"no {folder / 'summary.json'}", "the folder of a finished run", nearest_path(folder))
         raise InputFaults(COMMAND_LINE, [fault])
-    kind = read_summary(folder).get("kind")
-    if not isinstance(kind, str) or kind not in PAGES:
+    kind = read_summary(folder)["kind"]
+    if kind not in PAGES:
         expected = f"one of {', '.join(PAGES)}"
         raise InputFaults(str(folder), [Fault("summary.json", f"kind {kind!r}", expected)])
     module, _, name = PAGES[kind].rpartition(".")

@@ -5,6 +5,7 @@ from importlib import import_module
 from pathlib import Path
 
 from reynolds.numerics.files import created, replaced
+from swashfilm.formats.versions import VERSIONS, run_schema
 
 SCHEMAS = {
     "case": "swashfilm.case.schema.case_schema",
@@ -13,17 +14,21 @@ SCHEMAS = {
     "reference": "swashfilm.runs.reference.case.reference_schema",
     "transient": "swashfilm.runs.transient.case.transient_schema",
 }
-"""Functions that return a schema, by the kind of file."""
+"""Functions that return the schema of an input, by the kind of file."""
+RUN_SCHEMAS = tuple(f"run.{kind}" for kind in VERSIONS)
+"""Names of the schemas of run folders."""
 
 
 def schema_of(kind: str) -> dict[str, object]:
-    """Return the JSON Schema (draft 2020-12) of a kind of file, one of SCHEMAS."""
+    """Return the JSON Schema (draft 2020-12) of a kind of input, one of SCHEMAS."""
     module, _, name = SCHEMAS[kind].rpartition(".")
     return getattr(import_module(module), name)()
 
 
 def schema_text(kind: str) -> str:
-    """Return the schema of a kind of file as text."""
+    """Return the schema of a kind of input or of run folder, one of SCHEMAS or RUN_SCHEMAS, as text."""
+    if kind in RUN_SCHEMAS:
+        return run_schema(kind.removeprefix("run.")).rstrip()
     return json.dumps(schema_of(kind), indent=1, ensure_ascii=False)
 
 

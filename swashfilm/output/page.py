@@ -20,6 +20,7 @@ from reynolds.numerics.files import (
     read_text,
     replaced,
 )
+from swashfilm.formats.versions import expect_known
 from swashfilm.output.answer import Answer
 from swashfilm.output.figures import compact
 from swashfilm.output.touch.curves import touchable
@@ -69,10 +70,13 @@ def _links(folder: Path) -> Iterator[str]:
 def read_summary(folder: Path, needed: Sequence[str] = (), whose: str = "") -> dict[str, Any]:
     """Return the content of a run folder's summary.json.
 
-    Raises InputFaults as `expect_files` where a file of `needed` lacks, and for a summary that no run wrote.
+    Raises InputFaults as `expect_files` where a file of `needed` lacks, for a summary that no run wrote, and as
+    `expect_known`.
     """
     expect_files(folder, ("summary.json", *needed), whose or "the folder of a finished run")
-    return read_kept(folder, "summary.json")
+    summary = read_kept(folder, "summary.json")
+    expect_known(folder / "summary.json", summary)
+    return summary
 
 
 def read_kept(folder: Path, name: str) -> dict[str, Any]:

@@ -7,6 +7,7 @@ import tempfile
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from functools import cached_property
 from html import escape
+from io import StringIO
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, ClassVar, Self
 
@@ -177,10 +178,14 @@ def plotted(draw: Callable[[], Figure | None]) -> list[Axes]:
 
 
 def read_table(path: Path) -> xarray.Dataset:
-    """Return a CSV file with heads `name [unit]` as variables over `row`, in SI; units in the attributes."""
+    """Return a CSV file with heads `name [unit]` as variables over `row`, in SI; units in the attributes.
+
+    Lines that begin with # are remarks.
+    """
     import pandas
 
-    frame = pandas.read_csv(path).rename_axis("row")
+    rows = [line for line in path.read_text("utf-8").splitlines(keepends=True) if not line.startswith("#")]
+    frame = pandas.read_csv(StringIO("".join(rows)), skipinitialspace=True).rename_axis("row")
     heads = [parted(title) for title in frame.columns]
     frame.columns = [name for name, _ in heads]
     data = frame.to_xarray()

@@ -24,6 +24,7 @@ from diagnosis.report.tables import (
 from diagnosis.report.trace_tables import trace_residual_rows
 from diagnosis.study.model import Study
 from diagnosis.verdict.diagnosis import Diagnosis
+from swashfilm.formats.versions import headed
 from swashfilm.output.run_folder import write_json
 from swashfilm.output.tables import parted, read_csv, write_csv
 from system.inputs.channels import ChannelName
@@ -92,8 +93,7 @@ def diagnosis_summary(study: Study, diagnosis: Diagnosis, assumptions: Sequence[
     before, after = pull_sums(diagnosis.before, diagnosis.after)
     recording = study.recording
     return {
-        "format": 1,
-        "kind": KIND,
+        **headed(KIND),
         "name": recording.title,
         "pump": recording.pump,
         "oil": recording.oil,

@@ -50,7 +50,7 @@ def write_map(path: Path, data: MapData, error: MapError | None, summary: Mappin
         "interpolation_error": f"{error.count} {error.shown_by}" if error else "",
         "bulk_modulus": data.bulk_modulus,
     }
-    write_netcdf(dataset, path)
+    write_netcdf(dataset, path, "map")
 
 
 def map_dataset(data: MapData, error: MapError | None) -> xarray.Dataset:

@@ -13,10 +13,10 @@ from swashfilm.console.fidelity import Fidelity
 from swashfilm.console.floating_options import alike_faults, floating_faults, floating_options
 from swashfilm.console.inputs import COMMAND_LINE, expect, given_text
 from swashfilm.console.settings import set_values
-from swashfilm.runs.map.command import stated_axes
+from swashfilm.runs.map.command import solving_faults, stated_axes
 from swashfilm.runs.map.duty.cycle_file import read_cycle
 from swashfilm.runs.map.run import POINT_COST, MapCase, kept_table
-from swashfilm.runs.variation.options import chosen_keys, needs_keys, word_faults
+from swashfilm.runs.variation.options import chosen_keys, needs_keys
 from system.description.keys import PumpKey, pump_keys
 from system.description.pump import PumpDescription
 from system.inputs.faults import Fault, InputFaults
@@ -73,7 +73,7 @@ def varied_case(
 
     together: lumped points of a pump are solved at once, without its course over the turn.
     """
-    faults = [*word_faults(options), *more]
+    faults = [*solving_faults(options), *more]
     set_keys = set_values(options.set, faults)
     axes = stated_axes(options, faults)
     expect(options.pump, "pump", "film")

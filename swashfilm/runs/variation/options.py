@@ -11,10 +11,9 @@ from typing import TYPE_CHECKING
 
 from swashfilm.case.gap.switches import add_floating_options
 from swashfilm.console.fidelity import Fidelity
-from swashfilm.console.inputs import option_value
 from swashfilm.console.settings import add_set_option
-from swashfilm.runs.map.command import FIDELITIES, LEVELS, PLANS, SOLVED, resume_faults
-from system.inputs.faults import Fault, nearest_choice
+from swashfilm.runs.map.command import FIDELITIES, LEVELS, PLANS, SOLVED
+from system.inputs.faults import Fault
 
 if TYPE_CHECKING:
     from system.description.keys import PumpKey
@@ -47,21 +46,6 @@ def add_varied_options(command: argparse.ArgumentParser) -> None:
     command.add_argument("--keys", metavar="KEY,..", help="these dimensions alone: table.key, or a pattern (oil.*)")
     command.add_argument("--workers", metavar="N", help="processes that solve pumps side by side (all cores)")
     command.add_argument("--resume", type=Path, metavar="DIR", help="run folder with solved pumps of this run")
-
-
-def word_faults(options: argparse.Namespace) -> Iterator[Fault]:
-    """Yield the faults of words that do not depend on the pump."""
-    names = [fidelity.value for fidelity in FIDELITIES]
-    for option, known in (("--plan", PLANS), ("--fidelity", names)):
-        word = option_value(options, option)
-        if word not in known:
-            yield Fault(option, repr(word), f"one of {', '.join(known)}", nearest_choice(word, known))
-    if options.workers is not None and not (options.workers.isdecimal() and 1 <= int(options.workers) <= 256):
-        yield Fault("--workers", repr(options.workers), "a number, 1 to 256")
-    if options.table and options.fidelity != Fidelity.TABLE.value:
-        yield Fault("--table", f"beside --fidelity {options.fidelity}", "no table, or --fidelity table")
-    if options.resume is not None:
-        yield from resume_faults(options.resume)
 
 
 def chosen_keys(

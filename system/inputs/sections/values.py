@@ -17,6 +17,7 @@ from system.inputs.sections.fields import FieldType, Points, Section, Text, fiel
 from system.inputs.sections.point_files import read_rows, wanted_file
 from system.inputs.toml_table import quoted
 from system.inputs.units import Dimension, QuantityError, format_quantity, parse_quantity, unit_scale, with_point
+from system.inputs.versions import LATER
 
 PURE_UNITS = {"1": 1.0, "%": 0.01}
 """Units of a pure number, with their factors."""
@@ -47,8 +48,8 @@ def read_value(field: FieldType, raw: object, folder: Path = HERE) -> object:
         raise QuantityError(repr(raw), wanted(field), with_point(raw) if isinstance(raw, str) else "")
     if not math.isfinite(raw) or (field.whole and raw != int(raw)):
         raise QuantityError(str(raw), wanted(field))
-    if field.format is not None and raw != field.format.number:
-        raise QuantityError(str(raw), wanted(field))
+    if field.format is not None and not 1 <= raw <= field.format.number:
+        raise QuantityError(str(raw), wanted(field), LATER if raw > field.format.number else "")
     return int(raw) if field.whole else float(raw)
 
 

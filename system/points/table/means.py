@@ -25,6 +25,8 @@ from system.pump.operating import OperatingPoint, flat
 
 TABLE_FORMAT = 4
 """Raised when solved points give other numbers in a table: by what is kept of them, or by the laws behind it."""
+OLDEST_TABLE = 4
+"""No release wrote earlier formats."""
 GAP_PAIRS = {
     "piston": Pair.PISTON_CYLINDER,
     "slipper": Pair.SLIPPER_SWASH_PLATE,

@@ -15,7 +15,8 @@ from reynolds.numerics.npz import read_npz, write_npz
 from system.description.pump import PumpDescription
 from system.inputs.faults import Fault, InputFaults, nearest_path
 from system.inputs.units import Dimension
-from system.points.table.means import MEANINGS, TABLE_FORMAT
+from system.inputs.versions import version_fault
+from system.points.table.means import MEANINGS, OLDEST_TABLE, TABLE_FORMAT
 from system.points.table.pump_numbers import NUMBERS, NumbersError
 from system.points.table.response_table import DIMENSIONS, Failed, ResponseTable, TableOrigin, box_text, point_text
 from system.points.table.sources import Source, films_alone
@@ -58,16 +59,18 @@ def write_response(place: Path, response: Response, record: Mapping[str, Any]) -
 Read = TypeVar("Read")
 
 
-def read_response(path: Path, table_format: int, made: Callable[[Mapping[str, Any], Response], Read]) -> Read:
+def read_response(
+    path: Path, newest: int, made: Callable[[Mapping[str, Any], Response], Read], oldest: int = 1
+) -> Read:
     """Result of `made` for the record and response written by `write_response`, from its .json or .npz.
 
-    Raises InputFaults where there is none, or of another format.
+    Raises InputFaults where there is none, or of a format that is not one of `oldest` to `newest`.
     """
     try:
         record = read_json(path.with_suffix(".json"))
-        if record["table_format"] != table_format:
-            found = f"format {record['table_format']} of {path.with_suffix('.json')}"
-            raise InputFaults("response table", [Fault("table_format", found, str(table_format), "build it anew")])
+        version = record["table_format"]
+        if fault := version_fault("table_format", version, newest, "response table", oldest):
+            raise InputFaults(str(path.with_suffix(".json")), [fault])
         arrays = read_npz(path.with_suffix(".npz"))
         learnt = Samples(arrays["learnt_points"], arrays["learnt_values"])
         held_out = Samples(arrays["held_out_points"], arrays["held_out_values"])
@@ -89,7 +92,7 @@ def _response(axes: tuple[Axis, ...], outputs: tuple[Output, ...], learnt: Sampl
 
 def read_table(path: Path) -> ResponseTable:
     """The table that `keep_table` wrote, by its .json or .npz; raises InputFaults for any other file."""
-    return read_response(path, TABLE_FORMAT, _pump_table)
+    return read_response(path, TABLE_FORMAT, _pump_table, OLDEST_TABLE)
 
 
 def _pump_table(record: Mapping[str, Any], response: Response) -> ResponseTable:

@@ -37,7 +37,7 @@ def write_study(study: Study[Any], outcomes: Sequence[StudyOutcome], folder: Pat
     """Write the files of a study of this kind, without points/, from its points; return the summary."""
     (folder / "input.toml").write_text(study.text, encoding="utf-8")
     write_study_table(folder / "study.csv", study, outcomes)
-    write_netcdf(study_dataset(study, outcomes, kind), folder / "study.nc")
+    write_netcdf(study_dataset(study, outcomes, kind), folder / "study.nc", kind)
     summary = study_summary(study, outcomes, kind)
     write_json(folder / "summary.json", summary)
     write_study_page(folder)

@@ -90,4 +90,4 @@ def write_data(path: Path, case: VariedCase, found: Sensitivity) -> None:
         data[name].attrs["units"] = "SI of the number per SI of the dimension"
     for name in ("value", "change", "middle"):
         data[name].attrs["units"] = "SI of each"
-    write_netcdf(data, path)
+    write_netcdf(data, path, "sensitivity")

@@ -9,6 +9,7 @@ import numpy as np
 
 from swashfilm.console.fidelity import Fidelity
 from swashfilm.console.schemas import write_new
+from swashfilm.formats.versions import headed
 from swashfilm.output.run_folder import write_json
 from swashfilm.runs.variation.case import VariedCase
 from swashfilm.runs.variation.options import solves_films
@@ -60,8 +61,7 @@ def run_sensitivity(case: VariedCase, folder: Path, executor: Executor, report: 
 def sensitivity_summary(case: VariedCase, found: Sensitivity) -> dict[str, Any]:
     """Return the summary: SI, a derivative by SI unit of its dimension; none where it has no number."""
     return {
-        "format": 1,
-        "kind": "sensitivity",
+        **headed("sensitivity"),
         "name": case.pump.name,
         **where(case),
         "measures": {
