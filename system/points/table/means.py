@@ -77,12 +77,15 @@ class SolvedPoint:
     """A point as a costly fidelity solves it, with its films.
 
     In m: mean over area and turn, least anywhere in the turn; K: the hottest oil in the turn, above the case.
+    load_carried: least share over the turn of the load that the film carries, at a given position of what presses the
+    parts together, of a floating part of film and contact together; None where no film was solved.
     """
 
     pump_point: PumpPoint
     film_mean: Gaps
     film_least: Gaps
     film_rise: Gaps
+    load_carried: Gaps | None = None
 
 
 @dataclass(frozen=True)

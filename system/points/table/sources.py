@@ -9,6 +9,7 @@ from typing import Any, Protocol
 
 import numpy as np
 
+from gaps.revolution.course import GapInstant
 from gaps.revolution.march import GapRevolution
 from gaps.standing.gap_film import GapFilm
 from reynolds.errors import NotConverged
@@ -78,7 +79,8 @@ class FilmsSolver:
             _oil_temperature(pump, films) - point.temperature if own.heat else 0.0
             for own, films in zip((physics.piston, physics.slipper, physics.valve_plate), series, strict=True)
         )
-        return SolvedPoint(found.pump_point, Gaps(*mean), Gaps(*least), Gaps(*rise))
+        carried = (min(film.carried_fraction for film in films) for films in series)
+        return SolvedPoint(found.pump_point, Gaps(*mean), Gaps(*least), Gaps(*rise), Gaps(*carried))
 
     def row(self) -> FilmsSolver:
         """The same: given positions need no start."""
@@ -156,7 +158,14 @@ def solved_means(found: FloatingPoint) -> SolvedPoint:
     mean = (gap.mean_film for gap in gaps)
     least = (min(instant.least_gap for instant in gap.turn.instants) for gap in gaps)
     rise = (_hottest(gap, point) - point.temperature for gap in gaps)
-    return SolvedPoint(found.pump_point, Gaps(*mean), Gaps(*least), Gaps(*rise))
+    carried = (min(_by_film(instant) for instant in gap.turn.instants) for gap in gaps)
+    return SolvedPoint(found.pump_point, Gaps(*mean), Gaps(*least), Gaps(*rise), Gaps(*carried))
+
+
+def _by_film(instant: GapInstant[Any]) -> float:
+    """Share of the film in the forces that film and contact hold a part with; 1 without contact."""
+    film, contact = (float(np.sum(np.abs(one))) for one in (instant.film_force, instant.contact_force))
+    return film / (film + contact) if contact > 0.0 else 1.0
 
 
 def _oil_temperature(pump: PumpDescription, films: Sequence[GapFilm[Any]]) -> float:
