@@ -40,6 +40,7 @@ if TYPE_CHECKING:
     from swashfilm.runs.reproduce.result import Reproduction
     from swashfilm.runs.table.result import TableRun
     from swashfilm.runs.transient.result import TransientRun
+    from swashfilm.runs.variation.optimise.result import OptimiseRun
     from swashfilm.runs.variation.sensitivity.result import SensitivityRun
     from swashfilm.runs.variation.tolerance.result import ToleranceRun
     from system.description.pump import PumpDescription
@@ -68,6 +69,7 @@ _OF_COMMAND_LINE = (
 _RESULTS = (
     "pump", "pump.vary", "film", "film.revolution", "film.series", "map", "map.duty", "compare", "table", "transient",
     "reference", "reproduce", "diagnose", "calibrate", "variation.sensitivity", "variation.tolerance",
+    "variation.optimise",
 )  # fmt: skip
 """Rooms of `swashfilm.runs` with results."""
 
@@ -328,6 +330,23 @@ def tolerance(
         case = tolerance_case(words)
         with varied_executor(words, case.varied.seconds(case.pumps)) as executor:
             return ToleranceRun.ran(lambda folder: run_tolerance(case, folder, executor, report))
+
+
+def optimise(case: Case, *, choose: str | None = None, report: Report = silent, **options: object) -> OptimiseRun:
+    """Optimise dimensions of a pump under constraints, as `swashfilm optimise`.
+
+    choose: "knee", an objective, or a row of the Pareto set; options: workers, cluster, resume, and those of floating
+    gaps. Without a feasible design the result tells what is in the way. Raises InputFaults and NotConverged.
+    """
+    with _door("optimise"), _case_file(case) as path:
+        from swashfilm.runs.variation.optimise.command import design_executor, optimise_case
+        from swashfilm.runs.variation.optimise.result import OptimiseRun
+        from swashfilm.runs.variation.optimise.run import run_optimise
+
+        words = _words("optimise", [path], {"choose": choose} | options)
+        asked = optimise_case(words)
+        with design_executor(words, asked) as executor:
+            return OptimiseRun.ran(lambda folder: run_optimise(asked, folder, executor, report))
 
 
 def export(of: MapRun | str | Path, to: str, output: str | Path | None = None) -> tuple[Path, ...]:

@@ -6,6 +6,7 @@ from pathlib import Path
 
 SCHEMAS = {
     "case": "swashfilm.case.schema.case_schema",
+    "optimise": "swashfilm.runs.variation.optimise.schema.optimise_schema",
     "pump": "system.pump_file.schema.pump_schema",
     "recording": "diagnosis.recording.form.recording_schema",
     "reference": "swashfilm.runs.reference.case.reference_schema",

@@ -69,7 +69,10 @@ def slipper_balance(pump: PumpDescription, drive: SwashDrive[Number]) -> Any:
     in both, at the film h that the file states (Eq. (16) of the paper, `slipper_conductance`).
     """
     own = pump.slipper
-    lands, bore = 6.0 * own.orifice_diameter**4 * own.lands.log_ratio, 128.0 * own.film_thickness**3 * own.orifice_length
+    lands, bore = (
+        6.0 * own.orifice_diameter**4 * own.lands.log_ratio,
+        128.0 * own.film_thickness**3 * own.orifice_length,
+    )
     return lands / (lands + bore) * own.lands.effective_area * np.cos(drive.swash_angle) / piston_area(pump)
 
 

@@ -8,7 +8,7 @@ from stand_in_films import ThinningFilms
 
 import swashfilm as sf
 from swashfilm.__main__ import main
-from swashfilm.runs.variation.tolerance.limits import limit_of
+from swashfilm.runs.variation.limits import limit_of
 from system.points.table import sources
 from system.variation.measures import Needs, measures_of
 from system.variation.scatter import Bound

@@ -56,8 +56,8 @@ def tolerance_case(options: argparse.Namespace) -> ToleranceCase:
     """Return the series of a command line; raise InputFaults with every fault."""
     from swashfilm.console.fidelity import Fidelity
     from swashfilm.runs.variation.case import varied_case
+    from swashfilm.runs.variation.limits import limit_of
     from swashfilm.runs.variation.tolerance.drawn import chosen_drawing_of, drawing_faults
-    from swashfilm.runs.variation.tolerance.limits import limit_of
     from swashfilm.runs.variation.tolerance.run import ToleranceCase
 
     faults: list[Fault] = []
