@@ -13,10 +13,10 @@ from reynolds.numerics.arrays import Array
 from system.optimisation.problem import MET, Design, Problem
 from system.optimisation.trials import Trials
 
-SETTLED = 1e-7
-"""Change of the objective, of the start's, at which the search ends."""
+SETTLED = 1e-5
+"""Change of the objective at which the search ends, of its change across the bounds by the slope of the start."""
 REFUSED = 10.0
-"""Objective of a design without a result, in that of the start: a line search turns back from it."""
+"""Objective of a design without a result, in the same measure: a line search turns back from it."""
 
 
 def descend(trials: Trials, step: float, iterations: int) -> None:
@@ -40,7 +40,10 @@ class _Values:
 
     def __init__(self, trials: Trials, step: float) -> None:
         self.trials, self.step = trials, step
-        self.scale = 0.0
+        self.origin, self.scale = 0.0, 1.0
+        start = np.clip(trials.problem.start, 0.0, 1.0)
+        middle, self.scale = float(self.aim(start)), float(np.linalg.norm(self._slopes(start)[0])) or 1.0
+        self.origin = middle
 
     def aim(self, place: Array) -> float:
         return float(self._at(place)[0][0])
@@ -74,9 +77,8 @@ class _Values:
         problem = self.trials.problem
         if not design.solved:
             return np.array([REFUSED, *(-REFUSED for _ in problem.constraints)])
-        aim = float(problem.aims([design])[0, 0])
-        self.scale = self.scale or abs(aim) or 1.0
-        return np.array([aim / self.scale, *(-0.5 * MET - problem.violations([design])[0])])
+        aim = (float(problem.aims([design])[0, 0]) - self.origin) / self.scale
+        return np.array([aim, *(-0.5 * MET - problem.violations([design])[0])])
 
 
 def gradient_designs(problem: Problem, iterations: int) -> int:

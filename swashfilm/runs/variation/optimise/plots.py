@@ -59,8 +59,7 @@ def dimension_plot(summary: Mapping[str, Any], data: xarray.Dataset) -> Figure:
     axes = figure.subplots()
     for one in summary["dimensions"]:
         values = own["dimension"].sel(key=one["name"]).values
-        axes.plot(along, (values - one["low"]) / (one["high"] - one["low"]), ".-", markersize=4, linewidth=0.8,
-                  label=one["name"])  # fmt: skip
+        axes.scatter(along, (values - one["low"]) / (one["high"] - one["low"]), s=12, label=one["name"])
     axes.set_xlabel(_label(name))
     axes.set_ylabel("lower bound 0, upper 1")
     axes.grid(visible=True, alpha=0.3)

@@ -9,6 +9,7 @@ import numpy as np
 from swashfilm.runs.variation.optimise.case import KNEE, OptimiseCase
 from swashfilm.runs.variation.words import where
 from system.maps.plan import point_words
+from system.pump.operating import OperatingPoint
 from system.optimisation.method import Method
 from system.optimisation.optimum import Optimisation
 from system.optimisation.problem import MET, Constraint, Design, Varied
@@ -115,8 +116,14 @@ def _at_points(case: OptimiseCase, found: Optimisation, design: Design) -> list[
         numbers = {
             one.name: {"start": float(a), "chosen": float(b)} for one, a, b in zip(names, start, value, strict=True)
         }
-        rows.append({"point": point_words(point), "measures": numbers})
+        rows.append({"point": _point_words(case, point), "measures": numbers})
     return rows
+
+
+def _point_words(case: OptimiseCase, point: OperatingPoint) -> str:
+    """Return the inputs of a point that differ among the points; of a single one all."""
+    varying = [axis.input for axis in case.varied.plan.axes if len(axis.values) > 1]
+    return ", ".join(f"{one.words} {one.text(getattr(point, one.value))}" for one in varying) or point_words(point)
 
 
 def _obstacles(found: Optimisation) -> list[dict[str, Any]]:
