@@ -34,12 +34,12 @@ class Aim(Enum):
 
 @dataclass(frozen=True)
 class Varied:
-    """A dimension that varies between bounds, SI; tied: others of the same value."""
+    """A dimension that varies between bounds, SI; tied: others that change by the same amount."""
 
     key: PumpKey
     low: float
     high: float
-    tied: tuple[str, ...] = ()
+    tied: tuple[PumpKey, ...] = ()
 
     @property
     def name(self) -> str:
@@ -49,11 +49,12 @@ class Varied:
     @property
     def paths(self) -> tuple[str, ...]:
         """Its own path, then those that are tied to it."""
-        return (self.key.path, *self.tied)
+        return (self.key.path, *(one.path for one in self.tied))
 
     def at(self, value: float) -> Variant:
-        """Return the pump's values with this one of the dimension alone."""
-        return tuple((path, value) for path in self.paths)
+        """Return the values of the dimension and of those that are tied to it; of the stated value all stated ones."""
+        change = value - self.key.value
+        return ((self.name, value), *((one.path, one.value + change) for one in self.tied))
 
 
 @dataclass(frozen=True)
@@ -109,7 +110,7 @@ class Problem:
     def variant(self, place: Array) -> Variant:
         """Return the pump's values at a place (k,) of the unit cube."""
         values = self.low + np.clip(place, 0.0, 1.0) * (self.high - self.low)
-        return tuple((path, float(value)) for one, value in zip(self.space, values, strict=True) for path in one.paths)
+        return tuple(pair for one, value in zip(self.space, values, strict=True) for pair in one.at(float(value)))
 
     @cached_property
     def low(self) -> Array:

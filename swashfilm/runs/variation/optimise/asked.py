@@ -15,7 +15,7 @@ from system.description.pump import PumpDescription
 from system.inputs.faults import Fault, nearest_choice, stated
 from system.inputs.sections.fields import fields_of
 from system.inputs.toml_table import Table
-from system.inputs.units import QuantityError, parse_quantity
+from system.inputs.units import QuantityError, parse_quantity, reading_unit
 from system.optimisation.problem import Aim, Constraint, Objective, Varied
 from system.variation.measures import MEASURES, Measure
 from system.variation.scatter import Bound
@@ -61,12 +61,19 @@ def objectives_of(top: Table, known: Sequence[Measure], fidelity: Fidelity) -> t
         where, words = f"objectives.{name}", [one.value for one in Aim]
         measure = _measure(where, name, known, fidelity, top.faults)
         if raw not in words:
-            top.faults.append(Fault(where, stated(raw), "least or most", nearest_choice(str(raw), words)))
+            top.faults.append(Fault(where, stated(raw), "least or most", _nearest_aim(raw)))
         elif measure is not None:
             found.append(Objective(measure, Aim(raw)))
     if table and not table.values:
         top.fault("objectives", "an empty table", 'an objective, such as loss = "least"')
     return tuple(found)
+
+
+def _nearest_aim(raw: object) -> str:
+    """Return the aim that a word means."""
+    beginnings = {"min": Aim.LEAST, "max": Aim.MOST}
+    meant = beginnings.get(str(raw)[:3].lower())
+    return meant.value if meant else nearest_choice(str(raw), [one.value for one in Aim])
 
 
 def constraints_of(top: Table, known: Sequence[Measure], fidelity: Fidelity) -> tuple[Constraint, ...]:
@@ -99,10 +106,22 @@ def _bounds(key: PumpKey, raw: object) -> tuple[float, float]:
     if len(ends) != 2:
         remedy = dashed_range(raw) if isinstance(raw, str) else ""
         raise QuantityError(stated(raw), f"two bounds, {RANGE_EXAMPLE}", remedy)
+    if key.dimension is not None and all(_bare(end) for end in ends):
+        remedy = f"{ends[0]}..{ends[1]} {reading_unit(key.value, key.dimension)}"
+        raise QuantityError(f"{stated(raw)}, without a unit", "bounds with their unit", remedy)
     low, high = (_value(key, end) for end in ends)
     if not low < high:
         raise QuantityError(f"{key.shown(low)} to {key.shown(high)}", "a lower bound, then a higher one")
     return low, high
+
+
+def _bare(end: object) -> bool:
+    """True for a number without a unit."""
+    try:
+        float(str(end))
+    except ValueError:
+        return False
+    return True
 
 
 def _value(key: PumpKey, raw: object) -> float:
@@ -116,8 +135,8 @@ def _value(key: PumpKey, raw: object) -> float:
 
 def _tied(
     where: str, own: Mapping[str, Any], key: PumpKey, known: Mapping[str, PumpKey], faults: list[Fault]
-) -> Iterator[str]:
-    """Yield the paths that are tied to a dimension."""
+) -> Iterator[PumpKey]:
+    """Yield the dimensions that are tied to one."""
     for word in own.keys() - {RANGE, WITH}:
         faults.append(
             Fault(f"{where}.{word}", "unknown key", f"{RANGE} or {WITH}", nearest_choice(word, (RANGE, WITH)))
@@ -129,7 +148,7 @@ def _tied(
         elif known[path].dimension is not key.dimension:
             faults.append(Fault(f"{where}.{WITH}", f"'{path}', of another kind", f"a dimension like {key.path}"))
         else:
-            yield path
+            yield known[path]
 
 
 def _twice(found: Sequence[Varied]) -> Iterator[Fault]:
@@ -153,7 +172,7 @@ def _no_dimension(
     own = fields_of(PumpDescription).get(section)
     if own is not None and own.table is not None and key in fields_of(own.table):
         found = f"'{path}', which neither the pump file nor the case states"
-        return Fault(where, found, "a number to start from", f"[pump.{section}] {key} = .. in this case")
+        return Fault(where, found, "a number to start from", f"a table [pump.{section}] in this case with {key} = ..")
     fault = unknown_key(where, path, known)
     return replace(fault, expected="table and key of a number of the pump file")
 
@@ -182,7 +201,7 @@ def _constraint(measure: Measure, raw: object) -> Constraint:
     """Return the constraint of a text; raise QuantityError for another one."""
     match = _LIMIT.fullmatch(raw) if isinstance(raw, str) else None
     if match is None:
-        raise QuantityError(stated(raw), LIMIT_EXAMPLE, f'"<= {raw}"' if isinstance(raw, str) else "")
+        raise QuantityError(stated(raw), LIMIT_EXAMPLE, f"<= {raw}" if isinstance(raw, str) else "")
     bound = Bound.MOST if match[1].startswith("<") else Bound.LEAST
     text = f"{measure.name} {bound.value} {match[2]}"
     if start := _START.fullmatch(match[2]):

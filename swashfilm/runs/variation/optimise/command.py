@@ -84,7 +84,7 @@ def checked_words(path: Path) -> str:
     own, search = case.problem, case.search
     lines = [f"{case.varied.fidelity.value}, {len(case.varied.work.sites.points)} operating points"]
     lines += [
-        f"vary {' = '.join(one.paths)} {one.key.shown(one.low)} to {one.key.shown(one.high)}" for one in own.space
+        f"vary {' with '.join(one.paths)} {one.key.shown(one.low)} to {one.key.shown(one.high)}" for one in own.space
     ]
     lines += [f"{one.measure.words}: {one.aim.value}" for one in own.objectives]
     lines += [one.text for one in own.constraints]

@@ -21,7 +21,7 @@ def compared_head(head: tuple[str, ...], summary: Mapping[str, Any]) -> tuple[st
 def dimension_rows(summary: Mapping[str, Any]) -> Iterator[tuple[str, ...]]:
     """Yield the rows of DIMENSION_HEAD."""
     for one in summary["dimensions"]:
-        name = " = ".join([one["name"], *one["tied"]])
+        name = f"{one['name']}, with {', '.join(one['tied'])}" if one["tied"] else one["name"]
         bound = {"low": "lower", "high": "upper", "": ""}[one["at_bound"]]
         yield name, one["start_text"], one["chosen_text"], one["low_text"], one["high_text"], bound
 

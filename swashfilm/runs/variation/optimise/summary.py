@@ -9,10 +9,10 @@ import numpy as np
 from swashfilm.runs.variation.optimise.case import KNEE, OptimiseCase
 from swashfilm.runs.variation.words import where
 from system.maps.plan import point_words
-from system.pump.operating import OperatingPoint
 from system.optimisation.method import Method
 from system.optimisation.optimum import Optimisation
 from system.optimisation.problem import MET, Constraint, Design, Varied
+from system.pump.operating import OperatingPoint
 from system.variation.measures import measured
 from system.work.tasks import PartStatus
 
@@ -89,7 +89,7 @@ def _dimension(found: Optimisation, one: Varied, at: int, design: Design) -> dic
     place = float(design.place[at])
     value = one.key.value if design is found.start else dict(found.problem.variant(design.place))[one.name]
     return {
-        "name": one.name, "tied": list(one.tied), "unit": one.key.dimension.si_unit if one.key.dimension else "1",
+        "name": one.name, "tied": list(one.paths[1:]), "unit": one.key.dimension.si_unit if one.key.dimension else "1",
         "low": one.low, "high": one.high, "start": one.key.value, "chosen": value,
         "low_text": one.key.shown(one.low), "high_text": one.key.shown(one.high), "start_text": one.key.text,
         "chosen_text": one.key.shown(value),
