@@ -53,13 +53,15 @@ def pressure_moment(drive: SwashDrive[Number], shaft_angle: Array, force: Array,
     """Return the moment (.., N) N m of the pistons' pressure forces (.., N) N about the axis that the plate swings by.
 
     By virtual work M = sum F dl/dalpha, l = (R/cos beta) T/(1 + tan beta T) the way of a piston into the block from
-    the plane of no displacement, T = tan(tilt) cos(phi). Positive: the pressure turns the plate back. Without inertia
-    and friction, which `forces.csv` of a run holds.
+    the plane of no displacement, T = tan(tilt) cos(phi), dT/dalpha = cos(phi - shift) + tan(tilt) cos(shift) T of a
+    plate that swings with its cross angle. Positive: the pressure turns the plate back. Without inertia and friction,
+    which `forces.csv` of a run holds.
     """
     tilt, shift, cone = np.tan(drive.swash_angle), drive.dead_centre_shift, drive.bore_cone_angle
-    own = tilt * np.cos(shift)
-    way = drive.pitch_radius / np.cos(cone) * (1.0 + own**2) * np.cos(shaft_angle - shift)
-    return over_chambers([force * way / (1.0 + np.tan(cone) * tilt * np.cos(shaft_angle)) ** 2], pistons)
+    slope = tilt * np.cos(shaft_angle)
+    swing = np.cos(shaft_angle - shift) + tilt * np.cos(shift) * slope
+    way = drive.pitch_radius / np.cos(cone) * swing / (1.0 + np.tan(cone) * slope) ** 2
+    return over_chambers([force * way], pistons)
 
 
 def slipper_balance(pump: PumpDescription, drive: SwashDrive[Number]) -> Any:

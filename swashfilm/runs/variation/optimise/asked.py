@@ -16,8 +16,8 @@ from system.inputs.faults import Fault, nearest_choice, stated
 from system.inputs.sections.fields import fields_of
 from system.inputs.toml_table import Table
 from system.inputs.units import QuantityError, parse_quantity, reading_unit
-from system.optimisation.problem import Aim, Constraint, Objective, Varied
 from system.variation.measures import MEASURES, Measure
+from system.variation.optimisation.problem import Aim, Constraint, Objective, Varied
 from system.variation.scatter import Bound
 
 RANGE, WITH = "range", "with"

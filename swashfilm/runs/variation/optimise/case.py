@@ -22,11 +22,11 @@ from system.inputs.faults import Fault, InputFaults, nearest_choice
 from system.inputs.sections.fields import Limits, Text
 from system.inputs.sections.reader import Reading, read_section
 from system.inputs.toml_table import Table, fault_lines
-from system.optimisation.checks import bound_faults, constraint_faults
-from system.optimisation.gradient import gradient_designs
-from system.optimisation.method import Method, usual_method
-from system.optimisation.problem import Problem
 from system.pump.operating import OperatingPoint
+from system.variation.optimisation.checks import bound_faults, constraint_faults
+from system.variation.optimisation.gradient import gradient_designs
+from system.variation.optimisation.method import Method, usual_method
+from system.variation.optimisation.problem import Problem
 from system.variation.solving import VariedWork, variable_keys
 
 FORMAT = 1

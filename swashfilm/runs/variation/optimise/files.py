@@ -14,10 +14,10 @@ from swashfilm.output.tables import write_csv
 from swashfilm.runs.variation.case import VariedCase
 from swashfilm.runs.variation.words import key_unit
 from system.description.pump import PumpDescription
-from system.optimisation.optimum import Optimisation
-from system.optimisation.problem import Design
 from system.pump_file.file import resolved_toml
 from system.variation.measures import NUMBERS
+from system.variation.optimisation.optimum import Optimisation
+from system.variation.optimisation.problem import Design
 from system.variation.solving import Variant, varied
 
 DATA, DESIGNS, PARETO, CHOSEN = "results.nc", "designs.csv", "pareto.csv", "chosen.toml"

@@ -13,12 +13,12 @@ from swashfilm.runs.variation.optimise.files import CHOSEN, DATA, write_chosen, 
 from swashfilm.runs.variation.optimise.page import write_optimise_page
 from swashfilm.runs.variation.optimise.summary import optimise_summary
 from system.inputs.faults import Fault, InputFaults
-from system.optimisation.evolution import evolve
-from system.optimisation.gradient import descend
-from system.optimisation.method import Method
-from system.optimisation.optimum import Optimisation, Search, optimise
-from system.optimisation.pareto import knee
 from system.pump_file.file import resolved_toml
+from system.variation.optimisation.evolution import evolve
+from system.variation.optimisation.gradient import descend
+from system.variation.optimisation.method import Method
+from system.variation.optimisation.optimum import Optimisation, Search, optimise
+from system.variation.optimisation.pareto import knee
 from system.work.kept_results import POINTS, points_of_run
 from system.work.progress import Report
 from system.work.tasks import Executor

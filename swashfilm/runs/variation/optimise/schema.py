@@ -7,8 +7,8 @@ from swashfilm.runs.variation.optimise.asked import RANGE, WITH
 from swashfilm.runs.variation.optimise.case import FORMAT, OptimiseSection
 from swashfilm.runs.variation.optimise.points import CYCLE, KEYS
 from system.inputs.sections.json_schema import Schema, section_schema, tables_schema
-from system.optimisation.problem import Aim
 from system.variation.measures import MEASURES
+from system.variation.optimisation.problem import Aim
 
 _TEXTS: Schema = {"anyOf": [{"type": "string"}, {"type": "array", "items": {"type": "string"}, "minItems": 1}]}
 

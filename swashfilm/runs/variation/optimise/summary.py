@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from typing import Any
 
 import numpy as np
@@ -9,11 +10,11 @@ import numpy as np
 from swashfilm.runs.variation.optimise.case import KNEE, OptimiseCase
 from swashfilm.runs.variation.words import where
 from system.maps.plan import point_words
-from system.optimisation.method import Method
-from system.optimisation.optimum import Optimisation
-from system.optimisation.problem import MET, Constraint, Design, Varied
 from system.pump.operating import OperatingPoint
 from system.variation.measures import measured
+from system.variation.optimisation.method import Method
+from system.variation.optimisation.optimum import Optimisation
+from system.variation.optimisation.problem import MET, Constraint, Design, Varied
 from system.work.tasks import PartStatus
 
 HOLDS = 0.01
@@ -109,8 +110,7 @@ def _constraint(found: Optimisation, one: Constraint, design: Design) -> dict[st
 
 def _at_points(case: OptimiseCase, found: Optimisation, design: Design) -> list[dict[str, Any]]:
     """Return the measures of objectives and constraints of start and design at each operating point."""
-    asked = [one.measure for one in (*found.problem.objectives, *found.problem.constraints)]
-    names, rows = tuple(dict.fromkeys(asked)), []
+    names, rows = found.problem.asked, []
     for at, point in enumerate(case.varied.work.sites.points):
         start, value = (measured(own.at_sites[[at]], np.ones(1), names) for own in (found.start, design))
         numbers = {
@@ -139,7 +139,7 @@ def _obstacles(found: Optimisation) -> list[dict[str, Any]]:
     ]  # fmt: skip
 
 
-def _warnings(case: OptimiseCase, found: Optimisation, design: Design) -> Any:
+def _warnings(case: OptimiseCase, found: Optimisation, design: Design) -> Iterator[str]:
     """Yield warnings, `name: text; remedy` each."""
     counts = _counts(found)
     if not counts["feasible"]:

@@ -9,8 +9,8 @@ from pathlib import Path
 import numpy as np
 
 from reynolds.numerics.arrays import Array
-from system.optimisation.problem import Design, Problem
 from system.variation.measures import Measure, measured
+from system.variation.optimisation.problem import Design, Problem
 from system.variation.solving import Variant, VariedWork, numbers_in, solved_variants
 from system.work.kept_results import KeptPoints
 from system.work.progress import Report

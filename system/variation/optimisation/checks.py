@@ -13,9 +13,9 @@ from reynolds.numerics.arrays import Array
 from system.description.pump import PumpDescription
 from system.inputs.faults import Fault, InputFaults
 from system.inputs.units import parse_quantity
-from system.optimisation.problem import Constraint, Problem, Varied
 from system.pump.operating import OperatingPoint
 from system.variation.measures import CAVITY, PEAK, Measure
+from system.variation.optimisation.problem import Constraint, Problem, Varied
 from system.variation.scatter import Bound
 from system.variation.solving import Variant, varied
 

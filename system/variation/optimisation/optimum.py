@@ -7,10 +7,10 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 from reynolds.errors import NotConverged
-from system.optimisation.obstacles import Obstacles, obstacles
-from system.optimisation.pareto import ParetoSet, pareto_set
-from system.optimisation.problem import Design, Problem
-from system.optimisation.trials import Trials, design_of
+from system.variation.optimisation.obstacles import Obstacles, obstacles
+from system.variation.optimisation.pareto import ParetoSet, pareto_set
+from system.variation.optimisation.problem import Design, Problem
+from system.variation.optimisation.trials import Trials, design_of
 from system.variation.solving import VariedWork, solved_variants
 from system.work.kept_results import KeptPoints
 from system.work.progress import Report
@@ -56,7 +56,11 @@ def optimise(
     expected: designs in all, for progress. Raises NotConverged where the pump as stated has no result, which leaves
     nothing to compare with.
     """
-    (outcome,) = solved_variants(work, [()], folder, executor, report, earlier)
+
+    def of_start(done: int, total: int, what: str) -> None:
+        report(0, expected, what)
+
+    (outcome,) = solved_variants(work, [()], folder, executor, of_start, earlier)
     if outcome.status is not PartStatus.SOLVED:
         raise NotConverged(f"the pump as stated: {outcome.reason}")
     start = design_of(outcome, problem.start, 0, work.sites.weights, problem.measures)

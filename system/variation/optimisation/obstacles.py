@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from reynolds.numerics.arrays import Array
-from system.optimisation.problem import MET, Constraint, Design, Problem
+from system.variation.optimisation.problem import MET, Constraint, Design, Problem
 
 
 @dataclass(frozen=True)

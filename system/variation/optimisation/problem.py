@@ -132,6 +132,12 @@ class Problem:
         """True where the bounds hold the stated pump."""
         return bool(np.all((self.start >= 0.0) & (self.start <= 1.0)))
 
+    @property
+    def asked(self) -> tuple[Measure, ...]:
+        """Measures of objectives and constraints, each once."""
+        found = [*(one.measure for one in self.objectives), *(one.measure for one in self.constraints)]
+        return tuple(dict.fromkeys(found))
+
     def aims(self, designs: Sequence[Design]) -> Array:
         """Return the objectives (N, m) of designs, less being better."""
         columns = [one.aim.sign * self.column(designs, one.measure) for one in self.objectives]

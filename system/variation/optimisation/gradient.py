@@ -10,8 +10,8 @@ import numpy as np
 from scipy.optimize import minimize
 
 from reynolds.numerics.arrays import Array
-from system.optimisation.problem import MET, Design, Problem
-from system.optimisation.trials import Trials
+from system.variation.optimisation.problem import MET, Design, Problem
+from system.variation.optimisation.trials import Trials
 
 SETTLED = 1e-5
 """Change of the objective at which the search ends, of its change across the bounds by the slope of the start."""

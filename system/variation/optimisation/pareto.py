@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from reynolds.numerics.arrays import Array
-from system.optimisation.problem import Design, Problem
+from system.variation.optimisation.problem import Design, Problem
 
 ROOM = 1.1
 """Reference point of the hypervolume, of the distance from the best to the worst of each objective."""

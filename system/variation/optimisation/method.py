@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from enum import Enum
 
-from system.optimisation.problem import Problem
+from system.variation.optimisation.problem import Problem
 
 _KINKED = (
     "chamber_pressure_peak", "delivery_flow_ripple", "inlet_flow_ripple", "swash_moment.amplitude", "cavitated_share",
@@ -24,8 +24,7 @@ def usual_method(problem: Problem) -> tuple[Method, str]:
     """Return the search that suits a problem, and why."""
     if len(problem.objectives) > 1:
         return Method.EVOLUTION, f"{len(problem.objectives)} objectives have a set of best designs, no single one"
-    asked = [one.measure for one in (*problem.objectives, *problem.constraints)]
-    kinked = [one.words for one in asked if one.name.startswith(_KINKED)]
+    kinked = [one.words for one in problem.asked if one.name.startswith(_KINKED)]
     if kinked:
         return Method.EVOLUTION, f"the slope of {kinked[0]} jumps, so derivatives mislead"
     return Method.GRADIENT, "one smooth objective has derivatives, which need fewer designs"

@@ -14,8 +14,8 @@ import numpy as np
 from scipy.stats import qmc
 
 from reynolds.numerics.arrays import Array
-from system.optimisation.problem import Design, Problem
-from system.optimisation.trials import Trials
+from system.variation.optimisation.problem import Design, Problem
+from system.variation.optimisation.trials import Trials
 
 if TYPE_CHECKING:
     from pymoo.core.algorithm import Algorithm
