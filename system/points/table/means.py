@@ -77,8 +77,8 @@ class SolvedPoint:
     """A point as a costly fidelity solves it, with its films.
 
     In m: mean over area and turn, least anywhere in the turn; K: the hottest oil in the turn, above the case.
-    load_carried: least share over the turn of the load that the film carries, at a given position of what presses the
-    parts together, of a floating part of film and contact together; None where no film was solved.
+    load_carried: one less the largest load over the turn that the film leaves to others, of the turn's largest load:
+    at a given position to anything, of a floating part to contact; None where no film was solved.
     """
 
     pump_point: PumpPoint

@@ -79,7 +79,7 @@ class FilmsSolver:
             _oil_temperature(pump, films) - point.temperature if own.heat else 0.0
             for own, films in zip((physics.piston, physics.slipper, physics.valve_plate), series, strict=True)
         )
-        carried = (min(film.carried_fraction for film in films) for films in series)
+        carried = (_carried(films) for films in series)
         return SolvedPoint(found.pump_point, Gaps(*mean), Gaps(*least), Gaps(*rise), Gaps(*carried))
 
     def row(self) -> FilmsSolver:
@@ -158,14 +158,20 @@ def solved_means(found: FloatingPoint) -> SolvedPoint:
     mean = (gap.mean_film for gap in gaps)
     least = (min(instant.least_gap for instant in gap.turn.instants) for gap in gaps)
     rise = (_hottest(gap, point) - point.temperature for gap in gaps)
-    carried = (min(_by_film(instant) for instant in gap.turn.instants) for gap in gaps)
+    carried = (_by_film(gap.turn.instants) for gap in gaps)
     return SolvedPoint(found.pump_point, Gaps(*mean), Gaps(*least), Gaps(*rise), Gaps(*carried))
 
 
-def _by_film(instant: GapInstant[Any]) -> float:
-    """Share of the film in the forces that film and contact hold a part with; 1 without contact."""
-    film, contact = (float(np.sum(np.abs(one))) for one in (instant.film_force, instant.contact_force))
-    return film / (film + contact) if contact > 0.0 else 1.0
+def _carried(films: Sequence[GapFilm[Any]]) -> float:
+    """One less the largest load that a film leaves to others, of the largest load of the turn."""
+    left = max(film.required_load - film.carried_load for film in films)
+    return 1.0 - left / max(film.required_load for film in films)
+
+
+def _by_film(instants: Sequence[GapInstant[Any]]) -> float:
+    """One less the largest contact force, of the largest force that presses the part against film and contact."""
+    contact = max(float(np.sum(np.abs(one.contact_force))) for one in instants)
+    return 1.0 - contact / max(float(np.sum(np.abs(one.outer_force))) for one in instants)
 
 
 def _oil_temperature(pump: PumpDescription, films: Sequence[GapFilm[Any]]) -> float:
