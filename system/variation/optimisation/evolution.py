@@ -39,6 +39,8 @@ def evolve(trials: Trials, designs: int, generations: int, seed: int) -> None:
     algorithm.setup(asked, termination=("n_gen", generations), seed=seed)
     for _ in range(generations):
         population: Any = algorithm.ask()
+        if population is None:  # all further designs would be ones that were tried
+            return
         found = trials.tried(population.get("X"))
         Evaluator().eval(StaticProblem(asked, F=_aims(problem, found), G=_violations(problem, found)), population)
         algorithm.tell(infills=population)

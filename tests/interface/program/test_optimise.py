@@ -326,6 +326,20 @@ def test_dotted_keys_are_quoted_ones(tmp_path, capsys):
     assert "search by evolution: 2 objectives" in said
 
 
+def test_loss_over_a_duty_cycle(tmp_path):
+    """Points and weights are those of the cycle, whose file lies beside the case."""
+    (tmp_path / "cycle.csv").write_text("time [s],pressure [bar]\n0,100\n10,300\n")
+    case = written(
+        tmp_path, changed(('pressures = "15,35MPa"', 'cycle = "cycle.csv"'), ("generations = 4", "generations = 1"))
+    )
+    assert main(["optimise", str(case), "--workers", "1", "-o", str(tmp_path / "run")]) in (0, 3)
+    summary = summary_of(tmp_path / "run")
+    assert "duty cycle of 10 s" in summary["at"]
+    assert summary["weights"] == pytest.approx([0.125, 0.25, 0.25, 0.25, 0.125])
+    losses = [one["measures"]["loss"]["start"] for one in summary["at_points"]]
+    assert summary["measures"]["loss"]["start"] == pytest.approx(np.dot(losses, summary["weights"]))
+
+
 def test_set_and_a_pump_of_the_case(tmp_path):
     """--set changes a key of the case; [pump.SECTION] and [operating] change the pump, as in other cases."""
     text = BENCH.replace(
