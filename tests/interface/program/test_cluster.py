@@ -96,7 +96,8 @@ def test_a_map_by_a_cluster_has_the_same_numbers(local_cluster, tmp_path):
 def test_an_optimisation_by_a_cluster_tries_the_same_designs(local_cluster, tmp_path):
     case = tmp_path / "case.toml"
     case.write_text(
-        'format = 1\n[optimise]\npump = "ref90"\ndesigns = 8\ngenerations = 2\n[vary]\n"ports.groove_area" = "2..6 mm2"\n'
+        'format = 1\n[optimise]\npump = "ref90"\ndesigns = 8\ngenerations = 2\n'
+        '[vary]\n"ports.groove_area" = "2..6 mm2"\n'
         '[objectives]\nloss = "least"\nchamber_pressure_peak = "least"\n'
     )
     words = ["optimise", str(case)]

