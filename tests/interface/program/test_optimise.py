@@ -233,6 +233,7 @@ FAULTS = [
     (('pump = "', 'fidelity = "lumpd"\npump = "'), "optimise.fidelity", "one of 'lumped', 'fixed'", "lumped"),
     (("designs = 8", "designs = 2"), "optimise.designs", "at least 8", ""),
     (("designs = 8", 'choose = "los"'), "optimise.choose", "knee, loss, delivery_flow_ripple, or a row", "loss"),
+    (("designs = 8", 'method = "gradient"'), "optimise.method", "one objective", "evolution"),
     (("designs = 8", 'table = "x.json"'), "optimise.table", 'fidelity = "table"', ""),
     (('pressures = "15,35MPa"', 'speed = "1000rpm"'), "points.speed", "one of speeds, pressures", "speeds"),
     (('"15,35MPa"', '"5-35MPa"'), "points.pressures", "a range with a number of levels", "5..35MPa:7"),

@@ -113,7 +113,7 @@ def _read(path: Path, text: str, top: Table, options: argparse.Namespace) -> Opt
     if top.faults or plan is None:
         return None
     search = _search(section, problem, options)
-    top.faults += [*_problem_faults(pump.pump, problem, plan.points), *_choice_faults(search, problem)]
+    top.faults += [*_problem_faults(pump.pump, problem, plan.points), *_search_faults(search, problem)]
     if top.faults:
         return None
     beside = None if section.table is None else path.parent / section.table
@@ -161,6 +161,15 @@ def _problem_faults(pump: PumpDescription, problem: Problem, points: Sequence[Op
     found += [Fault(f"constraints.{one.measure.name}", fault.found, fault.expected, fault.nearest)
               for one, fault in constraint_faults(pump, points, problem)]  # fmt: skip
     return found
+
+
+def _search_faults(search: Search, problem: Problem) -> list[Fault]:
+    """Return the faults of a search: a gradient of several objectives, and a choice of nothing that there will be."""
+    count = len(problem.objectives)
+    if search.method is Method.GRADIENT and count > 1:
+        found = f"'gradient' beside {count} objectives"
+        return [Fault("optimise.method", found, "one objective, or 'evolution'", "evolution")]
+    return _choice_faults(search, problem)
 
 
 def _choice_faults(search: Search, problem: Problem) -> list[Fault]:
