@@ -1,11 +1,14 @@
 """Numbers that follow from the chamber's pressure: against forces of the rotating group and closed forms."""
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 
 from system.inputs.units import TURN
 from system.multibody.rotating_group import joint_forces
 from system.points.lumped import lumped_point
+from system.points.table import sources
 from system.pump.chamber.layout import CAVITY_PRESSURE
 from system.pump.laws.kinematics import SwashDrive, drive_at_ratio
 from system.pump.lumped import full_drive, piston_area
@@ -71,3 +74,14 @@ def test_flow_back():
     into = found.pistons * np.mean(np.maximum(-flow.suction, 0.0))
     assert into - back["reverse_flow.inlet"] == pytest.approx(-found.pistons * np.mean(flow.suction))
     assert back["reverse_flow.delivery"] > 0.0
+
+
+def test_load_that_is_left_to_others():
+    """Of loads of 10 and 1000 N carried to 5 and 900 N, 100 of 1000 N are left; contact of 20 beside 100 N likewise."""
+    films = [SimpleNamespace(required_load=need, carried_load=has) for need, has in ((10.0, 5.0), (1000.0, 900.0))]
+    assert sources._carried(films) == pytest.approx(0.9)
+    instants = [
+        SimpleNamespace(contact_force=np.array([rubs, 0.0]), outer_force=np.array([-pressed, 0.0]))
+        for rubs, pressed in ((0.0, 100.0), (20.0, 80.0))
+    ]
+    assert sources._by_film(instants) == pytest.approx(0.8)
