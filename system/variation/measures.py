@@ -10,7 +10,8 @@ import numpy as np
 
 from reynolds.numerics.arrays import Array
 from system.description.pump import PumpDescription
-from system.inputs.units import LPM, TURN
+from system.inputs.shown import PERCENT, Shown, shown_in
+from system.inputs.units import TURN
 from system.maps.point import GAPS
 from system.points.table.means import SolvedPoint
 from system.variation.chamber_numbers import OF_FLOW, OF_PRESSURE, flow_numbers, pressure_numbers
@@ -66,17 +67,29 @@ class Needs(Enum):
 class Measure:
     """A number of a pump over its operating points.
 
-    unit: SI; shown: the unit that people read, `scale` of it in one SI unit; of: value (..,) of the numbers (.., P)
-    and the weights (P,). needs: what a fidelity must solve to know it.
+    unit: SI; of: value (..,) of the numbers (.., P) and the weights (P,). needs: what a fidelity must solve to know it.
     """
 
     name: str
     words: str
     unit: str
-    shown: str
-    scale: float
     of: Callable[[Columns, Array], Array]
     needs: Needs = Needs.PRESSURE
+
+    @property
+    def reading(self) -> Shown:
+        """The unit that people read: shares are efficiencies."""
+        return PERCENT if self.unit == "1" else shown_in(self.unit, self.words)
+
+    @property
+    def shown(self) -> str:
+        """Symbol of the unit that people read."""
+        return self.reading.unit
+
+    @property
+    def scale(self) -> float:
+        """Number of units that people read in one SI unit."""
+        return self.reading.factor
 
     def text(self, value: float, digits: int = 4) -> str:
         """Return a value as people read it; a temperature in degC."""
@@ -84,7 +97,7 @@ class Measure:
 
     def read(self, values: Array) -> Array:
         """Return SI values in the unit that people read."""
-        return values - 273.15 if self.unit == "K" else values * self.scale
+        return self.reading.of(values)
 
     @property
     def unit_of_change(self) -> str:
@@ -119,20 +132,20 @@ def _smallest(name: str) -> Callable[[Columns, Array], Array]:
     return lambda numbers, _: np.asarray(np.min(numbers[name], axis=-1))
 
 
-def _gaps(name: str, words: str, unit: str, shown: str, scale: float, of: _Over, needs: Needs) -> Iterator[Measure]:
+def _gaps(name: str, words: str, unit: str, of: _Over, needs: Needs) -> Iterator[Measure]:
     """Yield the measures of a number of each gap."""
     for gap in GAPS:
         key = f"{name}.{gap}"
-        yield Measure(key, f"{words}, {gap.replace('_', ' ')}", unit, shown, scale, of(key), needs)
+        yield Measure(key, f"{words}, {gap.replace('_', ' ')}", unit, of(key), needs)
 
 
 def _efficiency(place: int, part: str) -> Measure:
     words = f"{part} efficiency, ISO 4409"
-    return Measure(f"efficiency.{part}", words, "1", "%", 100.0, lambda n, w: _efficiencies(n, w)[place])
+    return Measure(f"efficiency.{part}", words, "1", lambda n, w: _efficiencies(n, w)[place])
 
 
 def _flow(name: str, words: str) -> Measure:
-    return Measure(name, words, "m3/s", "L/min", LPM, _mean(name), Needs.COURSE)
+    return Measure(name, words, "m3/s", _mean(name), Needs.COURSE)
 
 
 LOSS = "loss"
@@ -143,27 +156,27 @@ CAVITY = "cavitated_share"
 MEASURES = {
     one.name: one
     for one in (
-        Measure(LOSS, "total loss", "W", "W", 1.0, _mean("loss")),
+        Measure(LOSS, "total loss", "W", _mean("loss")),
         *(_efficiency(place, part) for place, part in enumerate(("overall", "volumetric", "hydromechanical"))),
-        Measure(DRAIN, "case drain", "m3/s", "L/min", LPM, _mean(DRAIN)),
-        *_gaps("leakage", "leakage", "m3/s", "L/min", LPM, _mean, Needs.PRESSURE),
-        Measure("delivery_flow", "delivery flow", "m3/s", "L/min", LPM, _mean("delivery_flow")),
+        Measure(DRAIN, "case drain", "m3/s", _mean(DRAIN)),
+        *_gaps("leakage", "leakage", "m3/s", _mean, Needs.PRESSURE),
+        Measure("delivery_flow", "delivery flow", "m3/s", _mean("delivery_flow")),
         _flow("delivery_flow_ripple", "delivery flow ripple"),
         _flow("inlet_flow_ripple", "inlet flow ripple"),
         _flow("reverse_flow.delivery", "flow back out of the delivery port"),
         _flow("reverse_flow.inlet", "flow back into the inlet"),
-        Measure("shaft_torque", "shaft torque", "N m", "N m", 1.0, _mean("shaft_torque")),
-        Measure(PEAK, "highest chamber pressure", "Pa", "MPa", 1e-6, _largest(PEAK)),
-        Measure("pressure_rate", "rate of the chamber pressure, rms", "Pa/s", "GPa/s", 1e-9, _mean("pressure_rate")),
-        Measure(CAVITY, "share of the turn with a cavity", "1", "%", 100.0, _largest(CAVITY)),
-        Measure("swash_moment.mean", "moment of the pressure on the swash plate", "N m", "N m", 1.0,
+        Measure("shaft_torque", "shaft torque", "N m", _mean("shaft_torque")),
+        Measure(PEAK, "highest chamber pressure", "Pa", _largest(PEAK)),
+        Measure("pressure_rate", "rate of the chamber pressure, rms", "Pa/s", _mean("pressure_rate")),
+        Measure(CAVITY, "share of the turn with a cavity", "1", _largest(CAVITY)),
+        Measure("swash_moment.mean", "moment of the pressure on the swash plate", "N m",
                 _mean("swash_moment.mean")),
-        Measure("swash_moment.amplitude", "amplitude of the moment on the swash plate", "N m", "N m", 1.0,
+        Measure("swash_moment.amplitude", "amplitude of the moment on the swash plate", "N m",
                 _mean("swash_moment.amplitude")),
-        Measure("slipper_balance", "hydrostatic balance of the slipper", "1", "%", 100.0, _smallest("slipper_balance")),
-        *_gaps("film_least", "least film", "m", "um", 1e6, _smallest, Needs.FILMS),
-        *_gaps("film_temperature", "hottest oil", "K", "degC", 1.0, _largest, Needs.FILMS),
-        *_gaps("load_carried", "share of the load that the film carries", "1", "%", 100.0, _smallest, Needs.LOADS),
+        Measure("slipper_balance", "hydrostatic balance of the slipper", "1", _smallest("slipper_balance")),
+        *_gaps("film_least", "least film", "m", _smallest, Needs.FILMS),
+        *_gaps("film_temperature", "hottest oil", "K", _largest, Needs.FILMS),
+        *_gaps("load_carried", "share of the load that the film carries", "1", _smallest, Needs.LOADS),
     )
 }  # fmt: skip
 """All measures by name."""
