@@ -493,15 +493,14 @@ def new(
 
 def open(folder: str | Path) -> Result:
     """Return the result of a finished run folder, of the class of its kind; raise InputFaults without one."""
-    import json
+    from swashfilm.output.page import read_summary
 
     place = Path(folder)
     with _door("open"):
-        summary = place / "summary.json"
-        if not summary.is_file():
-            fault = Fault("folder", f"no {summary}", "the folder of a finished run", nearest_path(place))
+        if not (place / "summary.json").is_file():
+            fault = Fault("folder", f"no {place / 'summary.json'}", "the folder of a finished run", nearest_path(place))
             raise InputFaults("command line", [fault])
-        kind = json.loads(summary.read_text("utf-8")).get("kind")
+        kind = read_summary(place).get("kind")
         kinds = {name: found for found in _result_classes() for name in found.kinds}
         if kind not in kinds:
             near = nearest_choice(str(kind), kinds)

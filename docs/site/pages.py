@@ -15,7 +15,9 @@ CONTENTS = {
     "Start": ("/README", "tutorial", "gallery", "examples/index", "notebooks/film", "notebooks/pump", "wrong_results"),
     "Reference": ("files", "conventions", "Files of the examples </examples/README>", "/meshes/README",
                   "cluster", "api/index"),
-    "Background": ("theory", "architecture", "validation", "proof", "proof_floating", "Reproduction <reproduction>",
+    "Background": ("theory", "architecture", "validation", "measured", "credibility", "proof", "proof_floating",
+                   "hostile",
+                   "Reproduction <reproduction>",
                    "Reproduction with films <reproduction_fixed>",
                    "Reproduction with floating films <reproduction_floating>", "benchmarks", "/CHANGELOG"),
 }  # fmt: skip

@@ -4,6 +4,8 @@ import json
 from importlib import import_module
 from pathlib import Path
 
+from reynolds.numerics.files import created, replaced
+
 SCHEMAS = {
     "case": "swashfilm.case.schema.case_schema",
     "optimise": "swashfilm.runs.variation.optimise.schema.optimise_schema",
@@ -33,6 +35,7 @@ def write_new(path: Path, kind: str, text: str) -> None:
     """
     schema = path.parent / f"{kind}.schema.json"
     if not schema.exists():
-        schema.write_text(schema_text(kind) + "\n", encoding="utf-8")
-    with path.open("x", encoding="utf-8") as file:
-        file.write(f"#:schema ./{schema.name}\n{text}")
+        with replaced(schema) as beside:
+            beside.write_text(schema_text(kind) + "\n", encoding="utf-8")
+    with created(path) as beside:
+        beside.write_text(f"#:schema ./{schema.name}\n{text}", encoding="utf-8")

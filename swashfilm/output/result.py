@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import shutil
 import tempfile
 from collections.abc import Callable, Iterator, Mapping, Sequence
@@ -14,7 +13,7 @@ from typing import TYPE_CHECKING, Any, ClassVar, Self
 from swashfilm.output.data.files import read_netcdf
 from swashfilm.output.figures import pyplot_figures
 from swashfilm.output.headline import named
-from swashfilm.output.page import expect_files
+from swashfilm.output.page import read_summary
 from swashfilm.output.run_folder import final_folder, run_folder
 from swashfilm.output.tables import Table, aligned, parted
 from system.inputs.shown import known_unit
@@ -88,8 +87,7 @@ class Result:
     @classmethod
     def opened(cls, folder: Path) -> Self:
         """Return the result of a finished run folder; raise InputFaults where one of its files is missing."""
-        expect_files(folder, cls.files, "the folder of a finished run")
-        summary = json.loads((folder / SUMMARY).read_text("utf-8"))
+        summary = read_summary(folder, cls.files)
 
         def write(place: Path) -> tuple[str, ...]:
             shutil.copytree(folder, place, dirs_exist_ok=True)

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from reynolds.numerics.files import read_text
 from system.description.assumptions import Assumption
 from system.description.pump import FORMAT, SINGLE_PARTS, PumpDescription
 from system.inputs.faults import Fault, InputFaults, key_lines, nearest_choice, nearest_path, stated
@@ -100,7 +101,7 @@ def _read(source: str | Path) -> tuple[str, str]:
         return f"built-in pump {name}", BUILT_IN.joinpath(f"{name}.toml").read_text("utf-8")
     path = Path(source)
     try:
-        return name, path.read_text("utf-8-sig")  # some editors put a byte order mark first
+        return name, read_text(path)
     except FileNotFoundError:
         raise InputFaults(name, [_not_there(path)]) from None
     except (OSError, UnicodeDecodeError) as reason:

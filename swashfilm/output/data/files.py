@@ -9,8 +9,11 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from reynolds.numerics.files import expect_room
+from reynolds.numerics.hdf5 import expect_contained
 from swashfilm.output.headline import named
 from swashfilm.output.tables import parted, read_csv, write_csv
+from system.inputs.faults import Fault, InputFaults
 from system.inputs.shown import known_unit, largest_of_units, round_off, shown_in
 
 if TYPE_CHECKING:
@@ -19,6 +22,8 @@ if TYPE_CHECKING:
     from reynolds.numerics.arrays import Array
 
 CSV_DIGITS = 8
+HEADS = 200_000
+"""Bytes of names, attributes and the tree of a NetCDF file, at most."""
 
 
 @dataclass(frozen=True)
@@ -77,7 +82,11 @@ def columns_of(data: xarray.Dataset, along: str) -> list[Column]:
 
 
 def write_netcdf(data: xarray.Dataset, path: Path, group: str | None = None) -> None:
-    """Write a data set, or add it as a group to a file; every variable has `units` (SI) and `long_name`."""
+    """Write a data set, or add it as a group to a file; every variable has `units` (SI) and `long_name`.
+
+    Raises OSError, before anything is written, where the disk has no room: HDF5 ends in a disorder of messages there.
+    """
+    expect_room(path.parent, int(1.1 * data.nbytes) + HEADS)
     described(data).to_netcdf(path, mode="a" if group else "w", group=group, engine="h5netcdf")
 
 
@@ -90,7 +99,19 @@ def described(data: xarray.Dataset) -> xarray.Dataset:
 
 
 def read_netcdf(path: Path, group: str | None = None) -> xarray.Dataset:
-    """Return the data set of a NetCDF file, or of one group in it, loaded whole."""
+    """Return the data set of a NetCDF file, or of one group in it, loaded whole.
+
+    Raises InputFaults for a file of another kind, a broken one, and one with data outside it.
+    """
+    try:
+        expect_contained(path)
+        return _loaded(path, group)
+    except Exception as reason:  # HDF5 and what reads it have no common class of faults
+        words = " ".join(str(reason).split()) or type(reason).__name__
+        raise InputFaults(str(path), [Fault("file", f"cannot be read: {words}", "the NetCDF file of a run")]) from None
+
+
+def _loaded(path: Path, group: str | None) -> xarray.Dataset:
     import xarray
 
     with xarray.open_dataset(path, group=group, engine="h5netcdf") as data:

@@ -11,7 +11,8 @@ from enum import Enum
 from pathlib import Path
 from typing import Any
 
-from system.inputs.faults import nearest_choice, nearest_path
+from reynolds.numerics.files import is_file
+from system.inputs.faults import nearest_choice, nearest_path, printable
 from system.inputs.sections.fields import FieldType, Points, Section, Text, fields_of
 from system.inputs.sections.point_files import read_rows, wanted_file
 from system.inputs.toml_table import quoted
@@ -218,14 +219,16 @@ def _text(raw: object, text: Text, folder: Path) -> Path | str | tuple[str, ...]
     may_be_empty = text is Text.WORDS
     if not (isinstance(names, list) and names and all(isinstance(one, str) and (one or may_be_empty) for one in names)):
         raise QuantityError(repr(raw), text.value)
+    if unfit := next((one for one in names if printable(one) != one), None):
+        raise QuantityError(repr(unfit), f"{text.value}, without control signs")
     if text is Text.NAMES:
         return tuple(names)
     if text is not Text.FILE:
         return str(raw)
-    path = (folder / str(raw)).resolve()
-    if not path.is_file():
+    path = folder / str(raw)
+    if not is_file(path):
         raise QuantityError(f"'{path}', which is no file", text.value, nearest_path(path))
-    return path
+    return path.resolve()
 
 
 def names_of(choices: Iterable[Enum]) -> str:

@@ -10,7 +10,7 @@ from swashfilm.output.answer import Answer
 from swashfilm.output.data.files import read_netcdf, write_netcdf
 from swashfilm.output.figures import png_of
 from swashfilm.output.headline import named, number_text, summary_scales
-from swashfilm.output.page import PLOTS, inlined, read_summary, write_page
+from swashfilm.output.page import PLOTS, inlined, kept_text, read_summary, write_page
 from swashfilm.output.run_folder import write_json
 from swashfilm.runs.film.series.answer import axes_of, main_spans, study_tiles, study_words
 from swashfilm.runs.film.series.courses import course_plots
@@ -63,7 +63,7 @@ def write_study_page(folder: Path) -> Path:
         pictures={caption(key): inlined(figure) for key, figure in figures.items() if key != first},
         rows=list(span_rows(summary)),
         failed=list(failed_rows(summary)),
-        case=(folder / "input.toml").read_text("utf-8"),
+        case=kept_text(folder, "input.toml"),
         summary=summary,
     )
 

@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Iterator, Mapping, Sequence
+from fractions import Fraction
 from pathlib import Path
 
 import numpy as np
@@ -10,7 +11,7 @@ from reynolds.errors import InputError
 from reynolds.numerics.arrays import Array
 from system.inputs.csv_table import Line, head_columns, read_csv_text
 from system.inputs.faults import Fault, InputFaults, nearest_choice
-from system.inputs.units import Dimension, QuantityError, unit_scale, with_point
+from system.inputs.units import LARGEST, Dimension, QuantityError, largest, unit_scale, with_point
 from system.maps.duty import Cycle
 from system.maps.plan import MapAxis, MapInput
 
@@ -88,11 +89,14 @@ def _columns(head: list[str], faults: list[Fault]) -> Iterator[tuple[str, tuple[
             faults.append(Fault(f"head {name}", "twice", "each column once"))
             continue
         named.add(name)
-        dimension = Dimension.TIME if name == TIME else HEADS[name].dimension
         try:
-            yield name, (place, *_scale(unit, dimension))
+            yield name, (place, *_scale(unit, _dimension(name)))
         except QuantityError as reason:
             faults.append(Fault(f"head {name}", reason.found, reason.expected, reason.nearest))
+
+
+def _dimension(name: str) -> Dimension | None:
+    return Dimension.TIME if name == TIME else HEADS[name].dimension
 
 
 def _scale(unit: str, dimension: Dimension | None) -> tuple[float, float]:
@@ -114,14 +118,22 @@ def _values(
         faults.append(Fault(f"line {uneven[0][0]}", found, f"{width}, the number of columns in the head", remedy))
         return
     for name, (place, factor, offset) in columns.items():
+        most = LARGEST if (kind := _dimension(name)) is None else largest(kind)
         numbers = []
         for number, cells in rows:
             text = cells[place].strip() if place < len(cells) else ""
             try:
-                numbers.append(factor * _finite(text) + offset)
+                numbers.append(_within(factor * _finite(text) + offset, most))
             except ValueError:
                 faults.append(Fault(f"{name}, line {number}", repr(text), "a number", with_point(text)))
         yield name, np.array(numbers)
+
+
+def _within(number: float, most: Fraction) -> float:
+    """Return a number of at most a size; raise ValueError for any other."""
+    if abs(number) > most:
+        raise ValueError
+    return number
 
 
 def _finite(text: str) -> float:
