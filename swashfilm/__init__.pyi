@@ -1,5 +1,5 @@
 from .api.cases import reference as reference, reproduce as reproduce, transient as transient
-from .api.drawings import sensitivity as sensitivity, tolerance as tolerance
+from .api.drawings import optimise as optimise, sensitivity as sensitivity, tolerance as tolerance
 from .api.errors import InputFaults as InputFaults, NotConverged as NotConverged
 from .api.files import new as new, open as open
 from .api.films import film as film, study as study

@@ -1,4 +1,4 @@
-"""Dimensions and tolerances of a pump's drawing: what each costs, what a series scatters."""
+"""Dimensions of a pump's drawing: what each costs, what a series scatters, which are the best."""
 
 from __future__ import annotations
 
@@ -7,10 +7,11 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from swashfilm.api.calls import door, words_of
-from swashfilm.api.given import pump_path
+from swashfilm.api.given import Case, case_path, pump_path
 from system.work.progress import Report, silent
 
 if TYPE_CHECKING:
+    from swashfilm.runs.variation.optimise.result import OptimiseRun
     from swashfilm.runs.variation.sensitivity.result import SensitivityRun
     from swashfilm.runs.variation.tolerance.result import ToleranceRun
     from system.description.pump import PumpDescription
@@ -72,3 +73,20 @@ def tolerance(
         case = tolerance_case(words)
         with varied_executor(words, case.varied.seconds(case.pumps)) as executor:
             return ToleranceRun.ran(lambda folder: run_tolerance(case, folder, executor, report))
+
+
+def optimise(case: Case, *, choose: str | None = None, report: Report = silent, **options: object) -> OptimiseRun:
+    """Optimise dimensions of a pump under constraints, as `swashfilm optimise`.
+
+    choose: "knee", an objective, or a row of the Pareto set; options: workers, cluster, resume, and those of floating
+    gaps. Without a feasible design the result tells what is in the way. Raises InputFaults and NotConverged.
+    """
+    with door("optimise"), case_path(case) as path:
+        from swashfilm.runs.variation.optimise.command import design_executor, optimise_case
+        from swashfilm.runs.variation.optimise.result import OptimiseRun
+        from swashfilm.runs.variation.optimise.run import run_optimise
+
+        words = words_of("optimise", [path], {"choose": choose} | options)
+        asked = optimise_case(words)
+        with design_executor(words, asked) as executor:
+            return OptimiseRun.ran(lambda folder: run_optimise(asked, folder, executor, report))

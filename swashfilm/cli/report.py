@@ -25,6 +25,7 @@ PAGES = {
     "duty": "swashfilm.runs.map.duty.page.write_duty_page",
     "map": "swashfilm.runs.map.page.write_map_page",
     "gap_table": "swashfilm.runs.table.page.write_table_page",
+    "optimisation": "swashfilm.runs.variation.optimise.page.write_optimise_page",
     "reference": "swashfilm.runs.reference.page.write_reference_page",
     "reproduction": "swashfilm.runs.reproduce.page.write_reproduce_page",
     "response_table": "swashfilm.runs.table.page.write_table_page",

@@ -9,6 +9,7 @@ from swashfilm.formats.versions import VERSIONS, run_schema
 
 SCHEMAS = {
     "case": "swashfilm.case.schema.case_schema",
+    "optimise": "swashfilm.runs.variation.optimise.schema.optimise_schema",
     "pump": "system.pump_file.schema.pump_schema",
     "recording": "diagnosis.recording.form.recording_schema",
     "reference": "swashfilm.runs.reference.case.reference_schema",

@@ -24,6 +24,7 @@ VERSIONS = {
     "film_study": 1,
     "gap_table": 1,
     "map": 1,
+    "optimisation": 1,
     "pump": 1,
     "pump_study": 1,
     "reference": 1,

@@ -17,6 +17,7 @@ from system.inputs.faults import Fault
 
 if TYPE_CHECKING:
     from system.description.keys import PumpKey
+    from system.variation.measures import Measure
     from system.work.tasks import Executor
 
 
@@ -76,9 +77,12 @@ def needs_keys(options: argparse.Namespace) -> bool:
     return options.fidelity == Fidelity.FLOATING.value and options.keys is None
 
 
-def solves_films(fidelity: Fidelity) -> bool:
-    """True for a fidelity that knows films."""
-    return fidelity is not Fidelity.LUMPED
+def known_measures(fidelity: Fidelity, *, together: bool = False) -> tuple[Measure, ...]:
+    """Return the measures that a fidelity knows; together: all points of a pump are solved at once."""
+    from system.variation.measures import Needs, measures_of
+
+    lumped = Needs.PRESSURE if together else Needs.COURSE
+    return measures_of({Fidelity.LUMPED: lumped, Fidelity.TABLE: Needs.FILMS}.get(fidelity, Needs.LOADS))
 
 
 def costly(fidelity: Fidelity) -> bool:

@@ -79,12 +79,15 @@ class SolvedPoint:
     """A point as a costly fidelity solves it, with its films.
 
     In m: mean over area and turn, least anywhere in the turn; K: the hottest oil in the turn, above the case.
+    load_carried: one less the largest load over the turn that the film leaves to others, of the turn's largest load:
+    at a given position to anything, of a floating part to contact; None where no film was solved.
     """
 
     pump_point: PumpPoint
     film_mean: Gaps
     film_least: Gaps
     film_rise: Gaps
+    load_carried: Gaps | None = None
 
 
 @dataclass(frozen=True)
