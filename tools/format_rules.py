@@ -75,5 +75,5 @@ NULL = {
     "diagnosis.json/next_test": "object",
 }
 """What may be null, and its type where it is not."""
-STATED = ("*/units", "*/long_name", "*/dimensions/*", "summary.json/kind", "summary.json/format", "*.csv/*")
+STATED = ("*/units", "*/long_name", "*.nc/*dimensions/*", "summary.json/kind", "summary.json/format", "*.csv/*")
 """Values that are part of a format, not results."""

@@ -176,28 +176,34 @@ def _by_option(found: Sequence[Fault]) -> Iterator[Fault]:
 
 def _word_faults(options: argparse.Namespace) -> list[Fault]:
     """Return the faults of words and numbers of the command line that do not depend on the pump."""
-    faults = solving_faults(options)
+    faults = solving_faults(options, options.cluster)
     whole(faults, "--check", options.check, 0, (0, 10000))
     if options.direct and options.fidelity not in SOLVED:
         faults.append(Fault("--direct", f"beside --fidelity {options.fidelity}", f"--fidelity {' or '.join(SOLVED)}"))
-    if options.cluster is not None and options.workers is not None:
-        faults.append(Fault("--workers", "beside --cluster", "one of the two: a cluster has its own workers"))
     return faults
 
 
-def solving_faults(options: argparse.Namespace) -> list[Fault]:
+def solving_faults(options: argparse.Namespace, cluster: str | None = None) -> list[Fault]:
     """Return the faults of --plan, --fidelity, --table, --workers and --resume that do not depend on the pump."""
-    from system.work.kept_results import points_of_run
-
     faults = []
     names = [fidelity.value for fidelity in FIDELITIES]
     for option, known in (("--plan", PLANS), ("--fidelity", names)):
         word = option_value(options, option)
         if word not in known:
             faults.append(Fault(option, repr(word), f"one of {', '.join(known)}", nearest_choice(word, known)))
-    whole(faults, "--workers", options.workers, 1, (1, MOST_WORKERS))
     if options.table and options.fidelity != Fidelity.TABLE.value:
         faults.append(Fault("--table", f"beside --fidelity {options.fidelity}", "no table, or --fidelity table"))
+    return [*faults, *process_faults(options, cluster)]
+
+
+def process_faults(options: argparse.Namespace, cluster: str | None = None) -> list[Fault]:
+    """Return the faults of --workers and --resume, and of --workers beside a cluster."""
+    from system.work.kept_results import points_of_run
+
+    faults: list[Fault] = []
+    whole(faults, "--workers", options.workers, 1, (1, MOST_WORKERS))
+    if cluster is not None and options.workers is not None:
+        faults.append(Fault("--workers", "beside --cluster", "one of the two: a cluster has its own workers"))
     if options.resume is not None:
         try:
             points_of_run(options.resume)

@@ -13,9 +13,9 @@ from swashfilm.console.command import Command
 from swashfilm.console.inputs import COMMAND_LINE
 from swashfilm.console.settings import add_set_option, set_values_of
 from swashfilm.console.terminal import show, show_result
-from swashfilm.runs.map.command import WORTH_TELLING, resume_faults
+from swashfilm.runs.map.command import WORTH_TELLING, process_faults
 from swashfilm.runs.variation.options import varied_executor
-from system.inputs.faults import Fault, InputFaults
+from system.inputs.faults import InputFaults
 
 if TYPE_CHECKING:
     from swashfilm.runs.variation.optimise.case import OptimiseCase
@@ -70,8 +70,7 @@ def optimise_case(options: argparse.Namespace) -> OptimiseCase:
     """Return the optimisation of a command line; raise InputFaults with every fault of options or file."""
     from swashfilm.runs.variation.optimise.case import load_optimisation
 
-    faults = [*_option_faults(options)]
-    if faults:
+    if faults := process_faults(options, options.cluster):
         raise InputFaults(COMMAND_LINE, faults)
     return load_optimisation(options.case, set_values_of(options, EXAMPLE), options)
 
@@ -103,16 +102,6 @@ def design_executor(options: argparse.Namespace, case: OptimiseCase) -> Iterator
 
     with cluster(options.cluster) as executor:
         yield executor
-
-
-def _option_faults(options: argparse.Namespace) -> Iterator[Fault]:
-    """Yield the faults of options that do not depend on the file."""
-    if options.workers is not None and not (options.workers.isdecimal() and 1 <= int(options.workers) <= 256):
-        yield Fault("--workers", repr(options.workers), "a number, 1 to 256")
-    if options.cluster is not None and options.workers is not None:
-        yield Fault("--workers", "beside --cluster", "one of the two: a cluster has its own workers")
-    if options.resume is not None:
-        yield from resume_faults(options.resume)
 
 
 def _show_cost(case: OptimiseCase) -> None:

@@ -87,7 +87,7 @@ def write_data(path: Path, case: VariedCase, found: Optimisation) -> None:
     )
     for name in ("dimension", "value", "number", "start_dimension", "start_value", "start_number"):
         data[name].attrs["units"] = "SI of each"
-    write_netcdf(data, path)
+    write_netcdf(data, path, "optimisation")
 
 
 def _stacked(designs: Sequence[Design], part: str, shape: tuple[int, ...]) -> Any:
