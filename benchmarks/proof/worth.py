@@ -54,9 +54,9 @@ def worth(
     there = point.shaft_speed, point.delivery_pressure, point.displacement_ratio, point.temperature
     anywhere = tuple(float(rng.uniform(*ends)) for ends in box.ends)
     wanted = box.points(tuple(np.array([value]) for value in there))
-    brought, _ = next(forecasts(study, *explained, wanted)).odds(asked.limits.readings)
+    brought, _ = forecasts(study, *explained, wanted).at(0).odds(asked.limits.readings)
     before = log(true.probability / false.probability)
-    return Worth(before, told(there), told(anywhere), asked.chance, brought.mean)
+    return Worth(before, told(there), told(anywhere), asked.chance, float(brought.mean))
 
 
 def _recorded(
