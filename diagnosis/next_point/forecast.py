@@ -65,6 +65,11 @@ class Forecast:
     def odds(self, repeats: int) -> tuple[OddsForecast, OddsForecast]:
         """Gain of `repeats` readings at each point if the first is true, and if the second is."""
         noise = np.eye(self.difference.shape[-1]) / independent(repeats, self.memory)
+        if self.first is self.second:
+            pull = np.linalg.solve(noise + self.first, self.difference[..., None])[..., 0]
+            squares = np.sum(self.difference * pull, axis=-1)
+            equal = OddsForecast(0.5 * squares, np.sqrt(squares))
+            return equal, equal
         one, two = noise + self.first, noise + self.second
         return odds_forecast(self.difference, one, two), odds_forecast(self.difference, two, one)
 
