@@ -39,6 +39,7 @@ def campaigns() -> dict[str, Campaign]:
         Campaign("short", _charged(_scattered(60, 8)), inputs=tuple(one for one in INPUTS if one != "p_in")),
         Campaign("open circuit", _open(), circuit="open"),
         Campaign("no inlet meter", _scattered(140, 9), outputs=("Q_out", "Q_case", "torque")),
+        Campaign("grid", _grid(), outputs=("Q_out", "Q_case", "torque")),
     )
     return {one.name: one for one in found}
 
@@ -61,6 +62,12 @@ def _map() -> Settings:
 def _ovens() -> Settings:
     """168 points: 3 inlet temperatures, 2 strokes, 4 speeds, 7 pressures."""
     warm = product((35.0, 50.0, 70.0), (0.5, 1.0), (400.0, 900.0, 1500.0, 2100.0), range(75, 376, 50))
+    return _settings((stroke, speed, pressure, oven) for oven, stroke, speed, pressure in warm)
+
+
+def _grid() -> Settings:
+    """36 points over the range of an ordinary bench: 2 inlet temperatures, 2 strokes, 3 speeds, 3 pressures."""
+    warm = product((30.0, 80.0), (0.2, 1.0), (525.0, 1312.5, 2100.0), (58.5, 204.75, 351.0))
     return _settings((stroke, speed, pressure, oven) for oven, stroke, speed, pressure in warm)
 
 

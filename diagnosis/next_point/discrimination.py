@@ -21,7 +21,7 @@ from numpy.typing import NDArray
 from reynolds.numerics.arrays import Array
 from system.work.progress import Report, silent
 
-ROUNDS = 4
+ROUNDS = 2
 """Of exchanges, each over all added points."""
 SLACK = 1e-9
 """Relative gain of an exchange below which the point stays."""
@@ -92,11 +92,7 @@ def _best(campaign: Campaign, counts: NDArray[np.int64], allowed: NDArray[np.int
 
 
 def _exchanged(
-    campaign: Campaign,
-    counts: NDArray[np.int64],
-    allowed: NDArray[np.int64],
-    chosen: list[int],
-    report: Report,
+    campaign: Campaign, counts: NDArray[np.int64], allowed: NDArray[np.int64], chosen: list[int], report: Report
 ) -> list[int]:
     """The chosen points, each exchanged for another that is better beside all others, until none is."""
     now = counts + np.bincount(chosen, minlength=len(counts)) if chosen else counts

@@ -66,20 +66,16 @@ def further_meters(
 
 
 def _further(
-    foreseen: Foreseen,
-    channels: Collection[str],
-    campaign: NDArray[np.int64],
-    thresholds: Thresholds,
-    report: Report,
+    foreseen: Foreseen, channels: Collection[str], campaign: NDArray[np.int64], thresholds: Thresholds, report: Report
 ) -> Iterator[FurtherMeter]:
     for name, words in WORDS.items():
         if name.value not in channels:
             yield FurtherMeter(name.value, words, foreseen.responses.white({*channels, name.value}))
     for gap, drain in DRAINS.items():
-        yield FurtherMeter(
-            drain, f"a separate drain of {PLACES[gap]}, metered", foreseen.responses.white({*channels, drain})
-        )
-    pressure = foreseen.study.simulator.bench.points.p_out[campaign]
+        if drain not in channels:
+            words = f"a metered drain of {PLACES[gap]} alone"
+            yield FurtherMeter(drain, words, foreseen.responses.white({*channels, drain}))
+    pressure = foreseen.points.p_out[campaign]
     some = campaign[np.argsort(pressure, kind="stable")][np.linspace(0, len(campaign) - 1, TRACED).round().astype(int)]
     traces = foresee_traces(foreseen, tuple(int(at) for at in np.unique(some)), thresholds, report)
     words = f"the chamber pressure over the turn, at {len(np.unique(some))} points"

@@ -33,15 +33,18 @@ MANY = 20
 class Asked:
     """A campaign as planned, and what may be added to it.
 
-    planned: points as they are to be driven; possible: points that may be added; channels: those of the bench; most:
-    readings to add at most; cost: of efficiency, the size of every suspect.
+    planned: points as they are to be driven, with their readings `repeats`; possible: points that may be added;
+    channels: those of the bench; most: readings to add at most; cost: of efficiency, the size of every suspect; apart: sigma from which on a pair is told,
+    None: `wanted_distance`.
     """
 
     planned: BenchPoints
+    repeats: NDArray[np.int64]
     possible: BenchPoints
     channels: Collection[str]
     most: int
     cost: float = COST
+    apart: float | None = None
 
     @property
     def points(self) -> BenchPoints:
@@ -52,9 +55,7 @@ class Asked:
     @property
     def counts(self) -> NDArray[np.int64]:
         """(N,), readings at each of `points` as planned."""
-        counts = np.zeros(len(self.planned.speed) + len(self.possible.speed), dtype=np.int64)
-        counts[: len(self.planned.speed)] = 1
-        return counts
+        return np.concatenate([self.repeats, np.zeros(len(self.possible.speed), dtype=np.int64)])
 
 
 @dataclass(frozen=True)
@@ -90,6 +91,7 @@ class Plan:
     most: int
     never: tuple[Never, ...]
     worths: tuple[MeterWorth, ...]
+    shows: tuple[str, ...]
 
     @property
     def pairs(self) -> tuple[tuple[int, int], ...]:
@@ -138,17 +140,15 @@ def plan_campaign(
     campaign = np.flatnonzero(asked.counts)
     suspects = suspects_of(foreseen, chosen, campaign, thresholds, asked.cost)
     widths = np.array([one.width for one in foreseen.candidates])
-    contest = Contest(
-        foreseen.responses.white(asked.channels), suspects, widths, signs_of(foreseen.candidates)
-    )
-    counts, wanted = asked.counts, wanted_distance(limits)
+    contest = Contest(foreseen.responses.white(asked.channels), suspects, widths, signs_of(foreseen.candidates))
+    counts, wanted = asked.counts, wanted_distance(limits) if asked.apart is None else asked.apart
     everywhere = np.full(len(counts), MANY)
     ever = contest.apart(everywhere)
     weighed = further_meters(foreseen, asked.channels, campaign, thresholds, report) if meters is None else meters
     never = never_apart(contest, ever, everywhere, weighed, wanted, thresholds)
     pairs = tuple(pair for pair in all_pairs(len(suspects)) if pair not in {one.pair for one in never})
     pair_campaign = PairCampaign(contest, pairs, wanted)
-    added = added_points(pair_campaign, counts, np.full(len(counts), limits.readings), asked.most, LEAST, report)
+    added = added_points(pair_campaign, counts, np.maximum(counts, limits.readings), asked.most, LEAST, report)
     reached = counts + np.bincount(added.points, minlength=len(counts)).astype(np.int64)
     before, after = contest.apart(counts), contest.apart(reached)
     return Plan(
@@ -167,7 +167,15 @@ def plan_campaign(
         most=asked.most,
         never=never,
         worths=meter_worths(contest, after, reached, weighed, wanted, report),
+        shows=_shows(foreseen, contest, asked.channels),
     )
+
+
+def _shows(foreseen: Foreseen, contest: Contest, channels: Collection[str]) -> tuple[str, ...]:
+    """The channel of the largest square of each suspect, over all points."""
+    names = [one.name for one in foreseen.responses.readings.channels if one.name in channels]
+    squares = np.sum((contest.white.columns @ contest.truths) ** 2, axis=0)
+    return tuple(names[at] for at in np.argmax(squares, axis=0))
 
 
 def _purposes(campaign: PairCampaign, counts: NDArray[np.int64], added: Added) -> tuple[Purpose, ...]:
@@ -209,5 +217,3 @@ def spread_order(count: int, begin: int = 0) -> Array:
     """(count,), places from 0 to 1 in a mixed order: the multiples of the golden ratio, no two near each other."""
     golden = 0.5 * (sqrt(5.0) - 1.0)
     return np.asarray((golden * np.arange(begin, begin + count)) % 1.0)
-
-

@@ -5,11 +5,12 @@ All readings are as the pump is expected to make them, at the prior mean of its 
 
 from __future__ import annotations
 
-from collections.abc import Collection
-from dataclasses import dataclass, replace
+from collections.abc import Collection, Sequence
+from dataclasses import dataclass, fields, replace
 
 import numpy as np
 
+from diagnosis.next_point.operating_box import rows
 from diagnosis.planning.further import DRAINS, DrainedBench
 from diagnosis.recording.model import Circuit, RecordedChannel, Recording, SteadyTable, TraceBlock
 from diagnosis.study.inputs import WARMER
@@ -28,6 +29,7 @@ from system.description.gap import Gap
 from system.description.pump import PumpDescription
 from system.description.tolerances import Tolerances
 from system.effects.catalogue.entries import CATALOGUE
+from system.effects.extension import Entry
 from system.estimation.observations import Channel, Observations
 from system.estimation.parameters import Parameter
 from system.estimation.posterior import values_at
@@ -84,9 +86,7 @@ class Responses:
         whitening = whitener(own, self.input_slopes[:, read][..., given])
         scale = np.ones(self.slopes.shape[2])
         scale[: len(self.parameters)] = [self._taken(one, channels) for one in self.parameters]
-        return White(
-            _laid_out(whitening, self.slopes[:, read] * scale), _laid_out(whitening, self.columns[:, read])
-        )
+        return White(_laid_out(whitening, self.slopes[:, read] * scale), _laid_out(whitening, self.columns[:, read]))
 
     @staticmethod
     def _taken(parameter: Parameter, channels: Collection[str]) -> float:
@@ -109,6 +109,12 @@ class Foreseen:
 
     study: Study
     responses: Responses
+    bench: DrainedBench
+
+    @property
+    def points(self) -> BenchPoints:
+        """The N points."""
+        return self.bench.bench.points
 
     @property
     def candidates(self) -> tuple[Candidate, ...]:
@@ -122,9 +128,13 @@ def foresee(
     meters: tuple[RecordedChannel, ...],
     tolerances: Tolerances,
     thresholds: Thresholds,
+    catalogue: Sequence[Entry] = CATALOGUE,
     report: Report = silent,
 ) -> Foreseen:
-    """Responses of all steady channels and of the drains of the gaps; raises NotConverged as the bench does."""
+    """Responses of all steady channels and of the drains of the gaps, to the candidates of a catalogue.
+
+    Raises NotConverged as the bench does.
+    """
     recording = _recording(pump, points, meters)
     bench = LumpedBench(pump, points, SIMULATED, _parameters(pump, recording, tolerances), inputs=INPUTS)
     centre = values_at(bench.parameters, np.zeros(len(bench.parameters)))
@@ -141,34 +151,30 @@ def foresee(
         sigma=np.hstack([steady.sigma, drain.sigma + drain.sigma_relative * np.abs(leaks)]),
         quantum=np.zeros(expected.shape[1]),
     )
-    study = _with_candidates(
-        study_of(recording, drained, whole, scaled_axes(recording), (), thresholds), thresholds, report
-    )
-    return Foreseen(study, _gauged(_responses(study, centre), leaks, drain))
+    bare = study_of(recording, drained, whole, scaled_axes(recording), (), thresholds)
+    study = _with_candidates(bare, catalogue, thresholds, report)
+    return Foreseen(study, _gauged(_responses(study, centre), leaks, drain), drained)
 
 
-def foresee_traces(foreseen: Foreseen, rows: tuple[int, ...], thresholds: Thresholds, report: Report = silent) -> White:
+def foresee_traces(
+    foreseen: Foreseen, points: tuple[int, ...], thresholds: Thresholds, report: Report = silent
+) -> White:
     """Responses of chamber traces at some of the points, beside the same parameters and candidates."""
-    study = foreseen.study
-    drained = study.simulator
-    if not isinstance(drained, DrainedBench):
-        raise TypeError(f"{type(drained).__name__}: expected the bench of foresee()")
-    chosen = list(rows)
-    points = replace(drained.bench.points, **{k: v[chosen] for k, v in vars(drained.bench.points).items()})
-    bench = drained.bench.elsewhere(points)
+    study, chosen = foreseen.study, np.array(points)
+    bench = foreseen.bench.bench.elsewhere(rows(foreseen.points, chosen))
     centre = values_at(bench.parameters, np.zeros(len(bench.parameters)))
     angles = 2.0 * np.pi * np.arange(TURN_ANGLES) / TURN_ANGLES
-    turns = bench.traces(centre, tuple(range(len(rows))), angles)
+    turns = bench.traces(centre, tuple(range(len(points))), angles)
     blocks = tuple(TraceBlock(at, angles, turn, None, 1) for at, turn in enumerate(turns))
     transducer = study.recording.channel(ChannelName.P_CHAMBER)
     if transducer is None:
         raise ValueError("no chamber transducer among the meters")
-    recording = replace(study.recording, steady=study.recording.steady.at(np.array(chosen)), traces=blocks)
+    recording = replace(study.recording, steady=study.recording.steady.at(chosen), traces=blocks)
     traced = traced_bench(bench, blocks, transducer)
     whole = traced.observations(observations(recording, SIMULATED, INPUTS))
-    own = _with_candidates(
-        study_of(recording, traced, whole, scaled_axes(recording), (), thresholds), thresholds, report
-    )
+    bare = study_of(recording, traced, whole, scaled_axes(recording), (), thresholds)
+    wanted = {one.entry.id for one in study.candidates}
+    own = _with_candidates(bare, [one for one in CATALOGUE if one.id in wanted], thresholds, report)
     known = {_key(one): one for one in own.candidates}
     empty = np.zeros(len(own.base.residual))
     aligned = tuple(
@@ -180,8 +186,15 @@ def foresee_traces(foreseen: Foreseen, rows: tuple[int, ...], thresholds: Thresh
     return replace(white, slopes=np.pad(white.slopes, ((0, 0), (0, 0), (0, gauges))))
 
 
-def _parameters(pump: PumpDescription, recording: Recording, tolerances: Tolerances) -> tuple[Parameter, ...]:
+def expected_parameters(
+    pump: PumpDescription, meters: tuple[RecordedChannel, ...], tolerances: Tolerances
+) -> tuple[Parameter, ...]:
     """All that is uncertain of pump and meters, those of traces too."""
+    none = BenchPoints(**{one.name: np.zeros(0) for one in fields(BenchPoints)})
+    return _parameters(pump, _recording(pump, none, meters), tolerances)
+
+
+def _parameters(pump: PumpDescription, recording: Recording, tolerances: Tolerances) -> tuple[Parameter, ...]:
     angle = np.zeros(1)
     traced = replace(recording, traces=(TraceBlock(0, angle, angle, None, 1),))
     meters = meter_parameters(recording, SIMULATED)
@@ -204,12 +217,12 @@ def _with_readings(recording: Recording, expected: Array) -> Recording:
     return replace(recording, steady=replace(recording.steady, values=values))
 
 
-def _with_candidates(study: Study, thresholds: Thresholds, report: Report) -> Study:
+def _with_candidates(study: Study, catalogue: Sequence[Entry], thresholds: Thresholds, report: Report) -> Study:
     """The study with every candidate of the catalogue."""
     found: list[Candidate] = []
     simulator: PumpSimulator = study.simulator
-    for number, entry in enumerate(CATALOGUE):
-        report(number, len(CATALOGUE), f"readings with {entry.id.value.replace('_', ' ')}")
+    for number, entry in enumerate(catalogue):
+        report(number, len(catalogue), f"readings with {entry.id.value.replace('_', ' ')}")
         found += entry_candidates(entry, simulator, study.base, thresholds.name.fault_factor)
     return replace(study, candidates=tuple(found))
 

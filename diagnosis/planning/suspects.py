@@ -13,15 +13,18 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from diagnosis.explain.hypotheses import Hypothesis, candidates_of, hypotheses
+from diagnosis.explain.hypotheses import Hypothesis, candidates_of, gap_of, hypotheses
 from diagnosis.planning.responses import Foreseen
 from diagnosis.report.explanations import explanation_words, named_apart
-from diagnosis.study.model import Candidate
+from diagnosis.study.model import Candidate, concerned
 from diagnosis.thresholds import Thresholds
 from reynolds.numerics.arrays import Array
 from system.bench.outputs import SIMULATED
+from system.effects.catalogue.entries import CATALOGUE
 from system.effects.effect import EffectId, Kind
+from system.effects.extension import Entry
 from system.estimation.evidence import Sign
+from system.estimation.parameters import Parameter
 from system.inputs.channels import ChannelName
 from system.inputs.units import format_quantity
 
@@ -63,6 +66,23 @@ def possible_suspects(foreseen: Foreseen, thresholds: Thresholds) -> tuple[Hypot
     return tuple(one for one in found if one.effects and one.component is None)
 
 
+def suspect_names(parameters: Sequence[Parameter]) -> tuple[str, ...]:
+    """Names of all suspects of a pump with these uncertain parameters, in the catalogue's order."""
+    return tuple(suspect_name(own) for entry in CATALOGUE for own in _of_entry(entry, parameters))
+
+
+def entries_of(names: Collection[str]) -> tuple[Entry, ...]:
+    """The entries of the catalogue that some suspects are of."""
+    return tuple(one for one in CATALOGUE if one.id.value in {name.partition(".")[0] for name in names})
+
+
+def _of_entry(entry: Entry, parameters: Sequence[Parameter]) -> Iterator[Hypothesis]:
+    for law in entry.extensions:
+        yield Hypothesis((entry.id,), law.pair, entry.verdict, law.parameters, (), 0.0, (law,))
+    for name in () if entry.extensions else concerned(entry.id, parameters):
+        yield Hypothesis((entry.id,), gap_of(name), entry.verdict, (), (name,), 0.0)
+
+
 def suspect_name(own: Hypothesis) -> str:
     """Name of a suspect on a command line: its id, with the place where it has one: "elastic_opening.slipper"."""
     if own.pair is not None:
@@ -99,9 +119,7 @@ def _suspect(
     foreseen: Foreseen, own: Hypothesis, campaign: NDArray[np.int64], thresholds: Thresholds, cost: float
 ) -> Suspect:
     places = {id(one): at for at, one in enumerate(foreseen.candidates)}
-    members = tuple(
-        tuple(places[id(one)] for one in candidates_of(foreseen.study, member)) for member in own.members
-    )
+    members = tuple(tuple(places[id(one)] for one in candidates_of(foreseen.study, member)) for member in own.members)
     members = tuple(one for one in members if one)
     middle = members[len(members) // 2]
     share = np.zeros(len(foreseen.candidates))
@@ -128,7 +146,7 @@ def _changes(foreseen: Foreseen, share: Array, campaign: NDArray[np.int64]) -> t
     responses = foreseen.responses
     readings, moved = responses.readings.values[campaign], (responses.columns @ share)[campaign]
     flow, drain, torque = (SIMULATED.index(one) for one in (ChannelName.Q_OUT, ChannelName.Q_CASE, ChannelName.TORQUE))
-    points = foreseen.study.simulator.bench.points
+    points = foreseen.points
     rise = (points.p_out - points.p_in)[campaign]
     efficiency = rise * readings[:, flow] / (readings[:, torque] * points.speed[campaign])
     relative = moved[:, flow] / readings[:, flow] - moved[:, torque] / readings[:, torque]

@@ -1,0 +1,1 @@
+"""Page of the check of planned campaigns, from the kept trials."""
