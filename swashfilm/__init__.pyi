@@ -11,6 +11,7 @@ from .api import (
     map as map,
     new as new,
     open as open,
+    plan as plan,
     reference as reference,
     reproduce as reproduce,
     run as run,

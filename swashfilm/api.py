@@ -34,6 +34,7 @@ if TYPE_CHECKING:
     from swashfilm.runs.film.series.result import StudyRun
     from swashfilm.runs.map.duty.result import DutyRun
     from swashfilm.runs.map.result import MapRun
+    from swashfilm.runs.plan.result import PlanRun
     from swashfilm.runs.pump.result import PumpRun
     from swashfilm.runs.pump.vary.result import VariedRun
     from swashfilm.runs.reference.result import ReferenceRun
@@ -67,7 +68,7 @@ _OF_COMMAND_LINE = (
 )
 _RESULTS = (
     "pump", "pump.vary", "film", "film.revolution", "film.series", "map", "map.duty", "compare", "table", "transient",
-    "reference", "reproduce", "diagnose", "calibrate", "variation.sensitivity", "variation.tolerance",
+    "plan", "reference", "reproduce", "diagnose", "calibrate", "variation.sensitivity", "variation.tolerance",
 )  # fmt: skip
 """Rooms of `swashfilm.runs` with results."""
 
@@ -343,6 +344,40 @@ def export(of: MapRun | str | Path, to: str, output: str | Path | None = None) -
     for warning in written.warnings:
         warnings.warn(warning, stacklevel=2)
     return written.paths
+
+
+def plan(
+    pump: str | Path | PumpDescription = "ref90",
+    *,
+    speeds: Quantity | Sequence[Quantity] | None = None,
+    pressures: Quantity | Sequence[Quantity] | None = None,
+    displacements: Quantity | Sequence[Quantity] | None = None,
+    temperatures: Quantity | Sequence[Quantity] | None = None,
+    campaign: str | Path | None = None,
+    sensors: str | None = None,
+    suspects: str | Sequence[str] | None = None,
+    add: int | None = None,
+    limit: str | Sequence[str] = (),
+    report: Report = silent,
+    **options: object,
+) -> PlanRun:
+    """Plan a test: what its points tell apart, and which points and meters to add, as `swashfilm plan`.
+
+    limit: limits of the bench, ["speed <= 1800 rpm"]. options: inlet_pressures, plan, cost, apart, set. Raises
+    InputFaults and NotConverged.
+    """
+    limits = [limit] if isinstance(limit, str) else list(limit)
+    given = {
+        "speeds": speeds, "pressures": pressures, "displacements": displacements, "temperatures": temperatures,
+        "campaign": campaign, "sensors": sensors, "suspects": suspects, "add": add, "limit": limits,
+    }  # fmt: skip
+    with _door("plan"), _pump_file(pump) as name:
+        from swashfilm.runs.plan.case import plan_case
+        from swashfilm.runs.plan.result import PlanRun
+        from swashfilm.runs.plan.run import run_plan
+
+        case = plan_case(_words("plan", [name], given | options))
+        return PlanRun.ran(lambda folder: run_plan(case, folder, report))
 
 
 def transient(case: Case) -> TransientRun:

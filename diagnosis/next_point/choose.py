@@ -114,8 +114,8 @@ def next_point(
         RankedPoint(operating_at(pump, some, place), float(some.T_in[place]), float(gains[place])) for place in order
     )
     before = log(first.probability / second.probability)
-    best = found.at(at)
-    after, chance = _led_to(best, before, limits)
+    there = found.at(at)
+    after, chance = _led_to(there, before, limits)
     return NextPoint(
         box=box,
         point=ranked[0].point,
@@ -126,7 +126,7 @@ def next_point(
         gain=float(gains[at]),
         after=after,
         chance=chance,
-        repeats=next((n for n in range(1, limits.most_repeats + 1) if best.gain(n) >= limits.enough), None),
+        repeats=next((n for n in range(1, limits.most_repeats + 1) if there.gain(n) >= limits.enough), None),
         expected=_expected(study, first, second, rows(some, np.array([at]))),
         limits=limits,
         ranked=ranked,

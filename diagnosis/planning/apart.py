@@ -1,8 +1,8 @@
 """How far apart a campaign tells suspects: distances in sigma, and what one reading more promises.
 
-The readings of suspect i are those of the pump and its own columns at its size, y = y0 + J xi + V t_i + noise. The rival
-j follows them as well as it can, by the uncertain parameters xi of priors N(0, 1) and by its own sizes b of priors
-N(0, w^2), of the sign that they can have:
+The readings of suspect i are those of the pump and its own columns at its size, y = y0 + J xi + V t_i + noise. Its
+rival j follows them as well as it can, by the uncertain parameters xi of priors N(0, 1) and by its own sizes b of
+priors N(0, w^2), of the sign that they can have:
 
     d_ij^2 = min over xi, b |W^(1/2) (V t_i - J xi - V_j b)|^2 + |xi|^2 + |b / w|^2
 
@@ -26,6 +26,7 @@ from diagnosis.next_point.discrimination import promise
 from diagnosis.next_point.forecast import Forecast
 from diagnosis.planning.responses import White
 from diagnosis.planning.suspects import Suspect
+from diagnosis.thresholds import FormLimits
 from reynolds.numerics.arrays import Array
 
 
@@ -113,6 +114,18 @@ class Contest:
         spread = left[..., free]
         stiff = apart.fitted.content[np.ix_(free, free)] + np.diag(self.widths[free] ** -2.0)
         return difference, spread @ np.linalg.inv(stiff) @ np.swapaxes(spread, 1, 2)
+
+    def told(self, apart: Apart, wanted: float, limits: FormLimits) -> NDArray[np.bool_]:
+        """(S, S), true for pairs that are `wanted` sigma apart, and farther than the error of form of their laws.
+
+        That error leaves a share of the square of the suspect that stands out less: of a law off by a tenth `true_to`,
+        of one effect at two places `placed_by`. A diagnosis takes what lies within it for one class.
+        """
+        effects = [one.effect for one in self.suspects]
+        same = np.array([[one is other for other in effects] for one in effects])
+        share = np.where(same, limits.placed_by, limits.true_to)
+        least = np.minimum(apart.seen[:, None], apart.seen[None, :])
+        return np.asarray(apart.distances >= np.maximum(wanted, np.sqrt(share * np.maximum(least, 0.0))))
 
     def _left(self, fitted: Fitted) -> Array:
         """(N, m, Q), columns less what the fitted parameters take of them."""
@@ -209,7 +222,7 @@ class PairCampaign:
 
     def _gains(self, apart: Apart, pairs: Sequence[tuple[int, int]], levels: Array) -> Array:
         """(P, N), rise of the lesser of both directions of each pair by one reading."""
-        both = [self._direction(apart, [pair[::step] for pair in pairs]) for step in (1, -1)]
+        both = self._direction(apart, pairs), self._direction(apart, [(other, one) for one, other in pairs])
         return np.minimum(*both) - levels[:, None]
 
     def _direction(self, apart: Apart, pairs: Sequence[tuple[int, int]]) -> Array:

@@ -8,11 +8,11 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from diagnosis.planning.apart import Apart, Contest, all_pairs
+from diagnosis.planning.apart import Contest, all_pairs
 from diagnosis.planning.further import DRAINS
 from diagnosis.planning.responses import Foreseen, White, foresee_traces
 from diagnosis.report.format import PLACES
-from diagnosis.thresholds import Thresholds
+from diagnosis.thresholds import FormLimits, Thresholds
 from reynolds.numerics.arrays import Array
 from system.inputs.channels import ChannelName
 from system.work.progress import Report, silent
@@ -84,17 +84,19 @@ def _further(
 
 def meter_worths(
     contest: Contest,
-    without: Apart,
+    told: frozenset[tuple[int, int]],
     counts: NDArray[np.int64],
     meters: Sequence[FurtherMeter],
     wanted: float,
+    limits: FormLimits,
     report: Report = silent,
 ) -> tuple[MeterWorth, ...]:
-    """What each meter adds to the pairs that are apart by so many readings (N,), the best first."""
-    before, found = without.distances, []
+    """What each meter adds to the pairs `told` by so many readings (N,), the best first."""
+    found = []
     for number, meter in enumerate(meters):
         report(number, len(meters), f"campaign with {meter.words}")
-        distances = meter.added_to(contest).apart(counts).distances
-        pairs = [pair for pair in all_pairs(len(before)) if distances[pair] >= wanted > before[pair]]
-        found.append(MeterWorth(meter.name, meter.words, tuple(pairs), distances))
+        apart = meter.added_to(contest).apart(counts)
+        with_it = contest.told(apart, wanted, limits)
+        pairs = [pair for pair in all_pairs(len(with_it)) if with_it[pair] and pair not in told]
+        found.append(MeterWorth(meter.name, meter.words, tuple(pairs), apart.distances))
     return tuple(sorted(found, key=lambda one: -len(one.pairs)))

@@ -34,8 +34,8 @@ class Asked:
     """A campaign as planned, and what may be added to it.
 
     planned: points as they are to be driven, with their readings `repeats`; possible: points that may be added;
-    channels: those of the bench; most: readings to add at most; cost: of efficiency, the size of every suspect; apart: sigma from which on a pair is told,
-    None: `wanted_distance`.
+    channels: those of the bench; most: readings to add at most; cost: of efficiency, the size of every suspect; apart:
+    sigma from which on a pair is told, None: `wanted_distance`.
     """
 
     planned: BenchPoints
@@ -72,8 +72,8 @@ class Plan:
 
     points: N, the planned first; planned, counts: readings at each (N,), as asked and with the added. before, after,
     ever: (S, S), sigma, by the planned campaign, with the added points, and with MANY readings at every point; seen:
-    (S,), sigma from nothing at all, with the added points. wanted: sigma from which on a pair is apart. never: pairs
-    that no point tells apart; worths: of further meters beside the campaign with its added points.
+    (S,), sigma from nothing at all, with the added points. wanted: sigma from which on a pair is apart. told_planned,
+    told: pairs that are, and farther than their laws are true (`Contest.told`). never: pairs that no point tells apart; worths: of further meters beside the campaign with its added points.
     """
 
     points: BenchPoints
@@ -89,6 +89,8 @@ class Plan:
     added: tuple[Purpose, ...]
     totals: tuple[float, ...]
     most: int
+    told_planned: tuple[tuple[int, int], ...]
+    told: tuple[tuple[int, int], ...]
     never: tuple[Never, ...]
     worths: tuple[MeterWorth, ...]
     shows: tuple[str, ...]
@@ -98,15 +100,10 @@ class Plan:
         """Every pair of suspects."""
         return all_pairs(len(self.suspects))
 
-    def told(self, distances: Array) -> tuple[tuple[int, int], ...]:
-        """The pairs that are apart at these distances."""
-        hopeless = {one.pair for one in self.never}
-        return tuple(pair for pair in self.pairs if distances[pair] >= self.wanted and pair not in hopeless)
-
     @property
     def open(self) -> tuple[tuple[int, int], ...]:
         """The pairs that points could tell apart, and the campaign with its added points does not."""
-        settled = {*self.told(self.after), *(one.pair for one in self.never)}
+        settled = {*self.told, *(one.pair for one in self.never)}
         return tuple(pair for pair in self.pairs if pair not in settled)
 
     @property
@@ -145,13 +142,13 @@ def plan_campaign(
     everywhere = np.full(len(counts), MANY)
     ever = contest.apart(everywhere)
     weighed = further_meters(foreseen, asked.channels, campaign, thresholds, report) if meters is None else meters
-    never = never_apart(contest, ever, everywhere, weighed, wanted, thresholds)
+    never = never_apart(contest, ever, everywhere, weighed, wanted)
     pairs = tuple(pair for pair in all_pairs(len(suspects)) if pair not in {one.pair for one in never})
     pair_campaign = PairCampaign(contest, pairs, wanted)
     added = added_points(pair_campaign, counts, np.maximum(counts, limits.readings), asked.most, LEAST, report)
     reached = counts + np.bincount(added.points, minlength=len(counts)).astype(np.int64)
     before, after = contest.apart(counts), contest.apart(reached)
-    return Plan(
+    found = Plan(
         points=asked.points,
         planned=counts,
         counts=reached,
@@ -165,10 +162,18 @@ def plan_campaign(
         added=_purposes(pair_campaign, counts, added),
         totals=added.totals,
         most=asked.most,
+        told_planned=_pairs(contest.told(before, wanted, thresholds.form)),
+        told=_pairs(contest.told(after, wanted, thresholds.form)),
         never=never,
-        worths=meter_worths(contest, after, reached, weighed, wanted, report),
+        worths=(),
         shows=_shows(foreseen, contest, asked.channels),
     )
+    worths = meter_worths(contest, frozenset(found.told), reached, weighed, wanted, thresholds.form, report)
+    return replace(found, worths=worths)
+
+
+def _pairs(told: NDArray[np.bool_]) -> tuple[tuple[int, int], ...]:
+    return tuple(pair for pair in all_pairs(len(told)) if told[pair])
 
 
 def _shows(foreseen: Foreseen, contest: Contest, channels: Collection[str]) -> tuple[str, ...]:

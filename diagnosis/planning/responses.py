@@ -58,8 +58,8 @@ class White:
 class Responses:
     """Expected readings of all C channels at N points, SI, with what changes them.
 
-    slopes: (N, C, k), by one sigma of each of `parameters` and of further meters; columns: (N, C, Q), by one spread of each candidate;
-    input_slopes: (N, C, M), SI per SI.
+    slopes: (N, C, k), by one sigma of each of `parameters` and of further meters; columns: (N, C, Q), by one
+    spread of each candidate; input_slopes: (N, C, M), SI per SI.
     """
 
     readings: Observations
@@ -190,8 +190,8 @@ def expected_parameters(
     pump: PumpDescription, meters: tuple[RecordedChannel, ...], tolerances: Tolerances
 ) -> tuple[Parameter, ...]:
     """All that is uncertain of pump and meters, those of traces too."""
-    none = BenchPoints(**{one.name: np.zeros(0) for one in fields(BenchPoints)})
-    return _parameters(pump, _recording(pump, none, meters), tolerances)
+    one = BenchPoints(**{field.name: np.full(1, np.nan) for field in fields(BenchPoints)})
+    return _parameters(pump, _recording(pump, one, meters), tolerances)
 
 
 def _parameters(pump: PumpDescription, recording: Recording, tolerances: Tolerances) -> tuple[Parameter, ...]:

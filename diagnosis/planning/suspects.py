@@ -162,5 +162,6 @@ def _sizes(foreseen: Foreseen, member: Collection[int], truth: Array) -> Iterato
         law = () if one.extension is None else one.extension.parameters
         parameter = next((each for each in law if each.name == one.parameter), None) or known[one.parameter]
         value = parameter.value(float(truth[at]))
-        plain = parameter.dimension is None
-        yield f"{one.parameter} {f'{value:.3g}' if plain else format_quantity(value, parameter.dimension, digits=3)}"
+        dimension = parameter.dimension
+        shown = f"{value:.3g}" if dimension is None else format_quantity(value, dimension, digits=3)
+        yield f"{one.parameter} {shown}"

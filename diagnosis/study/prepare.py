@@ -71,8 +71,8 @@ def prepare(
     )
     usable = replace(usable, notes=(*usable.notes, *taken, *unused))
     parameters = (
-        *uncertain_parameters(pump, tolerances, films), *meter_parameters(usable, channels), *assumed_parameters(usable, pump),
-        *trace_parameters(usable),
+        *uncertain_parameters(pump, tolerances, films), *meter_parameters(usable, channels),
+        *assumed_parameters(usable, pump), *trace_parameters(usable),
     )  # fmt: skip
     bench = LumpedBench(
         pump, points, channels, parameters, inputs=inputs, own_laws=None if films is None else films.own_laws(pump)

@@ -31,8 +31,8 @@ from swashfilm.runs.variation.tolerance import command as tolerance
 from system.inputs.faults import Fault, InputFaults, nearest_choice
 
 _MODULES = (
-    run, film, table, transient, operating_map, duty, compare, sensitivity, tolerance, export, plan, diagnose, calibrate,
-    reference, coefficients, reproduce, report, new, check, doctor, schema,
+    run, film, table, transient, operating_map, duty, compare, sensitivity, tolerance, export, plan, diagnose,
+    calibrate, reference, coefficients, reproduce, report, new, check, doctor, schema,
 )  # fmt: skip
 COMMANDS: dict[str, Command] = {module.COMMAND.name: module.COMMAND for module in _MODULES}
 

@@ -20,14 +20,13 @@ from diagnosis.study.acceptance import checked_recording
 from diagnosis.study.model import Study
 from diagnosis.study.prepare import prepare
 from diagnosis.thresholds import Thresholds, load_thresholds
-from system.bench.points import BenchPoints
 from system.description.tolerances import tolerances
 from system.effects.effect import Kind
 from system.inputs.channels import ChannelName
 from system.pump_file.file import load_known_pump
 
 from ..campaigns import Campaign, campaigns, held
-from ..cases import PARAMETERS, PHYSICS, SENSORS, NEEDS, Case, Concealed
+from ..cases import NEEDS, PARAMETERS, PHYSICS, SENSORS, Case, Concealed
 from ..parts import Part
 from ..plant.bench import run
 from ..recordings import STEPS, Made, make

@@ -17,6 +17,8 @@ AXES = {
     "temperature": MapInput.TEMPERATURE,
 }  # fmt: skip
 """Axes of a box in their order, by the name that a limit uses."""
+RATED = ("speed", "pressure")
+"""Axes whose upper end is a rating of the pump."""
 _LIMIT = re.compile(r"\s*(.+?)\s*(>=|<=)\s*(.+?)\s*")
 EXAMPLE = "a quantity, >= or <=, and a value, such as 'speed <= 1800 rpm'"
 
@@ -52,11 +54,11 @@ def limited(box: BenchBox, texts: Sequence[str], faults: list[Fault]) -> BenchBo
 def widened(box: BenchBox, stated: Sequence[str], points: Sequence[Sequence[float]]) -> BenchBox:
     """Return the box with the planned points in it, along the axes whose ends no limit states.
 
-    points: the values of each axis.
+    points: the values of each axis. Speed and pressure stay below the rating, unless a limit allows more.
     """
     named = {match[1].lower().replace("_", " ") for one in stated if (match := _LIMIT.fullmatch(one))}
     ends = tuple(
-        own if name in named else (min(own[0], *values), max(own[1], *values))
+        own if name in named else (min(own[0], *values), own[1] if name in RATED else max(own[1], *values))
         for name, own, values in zip(AXES, box.ends, points, strict=True)
     )
     return replace(box, ends=ends)
@@ -71,7 +73,7 @@ def beyond(box: BenchBox, points: Sequence[Sequence[float]], what: str) -> list[
         if outside:
             shown = ", ".join(given.text(one) for one in outside[:6]) + (" .." if len(outside) > 6 else "")
             nearest = ", ".join(dict.fromkeys(given.text(min(max(one, lower), upper)) for one in outside))
-            limits = f"{given.text(lower)} to {given.text(upper)}, the limits of the bench"
+            limits = f"{given.text(lower)} to {given.text(upper)}, the limits of pump and bench"
             found.append(Fault(what, f"{name} {shown}", limits, nearest))
     return found
 

@@ -71,23 +71,24 @@ def plan_answer(summary: Mapping[str, Any]) -> Answer:
 
 def _sentences(summary: Mapping[str, Any]) -> Iterator[str]:
     pairs, told = summary["pairs"], summary["told_planned"]
-    yield f"The planned test, {_readings(summary['planned_readings'])}, tells {told} of {pairs} pairs of suspects apart."
-    added = summary["added_readings"]
+    planned, added = _readings(summary["planned_readings"]), summary["added_readings"]
+    yield f"The planned test, {planned}, tells {told} of {pairs} pairs of suspects apart."
     if added:
-        yield f"With {_readings(added)} more it tells {summary['told']}; points.csv lists them all in the order to drive."
+        yield f"With {_readings(added)} more it tells {summary['told']}; points.csv lists all in the order to drive."
     elif summary["most_added"] and told < pairs:
         yield "No further point tells more."
     if summary["spent"]:
         yield f"More readings than {summary['most_added']} would tell more: --add N allows them."
     best = _best(summary)
     if best is not None:
-        yield f"The most useful further meter is {best['words']}: it tells {len(best['pairs'])} pairs more."
+        yield f"The most useful further meter is {best['words']}: {len(best['pairs'])} pairs more."
     elif summary["further"] and summary["told"] < pairs:
         yield "No further meter tells more."
     yield from _never(summary)
+    cost = 100.0 * summary["cost_of_efficiency"]
     yield (
-        f"Each suspect has the size that costs {100.0 * summary['cost_of_efficiency']:g} points of efficiency on average, "
-        "or moves the drain by half, or its largest likely size where that is less."
+        f"Each suspect has the size that costs {cost:g} point{'s' if cost != 1.0 else ''} of efficiency on average or "
+        "moves the drain by half, its largest likely size where that is less."
     )
 
 
@@ -106,7 +107,8 @@ def _never(summary: Mapping[str, Any]) -> Iterator[str]:
         yield f"No point shows {listed(some, 'or')} at such a size."
     if alike:
         some = [rows.pair_words(summary, pair) for pair in alike[:3]]
-        more = f", and {len(alike) - 3} pairs more" if len(alike) > 3 else ""
+        rest = len(alike) - 3
+        more = f", nor {rest} pair{'s' if rest > 1 else ''} more" if rest > 0 else ""
         yield f"No point tells {'; '.join(some)}{more}."
 
 

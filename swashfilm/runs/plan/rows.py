@@ -22,12 +22,11 @@ FURTHER_HEAD = ("a further meter", "pairs that it tells apart", "among them")
 SUSPECT_HEAD = ("suspect", "size", "costs", "stands out by", "shows most in")
 SENSOR_HEAD = ("meter", "one sigma of a reading", "calibration: gain", "zero", "")
 NEVER_HEAD = ("never told apart", "why", "what would tell")
-OPEN_HEAD = ("still open", "apart by")
+OPEN_HEAD = ("still open", "apart by", "")
 NAMED = 4
 """Pairs that a cell names."""
 REASONS = {
     "same_form": "both change the {channel} in the same way over speed, pressure, displacement and temperature",
-    "near_form": "they differ by less than such laws are true, mostly in the {channel}",
     "unseen": "{unseen} hardly moves any reading of this bench",
 }
 
@@ -119,10 +118,12 @@ def _meters(summary: Summary, names: Sequence[str]) -> str:
     return listed((words[name] for name in names), "or") if names else "no meter that is known here"
 
 
-def open_rows(summary: Summary, most: int = 20) -> Iterator[tuple[str, str]]:
+def open_rows(summary: Summary, most: int = 20) -> Iterator[tuple[str, str, str]]:
     """Yield the pairs that points could tell apart and these do not, the nearest first."""
     for pair in summary["open_pairs"][:most]:
-        yield pair_words(summary, pair), f"{summary['distances'][pair[0]][pair[1]]:.1f} sigma"
+        distance = summary["distances"][pair[0]][pair[1]]
+        why = "differ by less than such laws are true" if distance >= summary["apart_sigma"] else ""
+        yield pair_words(summary, pair), f"{distance:.1f} sigma", why
 
 
 def count_rows(summary: Summary) -> Iterator[tuple[str, str]]:

@@ -49,7 +49,9 @@ def bench_of(text: str | None, faults: list[Fault]) -> Bench:
 
 
 def _state(bench: Bench, channel: ChannelName, text: str, faults: list[Fault]) -> None:
-    example = f"a sigma above 0 with its unit, such as 0.1 {difference_unit(channel)}, or a share, such as 0.2%"
+    warm = channel.dimension is Dimension.TEMPERATURE
+    share = "" if warm else ", or a share, such as 0.2%"
+    example = f"a sigma above 0 in {difference_unit(channel)}, such as 0.1 {difference_unit(channel)}{share}"
     try:
         stated = _sigma(channel, text)
     except (QuantityError, ValueError) as reason:

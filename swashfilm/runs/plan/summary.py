@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from typing import Any
 
 import numpy as np
@@ -19,7 +19,7 @@ INPUTS = ("speed", "p_out", "displacement_ratio", "T_case", "T_in", "p_in", "p_c
 
 def plan_summary(case: PlanCase, found: Plan, unseen: tuple[str, ...], seconds: float) -> dict[str, Any]:
     """Return the summary. unseen: names of asked suspects that no meter of the bench shows at all."""
-    before, after, never = found.told(found.before), found.told(found.after), found.never
+    before, after, never = found.told_planned, found.told, found.never
     return {
         "format": 1,
         "kind": "plan",
@@ -102,7 +102,7 @@ def _never(one: Never) -> dict[str, Any]:
     }
 
 
-def hopeless(summary: dict[str, Any]) -> np.ndarray:
+def hopeless(summary: Mapping[str, Any]) -> np.ndarray:
     """Return (S, S), true for pairs that no point tells apart."""
     count = len(summary["suspects"])
     found = np.zeros((count, count), dtype=bool)

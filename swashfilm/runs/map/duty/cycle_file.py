@@ -73,7 +73,7 @@ def _levels(axes: tuple[MapAxis, ...], given: MapInput) -> int:
 
 
 def input_columns(
-    head: Sequence[str],
+    head: list[str],
     dimensions: Mapping[str, Dimension | None],
     example: str,
     faults: list[Fault],
