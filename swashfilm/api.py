@@ -372,7 +372,7 @@ def plan(
         "campaign": campaign, "sensors": sensors, "suspects": suspects, "add": add, "limit": limits,
     }  # fmt: skip
     with _door("plan"), _pump_file(pump) as name:
-        from swashfilm.runs.plan.case import plan_case
+        from swashfilm.runs.plan.command import plan_case
         from swashfilm.runs.plan.result import PlanRun
         from swashfilm.runs.plan.run import run_plan
 

@@ -73,7 +73,9 @@ class Plan:
     points: N, the planned first; planned, counts: readings at each (N,), as asked and with the added. before, after,
     ever: (S, S), sigma, by the planned campaign, with the added points, and with MANY readings at every point; seen:
     (S,), sigma from nothing at all, with the added points. wanted: sigma from which on a pair is apart. told_planned,
-    told: pairs that are, and farther than their laws are true (`Contest.told`). never: pairs that no point tells apart; worths: of further meters beside the campaign with its added points.
+    told: pairs that are, and farther than their laws are true (`Contest.told`). never: pairs that no point tells apart.
+    worths: of further meters beside the campaign with its added points; shows: the channel in which each suspect shows
+    most.
     """
 
     points: BenchPoints

@@ -15,8 +15,8 @@ CONTENTS = {
     "Start": ("/README", "tutorial", "gallery", "examples/index", "notebooks/film", "notebooks/pump", "wrong_results"),
     "Reference": ("files", "conventions", "Files of the examples </examples/README>", "/meshes/README",
                   "cluster", "api/index"),
-    "Background": ("theory", "architecture", "validation", "proof", "proof_floating", "Reproduction <reproduction>",
-                   "Reproduction with films <reproduction_fixed>",
+    "Background": ("theory", "architecture", "validation", "proof", "proof_floating", "plan_check",
+                   "Reproduction <reproduction>", "Reproduction with films <reproduction_fixed>",
                    "Reproduction with floating films <reproduction_floating>", "benchmarks", "/CHANGELOG"),
 }  # fmt: skip
 """Pages by their place in the menu, relative to docs/; a title in front of <page> stands for the page's own."""

@@ -40,7 +40,7 @@ GRID = "grid"
 SCORE = 8.0
 """z of what is concealed, by the grid: it is seen, and seldom named."""
 ODDS = 20.0
-CORNERS = 8
+CORNERS, ADDED = 8, 28
 APART = 7.0
 """Sigma of every pair that the plan aims at, so that it spends as many readings as the grid."""
 LEVELS = (5, 5, 3, 3)
@@ -172,7 +172,7 @@ def _planned(names: list[str], campaign: Campaign, thresholds: Thresholds) -> Pl
         np.ones(CORNERS, dtype=np.int64),
         replace(possible, order=spread_order(len(possible.speed), CORNERS)),
         tuple(_standard(name) for name in (*campaign.inputs, *campaign.outputs)),
-        campaign.points.speed.size - CORNERS,
+        ADDED,
         apart=APART,
     )
     allowed, catalogue = tolerances(pump)[0], entries_of(names)

@@ -24,7 +24,6 @@ from swashfilm.console.levels import map_axis
 from swashfilm.console.settings import set_values
 from swashfilm.runs.map.command import LEVELS, by_option
 from swashfilm.runs.plan.campaign_file import axis_values, read_campaign
-from swashfilm.runs.plan.command import PLANS
 from swashfilm.runs.plan.limits import AXES, beyond, limited, widened
 from swashfilm.runs.plan.sensors import Bench, bench_of
 from system.bench.points import BenchPoints
@@ -58,9 +57,9 @@ class PlanCase:
     box: BenchBox
 
 
-def plan_case(options: argparse.Namespace) -> PlanCase:
-    """Return the test of a command line; raise InputFaults with every fault."""
-    faults = [*_word_faults(options)]
+def planned_case(options: argparse.Namespace, plans: Sequence[str]) -> PlanCase:
+    """Return the test of a command line, with a word of `plans` for --plan; raise InputFaults with every fault."""
+    faults = [*_word_faults(options, plans)]
     set_keys = set_values(options.set, faults)
     axes = _stated_axes(options, faults)
     bench = bench_of(options.sensors, faults)
@@ -89,9 +88,9 @@ def plan_case(options: argparse.Namespace) -> PlanCase:
     return PlanCase(pump, given_text(options.pump, set_keys), own, asked, channels, names, box)
 
 
-def _word_faults(options: argparse.Namespace) -> Iterator[Fault]:
-    if options.plan not in PLANS:
-        yield Fault("--plan", repr(options.plan), f"one of {', '.join(PLANS)}", nearest_choice(options.plan, PLANS))
+def _word_faults(options: argparse.Namespace, plans: Sequence[str]) -> Iterator[Fault]:
+    if options.plan not in plans:
+        yield Fault("--plan", repr(options.plan), f"one of {', '.join(plans)}", nearest_choice(options.plan, plans))
     if options.campaign is not None:
         for option in LEVELS:
             if option_value(options, option) is not None:

@@ -4,11 +4,15 @@ from __future__ import annotations
 
 import argparse
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from swashfilm.console.command import Command
 from swashfilm.console.settings import add_set_option
 from swashfilm.console.terminal import show_result
 from swashfilm.runs.map.command import LEVELS
+
+if TYPE_CHECKING:
+    from swashfilm.runs.plan.case import PlanCase
 
 PLANS = ("grid", "paper", "point")
 STEPS = 100
@@ -52,7 +56,6 @@ def run_plan_command(options: argparse.Namespace) -> int:
     from swashfilm.console.assumed import show_assumed
     from swashfilm.console.progress import progress
     from swashfilm.output.run_folder import run_folder
-    from swashfilm.runs.plan.case import plan_case
     from swashfilm.runs.plan.result import PlanRun
     from swashfilm.runs.plan.run import run_plan
 
@@ -64,6 +67,13 @@ def run_plan_command(options: argparse.Namespace) -> int:
         found = PlanRun.opened(folder)
     show_result(found, folder)
     return 0
+
+
+def plan_case(options: argparse.Namespace) -> PlanCase:
+    """Return the test of a command line; raise InputFaults with every fault."""
+    from swashfilm.runs.plan.case import planned_case
+
+    return planned_case(options, PLANS)
 
 
 COMMAND = Command("plan", "what a test will tell apart, and which points to add", add_plan_options, run_plan_command)

@@ -102,7 +102,8 @@ def test_all_faults_come_at_once(tmp_path: Path, capsys: pytest.CaptureFixture[s
     for expected in (
         "'churnin', nothing that is known", "churning", "'flow_lag', which steady readings do not show",
         "'Q_in_gain', the fault of a meter that the bench lacks", "'Q_ot', no meter of a bench", "Q_out",
-        "torque=-1Nm", "--add\n    found:    'x'", "'sped', no input that a bench sets", "speed", "'fast'", "--cost", "--apart",
+        "torque=-1Nm", "--add\n    found:    'x'", "'sped', no input that a bench sets", "speed", "'fast'", "--cost",
+        "--apart",
         "--plan\n    found:    'gird'", "try:      grid", "99 MPa",
     ):  # fmt: skip
         assert expected in told
