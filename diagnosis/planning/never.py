@@ -13,10 +13,15 @@ from diagnosis.planning.apart import Apart, Contest, all_pairs
 from diagnosis.planning.further_meters import FurtherMeter
 
 
+NEARLY_ALL = 0.7
+"""Of what a suspect stands out by: a distance above it is limited by that, not by the form."""
+
+
 class Reason(Enum):
     """Why no point tells two suspects apart."""
 
     UNSEEN = "one of the two hardly moves these readings"
+    WEAK = "one of the two stands out too little for a difference to show"
     SAME_FORM = "both move these readings in the same way over the whole range"
 
 
@@ -44,5 +49,6 @@ def never_apart(
         if distances[pair] >= wanted:
             continue
         helpful = tuple(one for one, apart in zip(meters, with_meters, strict=True) if apart.distances[pair] >= wanted)
-        found.append(Never(pair, Reason.UNSEEN if unseen else Reason.SAME_FORM, unseen, helpful))
+        reason = Reason.WEAK if distances[pair] > NEARLY_ALL * min(seen[at] for at in pair) else Reason.SAME_FORM
+        found.append(Never(pair, Reason.UNSEEN if unseen else reason, unseen, helpful))
     return tuple(found)

@@ -15,12 +15,12 @@ HEAD = """# Check of planned campaigns
 
 Does a campaign of `swashfilm plan` settle what a grid of the same size leaves open? The pump is the plant of the
 [proof](proof.md), a simulation of another make with its own laws, noise, calibrations and tolerances. Something is
-concealed in it, one thing at a time in a drawn order, as large as a score of {score:g} by the grid: it is seen, and seldom
-named. The bench reads delivery flow, case drain, torque and all inputs at 36 points (two temperatures, two
+concealed in it, one thing at a time in a drawn order, as large as a score of {score:g} by the grid: it is seen, and
+seldom named. The bench reads delivery flow, case drain, torque and all inputs at 36 points (two temperatures, two
 displacements, three speeds, three pressures). A diagnosis follows. Each rival that it leaves open beside the truth, at
-odds below {odds:g} to 1, makes a pair. The truth and its open rivals are the suspects of a plan: {corners} corners of the
-same range, and up to {added} readings added. These are recorded on the same pump with the bench calibrated anew, and
-diagnosed by themselves, without the grid. A pair is settled at odds of {odds:g} to 1 for the truth.
+odds below {odds:g} to 1, makes a pair. The truth and its open rivals are the suspects of a plan: {corners} corners of
+the same range, and up to {added} readings added. These are recorded on the same pump with the bench calibrated anew,
+and diagnosed by themselves, without the grid. A pair is settled at odds of {odds:g} to 1 for the truth.
 
 Written by `python benchmarks/plan_check.py`.
 """

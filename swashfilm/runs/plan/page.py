@@ -101,7 +101,7 @@ def _never(summary: Mapping[str, Any]) -> Iterator[str]:
         for at, one in enumerate(summary["suspects"])
         if any(at in each["unseen"] for each in summary["never_apart"])
     ]
-    alike = [one["pair"] for one in summary["never_apart"] if not one["unseen"]]
+    alike = [one["pair"] for one in summary["never_apart"] if one["reason"] == "same_form"]
     if unseen:
         some = [*unseen[:4], f"{len(unseen) - 4} more"] if len(unseen) > 5 else unseen
         yield f"No point shows {listed(some, 'or')} at such a size."

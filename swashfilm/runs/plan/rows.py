@@ -27,7 +27,7 @@ NAMED = 4
 """Pairs that a cell names."""
 REASONS = {
     "same_form": "both change the {channel} in the same way over speed, pressure, displacement and temperature",
-    "unseen": "{unseen} hardly moves any reading of this bench",
+    "weak": "{weaker} stands out by {seen:.1f} sigma in all, too little for a difference to show",
 }
 
 
@@ -108,8 +108,9 @@ def never_rows(summary: Summary) -> Iterator[tuple[str, ...]]:
             yield f"{own['words']} from anything", why, _meters(summary, meters)
     for one in summary["never_apart"]:
         if not one["unseen"]:
-            channel = channel_of(summary["suspects"][one["pair"][0]]["shows_in"])
-            why = REASONS[one["reason"]].format(channel=channel)
+            weaker = min((summary["suspects"][at] for at in one["pair"]), key=lambda own: own["seen_sigma"])
+            channel = channel_of(weaker["shows_in"])
+            why = REASONS[one["reason"]].format(channel=channel, weaker=weaker["words"], seen=weaker["seen_sigma"])
             yield pair_words(summary, one["pair"]), why, _meters(summary, one["further"])
 
 
