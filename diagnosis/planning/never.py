@@ -12,7 +12,6 @@ from numpy.typing import NDArray
 from diagnosis.planning.apart import Apart, Contest, all_pairs
 from diagnosis.planning.further_meters import FurtherMeter
 
-
 NEARLY_ALL = 0.7
 """Of what a suspect stands out by: a distance above it is limited by that, not by the form."""
 
