@@ -35,7 +35,7 @@ class Asked:
 
     planned: points as they are to be driven, with their readings `repeats`; possible: points that may be added;
     channels: those of the bench; most: readings to add at most; cost: of efficiency, the size of every suspect; apart:
-    sigma from which on a pair is told, None: `wanted_distance`.
+    sigma from which on a pair is told, None: `wanted_distance`; aim: sigma up to which a pair draws readings, if more than that.
     """
 
     planned: BenchPoints
@@ -45,6 +45,7 @@ class Asked:
     most: int
     cost: float = COST
     apart: float | None = None
+    aim: float = 0.0
 
     @property
     def points(self) -> BenchPoints:
@@ -146,7 +147,7 @@ def plan_campaign(
     weighed = further_meters(foreseen, asked.channels, campaign, thresholds, report) if meters is None else meters
     never = never_apart(contest, ever, everywhere, weighed, wanted)
     pairs = tuple(pair for pair in all_pairs(len(suspects)) if pair not in {one.pair for one in never})
-    pair_campaign = PairCampaign(contest, pairs, wanted)
+    pair_campaign = PairCampaign(contest, pairs, max(wanted, asked.aim))
     added = added_points(pair_campaign, counts, np.maximum(counts, limits.readings), asked.most, LEAST, report)
     reached = counts + np.bincount(added.points, minlength=len(counts)).astype(np.int64)
     before, after = contest.apart(counts), contest.apart(reached)

@@ -11,18 +11,22 @@ import numpy as np
 
 from diagnosis.explain.ranked import Explanation
 from diagnosis.next_point.operating_box import pump_box
+from diagnosis.planning.apart import Apart, Contest
 from diagnosis.planning.plan import Asked, Plan, plan_campaign, readings_of, spread_order
 from diagnosis.planning.responses import foresee
-from diagnosis.planning.suspects import entries_of, possible_suspects, suspect_name
+from diagnosis.planning.suspects import COST, entries_of, possible_suspects, signs_of, suspect_name, suspects_of
 from diagnosis.procedure.recorded import diagnose_recording
 from diagnosis.recording.model import RecordedChannel, Recording
 from diagnosis.study.acceptance import checked_recording
 from diagnosis.study.model import Study
 from diagnosis.study.prepare import prepare
 from diagnosis.thresholds import Thresholds, load_thresholds
+from reynolds.numerics.arrays import Array
+from system.bench.points import BenchPoints
 from system.description.tolerances import tolerances
 from system.effects.effect import Kind
 from system.inputs.channels import ChannelName
+from system.inputs.units import STANDARD_ATMOSPHERE
 from system.pump_file.file import load_known_pump
 
 from ..campaigns import Campaign, campaigns, held
@@ -31,7 +35,7 @@ from ..parts import Part
 from ..plant.bench import run
 from ..recordings import STEPS, Made, make
 from ..sensors import METERS, read
-from ..worth import NAMES, settings_of
+from ..worth import GAUGE, NAMES, settings_of
 from ..writing import BENCH, write_recording
 
 SEED = 54_000
@@ -41,7 +45,7 @@ SCORE = 8.0
 """z of what is concealed, by the grid: it is seen, and seldom named."""
 ODDS = 20.0
 CORNERS, ADDED = 8, 28
-APART = 7.0
+AIM = 7.0
 """Sigma of every pair that the plan aims at, so that it spends as many readings as the grid."""
 LEVELS = (5, 5, 3, 3)
 MIDDLE = 328.15  # K, of the case at the corners
@@ -51,15 +55,16 @@ MIDDLE = 328.15  # K, of the case at the corners
 class Pair:
     """A pair that the grid leaves open: the rival, probability of the truth over its own by the grid and by the plan.
 
-    corners, planned: distance in sigma as the plan foresees it, by the corners that it begins with and by all its
-    readings; never: no point tells the two apart, as the plan says, which then asks for no readings.
+    grid, planned: distance in sigma as the plan foresees it; told: it foresees that its readings tell the two apart;
+    never: that no point does.
     """
 
     rival: str
     odds_grid: float
     odds_planned: float
-    corners: float
+    grid: float
     planned: float
+    told: bool
     never: bool
 
 
@@ -94,25 +99,19 @@ def tried(one: Concealed, number: int) -> Trial:
     rivals = _open(by_grid, truth)
     if not rivals:
         return Trial(one.label, truth, (), said, "", 0, process_time() - begun)
-    plan = _planned([truth, *rivals], campaign, thresholds)
-    names = [suspect.name for suspect in plan.suspects]
+    plan, on_grid = _planned([truth, *rivals], campaign, thresholds)
     hopeless = {never.pair for never in plan.never}
-    where = {rival: _pair(names, truth, rival) for rival in rivals}
+    where = {rival: (0, at) for at, rival in enumerate(rivals, start=1)}
     hopeful = any(pair not in hopeless for pair in where.values())
     by_plan, said_planned = _recorded_as_planned(plan, made, number, thresholds) if hopeful else ({}, "")
     pairs = tuple(
         Pair(
-            rival, _odds(by_grid, truth, rival), _odds(by_plan, truth, rival), float(plan.before[pair]),
-            float(plan.after[pair]), pair in hopeless,
+            rival, _odds(by_grid, truth, rival), _odds(by_plan, truth, rival), float(on_grid[pair]),
+            float(plan.after[pair]), pair in plan.told, pair in hopeless,
         )
         for rival, pair in where.items()
     )  # fmt: skip
     return Trial(one.label, truth, pairs, said, said_planned, int(plan.counts.sum()), process_time() - begun)
-
-
-def _pair(names: list[str], one: str, other: str) -> tuple[int, int]:
-    first, second = sorted((names.index(one), names.index(other)))
-    return first, second
 
 
 def _recorded_as_planned(plan: Plan, made: Made, number: int, thresholds: Thresholds) -> tuple[dict[str, float], str]:
@@ -160,25 +159,53 @@ def _is_single(each: Explanation) -> bool:
     return each.posterior is not None and len(own.effects) == 1 and own.kind is not Kind.UNKNOWN_PHYSICS
 
 
-def _planned(names: list[str], campaign: Campaign, thresholds: Thresholds) -> Plan:
-    """The plan for some suspects: the corners of the box, and as many readings more as the grid has."""
+def _planned(names: list[str], campaign: Campaign, thresholds: Thresholds) -> tuple[Plan, Array]:
+    """The plan for some suspects, the truth first, and their distances (S, S) as it foresees them for the grid.
+
+    It begins with the corners of the box and may add as many readings as make the grid's number, at levels over the
+    box or at the grid's own points. All suspects cost as much as makes the truth stand out by SCORE on the grid.
+    """
     pump = load_known_pump(BENCH).pump
     box = pump_box(pump)
     *ends, warm = box.ends
     corners = box.points([*(np.array(end) for end in ends), np.array([MIDDLE])])
-    possible = box.points([np.linspace(*end, count) for end, count in zip((*ends, warm), LEVELS, strict=True)])
+    levels = box.points([np.linspace(*end, count) for end, count in zip((*ends, warm), LEVELS, strict=True)])
+    grid = _bench_points(campaign)
+    possible = BenchPoints(**{key: np.concatenate([own, getattr(grid, key)]) for key, own in vars(levels).items()})
     asked = Asked(
         replace(corners, order=spread_order(CORNERS)),
         np.ones(CORNERS, dtype=np.int64),
         replace(possible, order=spread_order(len(possible.speed), CORNERS)),
         tuple(_standard(name) for name in (*campaign.inputs, *campaign.outputs)),
         ADDED,
-        apart=APART,
+        aim=AIM,
     )
     allowed, catalogue = tolerances(pump)[0], entries_of(names)
     foreseen = foresee(pump, asked.points, _meters(campaign), allowed, thresholds, catalogue)
-    chosen = [one for one in possible_suspects(foreseen, thresholds) if suspect_name(one) in names]
-    return plan_campaign(foreseen, asked, chosen, thresholds, meters=())
+    known = {suspect_name(one): one for one in possible_suspects(foreseen, thresholds)}
+    chosen = [known[name] for name in names]
+    on_grid = np.zeros(len(asked.counts), dtype=np.int64)
+    on_grid[-len(grid.speed) :] = 1
+
+    def by_grid(cost: float) -> Apart:
+        suspects = suspects_of(foreseen, chosen, np.flatnonzero(asked.counts), thresholds, cost)
+        widths = np.array([one.width for one in foreseen.candidates])
+        white = foreseen.responses.white(asked.channels)
+        return Contest(white, suspects, widths, signs_of(foreseen.candidates)).apart(on_grid)
+
+    cost = COST * SCORE / float(np.sqrt(by_grid(COST).seen[0]))
+    plan = plan_campaign(foreseen, replace(asked, cost=cost), chosen, thresholds, meters=())
+    return plan, by_grid(cost).distances
+
+
+def _bench_points(campaign: Campaign) -> BenchPoints:
+    """The set points of a campaign as the simulation has them: pressures gauge."""
+    at = campaign.points
+    gauge = {name: getattr(at, name) - STANDARD_ATMOSPHERE for name in GAUGE}
+    none = np.full(at.speed.size, np.nan)
+    return BenchPoints(
+        speed=at.speed, displacement_ratio=at.ratio, **gauge, T_case=at.T_case, T_in=at.T_in, hours=none, order=none
+    )
 
 
 def _meters(campaign: Campaign) -> tuple[RecordedChannel, ...]:
