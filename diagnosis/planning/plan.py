@@ -35,7 +35,7 @@ class Asked:
 
     planned: points as they are to be driven, with their readings `repeats`; possible: points that may be added;
     channels: those of the bench; most: readings to add at most; cost: of efficiency, the size of every suspect; apart:
-    sigma from which on a pair is told, None: `wanted_distance`; aim: sigma up to which a pair draws readings, if more than that.
+    sigma from which on a pair is told, None: `wanted_distance`; aim: sigma up to which a pair draws readings, if more.
     """
 
     planned: BenchPoints
