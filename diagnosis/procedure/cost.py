@@ -11,24 +11,24 @@ MATERIAL = 0.002
 """Of a flow or a torque: smaller changes are not told. Of an efficiency as much, 0.1 points."""
 POINTS = 0.1
 COSTS = {
-    "efficiency, overall (ISO 4409)": (-1.0, "{:.2g} points of efficiency"),
-    "delivery flow": (-1.0, "{:.2g} L/min of delivery"),
-    "shaft torque": (1.0, "{:.2g} N m of torque"),
-    "case drain": (1.0, "{:.2g} L/min through the case drain"),
+    "efficiency, overall (ISO 4409)": (-1.0, "{:.2g} points of efficiency", "{:.2g} points more efficiency"),
+    "delivery flow": (-1.0, "{:.2g} L/min of delivery", "{:.2g} L/min more delivery"),
+    "shaft torque": (1.0, "{:.2g} N m of torque", "{:.2g} N m less torque"),
+    "case drain": (1.0, "{:.2g} L/min through the case drain", "{:.2g} L/min less case drain"),
 }
-"""Sign of a change that costs, and its words, by the quantity of a comparison."""
+"""Sign of a change that costs, its words, and those of a change that does not, by the quantity of a comparison."""
 
 
 def cost_words(comparison: PumpComparison) -> str:
-    """Cost of a finding where it shows most, as a sentence; what it saves there, too. Empty where no pump was run."""
+    """Cost of a finding where it shows most, as a sentence; what it brings there, too. Empty where no pump was run."""
     if not comparison.changes:
         return comparison.text if not comparison.pumps else ""
     at = comparison.pumps[WITH].operating if comparison.pumps else None
     place = f" ({setting_text(at.speed, at.pressure, at.displacement_ratio)})" if at else ""
     found = list(_material(comparison))
-    costs, saves = ([text for cost, text in found if cost is side] for side in (True, False))
+    costs, gains = ([text for cost, text in found if cost is side] for side in (True, False))
     parts = [f"costs {listed(costs)}"] if costs else []
-    parts += [f"saves {listed(saves)}"] if saves else []
+    parts += [f"brings {listed(gains)}"] if gains else []
     told = " and ".join(parts) or "changes flow, torque and efficiency by less than can be seen"
     return f"It {told} where it shows most{place}."
 
@@ -36,11 +36,15 @@ def cost_words(comparison: PumpComparison) -> str:
 def _material(comparison: PumpComparison) -> Iterator[tuple[bool, str]]:
     """(whether it costs, words) of every change that counts."""
     changes = {one.quantity: one for one in comparison.changes}
-    for name, (sign, words) in COSTS.items():
+    for name, (sign, cost, gain) in COSTS.items():
         one = changes.get(name)
-        if one is None:
-            continue
-        moved = one.found - one.without
-        least = POINTS if one.unit == "%" else MATERIAL * max(abs(one.without), abs(one.found))
-        if abs(moved) > least:
-            yield bool(sign * moved > 0.0), words.format(abs(moved))
+        if one is not None and is_material(one.unit, one.without, one.found):
+            moved = one.found - one.without
+            costs = bool(sign * moved > 0.0)
+            yield costs, (cost if costs else gain).format(abs(moved))
+
+
+def is_material(unit: str, without: float, found: float) -> bool:
+    """True for a change of a flow or a torque, or of an efficiency in %, that is large enough to be told."""
+    least = POINTS if unit == "%" else MATERIAL * max(abs(without), abs(found))
+    return abs(found - without) > least

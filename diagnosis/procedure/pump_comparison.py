@@ -75,7 +75,7 @@ def compare_pumps(
     if not found.effects:
         return NO_COMPARISON
     if all(entry_of(claim.effect).verdict is Kind.SENSOR_FAULT for claim in found.effects):
-        return replace(NO_COMPARISON, text="A sensor's fault changes nothing in the pump.")
+        return replace(NO_COMPARISON, text="A meter's fault costs the pump nothing: only the readings are wrong.")
     own, added = found.hypotheses[0].hypothesis, added_by_claim(study, found)
     at = int(np.argmax(np.nansum((added / found.after.whitening.sigma) ** 2, axis=1)))
     number = table_rows(study.recording)[at]

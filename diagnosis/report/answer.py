@@ -5,14 +5,13 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from diagnosis.report.certainty import certainty, record_words, sure_words
+from diagnosis.report.certainty import SURE, certainty, record_words, sure_words
 from diagnosis.report.course import course_words
 from diagnosis.report.evidence import evidence
-from diagnosis.report.explanations import explained_by
 from diagnosis.report.format import PLACES, effect_words, listed
-from diagnosis.report.measure import measure_words
+from diagnosis.report.measure import hidden_words, measure_words
 from diagnosis.report.sizes import size_words
-from diagnosis.report.text import doubt, finding, fit_words, headline, rivals_words, where_words
+from diagnosis.report.text import doubt, finding, fit_words, headline, rivals_words, suspected, where_words
 from diagnosis.study.model import Study
 from diagnosis.verdict.diagnosis import Diagnosis, VerdictStatus
 from system.description.gap import Gap
@@ -25,7 +24,10 @@ SUSPECTS = 2
 
 @dataclass(frozen=True)
 class Look:
-    """Inspection for one effect: its id, its name with the place, and the parts or meters to inspect."""
+    """Inspection for one effect: its id, the parts or meters to inspect, and its name with the place as a heading.
+
+    name: empty for the one cause of a claim, which the finding names.
+    """
 
     id: str
     name: str
@@ -72,7 +74,7 @@ def plain_answer(study: Study, diagnosis: Diagnosis, cost: str) -> PlainAnswer:
         certainty=certainty(diagnosis, study.scant),
         rivals=rivals_words(diagnosis),
         look=tuple(_looks(diagnosis)),
-        measure=measure_words(diagnosis),
+        measure=_measure(study, diagnosis),
         fit=fit_words(diagnosis),
         evidence=evidence(diagnosis),
         sizes=tuple(map(size_words, diagnosis.effects)),
@@ -81,21 +83,30 @@ def plain_answer(study: Study, diagnosis: Diagnosis, cost: str) -> PlainAnswer:
     )
 
 
+def _measure(study: Study, diagnosis: Diagnosis) -> str:
+    """What to measure next; where nothing is found and that is not sure, what would show more."""
+    found = diagnosis.kind is not Kind.NO_MISMATCH or diagnosis.status is VerdictStatus.SUSPICION
+    sure = found or sure_words(diagnosis, study.scant) in SURE
+    return measure_words(diagnosis) if sure else hidden_words(study)
+
+
 def _looks(diagnosis: Diagnosis) -> Iterator[Look]:
     """Of all that is claimed and that cannot be told from it; of a suspicion the likeliest; of the unknown itself."""
     places: dict[EffectId, list[Gap]] = {}
     for effect, pair in _suspects(diagnosis):
         known = places.setdefault(effect, [])
         known += [pair] if pair is not None and pair not in known else []
+    alone = len(places) == 1 and diagnosis.status is not VerdictStatus.SUSPICION
     for effect, gaps in places.items():
         where = f" at {listed((PLACES[gap] for gap in gaps), 'or')}" if gaps else ""
-        parts = listed(PARTS[gap] for gap in gaps or Gap)
-        yield Look(effect.value, effect_words([effect]) + where, BENCH_WORDS[effect].look.format(parts=parts))
+        parts, name = listed(PARTS[gap] for gap in gaps or Gap), effect_words([effect])
+        heading = "" if alone else f"{name[0].upper()}{name[1:]}{where}"
+        yield Look(effect.value, heading, BENCH_WORDS[effect].look.format(parts=parts))
 
 
 def _suspects(diagnosis: Diagnosis) -> Iterator[tuple[EffectId, Gap | None]]:
     if diagnosis.status is VerdictStatus.SUSPICION:
-        known = [one.hypothesis for one in explained_by(diagnosis)]
+        known = [one.hypothesis for one in suspected(diagnosis)]
         likely = [own for own in known if EffectId.UNKNOWN_PHYSICS not in own.effects][:SUSPECTS]
         yield from (pair for own in likely for pair in zip(own.effects, own.places, strict=True))
     elif diagnosis.kind is Kind.UNKNOWN_PHYSICS:

@@ -18,6 +18,8 @@ from system.effects.effect import Kind
 ENOUGH = 10
 """Trials of a band of probability below which all bands of the answer count together."""
 GRADES = ((0.9, "very sure"), (0.75, "fairly sure"), (0.5, "likely"))
+SURE = ("very sure", "fairly sure")
+"""Words of certainty of answers on which a bench may rest."""
 
 
 class AnswerKind(Enum):
@@ -89,7 +91,7 @@ def sure_words(diagnosis: Diagnosis, scant: bool) -> str:
     probability = stated_probability(diagnosis)
     record = record_of(_kind(diagnosis), scant, probability)
     trust = min(probability, record.right / record.cases) if record else probability
-    return next((words for least, words in GRADES if trust >= least), "open")
+    return next((words for least, words in GRADES if trust >= least), "not sure")
 
 
 def record_words(diagnosis: Diagnosis, scant: bool) -> str:
@@ -102,7 +104,7 @@ def record_text(record: Record, kind: AnswerKind, scant: bool) -> str:
     """The record as a sentence, with the interval."""
     low, high = (100.0 * end for end in record.interval)
     like = " with such certainty" if record.banded else ""
-    of = " on pumps known by their type plate" if scant else ""
+    of = " of pumps known by their type plate" if scant else ""
     return (
         f"In trials on other simulators{of}, {_RIGHT[kind].format(right=record.right, cases=record.cases, like=like)} "
         f"(95 % interval {low:.0f} to {high:.0f} %)."
@@ -118,11 +120,14 @@ _RIGHT = {
 }
 
 
+_OF = {AnswerKind.SUSPICION: " that there is a cause", AnswerKind.NOTHING: " that nothing is wrong"}
+
+
 def _sentences(diagnosis: Diagnosis, scant: bool) -> Iterator[str]:
     kind, probability = _kind(diagnosis), stated_probability(diagnosis)
     words = sure_words(diagnosis, scant)
     alike = any(claim.equivalent or claim.elsewhere for claim in diagnosis.effects)
-    of = " that it is one of these" if alike else " that there is a cause" if kind is AnswerKind.SUSPICION else ""
+    of = " that it is one of these" if alike else _OF.get(kind, "")
     yield f"{words[0].upper()}{words[1:]}{of} (stated probability {chance(probability)})."
     record = record_of(kind, scant, probability)
     if record is not None:

@@ -8,8 +8,8 @@ import numpy as np
 
 from diagnosis.explain.explained import explained_mismatch
 from diagnosis.explain.scaling import Scaling
-from diagnosis.recording.units import difference, difference_unit, reading
-from diagnosis.report.format import listed, pressure_text
+from diagnosis.recording.units import difference, difference_unit
+from diagnosis.report.format import level_text, listed
 from diagnosis.study.map_axes import axis_values
 from diagnosis.study.model import Study
 from diagnosis.verdict.diagnosis import Diagnosis, VerdictStatus
@@ -29,6 +29,8 @@ SIDES = {
     ChannelName.ELECTRIC_POWER: ("The motor takes more power than simulated", "The motor takes less than simulated"),
 }
 """A channel that reads more, and less, than simulated."""
+BEHIND = {ChannelName.DISPLACEMENT_RATIO: " stroke", ChannelName.T_CASE: " in the case"}
+"""Words behind a level of an axis whose unit alone does not tell it."""
 SAME = {"speed": "speed", "pressure": "pressure", "displacement": "stroke", "viscosity": "oil viscosity"}
 
 
@@ -72,7 +74,8 @@ def _ends(channel: ChannelName, added: Array, axes: Mapping[ChannelName, Array])
     reach = ENDS * np.ptp(x)
     low, high = x <= x.min() + reach, x >= x.max() - reach
     return ", ".join(
-        f"{_difference(channel, float(np.median(added[part])))} at {_level(axis, float(np.median(x[part])))}"
+        f"{_difference(channel, float(np.median(added[part])))} at "
+        f"{level_text(axis, float(np.median(x[part])))}{BEHIND.get(axis, '')}"
         for part in (low, high)
     )
 
@@ -84,17 +87,6 @@ def _correlation(one: Array, other: Array) -> float:
 def _difference(channel: ChannelName, value: float) -> str:
     size = difference(channel, value)
     return f"{abs(size):.2g} {difference_unit(channel)} {'more' if size > 0.0 else 'less'}"
-
-
-def _level(axis: ChannelName, value: float) -> str:
-    shown = reading(axis, value)
-    forms = {
-        ChannelName.SPEED: f"{shown:.0f} r/min",
-        ChannelName.P_OUT: pressure_text(value),
-        ChannelName.DISPLACEMENT_RATIO: f"{100.0 * shown:.0f} % stroke",
-        ChannelName.T_CASE: f"{shown:.0f} degC in the case",
-    }
-    return forms[axis]
 
 
 def _same(scaling: Scaling | None, flat: float) -> str:

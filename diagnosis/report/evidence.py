@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from math import exp
+from math import exp, log
 
 from diagnosis.explain.scaling import Scaling
 from diagnosis.next_point.choose import NextPoint
 from diagnosis.report.explanations import RIVALS, explained_by, explanation_words
-from diagnosis.report.format import chance, effect_words, listed, odds_text
+from diagnosis.report.format import MOST_ODDS, chance, effect_words, listed, odds_text
 from diagnosis.report.measure import point_words
 from diagnosis.verdict.diagnosis import Diagnosis, VerdictStatus
 
@@ -68,10 +68,14 @@ def _gain(found: NextPoint) -> str:
     ahead, behind = (first, second) if found.before >= 0.0 else (second, first)
     return (
         f"Odds of {behind} to {ahead}: {_odds(abs(found.before))} now. {found.limits.readings} readings at "
-        f"{point_words(found)} multiply those for the true one by {exp(found.gain):.2g} on average; expected "
+        f"{point_words(found)} multiply those for the true one by {_times(found.gain)} on average; expected "
         f"are {_odds(found.after)}, 1:20 or better has a chance of {chance(found.chance)}. There the two are "
         f"{found.expected.apart:.1f} sigma of one reading of {found.expected.channel} apart."
     )
+
+
+def _times(nats: float) -> str:
+    return f"{exp(nats):.2g}" if nats < log(MOST_ODDS) else f"more than {MOST_ODDS}"
 
 
 def _odds(nats: float) -> str:

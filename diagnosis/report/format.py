@@ -6,6 +6,8 @@ from collections.abc import Iterable
 
 from diagnosis.recording.units import channel_unit, reading
 from system.description.gap import Gap
+from system.effects.catalogue.bench_words import BENCH_WORDS
+from system.effects.components import Component
 from system.effects.effect import EffectId
 from system.inputs.channels import ChannelName
 from system.inputs.units import Dimension, in_unit, reading_unit
@@ -20,23 +22,55 @@ PLACES = {Gap.PISTON: "the pistons", Gap.SLIPPER: "the slippers", Gap.VALVE_PLAT
 
 
 CHANNELS = {
+    ChannelName.SPEED: "speed", ChannelName.DISPLACEMENT_RATIO: "stroke", ChannelName.P_OUT: "delivery pressure",
+    ChannelName.P_IN: "inlet pressure", ChannelName.P_CASE: "case pressure", ChannelName.T_IN: "inlet temperature",
+    ChannelName.T_OUT: "outlet temperature", ChannelName.T_CASE: "case temperature",
     ChannelName.Q_OUT: "delivery flow", ChannelName.Q_IN: "inlet flow", ChannelName.Q_CASE: "case drain",
-    ChannelName.TORQUE: "shaft torque", ChannelName.T_OUT: "outlet temperature",
-    ChannelName.ELECTRIC_POWER: "motor power", ChannelName.P_CHAMBER: "chamber pressure",
+    ChannelName.TORQUE: "shaft torque", ChannelName.ELECTRIC_POWER: "motor power", ChannelName.ANGLE: "shaft angle",
+    ChannelName.P_CHAMBER: "chamber pressure",
 }  # fmt: skip
-"""Names of the outputs in sentences."""
+"""Names of the channels in sentences."""
+
+C = Component
+COMPONENTS = {
+    C.PISTON_LEAKAGE: "leakage of the pistons", C.SLIPPER_LEAKAGE: "leakage of the slippers",
+    C.PLATE_LEAKAGE: "leakage of the valve plate", C.CROSS_FLOW: "flow from delivery to inlet",
+    C.DRAIN_FLOW: "flow into the case beside the films", C.DISPLACEMENT: "displacement",
+    C.COMPRESSION: "compression of the oil", C.COMMUTATION: "pressure change at the ports",
+    C.PISTON_FRICTION: "friction of the pistons", C.SLIPPER_FRICTION: "friction of the slippers",
+    C.SOCKET_FRICTION: "friction of the ball joints", C.PLATE_FRICTION: "friction of the valve plate",
+    C.GUIDE_FRICTION: "friction of the retainer's guide", C.BEARINGS: "friction of the bearings",
+    C.CASE_DRAG: "drag in the case", C.THERMAL_STATE: "temperature of the films",
+    C.Q_OUT_SENSOR: "reading of the delivery flow", C.Q_IN_SENSOR: "reading of the inlet flow",
+    C.Q_CASE_SENSOR: "reading of the case drain", C.TORQUE_SENSOR: "reading of the shaft torque",
+    C.T_OUT_SENSOR: "reading of the outlet temperature", C.ELECTRIC_POWER_SENSOR: "reading of the motor power",
+}  # fmt: skip
+"""Names of the components of the readings in sentences."""
 
 
 def channel_words(channel: ChannelName) -> str:
-    """A channel in words with its name: "case drain (Q_case)"."""
-    words = CHANNELS.get(channel)
-    return f"{words} ({channel.value})" if words else channel.value
+    """A channel in words with its name, where they do not hold it: "case drain (Q_case)", "shaft torque"."""
+    words = CHANNELS[channel]
+    return words if channel.value in words else f"{words} ({channel.value})"
+
+
+def level_text(axis: ChannelName, value: float) -> str:
+    """A value in SI of an axis of the map: "1000 r/min", "374 bar", "28 %", "59 degC"."""
+    shown = reading(axis, value)
+    forms = {
+        ChannelName.SPEED: f"{shown:.0f} r/min",
+        ChannelName.P_OUT: pressure_text(value),
+        ChannelName.DISPLACEMENT_RATIO: f"{100.0 * shown:.0f} %",
+        ChannelName.T_CASE: f"{shown:.0f} degC",
+    }
+    return forms[axis]
 
 
 def setting_text(speed: float, pressure: float, stroke: float) -> str:
     """An operating point in SI in the words of a bench: "1000 r/min, 374 bar, 28 % stroke"."""
-    turns, load = reading(ChannelName.SPEED, speed), pressure_text(pressure)
-    return f"{turns:.0f} r/min, {load}, {100.0 * stroke:.0f} % stroke"
+    axes = (ChannelName.SPEED, ChannelName.P_OUT, ChannelName.DISPLACEMENT_RATIO)
+    turns, load, part = map(level_text, axes, (speed, pressure, stroke))
+    return f"{turns}, {load}, {part} stroke"
 
 
 def pressure_text(pressure: float) -> str:
@@ -60,8 +94,8 @@ def last_word(name: str) -> str:
 
 
 def effect_words(effects: Iterable[EffectId], pair: Gap | None = None) -> str:
-    """Ids as words: "elastic opening of the slippers", "churning and torque offset", "nothing"."""
-    words = listed(effect.value.replace("_", " ") for effect in effects) or "nothing"
+    """Effects by their names on the bench, "nothing" without one: "elastic opening at the slippers"."""
+    words = listed(BENCH_WORDS[effect].name for effect in effects) or "nothing"
     return f"{words} at {PLACES[pair]}" if pair else words
 
 

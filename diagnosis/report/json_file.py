@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import asdict
 from math import degrees, isfinite
 from pathlib import Path
@@ -22,31 +22,44 @@ from system.inputs.channels import ChannelName
 from system.inputs.faults import Fault, InputFaults
 
 FORMAT = 1
+ANSWER_FORMAT = 1
+"""Of the answer in plain words in the file, which changes with its parts and the page that shows them."""
 KEYS = (
     "format", "verdict", "status", "statement", "details", "mismatch", "where", "effects", "hypotheses", "fit",
-    "scaling", "next_test", "not_identifiable", "notes", "answer",
+    "scaling", "next_test", "not_identifiable", "notes",
 )  # fmt: skip
+
+AGAIN = "diagnose the recording again: swashfilm diagnose PUMP RECORDING"
 
 
 def write_diagnosis(path: Path, diagnosis: Diagnosis, answer: PlainAnswer) -> None:
     """Write a diagnosis and its answer in plain words as JSON (docs/files.md). Raises ValueError for nan or inf."""
-    text = json.dumps(diagnosis_record(diagnosis) | {"answer": asdict(answer)}, indent=1, allow_nan=False)
+    told = {"answer": {"format": ANSWER_FORMAT, **asdict(answer)}}
+    text = json.dumps(diagnosis_record(diagnosis) | told, indent=1, allow_nan=False)
     path.write_text(text + "\n", encoding="utf-8")
 
 
 def read_diagnosis(path: Path) -> dict[str, Any]:
-    """Read a diagnosis.json of format 1; raises InputFaults for another file."""
+    """Read a diagnosis.json of format 1 with an answer of this version; raises InputFaults for another file."""
     try:
         record = json.loads(path.read_text("utf-8"))
     except (OSError, ValueError) as reason:
         raise InputFaults(str(path), [Fault("file", str(reason), "a diagnosis.json of a finished run")]) from None
     if not isinstance(record, dict) or record.get("format") != FORMAT:
         found = record.get("format") if isinstance(record, dict) else type(record).__name__
-        raise InputFaults(str(path), [Fault("format", repr(found), str(FORMAT))])
-    missing = [key for key in KEYS if key not in record]
-    if missing:
-        raise InputFaults(str(path), [Fault(key, "nothing", "a key of every diagnosis.json") for key in missing])
+        raise InputFaults(str(path), [Fault("format", repr(found), str(FORMAT), AGAIN)])
+    faults = [Fault(key, "nothing", "a key of every diagnosis.json", AGAIN) for key in KEYS if key not in record]
+    if faults := faults or list(_answer_faults(record.get("answer"))):
+        raise InputFaults(str(path), faults)
     return record
+
+
+def _answer_faults(answer: Any) -> Iterator[Fault]:
+    """The fault of an answer that another version of the program wrote, or of a run older than such answers."""
+    found = answer.get("format", "none") if isinstance(answer, dict) else None
+    if found != ANSWER_FORMAT:
+        told = "no answer in plain words: the run is of an earlier version" if found is None else f"format {found}"
+        yield Fault("answer", told, f"an answer of format {ANSWER_FORMAT}", AGAIN)
 
 
 def diagnosis_record(diagnosis: Diagnosis) -> dict[str, Any]:

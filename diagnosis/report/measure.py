@@ -5,18 +5,25 @@ from __future__ import annotations
 from diagnosis.next_point.choose import NextPoint
 from diagnosis.recording.units import channel_unit, reading
 from diagnosis.report.certainty import stated_probability
-from diagnosis.report.format import channel_words, if_words, setting_text
+from diagnosis.report.format import CHANNELS, channel_words, if_words, listed, setting_text
+from diagnosis.study.map_axes import axis_values
+from diagnosis.study.model import Study
 from diagnosis.verdict.diagnosis import Diagnosis, VerdictStatus
 from system.effects.effect import Kind
 from system.inputs.channels import ChannelName
 
 NO_NEXT_POINT = "no next point can be proposed"
 """First words of the note that gives the reason."""
+NOTHING_MORE = "No further measurement is needed."
 NOTHING_ELSE = "No further measurement is needed: nothing else fits."
+DIMENSIONS = "clearances, valve plate, ports"
 NO_POINT_TELLS = (
-    "No further point would tell more: nothing else that could be fitted comes near. More of the pump's own data "
-    "would: clearances, valve plate, ports."
+    "No further operating point would tell more: nothing else that could be fitted comes near. The pump's own "
+    f"dimensions would: {DIMENSIONS}."
 )
+METERS = (ChannelName.Q_OUT, ChannelName.Q_IN, ChannelName.Q_CASE, ChannelName.TORQUE)
+"""Of a bench that shows every effect on flows and torque."""
+MAP_AXES = (ChannelName.SPEED, ChannelName.P_OUT, ChannelName.DISPLACEMENT_RATIO)
 
 
 def measure_words(diagnosis: Diagnosis) -> str:
@@ -28,12 +35,23 @@ def measure_words(diagnosis: Diagnosis) -> str:
     if found is None and failed:
         return f"{failed[0].upper()}{failed[1:].rstrip('.')}."
     if diagnosis.kind is Kind.NO_MISMATCH and diagnosis.status is not VerdictStatus.SUSPICION:
-        return "No further measurement is needed."
+        return NOTHING_MORE
     if not diagnosis.effects:
         return "Read the points with the largest difference again."
     if diagnosis.status is VerdictStatus.INCOMPLETE:
         return "Read the points again that still differ most: nothing else that could be fitted explains them better."
     return NOTHING_ELSE if stated_probability(diagnosis) >= diagnosis.thresholds.name.probability else NO_POINT_TELLS
+
+
+def hidden_words(study: Study) -> str:
+    """What would show more, where nothing is found and the record of such answers is poor: meters, axes, dimensions."""
+    moving = axis_values(study.recording)
+    meters = [CHANNELS[one] for one in METERS if one not in study.channels]
+    axes = [f"other {CHANNELS[axis]}s" for axis in MAP_AXES if axis not in moving]
+    parts = [f"{listed(meters)} measured" if meters else "", f"{listed(axes)} recorded" if axes else ""]
+    parts += [f"the pump's own dimensions ({DIMENSIONS}) in the pump file" if study.scant else ""]
+    known = [part for part in parts if part]
+    return f"A small effect may hide here. It would show sooner with {listed(known)}." if known else NOTHING_MORE
 
 
 def next_point_text(found: NextPoint) -> str:

@@ -4,20 +4,34 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from diagnosis.detect.regions import MapRegion
 from diagnosis.detect.time_scan import TimeKind
 from diagnosis.explain.hypotheses import Hypothesis
+from diagnosis.explain.ranked import Explanation
 from diagnosis.recording.units import difference, difference_unit, reading
 from diagnosis.report.certainty import stated_probability
 from diagnosis.report.explanations import RIVALS, explained_by, explanation_words, named_apart
-from diagnosis.report.format import CHANNELS, PLACES, chance, channel_words, last_word, listed
+from diagnosis.report.format import (
+    CHANNELS,
+    COMPONENTS,
+    PLACES,
+    chance,
+    channel_words,
+    effect_words,
+    last_word,
+    level_text,
+    listed,
+)
 from diagnosis.report.measure import measure_words
 from diagnosis.report.sizes import finding_sentence
+from diagnosis.study.map_axes import AXES
 from diagnosis.verdict.diagnosis import Diagnosis, VerdictStatus
 from diagnosis.verdict.locate import Location
 from system.effects.effect import Kind
 from system.inputs.channels import ChannelName
 
-OTHER = 0.05  # share of the probability of an effect's other places, from which they are listed
+OTHER = 0.05
+"""Probability from which a suspected cause, or another place of an effect (its share), is listed."""
 COUNTS = ("no", "one", "two", "three", "four", "five", "six", "seven", "eight", "nine")
 
 
@@ -59,9 +73,9 @@ def finding(diagnosis: Diagnosis) -> str:
     if diagnosis.kind is Kind.NO_MISMATCH:
         return "Simulation and recording agree within the scatter of the meters and the tolerances of the pump."
     if diagnosis.kind is Kind.UNKNOWN_PHYSICS:
-        parts = listed((one.value.replace("_", " ") for one in diagnosis.location.tie), "or")
-        place = f"; it is most like a change of the {parts}" if parts else ""
-        return f"No effect of the catalogue explains the mismatch{place}."
+        parts = listed((f"the {COMPONENTS[one]}" for one in diagnosis.location.tie), "or")
+        place = f" It lies most likely in {parts}." if parts else ""
+        return f"No effect of the catalogue explains the mismatch.{place}"
     return " ".join(
         f"{finding_sentence(claim, diagnosis)}{_of_which(at, diagnosis)}." for at, claim in enumerate(diagnosis.effects)
     )
@@ -72,15 +86,20 @@ def doubt(diagnosis: Diagnosis) -> str:
     return " ".join([*_class(diagnosis), *_incomplete(diagnosis)])
 
 
+def suspected(diagnosis: Diagnosis) -> list[Explanation]:
+    """The explanations of a suspicion that are likely enough to be told, the likeliest first."""
+    return [one for one in explained_by(diagnosis) if one.probability >= OTHER]
+
+
 def where_words(diagnosis: Diagnosis) -> str:
     """Channels in which it shows, where it is strongest on the map, in time and over the shaft angle."""
     location = diagnosis.location
     if diagnosis.kind is Kind.NO_MISMATCH or not location.channels:
         return ""
-    most = "half of its largest effect or more is reached with" if diagnosis.effects else "mostly with"
-    region = f"; {most} {location.region.text}" if location.region else ""
+    region = f", mostly at {_region(location.region)}" if location.region else ""
+    half = ", where it reaches half of its largest size or more" if location.region and diagnosis.effects else ""
     channels = listed(map(channel_words, location.channels))
-    return f"It shows in {channels}{region}{''.join(_times(location))}.{_angles(location)}"
+    return f"It shows in {channels}{region}{half}.{_times(location)}{_angles(location)}"
 
 
 def fit_words(diagnosis: Diagnosis) -> str:
@@ -90,7 +109,7 @@ def fit_words(diagnosis: Diagnosis) -> str:
     if not diagnosis.effects or not channels:
         return ""
     parts = [
-        f"{_number(channel, fit.after[channel])} {difference_unit(channel)} in {CHANNELS.get(channel, channel.value)} "
+        f"{_number(channel, fit.after[channel])} {difference_unit(channel)} in {CHANNELS[channel]} "
         f"(before {_number(channel, fit.before[channel])}; scatter of the meter {_number(channel, fit.noise[channel])})"
         for channel in channels
     ]
@@ -103,10 +122,12 @@ def rivals_words(diagnosis: Diagnosis) -> str:
         return ""
     _, *others = explained_by(diagnosis, other_form=False)
     least = diagnosis.thresholds.name.possible
-    others = [one for one in others if not _is_told(one.hypothesis, diagnosis)][: 2 * RIVALS]
+    others = [one for one in others if not _is_told(one.hypothesis, diagnosis)]
     possible = [explanation_words(one.hypothesis) for one in others if one.probability >= least]
     excluded = [explanation_words(one.hypothesis) for one in others if one.probability < least]
-    parts = [f"Still possible: {listed(possible)}." if possible else ""]
+    more = len(possible) - RIVALS
+    rest = [f"{_count(more)} less likely {'cause' if more == 1 else 'causes'}"] if more > 0 else []
+    parts = [f"Still possible: {listed([*possible[:RIVALS], *rest])}." if possible else ""]
     parts += [f"Ruled out: {listed(excluded[:RIVALS])}." if excluded else ""]
     return " ".join(part for part in parts if part)
 
@@ -131,12 +152,28 @@ def _sure(diagnosis: Diagnosis) -> str:
     return f"Probability {listed(f'{chance(one.probability)} ({one.effect.value})' for one in diagnosis.effects)}."
 
 
-def _times(location: Location) -> Iterator[str]:
+def _region(region: MapRegion) -> str:
+    """Part of the map: "delivery pressures above 250 bar and strokes below 40 %"."""
+    return listed(_range(axis, region) for axis in AXES if {axis.value} & (region.lower.keys() | region.upper.keys()))
+
+
+def _range(axis: ChannelName, region: MapRegion) -> str:
+    lower, upper = (
+        "" if value is None else level_text(axis, value)
+        for value in (region.lower.get(axis.value), region.upper.get(axis.value))
+    )
+    between = f"from {lower} to {upper}" if lower and upper else f"above {lower}" if lower else f"below {upper}"
+    return f"{CHANNELS[axis]}s {between}"
+
+
+def _times(location: Location) -> str:
+    """A sentence of its own, with a blank before it."""
     time = location.time
-    if time is not None:
-        drifts = time.kind is TimeKind.DRIFT
-        since = "drifting in the course of the recording" if drifts else f"from point {time.at + 1} on"
-        yield f"; in {time.channel.value} {since}"
+    if time is None:
+        return ""
+    drifts = time.kind is TimeKind.DRIFT
+    since = "drifts in the course of the recording" if drifts else f"begins at point {time.at + 1}"
+    return f" The difference in {CHANNELS[time.channel]} {since}."
 
 
 def _angles(location: Location) -> str:
@@ -170,8 +207,8 @@ def _class(diagnosis: Diagnosis) -> Iterator[str]:
         return
     for claim in diagnosis.effects:
         if claim.equivalent:
-            others = listed((one.value.replace("_", " ") for one in claim.equivalent), "or")
-            own = claim.effect.value.replace("_", " ")
+            others = listed((effect_words([one]) for one in claim.equivalent), "or")
+            own = effect_words([claim.effect])
             yield f"{others[0].upper()}{others[1:]} in place of {own} fits this recording as well."
         if claim.pair and claim.elsewhere:
             own = f"{PLACES[claim.pair]} ({chance(1.0 - sum(part for _, part in claim.elsewhere))})"
@@ -188,8 +225,7 @@ def _incomplete(diagnosis: Diagnosis) -> Iterator[str]:
 
 
 def _suspicion(diagnosis: Diagnosis) -> str:
-    least = diagnosis.thresholds.name.possible
-    known = [one for one in explained_by(diagnosis) if one.probability >= least][:RIVALS]
+    known = suspected(diagnosis)[:RIVALS]
     likely = [f"{explanation_words(one.hypothesis)} ({chance(one.probability)})" for one in known]
     thought = f" Likeliest: {listed(likely)}." if likely else ""
     return f"Readings and simulation differ, but not clearly enough to name a cause: nothing is claimed.{thought}"

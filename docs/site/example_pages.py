@@ -2,7 +2,8 @@
 
     python docs/site/example_pages.py [NAME ..]
 
-With names, only these examples are run; the others keep their pages. `listed.py` lists the examples.
+With names, only these examples are run; the others keep their pages. `listed.py` lists the examples. A script whose
+data are not part of the repository is not run: draw its picture with the data and `--picture docs/examples/NAME.png`.
 """
 
 from __future__ import annotations
@@ -11,9 +12,11 @@ import html
 import re
 import subprocess
 import sys
+import tempfile
 from html.parser import HTMLParser
+from pathlib import Path
 
-from listed import EXAMPLES, GROUPS, Example, title
+from listed import DRAWS, EXAMPLES, GROUPS, Example, title
 from pictures import DOCS, ROOT, picture, ran, write_thumbnail
 
 PAGES = DOCS / "examples"
@@ -72,14 +75,22 @@ def found(example: Example) -> str:
         return f"{example.needs} [Examples](../../examples/README.md) tells what comes out.\n"
     program, _, words = example.command.partition(" ")
     if program == "python":
-        return _printed(words.removesuffix(example.left_out), example.left_out)
+        return _printed(example, words.removesuffix(example.left_out))
     with ran(words) as folder:
         write_thumbnail(picture(folder, example.picture), PAGES / f"{example.name}.png", WIDTH)
         return answered((folder / "report.html").read_text("utf-8"))
 
 
-def _printed(words: str, left_out: str) -> str:
-    done = subprocess.run([sys.executable, *words.split()], cwd=ROOT, check=True, capture_output=True, text=True)
+def _printed(example: Example, words: str) -> str:
+    """Run a script, leave its picture, and return what it prints."""
+    with tempfile.TemporaryDirectory() as place:
+        drawn = Path(place) / "picture.png"
+        drawing = [DRAWS, str(drawn)] if example.picture == DRAWS else []
+        command = [sys.executable, *words.split(), *drawing]
+        done = subprocess.run(command, cwd=ROOT, check=True, capture_output=True, text=True)
+        if drawing:
+            write_thumbnail(drawn.read_bytes(), PAGES / f"{example.name}.png", WIDTH)
+    left_out = example.left_out
     without = f"Without `{left_out}`, which is not part of this repository, it prints" if left_out else "It prints"
     return f"{without}\n\n```text\n{done.stdout.rstrip()}\n```\n"
 

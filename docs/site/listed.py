@@ -9,15 +9,18 @@ from itertools import takewhile
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
+DRAWS = "--picture"
+"""Option of a script that names the file of its picture."""
 
 
 @dataclass(frozen=True)
 class Example:
     """A file of examples/ and its command, as examples/README.md has it.
 
-    picture: as `picture` of a run folder takes it; of a script, a picture in docs/ that it has drawn; "" where there is
-    none. needs: what a run takes that a reader may lack, where no run is made for the page. left_out: the argument
-    without which the run for the page is made, as it is a table that is not part of this repository.
+    picture: as `picture` of a run folder takes it; of a script its option DRAWS, or a picture in docs/ that it has
+    drawn; "" where there is none. needs: what a run takes that a reader may lack, where no run is made for the page.
+    left_out: the argument without which the run for the page is made, as it is a table that is not part of this
+    repository.
     """
 
     file: str
@@ -35,7 +38,7 @@ class Example:
     @property
     def shown(self) -> str:
         """Address of the picture on the page, empty where there is none."""
-        if self.file.endswith(".py"):
+        if self.file.endswith(".py") and self.picture != DRAWS:
             return f"../{self.picture}" if self.picture else ""
         return f"{self.name}.png"
 
@@ -94,7 +97,7 @@ GROUPS = (
             "rotating_land")),
         _film("stribeck_study", "plot_stribeck"),
         _film("friction_map_study", "plot_number friction_coefficient"),
-        Example("examples/films/shape_by_gradient.py", "python examples/films/shape_by_gradient.py"),
+        Example("examples/films/shape_by_gradient.py", "python examples/films/shape_by_gradient.py", DRAWS),
     )),
     Group("Gaps of a pump", (
         _film("ref90_piston"), _film("ref90_slipper"), _film("ref90_valve_plate"),
@@ -122,21 +125,22 @@ GROUPS = (
         _recorded("paper_points", "reproduce fig13 --recording", "plot_verdicts"),
     )),
     Group("A transmission and its series", (
-        Example("examples/hst196/band.py", f"python examples/hst196/band.py {MEASURED}", left_out=MEASURED),
+        Example("examples/hst196/band.py", f"python examples/hst196/band.py {MEASURED}", DRAWS, left_out=MEASURED),
         Example("examples/hst196/series.py", f"python examples/hst196/series.py {MEASURED} series.png",
                 "hst196_series.png", needs="The table of measured units is not part of this repository."),
         Example("examples/hst196/floating.py", f"python examples/hst196/floating.py --rigid {MEASURED}",
                 left_out=MEASURED),
     )),
     Group("Other models and rigs", (
-        Example("examples/own_simulator/valve.py", "python examples/own_simulator/valve.py"),
+        Example("examples/own_simulator/valve.py", "python examples/own_simulator/valve.py", DRAWS),
         Example("examples/cascaded_tanks/overflow.py", "python examples/cascaded_tanks/overflow.py dataBenchmark.csv",
                 needs="The benchmark's data are not part of this repository; the script says where they are."),
         Example("examples/uci_hydraulic/rig.py",
-                "python examples/uci_hydraulic/rig.py uci_hydraulic recording --leak 1", needs=UCI),
-        Example("examples/uci_hydraulic/leak.py", "python examples/uci_hydraulic/leak.py uci_hydraulic", needs=UCI),
+                "python examples/uci_hydraulic/rig.py uci_hydraulic recording --leak 1", DRAWS, needs=UCI),
+        Example("examples/uci_hydraulic/leak.py", "python examples/uci_hydraulic/leak.py uci_hydraulic", DRAWS,
+                needs=UCI),
         Example("examples/uci_hydraulic/cycle.py",
-                "python examples/uci_hydraulic/cycle.py uci_hydraulic --valve 73 --leak 1 --accumulator 100",
+                "python examples/uci_hydraulic/cycle.py uci_hydraulic --valve 73 --leak 1 --accumulator 100", DRAWS,
                 needs=UCI),
     )),
 )  # fmt: skip

@@ -1,6 +1,6 @@
 """What a model of two tanks lacks, found from one record and tested on another.
 
-    python examples/cascaded_tanks/overflow.py DATA.csv
+    python examples/cascaded_tanks/overflow.py DATA.csv [--picture FILE.png]
 
 DATA.csv: dataBenchmark.csv of the Cascaded Tanks benchmark (4TU.ResearchData, doi 10.4121/12960104, CC BY-SA 4.0),
 columns uEst, yEst, uVal, yVal. The estimation engine adds to the model of `tanks.py` what it lacks, one piece after
@@ -21,6 +21,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
+from matplotlib.figure import Figure
 from tanks import BASE, EXTENSIONS, Tanks
 
 from reynolds import Array
@@ -140,16 +141,35 @@ def _rms(error: Array) -> float:
     return float(np.sqrt(np.mean(error**2)))
 
 
-def main(path: str) -> None:
-    """Print every addition that was tried, and the errors of each model."""
+def main(path: str, picture: str = "") -> None:
+    """Print every addition that was tried, and the errors of each model; draw them where a picture is named."""
     record = read_record(Path(path))
     climbed = found(record)
     for rung in climbed.rungs:
         print("; ".join(f"{one.name} {one.gain:+.1f}" for one in rung.tried), "nats")
     print(f"  {'added':28s} {'nats':>6s} {'RMS, V':>8s} {'test, V':>8s}")
-    for step in steps(record, climbed):
+    models = steps(record, climbed)
+    for step in models:
         print(f"  {step.name:28s} {step.gain:6.1f} {step.error:8.3f} {step.test_error:8.3f}  {step.note}".rstrip())
+
+    if picture:
+        draw(record, (models[0], models[-1]), picture)
+
+
+def draw(record: Record, models: Sequence[Step], picture: str) -> None:
+    """Draw the level of the first record with two models, and what these leave of it."""
+    figure = Figure(figsize=(8.0, 5.0), layout="constrained")
+    level, left = figure.subplots(2, 1, sharex=True, height_ratios=(2, 1))
+    time = 4.0 * np.arange(record.sensor.size)
+    level.plot(time, record.sensor, color="#888888", label="measured")
+    for step, name in zip(models, ("model as it is", "model with all additions"), strict=True):
+        level.plot(time, step.fit.predictions[:, 0], linewidth=1.0, label=name)
+        left.plot(time, record.sensor - step.fit.predictions[:, 0], linewidth=1.0)
+    level.set(ylabel="level sensor [V]")
+    level.legend()
+    left.set(xlabel="time [s]", ylabel="measured less model [V]")
+    figure.savefig(picture, dpi=110)
 
 
 if __name__ == "__main__":
-    main(sys.argv[1])
+    main(sys.argv[1], sys.argv[3] if sys.argv[2:3] == ["--picture"] else "")

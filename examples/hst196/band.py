@@ -1,6 +1,6 @@
 """Volumetric efficiency of the HST 196 transmission: band predicted from its drawing, beside 399 measured units.
 
-    python examples/hst196/band.py [MEASURED.csv]
+    python examples/hst196/band.py [MEASURED.csv] [--picture FILE.png]
 
 Two equal machines of ../pumps/hst196.toml, pump and motor in a closed circuit, at the end-of-line test point: 1780
 rpm, 207 against 14 bar, oil of 60 degC. The drawing's tolerances give the piston clearances. All other values that
@@ -10,6 +10,7 @@ MEASURED.csv: hst196_production_tests.csv, the production tests of github.com/iv
 
 from __future__ import annotations
 
+import argparse
 import csv
 import sys
 from collections.abc import Mapping, Sequence
@@ -17,6 +18,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
+from matplotlib.figure import Figure
 from scipy.stats import qmc
 
 from reynolds import Array
@@ -174,7 +176,11 @@ def keys_of(value: Mapping[str, float], machine: str) -> dict[str, object]:
 
 
 def main(arguments: list[str]) -> None:
-    """Print the band, its causes, and the measured spread beside it."""
+    """Print the band, its causes, and the measured spread beside it; draw them where a picture is named."""
+    parser = argparse.ArgumentParser(description="Efficiency of the HST 196 transmission from its drawing.")
+    parser.add_argument("measured", type=Path, nargs="?")
+    parser.add_argument("--picture", type=Path)
+    asked = parser.parse_args(arguments)
     tight, wide = 100.0 * by_clearance()
     print(f"clearance alone, 22.9 .. 34.3 um, the rest in the middle: {tight:.2f} .. {wide:.2f} %")
     hot = 100.0 * efficiency(middle(UNKNOWNS) | {"film heating": HOT})
@@ -186,10 +192,29 @@ def main(arguments: list[str]) -> None:
     print("share of the variance, both machines together:")
     for unknown in UNKNOWNS:
         print(f"  {sum(parts[name] for name in _names(unknown)):6.1%}  {unknown.name} ({unknown.source})")
-    if arguments:
-        found = measured(Path(arguments[0]))
-        print(f"measured on {found.size} units: {found.mean():.2%}, standard deviation {found.std(ddof=1):.2%}")
-        print(f"of it shared by forward and reverse: {shared_spread(Path(arguments[0])):.2%}")
+    units = np.array([])
+    if asked.measured:
+        units = measured(asked.measured)
+        print(f"measured on {units.size} units: {units.mean():.2%}, standard deviation {units.std(ddof=1):.2%}")
+        print(f"of it shared by forward and reverse: {shared_spread(asked.measured):.2%}")
+    if asked.picture:
+        draw_band(found, units, {one.name: sum(parts[name] for name in _names(one)) for one in UNKNOWNS}, asked.picture)
+
+
+def draw_band(predicted: Array, units: Array, parts: Mapping[str, float], picture: Path) -> None:
+    """Draw the predicted band beside the measured units, and what the values share of its variance."""
+    figure = Figure(figsize=(10.0, 3.8), layout="constrained")
+    left, right = figure.subplots(1, 2)
+    bins = np.arange(85.0, 98.0, 0.25)
+    for values, name in ((predicted, "predicted, unknown values drawn"), (units, "measured units")):
+        if values.size:
+            left.hist(100.0 * values, bins=bins, density=True, alpha=0.6, label=name)
+    left.set(xlabel="motor over pump speed [%]", ylabel="density [1/%]")
+    left.legend(fontsize="small")
+    ordered = sorted(parts, key=lambda name: parts[name])
+    right.barh(ordered, [100.0 * parts[name] for name in ordered])
+    right.set(xlabel="share of the variance [%]")
+    figure.savefig(picture, dpi=110)
 
 
 if __name__ == "__main__":

@@ -1,6 +1,6 @@
 """The HST 196 transmission with floating films: how much of the measured loss do its films explain?
 
-    python examples/hst196/floating.py [--rigid | --isothermal] [MEASURED.csv]
+    python examples/hst196/floating.py [--rigid | --isothermal] [MEASURED.csv] [--picture FILE.png]
 
 The transmission of `band.py`, every value that is not given in the middle of its range, but films and clearances: these
 float by the balance of forces in oil of 60 degC, heat themselves, and open as the walls yield; --isothermal: no heat;
@@ -12,12 +12,13 @@ ideal flow.
 from __future__ import annotations
 
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from math import pi
 from pathlib import Path
 
 import band
+from matplotlib.figure import Figure
 
 from gaps import Effect, Physics
 from system import (
@@ -115,7 +116,12 @@ def _split(driving: PumpPoint, motor: PumpPoint, speed: float) -> Losses:
 
 
 def main(arguments: list[str]) -> None:
-    """Print the losses with films of given thickness and with floating ones, and what the measurement leaves."""
+    """Print the losses with films of given thickness and with floating ones, and what the measurement leaves.
+
+    They are drawn where a picture is named.
+    """
+    picture = arguments[-1] if "--picture" in arguments else ""
+    arguments = arguments[:-2] if picture else arguments
     given, found = losses(given_pump(), lumped_point), floating_losses(_physics(arguments))
     print(f"{'% of the ideal flow':28s}{'films given':>12s}{'floating':>10s}")
     for name, share in found.shares.items():
@@ -127,6 +133,22 @@ def main(arguments: list[str]) -> None:
         beside = given.speed_ratio - measured
         print(f"measured {measured:.2%}; left by films given {beside:.2%}, by floating ones {left:.2%}")
         print(f"to meet it, floating films would have to leak {1.0 + left / found.leakage:.1f} times as much")
+
+    if picture:
+        draw({"films given": given, "floating films": found}, picture)
+
+
+def draw(of: Mapping[str, Losses], picture: str) -> None:
+    """Draw the losses side by side, each as a share of the pump's ideal flow."""
+    figure = Figure(figsize=(8.0, 4.0), layout="constrained")
+    axes = figure.subplots()
+    names = list(next(iter(of.values())).shares)[::-1]
+    for number, (name, own) in enumerate(of.items()):
+        places = [place + 0.4 * (0.5 - number) for place in range(len(names))]
+        axes.barh(places, [100.0 * own.shares[one] for one in names], height=0.38, label=name)
+    axes.set(xlabel="loss [% of the ideal flow]", yticks=range(len(names)), yticklabels=names)
+    axes.legend()
+    figure.savefig(picture, dpi=110)
 
 
 if __name__ == "__main__":

@@ -1,18 +1,20 @@
 """A model of your own in the estimation engine: what does a valve lack whose flow is that of an orifice?
 
-    python examples/own_simulator/valve.py
+    python examples/own_simulator/valve.py [--picture FILE.png]
 
     Q = a sqrt(p) (1 + gain) + b p + zero        gain, b and zero are possible additions
 
 A model is a function of named values. The readings are artificial, with a leak b.
 """
 
+import sys
 from collections.abc import Mapping
 
 import numpy as np
+from matplotlib.figure import Figure
 
 from reynolds import Array
-from system import FunctionSimulator, Parameter, Role, Scale, held_out, independent_observations, ladder
+from system import FunctionSimulator, Ladder, Parameter, Role, Scale, held_out, independent_observations, ladder
 
 DROP = np.linspace(1e5, 40e5, 30)  # Pa, of each reading
 SIGMA = 2e-6  # m3/s
@@ -30,8 +32,8 @@ def flow(values: Mapping[str, float]) -> Array:
     return np.array(through + values.get("leak", 0.0) * DROP + values.get("zero", 0.0))[:, None]
 
 
-def main(leak: float = 5e-12) -> tuple[str, ...]:
-    """Print what a valve with a leak in m3/(s Pa) lacks, one addition after the other; return what is kept."""
+def main(leak: float = 5e-12, picture: str = "") -> tuple[str, ...]:
+    """Print what a valve with a leak in m3/(s Pa) lacks, one addition after the other, and draw it; return it."""
     noise = SIGMA * np.random.default_rng(1).standard_normal((DROP.size, 1))
     read = independent_observations(["flow"], flow({"orifice": 1e-7, "leak": leak}) + noise, np.array([SIGMA]))
     found = ladder(FunctionSimulator(flow, (ORIFICE,)), read, POSSIBLE)
@@ -39,8 +41,19 @@ def main(leak: float = 5e-12) -> tuple[str, ...]:
         print("; ".join(f"{one.name} {one.gain:+.1f} nats" for one in rung.tried))
     errors = (held_out(fit, read) for fit in (found.before, found.fit))
     print("held out: {:.2f} -> {:.2f} sigma by {}".format(*errors, ", ".join(found.kept) or "nothing"))
+    if picture:
+        draw(read.values, found, picture)
     return found.kept
 
 
+def draw(readings: Array, found: Ladder, picture: str) -> None:
+    """Draw what the orifice alone, and the model found, leave of the readings, in sigma."""
+    axes = Figure(figsize=(7.2, 3.6), layout="constrained").subplots()
+    for name, fit in (("orifice", found.before), (f"orifice and {', '.join(found.kept)}", found.fit)):
+        axes.plot(1e-5 * DROP, (readings - fit.predictions)[:, 0] / SIGMA, "o-", markersize=4, label=name)
+    axes.set(xlabel="pressure drop [bar]", ylabel="reading less model [sigma]")
+    axes.legend().figure.savefig(picture, dpi=110)
+
+
 if __name__ == "__main__":
-    main()
+    main(picture=sys.argv[2] if sys.argv[1:2] == ["--picture"] else "")

@@ -1,6 +1,7 @@
 """What has changed in a real rig: causes found from the difference of two mean working cycles.
 
     python examples/uci_hydraulic/cycle.py DATA [--cooler 20] [--valve 73] [--leak 1] [--accumulator 90]
+        [--picture FILE.png]
 
 DATA: folder of the data (see rig.py). The rig repeats a cycle of 60 s. The pump works against its relief valve; a
 directional valve opens; the load pressure takes five levels. The mean cycle of the sound rig gives the model. The
@@ -25,6 +26,7 @@ from functools import cached_property, partial
 from pathlib import Path
 
 import numpy as np
+from matplotlib.figure import Figure
 from rig import ACCUMULATOR, COOLER, LEAK, UNSTABLE, VALVE, WORKING
 from scipy.signal import lfilter
 
@@ -328,10 +330,12 @@ def main(words: Sequence[str]) -> None:
     for name, choices in (("cooler", (20, 100)), ("valve", (73, 80, 90, 100)), ("leak", (0, 1, 2))):
         parser.add_argument(f"--{name}", type=int, choices=choices, default=getattr(SOUND, name))
     parser.add_argument("--accumulator", type=int, choices=(90, 100, 115, 130), default=SOUND.accumulator)
+    parser.add_argument("--picture", type=Path)
     asked = parser.parse_args(words)
     state = State(asked.cooler, asked.valve, asked.leak, asked.accumulator)
+    data = recorded(asked.data)
     try:
-        found, errors = explained(recorded(asked.data), state)
+        found, errors = explained(data, state)
     except TooFew as reason:
         raise SystemExit(str(reason)) from reason
     for rung in found.rungs:
@@ -342,6 +346,25 @@ def main(words: Sequence[str]) -> None:
         rivals = found.rivals(name)
         print(f"kept: {name}, {size(found, name)}" + (f", not told from {', '.join(rivals)}" if rivals else ""))
     print("cycles of this state that were not fitted: {:.2f} -> {:.2f} sigma".format(*errors))
+
+    if asked.picture:
+        change = _difference(data.mean(SOUND, slice(None)), data.mean(state, slice(0, None, 2))).values
+        draw(change, found, asked.picture)
+
+
+def draw(change: Array, found: Ladder, picture: Path) -> None:
+    """Draw the change of pressure, flow and power over the mean cycle, as read and as explained."""
+    figure = Figure(figsize=(8.0, 5.2), layout="constrained")
+    panels = figure.subplots(3, 1, sharex=True)
+    shown = zip(panels, (BAR, LPM, 1.0), ("pressure [bar]", "flow [L/min]", "power [W]"), strict=True)
+    for column, (axes, unit, name) in enumerate(shown):
+        axes.plot(FIRST + np.arange(SECONDS), change[:, column] / unit, ".", color="#888888", label="read")
+        axes.plot(FIRST + np.arange(SECONDS), found.fit.predictions[:, column] / unit, label=", ".join(found.kept))
+        axes.set(ylabel=name)
+    panels[0].set(title="change from the mean cycle of the sound rig")
+    panels[0].legend(fontsize="small")
+    panels[-1].set(xlabel="time in the cycle [s]")
+    figure.savefig(picture, dpi=110)
 
 
 if __name__ == "__main__":

@@ -1,6 +1,6 @@
 """The cause of a loss of flow in a real rig, found from cycles with a concealed leak.
 
-    python examples/uci_hydraulic/leak.py DATA
+    python examples/uci_hydraulic/leak.py DATA [--picture FILE.png]
 
 DATA: folder of the data (see rig.py). Cycles without a leak give flow, motor power and pressure over the oil's
 temperature, which the cooler sets. The estimation engine compares cycles with a leak with them. Neither
@@ -18,6 +18,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
+from matplotlib.figure import Figure
 from rig import cycle_means
 
 from reynolds import ISO_GRADES, Array, Oil, walther
@@ -164,9 +165,10 @@ def diameter(area: float) -> float:
 
 def main(words: Sequence[str]) -> None:
     """Print explanations of each leak, the orifice's diameter, and the exponents of a free law."""
-    data = Path(words[0])
+    data, gains = Path(words[0]), {}
     for leak in (1, 2):
         found = explanations(data, leak)
+        gains[f"leak {leak}"] = {each.name: each.gain for each in found}
         print(f"leak {leak}: ln evidence over no change")
         for each in found:
             print(f"  {each.name:26s} {each.gain:9.1f}")
@@ -176,6 +178,19 @@ def main(words: Sequence[str]) -> None:
         law = free_law(data, leak)
         for name in ("viscosity_exponent", "pressure_exponent"):
             print("  {} {:.2f} +- {:.2f}".format(name.replace("_", " "), *law.size(name)))
+
+    if words[1:2] == ["--picture"]:
+        draw(gains, words[2])
+
+
+def draw(gains: Mapping[str, Mapping[str, float]], picture: str) -> None:
+    """Draw the evidence of each explanation of each leak."""
+    figure = Figure(figsize=(9.0, 2.8), layout="constrained")
+    for axes, (leak, own) in zip(figure.subplots(1, len(gains), sharey=True), gains.items(), strict=True):
+        names = list(next(iter(gains.values())))[::-1]
+        axes.barh(names, [own[name] for name in names])
+        axes.set(title=leak, xlabel="ln evidence over no change [nats]")
+    figure.savefig(picture, dpi=110)
 
 
 if __name__ == "__main__":

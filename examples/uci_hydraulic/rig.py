@@ -1,6 +1,6 @@
 """Recordings of the ZeMA hydraulic rig (UCI repository 447) in the form that `swashfilm diagnose` reads.
 
-    python examples/uci_hydraulic/rig.py DATA FOLDER [--leak 0|1|2] [--cooler 3|20|100]
+    python examples/uci_hydraulic/rig.py DATA FOLDER [--leak 0|1|2] [--cooler 3|20|100] [--picture FILE.png]
 
 DATA: folder of the repository's files (CC BY 4.0; cite Helwig, Pignanelli, Schuetze, I2MTC 2015,
 doi 10.1109/I2MTC.2015.7151267). One row is one stable cycle of 60 s: means over its seconds 30 to 57, in which
@@ -16,6 +16,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
+from matplotlib.figure import Figure
 
 from reynolds import Array
 
@@ -70,10 +71,23 @@ def main(words: Sequence[str]) -> None:
     parser.add_argument("folder", type=Path)
     parser.add_argument("--leak", type=int, choices=(0, 1, 2), default=0)
     parser.add_argument("--cooler", type=int, choices=(3, 20, 100), default=100)
+    parser.add_argument("--picture", type=Path)
     asked = parser.parse_args(words)
     rows = cycle_means(asked.data, asked.leak, asked.cooler)
     write_recording(rows, asked.folder, asked.leak, asked.cooler)
     print(f"{len(rows)} cycles in {asked.folder}")
+    if asked.picture:
+        draw(rows, asked.picture)
+
+
+def draw(rows: Array, picture: Path) -> None:
+    """Draw flow and power of the cycles over the temperature of the oil, coloured by pressure."""
+    figure = Figure(figsize=(9.0, 3.6), layout="constrained")
+    for axes, column, name in zip(figure.subplots(1, 2), (2, 3), ("flow [L/min]", "motor power [W]"), strict=True):
+        dots = axes.scatter(rows[:, 4], rows[:, column], c=rows[:, 1], s=8)
+        axes.set(xlabel="oil temperature [degC]", ylabel=name)
+    figure.colorbar(dots, label="pressure [bar]")
+    figure.savefig(picture, dpi=110)
 
 
 if __name__ == "__main__":

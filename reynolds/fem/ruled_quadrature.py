@@ -47,7 +47,7 @@ def ruling_of(points: Array) -> Ruling | None:
     """The ruling of points (2, cells, points) m that fill all places of some rows and columns, else None."""
     (x, column), (y, row) = (_distinct(along, SAME * np.ptp(points)) for along in points)
     places = column * len(y) + row
-    if len(x) * len(y) != places.size or len(np.unique(places)) != places.size:
+    if len(x) * len(y) != places.size or not np.bincount(places.ravel(), minlength=places.size).all():
         return None
     return Ruling(x[:, None], y[None, :], column, row)
 

@@ -1,6 +1,7 @@
 """Linear solves with one sparsity pattern: symmetric positive definite (`Factor`) and general (`GeneralFactor`).
 
-Symmetric ones by size. On a grid, multigrid solves them from 400 unknowns on. QDLDL (Stellato
+Symmetric ones by size. On a grid, multigrid solves them from 400 unknowns on, those of quadratic elements from 3000 on,
+preconditioned by the linear film on the same nodes. QDLDL (Stellato
 et al. 2020) keeps its symbolic part between calls and is the fastest of the freely licensed direct solvers below
 about 1e5 unknowns; above, conjugate gradients with algebraic multigrid (Ruge-Stueben 1987, pyamg) take over,
 since fill grows faster than the mesh. Where one stalls, the next one takes over.
@@ -20,6 +21,7 @@ from reynolds.linear.band import BandedFactor, banded
 from reynolds.linear.cavitated import CavitatedFilm
 from reynolds.linear.multigrid.grid import Grid
 from reynolds.linear.multigrid.solver import Multigrid
+from reynolds.linear.quadratic import QuadraticFilm
 from reynolds.linear.triangles import BothTriangles, both_triangles
 from reynolds.numerics.array_kernels import norm
 from reynolds.numerics.arrays import Array
@@ -50,25 +52,35 @@ def row_by_row(solve: Solve) -> Solve:
 class Factor:
     """The factorised operator of one pattern: `update` with new entries, then `solve` any number of times."""
 
-    def __init__(self, grid: Grid | None = None) -> None:
-        """`grid`: the rows and columns of the unknowns (`grid_of`), None where the mesh is no grid."""
+    def __init__(self, grid: Grid | None = None, quadratic: QuadraticFilm | None = None) -> None:
+        """`grid`: the rows and columns of the unknowns (`grid_of`), None where the mesh is no grid.
+
+        quadratic: the solver of a quadratic film, None where the film is linear or its nodes are no grid.
+        """
         self._grid = grid if grid is not None and grid.unknowns.size >= GRID_LEAST else None
-        self._on_grid: Multigrid | None = None
-        self._direct: qdldl.Solver | None = None
+        self._on_grid: Multigrid | QuadraticFilm | None = quadratic
+        self._direct: tuple[csc_matrix, qdldl.Solver] | None = None
         self._multigrid: tuple[csr_array, Any] | None = None
         self._upper: csc_array | None = None
         self._stalled = False
 
-    def update(self, upper: csc_array) -> None:
-        """Take the upper triangle of a symmetric positive definite matrix; the pattern never changes."""
+    def update(self, upper: csc_array, linear: Array | None = None) -> None:
+        """Take the upper triangle of a symmetric positive definite matrix; the pattern never changes.
+
+        linear: entries of a quadratic film's companion.
+        """
         self._upper = upper
-        if self._grid is not None:
-            if self._on_grid is None:
-                self._on_grid = Multigrid(self._grid, upper)
-            if self._on_grid.update(upper.data):
-                return
-            self._leave_grid()
+        if self._taken_on_grid(upper, linear):
+            return
+        self._leave_grid()
         self._off_grid(upper)
+
+    def _taken_on_grid(self, upper: csc_array, linear: Array | None) -> bool:
+        if isinstance(self._on_grid, QuadraticFilm):
+            return linear is not None and self._on_grid.update(upper, linear)
+        if self._on_grid is None and self._grid is not None:
+            self._on_grid = Multigrid(self._grid, upper)
+        return self._on_grid is not None and self._on_grid.update(upper.data)
 
     def solve(self, load: Array, tolerance: float = ITERATIVE_TOLERANCE) -> Array:
         """x with A x = load, (n,), at least to |A x - load| = tolerance |load|.
@@ -91,7 +103,7 @@ class Factor:
             self._stalled = True
             self._factorise(self._upper)
         assert self._direct is not None
-        return self._direct.solve(load)
+        return np.asarray(self._direct[1].solve(load))
 
     def _leave_grid(self) -> None:
         self._grid = self._on_grid = None
@@ -104,11 +116,13 @@ class Factor:
 
     def _factorise(self, upper: csc_array) -> None:
         self._multigrid = None
-        matrix = csc_matrix((upper.data, upper.indices, upper.indptr), shape=upper.shape)
         if self._direct is None:
-            self._direct = qdldl.Solver(matrix, upper=True)
+            matrix = csc_matrix((upper.data, upper.indices, upper.indptr), shape=upper.shape)
+            self._direct = matrix, qdldl.Solver(matrix, upper=True)
         else:
-            self._direct.update(matrix, upper=True)
+            matrix, direct = self._direct
+            matrix.data = upper.data  # scipy checks every new matrix, which takes as long as a small elimination
+            direct.update(matrix, upper=True)
 
 
 def multigrid(upper: csc_array, max_coarse: int = 10) -> tuple[csr_array, Any]:

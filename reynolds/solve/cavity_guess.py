@@ -15,6 +15,7 @@ from scipy.sparse import coo_array, csc_array
 from reynolds.fem import kernels
 from reynolds.linear.factor import Factor
 from reynolds.linear.multigrid.grid import Grid
+from reynolds.numerics.array_kernels import norm
 from reynolds.numerics.arrays import Array
 
 COARSEST = 200  # unknowns: below this a cold start takes no more than a few steps
@@ -70,8 +71,7 @@ class Cascade:
     def cavity(self, problem: Obstacle) -> NDArray[np.bool_]:
         """The cavity: unknowns (n,) with u = 0 that are not held, to within a few cells.
 
-        A guess, best where A has the signs of a film operator (no positive couplings): the caller's active set
-        makes it exact.
+        A guess, best where A has the signs of a film operator (no positive couplings): `active_set` makes it exact.
         """
         problems, tied = [problem], self._tied(problem)
         for level in self._levels:
@@ -98,19 +98,30 @@ def active_set(pattern: csc_array, factor: Factor, problem: Obstacle, cavity: ND
     `factor` takes matrices of `pattern`, an upper triangle whose entries are not used.
     """
     indptr, indices, load = pattern.indptr, pattern.indices, problem.load
-    upper, nothing = copy(pattern), np.zeros(len(load))
-    upper.data = np.empty_like(problem.entries)
+    upper, nothing, answer = copy(pattern), np.zeros(len(load)), np.zeros(len(load))
+    upper.data, enough = np.empty_like(problem.entries), ROUGHLY * norm(load)
     for _ in range(MAX_STEPS):
-        kernels.hold(indptr, indices, problem.entries, 1.0, cavity | problem.held, nothing, upper.data)
+        fixed = cavity | problem.held
+        kernels.hold(indptr, indices, problem.entries, 1.0, fixed, nothing, upper.data)
         factor.update(upper)
-        answer = factor.solve(np.where(cavity | problem.held, 0.0, load), ROUGHLY)
-        lack, size = -load, np.zeros(len(load))
-        kernels.convect(indptr, indices, problem.entries, problem.entries, answer, lack, size)
+        answer = np.where(fixed, 0.0, answer)
+        left = np.where(fixed, 0.0, -_lack(pattern, problem, answer))
+        if (size := norm(left)) > enough:
+            answer += factor.solve(left, enough / size)
+        lack = _lack(pattern, problem, answer)
         now = np.where(cavity, lack > 0.0, answer < 0.0) & ~problem.held
         if np.array_equal(now, cavity):
             break
         cavity = now
     return cavity
+
+
+def _lack(pattern: csc_array, problem: Obstacle, answer: Array) -> Array:
+    """A u - load, (n,)."""
+    lack, size = -problem.load, np.zeros(len(answer))
+    entries = problem.entries
+    kernels.convect(pattern.indptr, pattern.indices, entries, entries, answer, lack, size)
+    return lack
 
 
 def _blocks(rows: NDArray[np.int32]) -> tuple[NDArray[np.int32], NDArray[np.int32]]:

@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from reynolds.equation.balance import FilmState, Operators, operators, positive_share
+from reynolds.equation.companion import companion_of, film_on_nodes
 from reynolds.equation.deformation_sparsity import ElasticPatterns
 from reynolds.errors import FilmInputError, FilmNotConverged
 from reynolds.fem.space import FilmSpace
@@ -24,7 +25,7 @@ from reynolds.linear.multigrid.grid import grid_of
 from reynolds.numerics.arrays import Array
 from reynolds.problem import LEAST_FRACTION, Cavitation, FilmProblem, FilmSolution
 from reynolds.solve.boundary import BoundaryValues, pressure_sending, spread
-from reynolds.solve.cavity_guess import COARSEST, Cascade, Obstacle, active_set
+from reynolds.solve.cavity_guess import COARSEST, FINEST, Cascade, Obstacle, active_set
 from reynolds.solve.iterate import (
     Iterate,
     advanced,
@@ -45,6 +46,7 @@ ROUND_OFF = 1e-12
 SOFT_STEP = 1e-5  # residual of a first step between elastic walls over its load
 KEPT = 1e-3  # imbalance below which a linearisation between elastic walls, which is costly, is kept
 KEPT_GAIN = 0.03  # largest reduction factor of a kept linearisation that is used again
+QUADRATIC_LEAST = 3000  # unknowns: below, a direct solve of a quadratic film is as fast as conjugate gradients
 LOOSEST = 1e-2  # residual of a linear solve over its load
 LESS = 0.3  # of a pocket's flow before: from a smaller flow its supply's law converges
 LEAST_GAP = 0.1  # of the largest film, to which a first pressure parts overlapping walls
@@ -60,9 +62,10 @@ class FilmSolver:
             NearFactor(),
             ElasticPatterns(space),
         )
-        self._pattern = space.pattern
+        self._pattern, self._placed = space.pattern, space.vertices
         self._grid = grid_of(space)
-        self._factor = Factor(self._grid)
+        self._companion = companion_of(space) if space.size >= QUADRATIC_LEAST else None
+        self._factor = Factor(self._grid, None if self._companion is None else film_on_nodes(self._companion))
         self._general = GeneralFactor(self._grid)
         self._near = NearFactor()
         self._cascade: Cascade | None = None
@@ -154,14 +157,14 @@ class FilmSolver:
     def _cavity(self, problem: FilmProblem, setting: BoundaryValues, at: Iterate) -> NDArray[np.bool_]:
         """A first guess, from coarser problems under Reynolds' condition.
 
-        Under JFO, whose steps cost more, it is made exact for that condition; under Reynolds' the later steps do so.
+        Exact for that condition under JFO, whose steps cost more, and on meshes that the coarser ones do not resolve.
         """
         matrix, load = symmetric_step(problem, setting, at, setting.held)
         obstacle = Obstacle(matrix.data, load, setting.held)
         if self._cascade is None:
             self._cascade = Cascade(matrix, self._grid)
-        guess = self._cascade.cavity(obstacle)
-        return active_set(matrix, self._factor, obstacle, guess) if problem.cavitation is Cavitation.JFO else guess
+        guess, costly = self._cascade.cavity(obstacle), problem.cavitation is Cavitation.JFO
+        return active_set(matrix, self._factor, obstacle, guess) if costly or guess.size > FINEST else guess
 
     def _answer(self, solution: FilmSolution) -> _Answers | None:
         """The last linearised balance, if it is of that film, with the same cavity but for full unknowns."""
@@ -231,7 +234,7 @@ class FilmSolver:
         fixed, scale = fixed_in(problem, setting, at), 0.0
         if is_linear(problem) and not conserving:
             matrix, load = symmetric_step(problem, setting, at, fixed)
-            self._factor.update(matrix)
+            self._factor.update(matrix, self._of_companion(problem, at, fixed))
             solve = row_by_row(self._factor.solve)
         else:
             upper, lower, load, scale = general_step(problem, setting, at)
@@ -243,6 +246,14 @@ class FilmSolver:
         made = _Answers(solve, at, fixed, scale, imbalance)
         self._answers, self._answered = made, None
         return made, load
+
+    def _of_companion(self, problem: FilmProblem, at: Iterate, fixed: NDArray[np.bool_]) -> Array | None:
+        """Entries of a quadratic film's companion, None where there is none."""
+        if self._companion is None:
+            return None
+        if problem.space.vertices is not self._placed:
+            self._companion, self._placed = self._companion.moved(problem.space.vertices), problem.space.vertices
+        return self._companion.entries(at.parts.transport.conductance, fixed)
 
 
 def as_given(problem: FilmProblem, given: FilmSolution) -> FilmSolution:

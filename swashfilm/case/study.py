@@ -3,24 +3,27 @@
 from __future__ import annotations
 
 import copy
-from collections.abc import Mapping, Sequence
+from abc import ABC, abstractmethod
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from enum import Enum
 from itertools import product
 from pathlib import Path
-from typing import Any
+from typing import Any, Generic, TypeVar
 
 import numpy as np
 
+from swashfilm.case.axis import StudyAxis, dimension_of, listed_axis, place_words, stepped
 from swashfilm.case.file import Case, read_case
 from swashfilm.case.gap.switches import switches_of
 from swashfilm.case.settings import STEP, put, read_set, with_comments
 from system.inputs.faults import Fault, InputFaults, nearest_choice
 from system.inputs.toml_table import Table, fault_lines, quoted
-from system.inputs.units import Dimension, QuantityError, format_quantity, parse_quantity
+from system.inputs.units import Dimension, parse_quantity
 
 MOST_POINTS = 10_000
 Point = tuple[int, ...]
+CaseT = TypeVar("CaseT")
 
 
 class Combine(Enum):
@@ -38,28 +41,17 @@ class RangeSpacing(Enum):
 
 
 @dataclass(frozen=True)
-class StudyAxis:
-    """One varied key: its values as written in a case and, for numbers, in SI with their unit."""
-
-    key: str
-    values: tuple[Any, ...]
-    numbers: tuple[float, ...] | None
-    unit: str
-
-    @property
-    def labels(self) -> tuple[str, ...]:
-        """The values as text."""
-        return tuple(str(value) for value in self.values)
-
-
-@dataclass(frozen=True)
-class Study:
-    """Points over varied keys: their name, the text of the file, the keys and their combination."""
+class Study(ABC, Generic[CaseT]):
+    """Points over varied keys, each a case: their name, the text of the file, the keys and their combination."""
 
     name: str
     text: str
     axes: tuple[StudyAxis, ...]
     combine: Combine
+
+    @abstractmethod
+    def case(self, point: Point) -> CaseT:
+        """Return the case of a point; raise InputFaults with its faults."""
 
     @property
     def shape(self) -> tuple[int, ...]:
@@ -78,9 +70,13 @@ class Study:
         """Return the varied keys of a point and their values as written in a case."""
         return {axis.key: axis.values[k] for axis, k in zip(self.axes, point, strict=True)}
 
+    def words(self, point: Point) -> str:
+        """Return the varied keys of a point and their values in the units in which they are shown."""
+        return place_words(self.axes, self.values(point))
+
 
 @dataclass(frozen=True)
-class StudyCase(Study):
+class StudyCase(Study[Case]):
     """A study of films: the path of its file, its tables without [study], and the table of the keys, `where`."""
 
     path: Path
@@ -188,17 +184,6 @@ def is_key_of_case(table: Table, key: str) -> bool:
     return False
 
 
-def listed_axis(key: str, values: Sequence[Any]) -> StudyAxis:
-    """Return an axis of listed values, with numbers where all are bare numbers or of one dimension."""
-    if all(isinstance(value, (int, float)) and not isinstance(value, bool) for value in values):
-        return StudyAxis(key, tuple(values), tuple(float(value) for value in values), "")
-    dimension = _dimension(values)
-    if dimension is None:
-        return StudyAxis(key, tuple(values), None, "")
-    numbers = tuple(parse_quantity(value, dimension) for value in values)
-    return StudyAxis(key, tuple(values), numbers, dimension.si_unit)
-
-
 @dataclass(frozen=True)
 class Ends:
     """A range of one key, SI: its ends, the dimension of both (None: bare numbers), and its spacing."""
@@ -216,7 +201,7 @@ def read_ends(table: Table) -> Ends | None:
         table.choice("spacing", RangeSpacing, RangeSpacing.LINEAR),
     )
     plain = all(isinstance(end, (int, float)) and not isinstance(end, bool) for end in ends)
-    dimension = None if plain else _dimension(ends)
+    dimension = None if plain else dimension_of(ends)
     if not plain and dimension is None:
         found = f"from {ends[0]!r} to {ends[1]!r}"
         table.faults.append(Fault(table.path, found, "two quantities of one kind, or two bare numbers"))
@@ -238,26 +223,6 @@ def _ranged(table: Table, key: str) -> StudyAxis | None:
         return None
     steps = (np.geomspace if ends.spacing is RangeSpacing.LOG else np.linspace)(ends.low, ends.high, points)
     return stepped(key, [float(f"{step:.12g}") for step in steps], ends.dimension)
-
-
-def stepped(key: str, numbers: Sequence[float], dimension: Dimension | None) -> StudyAxis:
-    """Return an axis of numbers (SI)."""
-    if dimension is None:
-        return StudyAxis(key, tuple(numbers), tuple(numbers), "")
-    texts = [format_quantity(number, dimension, digits=12) for number in numbers]
-    return StudyAxis(key, tuple(texts), tuple(parse_quantity(text, dimension) for text in texts), dimension.si_unit)
-
-
-def _dimension(values: Sequence[Any]) -> Dimension | None:
-    """Return the first dimension that fits all texts as quantities."""
-    for dimension in Dimension:
-        try:
-            for value in values:
-                parse_quantity(value if isinstance(value, str) else None, dimension)
-        except QuantityError:
-            continue
-        return dimension
-    return None
 
 
 def _unknown_constants(study: StudyCase) -> list[Fault]:

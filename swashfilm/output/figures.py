@@ -99,13 +99,15 @@ def _shortened(svg: bytes) -> bytes:
 
 
 def compact(figure: Figure) -> bytes:
-    """Return the figure as SVG where that is not LARGE; otherwise as WebP, without loss where it shows no field."""
+    """Return the figure as SVG where it shows no field and is not LARGE; otherwise as WebP, of lines without loss."""
     from PIL import Image
 
-    vector = svg_of(figure)
-    if len(vector) <= LARGE:
+    areas = [area for axes in figure.axes for area in axes.collections]
+    fields = any(kept_field(area) or area.get_rasterized() for area in areas)
+    if not fields and len(vector := svg_of(figure)) <= LARGE:
         return vector
-    fields = any(kept_field(area) for axes in figure.axes for area in axes.collections)
+    if not fields:
+        figure.set_layout_engine("none")  # it is laid out already
     drawn, picture = io.BytesIO(), io.BytesIO()
     dpi = max(_FIELD_DPI, FEWEST_PIXELS / figure.get_figwidth()) if fields else _LINES_DPI
     figure.savefig(drawn, format="png", dpi=dpi)

@@ -28,8 +28,9 @@ class Grade(Enum):
 _NAMED = {
     Grade.CARE: (
         "boundary_lubrication cavitation_below_vacuum coarse_angles coarse_mesh contact_beyond_roughness "
-        "energy_not_balanced film_hot film_not_thin film_runs_dry motion_unstable no_3d_picture no_delivery "
-        "points_failed port_pressure_follows_line profile_not_resolved steps_too_long table_guesses"
+        "energy_not_balanced fidelities_differ film_hot film_not_thin film_pressure_beyond_oil film_runs_dry "
+        "motion_unstable no_3d_picture no_delivery points_failed port_pressure_follows_line profile_not_resolved "
+        "pumps_refused steps_too_long table_guesses"
     ),
     Grade.DESIGN: (
         "actuator_cavitates block_tips chamber_cavitates chamber_overpressure retainer_gives_way "
@@ -40,7 +41,7 @@ _NAMED = {
     Grade.MODEL: (
         "cavity_does_not_conserve_mass coefficients_beyond_file film_angles_too_few film_pressure_beyond_rigid "
         "flow_factors_out_of_range large_error load_not_carried losses_left_out pressure_below_cavitation "
-        "results_thinned table_error temperature_not_solved values_scaled "
+        "results_thinned shares_uncertain table_error temperature_not_solved values_scaled "
         "viscosity_without_pressure weakly_active_cavity operating.inlet_pressure operating.pressure operating.speed "
         "slipper.groove_file slipper.orifice_file slipper.pocket_file valve_plate.kidney_file "
         "valve_plate.sphere_radius"

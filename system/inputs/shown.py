@@ -102,10 +102,13 @@ _SHOWN = {
         Shown("m", "um", 1e6), Shown("m2", "mm2", 1e6), Shown("m3", "mL", 1e6), Shown("m3/s", "L/min", LPM),
         Shown("m3/rev", "mL/r", 1e6), Shown("rad", "deg", 180.0 / pi), Shown("rad/s", "r/min", 1.0 / RPM),
         Shown("K", "degC", 1.0, 273.15), Shown("Pa s", "mPa s", 1e3), Shown("J", "kJ", 1e-3),
+        Shown("m2/s", "mm2/s", 1e6),
     )
 }  # fmt: skip
 _PLACE, _TILT, _RATE = Shown("m", "mm", 1e3), Shown("rad", "mrad", 1e3), Shown("rad/s", "deg/s", 180.0 / pi)
 _WARMING = Shown("K", "K")
+PERCENT = Shown("1", "%", 100.0)
+"""Shares and efficiencies."""
 _BY_WORDS = (
     (re.compile(r"^((piston|slipper|valve_plate)_)?[xyz]$|radius|along|_at$|diameter|length"), _PLACE),
     (re.compile(r"tilt|slope"), _TILT),
@@ -113,7 +116,7 @@ _BY_WORDS = (
     (re.compile(r"rise|error|sigma|change"), _WARMING),
 )
 """Other units of quantities whose name contains these words: places in a film, small angles, and the like."""
-_BACK = {one.unit: one for one in (*_SHOWN.values(), *_PRESSURE.values(), _PLACE, _TILT, _RATE, Shown("1", "%", 100.0))}
+_BACK = {one.unit: one for one in (*_SHOWN.values(), *_PRESSURE.values(), _PLACE, _TILT, _RATE, PERCENT)}
 
 
 def shown_in(si_unit: str, quantity: str = "", largest: float = 0.0) -> Shown:

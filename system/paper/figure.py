@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from enum import Enum
 
 from reynolds.numerics.arrays import Array
+from system.inputs.shown import shown_in
 
 
 class Figure(Enum):
@@ -57,7 +58,7 @@ DRAWINGS = {
 
 
 class Unit(Enum):
-    """Unit of a number: SI unit, the unit shown, and the factor from the one to the other."""
+    """Unit of a number: SI unit, the unit shown, and the factor between them; of pressures as asked for."""
 
     NUMBER = ("1", "1", 1.0)
     SHARE = ("1 as a share", "%", 100.0)
@@ -80,12 +81,12 @@ class Unit(Enum):
     @property
     def shown(self) -> str:
         """The unit it is shown in."""
-        return self.value[1]
+        return shown_in("Pa").unit if self is Unit.PRESSURE else self.value[1]
 
     @property
     def factor(self) -> float:
         """Shown number over SI number."""
-        return self.value[2]
+        return shown_in("Pa").factor if self is Unit.PRESSURE else self.value[2]
 
 
 @dataclass(frozen=True)

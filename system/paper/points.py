@@ -13,6 +13,7 @@ from reynolds.errors import InputError
 from reynolds.numerics.arrays import Array
 from reynolds.numerics.cache import content_key
 from system.description.pump import PumpDescription
+from system.inputs.shown import pressure_text
 from system.inputs.units import RPM
 from system.paper.figure import Figure
 from system.paper.film_records import films_record
@@ -78,7 +79,7 @@ class Place:
     @property
     def text(self) -> str:
         """In words."""
-        return f"{self.speed / RPM:.0f} r/min, {1e-6 * self.pressure:g} MPa, {100.0 * self.ratio:.0f} % displacement"
+        return f"{self.speed / RPM:.0f} r/min, {pressure_text(self.pressure)}, {100.0 * self.ratio:.0f} % displacement"
 
 
 @dataclass(frozen=True)

@@ -8,7 +8,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from reynolds.numerics.arrays import Array
-from system.inputs.units import LPM, TURN
+from system.inputs.shown import PERCENT, Shown, shown_in
+from system.inputs.units import TURN
 from system.maps.point import GAPS
 from system.points.table.means import SolvedPoint
 
@@ -52,17 +53,29 @@ Columns = Mapping[str, Array]
 class Measure:
     """A number of a pump over its operating points.
 
-    unit: SI; shown: the unit that people read, `scale` of it in one SI unit; of: value (..,) of the numbers (.., P)
-    and the weights (P,). film: known only where films are solved.
+    unit: SI; of: value (..,) of the numbers (.., P) and the weights (P,). film: known only where films are solved.
     """
 
     name: str
     words: str
     unit: str
-    shown: str
-    scale: float
     of: Callable[[Columns, Array], Array]
     film: bool = False
+
+    @property
+    def reading(self) -> Shown:
+        """The unit that people read: shares are efficiencies."""
+        return PERCENT if self.unit == "1" else shown_in(self.unit, self.words)
+
+    @property
+    def shown(self) -> str:
+        """Symbol of the unit that people read."""
+        return self.reading.unit
+
+    @property
+    def scale(self) -> float:
+        """Number of units that people read in one SI unit."""
+        return self.reading.factor
 
     def text(self, value: float, digits: int = 4) -> str:
         """Return a value as people read it; a temperature in degC."""
@@ -70,7 +83,7 @@ class Measure:
 
     def read(self, values: Array) -> Array:
         """Return SI values in the unit that people read."""
-        return values - 273.15 if self.unit == "K" else values * self.scale
+        return self.reading.of(values)
 
     @property
     def unit_of_change(self) -> str:
@@ -98,18 +111,17 @@ def _efficiencies(numbers: Columns, weights: Array) -> tuple[Array, Array, Array
 
 
 def _gap(name: str, gap: str, words: str, most: bool) -> Measure:
-    unit, shown, scale = ("K", "degC", 1.0) if most else ("m", "um", 1e6)
     key = f"{name}.{gap}"
 
     def worst(numbers: Columns, weights: Array) -> Array:
         return np.asarray(np.max(numbers[key], axis=-1) if most else np.min(numbers[key], axis=-1))
 
-    return Measure(key, f"{words}, {gap.replace('_', ' ')}", unit, shown, scale, worst, film=True)
+    return Measure(key, f"{words}, {gap.replace('_', ' ')}", "K" if most else "m", worst, film=True)
 
 
 def _efficiency(place: int, part: str) -> Measure:
     words = f"{part} efficiency, ISO 4409"
-    return Measure(f"efficiency.{part}", words, "1", "%", 100.0, lambda n, w: _efficiencies(n, w)[place])
+    return Measure(f"efficiency.{part}", words, "1", lambda n, w: _efficiencies(n, w)[place])
 
 
 LOSS = "loss"
@@ -119,20 +131,20 @@ RIPPLE = "delivery_flow_ripple"
 MEASURES = {
     one.name: one
     for one in (
-        Measure(LOSS, "total loss", "W", "W", 1.0, _mean("loss")),
+        Measure(LOSS, "total loss", "W", _mean("loss")),
         *(_efficiency(place, part) for place, part in enumerate(("overall", "volumetric", "hydromechanical"))),
-        Measure(DRAIN, "case drain", "m3/s", "L/min", LPM, _mean("drain_flow")),
+        Measure(DRAIN, "case drain", "m3/s", _mean("drain_flow")),
         *(
             Measure(
-                f"leakage.{gap}", f"leakage, {gap.replace('_', ' ')}", "m3/s", "L/min", LPM, _mean(f"leakage.{gap}")
+                f"leakage.{gap}", f"leakage, {gap.replace('_', ' ')}", "m3/s", _mean(f"leakage.{gap}")
             )
             for gap in GAPS
         ),
-        Measure("delivery_flow", "delivery flow", "m3/s", "L/min", LPM, _mean("delivery_flow")),
-        Measure(RIPPLE, "delivery flow ripple", "m3/s", "L/min", LPM, _mean(RIPPLE)),
-        Measure("shaft_torque", "shaft torque", "N m", "N m", 1.0, _mean("shaft_torque")),
+        Measure("delivery_flow", "delivery flow", "m3/s", _mean("delivery_flow")),
+        Measure(RIPPLE, "delivery flow ripple", "m3/s", _mean(RIPPLE)),
+        Measure("shaft_torque", "shaft torque", "N m", _mean("shaft_torque")),
         Measure(
-            "chamber_pressure_peak", "highest chamber pressure", "Pa", "MPa", 1e-6,
+            "chamber_pressure_peak", "highest chamber pressure", "Pa",
             lambda numbers, _: np.asarray(np.max(numbers["chamber_pressure_peak"], axis=-1)),
         ),
         *(_gap("film_least", gap, "least film", most=False) for gap in GAPS),

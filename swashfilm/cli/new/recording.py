@@ -78,5 +78,5 @@ def _faults(guess: GuessedRecording) -> list[Fault]:
     if any(one.name in OUTPUTS for one in guess.channels):
         return []
     found = ", ".join(one.column for one in guess.channels) or "no column that heads tell"
-    expected = "heads that tell a flow, a torque or a temperature, such as 'Q_out [L/min]', 'torque [N m]'"
+    expected = "heads of a flow, a torque, a motor power or the outlet's temperature, such as 'Q_out [L/min]'"
     return [Fault("TABLE", found, expected)]

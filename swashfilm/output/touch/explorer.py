@@ -1,4 +1,4 @@
-"""Figures with choices: what each choice puts into the figure, as `touch.js` reads it."""
+"""Figures with choices: what each choice puts into the figure, as `script/choices.js` reads it."""
 
 from __future__ import annotations
 

@@ -10,6 +10,7 @@ from diagnosis.calibration import Calibration
 from diagnosis.recording.units import channel_head, channel_unit, difference, difference_unit, reading
 from diagnosis.report.format import parameter_unit
 from diagnosis.verdict.row_numbers import table_rows
+from swashfilm.console.schemas import write_new
 from swashfilm.output.run_folder import write_json
 from swashfilm.runs.diagnose.files import write_rows
 from system.bench.calibration.held_out import PHYSICS
@@ -32,8 +33,8 @@ def write_calibration_files(folder: Path, found: Calibration, title: str) -> Non
     write_rows(folder / "hersey.csv", hersey_rows(found))
     write_rows(folder / "heldout.csv", heldout_rows(found))
     write_rows(folder / "residuals.csv", residual_rows(found))
-    (folder / "resolved.toml").write_text(resolved_toml(found.pump), encoding="utf-8")
-    (folder / CALIBRATED).write_text(resolved_toml(found.calibrated_pump), encoding="utf-8")
+    write_new(folder / "resolved.toml", "pump", resolved_toml(found.pump))
+    write_new(folder / CALIBRATED, "pump", resolved_toml(found.calibrated_pump))
     write_json(folder / "summary.json", summary(found, title))
     from swashfilm.runs.calibrate.page import write_calibrate_page
 

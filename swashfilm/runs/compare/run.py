@@ -115,7 +115,7 @@ def run_compare(both: Sides, cycle: Cycle | None, folder: Path) -> dict[str, Any
         "given": [side.given for side in both],
         "pumps": [side.data.name for side in both],
         "solvers": [side.data.words for side in both],
-        "warnings": list(_warnings(both)),
+        "warnings": list(fidelity_warnings(both)),
         "box": [
             {"words": axis.input.words, "from": axis.input.text(axis.values[0]), "to": axis.input.text(axis.values[-1])}
             for axis in found.one.axes
@@ -133,11 +133,14 @@ def run_compare(both: Sides, cycle: Cycle | None, folder: Path) -> dict[str, Any
     return summary
 
 
-def _warnings(both: Sides) -> Iterator[str]:
-    """Yield warnings on the differences."""
+def fidelity_warnings(both: Sides) -> Iterator[str]:
+    """Yield a warning of two maps that are not of one fidelity."""
     one, other = (side.data.words for side in both)
     if one != other:
-        yield f"A is {one}, B is {other}: differences contain those between the fidelities, not only the pumps"
+        yield (
+            f"fidelities_differ: A is {one}, B is {other} (limit: one fidelity for both): differences contain those "
+            "between the fidelities, not only the pumps; solve both maps by one fidelity"
+        )
 
 
 def _row(one: Difference) -> dict[str, Any]:

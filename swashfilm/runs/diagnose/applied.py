@@ -7,6 +7,7 @@ from dataclasses import replace
 from datetime import date
 
 from diagnosis.finding import DiagnosisResult
+from diagnosis.report.format import chance
 from diagnosis.verdict.diagnosis import Estimate
 from system.description.pump import PumpDescription
 from system.effects.effect import EffectId
@@ -34,7 +35,7 @@ def _origin(found: DiagnosisResult, title: str, day: date) -> Iterator[str]:
     for claim in finding.effects:
         pair = f" of the {claim.pair.value.replace('_', ' ')}" if claim.pair else ""
         sizes = ", ".join(map(_estimate, claim.parameters))
-        yield f"  {claim.effect.value}{pair}, probability {claim.probability:.2f}{f': {sizes}' if sizes else ''}"
+        yield f"  {claim.effect.value}{pair}, probability {chance(claim.probability)}{f': {sizes}' if sizes else ''}"
     yield "[tolerance] has one sigma of each value after the fit."
 
 

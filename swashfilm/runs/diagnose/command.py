@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 from collections.abc import Iterator, Sequence
+from datetime import date
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -13,7 +14,7 @@ from swashfilm.console.schemas import write_new
 from swashfilm.console.settings import add_set_option, set_values_of
 from swashfilm.console.terminal import show, show_at_once, show_table
 from swashfilm.runs.diagnose.films import FLOATING, add_film_options
-from system.inputs.faults import Fault, InputFaults
+from system.inputs.faults import Fault, InputFaults, nearest_path
 
 if TYPE_CHECKING:
     from diagnosis.recording.model import Recording
@@ -48,9 +49,10 @@ def run_diagnose_command(options: argparse.Namespace) -> int:
     from swashfilm.console.progress import progress
     from swashfilm.output.page import PAGE
     from swashfilm.output.run_folder import Interrupted, final_folder, run_folder
+    from swashfilm.runs.diagnose.applied import applied_toml
     from swashfilm.runs.diagnose.films import film_model_of, film_options_of
     from swashfilm.runs.diagnose.result import DiagnosisRun
-    from swashfilm.runs.diagnose.run import EXTENDED, write_finding
+    from swashfilm.runs.diagnose.run import write_finding
     from swashfilm.runs.diagnose.told import MOST_LINES, answer_lines, show_contradictions
     from system.effects.catalogue.entries import CATALOGUE, with_films_solved
     from system.effects.effect import Kind
@@ -72,8 +74,8 @@ def run_diagnose_command(options: argparse.Namespace) -> int:
         found = DiagnosisRun.opened(folder)
     for line in answer_lines(found.record["answer"], MOST_LINES - (apply is not None)):
         show(line)
-    if apply is not None and found.effects:
-        write_new(apply, "pump", (final_folder(folder) / EXTENDED).read_text("utf-8"))
+    if apply is not None and finding.extended_pump is not None:
+        write_new(apply, "pump", applied_toml(finding, finding.extended_pump, date.today()))
         what = "without the sensor's fault" if finding.diagnosis.kind is Kind.SENSOR_FAULT else "with it"
         fidelity = " --fidelity lumped" if films is None else ""  # floating films have all physics by default
         show(f"the pump as fitted, {what}: swashfilm run {apply}{fidelity}")
@@ -87,7 +89,8 @@ def _watch(options: argparse.Namespace, workers: int) -> None:
     """Diagnose a folder again and again, each time into a run folder of its own; ends by KeyboardInterrupt."""
     from diagnosis.finding import diagnose
     from diagnosis.study.acceptance import checked_recording
-    from swashfilm.output.run_folder import run_folder
+    from swashfilm.output.page import PAGE
+    from swashfilm.output.run_folder import final_folder, run_folder
     from swashfilm.runs.diagnose.run import write_finding
     from swashfilm.runs.diagnose.watch import Answer, answer_of, watch
     from system.effects.catalogue.entries import CATALOGUE, with_films_solved
@@ -102,7 +105,8 @@ def _watch(options: argparse.Namespace, workers: int) -> None:
         with run_folder(f"diagnose-{recording.title or options.recording.stem}") as folder:
             finding = diagnose(known, recording, silent, workers, catalogue)
             write_finding(folder, finding)
-        return answer_of(finding.diagnosis, len(finding.study.recording.steady.values))
+        points = len(finding.study.recording.steady.values)
+        return answer_of(finding.diagnosis, points, final_folder(folder) / PAGE)
 
     show(f"watching {options.recording}: Ctrl-C ends")
     watch(options.recording, diagnosed, show_at_once)
@@ -173,7 +177,8 @@ def _apply(options: argparse.Namespace, faults: list[Fault]) -> Path | None:
 def _of_watch(options: argparse.Namespace) -> Iterator[Fault]:
     """Faults of a watch: it needs a folder, and writes neither one file nor one run folder."""
     if not options.recording.is_dir():
-        yield Fault("--watch", f"{options.recording}, which is no folder", "the folder of a recording")
+        near = str(options.recording.parent) if options.recording.is_file() else nearest_path(options.recording)
+        yield Fault("--watch", f"{options.recording}, which is no folder", "the folder of a recording", near)
     if options.fidelity == FLOATING:
         yield Fault("--watch", "--fidelity floating", "the same command without --watch: tables belong to a recording")
     for name, given in (("--apply", options.apply), ("-o", options.output)):

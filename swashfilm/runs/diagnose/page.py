@@ -31,6 +31,7 @@ from swashfilm.runs.diagnose.rows import (
     claim_rows,
     film_kinds,
     film_rows,
+    measured_words,
     misfit_rows,
     moved_words,
     parameter_rows,
@@ -39,6 +40,7 @@ from swashfilm.runs.diagnose.rows import (
     tiles,
 )
 from swashfilm.runs.diagnose.trace_plots import trace_residuals
+from system.inputs.channels import ChannelName
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -103,6 +105,8 @@ def write_diagnose_page(folder: Path) -> Path:
         floating=kinds == ["films"],
         film_pictures={name: inlined(one) for name, one in film_pictures(folder, (WITHOUT, WITH), found).items()},
         remarks=remarks(found, summary),
+        measured=measured_words(summary),
+        in_traces=ChannelName.P_CHAMBER.value in found["where"]["channels"],
         pictures=below,
         map_caption=_map_caption(claimed),
         trace_caption=TRACE_CAPTION.format(

@@ -7,10 +7,12 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from diagnosis.report.format import CHANNELS
 from reynolds.numerics.arrays import Array
 from swashfilm.output.figures import figure_of
 from swashfilm.output.tables import parted
 from swashfilm.runs.diagnose.files import head_of
+from system.inputs.channels import ChannelName
 from system.inputs.shown import titled
 
 if TYPE_CHECKING:
@@ -19,9 +21,6 @@ if TYPE_CHECKING:
 
 Row = Mapping[str, str]
 FITS = {"pull_before": "without the finding", "pull_after": "with it"}
-AXIS_WORDS = {
-    "p_out": "delivery pressure", "speed": "speed", "displacement_ratio": "stroke", "T_case": "case temperature",
-}  # fmt: skip
 BEFORE, AFTER, NOISE = "#b55a00", "#3c7a8c", "#9aa4ab"
 WIDTH = 10.0  # inches, of every picture that is as wide as the page
 LEAST_SPREAD = 0.05  # of an axis, by its largest value: a smaller one is that of one level
@@ -56,7 +55,7 @@ def residual_maps(rows: Sequence[Row], claimed: bool = True) -> Figure:
             own = [row for row in rows if row["channel"] == channel and _of_level(row, level)]
             drawn = _map(axes, own, at, key, most)
             axes.set_title(", ".join(filter(None, (FITS[key] if claimed else "", _title(level)))), fontsize=8, pad=3)
-        line[0].set_ylabel(f"{channel}\n{at[1]}", fontsize=8)
+        line[0].set_ylabel(f"{channel_title(channel)}\n{axis_title(at[1])}", fontsize=8)
     for axes in grid[-1]:
         axes.set_xlabel(axis_title(at[0]), fontsize=8)
     bar = figure.colorbar(drawn, ax=grid.ravel().tolist(), shrink=min(0.8, 6.0 / (1.5 * len(lines))), extend="both")
@@ -73,7 +72,12 @@ def held_out_bars(held_out: Mapping[str, Mapping[str, Any]]) -> Figure:
     figure = figure_of(WIDTH, 1.2 + 0.5 * len(held_out))
     axes = figure.subplots()
     axes.axvline(1.0, color=NOISE, linestyle="--", label="scatter of the meter")
-    _paired_bars(axes, list(held_out), sizes, "rms difference at points not used in the fit / scatter of the meter")
+    _paired_bars(
+        axes,
+        list(map(channel_title, held_out)),
+        sizes,
+        "rms difference at points not used in the fit / scatter of the meter",
+    )
     return figure
 
 
@@ -125,7 +129,7 @@ def effect_courses(rows: Sequence[Row], courses: Sequence[tuple[str, str]]) -> F
         axes.plot(place, added, "x", color=AFTER, markeredgewidth=1.8, label="what the finding adds", zorder=3)
         axes.axhline(0.0, color="#1c2328", linewidth=0.8)
         axes.set_xlabel(axis_title(axis))
-        axes.set_ylabel(titled(f"difference in {channel}", own[0]["unit"].replace("degC", "K")))
+        axes.set_ylabel(titled(f"difference in {channel_title(channel)}", own[0]["unit"].replace("degC", "K")))
         axes.grid(visible=True, alpha=0.3)
     _legend_above(axes)
     return figure
@@ -159,10 +163,15 @@ def _legend_above(axes: Axes) -> None:
     axes.legend(fontsize=8, ncols=3, loc="lower right", bbox_to_anchor=(1.0, 1.0), frameon=False)
 
 
+def channel_title(name: str) -> str:
+    """A channel's name in words."""
+    return CHANNELS[ChannelName.named(name)]
+
+
 def axis_title(head: str) -> str:
     """The title of an axis by the head of its column, in words."""
     name, unit = parted(head)
-    return titled(AXIS_WORDS[name], unit.replace("rpm", "r/min").removesuffix("1"))
+    return titled(channel_title(name), unit.replace("rpm", "r/min").removesuffix("1"))
 
 
 def _across(rows: Sequence[Row]) -> str:

@@ -6,10 +6,13 @@ from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
 from diagnosis.procedure.compared import WITH, WITHOUT
+from diagnosis.procedure.cost import is_material
 from diagnosis.procedure.pump_comparison import SHAFT
-from diagnosis.report.format import chance
+from diagnosis.report.format import CHANNELS, chance, channel_words, effect_words
 from swashfilm.output.answer import Tile
+from system.effects.effect import EffectId
 from system.estimation.parameters import Role
+from system.inputs.channels import ChannelName
 from system.inputs.units import Dimension, in_unit, reading_unit
 
 Row = Mapping[str, str]
@@ -23,11 +26,21 @@ MOVED, BACK = 3.0, 0.5
 """Pull without the finding above which a stated value is told to have moved, and the part of it that may stay."""
 
 
+def words_of(name: str) -> str:
+    """A channel's name in words with the name: "case drain (Q_case)"."""
+    return channel_words(ChannelName.named(name))
+
+
+def measured_words(summary: Mapping[str, Any]) -> str:
+    """The channels of a recording in words: "speed, stroke, delivery pressure"."""
+    return ", ".join(CHANNELS[ChannelName.named(name)] for name in summary["channels"])
+
+
 def channel_rows(found: Mapping[str, Any]) -> Iterator[tuple[str, ...]]:
     """(channel, rms without the finding, with it, scatter) at points not used in the fit; without a claim one rms."""
     keys = HELD_OUT if found["effects"] else ("before", "noise")
     for name, fit in found["fit"]["heldout"].items():
-        yield name, *(f"{fit[key]:.3g} {fit['unit']}" if fit.get(key) is not None else "" for key in keys)
+        yield words_of(name), *(f"{fit[key]:.3g} {fit['unit']}" if fit.get(key) is not None else "" for key in keys)
 
 
 def misfit_rows(found: Mapping[str, Any]) -> Iterator[tuple[str, ...]]:
@@ -179,13 +192,13 @@ def _size_tiles(found: Mapping[str, Any]) -> Iterator[Tile]:
         value, _, sigma = size.partition(" +- ")
         scatter, _, rest = sigma.partition(" ")
         tail = next((words for words in SIZE_TAILS if rest.endswith(words)), "")
-        unit, name = rest.removesuffix(tail).strip(), claim["id"].replace("_", " ")
+        unit, name = rest.removesuffix(tail).strip(), effect_words([EffectId(claim["id"])])
         yield Tile(f"{value} {unit}".rstrip(), name, f"+- {scatter}{tail}, one sigma" if sigma else "")
 
 
 def _cost_tiles(changes: Sequence[Row], most: int) -> Iterator[Tile]:
     """The change of efficiency, then that which is largest as a part of what it changes."""
-    known = [row for row in changes if row["quantity"] in COST_TILES and float(row["change"]) != 0.0]
+    known = [row for row in changes if row["quantity"] in COST_TILES and _is_material(row)]
     ranked = sorted(
         known, key=lambda row: (row["unit"] != "%", -abs(float(row["change"]) / (float(row[WITHOUT]) or 1.0)))
     )
@@ -193,6 +206,10 @@ def _cost_tiles(changes: Sequence[Row], most: int) -> Iterator[Tile]:
         unit = "points" if row["unit"] == "%" else row["unit"]
         name = row["quantity"].partition(", overall")[0]
         yield Tile(f"{float(row['change']):+.2g} {unit}", name, "with the finding, where it shows most")
+
+
+def _is_material(row: Row) -> bool:
+    return is_material(row["unit"], float(row[WITHOUT]), float(row[WITH]))
 
 
 def _sure_tile(found: Mapping[str, Any]) -> Tile:
@@ -211,11 +228,14 @@ def _fit_tiles(found: Mapping[str, Any]) -> Iterator[Tile]:
     worst = max(met, key=lambda name: met[name]["before"] / met[name]["noise"])
     name = named[0] if named else worst
     one = met[name]
-    value, was = (one["after"], f"before {one['before']:.2g}; ") if found["effects"] else (one["before"], "")
+    value, was, left = one["before"], "", "difference"
+    if found["effects"]:
+        value, was, left = one["after"], f"before {one['before']:.2g}; ", "difference left"
     note = f"{was}scatter of the meter {one['noise']:.2g}"
-    yield Tile(f"{value:.2g} {one['unit']}", f"points not used in the fit, {name}", note)
+    yield Tile(f"{value:.2g} {one['unit']}", f"{left}, {words_of(name)}", note)
 
 
 def _point_tiles(found: Mapping[str, Any], summary: Mapping[str, Any]) -> Iterator[Tile]:
     if not found["effects"]:
-        yield Tile(str(summary["points"]), "points compared", ", ".join(summary["channels"]))
+        compared = ", ".join(CHANNELS[ChannelName.named(name)] for name in found["fit"]["heldout"])
+        yield Tile(str(summary["points"]), "points compared", compared)

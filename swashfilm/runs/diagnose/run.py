@@ -6,6 +6,7 @@ from pathlib import Path
 from diagnosis.finding import DiagnosisResult
 from diagnosis.procedure.compared import PumpComparison
 from swashfilm.console.fidelity import Fidelity
+from swashfilm.console.schemas import write_new
 from swashfilm.runs.diagnose.applied import applied_toml
 from swashfilm.runs.diagnose.fields import write_film_fields
 from swashfilm.runs.diagnose.files import write_diagnosis_files
@@ -19,10 +20,9 @@ EXTENDED = "pump_extended.toml"
 
 def write_finding(folder: Path, found: DiagnosisResult) -> None:
     """Write the pump, the diagnosis's files, the run folders of the pump without and with it, and report.html."""
-    (folder / "resolved.toml").write_text(resolved_toml(found.pump), encoding="utf-8")
+    write_new(folder / "resolved.toml", "pump", resolved_toml(found.pump))
     if found.extended_pump is not None:
-        text = applied_toml(found, found.extended_pump, date.today())
-        (folder / EXTENDED).write_text(text, encoding="utf-8")
+        write_new(folder / EXTENDED, "pump", applied_toml(found, found.extended_pump, date.today()))
     _write_pumps(folder, found.comparison)
     write_diagnosis_files(folder, found.study, found.diagnosis, found.answer, found.assumptions, found.comparison)
     write_diagnose_page(folder)

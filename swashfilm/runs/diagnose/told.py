@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 import textwrap
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
@@ -65,9 +65,15 @@ def _paragraphs(answer: Mapping[str, Any]) -> Iterator[_Paragraph]:
     finding = " ".join(filter(None, (answer[key] for key in ("headline", "finding", "cost", "doubt"))))
     yield _Paragraph("", _sentences(finding), 2, 4)
     yield _Paragraph("How sure: ", _sentences(answer["certainty"]), 1, 3)
-    yield _Paragraph("", _sentences(" ".join(one["text"] for one in answer["look"])), 1, 0)
+    yield _Paragraph("", _sentences(" ".join(_looks(answer["look"]))), 1, 0)
     yield _Paragraph("Next: ", _sentences(answer["measure"]), 2, 1)
     yield _Paragraph("", _sentences(answer["fit"]), 0, 2)
+
+
+def _looks(looks: Sequence[Mapping[str, str]]) -> Iterator[str]:
+    """What to look at; of several causes, and of a suspicion, behind its name, for it holds if that is the cause."""
+    for one in looks:
+        yield f"{one['name']}: {one['text']}" if one["name"] else one["text"]
 
 
 def _sentences(text: str) -> tuple[str, ...]:

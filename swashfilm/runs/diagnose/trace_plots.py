@@ -47,7 +47,7 @@ def trace_residuals(
         own = [row for row in rows if row["point"] == point]
         angle, measured, sigma = (_column(own, key) for key in ("angle", "measured", "sigma"))
         line[0].plot(angle, measured, color="#1c2328", linewidth=1.0)
-        line[0].set_ylabel(titled("p_chamber", unit), fontsize=8)
+        line[0].set_ylabel(titled("chamber pressure", unit), fontsize=8)
         line[0].set_title(settings.get(point, ""), fontsize=8, loc="left")
         line[1].fill_between(
             angle, -2 * sigma, 2 * sigma, color=NOISE, alpha=0.35, linewidth=0, label="twice the scatter"

@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import Any
 
 from diagnosis.recording.reader import FILE
+from diagnosis.report.format import effect_words
 from diagnosis.verdict.diagnosis import Diagnosis
 from reynolds.errors import InputError, NotConverged
 from system.inputs.faults import InputFaults
@@ -24,11 +25,12 @@ Files = Mapping[Path, Stamp]
 
 @dataclass(frozen=True)
 class Answer:
-    """Verdict of one diagnosis: kind with status, probability by claimed effect, number of points."""
+    """Verdict of one diagnosis: kind with status, probability by claimed effect, number of points, its page."""
 
     verdict: str
     effects: Mapping[str, float]
     points: int
+    page: Path
 
     @property
     def text(self) -> str:
@@ -37,13 +39,10 @@ class Answer:
         return f"{self.verdict}{f': {claimed}' if claimed else ''}, {self.points} points"
 
 
-def answer_of(found: Diagnosis, points: int) -> Answer:
-    """The answer of a diagnosis of `points` points."""
-    effects = {}
-    for claim in found.effects:
-        pair = f" of the {claim.pair.value.replace('_', ' ')}" if claim.pair else ""
-        effects[f"{claim.effect.value}{pair}"] = claim.probability
-    return Answer(f"{found.kind.value.replace('_', ' ')} ({found.status.value})", effects, points)
+def answer_of(found: Diagnosis, points: int, page: Path) -> Answer:
+    """The answer of a diagnosis of `points` points, told at length on its page."""
+    effects = {effect_words([claim.effect], claim.pair): claim.probability for claim in found.effects}
+    return Answer(f"{found.kind.value.replace('_', ' ')} ({found.status.value})", effects, points, page)
 
 
 def watch(
@@ -67,7 +66,7 @@ def watch(
         except NotConverged as reason:
             show(f"{clock} not converged, waiting for more: {_in_line(reason)}")
         else:
-            show(f"{clock} {compared(last, answer)}")
+            show(f"{clock} {compared(last, answer)}; {answer.page}")
             last = answer
 
 

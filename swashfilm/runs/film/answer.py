@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Container, Iterator, Mapping
 from typing import Any
 
 from swashfilm.output.answer import Tile
@@ -19,9 +19,9 @@ ROUGH = 3.0
 
 def film_tiles(summary: Mapping[str, Any]) -> Iterator[Tile]:
     """Yield the headline numbers of a film from its summary, with error bars where it is refined."""
-    of_gap = "required_load_N" in summary
-    key = "carried_load_N" if of_gap else "load_N"
-    required = f"of {amount(summary['required_load_N'], Dimension.FORCE)} required" if of_gap else ""
+    key, required = carried_key(summary), ""
+    if "required_load_N" in summary:
+        required = f"of {amount(summary['required_load_N'], Dimension.FORCE)} required"
     yield Tile(amount(summary[key], Dimension.FORCE), "load", _note(summary, key, Dimension.FORCE, required))
     for name, key, dimension in (
         ("leakage", "leakage_flow_m3_per_s", Dimension.VOLUME_FLOW),
@@ -33,6 +33,11 @@ def film_tiles(summary: Mapping[str, Any]) -> Iterator[Tile]:
         if key in summary:
             note = _coefficient(summary) if dimension is Dimension.POWER else ""
             yield Tile(amount(summary[key], dimension), name, _note(summary, key, dimension, note))
+
+
+def carried_key(numbers: Container[str]) -> str:
+    """Return the key of the load that a film carries: with pockets and contact, where it has them."""
+    return "carried_load_N" if "carried_load_N" in numbers else "load_N"
 
 
 def film_words(summary: Mapping[str, Any]) -> str:
@@ -58,7 +63,7 @@ def _coefficient(summary: Mapping[str, Any]) -> str:
 def _load_words(summary: Mapping[str, Any]) -> Iterator[str]:
     when = f"After {amount(summary['time_s'], Dimension.TIME)} the film" if "time_s" in summary else "The film"
     if "required_load_N" not in summary:
-        yield f"{when} carries {amount(summary['load_N'], Dimension.FORCE)}."
+        yield f"{when} carries {amount(summary[carried_key(summary)], Dimension.FORCE)}."
     elif summary["position_source"] == "rest":
         load = amount(summary["required_load_N"], Dimension.FORCE)
         yield f"The part rests where film and outer forces balance, under a load of {load}."

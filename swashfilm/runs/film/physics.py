@@ -31,8 +31,8 @@ def physics_summary(study: FilmStudy) -> dict[str, Any]:
         found |= {
             "time_s": steps[-1].time,
             "time_steps": len(steps),
-            "load_of_time_max_N": max(step.loads.load for step in steps),
-            "load_of_time_min_N": min(step.loads.load for step in steps),
+            "load_of_time_max_N": max(step.loads.load + step.loads.contact_load for step in steps),
+            "load_of_time_min_N": min(step.loads.load + step.loads.contact_load for step in steps),
             "pressure_of_time_max_Pa": max(step.loads.pressure_max for step in steps),
             "film_thickness_of_time_min_m": min(step.loads.film_thickness_min for step in steps),
             "mass_balance_error_of_time": max(step.loads.mass_balance_error for step in steps),
@@ -71,6 +71,7 @@ def _rough_summary(study: FilmStudy) -> dict[str, Any]:
         sheared = boundary_shear(problem.asperities, pressed).value
         found["contact_load_N"] = study.loads.contact_load
         both = study.loads.contact_load + study.loads.load
+        found["carried_load_N"] = both
         found["contact_load_fraction"] = study.loads.contact_load / both if both > 0.0 else None
         found["contact_pressure_max_Pa"] = float(np.max(pressed))
         found["contact_friction_N"] = float(np.sum(sheared * area))

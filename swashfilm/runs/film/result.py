@@ -7,8 +7,10 @@ from typing import TYPE_CHECKING, ClassVar
 from swashfilm.output.refinement import refinement_head, refinement_rows
 from swashfilm.output.result import Result, framed, plotted
 from swashfilm.output.tables import Table
-from swashfilm.runs.film.history import last_of
-from swashfilm.runs.film.page import film_figure, summary_rows
+from swashfilm.runs.film.fields.history import last_of
+from swashfilm.runs.film.fields.maps import film_figure
+from swashfilm.runs.film.fields.sections import section_figure, sections
+from swashfilm.runs.film.page import summary_rows
 from swashfilm.runs.film.sensitivity import sensitivity_figure, sensitivity_rows
 
 if TYPE_CHECKING:
@@ -38,6 +40,10 @@ class FilmRun(Result):
     def plot_fields(self) -> list[Axes]:
         """Draw maps of pressure, thickness, and other fields that vary; of a transient at its end."""
         return plotted(lambda: film_figure(last_of(self.to_xarray())))
+
+    def plot_sections(self) -> list[Axes]:
+        """Draw pressure, thickness and temperature along the `sections` of the film; of a transient at its end."""
+        return plotted(lambda: section_figure(sections(last_of(self.to_xarray()))))
 
     def plot_sensitivity(self) -> list[Axes]:
         """Draw maps of each output's derivative by the film thickness, none of a film solved without."""

@@ -14,7 +14,8 @@ from swashfilm.case.gap.instant import GapCase
 from swashfilm.output.data.files import Column, write_columns, write_netcdf
 from swashfilm.output.refinement import Refinement, refinement_summary, write_refinement
 from swashfilm.output.run_folder import write_json
-from swashfilm.runs.film.history import at_moment, fields_over_time, last_of, written
+from swashfilm.runs.film.fields.history import at_moment, fields_over_time, last_of, written
+from swashfilm.runs.film.fields.sections import sections, write_sections
 from swashfilm.runs.film.page import write_film_page
 from swashfilm.runs.film.physics import temperatures, write_history
 from swashfilm.runs.film.refine import check_refinement, refine_study
@@ -72,6 +73,7 @@ def solve_film(
         _write_films(folder, study, true_place(case) if isinstance(case, GapCase) else None)
         fields = fields_over_time(study)
         write_netcdf(fields, folder / "results.nc")
+        write_sections(folder / "sections.csv", sections(last_of(fields)))
         if as_table:
             _write_table(folder / "fields.csv", last_of(fields))
         write_json(folder / "summary.json", summary)

@@ -32,6 +32,7 @@ LEAST_FILM_FRACTION = 1e-3
 VACUUM = -101325.0  # Pa, gauge
 LEAST_LAMBDA = 1.0  # h/sigma; below, contacts support most of the load
 LARGEST_ISOVISCOUS_PRESSURE = 50e6  # Pa; the viscosity of a mineral oil is about three times its low-pressure value
+LARGEST_OIL_PRESSURE = 1e9  # Pa; oil turns solid about it, and hardened steel yields soon above it
 
 Warned = tuple[str, str]
 """Name and text of a warning."""
@@ -76,8 +77,8 @@ def _flow_warnings(study: FilmStudy) -> Iterator[Warned]:
     if problem.cavitation is Cavitation.NONE and lowest < problem.cavitation_pressure:
         yield (
             "pressure_below_cavitation",
-            f"the film is pulled down to {lowest:.4g} Pa, below its cavitation pressure "
-            f"{problem.cavitation_pressure:.4g} Pa: oil would cavitate; choose cavitation = 'jfo'",
+            f"the film is pulled down to {pressure_text(lowest)} (limit {pressure_text(problem.cavitation_pressure)}, "
+            "its cavitation pressure): oil would cavitate; choose cavitation = 'jfo'",
         )
 
 
@@ -196,8 +197,11 @@ def _boundary_remedy(study: FilmStudy) -> str:
 
 
 def _pressure_warnings(study: FilmStudy) -> Iterator[Warned]:
-    """Yield a warning of isoviscous films of high pressure; gaps of pumps have another warning."""
+    """Yield a warning of pressures that no oil bears, or else of an isoviscous free film of high pressure."""
     highest = study.loads.pressure_max
+    if highest > LARGEST_OIL_PRESSURE:
+        yield beyond_oil(highest)
+        return
     constant = study.heat is None and study.solution.problem.fluid.viscosity is isoviscous
     if constant and not study.gap and highest > LARGEST_ISOVISCOUS_PRESSURE:
         yield (
@@ -206,6 +210,16 @@ def _pressure_warnings(study: FilmStudy) -> Iterator[Warned]:
             "constant viscosity): viscosity is several times higher; add pressure_law in [oil], and elastic walls, "
             "[elastic]",
         )
+
+
+def beyond_oil(highest: float) -> Warned:
+    """Return the warning of a film whose largest pressure (Pa) is above LARGEST_OIL_PRESSURE."""
+    return (
+        "film_pressure_beyond_oil",
+        f"the film reaches {pressure_text(highest)} (limit {pressure_text(LARGEST_OIL_PRESSURE)}, about which oil "
+        "turns solid; steel yields soon above it): no such film exists; check the units of film thickness, speed, "
+        "viscosity and load, and add elastic walls",
+    )
 
 
 def _supply_warnings(study: FilmStudy) -> Iterator[Warned]:

@@ -15,7 +15,7 @@ from swashfilm.output.touch.packing import short
 from swashfilm.output.touch.traces import scale_of
 from swashfilm.runs.map.files import PARTS
 from swashfilm.runs.map.plots import HEADLINE, shared_fields
-from system.inputs.shown import titled
+from system.inputs.shown import shown_in, title_in, titled
 from system.maps.data import MapData
 from system.maps.interpolation import weights
 from system.maps.plan import MapAxis, MapInput, reading_levels
@@ -31,7 +31,6 @@ ACROSS = (MapInput.SPEED, MapInput.PRESSURE)
 NUMBERS = {
     "delivery_flow": ("delivery flow [L/min]", 6e4), "drain_flow": ("case drain flow [L/min]", 6e4),
     "shaft_torque": ("shaft torque [N m]", 1.0), "shaft_power": ("shaft power [kW]", 1e-3),
-    "chamber_pressure_peak": ("highest chamber pressure [MPa]", 1e-6),
 }  # fmt: skip
 """Numbers of the pump, their titles and factors from SI."""
 OF_GAPS = {
@@ -87,6 +86,7 @@ def _quantities(data: MapData) -> Iterator[tuple[str, Array]]:
         yield f"{words} [W]", loss
     for name, (title, factor) in NUMBERS.items():
         yield title, factor * data.values[name]
+    yield title_in("highest chamber pressure", "Pa"), shown_in("Pa").of(data.values["chamber_pressure_peak"])
     for name, (title, factor, zero) in OF_GAPS.items():
         for gap, words in TITLES.items():
             yield f"{words}: {title}", factor * (data.values[f"{name}.{gap}"] - zero)

@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 
 from swashfilm.console.fidelity import Fidelity
+from swashfilm.console.schemas import write_new
 from swashfilm.output.run_folder import write_json
 from swashfilm.runs.map.files import write_map, write_tables
 from swashfilm.runs.map.summary import map_summary
@@ -109,7 +110,7 @@ def solve_map(asked: MapCase, folder: Path, executor: Executor, report: Report) 
     """
     began, plan = time.monotonic(), asked.plan
     (folder / "input.toml").write_text(asked.given, encoding="utf-8")
-    (folder / "resolved.toml").write_text(resolved_toml(plan.pump), encoding="utf-8")
+    write_new(folder / "resolved.toml", "pump", resolved_toml(plan.pump))
     solver = _solver(asked, executor, report)
     work = MapWork(plan.pump, solver)
     count = (CHECKED if solver.cost <= CHEAP else 0) if asked.checks is None else asked.checks

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any, assert_never
 
 from swashfilm.console.assumed import scaled_warning
 from swashfilm.console.fidelity import Fidelity
+from swashfilm.console.schemas import write_new
 from swashfilm.output.data.files import Column, write_columns, write_netcdf
 from swashfilm.output.refinement import Refinement, refinement_summary, write_refinement
 from swashfilm.output.run_folder import write_json
@@ -187,7 +188,7 @@ def _run(
 
 def _write_input(folder: Path, case: PumpCase) -> None:
     (folder / "input.toml").write_text(case.given, encoding="utf-8")
-    (folder / "resolved.toml").write_text(resolved_toml(case.pump), encoding="utf-8")
+    write_new(folder / "resolved.toml", "pump", resolved_toml(case.pump))
 
 
 def _warnings(pump: PumpDescription, point: PumpPoint) -> list[str]:

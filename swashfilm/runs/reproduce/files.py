@@ -9,7 +9,7 @@ from swashfilm.output.page import keep_pictures
 from swashfilm.output.run_folder import write_json
 from swashfilm.output.tables import write_csv
 from swashfilm.runs.reproduce.plots import panel_pictures
-from system.paper.figure import FigureAxis, Panel
+from system.paper.figure import FigureAxis, Panel, Unit
 from system.paper.judge import FigureResult, Judged, Range
 
 CLAIMS, DATA = "claims.json", "data"
@@ -20,7 +20,7 @@ def write_reproduction(folder: Path, results: Sequence[FigureResult], summary: R
     """Write claims.json, claims.csv, data/FIGURE.csv, plots/FIGURE-N.svg and summary.json."""
     rows = claim_rows(results, summary["fidelity"])
     write_json(folder / CLAIMS, {"format": 1, "claims": rows})
-    _write_table(folder / "claims.csv", rows)
+    _write_table(folder / "claims.csv", [one for result in results for one in result.judged], summary["fidelity"])
     for result in (result for result in results if result.panels):
         (folder / DATA).mkdir(exist_ok=True)
         _write_curves(folder / DATA / f"{result.figure.value}.csv", result.panels)
@@ -81,16 +81,22 @@ def figure_row(result: FigureResult) -> Row:
     }
 
 
-def _write_table(path: Path, rows: Sequence[Row]) -> None:
-    """Write one row per statement and reading; ranges as two columns in SI."""
+def _write_table(path: Path, judged: Sequence[Judged], fidelity: str) -> None:
+    """Write one row per statement and reading; ranges as two columns in the unit of the row."""
     head = ["id", "figure", "words", "quantity", "unit", "expected low", "expected high", "fidelity", "reading",
             "found low", "found high", "verdict", "reason", "impossible"]  # fmt: skip
     lines = []
-    for row in rows:
-        impossible = row["impossible"]["text"] if row["impossible"] else ""
-        ends = [*row["expected"], row["fidelity"], row["reading"], *row["found"]]
-        lines.append([*(row[name] for name in head[:5]), *ends, row["verdict"], row["reason"], impossible])
+    for one in judged:
+        claim, reading = one.claim, one.reading.value if one.reading else ""
+        expected, found = (_shown_ends(of, claim.unit) for of in (claim.expected, one.found))
+        impossible = one.impossible.text if one.impossible else ""
+        told = claim.id, claim.figure.value, claim.words, claim.quantity, claim.unit.shown
+        lines.append([*told, *expected, fidelity, reading, *found, one.verdict.value, one.reason, impossible])
     write_csv(path, head, lines)
+
+
+def _shown_ends(of: Range, unit: Unit) -> list[str]:
+    return ["" if end is None else f"{unit.factor * end:.8g}" for end in _ends(of)]
 
 
 def _write_curves(path: Path, panels: Sequence[Panel]) -> None:

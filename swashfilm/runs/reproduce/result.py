@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, ClassVar
 
-from swashfilm.output.result import Result, plotted, read_table
+import numpy as np
+
+from swashfilm.output.result import Result, plotted
 from swashfilm.output.tables import Table
 from swashfilm.runs.reproduce.files import CLAIMS
 from swashfilm.runs.reproduce.page import FILES, verdict_counts, verdict_rows
@@ -40,8 +43,11 @@ class Reproduction(Result):
 
     @staticmethod
     def read_data(folder: Path) -> xarray.Dataset:
-        """Return claims.csv of a run folder."""
-        return read_table(folder / "claims.csv")
+        """Return the rows of claims.json of a run folder, SI, over `row`."""
+        import pandas
+
+        rows = json.loads((folder / CLAIMS).read_text("utf-8"))["claims"]
+        return pandas.DataFrame([_plain(row) for row in rows]).rename_axis("row").to_xarray()
 
     def plot_verdicts(self) -> list[Axes]:
         """Draw the number of statements of each figure by verdict."""
@@ -51,3 +57,15 @@ class Reproduction(Result):
         """Return every statement with its reading, the paper's range, the computed number and the verdict."""
         title = f"The paper by {self.summary['pump']}, {self.summary['fidelity']}"
         return [(title, [HEAD, *verdict_rows(self.claims)])]
+
+
+def _plain(row: Mapping[str, Any]) -> dict[str, Any]:
+    """Return a row with the ends of its ranges as numbers, nan where there is none, and what is impossible in words."""
+    ends = {
+        f"{name}_{side}": np.nan if end is None else end
+        for name in ("expected", "found")
+        for side, end in zip(("low", "high"), row[name], strict=True)
+    }
+    impossible = row["impossible"]["text"] if row["impossible"] else ""
+    kept = {key: value for key, value in row.items() if key not in ("expected", "found", "impossible")}
+    return kept | ends | {"impossible": impossible}

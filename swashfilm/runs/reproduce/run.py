@@ -11,6 +11,7 @@ from diagnosis.recording.model import Recording
 from diagnosis.study.acceptance import checked_recording
 from reynolds.numerics.cache import cache_folder
 from swashfilm.console.fidelity import Fidelity
+from swashfilm.console.schemas import write_new
 from swashfilm.runs.map.run import POINT_COST
 from swashfilm.runs.reproduce.files import claim_rows, figure_row, write_reproduction
 from system.bench.calibration.equation_21 import LOSS_CHANNELS
@@ -80,7 +81,7 @@ def run_reproduce(asked: ReproduceCase, executor: Executor, folder: Path, report
     began = process_time()
     means = Means(paper_points(), executor, asked.floating, report)
     results = _results(asked, means)
-    (folder / "resolved.toml").write_text(resolved_toml(asked.pump), encoding="utf-8")
+    write_new(folder / "resolved.toml", "pump", resolved_toml(asked.pump))
     summary = {
         "format": 1,
         "kind": "reproduction",

@@ -10,6 +10,7 @@ import numpy as np
 from gaps.response import Axis, Spacing
 from reynolds.numerics.arrays import Array
 from reynolds.numerics.cache import content_key
+from swashfilm.case.axis import stepped
 from swashfilm.case.file import Case, FilmCase
 from swashfilm.case.gap.revolution import RevolutionCase
 from swashfilm.case.study import (
@@ -21,10 +22,9 @@ from swashfilm.case.study import (
     is_key_of_case,
     read_ends,
     read_switched,
-    stepped,
 )
 from swashfilm.output.headline import headline_numbers
-from swashfilm.runs.film.series.points import digest, solved_summary
+from swashfilm.runs.film.series.films import digest, solved_summary
 from system.inputs.faults import Fault, InputFaults
 from system.inputs.toml_table import Table
 from system.inputs.units import Dimension, format_quantity

@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 
 from gaps.response import ErrorRegion, Response
+from swashfilm.console.schemas import write_new
 from swashfilm.output.data.files import Column, write_columns
 from swashfilm.output.headline import named
 from swashfilm.output.run_folder import write_json
@@ -34,7 +35,7 @@ def run_table(case: TableCase, folder: Path, report: Report, *, workers: int = 1
     """
     with process_pool(workers) as executor:
         table = build_table(case, executor=executor, report=report)
-    (folder / "resolved.toml").write_text(resolved_toml(case.pump), encoding="utf-8")
+    write_new(folder / "resolved.toml", "pump", resolved_toml(case.pump))
     keep_table(table, folder / TABLE)
     summary = table_summary(table) | {"assumptions": [str(one) for one in floating_parts(case.pump).taken]}
     write_table_files(folder, table.response, summary)

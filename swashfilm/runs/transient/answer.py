@@ -8,6 +8,8 @@ from typing import Any
 import numpy as np
 
 from swashfilm.output.answer import Tile
+from swashfilm.runs.transient.stops import contact_words
+from system.inputs.shown import pressure_text
 from system.inputs.units import LPM
 
 
@@ -21,15 +23,15 @@ def transient_tiles(summary: Mapping[str, Any]) -> Iterator[Tile]:
     angle = summary["swash_angle"]
     yield Tile(f"{np.degrees(angle['fastest_rad_per_s']):.0f} deg/s", "fastest motion of the swash plate")
     first, last = (summary[f"{turn}_turn"] for turn in ("first", "last"))
-    yield Tile(f"{summary['chamber_pressure_largest_Pa'] * 1e-6:.1f} MPa", "largest chamber pressure", "gauge")
-    yield Tile(f"{summary['actuator_pressure_largest_Pa'] * 1e-6:.2f} MPa", "largest actuator pressure", "gauge")
+    for part in ("chamber", "actuator"):
+        yield Tile(pressure_text(summary[f"{part}_pressure_largest_Pa"]), f"largest {part} pressure", "gauge")
     before, after = (turn["delivery_flow_m3_per_s"] * LPM for turn in (first, last))
     yield Tile(f"{after:.1f} L/min", "delivery flow of the last turn", f"from {before:.1f} L/min")
 
 
 def transient_words(summary: Mapping[str, Any]) -> str:
     """Return a paragraph on a transient from its summary."""
-    angle, travel, stops = summary["swash_angle"], summary["travel_10_to_90_s"], summary["stops"]
+    angle, travel = summary["swash_angle"], summary["travel_10_to_90_s"]
     start, end = (float(np.degrees(angle[f"{when}_rad"])) for when in ("start", "end"))
     if travel is None:
         words = [f"The swash plate of {summary['pump']} stays at {start:.2f} deg."]
@@ -40,6 +42,4 @@ def transient_words(summary: Mapping[str, Any]) -> str:
         ]
     torque = [summary[f"{turn}_turn"]["shaft_torque_Nm"] for turn in ("first", "last")]
     words.append(f"The mean drive torque changes from {torque[0]:.0f} to {torque[1]:.0f} N m.")
-    if stops["strikes"]:
-        words.append(f"The plate strikes a stop {stops['strikes']} times.")
-    return " ".join(words)
+    return " ".join([*words, *contact_words(summary["stops"])])

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from reynolds.numerics.arrays import Array
 from swashfilm.output.data.files import columns_of, write_columns
 from swashfilm.runs.pump.summary import effect_lists
+from swashfilm.runs.transient.stops import contact_summary, stop_contacts
 from system.effects.switched import switched_on
 from system.multibody.transient import kernels as kernel
 from system.multibody.transient.pistons import stroke_ratio
@@ -75,7 +76,7 @@ def write_course(folder: Path, data: xarray.Dataset) -> None:
 
 
 def transient_summary(found: Transient, name: str, data: xarray.Dataset) -> dict[str, Any]:
-    """Return the summary: swash angle at start and end, its speed, pressures of chambers, impacts on stops."""
+    """Return the summary: swash angle at start and end, its speed, pressures of chambers, contacts with stops."""
     angle, ratio = found.swash_angle, data["displacement_ratio"].values
     turn = 2.0 * np.pi / found.case.point.shaft_speed
     return {
@@ -97,10 +98,7 @@ def transient_summary(found: Transient, name: str, data: xarray.Dataset) -> dict
         "last_turn": _turn(data, found.time > found.time[-1] - turn),
         "chamber_pressure_largest_Pa": float(found.pressure.max()),
         "actuator_pressure_largest_Pa": float(data["actuator_pressure"].max()),
-        "stops": {
-            "strikes": int(np.count_nonzero(found.impulses)),
-            "largest_impulse_Nms": float(np.abs(found.impulses).max()),
-        },
+        "stops": [contact_summary(one) for one in stop_contacts(found)],
         "plate_frequency_Hz": found.swing / (2.0 * np.pi),
         "step_s": found.step,
         "steps": int(found.time.size - 1),

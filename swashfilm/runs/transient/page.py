@@ -11,6 +11,7 @@ from swashfilm.output.data.files import read_netcdf
 from swashfilm.output.page import inlined, read_summary, write_page
 from swashfilm.runs.transient import plots as transient_plots
 from swashfilm.runs.transient.answer import transient_tiles, transient_words
+from swashfilm.runs.transient.stops import contact_rows
 from system.inputs.shown import shown_in
 from system.inputs.units import LPM
 
@@ -45,7 +46,7 @@ def write_transient_page(folder: Path) -> Path:
 
 def transient_rows(summary: Mapping[str, Any]) -> list[tuple[str, str]]:
     """Return (name, value with its unit) of the motion of the swash plate."""
-    angle, stops, travel = summary["swash_angle"], summary["stops"], summary["travel_10_to_90_s"]
+    angle, travel = summary["swash_angle"], summary["travel_10_to_90_s"]
     return [
         ("swash angle at the start", f"{np.degrees(angle['start_rad']):.3f} deg"),
         ("swash angle at the end", f"{np.degrees(angle['end_rad']):.3f} deg"),
@@ -56,7 +57,7 @@ def transient_rows(summary: Mapping[str, Any]) -> list[tuple[str, str]]:
         ("largest speed of the swash angle", f"{np.degrees(angle['fastest_rad_per_s']):.1f} deg/s"),
         ("largest chamber pressure (gauge)", shown_in("Pa").text(summary["chamber_pressure_largest_Pa"])),
         ("largest actuator pressure (gauge)", shown_in("Pa").text(summary["actuator_pressure_largest_Pa"])),
-        ("impacts on a stop", f"{stops['strikes']}, the largest {stops['largest_impulse_Nms']:.3g} N m s"),
+        *contact_rows(summary["stops"]),
         ("natural frequency of the plate on its oil", f"{summary['plate_frequency_Hz']:.0f} Hz"),
     ]
 

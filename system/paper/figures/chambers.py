@@ -5,6 +5,7 @@ from math import pi
 import numpy as np
 
 from system.description.pump import PumpDescription
+from system.inputs.shown import pressure_text
 from system.inputs.units import TURN
 from system.paper.figure import Curve, Figure, FigureAxis, Panel, PanelKind, Unit
 from system.paper.judge import FigureResult, Judged, Range, judge
@@ -65,8 +66,7 @@ def fig11(points: PaperPoints) -> FigureResult:
     low, high = (points.at(RATED, p, FULL) for p in (PRESSURES[0], PRESSURES[-1]))
     rated = points.pump.pump.rated_pressure
     curves = tuple(
-        Curve(f"{Unit.PRESSURE.factor * one.bench.delivery_pressure:.0f} MPa", np.array(one.shaft_angle),
-              np.array(one.chamber_pressure))
+        Curve(pressure_text(one.bench.delivery_pressure), np.array(one.shaft_angle), np.array(one.chamber_pressure))
         for one in (low, high)
     )  # fmt: skip
     panels = (
@@ -83,7 +83,7 @@ def _transition(point: PaperPoint) -> Curve:
     """Chamber pressure over the delivery pressure where delivery begins."""
     angle, pressure = np.array(point.shaft_angle), np.array(point.chamber_pressure)
     inside, delivery = (angle >= BEFORE) & (angle <= AFTER), point.bench.delivery_pressure
-    return Curve(f"{Unit.PRESSURE.factor * delivery:.0f} MPa", angle[inside], pressure[inside] / delivery)
+    return Curve(pressure_text(delivery), angle[inside], pressure[inside] / delivery)
 
 
 def _impact(claim: str, point: PaperPoint, rated: float) -> Judged:
@@ -92,7 +92,7 @@ def _impact(claim: str, point: PaperPoint, rated: float) -> Judged:
     at = int(np.argmax(np.where(inside, pressure, -np.inf)))
     over = float(pressure[at] - point.bench.delivery_pressure)
     reason = (
-        f"peak {Unit.PRESSURE.factor * pressure[at]:.2f} MPa at {np.degrees(angle[at]):.0f} deg, "
+        f"peak {pressure_text(pressure[at], 4)} at {np.degrees(angle[at]):.0f} deg, "
         f"{100.0 * over / point.bench.delivery_pressure:.1f} % above the delivery pressure"
     )
     return judge(CLAIMS[claim], Range(over / rated, over / rated), reason=reason)
@@ -102,7 +102,7 @@ def _trapped(point: PaperPoint) -> str:
     angle, pressure = np.array(point.shaft_angle), point.chamber_pressure
     at = int(np.argmax(pressure))
     return (
-        f"Outside the statement's region the chamber peaks at {Unit.PRESSURE.factor * pressure[at]:.1f} MPa at "
-        f"{np.degrees(angle[at]):.0f} deg, with {Unit.PRESSURE.factor * point.bench.delivery_pressure:.0f} MPa at the "
+        f"Outside the statement's region the chamber peaks at {pressure_text(pressure[at])} at "
+        f"{np.degrees(angle[at]):.0f} deg, with {pressure_text(point.bench.delivery_pressure)} at the "
         "port. The end of the kidneys and the start of the grooves in the pump file cause it."
     )

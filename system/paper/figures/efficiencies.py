@@ -7,10 +7,12 @@ from math import radians
 import numpy as np
 
 from system.description.pump import PumpDescription
+from system.inputs.shown import pressure_text
 from system.paper.figure import Curve, Figure, FigureAxis, FigureField, Panel, PanelKind, Unit
 from system.paper.judge import FigureResult, Judged, Range, judge, range_of
 from system.paper.points import (
     FULL,
+    NEAR_ZERO,
     PRESSURES,
     RATED,
     RATIOS,
@@ -68,12 +70,12 @@ def fig3(points: PaperPoints) -> FigureResult:
     panels = [panel for words, x, at, own in cases for panel in _case_panels(words, x, at, own)]
     panels += _rated_panels(case_three(points))
     split = case_three(points).split(LossReading.WITH_SHEAR)
-    near = Unit.PRESSURE.factor * near_zero(points.pump)
+    near = pressure_text(near_zero(points.pump))
     remarks = (
         f"Case 3 (rated point): volumetric loss {split.volumetric:.0f} W, hydro-mechanical "
         f"{split.hydromechanical:.0f} W, share {100.0 * split.hydromechanical_share:.1f} %; the text states no "
         "number.",
-        f"'Near 0' of Case 2 is taken as {near:.3g} MPa at the delivery port, 0.5 MPa above the inlet's.",
+        f"'Near 0' of Case 2 is taken as {near} at the delivery port, {pressure_text(NEAR_ZERO)} above the inlet's.",
     )
     return FigureResult(Figure.FIG3, tuple(panels), tuple(judged), remarks)
 

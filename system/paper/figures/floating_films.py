@@ -5,6 +5,7 @@ from math import inf
 
 import numpy as np
 
+from system.inputs.shown import pressure_text
 from system.paper.figure import Curve, Figure, FigureAxis, FigureField, Panel, PanelKind, Unit
 from system.paper.figures.films import film_panel
 from system.paper.film_records import FILM
@@ -72,7 +73,7 @@ def floating_fig9(points: PaperPoints) -> FigureResult:
         judge(CLAIMS["fig9.faster"], Range(faster, faster), reason=f"mean film over the displacements: {spans}"),
     )
     least = films_at(points, FULL, PRESSURES[0])["slipper"]["mean"]
-    remark = f"At full displacement and {1e-6 * PRESSURES[0]:g} MPa the slipper's mean film is {1e6 * least:.2f} um."
+    remark = f"At full displacement and {pressure_text(PRESSURES[0])} the slipper's mean film is {1e6 * least:.2f} um."
     return FigureResult(Figure.FIG9, panels, judged, (remark,))
 
 

@@ -7,13 +7,14 @@ from string import Formatter
 
 import numpy as np
 import pytest
-from made_diagnosis import PRESSURE, hypothesis, its_answer
+from made_diagnosis import PRESSURE, agreeing, hypothesis, its_answer, its_study
 
 from diagnosis import Diagnosis, Study
 from diagnosis.explain.explained import ExplainedMismatch
 from diagnosis.procedure.compared import NO_COMPARISON, WITH, Change, PumpComparison
 from diagnosis.procedure.cost import cost_words
 from diagnosis.report import course
+from diagnosis.report.answer import plain_answer
 from diagnosis.report.certainty import (
     AnswerKind,
     Record,
@@ -23,6 +24,7 @@ from diagnosis.report.certainty import (
     stated_probability,
     sure_words,
 )
+from diagnosis.report.measure import NOTHING_MORE
 from diagnosis.report.sizes import FORMS, finding_sentence
 from diagnosis.study.acceptance import contradictions
 from diagnosis.verdict.diagnosis import ClaimedEffect, Estimate, VerdictStatus
@@ -37,6 +39,9 @@ FIELDS = {"place", "part", "stated", "size"}
 
 def test_every_effect_and_meter_has_words_for_the_bench() -> None:
     assert set(BENCH_WORDS) == set(EffectId)
+    names = [words.name for words in BENCH_WORDS.values()]
+    assert len(set(names)) == len(names)
+    assert all(3 < len(name) < 42 and name[0].islower() and " at " not in name and "_" not in name for name in names)
     assert set(PARTS) == set(Gap)
 
 
@@ -96,7 +101,7 @@ def test_what_to_look_at_names_all_that_may_be_the_cause(named: Diagnosis) -> No
     claim = replace(named.effects[0], elsewhere=((Gap.SLIPPER, 0.3),), equivalent=(E.FILM_HEATING,))
     found = replace(named, status=VerdictStatus.CLASS, effects=(claim,))
     first, second = its_answer(found).look
-    assert first.name == "elastic opening at the valve plate or the slippers"
+    assert first.name == "Elastic opening at the valve plate or the slippers"
     assert PARTS[Gap.VALVE_PLATE] in first.text
     assert PARTS[Gap.SLIPPER] in first.text
     assert second.id == "film_heating"
@@ -124,15 +129,30 @@ def test_certainty_stands_beside_its_record(named: Diagnosis) -> None:
     assert certainty(named, False).startswith("Very sure (stated probability 0.93). In trials on other simulators, ")
 
 
+def test_agreement_that_is_not_sure_asks_for_what_would_show_more(named: Diagnosis) -> None:
+    """Meters, axes and dimensions that are missing, where half of such answers missed an effect; else nothing."""
+    found = agreeing(named)
+    nothing = replace(named.hypotheses[0], hypothesis=hypothesis(kind=Kind.NO_MISMATCH), probability=0.85)
+    found = replace(found, hypotheses=(nothing,))
+    study = its_study(named)
+    assert certainty(found, False).startswith("Fairly sure that nothing is wrong")
+    assert plain_answer(study, found, "").measure == NOTHING_MORE
+    told = plain_answer(replace(study, scant=True), found, "").measure
+    assert told.startswith("A small effect may hide here.")
+    assert "delivery flow and inlet flow measured" in told
+    assert "shaft torque" not in told
+    assert "the pump's own dimensions" in told
+
+
 def test_words_of_certainty_go_by_the_record_too(named: Diagnosis) -> None:
-    """An answer that is stated to be sure, of a kind that often failed, is open."""
+    """An answer that is stated to be sure, of a kind that often failed, is not sure."""
     first, *others = named.hypotheses
     unknown = replace(first, hypothesis=hypothesis(E.UNKNOWN_PHYSICS, kind=Kind.UNKNOWN_PHYSICS), probability=0.995)
     found = replace(named, kind=Kind.UNKNOWN_PHYSICS, effects=(), hypotheses=(unknown, *others))
     record = record_of(AnswerKind.UNKNOWN, False, 0.995)
     assert record is not None
     assert record.right < 0.5 * record.cases
-    assert sure_words(found, False) == "open"
+    assert sure_words(found, False) == "not sure"
     assert sure_words(replace(named, status=VerdictStatus.SUSPICION), False) == "not sure"
 
 
@@ -146,7 +166,7 @@ def test_every_kind_of_answer_has_a_record(kind: AnswerKind, scant: bool) -> Non
 
 
 def test_cost_is_told_where_a_finding_shows_most() -> None:
-    """What is lost and what is saved, without changes that cannot be seen."""
+    """What is lost and what is gained, without changes that cannot be seen."""
     pump = load_pump("ref90")
     changes = (
         Change("delivery flow", "L/min", 100.0, 97.5), Change("shaft torque", "N m", 200.0, 200.1),
@@ -154,12 +174,12 @@ def test_cost_is_told_where_a_finding_shows_most() -> None:
     )  # fmt: skip
     text = cost_words(PumpComparison({WITH: pump}, {}, changes, "Point 7."))
     assert text.startswith(
-        "It costs 2.1 points of efficiency and 2.5 L/min of delivery and saves 0.5 L/min through the case"
+        "It costs 2.1 points of efficiency and 2.5 L/min of delivery and brings 0.5 L/min less case drain"
     )
     assert text.endswith("where it shows most (2100 r/min, 350 bar, 100 % stroke).")
     assert "less than can be seen" in cost_words(PumpComparison({WITH: pump}, {}, changes[1:2], ""))
     assert cost_words(NO_COMPARISON) == ""
-    reason = "A sensor's fault changes nothing in the pump."
+    reason = "A meter's fault costs the pump nothing: only the readings are wrong."
     assert cost_words(replace(NO_COMPARISON, text=reason)) == reason
 
 

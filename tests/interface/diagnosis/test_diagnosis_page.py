@@ -122,7 +122,9 @@ def test_a_meters_fault_is_no_change_of_the_pump(study: Study, named: Diagnosis)
     fault = replace(named, effects=(ClaimedEffect(E.TORQUE_OFFSET, None, 0.99, (), ()),))
     pump = load_pump("ref90")
     compared = compare_pumps(pump, study, fault, silent)
-    assert compared == replace(NO_COMPARISON, text="A sensor's fault changes nothing in the pump.")
+    assert compared == replace(
+        NO_COMPARISON, text="A meter's fault costs the pump nothing: only the readings are wrong."
+    )
     assert compare_pumps(pump, study, agreeing(named), silent) == NO_COMPARISON
 
 
@@ -259,11 +261,13 @@ def test_the_terminal_has_few_short_lines(named: Diagnosis) -> None:
     lines = answer_lines(answer)
     assert len(lines) <= MOST_LINES
     assert lines[0].startswith("Cause found. The film at the valve plate")
-    long = answer | {"look": [{"text": "Look at this part of the pump. " * 40}], "fit": "Points are met. " * 30}
+    looks = [{"name": name, "text": "Look at this part of the pump. " * 40} for name in ("Churning", "Seal drag")]
+    long = answer | {"look": looks, "fit": "Points are met. " * 30}
     cut = answer_lines(long)
     assert len(cut) <= MOST_LINES
     assert max(map(len, cut)) <= WIDTH
     assert "3 readings decide" in " ".join(cut)
+    assert "Churning: Look at this part" in " ".join(cut)
     assert all(len(answer_lines(answer, most)) <= most for most in range(4, 12))
 
 

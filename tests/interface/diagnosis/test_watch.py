@@ -12,8 +12,9 @@ from swashfilm.runs.diagnose import watch as room
 from swashfilm.runs.diagnose.watch import Answer, compared, recorded_files, watch
 from system import Fault, InputFaults
 
-NAMED = Answer("missing physics (named)", {"churning": 0.97}, 40)
-NOTHING = Answer("no mismatch (named)", {}, 24)
+PAGE = Path("runs/diagnose-1/report.html")
+NAMED = Answer("missing physics (named)", {"churning": 0.97}, 40, PAGE)
+NOTHING = Answer("no mismatch (named)", {}, 24, PAGE)
 
 
 def _watched(folder: Path, steps: list[Callable[[], object]], answers: Iterator[Answer | InputFaults]) -> list[str]:
@@ -54,10 +55,11 @@ def test_each_change_gives_a_line_and_a_half_written_file_is_waited_out(tmp_path
     assert "not diagnosed, waiting" in first
     assert "row 3 with 2 cells" in first
     assert [line[9:].partition(":")[0] for line in more] == ["first answer", "the answer has changed"]
+    assert all(line.endswith(f"; {PAGE}") for line in more)
 
 
 def test_what_changes_in_an_answer_is_said() -> None:
-    likelier = Answer(NAMED.verdict, {"churning": 0.8}, 60)
+    likelier = Answer(NAMED.verdict, {"churning": 0.8}, 60, PAGE)
     assert compared(None, NAMED) == "first answer: missing physics (named): churning (0.97), 40 points"
     assert compared(NAMED, NAMED).startswith("the same answer: ")
     assert "another probability" in compared(NAMED, likelier)

@@ -155,6 +155,14 @@ def test_the_warning_of_a_film_pulled_below_cavitation_names_the_law_that_conser
     assert "'jfo'" in warnings["pressure_below_cavitation"]
 
 
+def test_a_pressure_that_no_oil_bears_is_told_with_limit_and_remedy(tmp_path):
+    thin = CASE.replace("1e-5*(2 - x/0.01)", "2e-8*(2 - x/0.01)")
+    warnings = {warning["name"]: warning["text"] for warning in summary_of(tmp_path / "c.toml", thin)["warnings"]}
+    assert "(limit 1000 MPa," in warnings["film_pressure_beyond_oil"]
+    assert "; check the units" in warnings["film_pressure_beyond_oil"]
+    assert "viscosity_without_pressure" not in warnings
+
+
 def test_an_edge_of_two_names_tells_its_flow_once(tmp_path):
     """A square pressed at 1 mm/s lets 1 mm/s x its area out through its one open edge, by the name stated."""
     points = np.array([[x, y, 0.0] for x in (0.0, 0.005, 0.01) for y in (0.0, 0.01)])

@@ -10,7 +10,7 @@ from swashfilm.__main__ import main
 from swashfilm.output.refinement import bar_text
 from swashfilm.runs.film.answer import film_tiles, film_words
 from swashfilm.runs.film.revolution.answer import revolution_tiles, revolution_words
-from swashfilm.runs.film.series.answer import study_tiles, study_words
+from swashfilm.runs.film.series.answer import main_spans, study_tiles, study_words
 from swashfilm.runs.reference.answer import reference_tiles, reference_words
 from swashfilm.runs.transient.answer import transient_tiles, transient_words
 from system import Dimension
@@ -85,14 +85,25 @@ def test_a_turn_tells_its_thinnest_place_and_a_leakage_that_flows_in():
 def test_a_study_tells_ends_and_failures():
     at = {"film.velocity[0]": "177.827941004 mm/s"}
     span = {"min": 14.2, "max": 500.0, "min_at": at, "max_at": {"film.velocity[0]": "1 m/s"}}
+    values, numbers = ["177.827941004 mm/s", "1 m/s", "2 m/s"], [0.177827941004, 1.0, 2.0]
     summary = {
-        "points": 3, "solved": 2, "axes": [{"key": "film.velocity[0]", "values": ["1 m/s", "2 m/s", "3 m/s"]}],
-        "numbers": {"load_N": span}, "failed": [{"values": at, "status": "failed", "reason": "no position"}],
+        "kind": "film_study", "points": 3, "solved": 2, "numbers": {"load_N": span},
+        "axes": [{"key": "film.velocity[0]", "values": values, "numbers": numbers, "unit": "m/s"}],
+        "failed": [{"values": at, "status": "failed", "reason": "no position"}],
     }  # fmt: skip
     words = study_words(summary)
-    assert "The load lies between 14.2 N (at 177.8 mm/s) and 500 N (at 1 m/s)." in words
-    assert "One point has no result, at 177.8 mm/s: no position." in words
+    assert "2 films over film.velocity[0] (0.177828 m/s to 2 m/s, 3 values)." in words
+    assert "The load lies between 14.2 N (at 0.177828 m/s) and 500 N (at 1 m/s)." in words
+    assert "One point has no result, at 0.177828 m/s: no position." in words
     assert [tile.value for tile in study_tiles(summary)] == ["2 of 3", "500 N"]
+
+
+def test_the_load_of_a_film_is_what_film_and_contact_carry():
+    found = FILM | {"carried_load_N": 700.0, "contact_load_N": 200.0}
+    assert next(film_tiles(found)).value == "700 N"
+    assert "The film carries 700 N." in film_words(found)
+    spans = {key: {"min": 1.0, "max": 2.0} for key in ("load_N", "carried_load_N")}
+    assert [key for key, _ in main_spans({"numbers": spans})] == ["carried_load_N"]
 
 
 def test_a_transient_that_does_not_move_says_so():
@@ -101,7 +112,7 @@ def test_a_transient_that_does_not_move_says_so():
         "pump": "ref90", "displacement_ratio_start": 1.0, "displacement_ratio_end": 1.0, "travel_10_to_90_s": None,
         "swash_angle": {"start_rad": 0.28, "end_rad": 0.28, "fastest_rad_per_s": 0.0}, "first_turn": turn,
         "last_turn": turn, "chamber_pressure_largest_Pa": 3.5e7, "actuator_pressure_largest_Pa": 2.5e6,
-        "stops": {"strikes": 0, "largest_impulse_Nms": 0.0},
+        "stops": [],
     }  # fmt: skip
     assert "stays at 16.04 deg" in transient_words(summary)
     assert "from 10 to 90 % of the way" not in [tile.name for tile in transient_tiles(summary)]

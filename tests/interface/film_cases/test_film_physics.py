@@ -13,7 +13,7 @@ from reynolds import Barus, BulkModulus, Cavitation, RationalDensity, Roelands
 from reynolds.laws.density import DOWSON_HIGGINSON, Tait
 from swashfilm.__main__ import main
 from swashfilm.case.file import FilmCase, load_case
-from swashfilm.runs.film.history import fields_over_time
+from swashfilm.runs.film.fields.history import fields_over_time
 from swashfilm.runs.film.solve.study import solve_case
 from swashfilm.runs.film.summary import film_summary
 from system import InputFaults

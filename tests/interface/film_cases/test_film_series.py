@@ -11,7 +11,7 @@ import xarray
 
 from swashfilm.__main__ import main
 from swashfilm.case.study import StudyCase, _axis, load_film
-from swashfilm.runs.film.series import points as film_series
+from swashfilm.runs.film.series import films as film_series
 from system import InputFaults
 from system.inputs.toml_table import Table
 

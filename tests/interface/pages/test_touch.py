@@ -81,7 +81,7 @@ def film_explorer() -> Explorer:
 
 
 def write_scene(folder: Path) -> None:
-    """Write blocks of a pump at three angles: a block that turns, two pistons that exchange places, and their film."""
+    """Write blocks of a pump at three angles: a block that turns, pistons and slippers that change places, films."""
     (folder / "pump").mkdir(parents=True)
     (folder / "fields").mkdir()
     square = np.array([[0.0, 0.0, 0.0], [0.02, 0.0, 0.0], [0.02, 0.02, 0.0], [0.0, 0.02, 0.01]])
@@ -98,7 +98,8 @@ def write_scene(folder: Path) -> None:
         )
         files = {"block": f"pump/part_{k:03d}", "block film": f"fields/film_{k:03d}"}
         for number, at in ((1, k), (2, (k + 1) % 3)):
-            files |= {f"piston {number}": f"pump/part_{at:03d}", f"piston {number} film": f"fields/film_{at:03d}"}
+            for part in ("piston", "slipper"):
+                files |= {f"{part} {number}": f"pump/part_{at:03d}", f"{part} {number} film": f"fields/film_{at:03d}"}
         rows = "".join(f'<DataSet name="{name}" file="../{file}.vtu"/>' for name, file in files.items())
         angle = f"<FieldData><DataArray>{np.degrees(turned):g}</DataArray></FieldData>"
         text = f"<VTKFile><vtkMultiBlockDataSet>{rows}</vtkMultiBlockDataSet>{angle}</VTKFile>"
@@ -263,13 +264,19 @@ def test_the_slider_over_the_shaft_angle_moves_the_field(opened: Opener) -> None
 @in_browser
 def test_the_pump_in_space_has_its_meshes_and_turns_with_the_slider(opened: Opener) -> None:
     figure = drawn(opened(), "pump")
-    names = told(figure, "plot.data.map(trace => `${trace.type} ${trace.name} ${trace.x.length} ${trace.i.length}`)")
-    assert sorted(names) == ["mesh3d block 4 2", "mesh3d block film 4 2", "mesh3d piston 8 4", "mesh3d piston film 8 4"]
+    names = told(figure, "plot.data.map(trace => `${trace.type} ${trace.name} ${trace.x.length} ${trace.i?.length}`)")
+    parts = [f"mesh3d {part}{of} 8 4" for part in ("piston", "slipper") for of in ("", " film")]
+    assert sorted(names) == ["mesh3d block 4 2", "mesh3d block film 4 2", *parts, "scatter3d chambers 2 undefined"]
     block = names.index("mesh3d block 4 2")
     choose(figure, "shaft angle", 0)
     before = told(figure, f"plot.data[{block}].x")
     choose(figure, "shaft angle", 1)
     after = told(figure, f"plot.data[{block}].x")
+    numbers = names.index("scatter3d chambers 2 undefined")
+    assert told(figure, f"plot.data[{numbers}].text") == ["1", "2"]
+    first, second = told(figure, f"plot.data[{numbers}].x")
+    choose(figure, "shaft angle", 2)
+    assert told(figure, f"plot.data[{numbers}].x")[0] == second != first  # where the other was
     assert not np.allclose(before, after)
     assert told(figure, "plot.data[0].showscale")
 

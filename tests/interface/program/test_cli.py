@@ -127,7 +127,8 @@ def test_a_film_leaves_a_run_folder_with_everything_in_it(capsys):
     folder = Path("runs/pad-1")
     files = {path.name for path in folder.iterdir()}
     assert files == {
-        "input.toml", "resolved.toml", "summary.json", "film.vtu", "film.pvd", "results.nc", "report.html",
+        "input.toml", "resolved.toml", "summary.json", "film.vtu", "film.pvd", "results.nc", "sections.csv",
+        "report.html",
     }  # fmt: skip
     assert (folder / "input.toml").read_text("utf-8") == CASE
     assert 'cavitation = "jfo"' in (folder / "resolved.toml").read_text("utf-8")
@@ -290,6 +291,8 @@ def test_doctor_tells_packages_caches_and_graphics(capsys):
 def test_run_writes_a_lumped_point(capsys):
     assert main(["run", "ref90", "--fidelity", "lumped", "--pressure", "20MPa", "-o", "point"]) == 0
     assert 'pressure = "20 MPa"' in Path("point/resolved.toml").read_text("utf-8")
+    assert Path("point/resolved.toml").read_text("utf-8").startswith("#:schema ./pump.schema.json\n")
+    assert Path("point/pump.schema.json").is_file()
     assert Path("point/input.toml").read_text("utf-8").startswith("# command line: operating.pressure = 20MPa\n")
     assert summary_of(Path("point"))["kind"] == "pump"
     assert re.search(r"delivery pressure.* 20.00 MPa", capsys.readouterr().out)

@@ -3,6 +3,7 @@
 import csv
 import json
 import re
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -14,6 +15,8 @@ from bench_pump import BENCH
 from reynolds import NotConverged
 from swashfilm.__main__ import main
 from swashfilm.console.levels import map_axis
+from swashfilm.output.warnings import Grade, causes
+from swashfilm.runs.compare.run import Side, fidelity_warnings
 from swashfilm.runs.map.contour_levels import efficiency_levels
 from swashfilm.runs.map.duty.cycle_file import read_cycle
 from swashfilm.runs.map.files import read_map
@@ -303,6 +306,16 @@ def test_a_map_beside_itself_is_no_difference(run, tmp_path):
         tmp_path / "cmp" / "report.html"
     ).read_text("utf-8")
     assert main(["compare", str(run), str(run), "--fidelity", "fixed"]) == 2
+
+
+def test_maps_of_unlike_fidelities_get_a_named_warning(run):
+    data, error = read_map(run / "map.nc")
+    both = Side("a", data, error), Side("b", replace(data, words="fixed films"), error)
+    (warning,) = fidelity_warnings(both)
+    (cause,) = causes([warning])
+    assert (cause.name, cause.grade) == ("fidelities_differ", Grade.CARE)
+    assert cause.remedies == ("solve both maps by one fidelity",)
+    assert not [*fidelity_warnings((both[0], both[0]))]
 
 
 def test_a_cycle_may_have_semicolons_and_decimal_commas(run, tmp_path):

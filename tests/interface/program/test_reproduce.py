@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import csv
 import json
 import re
 import shutil
@@ -11,6 +12,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+import swashfilm as sf
 from diagnosis import checked_recording
 from swashfilm.__main__ import main
 from swashfilm.runs.reproduce.files import claim_rows
@@ -71,6 +73,9 @@ def test_a_figure_leaves_a_run_folder(tmp_path, capsys):
     assert "2 reached" in capsys.readouterr().out
     for name in ("claims.json", "claims.csv", "data/fig11.csv", "plots/fig11-1.svg", "resolved.toml", "report.html"):
         assert (folder / name).is_file(), name
+    first, data = next(csv.DictReader((folder / "claims.csv").open())), sf.open(folder).to_xarray()
+    assert first["unit"] == "%"
+    assert float(first["found low"]) == pytest.approx(100.0 * float(data["found_low"][0]), rel=1e-6)
     row = json.loads((folder / "claims.json").read_text("utf-8"))["claims"][0]
     summary = json.loads((folder / "summary.json").read_text("utf-8"))
     docs = (ROOT / "docs" / "files.md").read_text("utf-8")

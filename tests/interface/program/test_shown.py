@@ -14,6 +14,8 @@ from swashfilm.output.data.workbook import write_workbook
 from swashfilm.output.headline import number_text, summary_scales
 from swashfilm.output.result import read_table
 from system.inputs.shown import PressureUnit, known_unit, pressures_in, shown_in, significant
+from system.paper.figure import Unit
+from system.variation.measures import MEASURES
 
 CASE = """
 format = 1
@@ -68,7 +70,10 @@ def test_every_quantity_has_its_unit(si, quantity, unit, one):
 def test_pressures_are_in_bar_where_that_is_asked_for():
     with pressures_in(PressureUnit.BAR):
         assert shown_in("Pa").text(35e6) == "350.0 bar"
+        assert MEASURES["chamber_pressure_peak"].text(35e6) == "350 bar"
+        assert (Unit.PRESSURE.shown, Unit.PRESSURE.factor) == ("bar", 1e-5)
     assert shown_in("Pa").text(35e6) == "35.00 MPa"
+    assert MEASURES["chamber_pressure_peak"].text(35e6) == "35 MPa"
 
 
 @given(st.floats(1e-3, 1e8), st.integers(1, 8))

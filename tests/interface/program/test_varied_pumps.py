@@ -1,5 +1,6 @@
 """`swashfilm sensitivity` and `tolerance`: what they write, print and refuse."""
 
+import csv
 import json
 
 import numpy as np
@@ -110,8 +111,14 @@ def test_files_of_a_tolerance(series):
     page = (series / "report.html").read_text().replace("\u00a0", " ")
     for words in ("Scatter at each operating point", "hole 22.01 mm to 22.05 mm", "a third tighter", "of 100"):
         assert words in page
-    rows = (series / "pumps.csv").read_text().splitlines()
-    assert len(rows) == pumps["solved"] + 1
+    rows = list(csv.DictReader((series / "pumps.csv").open()))
+    assert len(rows) == pumps["solved"]
+    clearances = [float(row["piston.radial_clearance [um]"]) for row in rows]
+    assert 0.0 < min(clearances) < max(clearances) == pytest.approx(25.0, abs=2.0)
+    assert all(float(row["efficiency.overall [1]"]) < 1.0 for row in rows)
+    assert not [head for head in rows[0] if "[SI]" in head]
+    found = {row["measure"]: row["unit"] for row in csv.DictReader((series / "shares.csv").open())}
+    assert found["drain_flow"] == "L/min"
     assert main(["report", str(series)]) == 0
 
 

@@ -5,14 +5,18 @@ from __future__ import annotations
 import json
 import re
 from pathlib import Path
+from types import SimpleNamespace
 
+import numpy as np
 import pandas
 import pytest
 
 from swashfilm.cli.app import run_command
 from swashfilm.runs.transient.case import TransientSection, load_transient
+from swashfilm.runs.transient.stops import contact_summary, contact_words, stop_contacts
 from system import InputFaults
 from system.inputs.sections.fields import fields_of
+from system.multibody.transient import kernels as kernel
 
 ROOT = Path(__file__).parents[3]
 EXAMPLE = ROOT / "examples" / "transients" / "destroke.toml"
@@ -54,10 +58,39 @@ def test_folder_holds_what_the_docs_say(folder):
     found = json.loads((folder / "summary.json").read_text("utf-8"))
     assert found["kind"] == "transient"
     assert found["checks"]["mass_balance_error"] < 1e-12
+    assert [(one["stop"], one["from_start"]) for one in found["stops"]][:1] == [("upper", True)]
     assert not any("actuator.area" in taken for taken in found["assumptions"])
     page = (folder / "report.html").read_text("utf-8")
     assert page.count("<figure") == 4
     assert "swash_plate.damping" in page
+
+
+def test_a_contact_tells_when_it_is_and_how_often_the_plate_lifts():
+    """Ten instants a turn of 1 s: the upper stop for a turn with a lift; after two turns the lower one to the end."""
+    time = np.arange(61) * 0.1
+    angle, touch = np.full(61, 0.1), np.zeros(61)
+    angle[:11], touch[:11] = 0.2, -5.0
+    angle[5], touch[5] = 0.199, 0.0
+    angle[31:], touch[31:] = 0.0, 4.0
+    touch[32::2], angle[32::2] = 0.0, 1e-5
+    impulses = np.zeros(60)
+    impulses[30] = 0.7
+    rows = np.zeros((61, kernel.CASE + 1))
+    rows[:, kernel.MOMENT_STOP] = touch
+    plate, point = SimpleNamespace(angle_min=0.0, angle_max=0.2), SimpleNamespace(shaft_speed=2.0 * np.pi)
+    found = SimpleNamespace(
+        mechanism=SimpleNamespace(plate=plate), swash_angle=angle, time=time, impulses=impulses, rows=rows,
+        case=SimpleNamespace(point=point),
+    )  # fmt: skip
+    upper, lower = contacts = stop_contacts(found)
+    assert (upper.stop, upper.from_start, upper.to_end, upper.lifts) == ("upper", True, False, 1)
+    assert upper.share == pytest.approx(10.0 / 11.0)
+    assert (lower.begin, lower.lifts, lower.impact) == (pytest.approx(3.1), 14, 0.7)
+    told = [*contact_words([contact_summary(one) for one in contacts])]
+    assert told[0] == "The plate lies against the upper stop until 1000 ms, but lifts once by up to 0.057 deg."
+    assert (
+        told[1] == "It meets the lower stop at 3100 ms and stays there, but lifts 5 times a turn by up to 0.00057 deg."
+    )
 
 
 def test_report_is_made_anew_and_check_prints_the_case(folder, capsys):

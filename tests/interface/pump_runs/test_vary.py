@@ -61,6 +61,22 @@ def test_two_keys_make_a_grid():
     assert float(flow[1, 1]) == pytest.approx(one.flow_delivery, rel=1e-9)
 
 
+def test_a_varied_pump_tells_its_numbers_in_the_unit_that_is_asked_for(tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
+    asked = ["--vary", "operating.pressure=10MPa..30MPa:2", "--units", "bar", "-o", "run"]
+    assert main([*LUMPED, *asked]) == 0
+    told = capsys.readouterr()
+    page = (tmp_path / "run" / "report.html").read_text("utf-8").replace("\u00a0", " ")
+    head = page[page.index("<h1>") : page.index("<h2")]
+    assert "2 operating points over operating.pressure (100 bar, 300 bar)." in head
+    assert "The overall efficiency lies between" in head
+    assert "(at 300 bar)" in head
+    numbers = page[page.index("<h2>Numbers") if "<h2>Numbers" in page else page.index(">Numbers</h2>") :]
+    assert "operating.pressure = 300 bar" in numbers
+    assert "MPa" not in numbers[: numbers.index("Case as given")]
+    assert "MPa" not in told.out + told.err
+
+
 def test_what_is_wrong_with_a_range_is_told_before_a_point_is_solved(tmp_path, monkeypatch, capsys):
     monkeypatch.chdir(tmp_path)
     assert "try:      film_thickness" in told([*LUMPED, "--vary", "valve_plate.film_thicknes=6..14um:3"], capsys)
@@ -68,7 +84,7 @@ def test_what_is_wrong_with_a_range_is_told_before_a_point_is_solved(tmp_path, m
     assert "a range with a number of levels" in told([*LUMPED, "--vary", f"{FILM}=6..14um"], capsys)
     assert "KEY=LEVELS" in told([*LUMPED, "--vary", FILM], capsys)
     text = told([*LUMPED, "--vary", "operating.displacement_ratio=0.2..1.4:7"], capsys)
-    assert "operating.displacement_ratio from 0.2 to 1.0" in text
+    assert "operating.displacement_ratio from 0.2 to 1" in text
     assert "2 points have such a fault" in text
     assert "--vary" in told([*LUMPED, "--resume", "."], capsys)
     assert "--vary" in told([*LUMPED, "--vary", f"{FILM}=6..14um:3", "--refine", "2"], capsys)

@@ -11,6 +11,7 @@ from gaps.revolution.march import GapRevolution
 from swashfilm.case.gap.revolution import GapOverTurn
 from swashfilm.output.data.gap_names import LARGEST_RIGID_PRESSURE
 from swashfilm.runs.film.solve.profiles import unresolved_profiles
+from swashfilm.runs.film.validity import LARGEST_OIL_PRESSURE, beyond_oil
 from system.description.gap import Gap
 from system.films.drives import slipper_retainer
 from system.films.parts import FloatingParts
@@ -79,7 +80,9 @@ def _pressures(case: GapOverTurn, found: GapRevolution[Any]) -> Iterator[tuple[s
     """Yield warnings of pressures beyond rigid walls and constant viscosity, and of those below a cavity's."""
     left_out, turn = case.options.physics.left_out, found.turn
     peak = max(instant.pressure_max for instant in turn.instants)
-    if Effect.ELASTIC_WALLS in left_out and peak > LARGEST_RIGID_PRESSURE:
+    if peak > LARGEST_OIL_PRESSURE:
+        yield beyond_oil(peak)
+    elif Effect.ELASTIC_WALLS in left_out and peak > LARGEST_RIGID_PRESSURE:
         yield (
             "film_pressure_beyond_rigid",
             f"film pressure up to {pressure_text(peak)} (limit {pressure_text(LARGEST_RIGID_PRESSURE)} for rigid "
@@ -90,8 +93,8 @@ def _pressures(case: GapOverTurn, found: GapRevolution[Any]) -> Iterator[tuple[s
     if Effect.CAVITATION in left_out and lowest < cavity:
         yield (
             "pressure_below_cavitation",
-            f"the film is pulled down to {lowest:.4g} Pa, below its cavitation pressure {cavity:.4g} Pa: oil "
-            "would cavitate; cavitation = 'jfo'",
+            f"the film is pulled down to {pressure_text(lowest)} (limit {pressure_text(cavity)}, its cavitation "
+            "pressure): oil would cavitate; choose cavitation = 'jfo'",
         )
 
 

@@ -2,17 +2,26 @@
 
 from __future__ import annotations
 
-import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
+from swashfilm.case.axis import StudyAxis, place_words
 from swashfilm.output.answer import Tile
 from swashfilm.output.headline import named
+from swashfilm.runs.film.answer import carried_key
 from swashfilm.runs.film.series.plots import LEAST_CHANGE
 from system.inputs.shown import quantity_text
 from system.inputs.units import Dimension
 
+PUMP_STUDY = "pump_study"
+"""Kind of a study of a pump's operating points, in its files."""
 MAIN = {
+    "overall_efficiency": None,
+    "delivery_flow_m3_per_s": Dimension.VOLUME_FLOW,
+    "loss_W": Dimension.POWER,
+    "shaft_torque_Nm": Dimension.TORQUE,
+    "drain_flow_m3_per_s": Dimension.VOLUME_FLOW,
+    "carried_load_N": Dimension.FORCE,
     "load_N": Dimension.FORCE,
     "film_thickness_min_m": Dimension.LENGTH,
     "leakage_flow_m3_per_s": Dimension.VOLUME_FLOW,
@@ -26,8 +35,8 @@ MAIN = {
 """Numbers that a page tells first, in this order; None: a bare number."""
 LEAST_FIRST = ("film_thickness_min_m", "friction_coefficient")
 """Numbers whose least value matters most."""
+WORDS = {"carried_load_N": "load", "dissipation_W": "friction power", "film_thickness_min_m": "least film"}
 MOST = 5
-LONG_NUMBER = re.compile(r"\d+\.\d{4,}")
 
 
 def study_tiles(summary: Mapping[str, Any]) -> Iterator[Tile]:
@@ -47,36 +56,28 @@ def study_words(summary: Mapping[str, Any]) -> str:
 
 
 def main_spans(summary: Mapping[str, Any]) -> list[tuple[str, Mapping[str, Any]]]:
-    """Return the main numbers that vary, with their ends."""
-    found = [(key, summary["numbers"][key]) for key in MAIN if key in summary["numbers"]]
+    """Return the main numbers that vary, with their ends; of the loads that which the film carries."""
+    numbers = summary["numbers"]
+    keys = (key for key in MAIN if key in numbers and (key != "load_N" or key == carried_key(numbers)))
+    found = [(key, numbers[key]) for key in keys]
     return [(key, span) for key, span in found if _varies(span)][:MOST]
 
 
-_LONG = re.compile(r"^-?\d+\.\d{6,}")
-"""Number with more digits than it is worth, at the begin of a value."""
+def axes_of(summary: Mapping[str, Any]) -> tuple[StudyAxis, ...]:
+    """Return the varied keys of a study's summary."""
+    return tuple(
+        StudyAxis(one["key"], tuple(one["values"]), one["numbers"] and tuple(one["numbers"]), one["unit"] or "")
+        for one in summary["axes"]
+    )
 
 
-def place(values: Mapping[str, Any]) -> str:
-    """Return the values of the varied keys at a point."""
-    return ", ".join(f"{key} = {_LONG.sub(_rounded, str(value))}" for key, value in values.items())
-
-
-def _rounded(number: re.Match[str]) -> str:
-    return f"{float(number[0]):.6g}"
-
-
-def _at(values: Mapping[str, Any]) -> str:
+def _at(axes: Sequence[StudyAxis], values: Mapping[str, Any]) -> str:
     """Return the place of a point in words: the value alone where one key varies."""
-    return _short(place(values) if len(values) > 1 else str(*values.values()))
-
-
-def _short(text: str) -> str:
-    """Return a text with its long numbers rounded."""
-    return LONG_NUMBER.sub(lambda number: f"{float(number[0]):.4g}", text)
+    return place_words(axes, values) if len(axes) > 1 else axes[0].text(values[axes[0].key])
 
 
 def _words(key: str) -> str:
-    return {"film_thickness_min_m": "least film", "dissipation_W": "friction power"}.get(key, named(key)[0])
+    return WORDS.get(key, named(key)[0])
 
 
 def _varies(span: Mapping[str, Any]) -> bool:
@@ -85,25 +86,28 @@ def _varies(span: Mapping[str, Any]) -> bool:
 
 def _text(key: str, value: float) -> str:
     dimension = MAIN[key]
+    if key.endswith("_efficiency"):
+        return f"{100.0 * value:.3g} %"
     return f"{value:.3g}" if dimension is None else quantity_text(value, dimension, digits=3)
 
 
 def _varied(summary: Mapping[str, Any]) -> str:
-    axes = [f"{axis['key']} ({_ends(axis['values'])})" for axis in summary["axes"]]
-    return f"{summary['solved']} films over {' and '.join(axes)}."
+    axes = [f"{axis.key} ({_ends(axis)})" for axis in axes_of(summary)]
+    what = "operating points" if summary["kind"] == PUMP_STUDY else "films"
+    return f"{summary['solved']} {what} over {' and '.join(axes)}."
 
 
-def _ends(values: list[str]) -> str:
-    values = [_short(value) for value in values]
+def _ends(axis: StudyAxis) -> str:
+    values = [axis.text(value) for value in axis.values]
     return f"{values[0]} to {values[-1]}, {len(values)} values" if len(values) > 2 else ", ".join(values)
 
 
 def _spans(summary: Mapping[str, Any]) -> Iterator[str]:
-    spans = main_spans(summary)
+    spans, axes = main_spans(summary), axes_of(summary)
     if not spans:
         yield "No main number varies."
     for key, span in spans:
-        low, high = (f"{_text(key, span[end])} (at {_at(span[f'{end}_at'])})" for end in ("min", "max"))
+        low, high = (f"{_text(key, span[end])} (at {_at(axes, span[f'{end}_at'])})" for end in ("min", "max"))
         yield f"The {_words(key)} lies between {low} and {high}."
 
 
@@ -111,4 +115,4 @@ def _failed(summary: Mapping[str, Any]) -> Iterator[str]:
     if count := len(summary["failed"]):
         first = summary["failed"][0]
         told = "One point has no result, at" if count == 1 else f"{count} points have no result; the first at"
-        yield f"{told} {_at(first['values'])}: {first['reason']}."
+        yield f"{told} {_at(axes_of(summary), first['values'])}: {first['reason']}."

@@ -11,7 +11,7 @@ import numpy as np
 from swashfilm.case.study import Study
 from swashfilm.output.headline import about, named, shown_of
 from swashfilm.runs.film.series.plots import COURSES, MOST_LINES, figure_axes, name_lines, where
-from swashfilm.runs.film.series.points import COURSE, StudyOutcome
+from swashfilm.runs.film.series.points import StudyOutcome
 from system.inputs.shown import titled
 
 if TYPE_CHECKING:
@@ -19,9 +19,13 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 ANGLE = "shaft_angle_deg"
+COURSE = "course"
+"""Key of the series over the shaft angle beside the summary of a turn."""
 
 
-def course_variables(study: Study, outcomes: Sequence[StudyOutcome], dims: Sequence[str]) -> dict[str, tuple[Any, ...]]:
+def course_variables(
+    study: Study[Any], outcomes: Sequence[StudyOutcome], dims: Sequence[str]
+) -> dict[str, tuple[Any, ...]]:
     """Return variables `course_KEY` over the study's dimensions and the shaft angle (deg); none for other films.
 
     The angles are those of the first point with a series; other points are interpolated to them, linearly and

@@ -24,7 +24,7 @@ FILM_STUDY = "film_study"
 """Kind of a study of films, in its files."""
 
 
-def study_dataset(study: Study, outcomes: Sequence[StudyOutcome], kind: str = FILM_STUDY) -> xarray.Dataset:
+def study_dataset(study: Study[Any], outcomes: Sequence[StudyOutcome], kind: str = FILM_STUDY) -> xarray.Dataset:
     """Return headline numbers over the varied keys (over `point` where they vary together); NaN where missing.
 
     Coordinates are SI numbers with their unit, or texts; `status` and `reason` describe each point.
@@ -53,7 +53,7 @@ def study_dataset(study: Study, outcomes: Sequence[StudyOutcome], kind: str = FI
     return xarray.Dataset(variables, coords=coordinates, attrs=attributes)
 
 
-def study_summary(study: Study, outcomes: Sequence[StudyOutcome], kind: str = FILM_STUDY) -> dict[str, Any]:
+def study_summary(study: Study[Any], outcomes: Sequence[StudyOutcome], kind: str = FILM_STUDY) -> dict[str, Any]:
     """Return varied keys, solved points, span of every number, points without a result, and warnings."""
     solved = [outcome for outcome in outcomes if outcome.status is PartStatus.SOLVED]
     rows = [headline_numbers(outcome.summary) for outcome in solved]
@@ -84,7 +84,7 @@ def study_summary(study: Study, outcomes: Sequence[StudyOutcome], kind: str = FI
     }
 
 
-def _span(found: list[tuple[float, int]], study: Study, solved: Sequence[StudyOutcome]) -> dict[str, Any]:
+def _span(found: list[tuple[float, int]], study: Study[Any], solved: Sequence[StudyOutcome]) -> dict[str, Any]:
     (least, at_least), (most, at_most) = min(found), max(found)
     return {
         "min": least,
@@ -104,7 +104,7 @@ def _warnings(solved: Sequence[StudyOutcome]) -> list[dict[str, str]]:
     return [{"name": name, "text": f"at {count[name]} points; at the first: {text}"} for name, text in texts.items()]
 
 
-def write_study_table(path: Path, study: Study, outcomes: Sequence[StudyOutcome]) -> None:
+def write_study_table(path: Path, study: Study[Any], outcomes: Sequence[StudyOutcome]) -> None:
     """Write a CSV with one line per point: varied keys, headline numbers, status and reason."""
     rows: list[Mapping[str, float]] = [headline_numbers(outcome.summary) for outcome in outcomes]
     keys = list(dict.fromkeys(key for row in rows for key in row))

@@ -4,6 +4,7 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
+from swashfilm.case.axis import place_words
 from swashfilm.case.study import Study, StudyCase
 from swashfilm.output.answer import Answer
 from swashfilm.output.data.files import read_netcdf, write_netcdf
@@ -11,11 +12,12 @@ from swashfilm.output.figures import png_of
 from swashfilm.output.headline import named, number_text, summary_scales
 from swashfilm.output.page import PLOTS, inlined, read_summary, write_page
 from swashfilm.output.run_folder import write_json
-from swashfilm.runs.film.series.answer import main_spans, place, study_tiles, study_words
+from swashfilm.runs.film.series.answer import axes_of, main_spans, study_tiles, study_words
 from swashfilm.runs.film.series.courses import course_plots
 from swashfilm.runs.film.series.data import FILM_STUDY, study_dataset, study_summary, write_study_table
+from swashfilm.runs.film.series.films import digest, solved_summary
 from swashfilm.runs.film.series.plots import COURSES, study_plots
-from swashfilm.runs.film.series.points import StudyOutcome, run_points
+from swashfilm.runs.film.series.points import StudyOutcome, StudyWork, run_points
 from system.work.progress import Report
 
 
@@ -26,11 +28,12 @@ def run_study(
 
     Returns the summary. Raises InputFaults as `run_points`; the tables list points that fail.
     """
-    outcomes = run_points(study, folder, report, resumed=resumed, workers=workers)
+    work = StudyWork(study, digest, solved_summary)
+    outcomes = run_points(work, folder, report, resumed=resumed, workers=workers)
     return write_study(study, outcomes, folder, FILM_STUDY)
 
 
-def write_study(study: Study, outcomes: Sequence[StudyOutcome], folder: Path, kind: str) -> dict[str, Any]:
+def write_study(study: Study[Any], outcomes: Sequence[StudyOutcome], folder: Path, kind: str) -> dict[str, Any]:
     """Write the files of a study of this kind, without points/, from its points; return the summary."""
     (folder / "input.toml").write_text(study.text, encoding="utf-8")
     write_study_table(folder / "study.csv", study, outcomes)
@@ -83,19 +86,20 @@ def caption(key: str) -> str:
 def span_rows(summary: Mapping[str, Any]) -> Iterator[tuple[str, ...]]:
     """Yield (number, least with its unit, point, largest, point) of every number of a study."""
     largest = {key: max(abs(span["min"]), abs(span["max"])) for key, span in summary["numbers"].items()}
-    scales = summary_scales(largest)
+    scales, axes = summary_scales(largest), axes_of(summary)
     for key, span in summary["numbers"].items():
         yield (
             named(key)[0],
             *(
                 text
                 for end in ("min", "max")
-                for text in (number_text(key, span[end], scales), place(span[f"{end}_at"]))
+                for text in (number_text(key, span[end], scales), place_words(axes, span[f"{end}_at"]))
             ),
         )
 
 
 def failed_rows(summary: Mapping[str, Any]) -> Iterator[tuple[str, ...]]:
     """Yield (point, state, reason) of every point without a result."""
+    axes = axes_of(summary)
     for point in summary["failed"]:
-        yield place(point["values"]), point["status"], point["reason"]
+        yield place_words(axes, point["values"]), point["status"], point["reason"]

@@ -14,6 +14,7 @@ from typing import Any
 import numpy as np
 
 from reynolds.numerics.arrays import Array
+from swashfilm.output.scenes.field_maps import MapField
 from swashfilm.output.touch.explorer import Control, Copies, Explorer, Move, Pick
 from swashfilm.output.touch.meshes import coarsened, triangles
 from swashfilm.output.touch.packing import short
@@ -34,24 +35,18 @@ RIGID = 2e-5
 """Largest departure of a body from a rigid motion, m: the single precision of its file, and no visible one."""
 CAMERA = {"eye": {"x": 0.3, "y": -1.0, "z": 0.42}, "projection": {"type": "orthographic"}}
 HEIGHT = 620  # pixels
-
-
-@dataclass(frozen=True)
-class ViewField:
-    """A field of the films' files: head there, factor and zero to the unit of its title, colours."""
-
-    head: str
-    title: str
-    factor: float
-    zero: float
-    colours: str
+INK = "#1c2328"
+"""Colour that the page turns into that of its own text."""
+ABOVE = 0.2
+"""Height of a chamber's number above the middle of its slipper's film, in radii of the film."""
 
 
 FIELDS = (
-    ViewField("film_pressure [Pa]", "film pressure [MPa]", 1e-6, 0.0, "viridis"),
-    ViewField("film_thickness [m]", "film thickness [um]", 1e6, 0.0, "cividis"),
-    ViewField("film_temperature [K]", "film temperature [degC]", 1.0, 273.15, "inferno"),
+    MapField("film_pressure [Pa]", "film pressure", "Pa"),
+    MapField("film_thickness [m]", "film thickness", "m", colours="cividis"),
+    MapField("film_temperature [K]", "film temperature", "K", colours="inferno"),
 )
+"""Fields of the films' files, by their heads there."""
 
 
 @dataclass
@@ -83,6 +78,7 @@ def pump_view(folder: Path) -> Explorer | None:
     fields = _films(view, folder, blocks, films)
     for part, names in _alike(blocks[0], solids).items():
         _solid(view, folder, blocks, part[0], names)
+    _numbers(view, folder, blocks, [name for name in films if part_of(name) == "slipper"])
     controls = (
         Control("colour", [one.title for one in fields]),
         Control("shaft angle", [f"{angle:.0f} deg" for angle in degrees], _pictured(degrees), slider=True),
@@ -154,6 +150,28 @@ def _solid(view: _View, folder: Path, blocks: Blocks, part: str, names: Sequence
     )  # fmt: skip
 
 
+def _numbers(view: _View, folder: Path, blocks: Blocks, slippers: Sequence[str]) -> None:
+    """Add the numbers of the chambers, each in the middle of its slipper's film and just above it."""
+    import plotly.graph_objects as go
+
+    files, rows = _rows(blocks, slippers)
+    points = [_mesh(folder, file).points.astype(float) * MM for file in files]
+    middles = np.array([one.mean(axis=0) for one in points])
+    middles[:, 2] += ABOVE * float(np.linalg.norm(points[0] - points[0].mean(axis=0), axis=1).max())
+    at = len(view.traces)
+    for letter, places in zip("xyz", np.round(middles.T, PLACE_DECIMALS), strict=True):
+        view.tables[f"numbers {letter}"] = [places[row].tolist() for row in rows]
+    view.picks += [Pick(("data", at, letter), f"numbers {letter}", (1,), list(range(len(rows)))) for letter in "xyz"]
+    numbers = [name.removesuffix(FILM).split()[-1] for name in slippers]
+    look = {"size": 15, "color": INK}
+    view.traces.append(
+        go.Scatter3d(
+            x=[], y=[], z=[], mode="text", text=numbers, textfont=look, textposition="middle center", hoverinfo="skip",
+            showlegend=False, name="chambers",
+        )
+    )  # fmt: skip
+
+
 def _place(view: _View, places: Sequence[Array], table: str, rows: list[list[int]]) -> None:
     """Add the places (n, 3) mm of the next trace's bodies, as motions of the first one where all are rigid."""
     at = len(view.traces)
@@ -181,17 +199,14 @@ def motion(start: Array, end: Array) -> Array | None:
     return found if error <= RIGID * MM else None
 
 
-def _films(view: _View, folder: Path, blocks: Blocks, names: Sequence[str]) -> list[ViewField]:
+def _films(view: _View, folder: Path, blocks: Blocks, names: Sequence[str]) -> list[MapField]:
     """Add the films, a mesh for each kind; return the fields that all of them have."""
     import plotly.graph_objects as go
 
     kinds = [(own, *_rows(blocks, own)) for own in _alike(blocks[0], names).values()]
     meshes = [[_mesh(folder, file) for file in files] for _, files, _ in kinds]
-    fields = [one for one in FIELDS if all(one.head in own[0].point_data for own in meshes)]
-    values = [
-        [np.array([one.factor * (mesh.point_data[one.head] - one.zero) for mesh in own]) for one in fields]
-        for own in meshes
-    ]
+    fields = [one for one in FIELDS if all(one.name in own[0].point_data for own in meshes)]
+    values = [[np.array([one.in_unit(mesh.point_data[one.name]) for mesh in own]) for one in fields] for own in meshes]
     ends = [_ends([own[k] for own in values]) for k in range(len(fields))]
     which = list(range(len(fields)))
     view.tables |= {

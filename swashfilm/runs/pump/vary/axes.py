@@ -6,7 +6,8 @@ from collections import Counter
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from itertools import product
 
-from swashfilm.case.study import MOST_POINTS, Point, StudyAxis, listed_axis, stepped
+from swashfilm.case.axis import StudyAxis, listed_axis, place_words, stepped
+from swashfilm.case.study import MOST_POINTS, Point
 from swashfilm.console.levels import level_texts
 from swashfilm.console.settings import LEVELS_EXAMPLE, toml_value
 from system.inputs.faults import Fault, InputFaults
@@ -101,11 +102,11 @@ def _at_axis(axes: Sequence[StudyAxis], point: Point, fault: Fault, count: int, 
     """Return a fault of the pump at a point as one of --vary."""
     keys = [axis.key for axis in axes]
     path = f"--vary {fault.path}" if fault.path in keys else fault.path
-    values = ", ".join(f"{axis.key} = {axis.labels[k]}" for axis, k in zip(axes, point, strict=True))
+    values = place_words(axes, {axis.key: axis.values[k] for axis, k in zip(axes, point, strict=True)})
     more = f"; {count} points have such a fault" if count > 1 else ""
     near = fault.nearest
     if len(axes) == 1:
-        good = [axes[0].labels[k] for k in range(len(axes[0].values)) if (k,) not in wrong]
+        good = [axes[0].text(value) for k, value in enumerate(axes[0].values) if (k,) not in wrong]
         span = f"from {good[0]} to {good[-1]}" if len(good) > 1 else f"of {good[0]}" if good else ""
         near = f"{keys[0]} {span}" if span else near
     return Fault(path, f"{fault.found} (at {values}{more})", fault.expected, near)

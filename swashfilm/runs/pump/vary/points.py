@@ -1,4 +1,4 @@
-"""Points of a pump over ranges of its keys: each an operating point, kept when it is solved."""
+"""Points of a pump over ranges of its keys, each an operating point."""
 
 from __future__ import annotations
 
@@ -6,20 +6,14 @@ import time
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from importlib.metadata import version
-from pathlib import Path
 from typing import Any
 
 from reynolds.numerics.cache import content_key
 from swashfilm.case.study import Point, Study
 from swashfilm.console.fidelity import Fidelity
-from swashfilm.runs.film.series.points import StudyOutcome
 from swashfilm.runs.pump.data import GAPS
 from swashfilm.runs.pump.run import PumpCase, solve_pump
 from system.pump_file.file import resolved_toml
-from system.work.kept_results import POINTS, KeptPoints, points_of_run, run_kept
-from system.work.processes import process_pool
-from system.work.progress import Report
-from system.work.tasks import PartOutcome
 
 KEY_LENGTH = 24
 CaseOf = Callable[[Mapping[str, object]], PumpCase]
@@ -27,7 +21,7 @@ CaseOf = Callable[[Mapping[str, object]], PumpCase]
 
 
 @dataclass(frozen=True)
-class PumpStudy(Study):
+class PumpStudy(Study[PumpCase]):
     """A pump over ranges of keys of its file, at one fidelity."""
 
     case_of: CaseOf
@@ -38,29 +32,18 @@ class PumpStudy(Study):
         return self.case_of(self.values(point))
 
 
-@dataclass(frozen=True)
-class VaryWork:
-    """The points of a pump's study as work in parts."""
+def pump_digest(case: PumpCase) -> str:
+    """Return a name of all that the numbers of a case depend on."""
+    table = case.table.read_bytes() if case.table else None
+    made_by = "pump study", version("swashfilm"), case.fidelity.value, case.options, table
+    return content_key(*made_by, resolved_toml(case.pump), case.pump.file_contents)[:KEY_LENGTH]
 
-    study: PumpStudy
 
-    def key(self, point: Point) -> str:
-        """Return a name of all that the point's numbers depend on; raise InputFaults for an invalid pump."""
-        case = self.study.case(point)
-        table = case.table.read_bytes() if case.table else None
-        made_by = "pump study", version("swashfilm"), case.fidelity.value, case.options, table
-        return content_key(*made_by, resolved_toml(case.pump), case.pump.file_contents)[:KEY_LENGTH]
-
-    def solve(self, point: Point) -> dict[str, Any]:
-        """Return the point's numbers, checks, warnings and assumptions; raise as `solve_pump`."""
-        began = time.process_time()
-        summary = solve_pump(self.study.case(point)).summary
-        return point_summary(summary) | {"solve_seconds": time.process_time() - began}
-
-    def text(self, point: Point, outcome: PartOutcome) -> str:
-        """Return the point and its state in words."""
-        values = ", ".join(f"{key} = {value}" for key, value in self.study.values(point).items())
-        return f"{values}: {outcome.status.value}"
+def solved_point(case: PumpCase) -> dict[str, Any]:
+    """Solve a case and return its numbers, checks, warnings and assumptions; raise as `solve_pump`."""
+    began = time.process_time()
+    summary = solve_pump(case).summary
+    return point_summary(summary) | {"solve_seconds": time.process_time() - began}
 
 
 def point_summary(summary: Mapping[str, Any]) -> dict[str, Any]:
@@ -91,21 +74,3 @@ def point_summary(summary: Mapping[str, Any]) -> dict[str, Any]:
         "assumptions": summary["assumptions"],
         "warnings": [dict(zip(("name", "text"), one.split(": ", 1), strict=True)) for one in summary["warnings"]],
     }
-
-
-def run_pump_points(
-    study: PumpStudy, folder: Path, report: Report, *, resumed: Path | None = None, workers: int = 1
-) -> list[StudyOutcome]:
-    """Return all points, in their order; each is stored in `folder`/points as soon as it is solved.
-
-    Points of the same pump, fidelity and program in `resumed`/points are read from there. Raises InputFaults where
-    `resumed` holds no points.
-    """
-    work, store = VaryWork(study), KeptPoints(folder / POINTS)
-    earlier = points_of_run(resumed) if resumed else None
-    with process_pool(workers) as executor:
-        kept = run_kept(work, study.points, store, executor, earlier=earlier, described=work.text, report=report)
-    return [
-        StudyOutcome(point, found.status, found.reason, found.record)
-        for point, found in zip(study.points, kept.outcomes, strict=True)
-    ]

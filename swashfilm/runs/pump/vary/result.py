@@ -10,10 +10,12 @@ import numpy as np
 
 from swashfilm.output.headline import named, shown_of
 from swashfilm.output.tables import Table
+from swashfilm.runs.film.series.answer import PUMP_STUDY
 from swashfilm.runs.film.series.page import failed_rows, write_study
 from swashfilm.runs.film.series.plots import value_text
+from swashfilm.runs.film.series.points import StudyWork, run_points
 from swashfilm.runs.film.series.result import StudyRun
-from swashfilm.runs.pump.vary.points import PumpStudy, run_pump_points
+from swashfilm.runs.pump.vary.points import PumpStudy, pump_digest, solved_point
 from system.inputs.shown import significant, titled
 from system.work.progress import Report
 
@@ -24,13 +26,12 @@ SHOWN = ("delivery_flow_m3_per_s", "drain_flow_m3_per_s", "shaft_torque_Nm", "lo
 EFFICIENCIES = ("overall", "volumetric", "hydromechanical")
 LEAST = "film_thickness_min_m."
 MOST_ROWS = 60
-KIND = "pump_study"
 
 
 class VariedRun(StudyRun):
     """A pump over ranges of keys of its file: every headline number of every point, SI."""
 
-    kinds: ClassVar[tuple[str, ...]] = (KIND,)
+    kinds: ClassVar[tuple[str, ...]] = (PUMP_STUDY,)
 
     def tables(self) -> list[Table]:
         """Return the headline numbers of the points, the first ones of many, and points without a result."""
@@ -73,6 +74,7 @@ def run_varied(
 ) -> dict[str, Any]:
     """Solve a pump over its keys and write input.toml, points/, study.csv, study.nc, summary.json, report.html.
 
-    Returns the summary. Raises InputFaults as `run_pump_points`; the tables list points that fail.
+    Returns the summary. Raises InputFaults as `run_points`; the tables list points that fail.
     """
-    return write_study(study, run_pump_points(study, folder, report, resumed=resumed, workers=workers), folder, KIND)
+    work = StudyWork(study, pump_digest, solved_point)
+    return write_study(study, run_points(work, folder, report, resumed=resumed, workers=workers), folder, PUMP_STUDY)

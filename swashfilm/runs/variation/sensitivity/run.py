@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 
 from swashfilm.console.fidelity import Fidelity
+from swashfilm.console.schemas import write_new
 from swashfilm.output.run_folder import write_json
 from swashfilm.runs.variation.case import VariedCase
 from swashfilm.runs.variation.options import solves_films
@@ -37,7 +38,7 @@ def run_sensitivity(case: VariedCase, folder: Path, executor: Executor, report: 
     Raises NotConverged where the pump as stated has no result.
     """
     (folder / "input.toml").write_text(case.given, encoding="utf-8")
-    (folder / "resolved.toml").write_text(resolved_toml(case.pump), encoding="utf-8")
+    write_new(folder / "resolved.toml", "pump", resolved_toml(case.pump))
     found = sensitivity(
         case.work,
         case.keys,
@@ -72,7 +73,7 @@ def sensitivity_summary(case: VariedCase, found: Sensitivity) -> dict[str, Any]:
         "refused": [{"key": one.key.path, "value": one.key.text, "reason": one.reason} for one in found.refused],
         "held_by_fidelity": list(case.fixed),
         "accuracy": vars(ACCURACY[case.fidelity]),
-        "warnings": [f"{name} at the pump as stated: see swashfilm run" for name in found.warnings],
+        "warnings": [f"{name}: it comes up at the pump as stated; see swashfilm run" for name in found.warnings],
         "cost": {"pumps": found.solved, "processor_s": found.seconds},
     }
 

@@ -7,37 +7,40 @@ from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
-import numpy as np
-
-from swashfilm.output.data.files import write_netcdf
+from swashfilm.output.data.files import Column, write_columns, write_netcdf
 from swashfilm.output.tables import write_csv
 from swashfilm.runs.variation.case import VariedCase
+from system.description.keys import PumpKey, pump_keys
 from system.variation.measures import NUMBERS
 from system.variation.tolerance import Tolerance
 
 DATA, PUMPS_TABLE, SHARES_TABLE = "results.nc", "pumps.csv", "shares.csv"
 
 
-def write_pumps(path: Path, found: Tolerance) -> None:
-    """Write a row for each pump with a result: its dimensions (SI), and its numbers in the units that people read."""
-    heads = [
-        *(f"{name} [SI]" for name in found.series.drawing.names),
-        *(f"{one.name} [{one.shown}]" for one in found.measures),
-    ]
-    numbers = [one.read(values) for one, values in zip(found.measures, found.of_measures.T, strict=True)]
-    rows = np.column_stack([found.series.values, *numbers])
-    write_csv(path, heads, ([f"{value:.8g}" for value in row] for row in rows))
+def write_pumps(path: Path, case: VariedCase, found: Tolerance) -> None:
+    """Write a row for each pump with a result: its dimensions and its numbers, in the units that people read."""
+    known = pump_keys(case.pump)
+    members = zip(found.series.drawing.members, found.series.values.T, strict=True)
+    dimensions = [Column(one.name, values, si_unit(known[one.keys[0]])) for one, values in members]
+    numbers = zip(found.measures, found.of_measures.T, strict=True)
+    write_columns(path, [*dimensions, *(Column(one.name, values, one.unit) for one, values in numbers)])
+
+
+def si_unit(key: PumpKey) -> str:
+    """Return the SI unit of a number of a pump file."""
+    return key.dimension.si_unit if key.dimension else "1"
 
 
 def write_shares(path: Path, found: Tolerance) -> None:
-    """Write a row for each measure and each group of dimensions."""
+    """Write a row for each measure and each group of dimensions: shares, and changes in the unit of the row."""
     parts = ("first", "total", "width", "mean")
     heads = ["measure", "unit", "dimensions", *(f"{part} {end}" for part in parts for end in ("value", "low", "high"))]
     rows = []
     for one, own in zip(found.measures, found.shares, strict=True):
         for share in own:
-            numbers: list[float] = [value for part in parts for value in asdict(getattr(share, part)).values()]
-            rows.append([one.name, one.unit, " and ".join(share.names), *(f"{value:.6g}" for value in numbers)])
+            scaled = zip(parts, (1.0, 1.0, one.scale, one.scale), strict=True)
+            numbers = [scale * value for part, scale in scaled for value in asdict(getattr(share, part)).values()]
+            rows.append([one.name, one.unit_of_change, " and ".join(share.names), *(f"{one:.6g}" for one in numbers)])
     write_csv(path, heads, rows)
 
 

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from swashfilm.console.schemas import write_new
 from swashfilm.output.run_folder import write_json
 from swashfilm.runs.variation.case import VariedCase
 from swashfilm.runs.variation.tolerance.files import (
@@ -47,7 +48,7 @@ def run_tolerance(case: ToleranceCase, folder: Path, executor: Executor, report:
     """
     varied = case.varied
     (folder / "input.toml").write_text(varied.given, encoding="utf-8")
-    (folder / "resolved.toml").write_text(resolved_toml(varied.pump), encoding="utf-8")
+    write_new(folder / "resolved.toml", "pump", resolved_toml(varied.pump))
     earlier = points_of_run(varied.resume) if varied.resume else None
     found = tolerance(
         varied.work, case.drawing, case.pumps, case.seed, case.measures, case.limits, folder / POINTS, executor,
@@ -55,7 +56,7 @@ def run_tolerance(case: ToleranceCase, folder: Path, executor: Executor, report:
     )  # fmt: skip
     summary = tolerance_summary(varied, case.drawing, case.seed, found)
     write_json(folder / "summary.json", summary)
-    write_pumps(folder / PUMPS_TABLE, found)
+    write_pumps(folder / PUMPS_TABLE, varied, found)
     write_shares(folder / SHARES_TABLE, found)
     write_data(folder / DATA, varied, found)
     write_tolerance_page(folder)

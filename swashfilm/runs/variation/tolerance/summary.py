@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from swashfilm.runs.variation.case import VariedCase
+from swashfilm.runs.variation.tolerance.files import si_unit
 from swashfilm.runs.variation.words import size_text, where
 from system.description.drawn import Drawing, Drawn, DrawnFit, pump_sigma
 from system.description.keys import pump_keys
@@ -68,7 +69,7 @@ def _dimension_rows(case: VariedCase, drawing: Drawing) -> list[dict[str, Any]]:
         rows.append(
             {
                 "name": one.name, "keys": list(one.keys), "value": key.value, "text": key.text,
-                "unit": key.dimension.si_unit if key.dimension else "1", "shape": one.shape.value,
+                "unit": si_unit(key), "shape": one.shape.value,
                 "sigma": sigma, "sigma_text": size_text(key, sigma), "words": _words(one, key.shown),
             }
         )  # fmt: skip
@@ -91,11 +92,18 @@ def _words(one: Drawn | DrawnFit, shown: Callable[[float], str]) -> str:
 def _warnings(found: Tolerance) -> list[str]:
     """Return what keeps pumps from a result, and numbers that the surface does not describe."""
     said = [
-        f"{count} of {found.pumps} pumps are refused by the geometry and have no part in the scatter: {reason}"
+        f"pumps_refused: {count} of {found.pumps} pumps are refused by the geometry and have no part in the scatter: "
+        f"{reason.rstrip('.')}; narrow the tolerance that does it"
         for reason, count in found.refused.items()
     ]
-    said += [f"{count} of {found.pumps} pumps have no result: {reason}" for reason, count in found.failed.items()]
+    said += [
+        f"points_failed: {count} of {found.pumps} pumps have no result: {reason}"
+        for reason, count in found.failed.items()
+    ]
     rough = [one.words for one, part in zip(found.measures, found.surface.held_out, strict=True) if part < 0.9]
     if rough:
-        said.append(f"a quadratic surface explains less than 90 % of {', '.join(rough)}: their shares are a guide only")
+        said.append(
+            f"shares_uncertain: a quadratic surface explains less than 90 % of {', '.join(rough)}: their shares are a "
+            "guide only; draw more pumps, or look at pumps.csv itself"
+        )
     return said

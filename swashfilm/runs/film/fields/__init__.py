@@ -1,0 +1,1 @@
+"""Fields of a film: over time, as maps, and along sections."""
