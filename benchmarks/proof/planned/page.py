@@ -16,13 +16,13 @@ HEAD = """# Check of planned campaigns
 Does a campaign of `swashfilm plan` settle what a grid of the same size leaves open? The pump is the plant of the
 [proof](proof.md), a simulation of another make with its own laws, noise, calibrations and tolerances. Something is
 concealed in it, one thing at a time in a drawn order, as large as a score of {score:g} by the grid: it is seen, and
-seldom named. The bench reads delivery flow, case drain, torque and all inputs at 36 points of a grid at one temperature,
-as the campaign `map` of the proof: three displacements, three speeds, four pressures. A diagnosis follows. Each rival
-that it leaves open beside the truth, at odds below {odds:g} to 1, makes a pair. The truth and its open rivals are the
-suspects of a plan: {corners} corners of the range of an ordinary bench, and up to {added} readings added, which may also
-be at other temperatures. All suspects cost as much as makes the truth stand out by {score:g} sigma on the grid. These
-readings are recorded on the same pump with the bench calibrated anew, and diagnosed by themselves, without the grid. A
-pair is settled at odds of {odds:g} to 1 for the truth.
+seldom named. The bench reads delivery flow, case drain, torque and all inputs at 36 points of a grid at one
+temperature, as the campaign `map` of the proof: three displacements, three speeds, four pressures. A diagnosis
+follows. Each rival that it leaves open beside the truth, at odds below {odds:g} to 1, makes a pair. The truth and
+its open rivals are the suspects of a plan: {corners} corners of the range of an ordinary bench, and up to {added}
+readings added, which may also be at other temperatures. All suspects cost as much as makes the truth stand out by
+{score:g} sigma on the grid. These readings are recorded on the same pump with the bench calibrated anew, and
+diagnosed by themselves, without the grid. A pair is settled at odds of {odds:g} to 1 for the truth.
 
 Written by `python benchmarks/plan_check.py`.
 """
