@@ -136,22 +136,21 @@ def plan_campaign(
 
     meters: further ones that are weighed; all that the bench lacks where None.
     """
-    limits = thresholds.next_point
-    campaign = np.flatnonzero(asked.counts)
+    limits, counts, campaign = thresholds.next_point, asked.counts, np.flatnonzero(asked.counts)
     suspects = suspects_of(foreseen, chosen, campaign, thresholds, asked.cost)
-    widths = np.array([one.width for one in foreseen.candidates])
-    contest = Contest(foreseen.responses.white(asked.channels), suspects, widths, signs_of(foreseen.candidates))
-    counts, wanted = asked.counts, wanted_distance(limits) if asked.apart is None else asked.apart
+    contest = contest_of(foreseen, asked.channels, suspects)
+    wanted = wanted_distance(limits) if asked.apart is None else asked.apart
     everywhere = np.full(len(counts), MANY)
     ever = contest.apart(everywhere)
     weighed = further_meters(foreseen, asked.channels, campaign, thresholds, report) if meters is None else meters
     never = never_apart(contest, ever, everywhere, weighed, wanted)
     pairs = tuple(pair for pair in all_pairs(len(suspects)) if pair not in {one.pair for one in never})
-    pair_campaign = PairCampaign(contest, pairs, max(wanted, asked.aim))
-    added = added_points(pair_campaign, counts, np.maximum(counts, limits.readings), asked.most, LEAST, report)
+    rivals = PairCampaign(contest, pairs, max(wanted, asked.aim))
+    added = added_points(rivals, counts, np.maximum(counts, limits.readings), asked.most, LEAST, report)
     reached = counts + np.bincount(added.points, minlength=len(counts)).astype(np.int64)
     before, after = contest.apart(counts), contest.apart(reached)
-    found = Plan(
+    told_planned, told = (_pairs(contest.told(one, wanted, thresholds.form)) for one in (before, after))
+    return Plan(
         points=asked.points,
         planned=counts,
         counts=reached,
@@ -162,17 +161,21 @@ def plan_campaign(
         ever=ever.distances,
         seen=np.sqrt(np.maximum(after.seen, 0.0)),
         wanted=wanted,
-        added=_purposes(pair_campaign, counts, added),
+        added=_purposes(rivals, counts, added),
         totals=added.totals,
         most=asked.most,
-        told_planned=_pairs(contest.told(before, wanted, thresholds.form)),
-        told=_pairs(contest.told(after, wanted, thresholds.form)),
+        told_planned=told_planned,
+        told=told,
         never=never,
-        worths=(),
+        worths=meter_worths(contest, frozenset(told), reached, weighed, wanted, thresholds.form, report),
         shows=_shows(foreseen, contest, asked.channels),
     )
-    worths = meter_worths(contest, frozenset(found.told), reached, weighed, wanted, thresholds.form, report)
-    return replace(found, worths=worths)
+
+
+def contest_of(foreseen: Foreseen, channels: Collection[str], suspects: tuple[Suspect, ...]) -> Contest:
+    """The suspects before a bench with these channels."""
+    widths = np.array([one.width for one in foreseen.candidates])
+    return Contest(foreseen.responses.white(channels), suspects, widths, signs_of(foreseen.candidates))
 
 
 def _pairs(told: NDArray[np.bool_]) -> tuple[tuple[int, int], ...]:

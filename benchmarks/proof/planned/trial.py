@@ -11,10 +11,10 @@ import numpy as np
 
 from diagnosis.explain.ranked import Explanation
 from diagnosis.next_point.operating_box import pump_box
-from diagnosis.planning.apart import Apart, Contest
-from diagnosis.planning.plan import Asked, Plan, plan_campaign, readings_of, spread_order
+from diagnosis.planning.apart import Apart
+from diagnosis.planning.plan import Asked, Plan, contest_of, plan_campaign, readings_of, spread_order
 from diagnosis.planning.responses import foresee
-from diagnosis.planning.suspects import COST, entries_of, possible_suspects, signs_of, suspect_name, suspects_of
+from diagnosis.planning.suspects import COST, entries_of, possible_suspects, suspect_name, suspects_of
 from diagnosis.procedure.recorded import diagnose_recording
 from diagnosis.recording.model import RecordedChannel, Recording
 from diagnosis.study.acceptance import checked_recording
@@ -189,9 +189,7 @@ def _planned(names: list[str], campaign: Campaign, thresholds: Thresholds) -> tu
 
     def by_grid(cost: float) -> Apart:
         suspects = suspects_of(foreseen, chosen, np.flatnonzero(asked.counts), thresholds, cost)
-        widths = np.array([one.width for one in foreseen.candidates])
-        white = foreseen.responses.white(asked.channels)
-        return Contest(white, suspects, widths, signs_of(foreseen.candidates)).apart(on_grid)
+        return contest_of(foreseen, asked.channels, suspects).apart(on_grid)
 
     cost = COST * SCORE / float(np.sqrt(by_grid(COST).seen[0]))
     plan = plan_campaign(foreseen, replace(asked, cost=cost), chosen, thresholds, meters=())

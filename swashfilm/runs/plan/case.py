@@ -182,7 +182,10 @@ def _planned(
 ) -> tuple[tuple[OperatingPoint, ...], NDArray[np.int64], Array]:
     """Return the planned points, the readings at each, and their places in the order of driving, 0 to 1."""
     if options.campaign is not None:
-        file = read_campaign(options.campaign, pump)
+        try:
+            file = read_campaign(options.campaign, pump)
+        except InputFaults as reason:
+            raise InputFaults(reason.source, [*faults, *reason.faults], reason.lines) from None
         for point, line in zip(file.points, file.lines, strict=True):
             report = check_operating_point(pump, point)
             faults += [Fault(f"{one.path}, line {line}", one.found, one.expected, one.nearest) for one in report.faults]
