@@ -19,7 +19,7 @@ POINT_COLUMNS = (
 )  # fmt: skip
 """Key in the summary, head without its unit as a campaign file has it, and SI unit of each input."""
 FURTHER_HEAD = ("a further meter", "pairs that it tells apart", "among them")
-SUSPECT_HEAD = ("suspect", "size", "costs", "stands out by", "shows most in")
+SUSPECT_HEAD = ("suspect", "name for --suspects", "size", "costs", "stands out by", "shows most in")
 SENSOR_HEAD = ("meter", "one sigma of a reading", "calibration: gain", "zero", "")
 NEVER_HEAD = ("never told apart", "why", "what would tell")
 OPEN_HEAD = ("still open", "apart by", "")
@@ -80,7 +80,7 @@ def suspect_rows(summary: Summary) -> Iterator[tuple[str, ...]]:
     for one in summary["suspects"]:
         capped = " (its largest likely size)" if one["capped"] else ""
         yield (
-            one["words"], one["size"] + capped, f"{100.0 * one['costs_efficiency']:.2g} points",
+            one["words"], one["name"], one["size"] + capped, f"{100.0 * one['costs_efficiency']:.2g} points",
             f"{one['seen_sigma']:.1f} sigma", channel_of(one["shows_in"]),
         )  # fmt: skip
 
