@@ -27,7 +27,7 @@ NAMED = 4
 """Pairs that a cell names."""
 REASONS = {
     "same_form": "both change the {channel} in the same way over speed, pressure, displacement and temperature",
-    "weak": "{weaker} stands out by {seen:.1f} sigma in all, too little for a difference to show",
+    "weak": "{weaker} stands out by {seen:.1f} sigma with these points, and by too little with any",
 }
 
 
@@ -104,7 +104,7 @@ def never_rows(summary: Summary) -> Iterator[tuple[str, ...]]:
         if pairs:
             helped = Counter(name for one in pairs for name in one["further"])
             meters = [name for name, count in helped.most_common(2) if count >= len(pairs) / 2]
-            why = f"hardly moves any reading of this bench, by {own['seen_sigma']:.1f} sigma in all"
+            why = f"hardly moves any reading of this bench, by {own['seen_sigma']:.1f} sigma with these points"
             yield f"{own['words']} from anything", why, _meters(summary, meters)
     for one in summary["never_apart"]:
         if not one["unseen"]:
