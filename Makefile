@@ -5,7 +5,7 @@ VENV := .venv/bin
 PYTHON = $(shell for python in python3.11 python3.12 python3.13 python3.14 python3; do \
 	$$python -c 'import sys; sys.exit(sys.version_info < (3, 11))' 2>/dev/null && echo $$python && break; done)
 
-.PHONY: help install run test test-long check docs gallery examples lock clean
+.PHONY: help install run test test-long check docs wheel gallery examples lock clean
 
 help:
 	@echo "make install   set up .venv in this folder (once; later calls only check)"
@@ -14,6 +14,7 @@ help:
 	@echo "make test-long set up, then run the tests of minutes"
 	@echo "make check     set up, then style (ruff), types (mypy), direction of imports (import-linter), documentation"
 	@echo "make docs      set up, then build the documentation site into build/site; needs no network"
+	@echo "make wheel     set up, then build the wheel and run the first examples with it alone; needs a network"
 	@echo "make gallery   set up, then solve the examples of the gallery and draw docs/gallery.md anew"
 	@echo "make examples  set up, then run the examples and write docs/examples anew"
 	@echo "make lock      resolve pyproject.toml anew into requirements.lock, keeping versions that still fit"
@@ -42,6 +43,9 @@ check: install
 docs: install
 	$(VENV)/sphinx-build -q -W --keep-going -j 2 -c docs/site -b html . build/site
 	@echo "build/site/index.html"
+
+wheel: install
+	$(VENV)/python tools/try_wheel.py
 
 gallery: install
 	$(VENV)/python docs/site/gallery.py

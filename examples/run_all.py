@@ -49,7 +49,8 @@ def main(words: Sequence[str]) -> int:
 
 def commands() -> Iterator[list[str]]:
     """Command of every example, relative to the checkout: `swashfilm` words, or a script."""
-    for command, folder in (("film", "films"), ("transient", "transients"), ("reference", "references")):
+    for command, folder in (("film", "films"), ("transient", "transients"), ("reference", "references"),
+                            ("optimise", "optimisations")):  # fmt: skip
         for case in sorted((EXAMPLES / folder).glob("*.toml")):
             yield ["swashfilm", command, str(case.relative_to(ROOT))]
     for pump in sorted((EXAMPLES / "pumps").glob("*.toml")):
@@ -57,6 +58,7 @@ def commands() -> Iterator[list[str]]:
     yield ["swashfilm", "diagnose", "examples/recordings/bench_pump.toml", "examples/recordings/open-06"]
     yield ["swashfilm", "calibrate", "examples/recordings/bench_pump.toml", "examples/recordings/open-01"]
     yield ["swashfilm", "reproduce", "fig13", "--recording", "examples/recordings/paper_points"]
+    yield ["examples/optimisations/piston_profile.py"]
     yield ["examples/own_simulator/valve.py"]
     yield ["examples/hst196/band.py"]
     yield ["examples/hst196/floating.py", "--rigid"]

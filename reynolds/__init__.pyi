@@ -18,6 +18,7 @@ from .adjoint.outputs import (
     Wall as Wall,
     output_names as output_names,
 )
+from .adjoint.solved import OutputSlopes as OutputSlopes, SolvedFilm as SolvedFilm, slopes_of as slopes_of
 from .bodies.chart import Cylinder as Cylinder, Plane as Plane, Side as Side, face_normals as face_normals
 from .bodies.elasticity import Elastic as Elastic, structure as structure
 from .bodies.foundation import Compliance as Compliance, both as both, half_space as half_space, winkler as winkler

@@ -1,26 +1,10 @@
-from .api import (
-    InputFaults as InputFaults,
-    NotConverged as NotConverged,
-    calibrate as calibrate,
-    compare as compare,
-    diagnose as diagnose,
-    duty as duty,
-    export as export,
-    film as film,
-    load_pump as load_pump,
-    map as map,
-    new as new,
-    open as open,
-    plan as plan,
-    reference as reference,
-    reproduce as reproduce,
-    run as run,
-    sensitivity as sensitivity,
-    study as study,
-    table as table,
-    tolerance as tolerance,
-    transient as transient,
-    vary as vary,
-)
+from .api.cases import reference as reference, reproduce as reproduce, transient as transient
+from .api.drawings import optimise as optimise, sensitivity as sensitivity, tolerance as tolerance
+from .api.errors import InputFaults as InputFaults, NotConverged as NotConverged
+from .api.files import new as new, open as open
+from .api.films import film as film, study as study
+from .api.maps import compare as compare, duty as duty, export as export, map as map
+from .api.pumps import load_pump as load_pump, run as run, table as table, vary as vary
+from .api.recordings import calibrate as calibrate, diagnose as diagnose, plan as plan
 from .runs.table.gap_run import read_gap_table as read_gap_table
 from .version import __version__ as __version__

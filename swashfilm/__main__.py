@@ -29,6 +29,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     for name in _THREADS:  # films are small: threads cost more than they gain, and several runs share the cores
         os.environ.setdefault(name, "1")
     from reynolds.errors import InputError, NotConverged
+    from reynolds.numerics.files import REFUSED_BY_DISK
     from swashfilm.cli.app import run_command
     from swashfilm.output.run_folder import Interrupted
     from system.inputs.faults import InputFaults
@@ -53,6 +54,14 @@ def main(arguments: Sequence[str] | None = None) -> int:
     except BrokenPipeError:  # the reader of the output has ended, as in `swashfilm ... | head`
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         return 1
+    except OSError as reason:
+        if reason.errno not in REFUSED_BY_DISK:
+            raise
+        place = reason.filename or "a file of this command"
+        expected = "a disk with room, and files and folders that this user may read and write"
+        return _end(
+            "\n".join([f"{place}: found {reason.strerror}, expected {expected}", *_notes(reason)]), EXIT_BAD_INPUT
+        )
 
 
 def _resuming(words: list[str], kept: Path) -> str:
@@ -70,7 +79,9 @@ def _notes(reason: BaseException) -> list[str]:
 
 
 def _end(message: str, code: int) -> int:
-    sys.stderr.write(f"swashfilm: {message}\n")
+    from system.inputs.faults import printable
+
+    sys.stderr.write(printable(f"swashfilm: {message}\n"))
     return code
 
 

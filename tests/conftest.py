@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import importlib
 import importlib.util
+import json
 import os
 import sys
 
@@ -18,30 +19,14 @@ from typing import Any
 
 import numpy as np
 import pytest
+from measured import Reference
+from measured_page import write_measured
+from validation_rows import Row, row_of, summary_of, write_summary
 
 ROOT = Path(__file__).resolve().parents[1]
 PAGE_COMMAND = "python -m pytest -m '' --validation-page=docs/validation.md"
 SAFETY = 1.25  # Roache 1994: order observed on three meshes
 FRONT_SAFETY = 3.0  # Roache 1994: order assumed
-
-
-@dataclass(frozen=True)
-class Row:
-    """One line of the validation page; place: its test's among all that were collected."""
-
-    place: int
-    chapter: str
-    case: str
-    source: str
-    quantity: str
-    unit: str
-    expected: float
-    obtained: float
-    tolerance: float
-    order: float | None
-    note: str
-    missed: str
-    discussion: str
 
 
 @dataclass(frozen=True)
@@ -105,30 +90,40 @@ ROWS = pytest.StashKey[list[Row]]()
 @pytest.hookimpl(optionalhook=True)
 def pytest_testnodedown(node: Any) -> None:
     """A process of pytest-xdist that ends hands its rows over."""
-    node.config.stash[ROWS] += [Row(**row) for row in getattr(node, "workeroutput", {}).get("rows", [])]
+    rows = json.loads(getattr(node, "workeroutput", {}).get("rows", "[]"))
+    node.config.stash[ROWS] += [row_of(plain) for plain in rows]
 
 
 def pytest_sessionfinish(session: pytest.Session, exitstatus: int) -> None:
     rows = session.config.stash[ROWS]
     if hasattr(session.config, "workeroutput"):
-        session.config.workeroutput["rows"] = [asdict(row) for row in rows]
+        session.config.workeroutput["rows"] = json.dumps([asdict(row) for row in rows])
         return
     page = session.config.getoption("validation_page")
     if page is not None and exitstatus == pytest.ExitCode.OK:
-        page.write_text(validation_page(sorted(rows, key=lambda row: row.place)), encoding="utf-8")
+        _write_pages(page, sorted(rows, key=lambda row: row.place))
+
+
+def _write_pages(page: Path, rows: Sequence[Row]) -> None:
+    """The validation page, and beside it the rows against measurement: as a page, a picture and JSON."""
+    summary = summary_of(rows)
+    page.write_text(validation_page(rows), encoding="utf-8")
+    write_summary(summary, page.with_name("measured.json"))
+    write_measured(summary, page.parent)
 
 
 @pytest.fixture
 def validation(request: pytest.FixtureRequest) -> Callable[..., None]:
     """validation(*, case, source, quantity, unit, expected, obtained, tolerance=None,
-    relative_tolerance=None, order=None, note="", missed="")
+    relative_tolerance=None, order=None, note="", missed="", measured=None)
 
     Records one row of docs/validation.md and asserts |obtained - expected| <= tolerance (in `unit`) or
     <= relative_tolerance |expected|: give exactly one of the two. `case` is a literal string (a test compares
     the literals in the tests with the committed page); what varies goes into `quantity`. `order` is the
     observed order of convergence. `missed="reason"` records an out-of-tolerance result openly instead of
-    failing, for a claim that physics contradicts, and fails if the claim is met after all. The chapter is the
-    first line of the test module's docstring, the text under its table the module's DISCUSSION, where it has one.
+    failing, for a claim that physics contradicts, and fails if the claim is met after all. `measured` is given where
+    `expected` was measured: `measured.Measured` with its uncertainties or `measured.Trend`, for docs/measured.md. The
+    chapter is the first line of the test module's docstring, the text under its table the module's DISCUSSION.
     """
     chapter = (request.module.__doc__ or "").strip().splitlines()[0].rstrip(".")
     rows = request.config.stash[ROWS]
@@ -146,6 +141,7 @@ def validation(request: pytest.FixtureRequest) -> Callable[..., None]:
         order: float | None = None,
         note: str = "",
         missed: str = "",
+        measured: Reference | None = None,
     ) -> None:
         if (tolerance is None) == (relative_tolerance is None):
             raise ValueError("validation: give either tolerance or relative_tolerance")
@@ -164,6 +160,7 @@ def validation(request: pytest.FixtureRequest) -> Callable[..., None]:
             note,
             missed,
             getattr(request.module, "DISCUSSION", ""),
+            measured,
         )
         rows.append(row)
         met = abs(row.obtained - row.expected) <= row.tolerance
@@ -272,7 +269,8 @@ def validation_page(rows: Sequence[Row]) -> str:
         "tolerance. Of a film under mesh refinement that is the error of the finest mesh estimated from the",
         "refinement alone (grid convergence index, Roache 1994: safety 1.25, and 3 where a cavity's front or a",
         "largest nodal value makes the order scatter), plus the rounding of the reference; `order` is the order",
-        "of convergence observed.",
+        "of convergence observed. Rows against measurement stand in [measured parts](measured.md), too, with their",
+        "validation uncertainties.",
     ]
     for chapter in dict.fromkeys(row.chapter for row in rows):
         own = [row for row in rows if row.chapter == chapter]

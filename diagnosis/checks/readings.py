@@ -64,7 +64,7 @@ def _nines(channel: RecordedChannel, values: Array) -> Marks:
     found = np.zeros(len(values), dtype=bool)
     for shift in shifts:
         numbers = (values[known] - shift) / factor
-        found[known] |= [CODE.fullmatch(f"{number:.6g}") is not None for number in numbers]
+        found[known] |= np.array([CODE.fullmatch(f"{number:.6g}") is not None for number in numbers], dtype=bool)
     others = values[known & ~found]
     if not found.any() or not len(others):
         return np.zeros(len(values), dtype=bool)

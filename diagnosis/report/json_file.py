@@ -17,9 +17,11 @@ from diagnosis.report.answer import PlainAnswer
 from diagnosis.report.format import if_words, last_word
 from diagnosis.report.text import paragraphs, statement
 from diagnosis.verdict.diagnosis import ClaimedEffect, Diagnosis, Estimate
+from reynolds.numerics.files import read_json
 from system.effects.effect import Kind
 from system.inputs.channels import ChannelName
 from system.inputs.faults import Fault, InputFaults
+from system.inputs.versions import version_fault
 
 FORMAT = 1
 ANSWER_FORMAT = 1
@@ -42,12 +44,12 @@ def write_diagnosis(path: Path, diagnosis: Diagnosis, answer: PlainAnswer) -> No
 def read_diagnosis(path: Path) -> dict[str, Any]:
     """Read a diagnosis.json of format 1 with an answer of this version; raises InputFaults for another file."""
     try:
-        record = json.loads(path.read_text("utf-8"))
+        record = read_json(path)
     except (OSError, ValueError) as reason:
         raise InputFaults(str(path), [Fault("file", str(reason), "a diagnosis.json of a finished run")]) from None
-    if not isinstance(record, dict) or record.get("format") != FORMAT:
-        found = record.get("format") if isinstance(record, dict) else type(record).__name__
-        raise InputFaults(str(path), [Fault("format", repr(found), str(FORMAT), AGAIN)])
+    found = record.get("format") if isinstance(record, dict) else type(record).__name__
+    if fault := version_fault("format", found, FORMAT, "diagnosis"):
+        raise InputFaults(str(path), [fault])
     faults = [Fault(key, "nothing", "a key of every diagnosis.json", AGAIN) for key in KEYS if key not in record]
     if faults := faults or list(_answer_faults(record.get("answer"))):
         raise InputFaults(str(path), faults)

@@ -67,6 +67,11 @@ def title(example: Example) -> str:
     return sentence[0].upper() + sentence[1:]
 
 
+def _optimised(name: str) -> Example:
+    case = f"examples/optimisations/{name}.toml"
+    return Example(case, f"swashfilm optimise {case}", "plot_pareto")
+
+
 def _film(name: str, picture: str = "plot_fields") -> Example:
     return Example(f"examples/films/{name}.toml", f"swashfilm film examples/films/{name}.toml", picture)
 
@@ -113,6 +118,10 @@ GROUPS = (
     Group("Transients", (
         Example("examples/transients/destroke.toml", "swashfilm transient examples/transients/destroke.toml",
                 "plot_plate"),
+    )),
+    Group("Optimisations", (
+        _optimised("port_timing"), _optimised("slipper_land"),
+        Example("examples/optimisations/piston_profile.py", "python examples/optimisations/piston_profile.py"),
     )),
     Group("References", (
         _reference("film_step"), _reference("grooves"), _reference("port_slot"),

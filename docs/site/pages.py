@@ -15,9 +15,12 @@ CONTENTS = {
     "Start": ("/README", "tutorial", "gallery", "examples/index", "notebooks/film", "notebooks/pump", "wrong_results"),
     "Reference": ("files", "conventions", "Files of the examples </examples/README>", "/meshes/README",
                   "cluster", "api/index"),
-    "Background": ("theory", "architecture", "validation", "proof", "proof_floating", "plan_check",
-                   "Reproduction <reproduction>", "Reproduction with films <reproduction_fixed>",
-                   "Reproduction with floating films <reproduction_floating>", "benchmarks", "/CHANGELOG"),
+    "Background": ("theory", "architecture", "validation", "measured", "credibility", "proof", "proof_floating",
+                   "plan_check", "hostile",
+                   "Reproduction <reproduction>",
+                   "Reproduction with films <reproduction_fixed>",
+                   "Reproduction with floating films <reproduction_floating>", "benchmarks"),
+    "Project": ("/CHANGELOG", "/CONTRIBUTING", "/CODE_OF_CONDUCT", "/SECURITY", "/THIRD_PARTY"),
 }  # fmt: skip
 """Pages by their place in the menu, relative to docs/; a title in front of <page> stands for the page's own."""
 FRONT = '<!doctype html><meta charset="utf-8"><meta http-equiv="refresh" content="0; url=docs/index.html">'

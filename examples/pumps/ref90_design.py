@@ -1,11 +1,11 @@
 """Design study of a floating pump: each dimension of the built-in `ref90` varied alone, by the gap that it decides.
 
-    python examples/pumps/ref90_design.py [--pressure "35 MPa"] [--workers 2] [WORD ..]
+    python examples/pumps/ref90_design.py [--pressure "35 MPa"] [--workers 2] [--picture FILE.png] [WORD ..]
 
 A row is a gap over the revolution with all physics (elastic walls, oil over pressure and temperature, cavities,
 rough walls), driven by the chamber of the lumped fidelity: film thickness in the mean and at least, power lost in
 rubbing and shear, flow into the case, hottest oil; of all pistons or slippers. With words, only rows that contain one
-of them. A gap takes 10 to 30 s.
+of them. A gap takes 10 to 30 s. The picture shows film and power of each row.
 """
 
 from __future__ import annotations
@@ -21,6 +21,7 @@ for name in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"):
     os.environ.setdefault(name, "1")
 
 import numpy as np  # noqa: E402
+from matplotlib.figure import Figure  # noqa: E402
 from rich.console import Console  # noqa: E402
 from rich.table import Table  # noqa: E402
 
@@ -65,6 +66,7 @@ def lands(inner: str, outer: str) -> dict[str, str]:
 
 
 HEADS = ("gap", "dimension", "film\num", "least\num", "rub\nW", "shear\nW", "leak\nL/min", "oil\ndegC")
+FORMS = (".1f", ".2f", ".0f", ".0f", ".3f", ".0f")
 VARIANTS = (
     Variant("piston", "as designed", {}),
     Variant("piston", "60 mm in the bore", {"piston.engaged_length": "60 mm"}),
@@ -82,8 +84,26 @@ VARIANTS = (
 )  # fmt: skip
 
 
-def row(variant: Variant, pressure: str) -> list[str]:
-    """A line of the table, with the reason where a gap has no periodic film."""
+@dataclass(frozen=True)
+class Row:
+    """What a variant does; of all parts of the gap: mean and least film (um), powers (W), leakage (L/min), oil (degC).
+
+    reason: why the gap has no periodic film, else "".
+    """
+
+    variant: Variant
+    numbers: tuple[float, ...] = ()
+    reason: str = ""
+
+    @property
+    def cells(self) -> list[str]:
+        """The line of the table."""
+        shown = [f"{one:{form}}" for one, form in zip(self.numbers, FORMS, strict=True)] if self.numbers else []
+        return [self.variant.gap, self.variant.name, *(shown or [self.reason])]
+
+
+def row(variant: Variant, pressure: str) -> Row:
+    """The gap of a variant over a turn."""
     pump = load_pump(PUMP, {**variant.changes, "operating.pressure": pressure})
     point = operating_point(pump)
     shaft, parts, cycle = rotor(pump, point), floating_parts(pump), lumped_point(pump, point).cycle
@@ -98,19 +118,40 @@ def row(variant: Variant, pressure: str) -> list[str]:
         else:
             found = block_revolution(shaft, parts, driven.block, options)
     except FilmNotConverged as reason:
-        return [variant.gap, variant.name, str(reason)]
+        return Row(variant, reason=str(reason))
     instants, count = found.turn.instants, 1 if variant.gap == "block" else pump.pump.pistons
     assert found.warmth is not None
-    return [
-        variant.gap,
-        variant.name,
-        f"{1e6 * np.mean([at.mean_film for at in instants]):.1f}",
-        f"{1e6 * found.least_film.film_thickness_min:.2f}",
-        f"{count * np.mean([at.passed.heat.rubbing for at in instants]):.0f}",
-        f"{count * np.mean([at.passed.heat.shear for at in instants]):.0f}",
-        f"{6e4 * count * np.mean([at.passed.leakage for at in instants]):.3f}",
-        f"{found.warmth.hottest.max() - KELVIN:.0f}",
-    ]
+    numbers = (
+        1e6 * np.mean([at.mean_film for at in instants]),
+        1e6 * found.least_film.film_thickness_min,
+        count * np.mean([at.passed.heat.rubbing for at in instants]),
+        count * np.mean([at.passed.heat.shear for at in instants]),
+        6e4 * count * np.mean([at.passed.leakage for at in instants]),
+        found.warmth.hottest.max() - KELVIN,
+    )
+    return Row(variant, tuple(map(float, numbers)))
+
+
+def picture(rows: list[Row], pressure: str) -> Figure:
+    """Film and power of each row that has a film, one below the other."""
+    known = [one for one in rows if one.numbers]
+    figure = Figure(figsize=(9.0, 1.2 + 0.32 * len(known)), layout="constrained")
+    films, powers = figure.subplots(1, 2, sharey=True)
+    place = np.arange(len(known))
+    mean, least, rub, shear = (np.array([one.numbers[k] for one in known]) for k in range(4))
+    films.plot(mean, place, "o", color="C0", label="mean")
+    films.plot(least, place, "o", color="C0", fillstyle="none", label="least")
+    powers.barh(place, shear, color="C0", label="shear")
+    powers.barh(place, rub, left=shear, color="C3", label="rubbing")
+    films.set(xlabel="film thickness [um]", yticks=place)
+    films.set_xlim(left=0.0)
+    films.set_yticklabels([f"{one.variant.gap}: {one.variant.name}" for one in known])
+    films.invert_yaxis()
+    powers.set(xlabel="power [W]")
+    for axes in (films, powers):
+        axes.legend(frameon=False, fontsize="small")
+    figure.suptitle(f"{PUMP} at {pressure}")
+    return figure
 
 
 def main() -> None:
@@ -118,6 +159,7 @@ def main() -> None:
     parser = argparse.ArgumentParser(description="Vary the dimensions of a floating pump, one by one.")
     parser.add_argument("--pressure", default="35 MPa", help="delivery pressure with its unit (35 MPa)")
     parser.add_argument("--workers", type=int, default=2, help="gaps side by side (2)")
+    parser.add_argument("--picture", metavar="FILE.png", help="film and power of each row as a picture")
     parser.add_argument("words", nargs="*", help="only rows that contain one of them")
     asked = parser.parse_args()
     words = asked.words or [""]
@@ -130,10 +172,14 @@ def main() -> None:
         table.add_column(head, justify="left" if head in HEADS[:2] else "right", no_wrap=True)
     console = Console()
     with ProcessPoolExecutor(asked.workers, mp_context=get_context("spawn")) as pool:
-        for cells in pool.map(row, picked, [asked.pressure] * len(picked)):
-            console.log(", ".join(cells))
-            table.add_row(*cells)
+        rows = []
+        for one in pool.map(row, picked, [asked.pressure] * len(picked)):
+            console.log(", ".join(one.cells))
+            table.add_row(*one.cells)
+            rows.append(one)
     console.print(table)
+    if asked.picture:
+        picture(rows, asked.pressure).savefig(asked.picture, dpi=120)
 
 
 if __name__ == "__main__":

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from reynolds.bodies.mesh import BodyMesh
 from reynolds.errors import FilmInputError
 from reynolds.fem.mesh import read_mesh_file
+from reynolds.numerics.files import is_file
 
 SOLID = ("hexahedron27", "hexahedron", "tetra10", "tetra")
 SURFACE = {"hexahedron27": ("quad9", "quad"), "hexahedron": ("quad",), "tetra10": ("triangle6", "triangle"),
@@ -26,7 +27,7 @@ def body_from_file(path: Path, unit: float = 1.0) -> BodyMesh:
     or, as in VTU, cell data that is one on a face and zero elsewhere. Displacements are quadratic whatever the file's
     geometry. Raises FilmInputError for a file that is absent, holds no such cells or mixes them, or names no face.
     """
-    if not path.is_file():
+    if not is_file(path):
         raise FilmInputError("body mesh", f"no file {path}", "an existing mesh file in a format that meshio reads")
     from skfem.io.meshio import from_meshio
 

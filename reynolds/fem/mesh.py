@@ -6,8 +6,6 @@ A mesh from a file keeps its own names; other edges are named by their place.
 
 import contextlib
 import io
-import struct
-import zlib
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from enum import Enum
@@ -24,6 +22,7 @@ from scipy.sparse.csgraph import connected_components
 from reynolds.errors import FilmInputError
 from reynolds.fem.mesh_check import mesh_faults
 from reynolds.numerics.arrays import Array
+from reynolds.numerics.files import expect_regular, is_file
 
 
 class Cell(Enum):
@@ -140,7 +139,7 @@ def mesh_from_file(path: Path) -> FilmMesh:
     given that name to something else. Raises FilmInputError for a file that is absent or holds no such mesh,
     and for invalid cells (`mesh_check`).
     """
-    if not path.is_file():
+    if not is_file(path):
         raise FilmInputError("mesh", f"no file {path}", "an existing mesh file in a format that meshio reads")
     from skfem.io.meshio import from_meshio
 
@@ -187,19 +186,16 @@ def read_mesh_file(path: Path) -> Any:
     """
     import meshio
 
-    if path.stat().st_size == 0:  # some readers wait for ever for a line
-        raise FilmInputError("mesh", f"{path} is empty", "a file that meshio reads")
-    # Readers fail with any exception on a broken file, or for want of a package.
-    faults = (
-        meshio.ReadError, SystemExit, ArithmeticError, AssertionError, AttributeError, EOFError, ImportError,
-        LookupError, NameError, OSError, RuntimeError, SyntaxError, TypeError, ValueError, struct.error,
-        zlib.error,
-    )  # fmt: skip
     said = io.StringIO()
     try:
+        expect_regular(path)
+        if path.stat().st_size == 0:  # some readers wait for ever for a line
+            raise FilmInputError("mesh", f"{path} is empty", "a file that meshio reads")
         with contextlib.redirect_stdout(said), contextlib.redirect_stderr(said):
             return meshio.read(path)
-    except faults as fault:
+    except FilmInputError:
+        raise
+    except (Exception, SystemExit) as fault:  # of a broken file, or for want of a package
         reason = " ".join(said.getvalue().split()) or str(fault) or type(fault).__name__
         raise FilmInputError("mesh", f"{path} cannot be read ({reason})", "a file that meshio reads") from fault
 

@@ -6,8 +6,6 @@ Folder: the argument, else SWASHFILM_CACHE, else XDG_CACHE_HOME/swashfilm, else 
 import hashlib
 import logging
 import os
-import tempfile
-import zipfile
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from enum import Enum
@@ -17,8 +15,11 @@ import numpy as np
 
 from reynolds.errors import FilmInputError
 from reynolds.numerics.arrays import Array
+from reynolds.numerics.npz import read_npz, write_npz
 
 FORMAT = "swashfilm bodies 1"  # raised when the same input gives other arrays
+SEAL = "seal"
+"""Array with the hash of all others in a file."""
 LOG = logging.getLogger(__name__)
 
 
@@ -74,7 +75,8 @@ def kept(key: str, compute: Callable[[], Mapping[str, Array]], folder: Path | No
     origin = CacheOrigin.RECOMPUTED if place.is_file() else CacheOrigin.COMPUTED
     arrays = dict(compute())
     try:
-        _write(place, arrays)
+        place.parent.mkdir(parents=True, exist_ok=True)
+        write_npz(place, {**arrays, SEAL: _seal(arrays)})
     except OSError as fault:
         expected = "a folder to write in (SWASHFILM_CACHE names another)"
         raise FilmInputError("cache of bodies", f"{place.parent}: {fault.strerror}", expected) from fault
@@ -83,20 +85,16 @@ def kept(key: str, compute: Callable[[], Mapping[str, Array]], folder: Path | No
 
 def _read(place: Path) -> dict[str, Array] | None:
     try:
-        with np.load(place, allow_pickle=False) as stored:
-            return {name: stored[name] for name in stored.files}
-    except (OSError, ValueError, EOFError, KeyError, zipfile.BadZipFile) as fault:
+        found = read_npz(place)
+        if not np.array_equal(found.pop(SEAL, np.empty(0)), _seal(found)):
+            raise ValueError("its arrays are not those that were written")
+        return found
+    except (OSError, ValueError) as fault:
         LOG.warning("%s is broken (%s): computed anew", place, fault)
         return None
 
 
-def _write(place: Path, arrays: Mapping[str, Array]) -> None:
-    place.parent.mkdir(parents=True, exist_ok=True)
-    handle, name = tempfile.mkstemp(dir=place.parent, suffix=".partial")
-    try:
-        with os.fdopen(handle, "wb") as file:
-            np.savez(file, **arrays)  # type: ignore[arg-type]
-        os.replace(name, place)
-    except BaseException:
-        Path(name).unlink(missing_ok=True)
-        raise
+def _seal(arrays: Mapping[str, Array]) -> Array:
+    """The hash of arrays and their names, as numbers."""
+    key = content_key(*(part for name in sorted(arrays) for part in (name, np.asarray(arrays[name]))))
+    return np.frombuffer(bytes.fromhex(key), dtype=np.uint8)

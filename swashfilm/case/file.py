@@ -33,6 +33,7 @@ from system.inputs.sections.fields import fields_of
 from system.inputs.sections.reader import Reading, read_entry, read_section
 from system.inputs.toml_table import Table, fault_lines, read_toml
 from system.inputs.units import Dimension
+from system.inputs.versions import version_fault
 
 
 @dataclass(frozen=True)
@@ -83,10 +84,8 @@ def read_case(path: Path, text: str, tables: Mapping[str, Any]) -> Case:
 
 def _check_format(top: Table) -> None:
     """List faults of a case file of another format, and of parts that a single case does not have."""
-    stated = top.get("format")
-    if type(stated) is not int or stated != FORMAT:
-        found = "missing" if stated is None else repr(stated)
-        top.fault("format", found, f"format = {FORMAT}, the case format of this version")
+    if fault := version_fault("format", top.get("format"), FORMAT, "case"):
+        top.faults.append(fault)
     if top.get("study") is not None:
         top.fault("study", "a table [study]", "a single case; `swashfilm film` runs studies")
 

@@ -26,12 +26,14 @@ from swashfilm.runs.reference import coefficients_command as coefficients, comma
 from swashfilm.runs.reproduce import command as reproduce
 from swashfilm.runs.table import command as table
 from swashfilm.runs.transient import command as transient
+from swashfilm.runs.variation.optimise import command as optimise
 from swashfilm.runs.variation.sensitivity import command as sensitivity
 from swashfilm.runs.variation.tolerance import command as tolerance
 from system.inputs.faults import Fault, InputFaults, nearest_choice
 
 _MODULES = (
-    run, film, table, transient, operating_map, duty, compare, sensitivity, tolerance, export, plan, diagnose,
+    run, film, table, transient, operating_map, duty, compare, sensitivity, tolerance, optimise, export, plan,
+    diagnose,
     calibrate, reference, coefficients, reproduce, report, new, check, doctor, schema,
 )  # fmt: skip
 COMMANDS: dict[str, Command] = {module.COMMAND.name: module.COMMAND for module in _MODULES}

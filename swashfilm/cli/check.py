@@ -35,6 +35,10 @@ def _show_file(file: str) -> None:
         from swashfilm.runs.transient.case import load_transient
 
         show(load_transient(path).resolved)
+    elif "optimise" in tables:
+        from swashfilm.runs.variation.optimise.command import checked_words
+
+        show(checked_words(path))
     elif "reference" in tables:
         from swashfilm.runs.reference.case import load_reference
 
@@ -44,7 +48,8 @@ def _show_file(file: str) -> None:
     elif isinstance(tables.get("pump"), dict):
         _show_pump(file)
     else:
-        kinds = "[pump] (a pump file), [film] (a film case), [transient], [reference] or [channel] (a recording)"
+        cases = "[transient], [optimise], [reference]"
+        kinds = f"[pump] (a pump file), [film] (a film case), {cases} or [channel] (a recording)"
         raise InputFaults(file, [Fault("file", f"tables {', '.join(tables) or 'none'}", kinds)])
 
 

@@ -1,7 +1,7 @@
 """Command `swashfilm report`: the page of a run folder, written again."""
 
 import argparse
-import json
+import traceback
 from collections.abc import Callable
 from importlib import import_module
 from pathlib import Path
@@ -10,6 +10,7 @@ from swashfilm.console.command import Command
 from swashfilm.console.inputs import COMMAND_LINE
 from swashfilm.console.pressures import add_units_option
 from swashfilm.console.terminal import show
+from swashfilm.output.page import read_summary
 from system.inputs.faults import Fault, InputFaults, nearest_path
 
 PAGES = {
@@ -25,6 +26,7 @@ PAGES = {
     "duty": "swashfilm.runs.map.duty.page.write_duty_page",
     "map": "swashfilm.runs.map.page.write_map_page",
     "gap_table": "swashfilm.runs.table.page.write_table_page",
+    "optimisation": "swashfilm.runs.variation.optimise.page.write_optimise_page",
     "reference": "swashfilm.runs.reference.page.write_reference_page",
     "reproduction": "swashfilm.runs.reproduce.page.write_reproduce_page",
     "response_table": "swashfilm.runs.table.page.write_table_page",
@@ -33,6 +35,7 @@ PAGES = {
     "transient": "swashfilm.runs.transient.page.write_transient_page",
 }
 """Page writer of a run, by the `kind` in its summary.json."""
+EXPECTED = "files as a run of this version wrote them, in a folder that can be written to"
 
 
 def run_report(options: argparse.Namespace) -> int:
@@ -40,24 +43,27 @@ def run_report(options: argparse.Namespace) -> int:
     folder = options.folder
     try:
         page = _page_of(folder)(folder)
-    except (KeyError, OSError) as reason:
-        expected = "the files of a finished run of this version, in a writable folder"
-        raise InputFaults(str(folder), [Fault("DIR", repr(reason), expected)]) from None
+    except InputFaults:
+        raise
+    except (ArithmeticError, AttributeError, LookupError, OSError, TypeError, ValueError) as reason:
+        raise InputFaults(str(folder), [Fault("DIR", _told(reason), EXPECTED)]) from reason
     show(f"report in {page}")
     return 0
 
 
+def _told(reason: Exception) -> str:
+    """Return what a page found wrong in a file, and the part of the page, where a wrong file shows."""
+    places = [frame for frame in traceback.extract_tb(reason.__traceback__) if "swashfilm" in frame.filename]
+    place = f", in {Path(places[-1].filename).name} line {places[-1].lineno}" if places else ""
+    return f"{type(reason).__name__}: {reason}{place}"
+
+
 def _page_of(folder: Path) -> Callable[[Path], Path]:
     """Return the function that writes the page of a run folder."""
-    summary = folder / "summary.json"
-    try:
-        kind = json.loads(summary.read_text("utf-8"))["kind"]
-    except FileNotFoundError:
-        fault = Fault("DIR", f"no {summary}", "the folder of a finished run", nearest_path(folder))
-        raise InputFaults(COMMAND_LINE, [fault]) from None
-    except (OSError, ValueError, KeyError, TypeError) as reason:
-        fault = Fault("summary.json", f"cannot be read: {reason!r}", "the summary that a run wrote")
-        raise InputFaults(str(folder), [fault]) from None
+    if not (folder / "summary.json").exists():
+        fault = Fault("DIR", f"no {folder / 'summary.json'}", "the folder of a finished run", nearest_path(folder))
+        raise InputFaults(COMMAND_LINE, [fault])
+    kind = read_summary(folder)["kind"]
     if kind not in PAGES:
         expected = f"one of {', '.join(PAGES)}"
         raise InputFaults(str(folder), [Fault("summary.json", f"kind {kind!r}", expected)])

@@ -3,7 +3,7 @@
 import argparse
 
 from swashfilm.console.command import Command
-from swashfilm.console.schemas import SCHEMAS, schema_text
+from swashfilm.console.schemas import RUN_SCHEMAS, SCHEMAS, schema_text
 from swashfilm.console.terminal import show
 
 
@@ -14,7 +14,8 @@ def run_schema_command(options: argparse.Namespace) -> int:
 
 
 def _add_options(command: argparse.ArgumentParser) -> None:
-    command.add_argument("kind", choices=list(SCHEMAS), metavar="KIND", help=f"one of {', '.join(SCHEMAS)}")
+    what = f"an input: one of {', '.join(SCHEMAS)}; or a run folder: {', '.join(RUN_SCHEMAS)}"
+    command.add_argument("kind", choices=[*SCHEMAS, *RUN_SCHEMAS], metavar="KIND", help=what)
 
 
 COMMAND = Command(

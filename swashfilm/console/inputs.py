@@ -5,6 +5,7 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
+from reynolds.numerics.files import is_file, read_text
 from system.inputs.faults import Fault, InputFaults
 
 COMMAND_LINE = "command line"
@@ -35,7 +36,7 @@ def given_text(pump: str, stated: Mapping[str, object]) -> str:
     from system.pump_file.file import builtin_pumps
 
     built_in = files("system.description").joinpath("pumps", f"{pump}.toml")
-    text = built_in.read_text("utf-8") if pump in builtin_pumps() else Path(pump).read_text("utf-8")
+    text = built_in.read_text("utf-8") if pump in builtin_pumps() else read_text(Path(pump))
     return "".join(f"# command line: {path} = {value}\n" for path, value in stated.items()) + text
 
 
@@ -43,7 +44,7 @@ def expect(path: str | Path, wanted: str, command: str) -> None:
     """Raise InputFaults for a file of the other kind ("pump" or "film"); name the command that reads it."""
     from system.inputs.toml_table import read_toml
 
-    if not Path(path).is_file():
+    if not is_file(Path(path)):
         return
     _, tables = read_toml(Path(path))
     found = next((kind for kind in ("film", "pump") if isinstance(tables.get(kind), dict)), wanted)

@@ -1,11 +1,11 @@
 """Option --set: other values of keys of a pump file or a case."""
 
 import argparse
-import tomllib
 from collections.abc import Iterable
 
 from swashfilm.console.inputs import COMMAND_LINE
 from system.inputs.faults import Fault, InputFaults
+from system.inputs.toml_table import parse_toml
 
 EXAMPLE = "valve_plate.film_thickness=10um"
 LEVELS_EXAMPLE = "valve_plate.film_thickness=6..14um:9"
@@ -42,6 +42,6 @@ def set_values_of(options: argparse.Namespace, example: str = EXAMPLE) -> dict[s
 def toml_value(text: str) -> object:
     """Return the value of a TOML text; text that is not a TOML value, such as `10um`, is a string."""
     try:
-        return tomllib.loads(f"value = {text}")["value"]
-    except tomllib.TOMLDecodeError:
+        return parse_toml(f"value = {text}")["value"]
+    except ValueError:
         return text

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 
 from swashfilm.output.run_folder import final_folder
 from swashfilm.output.tables import aligned
+from system.inputs.faults import printable
 
 if TYPE_CHECKING:
     from swashfilm.output.result import Result
@@ -16,7 +17,7 @@ if TYPE_CHECKING:
 
 def show(text: str) -> None:
     """Print one line or block to the standard output."""
-    sys.stdout.write(text + "\n")
+    sys.stdout.write(printable(text) + "\n")
 
 
 def show_at_once(text: str) -> None:
@@ -27,7 +28,7 @@ def show_at_once(text: str) -> None:
 
 def show_table(title: str, rows: Iterable[Sequence[str]]) -> None:
     """Print rows of (name, value with its unit): a rich table on a terminal, aligned plain lines elsewhere."""
-    listed = [tuple(row) for row in rows]
+    listed = [tuple(map(printable, row)) for row in rows]
     if sys.stdout.isatty():
         from rich.console import Console
         from rich.table import Table

@@ -66,8 +66,28 @@ def legend_beside(axes: Axes) -> None:
     axes.legend(loc="upper left", bbox_to_anchor=(1.01, 1.0), fontsize="small", frameon=False)
 
 
+def _literal(figure: Figure) -> None:
+    """Draw each text as it is: a dollar sign in a name begins no formula. Powers of ten beside log axes remain some."""
+    from matplotlib.text import Text
+    from matplotlib.ticker import FixedFormatter
+
+    texts = figure.findobj(Text)  # makes the ticks
+    axes = [axis for own in figure.axes for axis in (own.xaxis, own.yaxis)]
+    powers = {
+        id(label)
+        for axis in axes
+        if not isinstance(axis.get_major_formatter(), FixedFormatter)
+        for tick in (*axis.majorTicks, *axis.minorTicks)
+        for label in (tick.label1, tick.label2)
+    }
+    for text in texts:
+        if id(text) not in powers:
+            text.set_parse_math(False)
+
+
 def png_of(figure: Figure) -> bytes:
     """Return the figure as a PNG of 110 dots per inch."""
+    _literal(figure)
     picture = io.BytesIO()
     figure.savefig(picture, format="png", dpi=110)
     return picture.getvalue()
@@ -86,6 +106,7 @@ def svg_of(figure: Figure) -> bytes:
     for cells, count in zip(areas, corners, strict=True):
         few = _MANY if isinstance(cells, ContourSet) else _FEW
         cells.set_rasterized(bool(sum(corners) > _MANY and count > few))
+    _literal(figure)
     picture = io.BytesIO()
     with rc_context({"svg.fonttype": "none", "svg.hashsalt": "swashfilm", "font.sans-serif": _FONTS}):
         figure.savefig(picture, format="svg", dpi=110, metadata=_PLAIN)
@@ -125,5 +146,9 @@ def smaller(picture: bytes) -> bytes:
     from PIL import Image
 
     found = io.BytesIO()
-    Image.open(io.BytesIO(picture)).convert("RGB").save(found, format="WEBP", quality=_FIELD_QUALITY, method=6)
+    try:
+        pixels = Image.open(io.BytesIO(picture)).convert("RGB")
+    except Image.DecompressionBombError as reason:
+        raise ValueError(str(reason)) from None
+    pixels.save(found, format="WEBP", quality=_FIELD_QUALITY, method=6)
     return found.getvalue()

@@ -4,11 +4,23 @@ from __future__ import annotations
 
 import base64
 import json
+import os
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from reynolds.numerics.files import (
+    LARGEST_DATA,
+    inside,
+    is_file,
+    leads_inside,
+    read_bounded,
+    read_json,
+    read_text,
+    replaced,
+)
+from swashfilm.formats.versions import expect_known
 from swashfilm.output.answer import Answer
 from swashfilm.output.figures import compact
 from swashfilm.output.touch.curves import touchable
@@ -33,16 +45,56 @@ _PICTURES = {b"\x89PNG": "png", b"RIFF": "webp", b"GIF8": "gif", b"<?xm": "svg+x
 
 
 def expect_files(folder: Path, names: Sequence[str], whose: str) -> None:
-    """Raise InputFaults with every file of `names` that the folder lacks; `whose`: the expected kind of folder."""
-    missing = [name for name in names if not (folder / name).is_file()]
-    if missing:
-        raise InputFaults(str(folder), [Fault(name, "no such file", whose) for name in missing])
+    """Raise InputFaults with every file of `names` that the folder lacks, and every link that leads out of it.
+
+    whose: the expected kind of folder. The page is left out: it is written anew, and no link of its name is followed.
+    """
+    faults = [Fault(name, "no such file", whose) for name in dict.fromkeys(names) if not is_file(folder / name)]
+    faults += [
+        Fault(name, "a link that leads out of the folder", whose)
+        for name in _links(folder)
+        if name != PAGE and not leads_inside(folder, name)
+    ]
+    if faults:
+        raise InputFaults(str(folder), faults)
+
+
+def _links(folder: Path) -> Iterator[str]:
+    """Yield the symbolic links in a folder and the folders in it, by their path from it."""
+    for place, folders, files in os.walk(folder):
+        for name in (*folders, *files):
+            if (path := Path(place, name)).is_symlink():
+                yield str(path.relative_to(folder))
 
 
 def read_summary(folder: Path, needed: Sequence[str] = (), whose: str = "") -> dict[str, Any]:
-    """Return the content of a run folder's summary.json; raise as `expect_files` where a file of `needed` lacks."""
-    expect_files(folder, needed, whose)
-    return json.loads((folder / "summary.json").read_text("utf-8"))
+    """Return the content of a run folder's summary.json.
+
+    Raises InputFaults as `expect_files` where a file of `needed` lacks, for a summary that no run wrote, and as
+    `expect_known`.
+    """
+    expect_files(folder, ("summary.json", *needed), whose or "the folder of a finished run")
+    summary = read_kept(folder, "summary.json")
+    expect_known(folder / "summary.json", summary)
+    return summary
+
+
+def read_kept(folder: Path, name: str) -> dict[str, Any]:
+    """Return the content of a JSON file of a run folder; raise InputFaults for one that no run wrote."""
+    try:
+        return read_json(inside(folder, name))
+    except (OSError, ValueError) as reason:
+        fault = Fault(name, f"cannot be read: {reason}", "the file that a run wrote")
+        raise InputFaults(str(folder), [fault]) from None
+
+
+def kept_text(folder: Path, name: str) -> str:
+    """Return a text file of a run folder; raise InputFaults for one that cannot be read, or lies outside."""
+    try:
+        return read_text(inside(folder, name), LARGEST_DATA)
+    except (OSError, ValueError) as reason:
+        fault = Fault(name, f"cannot be read: {reason}", "the file that a run wrote")
+        raise InputFaults(str(folder), [fault]) from None
 
 
 def write_page(folder: Path, template: str, *, answer: Answer, **content: Any) -> Path:
@@ -60,10 +112,9 @@ def write_page(folder: Path, template: str, *, answer: Answer, **content: Any) -
     page = environment.get_template(f"{template}.html.jinja").render(
         answer=answer, files=_files_of(folder), notes=notes, notes_line=counted(notes) if notes else "", **content
     )
-    path = folder / PAGE
-    path.unlink(missing_ok=True)
-    path.write_text(_with_library(_with_contents(page)), encoding="utf-8")
-    return path
+    with replaced(folder / PAGE) as path:
+        path.write_text(_with_library(_with_contents(page)), encoding="utf-8")
+    return folder / PAGE
 
 
 def tied(text: object) -> str:
@@ -117,7 +168,10 @@ def _touch(picture: Figure | bytes, explorer: Explorer | None) -> str:
 
 
 def _kind(content: bytes) -> str:
-    return next(kind for start, kind in _PICTURES.items() if content.startswith(start))
+    for start, kind in _PICTURES.items():
+        if content.startswith(start):
+            return kind
+    raise ValueError("no picture")
 
 
 def _address(content: bytes) -> str:
@@ -146,11 +200,15 @@ def keep_pictures(
 
 
 def kept_pictures(folder: Path, stem: str) -> dict[str, Picture]:
-    """Return the pictures of `keep_pictures` by caption; raise OSError where there are none."""
-    captions = json.loads((folder / PLOTS / f"{stem}.json").read_text("utf-8"))
-    return {caption: _kept(folder / PLOTS / name) for name, caption in captions.items()}
+    """Return the pictures of `keep_pictures` by caption; raise InputFaults where there are none."""
+    captions = read_kept(folder, f"{PLOTS}/{stem}.json")
+    try:
+        return {str(caption): _kept(inside(folder / PLOTS, name)) for name, caption in captions.items()}
+    except (OSError, ValueError) as reason:
+        fault = Fault(f"{PLOTS}/{stem}.json", f"a picture that cannot be read: {reason}", "those that the run drew")
+        raise InputFaults(str(folder), [fault]) from None
 
 
 def _kept(path: Path) -> Picture:
     touch = path.with_suffix(TOUCH)
-    return Picture(_address(path.read_bytes()), touch.read_text("ascii") if touch.is_file() else "")
+    return Picture(_address(read_bounded(path, LARGEST_DATA)), touch.read_text("ascii") if touch.is_file() else "")

@@ -2,19 +2,19 @@
 
 from __future__ import annotations
 
-import json
 import shutil
 import tempfile
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from functools import cached_property
 from html import escape
+from io import StringIO
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, ClassVar, Self
 
 from swashfilm.output.data.files import read_netcdf
 from swashfilm.output.figures import pyplot_figures
 from swashfilm.output.headline import named
-from swashfilm.output.page import expect_files
+from swashfilm.output.page import read_summary
 from swashfilm.output.run_folder import final_folder, run_folder
 from swashfilm.output.tables import Table, aligned, parted
 from system.inputs.shown import known_unit
@@ -88,8 +88,7 @@ class Result:
     @classmethod
     def opened(cls, folder: Path) -> Self:
         """Return the result of a finished run folder; raise InputFaults where one of its files is missing."""
-        expect_files(folder, cls.files, "the folder of a finished run")
-        summary = json.loads((folder / SUMMARY).read_text("utf-8"))
+        summary = read_summary(folder, cls.files)
 
         def write(place: Path) -> tuple[str, ...]:
             shutil.copytree(folder, place, dirs_exist_ok=True)
@@ -179,10 +178,14 @@ def plotted(draw: Callable[[], Figure | None]) -> list[Axes]:
 
 
 def read_table(path: Path) -> xarray.Dataset:
-    """Return a CSV file with heads `name [unit]` as variables over `row`, in SI; units in the attributes."""
+    """Return a CSV file with heads `name [unit]` as variables over `row`, in SI; units in the attributes.
+
+    Lines that begin with # are remarks.
+    """
     import pandas
 
-    frame = pandas.read_csv(path).rename_axis("row")
+    rows = [line for line in path.read_text("utf-8").splitlines(keepends=True) if not line.startswith("#")]
+    frame = pandas.read_csv(StringIO("".join(rows)), skipinitialspace=True).rename_axis("row")
     heads = [parted(title) for title in frame.columns]
     frame.columns = [name for name, _ in heads]
     data = frame.to_xarray()

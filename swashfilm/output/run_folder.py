@@ -4,6 +4,7 @@ A run writes into `<folder>.partial`, which is renamed to `<folder>` when the ru
 """
 
 import json
+import math
 import os
 import re
 import shutil
@@ -13,9 +14,13 @@ from itertools import count
 from pathlib import Path
 from typing import Any
 
+from reynolds.errors import NotConverged
+from reynolds.numerics.files import REFUSED_BY_DISK
 from system.inputs.faults import Fault, InputFaults
 
 RUNS = Path("runs")
+LEAST_ROOM = 1_000_000
+"""Bytes on a disk below which a write that failed did so for want of room."""
 FAILED = "failed.json"
 """File of the rounds and gaps that a stopped run has solved, in its `.partial` folder."""
 
@@ -65,9 +70,30 @@ def run_folder(name: str, wanted: Path | None = None, *, workbook: bool = False)
         elif (partial / FAILED).is_file():
             reason.add_note(f"What was solved until then is kept in {partial} ({FAILED}).")
         else:
-            shutil.rmtree(partial)
+            shutil.rmtree(partial, ignore_errors=True)
+        if isinstance(reason, OSError) and _full(reason, partial):
+            raise _disk_faults(reason, final) from None
         raise
     _give_its_name(partial, final)
+
+
+def _full(reason: OSError, partial: Path) -> bool:
+    """Return True where a file could not be written; libraries that write do not always say why."""
+    return reason.errno in REFUSED_BY_DISK or (
+        reason.errno is None and shutil.disk_usage(partial.parent).free < LEAST_ROOM
+    )
+
+
+def _disk_faults(reason: OSError, final: Path) -> InputFaults:
+    """Return the fault of a folder that a run could not write to, with the notes of the error."""
+    words = reason.strerror or "No space left on device"
+    fault = Fault(
+        "-o", f"{reason.filename or final}: {words}", "a folder that can be written to, with room for the run"
+    )
+    found = InputFaults("command line", [fault])
+    for note in getattr(reason, "__notes__", ()):
+        found.add_note(note)
+    return found
 
 
 def _give_its_name(partial: Path, final: Path) -> None:
@@ -88,8 +114,22 @@ def final_folder(partial: Path) -> Path:
 
 
 def write_json(path: Path, values: Mapping[str, Any]) -> None:
-    """Write values as JSON; raise ValueError for nan and inf, which no summary may hold."""
+    """Write values as JSON; raise NotConverged for nan and inf, which no summary may hold, with their key."""
+    if void := next(_not_finite(values), None):
+        raise NotConverged(f"{void}: the input lies beyond the range of the model")
     path.write_text(json.dumps(values, indent=2, allow_nan=False) + "\n", encoding="utf-8")
+
+
+def _not_finite(value: Any, key: str = "") -> Iterator[str]:
+    """Yield the key of each number that is not finite, and the number."""
+    if isinstance(value, Mapping):
+        for name, one in value.items():
+            yield from _not_finite(one, f"{key}.{name}" if key else str(name))
+    elif isinstance(value, (list, tuple)):
+        for one in value:
+            yield from _not_finite(one, key)
+    elif isinstance(value, float) and not math.isfinite(value):
+        yield f"{key} is {value}"
 
 
 def _claim(name: str, wanted: Path | None) -> tuple[Path, Path]:

@@ -1,9 +1,17 @@
 """Tables of text, on a terminal and in CSV files."""
 
 import csv
+import io
+import re
 from collections.abc import Iterable, Sequence
 from pathlib import Path
 
+from reynolds.numerics.files import LARGEST_DATA, read_text
+from system.inputs.faults import Fault, InputFaults
+
+_FORMULA = re.compile(r"[=+\-@\t\r]")
+_NUMBER = re.compile(r"[+-] ?(\d|\.\d)[^|!()=@]*|[+-]+|[+-](inf|nan)")
+"""A number, with its unit or error, and a mere sign."""
 Table = tuple[str, Sequence[Sequence[str]]]
 """Title and rows of cells."""
 
@@ -24,14 +32,21 @@ def parted(title: str) -> tuple[str, str]:
 
 
 def write_csv(path: Path, head: Iterable[str], rows: Iterable[Iterable[object]]) -> None:
-    """Write a head and rows of cells as CSV."""
+    """Write a head and rows of cells as CSV; no text in it is a formula to a spreadsheet program."""
     with path.open("w", newline="", encoding="utf-8") as file:
         table = csv.writer(file)
-        table.writerow(head)
-        table.writerows(rows)
+        table.writerow(map(harmless, head))
+        table.writerows(map(harmless, row) for row in rows)
+
+
+def harmless(cell: object) -> object:
+    """Return a cell, a text that a spreadsheet program would run with an apostrophe in front, which it then shows."""
+    return f"'{cell}" if isinstance(cell, str) and _FORMULA.match(cell) and not _NUMBER.fullmatch(cell) else cell
 
 
 def read_csv(path: Path) -> list[list[str]]:
-    """Return the rows of a CSV, the head first."""
-    with path.open(newline="", encoding="utf-8") as file:
-        return list(csv.reader(file))
+    """Return the rows of a CSV by `write_csv`, the head first; raise InputFaults for a file that is none."""
+    try:
+        return list(csv.reader(io.StringIO(read_text(path, LARGEST_DATA))))
+    except (OSError, ValueError, csv.Error) as reason:
+        raise InputFaults(str(path), [Fault("file", f"cannot be read: {reason}", "a table of a run")]) from None

@@ -39,9 +39,9 @@ class PumpKey:
         """The value as people read it."""
         return self.shown(self.value)
 
-    def shown(self, value: float) -> str:
+    def shown(self, value: float, digits: int = 5) -> str:
         """Another value of the key as people read it."""
-        return f"{value:.5g}" if self.dimension is None else format_quantity(value, self.dimension, digits=5)
+        return f"{value:.{digits}g}" if self.dimension is None else format_quantity(value, self.dimension, digits)
 
 
 def pump_keys(pump: PumpDescription) -> dict[str, PumpKey]:

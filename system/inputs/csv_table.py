@@ -11,6 +11,7 @@ from pathlib import Path
 import numpy as np
 
 from reynolds.numerics.arrays import Array
+from reynolds.numerics.files import LARGEST_DATA, read_text
 from system.inputs.faults import Fault, InputFaults, nearest_choice, nearest_path
 from system.inputs.units import Dimension, QuantityError, parse_quantity
 
@@ -91,7 +92,7 @@ def read_csv_text(path: Path, wanted: str) -> CsvText:
     if not lines:
         raise QuantityError(f"'{path}', which is empty", wanted)
     separator = next((sign for sign in SEPARATORS if sign in lines[0][1]), ",")
-    cells = [next(csv.reader([line], delimiter=separator)) for _, line in lines]
+    cells = [_cells(path, number, line, separator, wanted) for number, line in lines]
     head, *rows = cells if separator == "," else _with_points(cells)
     return CsvText(head, tuple(zip((number for number, _ in lines[1:]), rows, strict=True)), comments)
 
@@ -99,13 +100,21 @@ def read_csv_text(path: Path, wanted: str) -> CsvText:
 def _text(path: Path, wanted: str) -> str:
     """The text of a file; raises QuantityError in plain words."""
     try:
-        return path.read_text("utf-8-sig")
+        return read_text(path, LARGEST_DATA)
     except FileNotFoundError:
         raise QuantityError(f"'{path}', which is no file", wanted, nearest_path(path)) from None
     except UnicodeDecodeError:
         raise QuantityError(f"'{path}', which is no text in UTF-8", wanted, "save it as 'CSV UTF-8'") from None
     except OSError as reason:
         raise QuantityError(f"'{path}', which cannot be read: {reason.strerror}", wanted) from None
+
+
+def _cells(path: Path, number: int, line: str, separator: str, wanted: str) -> list[str]:
+    """The cells of a line; raises QuantityError for a line that cannot be parted."""
+    try:
+        return next(csv.reader([line], delimiter=separator))
+    except csv.Error as reason:
+        raise QuantityError(f"'{path}', line {number}: {reason}", wanted) from None
 
 
 def _with_points(rows: list[list[str]]) -> list[list[str]]:

@@ -50,12 +50,12 @@ class InputFaults(Exception):
     def _block(self, fault: Fault) -> str:
         line = self._line(fault)
         rows = [
-            f"  {fault.path}" + (f" (line {line})" if line else ""),
-            f"    found:    {fault.found}",
+            f"  {_short(fault.path)}" + (f" (line {line})" if line else ""),
+            f"    found:    {_short(fault.found)}",
             f"    expected: {fault.expected}",
         ]
         if fault.nearest:
-            rows.append(f"    try:      {fault.nearest}")
+            rows.append(f"    try:      {_short(fault.nearest)}")
         return "\n".join(rows)
 
 
@@ -64,8 +64,29 @@ def stated(value: object) -> str:
     return "missing" if value is None else repr(value)
 
 
+_CONTROL = re.compile(r"[\x00-\x08\x0b-\x1f\x7f-\x9f\u200e\u200f\u202a-\u202e\u2066-\u2069\ud800-\udfff]")
+LONGEST = 600
+"""Characters of what was found that a message shows."""
+
+
+def printable(text: str) -> str:
+    """Return a text with its control signs written out, so that a terminal shows them and does not obey."""
+    return _CONTROL.sub(lambda sign: ascii(sign[0])[1:-1], text)
+
+
+def one_line(text: object) -> str:
+    """Return a text as one line without control signs, as a file of another program may hold it."""
+    return printable(" ".join(str(text).split()))
+
+
+def _short(text: str) -> str:
+    return text if len(text) <= LONGEST else f"{text[: LONGEST - 40]} .. ({len(text)} characters)"
+
+
 def nearest_choice(found: str, choices: Iterable[str]) -> str:
     """Return the choice spelt most like `found` (any case), or an empty string when none comes near."""
+    if len(found) > LONGEST:
+        return ""
     by_lower = {choice.lower(): choice for choice in choices}
     matches = get_close_matches(found.lower(), by_lower, n=1, cutoff=0.6)
     return by_lower[matches[0]] if matches else ""
@@ -77,6 +98,13 @@ def nearest_path(path: Path) -> str:
     Each part of it that is missing is the nearest name in the folder before it; where none comes near, the path
     ends there.
     """
+    try:
+        return _nearest_path(path)
+    except (OSError, ValueError):  # a name that none can have, or a folder that may not be listed
+        return ""
+
+
+def _nearest_path(path: Path) -> str:
     found, mended = Path(path.anchor), False
     for part in path.parts[1:] if path.anchor else path.parts:
         there = found / part

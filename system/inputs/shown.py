@@ -102,7 +102,7 @@ _SHOWN = {
         Shown("m", "um", 1e6), Shown("m2", "mm2", 1e6), Shown("m3", "mL", 1e6), Shown("m3/s", "L/min", LPM),
         Shown("m3/rev", "mL/r", 1e6), Shown("rad", "deg", 180.0 / pi), Shown("rad/s", "r/min", 1.0 / RPM),
         Shown("K", "degC", 1.0, 273.15), Shown("Pa s", "mPa s", 1e3), Shown("J", "kJ", 1e-3),
-        Shown("m2/s", "mm2/s", 1e6),
+        Shown("m2/s", "mm2/s", 1e6), Shown("Pa/s", "GPa/s", 1e-9),
     )
 }  # fmt: skip
 _PLACE, _TILT, _RATE = Shown("m", "mm", 1e3), Shown("rad", "mrad", 1e3), Shown("rad/s", "deg/s", 180.0 / pi)

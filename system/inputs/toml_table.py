@@ -10,16 +10,22 @@ from enum import Enum
 from pathlib import Path
 from typing import Any, TypeVar
 
+from reynolds.numerics.files import read_text
 from system.inputs.faults import Fault, InputFaults, key_lines, nearest_choice, nearest_path, stated
 from system.inputs.units import with_point
 
 Choice = TypeVar("Choice", bound=Enum)
+DEEPEST = 20
+"""Tables and lists inside each other, and names of a dotted key."""
+_NAME = r"""(?:[\w-]++|"[^"\n]*+"|'[^'\n]*+')"""
+_LONG_KEY = re.compile(rf"(?<![\w-]){_NAME}(?:[ \t]*+\.[ \t]*+{_NAME}){{{DEEPEST}}}")
+_WIDEST = 2**63
 
 
 def read_toml(path: Path) -> tuple[str, dict[str, Any]]:
     """The text of a TOML file and its tables; raises InputFaults for a file that is absent or no TOML."""
     try:
-        text = path.read_text("utf-8-sig")  # some editors put a byte order mark first
+        text = read_text(path)
     except FileNotFoundError:
         fault = Fault("file", "no such file", "an existing TOML file", nearest_path(path))
         raise InputFaults(str(path), [fault]) from None
@@ -31,14 +37,53 @@ def read_toml(path: Path) -> tuple[str, dict[str, Any]]:
 def toml_tables(source: str, text: str) -> dict[str, Any]:
     """The tables of a TOML text; raises InputFaults, naming the `source`, for another text."""
     try:
-        return tomllib.loads(text)
-    except tomllib.TOMLDecodeError as reason:
+        return parse_toml(text)
+    except ValueError as reason:
         at = re.search(r"at line (\d+)", str(reason))
         lines = text.splitlines()
         number = int(at[1]) if at else len(lines)
         value = lines[number - 1].partition("=")[2].partition("#")[0].strip() if lines else ""
         fault = Fault("file", f"not valid TOML: {reason}", "TOML 1.0", with_point(value))
         raise InputFaults(source, [fault], {"file": number}) from None
+
+
+def parse_toml(text: str) -> dict[str, Any]:
+    """The tables of a TOML text.
+
+    Raises ValueError for another text, for one nested more than DEEPEST times, and for a whole number of more than 64
+    bits, which TOML has not.
+    """
+    if found := _LONG_KEY.search(text):  # the parser takes time and memory by the square of a key's names
+        raise ValueError(f"a key of more than {DEEPEST} names (at line {_line(text, found.start())})")
+    try:
+        tables = tomllib.loads(text)
+    except RecursionError:
+        raise ValueError("nested too deep") from None
+    except tomllib.TOMLDecodeError:
+        raise
+    except ValueError:  # Python's limit on the digits of a whole number
+        raise ValueError("a whole number of thousands of digits") from None
+    _hold_values(tables)
+    return tables
+
+
+def _hold_values(tables: dict[str, Any]) -> None:
+    """Raise ValueError for a value nested too deep, or a whole number that is too large; each with its key."""
+    todo: list[tuple[str, Any, int]] = [(key, value, 1) for key, value in tables.items()]
+    while todo:
+        path, value, depth = todo.pop()
+        if depth > DEEPEST:
+            raise ValueError(f"{path} is nested more than {DEEPEST} times")
+        if isinstance(value, dict):
+            todo += [(f"{path}.{key}", one, depth + 1) for key, one in value.items()]
+        elif isinstance(value, list):
+            todo += [(path, one, depth + 1) for one in value]
+        elif isinstance(value, int) and not -_WIDEST <= value < _WIDEST:
+            raise ValueError(f"{path} is a whole number of more than 64 bits")
+
+
+def _line(text: str, place: int) -> int:
+    return text.count("\n", 0, place) + 1
 
 
 def fault_lines(text: str, faults: Iterable[Fault]) -> dict[str, int]:

@@ -27,6 +27,10 @@ LPM = 6e4  # L/min in a m3/s
 LARGEST = Fraction(10) ** 30  # in SI; with its inverse the range of sizes that machines have
 
 
+MOST_DIGITS = 60
+"""Characters of a number in a text; more are no number of a machine."""
+
+
 @dataclass(frozen=True)
 class _Unit:
     """A unit: value in base units (m, kg, s, K, rad) = factor * number + offset, exactly."""
@@ -87,6 +91,21 @@ class Dimension(Enum):
         self.example = example
 
 
+_MOST = {
+    Dimension.LENGTH: 1_000,
+    Dimension.ANGULAR_SPEED: 10**6,
+    Dimension.VELOCITY: 10**5,
+    Dimension.PRESSURE: 10**12,
+    Dimension.FORCE: 10**12,
+    Dimension.MASS: 10**7,
+    Dimension.DENSITY: 10**6,
+    Dimension.TEMPERATURE: 10**4,
+    Dimension.DISPLACEMENT: 10**3,
+    Dimension.TIME: 10**10,
+}
+"""In SI, more than any pump or oil has: beyond it numbers are finite and void."""
+
+
 class QuantityError(ValueError):
     """A text that is not the quantity asked for: what was found, what was expected, what may be meant."""
 
@@ -120,7 +139,8 @@ def parse_quantity(text: object, dimension: Dimension, *, difference: bool = Fal
     rpm, r/min, cm3, cm^3, cc/rev, mL/r, lpm, um, degC, cSt, mPa s and what pint knows are understood.
     Raises QuantityError for a bare number, a number that cannot be read, an unknown unit and a unit that
     measures something else; a turn or an angle is never left to be guessed ("90 cm3" is no displacement
-    per revolution and "35 Hz" no rotational speed). A size below 1e-30 or above 1e30 in SI is refused.
+    per revolution and "35 Hz" no rotational speed). A size below 1e-30 or, by its kind,
+    above that of any machine is refused.
     Of a `difference` the unit's zero does not count: "0.3 degC" is 0.3 K.
     """
     expected = f"{dimension.noun} with its unit, such as '{dimension.example}'"
@@ -129,7 +149,7 @@ def parse_quantity(text: object, dimension: Dimension, *, difference: bool = Fal
     match = _QUANTITY.fullmatch(str(text))
     if comma := with_point(str(text)):
         raise QuantityError(f"{_shown(text)}, with a decimal comma", expected, comma)
-    if match is None:
+    if match is None or len(match[1]) > MOST_DIGITS:
         raise QuantityError(_shown(text), expected)
     number, unit_text = match[1], match[2]
     if not unit_text:
@@ -141,9 +161,14 @@ def parse_quantity(text: object, dimension: Dimension, *, difference: bool = Fal
     if not _measures(unit, dimension):
         raise QuantityError(f"{_shown(text)}, which is not {dimension.noun}", expected, nearest)
     value = _in_si(number, replace(unit, offset=Fraction(0)) if difference else unit, dimension)
-    if value != 0 and not 1 / LARGEST <= abs(value) <= LARGEST:
-        raise QuantityError(_shown(text), expected)
+    if value != 0 and not 1 / LARGEST <= abs(value) <= largest(dimension):
+        raise QuantityError(_shown(text), f"{expected}, of at most {float(largest(dimension)):g} {dimension.si_unit}")
     return float(value)
+
+
+def largest(dimension: Dimension) -> Fraction:
+    """Return the size in SI above which a quantity of a file is refused."""
+    return Fraction(_MOST.get(dimension, LARGEST))
 
 
 def format_quantity(value: float, dimension: Dimension, digits: int | None = None) -> str:

@@ -6,13 +6,15 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from reynolds.numerics.files import read_text
 from system.description.assumptions import Assumption
 from system.description.pump import FORMAT, SINGLE_PARTS, PumpDescription
-from system.inputs.faults import Fault, InputFaults, key_lines, nearest_choice, nearest_path, stated
+from system.inputs.faults import Fault, InputFaults, key_lines, nearest_choice, nearest_path
 from system.inputs.sections.reader import ABSOLUTE
 from system.inputs.sections.values import HERE
 from system.inputs.sections.writer import section_rows
 from system.inputs.toml_table import toml_tables
+from system.inputs.versions import version_fault
 from system.pump_file.check import CheckReport, run_checks
 from system.pump_file.parts import single_parts_checked
 from system.pump_file.scaled.completed import completed, is_scant
@@ -100,7 +102,7 @@ def _read(source: str | Path) -> tuple[str, str]:
         return f"built-in pump {name}", BUILT_IN.joinpath(f"{name}.toml").read_text("utf-8")
     path = Path(source)
     try:
-        return name, path.read_text("utf-8-sig")  # some editors put a byte order mark first
+        return name, read_text(path)
     except FileNotFoundError:
         raise InputFaults(name, [_not_there(path)]) from None
     except (OSError, UnicodeDecodeError) as reason:
@@ -135,7 +137,5 @@ def _replace(tables: dict[str, Any], values: Mapping[str, object], lines: dict[s
 
 def _check_format(label: str, tables: Mapping[str, Any], lines: Mapping[str, int | None]) -> None:
     """Raise InputFaults for another format than that of this version."""
-    number = tables.get("format")
-    if isinstance(number, bool) or number != FORMAT:
-        fault = Fault("format", stated(number), f"format = {FORMAT}, the pump file format of this version")
+    if fault := version_fault("format", tables.get("format"), FORMAT, "pump file"):
         raise InputFaults(label, [fault], lines)

@@ -147,7 +147,7 @@ def grooves_fit_the_port(pump: PumpDescription) -> Iterator[Finding]:
 def grooves_are_smaller_than_the_kidney(pump: PumpDescription) -> Iterator[Finding]:
     """The relief grooves on either side open less than the kidney does."""
     ports = pump.ports
-    if any(groove_faults(ports)):
+    if any(groove_faults(ports)) or ports.groove_start == ports.groove_end:  # `ports_open_in_order` tells of the latter
         return
     largest, kidney = max(throats(ports, pump.valve_plate.kidney_pitch_radius)), ports.kidney_area
     if largest >= kidney:

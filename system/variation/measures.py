@@ -2,42 +2,46 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
+from enum import Enum
 
 import numpy as np
 
 from reynolds.numerics.arrays import Array
+from system.description.pump import PumpDescription
 from system.inputs.shown import PERCENT, Shown, shown_in
 from system.inputs.units import TURN
 from system.maps.point import GAPS
 from system.points.table.means import SolvedPoint
+from system.variation.chamber_numbers import OF_FLOW, OF_PRESSURE, flow_numbers, pressure_numbers
 
 _BENCH = (
     "shaft_torque", "delivery_pressure", "inlet_pressure", "delivery_flow", "inlet_flow", "drain_flow", "shaft_speed",
 )  # fmt: skip
 NUMBERS = (
-    *_BENCH, "loss", "swept_displacement", "delivery_flow_ripple", "chamber_pressure_peak",
-    *(f"leakage.{gap}" for gap in GAPS), *(f"film_least.{gap}" for gap in GAPS),
-    *(f"film_temperature.{gap}" for gap in GAPS),
+    *_BENCH, "loss", "swept_displacement", *OF_PRESSURE, *OF_FLOW,
+    *(f"{name}.{gap}" for name in ("leakage", "film_least", "film_temperature", "load_carried") for gap in GAPS),
 )  # fmt: skip
 """Numbers that are kept of a point, SI."""
 
 
-def point_numbers(solved: SolvedPoint) -> list[float]:
-    """Return the NUMBERS of a solved point; ripple from the least to the largest flow over the turn."""
+def point_numbers(pump: PumpDescription, solved: SolvedPoint) -> list[float | None]:
+    """Return the NUMBERS of a solved point of a pump with equal chambers; None for those that its fidelity lacks."""
     point = solved.pump_point
-    found = [
-        *(getattr(point.bench, name) for name in _BENCH),
-        point.power.shaft - point.power.hydraulic,
-        point.derived_displacement,
-        np.ptp(point.delivery_flow_ripple),
-        max(np.max(own.pressure) for own in point.chambers),
-        *(getattr(point.leakage_flow, gap) for gap in GAPS),
-        *(getattr(solved.film_least, gap) for gap in GAPS),
-        *(point.point.temperature + getattr(solved.film_rise, gap) for gap in GAPS),
-    ]
-    return [float(value) for value in found]
+    found = {
+        **{name: getattr(point.bench, name) for name in _BENCH},
+        "loss": point.power.shaft - point.power.hydraulic,
+        "swept_displacement": point.derived_displacement,
+        **pressure_numbers(pump, point.point, point.cycle.pressure),
+        **flow_numbers(point),
+        **{f"leakage.{gap}": getattr(point.leakage_flow, gap) for gap in GAPS},
+        **{f"film_least.{gap}": getattr(solved.film_least, gap) for gap in GAPS},
+        **{f"film_temperature.{gap}": point.point.temperature + getattr(solved.film_rise, gap) for gap in GAPS},
+    }
+    if solved.load_carried is not None:
+        found |= {f"load_carried.{gap}": getattr(solved.load_carried, gap) for gap in GAPS}
+    return [float(found[name]) if name in found else None for name in NUMBERS]
 
 
 def significant(number: float, digits: int) -> str:
@@ -47,20 +51,30 @@ def significant(number: float, digits: int) -> str:
 
 Columns = Mapping[str, Array]
 """NUMBERS by name, arrays (.., P)."""
+_Over = Callable[[str], Callable[[Columns, Array], Array]]
+
+
+class Needs(Enum):
+    """What a fidelity must solve for a number: each holds those before it."""
+
+    PRESSURE = 0  # in the chambers, at the sampled angles
+    COURSE = 1  # of the flows over the turn
+    FILMS = 2  # by a table or by themselves
+    LOADS = 3  # of films at every angle
 
 
 @dataclass(frozen=True)
 class Measure:
     """A number of a pump over its operating points.
 
-    unit: SI; of: value (..,) of the numbers (.., P) and the weights (P,). film: known only where films are solved.
+    unit: SI; of: value (..,) of the numbers (.., P) and the weights (P,). needs: what a fidelity must solve to know it.
     """
 
     name: str
     words: str
     unit: str
     of: Callable[[Columns, Array], Array]
-    film: bool = False
+    needs: Needs = Needs.PRESSURE
 
     @property
     def reading(self) -> Shown:
@@ -110,13 +124,19 @@ def _efficiencies(numbers: Columns, weights: Array) -> tuple[Array, Array, Array
     return given / shaft, numbers["delivery_flow"] @ weights / ideal, hydraulic / shaft
 
 
-def _gap(name: str, gap: str, words: str, most: bool) -> Measure:
-    key = f"{name}.{gap}"
+def _largest(name: str) -> Callable[[Columns, Array], Array]:
+    return lambda numbers, _: np.asarray(np.max(numbers[name], axis=-1))
 
-    def worst(numbers: Columns, weights: Array) -> Array:
-        return np.asarray(np.max(numbers[key], axis=-1) if most else np.min(numbers[key], axis=-1))
 
-    return Measure(key, f"{words}, {gap.replace('_', ' ')}", "K" if most else "m", worst, film=True)
+def _smallest(name: str) -> Callable[[Columns, Array], Array]:
+    return lambda numbers, _: np.asarray(np.min(numbers[name], axis=-1))
+
+
+def _gaps(name: str, words: str, unit: str, of: _Over, needs: Needs) -> Iterator[Measure]:
+    """Yield the measures of a number of each gap."""
+    for gap in GAPS:
+        key = f"{name}.{gap}"
+        yield Measure(key, f"{words}, {gap.replace('_', ' ')}", unit, of(key), needs)
 
 
 def _efficiency(place: int, part: str) -> Measure:
@@ -124,40 +144,47 @@ def _efficiency(place: int, part: str) -> Measure:
     return Measure(f"efficiency.{part}", words, "1", lambda n, w: _efficiencies(n, w)[place])
 
 
+def _flow(name: str, words: str) -> Measure:
+    return Measure(name, words, "m3/s", _mean(name), Needs.COURSE)
+
+
 LOSS = "loss"
 EFFICIENCY = "efficiency.overall"
 DRAIN = "drain_flow"
-RIPPLE = "delivery_flow_ripple"
+PEAK = "chamber_pressure_peak"
+CAVITY = "cavitated_share"
 MEASURES = {
     one.name: one
     for one in (
         Measure(LOSS, "total loss", "W", _mean("loss")),
         *(_efficiency(place, part) for place, part in enumerate(("overall", "volumetric", "hydromechanical"))),
-        Measure(DRAIN, "case drain", "m3/s", _mean("drain_flow")),
-        *(
-            Measure(
-                f"leakage.{gap}", f"leakage, {gap.replace('_', ' ')}", "m3/s", _mean(f"leakage.{gap}")
-            )
-            for gap in GAPS
-        ),
+        Measure(DRAIN, "case drain", "m3/s", _mean(DRAIN)),
+        *_gaps("leakage", "leakage", "m3/s", _mean, Needs.PRESSURE),
         Measure("delivery_flow", "delivery flow", "m3/s", _mean("delivery_flow")),
-        Measure(RIPPLE, "delivery flow ripple", "m3/s", _mean(RIPPLE)),
+        _flow("delivery_flow_ripple", "delivery flow ripple"),
+        _flow("inlet_flow_ripple", "inlet flow ripple"),
+        _flow("reverse_flow.delivery", "flow back out of the delivery port"),
+        _flow("reverse_flow.inlet", "flow back into the inlet"),
         Measure("shaft_torque", "shaft torque", "N m", _mean("shaft_torque")),
-        Measure(
-            "chamber_pressure_peak", "highest chamber pressure", "Pa",
-            lambda numbers, _: np.asarray(np.max(numbers["chamber_pressure_peak"], axis=-1)),
-        ),
-        *(_gap("film_least", gap, "least film", most=False) for gap in GAPS),
-        *(_gap("film_temperature", gap, "hottest oil", most=True) for gap in GAPS),
+        Measure(PEAK, "highest chamber pressure", "Pa", _largest(PEAK)),
+        Measure("pressure_rate", "rate of the chamber pressure, rms", "Pa/s", _mean("pressure_rate")),
+        Measure(CAVITY, "share of the turn with a cavity", "1", _largest(CAVITY)),
+        Measure("swash_moment.mean", "moment of the pressure on the swash plate", "N m",
+                _mean("swash_moment.mean")),
+        Measure("swash_moment.amplitude", "amplitude of the moment on the swash plate", "N m",
+                _mean("swash_moment.amplitude")),
+        Measure("slipper_balance", "hydrostatic balance of the slipper", "1", _smallest("slipper_balance")),
+        *_gaps("film_least", "least film", "m", _smallest, Needs.FILMS),
+        *_gaps("film_temperature", "hottest oil", "K", _largest, Needs.FILMS),
+        *_gaps("load_carried", "share of the load that the film carries", "1", _smallest, Needs.LOADS),
     )
 }  # fmt: skip
 """All measures by name."""
 
 
-def measures_of(films: bool, ripple: bool = True) -> tuple[Measure, ...]:
-    """Return the measures that a fidelity knows: of films where it solves them, of the ripple where a point has it."""
-    known = (one for one in MEASURES.values() if films or not one.film)
-    return tuple(one for one in known if ripple or one.name != RIPPLE)
+def measures_of(known: Needs) -> tuple[Measure, ...]:
+    """Return the measures that a fidelity knows: all that need no more than it solves."""
+    return tuple(one for one in MEASURES.values() if one.needs.value <= known.value)
 
 
 def measured(numbers: Array, weights: Array, measures: tuple[Measure, ...]) -> Array:

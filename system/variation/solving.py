@@ -26,7 +26,7 @@ from system.work.kept_results import KeptPoints, run_kept
 from system.work.progress import Report
 from system.work.tasks import Executor, PartOutcome
 
-FORMAT = 1
+FORMAT = 2
 """Raised when the same pump gives other numbers: by the laws behind it, or by what is kept."""
 PART = 0.3
 """Least seconds of work in a batch, for which the data sent with it are negligible."""
@@ -86,7 +86,7 @@ class VariedWork:
         solver = self.solver.row()
         solved = [solver.solve(pump, point) for point in self.sites.of(pump)]
         names = sorted({remark.warning.value for one in solved for remark in one.pump_point.warnings})
-        return {"numbers": [point_numbers(one) for one in solved], "warnings": names}
+        return {"numbers": [point_numbers(pump, one) for one in solved], "warnings": names}
 
     @cached_property
     def _read(self) -> str:

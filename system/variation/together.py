@@ -23,6 +23,7 @@ from system.pump.operating import OperatingPoint
 from system.pump.ports.lines import Lines
 from system.pump.ports.wear import PortWear
 from system.pump.power import bench_reading, chamber_exchange, gap_leakage
+from system.variation.chamber_numbers import pressure_numbers
 from system.variation.measures import NUMBERS
 
 
@@ -46,7 +47,7 @@ class TogetherSolver:
         return replace(pump, materials=MaterialsSection(), surfaces=SurfacesSection())
 
     def solve_all(self, pump: PumpDescription, points: Sequence[OperatingPoint]) -> list[list[float | None]]:
-        """The NUMBERS of every point, None for those over the turn (the ripple). Raises NotConverged."""
+        """The NUMBERS of every point, None for those of flows over the turn and of films. Raises NotConverged."""
         column = {name: np.array([[getattr(point, name)] for point in points]) for name in vars(points[0])}
         at = OperatingPoint(**column)
         motion, ones = piston_motion(pump, at), np.ones(len(points))
@@ -72,7 +73,7 @@ def _numbers(given: Setting, courses: Courses) -> list[list[float | None]]:
         **vars(read),
         "loss": read.shaft_power - sum(flow * pressure for flow, pressure in read.ports),
         "swept_displacement": _swept(given),
-        "chamber_pressure_peak": courses.pressure.max(axis=1),
+        **pressure_numbers(given.pump, given.point, courses.pressure),
         **{f"leakage.{gap}": value for gap, value in vars(leak).items()},
         **{f"film_least.{gap}": value for gap, value in vars(films).items()},
         **{f"film_temperature.{gap}": given.point.temperature[:, 0] for gap in vars(films)},

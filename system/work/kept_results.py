@@ -2,21 +2,24 @@
 
 import json
 import logging
-import os
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import asdict, dataclass
 from functools import partial
 from importlib.metadata import version
 from pathlib import Path
-from typing import TypeVar
+from typing import Any, TypeVar
 
 from reynolds.errors import InputError
+from reynolds.numerics.cache import content_key
+from reynolds.numerics.files import is_file, read_json, replaced
 from system.inputs.faults import Fault, InputFaults, nearest_path
 from system.work.processes import WorkerDied
 from system.work.progress import Report, silent
 from system.work.tasks import Executor, PartOutcome, PartStatus, Work, WorkInRows, done_part, internal_reason
 
 FORMAT = 1
+SEAL = "seal"
+"""Key of the hash of all others in a file."""
 POINTS = "points"
 """Folder of a run's points inside the run's."""
 LOG = logging.getLogger(__name__)
@@ -33,12 +36,15 @@ class KeptPoints:
     def get(self, key: str) -> PartOutcome | None:
         """The outcome of that name, None if absent; a broken file counts as absent and is logged."""
         place = self.folder / f"{key}.json"
-        if not place.is_file():
+        if not is_file(place):
             return None
         try:
-            values = json.loads(place.read_text("utf-8"))
+            values = read_json(place)
             if values["format"] != FORMAT:
                 return None
+            seal = _seal(values)
+            if values.get(SEAL, seal) != seal:  # points of earlier checkouts have none
+                raise ValueError("its content is not what was written")
             fields = (values[name] for name in ("reason", "record", "seconds", "worker"))
             return PartOutcome(key, PartStatus(values["status"]), *fields)
         except (OSError, ValueError, KeyError, TypeError) as fault:
@@ -59,14 +65,19 @@ class KeptPoints:
         if outcome.status not in self.keeps:
             return
         record = {"format": FORMAT, **asdict(outcome), "status": outcome.status.value}
-        text = json.dumps(record | {"package": version("swashfilm")}, allow_nan=False)
-        beside = self.folder / f"{outcome.key}.{os.getpid()}.tmp"
+        values = json.loads(json.dumps(record | {"package": version("swashfilm")}, allow_nan=False))
+        text = json.dumps(values | {SEAL: _seal(values)})
         try:
             self.folder.mkdir(parents=True, exist_ok=True)
-            beside.write_text(text + "\n", encoding="utf-8")
-            beside.replace(self.folder / f"{outcome.key}.json")
+            with replaced(self.folder / f"{outcome.key}.json") as beside:
+                beside.write_text(text + "\n", encoding="utf-8")
         except OSError as fault:
             raise InputError("kept points", f"{self.folder}: {fault.strerror}", "a folder to write in") from fault
+
+
+def _seal(values: Mapping[str, Any]) -> str:
+    """The hash of an outcome's content, as it comes back from its file."""
+    return content_key(json.dumps({key: values[key] for key in sorted(values) if key != SEAL}))
 
 
 def points_of_run(folder: Path) -> KeptPoints:

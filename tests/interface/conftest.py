@@ -5,14 +5,17 @@ from __future__ import annotations
 import functools
 import io
 from collections.abc import Iterator
+from pathlib import Path
 
 import numpy as np
 import pytest
 from made_diagnosis import its_study, named_diagnosis
 from matplotlib.figure import Figure
 from matplotlib.image import imsave
+from written_formats import REMEDY, folder_faults
 
 from diagnosis import Diagnosis, Study
+from swashfilm.output import run_folder
 
 
 @pytest.fixture(scope="session", autouse=True)
@@ -36,6 +39,21 @@ def blank_pictures(pytestconfig: pytest.Config) -> Iterator[None]:
 
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(Figure, "savefig", blank)
+        yield
+
+
+@pytest.fixture(scope="session", autouse=True)
+def formats_held() -> Iterator[None]:
+    """Every run folder that a command writes in a test has the form that the schema of its kind states."""
+    rename = run_folder._give_its_name
+
+    def renamed_and_held(partial: Path, final: Path) -> None:
+        rename(partial, final)
+        faults = folder_faults(final)
+        assert not faults, "\n".join([*faults, REMEDY])
+
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(run_folder, "_give_its_name", renamed_and_held)
         yield
 
 

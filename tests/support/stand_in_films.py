@@ -43,4 +43,4 @@ class ThinningFilms:
         found = lumped_point(replace(pump, **films), point)
         mean = Gaps(clearance, films["slipper"].film_thickness, films["valve_plate"].film_thickness)
         least = Gaps(*(0.5 * value for value in asdict(mean).values()))
-        return SolvedPoint(found, mean, least, Gaps(40.0 / thin, 20.0 / thin, 30.0 / thin))
+        return SolvedPoint(found, mean, least, Gaps(40.0 / thin, 20.0 / thin, 30.0 / thin), Gaps(1.0, 1.0, 1.0))

@@ -9,11 +9,13 @@ once, his formulas give 96.0 .. 97.0 %.
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 from types import ModuleType
 
 import numpy as np
 import pytest
+from measured import Measured, Uncertainty, at_least, not_computed, within
 
 from gaps import Accuracy
 from system import (
@@ -35,6 +37,10 @@ from system.points.floating_gaps import block_revolution
 
 PUMP = Path(__file__).resolve().parents[2] / "examples" / "pumps" / "hst196.toml"
 SOURCE = "ivanokhotnikov/effmap, 399 units"
+LICENCE = "MIT (ivanokhotnikov/effmap_demo)"
+UNITS = 399
+UNSTATED = "the bench's uncertainty is not stated"
+CLOSED = Uncertainty(0.0, "closed forms along the gaps, chambers to 1e-6")
 DISCUSSION = """\
 Floating films do not close the gap between 94.1 % and 88.4 %; they widen it. By
 
@@ -69,6 +75,29 @@ account for 6 % of the variance of the units at most. The rest, and the distance
 does not give: films and lands of slippers and valve plates, valves of the circuit, temperature of the oil at each
 test."""
 
+OTHERS = not_computed("only clearances scatter here; how films and lands scatter from unit to unit is not given")
+
+
+def of_mean(values: np.ndarray) -> Uncertainty:
+    """Of the mean of efficiencies, in %."""
+    error = 100.0 * float(values.std(ddof=1)) / np.sqrt(values.size)
+    return at_least(Uncertainty(error, f"standard error of the mean; {UNSTATED}"))
+
+
+def of_spread(spread: float, units: int) -> Uncertainty:
+    """Of a standard deviation that is found of so many units."""
+    error = spread / np.sqrt(2.0 * (units - 1))
+    return at_least(Uncertainty(error, f"{units} units, normal; {UNSTATED}"))
+
+
+def of_band(efficiencies: np.ndarray) -> Uncertainty:
+    """Of efficiencies (n,) found with inputs drawn from their ranges, in %."""
+    return Uncertainty(
+        100.0 * float(efficiencies.std(ddof=1)),
+        f"standard deviation of {efficiencies.size} transmissions drawn from the ranges of examples/hst196/band.py, "
+        "most of which are assumed",
+    )
+
 
 @pytest.fixture(scope="module")
 def band(example: Callable[[str], ModuleType]) -> ModuleType:
@@ -99,7 +128,7 @@ def measured(band, recording) -> np.ndarray:
 
 def test_measured_speeds(measured):
     """As the recording's own sheet has them."""
-    assert measured.size == 399
+    assert measured.size == UNITS
     assert 1780.0 * measured.mean() == pytest.approx(1574.0, abs=0.5)
     assert 100.0 * measured.std(ddof=1) == pytest.approx(0.64, abs=0.01)
 
@@ -168,16 +197,19 @@ def test_spread_by_clearance_alone(band, recording, validation):
     It is the same forward and back, so that it stands beside the spread that both ways share.
     """
     spread = np.ptp(band.by_clearance())
+    shared_by_both = 100.0 * band.shared_spread(recording)
+    data = of_spread(4.0 * shared_by_both, UNITS)
     validation(
         case="Hydrostatic transmission HST 196, 1780 rpm, 207 against 14 bar",
         source=SOURCE,
         quantity="spread by the whole piston clearance, 22.9 .. 34.3 um",
         unit="%",
-        expected=100.0 * 4.0 * band.shared_spread(recording),
+        expected=4.0 * shared_by_both,
         obtained=100.0 * spread,
         tolerance=0.3,
         note="expected: 95 % of the units by what forward and reverse share",
         missed="clearance accounts for two fifths of what units have of their own; the rest is other gaps",
+        measured=Measured("pump", LICENCE, data, OTHERS, CLOSED),
     )
 
 
@@ -196,6 +228,7 @@ def test_band(band, measured, validation):
         missed="leakage and compression as far as they are known account for half the loss; films of 22 um in "
         "place of 8 to 15 um on slippers and valve plates would meet it, or what the circuit loses (not given); "
         "oil of 120 degC in the films alone would not, 89.2 %",
+        measured=Measured("pump", LICENCE, of_mean(measured), of_band(found), CLOSED),
     )
     parts = band.shares(values, found)
     assert 0.8 < parts.sum() <= 1.0 + 1e-9
@@ -207,8 +240,10 @@ def test_floating_films_do_not_close_the_gap(band, floating, measured, validatio
     """Rigid walls; the tolerance is that of the band, whose films are given."""
     _, found = band.sample(count=64)
     low, high = 100.0 * np.quantile(found, (0.05, 0.95))
+    inputs = of_band(found)
     floats = floating.floating_losses(RIGID)
     assert sum(floats.shares.values()) == pytest.approx(1.0 - floats.speed_ratio)
+    gaps = sum(abs(share) for name, share in floats.shares.items() if name.startswith(band.MACHINES))
     validation(
         case="Hydrostatic transmission HST 196 with floating films, 1780 rpm, 207 against 14 bar",
         source=SOURCE,
@@ -221,6 +256,13 @@ def test_floating_films_do_not_close_the_gap(band, floating, measured, validatio
         + ", ".join(f"{name} {100.0 * share:.2f}" for name, share in floats.shares.items()),
         missed="floating films leak less than those given, so that the gap is wider with them; see the text of "
         "the chapter for what is left",
+        measured=Measured(
+            "pump",
+            LICENCE,
+            of_mean(measured),
+            replace(inputs, how=f"{inputs.how}; here with given films in place of floating ones"),
+            within(100.0 * gaps, "no more than all that the gaps leak: their meshes are coarse"),
+        ),
     )
 
 
@@ -233,16 +275,18 @@ def test_floating_films_do_not_close_the_gap(band, floating, measured, validatio
 )
 def test_scatter_by_the_tolerances(band_and_series, recording, validation, pistons, parts, reason):
     band, series = band_and_series
+    shared_by_both = 100.0 * band.shared_spread(recording)
     validation(
         case="Hydrostatic transmission HST 196, 1780 rpm, 207 against 14 bar",
         source=SOURCE,
         quantity=f"standard deviation by the drawing's clearances, pistons {pistons}",
         unit="%",
-        expected=100.0 * band.shared_spread(recording),
+        expected=shared_by_both,
         obtained=100.0 * float(np.std(series.series(parts=parts), ddof=1)),
         relative_tolerance=0.2,
         note="expected: what forward and reverse of a unit share",
         missed=reason,
+        measured=Measured("pump", LICENCE, of_spread(shared_by_both, UNITS), OTHERS, CLOSED),
     )
 
 

@@ -13,6 +13,7 @@ from functools import cache
 import numpy as np
 import pytest
 from floating_ref90 import COARSE, At, driven
+from measured import Trend
 
 from gaps import Active
 from system import slipper_revolution
@@ -20,6 +21,7 @@ from system import slipper_revolution
 pytestmark = pytest.mark.long
 KOC = "Koc, Hooke and Li 1992, J. Tribol. 114, 766, abstract: measured"
 KOC_HOOKE = "Koc and Hooke 1996, Tribol. Int. 29, 299, abstract: measured"
+MEASURED = Trend("slipper", "words of an abstract, cited as facts")
 OVERCLAMPED, UNDERCLAMPED = 7.4, 8.6
 """Pocket radii (mm) at which a parallel film lifts 0.94 and 1.06 of the piston's force along the plate's normal."""
 BLANKED, WIDE = 0.1, 0.9
@@ -71,6 +73,7 @@ def test_a_slipper_runs_without_orifice(validation):
             obtained=found.contact,
             tolerance=1e-9,
             note=f"operates satisfactorily; mean film {found.film:.1f}, least gap {found.least_gap:.1f} um",
+            measured=MEASURED,
         )
 
 
@@ -105,4 +108,5 @@ def test_orifice_and_clamping(validation):
             tolerance=1e-9,
             note=told,
             missed=missed,
+            measured=MEASURED,
         )

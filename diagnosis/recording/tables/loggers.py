@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+import re
+from collections.abc import Iterable
 from typing import Any
 
 import numpy as np
 
-from diagnosis.recording.tables.table import TableColumns, TableFault, TableSource
+from diagnosis.recording.tables.table import TableColumns, TableFault, TableSource, expect_few, foreign
 from diagnosis.recording.tables.workbooks import missing
 
+_ARITHMETIC = re.compile(r"(?:[\w\s+\-*/^%(),<>=!&|]|\.(?![A-Za-z_]))*", re.ASCII)
 TIME = "time"
 """Column of time in s that a logger's file holds without naming it."""
 APPLIED_SCALES = frozenset(
@@ -28,10 +31,14 @@ def read_tdms(source: TableSource) -> TableColumns:
         from nptdms import TdmsFile
     except ImportError:
         raise missing("npTDMS", "TDMS files") from None
-    try:
-        file = TdmsFile.read(source.path)
-    except (ValueError, OSError, EOFError) as reason:
-        raise TableFault(f"'{source.path.name}', unreadable: {reason}", "a TDMS file") from reason
+    with foreign(source, "a TDMS file"):
+        with TdmsFile.read_metadata(source.path) as stated:
+            expect_few(sum(len(channel) for group in stated.groups() for channel in group.channels()))
+        return _tdms_columns(TdmsFile.read(source.path), source)
+
+
+def _tdms_columns(file: Any, source: TableSource) -> TableColumns:
+    """The channels of a group of a TDMS file."""
     names = [group.name for group in file.groups()]
     if (source.group or len(names) != 1) and source.group not in names:
         raise TableFault(f"the groups {', '.join(names)}", "group = the name of one of them")
@@ -68,18 +75,27 @@ def read_mdf(source: TableSource) -> TableColumns:
     """
     try:
         from asammdf import MDF
-        from asammdf.blocks.utils import MdfException
     except ImportError:
         raise missing("asammdf", "MDF files") from None
-    try:
-        with MDF(source.path) as file:
-            frame = file.to_dataframe(time_from_zero=False, use_interpolation=True)
-    except (MdfException, OSError, ValueError) as reason:
-        raise TableFault(f"'{source.path.name}', unreadable: {reason}", "an MDF file") from reason
+    with foreign(source, "an MDF file"), MDF(source.path) as file:
+        groups = [(group.channel_group.cycles_nr, len(group.channels)) for group in file.groups]
+        expect_few(sum(rows for rows, _ in groups) * sum(channels for _, channels in groups))
+        _expect_arithmetic(channel for group in file.groups for channel in group.channels)
+        frame = file.to_dataframe(time_from_zero=False, use_interpolation=True)
     values = {str(name): frame[name].to_numpy(dtype=float) for name in frame if frame[name].dtype.kind in "fiu"}
     left_out = [str(name) for name in frame if str(name) not in values]
     values.setdefault(TIME, frame.index.to_numpy(dtype=float))
     return TableColumns(values, (f"left out, since not numbers: {', '.join(left_out)}",) if left_out else ())
+
+
+def _expect_arithmetic(channels: Iterable[Any]) -> None:
+    """Raise TableFault for a conversion whose formula is more than arithmetic: a library evaluates it."""
+    for channel in channels:
+        formula = getattr(channel.conversion, "formula", "")
+        if formula and ("__" in formula or not _ARITHMETIC.fullmatch(formula)):
+            raise TableFault(
+                f"channel {channel.name!r} with the formula {formula[:80]!r}", "a formula of numbers and X"
+            )
 
 
 def _usual(lengths: list[int]) -> int:

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
 
-from diagnosis.recording.tables.table import TableColumns, TableFault, TableSource
+from diagnosis.recording.tables.table import TableColumns, TableFault, TableSource, expect_few, foreign
+from reynolds.numerics.hdf5 import expect_contained
 
 _PLAIN = "s = table2struct(T, 'ToScalar', true); save('recording.mat', '-struct', 's')"
 
@@ -22,7 +24,8 @@ def read_matlab(source: TableSource) -> TableColumns:
     with source.path.open("rb") as file:
         signature = file.read(128)
     is_hdf5 = signature[:8] == b"\x89HDF\r\n\x1a\n" or signature.startswith(b"MATLAB 7.3")
-    variables = _from_hdf5(source) if is_hdf5 else _from_mat5(source)
+    with foreign(source, "a MAT file"):
+        variables = _from_hdf5(source) if is_hdf5 else _from_mat5(source)
     if source.variable:
         chosen = variables.get(source.variable)
         if chosen is None:
@@ -45,13 +48,10 @@ def read_matlab(source: TableSource) -> TableColumns:
 
 
 def _from_mat5(source: TableSource) -> Mapping[str, Any]:
-    from scipy.io import loadmat
-    from scipy.io.matlab import MatReadError
+    from scipy.io import loadmat, whosmat
 
-    try:
-        variables = loadmat(source.path, simplify_cells=True)
-    except (MatReadError, ValueError, NotImplementedError, TypeError) as reason:
-        raise TableFault(f"'{source.path.name}', unreadable: {reason}", "a MAT file") from reason
+    expect_few(sum(math.prod(shape) for _, shape, _ in whosmat(source.path)))
+    variables = loadmat(source.path, simplify_cells=True)
     if any(type(value).__name__ == "MatlabOpaque" for value in variables.values()) or "None" in variables:
         raise _object_fault()
     return {name: value for name, value in variables.items() if not name.startswith("__")}
@@ -60,11 +60,9 @@ def _from_mat5(source: TableSource) -> Mapping[str, Any]:
 def _from_hdf5(source: TableSource) -> Mapping[str, Any]:
     import h5py
 
-    try:
-        with h5py.File(source.path) as file:
-            return {name: _hdf5_value(item) for name, item in file.items() if not name.startswith("#")}
-    except OSError as reason:
-        raise TableFault(f"'{source.path.name}', unreadable: {reason}", "a MAT file") from reason
+    expect_contained(source.path)
+    with h5py.File(source.path) as file:
+        return {name: _hdf5_value(item) for name, item in file.items() if not name.startswith("#")}
 
 
 def _hdf5_value(item: Any) -> Any:

@@ -9,6 +9,7 @@ from diagnosis.recording.tables.matlab import read_matlab
 from diagnosis.recording.tables.table import TableColumns, TableFault, TableSource
 from diagnosis.recording.tables.text import read_text
 from diagnosis.recording.tables.workbooks import read_parquet, read_workbook
+from reynolds.numerics.files import UnfitFile, expect_regular
 from system.inputs.faults import nearest_path
 
 _READERS: Mapping[str, Callable[[TableSource], TableColumns]] = {
@@ -29,8 +30,12 @@ def read_columns(source: TableSource) -> TableColumns:
     for a file that is absent, of another kind, damaged, without rows, or whose library is not installed.
     """
     path = source.path
-    if not path.is_file():
-        raise TableFault(f"'{path}', which is no file", "the path of a table", nearest_path(path))
+    try:
+        expect_regular(path)
+    except UnfitFile as reason:
+        raise TableFault(f"'{path}', {reason}", "a file with a table") from None
+    except (OSError, ValueError):
+        raise TableFault(f"'{path}', which is no file", "the path of a table", nearest_path(path)) from None
     reader = _READERS.get(path.suffix.lower())
     if reader is None:
         raise TableFault(f"'{path.name}'", f"a file that ends in one of {', '.join(_READERS)}")

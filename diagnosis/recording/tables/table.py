@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
 from dataclasses import dataclass, field
 from pathlib import Path
 
 from reynolds.numerics.arrays import Array
+from reynolds.numerics.files import LARGEST_CELLS
 
 
 class TableFault(Exception):
@@ -49,3 +51,21 @@ class TableColumns:
     def rows(self) -> int:
         """Number of rows."""
         return next((len(column) for column in self.values.values()), 0)
+
+
+@contextmanager
+def foreign(source: TableSource, kind: str) -> Iterator[None]:
+    """Convert whatever the library of a format raises on a broken file to a TableFault; kind: the file it should be."""
+    try:
+        yield
+    except TableFault:
+        raise
+    except (Exception, SystemExit) as reason:  # the libraries have no common class of faults
+        words = " ".join(str(reason).split()) or type(reason).__name__
+        raise TableFault(f"'{source.path.name}', unreadable: {words}", kind) from reason
+
+
+def expect_few(cells: int) -> None:
+    """Raise TableFault for more cells than memory should hold."""
+    if cells > LARGEST_CELLS:
+        raise TableFault(f"{cells:.3g} cells", f"at most {LARGEST_CELLS:.3g} cells in all")

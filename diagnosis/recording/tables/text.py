@@ -7,7 +7,8 @@ from collections import Counter
 from dataclasses import replace
 
 from diagnosis.recording.tables.cells import columns_of, is_number
-from diagnosis.recording.tables.table import TableColumns, TableFault, TableSource
+from diagnosis.recording.tables.table import TableColumns, TableFault, TableSource, foreign
+from reynolds.numerics.files import LARGEST_DATA, read_bounded
 
 SEPARATORS = {";": "semicolon", "\t": "tab", ",": "comma", "|": "bar"}
 _SIGNS = {".": "point", ",": "comma"}
@@ -23,13 +24,15 @@ def read_text(source: TableSource) -> TableColumns:
     """
     text, encoding = _decoded(source)
     lines = [line for line in text.splitlines() if line.strip() and not line.lstrip().startswith("#")]
-    separator = source.separator or _separator(lines[:LOOKED_AT])
-    decimal = source.decimal or _decimal(lines[:LOOKED_AT], separator)
+    with foreign(source, "a text table"):
+        separator = source.separator or _separator(lines[:LOOKED_AT])
+        decimal = source.decimal or _decimal(lines[:LOOKED_AT], separator)
     if decimal not in _SIGNS or decimal == separator:
         raise TableFault(f"decimal = {decimal!r}, separator = {separator!r}", "a point or a comma, and another sign")
     if len(separator) != 1:
         raise TableFault(f"separator = {separator!r}", "one sign, such as ';'")
-    columns = columns_of(csv.reader(lines, delimiter=separator), decimal)
+    with foreign(source, "a text table"):
+        columns = columns_of(csv.reader(lines, delimiter=separator), decimal)
     found = []
     if not source.separator:
         found.append(f"cells parted by {SEPARATORS[separator]}")
@@ -43,7 +46,7 @@ def read_text(source: TableSource) -> TableColumns:
 
 def _decoded(source: TableSource) -> tuple[str, str]:
     """The text of a file, and its encoding."""
-    raw = source.path.read_bytes()
+    raw = read_bounded(source.path, LARGEST_DATA)
     if b"\0" in raw[:4096]:
         raise TableFault(f"'{source.path.name}', which is no text", "a text table in UTF-8")
     try:

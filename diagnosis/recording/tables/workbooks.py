@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+import zipfile
 from typing import Any
 
 import numpy as np
 
 from diagnosis.recording.tables.cells import columns_of
-from diagnosis.recording.tables.table import TableColumns, TableFault, TableSource
+from diagnosis.recording.tables.table import TableColumns, TableFault, TableSource, expect_few, foreign
 
+UNPACKED = 500_000_000
+"""Bytes of a workbook's parts."""
 INSTALL = "pip install '.[recordings]' in the checkout"
 
 
@@ -22,20 +25,30 @@ def read_workbook(source: TableSource) -> TableColumns:
         from openpyxl import load_workbook
     except ImportError:
         raise missing("openpyxl", "Excel workbooks") from None
-    try:
-        book = load_workbook(source.path, read_only=True, data_only=True)
-    except Exception as reason:  # zip, XML and key errors of a damaged book have no common class
-        raise TableFault(f"'{source.path.name}', unreadable: {reason}", "an .xlsx workbook") from reason
+    with foreign(source, "an .xlsx workbook"):
+        with zipfile.ZipFile(source.path) as parts:
+            if (size := sum(part.file_size for part in parts.infolist())) > UNPACKED:
+                raise TableFault(f"{size / 1e6:.0f} MB unpacked", f"at most {UNPACKED / 1e6:.0f} MB")
+        rows = _rows(load_workbook(source.path, read_only=True, data_only=True), source)
+    return columns_of(rows, source.decimal or ".")
+
+
+def _rows(book: Any, source: TableSource) -> list[tuple[Any, ...]]:
+    """The rows of the stated sheet, or of the only one."""
     try:
         names = book.sheetnames
         if not source.sheet and len(names) > 1:
             raise TableFault(f"the sheets {', '.join(names)}", "sheet = the name of one of them", f'"{names[0]}"')
         if source.sheet and source.sheet not in names:
             raise TableFault(f"no sheet {source.sheet!r}", f"one of {', '.join(names)}")
-        rows: list[tuple[Any, ...]] = list(book[source.sheet or names[0]].iter_rows(values_only=True))
+        rows: list[tuple[Any, ...]] = []
+        cells = 0
+        for row in book[source.sheet or names[0]].iter_rows(values_only=True):
+            expect_few(cells := cells + len(row) + 1)
+            rows.append(row)
+        return rows
     finally:
         book.close()
-    return columns_of(rows, source.decimal or ".")
 
 
 def read_parquet(source: TableSource) -> TableColumns:
@@ -44,14 +57,20 @@ def read_parquet(source: TableSource) -> TableColumns:
     Raises TableFault where pyarrow is not installed or the file is no Parquet file.
     """
     try:
-        import pyarrow
         from pyarrow import parquet
     except ImportError:
         raise missing("pyarrow", "Parquet files") from None
-    try:
+    with foreign(source, "a Parquet file"):
+        stated = parquet.read_metadata(source.path)
+        expect_few(stated.num_rows * stated.num_columns)
         table = parquet.read_table(source.path)
-    except pyarrow.ArrowException as reason:
-        raise TableFault(f"'{source.path.name}', unreadable: {reason}", "a Parquet file") from reason
+        return _arrow_columns(table)
+
+
+def _arrow_columns(table: Any) -> TableColumns:
+    """The columns of an Arrow table."""
+    import pyarrow
+
     values, words, notes = {}, {}, []
     for name, column in zip(table.column_names, table.columns, strict=True):
         kind = column.type

@@ -41,6 +41,10 @@ class FieldReader:
         return read_field(raw, of.dimension, data, names, self.constants)
 
 
+LEAST = 1e-12
+"""SI; of a film in m it is less than an atom, and no oil has such a viscosity."""
+
+
 def field_fault(field: Field, space: FilmSpace, t: float = 0.0, *, positive: bool = False) -> tuple[str, str] | None:
     """Return (found, expected) where a field is not finite, or not above zero if `positive`; else None."""
     x, y = (np.broadcast_to(part, space.area.shape) for part in space.points)
@@ -48,10 +52,11 @@ def field_fault(field: Field, space: FilmSpace, t: float = 0.0, *, positive: boo
     if (corners := field.at_vertices(space, t)) is not None:  # a film may end at zero right at the edge
         x, y = (np.append(part, space.vertices[:, axis]) for axis, part in enumerate((x, y)))
         full = np.append(full, corners)
-    bad = ~np.isfinite(full) | ((full <= 0.0) if positive else np.zeros(full.shape, dtype=bool))
+    bad = ~np.isfinite(full) | ((full < LEAST) if positive else np.zeros(full.shape, dtype=bool))
     if not bad.any():
         return None
     worst = int(np.argmin(np.where(bad, np.nan_to_num(full, nan=-np.inf, posinf=-np.inf), np.inf)))
     at = f"x = {x.flat[worst]:.4g} m, y = {y.flat[worst]:.4g} m" + (f", t = {t:.4g} s" if t else "")
     found = f"'{field}' is {full.flat[worst]:.4g} at {at}"
-    return found, "a value above zero everywhere" if positive else "a value everywhere"
+    least = f", at least {LEAST:g}" if full.flat[worst] > 0.0 else ""
+    return found, f"a value above zero everywhere{least}" if positive else "a value everywhere"

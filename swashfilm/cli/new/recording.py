@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import tomllib
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import replace
 from pathlib import Path
@@ -12,9 +11,11 @@ from diagnosis.recording.model import Circuit
 from diagnosis.recording.reader import recording_of_tables
 from diagnosis.recording.tables.read import read_columns
 from diagnosis.recording.tables.table import TableFault, TableSource
+from reynolds.numerics.files import is_file
 from swashfilm.cli.new.file import NewFile
 from system.inputs.channels import OUTPUTS
 from system.inputs.faults import Fault, InputFaults, nearest_choice, nearest_path
+from system.inputs.toml_table import parse_toml
 
 _PARTS: Mapping[str, Callable[[TableSource, str], TableSource]] = {
     ".xlsx": lambda source, name: replace(source, sheet=name),
@@ -51,14 +52,14 @@ def new_recording(
 def _doubts(guess: GuessedRecording, path: Path) -> Iterator[str]:
     """Yield what is wrong with the readings as guessed: a wrong guess may be the reason, and the file mends it."""
     try:
-        recording_of_tables(str(path), tomllib.loads(guess.text), path.parent)
+        recording_of_tables(str(path), parse_toml(guess.text), path.parent)
     except InputFaults as reason:
         yield from (f"warning: {one.path}: {one.found}; expected {one.expected}" for one in reason.faults)
 
 
 def _source(table: str | None, part: str | None, faults: list[Fault]) -> TableSource | None:
     """Return the table and its part; None with the fault added."""
-    if table is None or not Path(table).is_file():
+    if table is None or not is_file(Path(table)):
         found = "missing" if table is None else f"'{table}', no such file"
         expected = "a table (.csv, .xlsx, .tdms, .mf4, .mat, .parquet)"
         faults.append(Fault("TABLE", found, expected, nearest_path(Path(table)) if table else ""))

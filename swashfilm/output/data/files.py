@@ -9,8 +9,12 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from reynolds.numerics.files import expect_room
+from reynolds.numerics.hdf5 import expect_contained
+from swashfilm.formats.versions import check_stamp, stamped
 from swashfilm.output.headline import named
 from swashfilm.output.tables import parted, read_csv, write_csv
+from system.inputs.faults import Fault, InputFaults
 from system.inputs.shown import known_unit, largest_of_units, round_off, shown_in
 
 if TYPE_CHECKING:
@@ -19,6 +23,8 @@ if TYPE_CHECKING:
     from reynolds.numerics.arrays import Array
 
 CSV_DIGITS = 8
+HEADS = 200_000
+"""Bytes of names, attributes and the tree of a NetCDF file, at most."""
 
 
 @dataclass(frozen=True)
@@ -76,9 +82,19 @@ def columns_of(data: xarray.Dataset, along: str) -> list[Column]:
     return [Column(name, series[name].values, series[name].attrs.get("units", "1")) for name in names]
 
 
-def write_netcdf(data: xarray.Dataset, path: Path, group: str | None = None) -> None:
-    """Write a data set, or add it as a group to a file; every variable has `units` (SI) and `long_name`."""
-    described(data).to_netcdf(path, mode="a" if group else "w", group=group, engine="h5netcdf")
+def write_netcdf(data: xarray.Dataset, path: Path, kind: str) -> None:
+    """Write the data set of a kind of run folder; every variable has `units` (SI) and `long_name`.
+
+    Raises OSError, before anything is written, where the disk has no room: HDF5 ends in a disorder of messages there.
+    """
+    expect_room(path.parent, int(1.1 * data.nbytes) + HEADS)
+    described(data).assign_attrs(stamped(kind)).to_netcdf(path, mode="w", engine="h5netcdf")
+
+
+def add_group(data: xarray.Dataset, path: Path, group: str) -> None:
+    """Add a data set to a NetCDF file as a group; described, and refused without room, as by `write_netcdf`."""
+    expect_room(path.parent, int(1.1 * data.nbytes) + HEADS)
+    described(data).to_netcdf(path, mode="a", group=group, engine="h5netcdf")
 
 
 def described(data: xarray.Dataset) -> xarray.Dataset:
@@ -90,8 +106,24 @@ def described(data: xarray.Dataset) -> xarray.Dataset:
 
 
 def read_netcdf(path: Path, group: str | None = None) -> xarray.Dataset:
-    """Return the data set of a NetCDF file, or of one group in it, loaded whole."""
+    """Return the data set of a NetCDF file, or of one group in it, loaded whole.
+
+    Raises InputFaults for a file of another kind, a broken one, one with data outside it, and one that a later version
+    wrote.
+    """
+    try:
+        expect_contained(path)
+        return _loaded(path, group)
+    except InputFaults:
+        raise
+    except Exception as reason:  # HDF5 and what reads it have no common class of faults
+        words = " ".join(str(reason).split()) or type(reason).__name__
+        raise InputFaults(str(path), [Fault("file", f"cannot be read: {words}", "the NetCDF file of a run")]) from None
+
+
+def _loaded(path: Path, group: str | None) -> xarray.Dataset:
     import xarray
 
     with xarray.open_dataset(path, group=group, engine="h5netcdf") as data:
+        check_stamp(path, data.attrs)
         return data.load()

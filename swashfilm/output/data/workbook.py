@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import re
 from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
@@ -10,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 from swashfilm.output.data.files import CSV_DIGITS
 from swashfilm.output.headline import named
+from swashfilm.output.page import read_summary
 from swashfilm.output.tables import read_csv
 from system.inputs.shown import shown_in
 
@@ -35,7 +35,7 @@ def write_workbook(folder: Path, path: Path) -> None:
     from openpyxl import Workbook
 
     book = Workbook(write_only=True)
-    summary = json.loads((folder / "summary.json").read_text("utf-8"))
+    summary = read_summary(folder)
     _write_sheet(book, "summary", [SUMMARY_HEAD, *summary_rows(summary)])
     for table in sorted(folder.rglob("*.csv")):
         name = table.relative_to(folder).with_suffix("").as_posix()

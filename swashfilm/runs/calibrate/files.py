@@ -11,6 +11,7 @@ from diagnosis.recording.units import channel_head, channel_unit, difference, di
 from diagnosis.report.format import parameter_unit
 from diagnosis.verdict.row_numbers import table_rows
 from swashfilm.console.schemas import write_new
+from swashfilm.formats.versions import headed
 from swashfilm.output.run_folder import write_json
 from swashfilm.runs.diagnose.files import write_rows
 from system.bench.calibration.held_out import PHYSICS
@@ -45,8 +46,7 @@ def summary(found: Calibration, title: str) -> dict[str, Any]:
     """Content of summary.json."""
     fit = found.best
     return {
-        "format": 1,
-        "kind": KIND,
+        **headed(KIND),
         "name": title,
         "points": len(found.study.recording.steady.values),
         "readings": int(fit.residual.size),

@@ -10,10 +10,10 @@ from typing import TYPE_CHECKING
 
 from swashfilm.console.command import Command
 from swashfilm.console.fidelity import Fidelity
-from swashfilm.console.inputs import COMMAND_LINE
+from swashfilm.console.inputs import COMMAND_LINE, whole
 from swashfilm.console.settings import add_set_option
 from swashfilm.console.terminal import show_result
-from swashfilm.runs.map.command import FIDELITIES, add_map_options, map_case
+from swashfilm.runs.map.command import FIDELITIES, MOST_WORKERS, add_map_options, map_case
 from system.inputs.faults import Fault, InputFaults, nearest_choice, nearest_path
 from system.work.progress import Report, silent
 
@@ -23,7 +23,6 @@ if TYPE_CHECKING:
     from system.maps.plan import MapAxis
 
 LETTERS = ("A", "B")
-MOST = 256  # processes
 
 
 def add_compare_options(command: argparse.ArgumentParser) -> None:
@@ -97,11 +96,13 @@ def compare_case(options: argparse.Namespace) -> CompareCase:
 
     names = (options.one, options.other)
     pumps = [_is_pump(name) for name in names]
-    if faults := [*_option_faults(options, pumps)]:
+    faults = [*_option_faults(options, pumps)]
+    workers = whole(faults, "--workers", options.workers, cores(), (1, MOST_WORKERS))
+    if faults:
         raise InputFaults(COMMAND_LINE, faults)
     both = _both(options, names, pumps)
     cycle = None if options.cycle is None else read_cycle(options.cycle, common_axes(both[0].axes, both[1].axes))
-    return CompareCase(both, cores() if options.workers is None else int(options.workers), cycle)
+    return CompareCase(both, workers, cycle)
 
 
 def _option_faults(options: argparse.Namespace, pumps: Sequence[bool]) -> Iterator[Fault]:
@@ -114,8 +115,6 @@ def _option_faults(options: argparse.Namespace, pumps: Sequence[bool]) -> Iterat
         yield Fault("--fidelity", "beside two maps", "a pump as A or B, whose map is solved")
     if options.set and not pumps[1]:
         yield Fault("--set", f"beside the map {options.other}", "a pump as B, whose keys it sets")
-    if options.workers is not None and not (options.workers.isdecimal() and 1 <= int(options.workers) <= MOST):
-        yield Fault("--workers", repr(options.workers), f"a number, 1 to {MOST}")
 
 
 def _both(

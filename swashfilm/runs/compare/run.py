@@ -7,6 +7,7 @@ from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any
 
+from swashfilm.formats.versions import headed
 from swashfilm.output.page import keep_pictures
 from swashfilm.output.run_folder import write_json
 from swashfilm.output.tables import write_csv
@@ -109,8 +110,7 @@ def run_compare(both: Sides, cycle: Cycle | None, folder: Path) -> dict[str, Any
     names = side_names(both)
     pictures = compare_pictures(found, names)
     summary = {
-        "format": 2,
-        "kind": "comparison",
+        **headed("comparison"),
         "names": list(names),
         "given": [side.given for side in both],
         "pumps": [side.data.name for side in both],

@@ -37,7 +37,7 @@ def write_film_fields(folder: Path, films: FilmsPoint) -> None:
     write_fields(folder, films)
     data = films_dataset(films)
     data.attrs |= {"temperature": films.rotor.point.temperature, "viscosity": films.rotor.point.viscosity}
-    write_netcdf(data, folder / FIELDS_FILE)
+    write_netcdf(data, folder / FIELDS_FILE, "diagnosis")
 
 
 def film_pictures(folder: Path, names: tuple[str, str], found: Mapping[str, Any]) -> dict[str, Figure]:

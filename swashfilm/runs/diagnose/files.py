@@ -1,6 +1,5 @@
 """Files of a diagnosis in its run folder, for programs and for the page."""
 
-import csv
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any
@@ -25,8 +24,9 @@ from diagnosis.report.tables import (
 from diagnosis.report.trace_tables import trace_residual_rows
 from diagnosis.study.model import Study
 from diagnosis.verdict.diagnosis import Diagnosis
+from swashfilm.formats.versions import headed
 from swashfilm.output.run_folder import write_json
-from swashfilm.output.tables import parted
+from swashfilm.output.tables import parted, read_csv, write_csv
 from system.inputs.channels import ChannelName
 
 KIND = "diagnosis"
@@ -93,8 +93,7 @@ def diagnosis_summary(study: Study, diagnosis: Diagnosis, assumptions: Sequence[
     before, after = pull_sums(diagnosis.before, diagnosis.after)
     recording = study.recording
     return {
-        "format": 1,
-        "kind": KIND,
+        **headed(KIND),
         "name": recording.title,
         "pump": recording.pump,
         "oil": recording.oil,
@@ -112,10 +111,8 @@ def diagnosis_summary(study: Study, diagnosis: Diagnosis, assumptions: Sequence[
 def write_rows(path: Path, rows: Iterable[Mapping[str, str]], head: Sequence[str] = ()) -> None:
     """Write rows of one set of columns as CSV; head: the columns where there is no row."""
     listed = list(rows)
-    with path.open("w", encoding="utf-8", newline="") as file:
-        writer = csv.DictWriter(file, list(listed[0]) if listed else head, lineterminator="\n")
-        writer.writeheader()
-        writer.writerows(listed)
+    names = list(listed[0]) if listed else list(head)
+    write_csv(path, names, ([row[name] for name in names] for row in listed))
 
 
 def head_of(row: Mapping[str, str], name: str) -> str:
@@ -128,5 +125,5 @@ def head_of(row: Mapping[str, str], name: str) -> str:
 
 def read_rows(path: Path) -> list[dict[str, str]]:
     """Rows of a file by `write_rows`."""
-    with path.open(encoding="utf-8", newline="") as file:
-        return list(csv.DictReader(file))
+    head, *rows = read_csv(path)
+    return [dict(zip(head, row, strict=True)) for row in rows]

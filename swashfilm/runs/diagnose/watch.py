@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import time
-import tomllib
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
@@ -13,7 +12,9 @@ from diagnosis.recording.reader import FILE
 from diagnosis.report.format import effect_words
 from diagnosis.verdict.diagnosis import Diagnosis
 from reynolds.errors import InputError, NotConverged
+from reynolds.numerics.files import read_text
 from system.inputs.faults import InputFaults
+from system.inputs.toml_table import parse_toml
 
 POLL = 1.0  # s between two looks at the folder
 SETTLE = 3  # looks at which nothing changes, before files count as whole
@@ -111,7 +112,7 @@ def recorded_files(folder: Path) -> Files:
 def _tables(folder: Path) -> Iterator[Path]:
     """Tables named by recording.toml; none while it is not there or is half written."""
     try:
-        stated: dict[str, Any] = tomllib.loads((folder / FILE).read_text(encoding="utf-8"))
+        stated: dict[str, Any] = parse_toml(read_text(folder / FILE))
     except (OSError, ValueError):
         return
     for section in stated.values():

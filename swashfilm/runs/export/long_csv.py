@@ -5,6 +5,7 @@ import io
 
 import numpy as np
 
+from swashfilm.output.tables import harmless
 from swashfilm.runs.export.content import Content
 from swashfilm.runs.export.numbers import READING_UNITS, in_unit, numbers
 from system.maps.data import MapData
@@ -24,5 +25,5 @@ def csv_files(data: MapData, name: str) -> Content:
     table.writerow([*shown, "status", "reason"])
     rows = zip(*(np.ravel(values) for values in shown.values()), strict=True)
     for row, status, reason in zip(rows, data.status.flat, data.reason.flat, strict=True):
-        table.writerow([*(f"{value:.12g}" for value in row), status, reason])
+        table.writerow([*(f"{value:.12g}" for value in row), harmless(status), harmless(reason)])
     return Content({".csv": text.getvalue().encode()})

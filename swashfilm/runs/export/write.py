@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import os
 import re
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from itertools import count
 from pathlib import Path
 
+from reynolds.numerics.files import created
 from swashfilm.console.inputs import COMMAND_LINE
 from swashfilm.runs.export.amesim import amesim_files
 from swashfilm.runs.export.content import Content
@@ -75,12 +77,25 @@ class Export:
         contents = {_path(self.stem, ending): content for ending, content in files.items()}
         try:
             self.stem.parent.mkdir(parents=True, exist_ok=True)
-            for path, own in contents.items():
-                path.write_bytes(own)
+            _write_all(contents)
         except OSError as reason:
             fault = Fault("-o", f"{reason.filename}: {reason.strerror}", "a file that can be created and written")
             raise InputFaults(COMMAND_LINE, [fault]) from None
         return Written(tuple(contents), (*content.warnings, *([f"{hole}; written as nan"] if hole else [])))
+
+
+def _write_all(contents: Mapping[Path, bytes]) -> None:
+    """Write new files, or none; raise OSError."""
+    done: list[Path] = []
+    try:
+        for path, own in contents.items():
+            with created(path) as beside:
+                beside.write_bytes(own)
+            done.append(path)
+    except OSError:
+        for path in done:
+            path.unlink()
+        raise
 
 
 def export_of(place: Path, to: str, output: Path | None) -> Export:
@@ -133,4 +148,4 @@ def _path(stem: Path, ending: str) -> Path:
 
 
 def _existing(stem: Path, endings: Iterable[str]) -> list[Path]:
-    return [path for ending in endings if (path := _path(stem, ending)).exists()]
+    return [path for ending in endings if os.path.lexists(path := _path(stem, ending))]

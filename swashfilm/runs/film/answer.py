@@ -32,6 +32,8 @@ def film_tiles(summary: Mapping[str, Any]) -> Iterator[Tile]:
     ):
         if key in summary:
             note = _coefficient(summary) if dimension is Dimension.POWER else ""
+            if key == "leakage_flow_m3_per_s" and summary[key] < 0.0:
+                note = "negative: the film draws oil in"
             yield Tile(amount(summary[key], dimension), name, _note(summary, key, dimension, note))
 
 
@@ -78,13 +80,20 @@ def _load_words(summary: Mapping[str, Any]) -> Iterator[str]:
 def _flow_words(summary: Mapping[str, Any]) -> str:
     least, pressure = summary["film_thickness_min_m"], summary["pressure_max_Pa"]
     key = "friction_power_W" if "friction_power_W" in summary else "dissipation_W"
-    out = summary["leakage_flow_m3_per_s"]
-    leak = f"{amount(out, Dimension.VOLUME_FLOW)} leak out" if out else "Nothing leaks out"
+    leak = leak_words(summary["leakage_flow_m3_per_s"])
     return (
         f"It is {amount(least, Dimension.LENGTH)} thick at its thinnest place, and its pressure reaches "
         f"{amount(pressure, Dimension.PRESSURE)}. {leak}, and {amount(summary[key], Dimension.POWER)} are lost to "
         "friction."
     )
+
+
+def leak_words(flow: float, source: str = "its sides") -> str:
+    """Return words on a leakage (m3/s): out of a film, or into it from a source where it is negative."""
+    if flow == 0.0:
+        return "Nothing leaks out"
+    size = amount(abs(flow), Dimension.VOLUME_FLOW)
+    return f"{size} leak out" if flow > 0.0 else f"{size} flow in from {source}"
 
 
 def _limit_words(summary: Mapping[str, Any]) -> Iterator[str]:

@@ -10,7 +10,7 @@ from swashfilm.output.answer import Answer
 from swashfilm.output.data.files import read_columns, read_netcdf
 from swashfilm.output.figures import figure_of
 from swashfilm.output.headline import named, number_text, numbers_text, shown_of, summary_scales, titled_key
-from swashfilm.output.page import inlined, read_summary, write_page
+from swashfilm.output.page import inlined, kept_text, read_summary, write_page
 from swashfilm.output.refinement import refinement_head, refinement_rows
 from swashfilm.runs.film.answer import film_tiles, film_words
 from swashfilm.runs.film.fields.history import last_of
@@ -50,7 +50,7 @@ def write_film_page(folder: Path) -> Path:
         warnings=summary["warnings"],
         assumptions=summary.get("assumptions", []),
         refinement=[refinement_head(found), *refinement_rows(found)] if (found := summary.get("refinement")) else [],
-        case=(folder / "resolved.toml").read_text("utf-8"),
+        case=kept_text(folder, "resolved.toml"),
     )
 
 

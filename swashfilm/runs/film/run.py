@@ -72,7 +72,7 @@ def solve_film(
         report(stages - 2, stages, "writing fields")
         _write_films(folder, study, true_place(case) if isinstance(case, GapCase) else None)
         fields = fields_over_time(study)
-        write_netcdf(fields, folder / "results.nc")
+        write_netcdf(fields, folder / "results.nc", "film")
         write_sections(folder / "sections.csv", sections(last_of(fields)))
         if as_table:
             _write_table(folder / "fields.csv", last_of(fields))

@@ -9,6 +9,7 @@ import numpy as np
 from reynolds.problem import FilmSolution
 from reynolds.solve.export import vertex_fields
 from reynolds.solve.loads import Loads, point_fields
+from swashfilm.formats.versions import headed
 from swashfilm.runs.film.physics import physics_summary, temperatures
 from swashfilm.runs.film.sensitivity import sensitivity_fields, sensitivity_summary
 from swashfilm.runs.film.solve.gap import gap_summary
@@ -30,8 +31,7 @@ def film_summary(study: FilmStudy) -> dict[str, Any]:
     """
     solution, integrals = study.solution, study.loads
     return {
-        "format": 1,
-        "kind": "film",
+        **headed("film"),
         "name": study.name,
         "load_N": integrals.load,
         "moment_x_Nm": integrals.moment_x,

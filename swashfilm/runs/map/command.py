@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 from swashfilm.case.gap.switches import add_floating_options
 from swashfilm.console.command import Command
 from swashfilm.console.fidelity import Fidelity
-from swashfilm.console.inputs import COMMAND_LINE, expect, given_text, option_value
+from swashfilm.console.inputs import COMMAND_LINE, expect, given_text, option_value, whole
 from swashfilm.console.settings import add_set_option, set_values
 from swashfilm.console.terminal import show, show_result
 from system.inputs.faults import Fault, InputFaults, nearest_choice
@@ -35,6 +35,7 @@ OPTIONS = {
     "operating.inlet_pressure": "--inlet-pressures",
 }  # fmt: skip
 """Option of each input by its key in a pump file."""
+MOST_WORKERS = 256
 MOST_LISTED = 6
 """Largest number of levels that a fault lists."""
 FIDELITIES = (Fidelity.LUMPED, Fidelity.FIXED, Fidelity.FLOATING, Fidelity.TABLE)
@@ -124,7 +125,7 @@ def map_case(options: argparse.Namespace, axes: Sequence[MapAxis] | None = None)
     from system.maps.plan import map_plan
     from system.pump_file.file import load_pump
 
-    faults = [*_word_faults(options)]
+    faults = _word_faults(options)
     stated = set_values(options.set, faults)
     axes = stated_axes(options, faults) if axes is None else axes
     expect(options.pump, "pump", "film")
@@ -173,35 +174,36 @@ def by_option(found: Sequence[Fault]) -> Iterator[Fault]:
         yield Fault(path, listed, expected, nearest)
 
 
-def _word_faults(options: argparse.Namespace) -> Iterator[Fault]:
-    """Yield the faults of words and numbers of the command line that do not depend on the pump."""
+def _word_faults(options: argparse.Namespace) -> list[Fault]:
+    """Return the faults of words and numbers of the command line that do not depend on the pump."""
+    faults = solving_faults(options)
+    whole(faults, "--check", options.check, 0, (0, 10000))
+    if options.direct and options.fidelity not in SOLVED:
+        faults.append(Fault("--direct", f"beside --fidelity {options.fidelity}", f"--fidelity {' or '.join(SOLVED)}"))
+    if options.cluster is not None and options.workers is not None:
+        faults.append(Fault("--workers", "beside --cluster", "one of the two: a cluster has its own workers"))
+    return faults
+
+
+def solving_faults(options: argparse.Namespace) -> list[Fault]:
+    """Return the faults of --plan, --fidelity, --table, --workers and --resume that do not depend on the pump."""
+    from system.work.kept_results import points_of_run
+
+    faults = []
     names = [fidelity.value for fidelity in FIDELITIES]
     for option, known in (("--plan", PLANS), ("--fidelity", names)):
         word = option_value(options, option)
         if word not in known:
-            yield Fault(option, repr(word), f"one of {', '.join(known)}", nearest_choice(word, known))
-    for option, least, most in (("--check", 0, 10000), ("--workers", 1, 256)):
-        text = option_value(options, option)
-        if text is not None and not (text.isdecimal() and least <= int(text) <= most):
-            yield Fault(option, repr(text), f"a number, {least} to {most}")
+            faults.append(Fault(option, repr(word), f"one of {', '.join(known)}", nearest_choice(word, known)))
+    whole(faults, "--workers", options.workers, 1, (1, MOST_WORKERS))
     if options.table and options.fidelity != Fidelity.TABLE.value:
-        yield Fault("--table", f"beside --fidelity {options.fidelity}", "no table, or --fidelity table")
-    if options.direct and options.fidelity not in SOLVED:
-        yield Fault("--direct", f"beside --fidelity {options.fidelity}", f"--fidelity {' or '.join(SOLVED)}")
-    if options.cluster is not None and options.workers is not None:
-        yield Fault("--workers", "beside --cluster", "one of the two: a cluster has its own workers")
+        faults.append(Fault("--table", f"beside --fidelity {options.fidelity}", "no table, or --fidelity table"))
     if options.resume is not None:
-        yield from resume_faults(options.resume)
-
-
-def resume_faults(folder: Path) -> Iterator[Fault]:
-    """Yield the fault of a folder of --resume that holds no points."""
-    from system.work.kept_results import points_of_run
-
-    try:
-        points_of_run(folder)
-    except InputFaults as reason:
-        yield from reason.faults
+        try:
+            points_of_run(options.resume)
+        except InputFaults as reason:
+            faults += reason.faults
+    return faults
 
 
 def _solver_faults(options: argparse.Namespace, plan: MapPlan) -> Iterator[Fault]:

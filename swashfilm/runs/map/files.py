@@ -12,19 +12,21 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from swashfilm.output.data.files import Column, read_netcdf, write_columns, write_netcdf
-from system.inputs.faults import Fault, InputFaults, nearest_path
+from system.inputs.faults import Fault, InputFaults, nearest_path, one_line
 from system.maps.data import MapData, best_points, objects
 from system.maps.interpolation import MapError
 from system.maps.plan import MapAxis, MapInput
 from system.maps.point import QUANTITIES, Members
 from system.pump.efficiency import EfficiencyDefinition
 from system.work.kept_results import POINTS
+from system.work.tasks import PartStatus
 
 if TYPE_CHECKING:
     import xarray
 
 MAP = "map.nc"
 MAP_SUFFIX = ".nc"
+_AT_EACH_POINT = ("delivery_flow", "inlet_flow", "shaft_power", "hydraulic_power", "shaft_torque")
 PARTS = ("overall", "volumetric", "hydromechanical")
 ERRORS = ("rms", "largest")
 _DIMENSIONS = {Members.PAIR: "pair", Members.GAP: "gap"}
@@ -48,7 +50,7 @@ def write_map(path: Path, data: MapData, error: MapError | None, summary: Mappin
         "interpolation_error": f"{error.count} {error.shown_by}" if error else "",
         "bulk_modulus": data.bulk_modulus,
     }
-    write_netcdf(dataset, path)
+    write_netcdf(dataset, path, "map")
 
 
 def map_dataset(data: MapData, error: MapError | None) -> xarray.Dataset:
@@ -140,12 +142,30 @@ def _makes_a_map(place: Path) -> str:
 
 def read_map(path: Path) -> tuple[MapData, MapError | None]:
     """Return the map of a file of `write_map`, with its error; raise InputFaults for any other file."""
+    dataset = read_netcdf(path)
     try:
-        dataset = read_netcdf(path)
-        return map_of(dataset), _error(dataset)
-    except (OSError, KeyError, ValueError, TypeError) as reason:
+        data = map_of(dataset)
+        _expect_whole(data)
+        return data, _error(dataset)
+    except (ArithmeticError, AttributeError, LookupError, TypeError, ValueError) as reason:
         found = f"not a map of swashfilm ({type(reason).__name__}: {reason})"
         raise InputFaults(str(path), [Fault("map", found, f"the {MAP} of a run of `swashfilm map`")]) from None
+
+
+def _expect_whole(data: MapData) -> None:
+    """Raise ValueError for levels that do not rise, a number of another shape, and a solved point without results."""
+    for axis in data.axes:
+        levels = np.asarray(axis.values)
+        if not (levels.size and np.isfinite(levels).all() and (np.diff(levels) > 0.0).all()):
+            raise ValueError(f"the levels of {axis.input.value} do not rise")
+    known = {status.value for status in PartStatus}
+    if not known.issuperset(data.status.flat):
+        raise ValueError(f"a status that is none of {', '.join(sorted(known))}")
+    for name, values in data.values.items():
+        if values.shape != data.shape or values.dtype.kind != "f":
+            raise ValueError(f"{name} has no number at each point")
+        if np.isinf(values).any() or (name in _AT_EACH_POINT and np.isnan(values[data.solved]).any()):
+            raise ValueError(f"{name} is not finite at a solved point")
 
 
 def map_of(dataset: xarray.Dataset) -> MapData:
@@ -154,8 +174,8 @@ def map_of(dataset: xarray.Dataset) -> MapData:
     shape = tuple(len(axis.values) for axis in axes)
     warnings = [tuple(tuple(one) for one in json.loads(str(text))) for text in dataset["warnings"].values.flat]
     return MapData(
-        name=dataset.attrs["pump"],
-        words=dataset.attrs["solver"],
+        name=one_line(dataset.attrs["pump"]),
+        words=one_line(dataset.attrs["solver"]),
         bulk_modulus=float(dataset.attrs["bulk_modulus"]),
         axes=axes,
         values=dict(_columns(dataset, "")),

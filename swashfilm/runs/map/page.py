@@ -8,7 +8,7 @@ from itertools import groupby
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from swashfilm.output.page import keep_pictures, read_summary, write_page
+from swashfilm.output.page import keep_pictures, kept_text, read_summary, write_page
 from swashfilm.runs.map.answer import map_answer, overall_formula
 from swashfilm.runs.map.explorer import map_explorer
 from swashfilm.runs.map.files import MAP, read_map
@@ -61,7 +61,7 @@ def write_map_page(folder: Path) -> Path:
         failed=list(failure_rows(summary)),
         further=further_words(data),
         pictures=kept,
-        resolved=(folder / "resolved.toml").read_text("utf-8"),
+        resolved=kept_text(folder, "resolved.toml"),
     )
 
 

@@ -6,6 +6,7 @@ from typing import Any
 import numpy as np
 
 from reynolds.numerics.arrays import Array
+from swashfilm.formats.versions import headed
 from system.description.pump import PumpDescription
 from system.films.cycle import PLAIN
 from system.films.parts import floating_parts
@@ -28,8 +29,7 @@ def map_summary(
     outcomes = kept.outcomes[: len(plan.points)]
     solved = [outcome for outcome in outcomes if outcome.status is PartStatus.SOLVED]
     return {
-        "format": 1,
-        "kind": "map",
+        **headed("map"),
         "name": plan.pump.name,
         "solver": work.solver.words,
         "stated": dict(work.solver.stated),

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from gaps.standing.gap_film import GapFilm
-from swashfilm.output.data.files import columns_of, write_columns, write_netcdf
+from swashfilm.output.data.files import add_group, columns_of, write_columns
 from swashfilm.output.data.gap_names import kind_folder
 from system.films.oil_state import UNITS, oil_state
 from system.points.films import FilmsPoint
@@ -147,4 +147,4 @@ def write_unlike(folder: Path, films: FilmsPoint) -> None:
         place, data = kind_folder(kind.chambers), films_dataset(films, number)
         (folder / place).mkdir()
         write_gap_tables(folder / place, data)
-        write_netcdf(data, folder / RESULTS, place)
+        add_group(data, folder / RESULTS, place)

@@ -11,7 +11,7 @@ from gaps.films.physics import Effect
 from gaps.revolution.march import GapRevolution, Leg
 from swashfilm.case.gap.physics import PHYSICS_HEAD, effect_rows
 from swashfilm.console.fidelity import Fidelity
-from swashfilm.output.data.files import read_netcdf, write_netcdf
+from swashfilm.output.data.files import add_group, read_netcdf
 from swashfilm.output.data.gap_names import TITLES, kind_folder
 from swashfilm.output.page import inlined
 from swashfilm.output.run_folder import FAILED, write_json
@@ -191,7 +191,7 @@ def _chambers(kind: FloatingKind, place: str) -> ChamberKind:
 def _write_gap(folder: Path, path: Path, study: RevolutionStudy) -> None:
     """Write series, kept films and turns of one gap to folder/path and its group of results.nc."""
     data = revolution_dataset(study)
-    write_netcdf(data, folder / RESULTS, path.as_posix())
+    add_group(data, folder / RESULTS, path.as_posix())
     (folder / path.parent).mkdir(exist_ok=True)
     write_series(folder / f"{path}.csv", data)
     write_convergence(folder / f"{path}_convergence.csv", study)

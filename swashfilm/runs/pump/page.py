@@ -10,7 +10,7 @@ from swashfilm.console.fidelity import Fidelity
 from swashfilm.output.data.files import read_netcdf
 from swashfilm.output.data.gap_names import TITLES
 from swashfilm.output.figures import smaller
-from swashfilm.output.page import inlined, read_summary, write_page
+from swashfilm.output.page import inlined, kept_text, read_summary, write_page
 from swashfilm.output.refinement import refinement_head, refinement_rows
 from swashfilm.output.touch.explorer import Explorer
 from swashfilm.output.touch.picture import Picture
@@ -68,7 +68,7 @@ def write_pump_page(folder: Path) -> Path:
         solid=[(gap.replace("_", " "), png) for gap in GAPS if (png := _kept(folder / f"{gap}.png"))],
         pump=_kept(folder / PICTURE, pump_view(folder)),
         turning=TURNING if (folder / TURNING).is_file() else "",
-        resolved=(folder / "resolved.toml").read_text("utf-8"),
+        resolved=kept_text(folder, "resolved.toml"),
     )
 
 

@@ -174,7 +174,7 @@ def _run(
     def write(folder: Path) -> list[str]:
         _write_input(folder, case)
         arrays = data()
-        write_netcdf(arrays, folder / "results.nc")
+        write_netcdf(arrays, folder / "results.nc", "pump")
         write_tables(folder, arrays)
         write_pair_table(folder / "pairs.csv", point, summary)
         write_forces(folder, joints)

@@ -8,6 +8,7 @@ import numpy as np
 
 from gaps.standing.gap_film import GapFilm
 from swashfilm.console.fidelity import Fidelity
+from swashfilm.formats.versions import headed
 from swashfilm.output.data.gap_names import LARGEST_RIGID_PRESSURE, kind_folder
 from swashfilm.runs.pump.coefficients.edge_losses import loss_records
 from swashfilm.runs.pump.coefficients.flow import coefficient_records
@@ -31,8 +32,7 @@ def pump_summary(
     losses = paper_losses(point.bench)
     split = energy_split(point.bench, pump.oil.bulk_modulus)
     return {
-        "format": 1,
-        "kind": "pump",
+        **headed("pump"),
         "name": pump.name,
         "fidelity": (Fidelity.FIXED if films else Fidelity.LUMPED).value,
         "operating_point": _operating_point(point),

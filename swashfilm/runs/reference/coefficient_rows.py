@@ -6,6 +6,7 @@ from pathlib import Path
 import numpy as np
 
 from reynolds.numerics.arrays import Array
+from reynolds.numerics.files import append_whole, created, read_text
 from swashfilm.console.terminal import show
 from system.inputs.coefficients.film_passages import FilmLoss, FilmPassage
 from system.inputs.coefficients.flow_files import PORT_HEADS, SOURCE
@@ -59,16 +60,16 @@ def append_row(path: Path, case: Path, heads: Heads, values: Mapping[str, float]
     row = f"# case: {case.resolve()}\n{', '.join(cells)}\n"
     if not path.exists():
         ahead = f"# {SOURCE}: OpenFOAM, {case.resolve().name}\n# {PRESSURES}\n"
-        path.write_text(f"{ahead}{head}\n{row}", encoding="utf-8")
+        with created(path) as beside:
+            beside.write_text(f"{ahead}{head}\n{row}", encoding="utf-8")
     else:
         found = read_table(path, heads)
-        if head not in path.read_text("utf-8-sig").splitlines():
+        if head not in read_text(path).splitlines():
             raise InputFaults(str(path), [Fault("head", "other order or units", head)])
         if np.any(_alike(found.columns, {name: values[name] for name in key})):
             where = f"Re {values['reynolds']:.6g} of this passage"
             raise InputFaults(str(path), [Fault("row", where, "a row that the file does not have yet")])
-        with path.open("a", encoding="utf-8") as file:
-            file.write(row)
+        append_whole(path, row.encode())
     show(f"row in {path}")
 
 

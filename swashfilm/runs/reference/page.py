@@ -5,7 +5,7 @@ from pathlib import Path
 from typing import Any
 
 from swashfilm.output.answer import Answer
-from swashfilm.output.page import inlined, read_summary, write_page
+from swashfilm.output.page import inlined, kept_text, read_summary, write_page
 from swashfilm.runs.reference.answer import reference_tiles, reference_words
 from swashfilm.runs.reference.plots import coefficient_plot
 
@@ -31,9 +31,9 @@ def write_reference_page(folder: Path) -> Path:
         summary=summary,
         head=[HEAD[k] for k in told],
         rows=[[row[k] for k in told] for row in rows],
-        coefficients=(folder / summary["table"]).read_text("utf-8"),
+        coefficients=kept_text(folder, summary["table"]),
         pictures=[(inlined(coefficient_plot(summary)), COURSE), *((flow, FLOW) for flow in flows[1:])],
-        given=(folder / "input.toml").read_text("utf-8"),
+        given=kept_text(folder, "input.toml"),
     )
 
 

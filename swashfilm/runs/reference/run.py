@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from swashfilm.formats.versions import headed
 from swashfilm.output.figures import png_of
 from swashfilm.output.run_folder import write_json
 from swashfilm.runs.reference.case import FEWEST_CELLS, ReferenceCase, ReferenceKind
@@ -88,8 +89,7 @@ def _rows(case: ReferenceCase, solved: Sequence[SolvedPassage]) -> Iterator[dict
 def reference_summary(case: ReferenceCase, solved: Sequence[SolvedPassage]) -> dict[str, Any]:
     """Return all results: sizes, extra length, and rows over the Reynolds number of each passage."""
     return {
-        "format": 1,
-        "kind": "reference",
+        **headed("reference"),
         "name": case.name,
         "passage": case.kind.value,
         "holds_for": LIMITS[case.kind],

@@ -6,6 +6,7 @@ import argparse
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from reynolds.numerics.files import replaced
 from swashfilm.case.gap.switches import SWITCHES, add_floating_options
 from swashfilm.console.command import Command
 from swashfilm.console.inputs import COMMAND_LINE, option_value, whole
@@ -164,7 +165,8 @@ def _command(options: argparse.Namespace) -> str:
 
 def _write_page(path: Path, text: str) -> None:
     try:
-        path.write_text(text, encoding="utf-8")
+        with replaced(path) as beside:
+            beside.write_text(text, encoding="utf-8")
     except OSError as reason:
         raise InputFaults(COMMAND_LINE, [Fault("--page", f"{path}: {reason.strerror}", "a file to write")]) from None
 

@@ -1,6 +1,5 @@
 """Pages of a reproduction from the files of its run folder: report.html, and the same in Markdown."""
 
-import json
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from itertools import groupby
@@ -8,7 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from swashfilm.output.answer import Answer, Tile
-from swashfilm.output.page import inlined, kept_pictures, read_summary, write_page
+from swashfilm.output.page import inlined, kept_pictures, kept_text, read_kept, read_summary, write_page
 from swashfilm.runs.reproduce.files import CLAIMS
 from swashfilm.runs.reproduce.plots import verdict_bars
 from system.paper.judge import StatementVerdict
@@ -35,14 +34,12 @@ def write_reproduce_page(folder: Path) -> Path:
         pictures={
             figure["name"]: kept_pictures(folder, figure["name"]) for figure in summary["figures"] if figure["picture"]
         },
-        resolved=(folder / "resolved.toml").read_text("utf-8"),
+        resolved=kept_text(folder, "resolved.toml"),
     )
 
 
 def _read(folder: Path) -> tuple[Row, list[Row]]:
-    return read_summary(folder, FILES, "a reproduction's run folder"), json.loads((folder / CLAIMS).read_text("utf-8"))[
-        "claims"
-    ]
+    return read_summary(folder, FILES, "a reproduction's run folder"), read_kept(folder, CLAIMS)["claims"]
 
 
 def reproduce_answer(summary: Row, rows: Sequence[Row]) -> Answer:

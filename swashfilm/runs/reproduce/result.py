@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
+from swashfilm.output.page import read_kept
 from swashfilm.output.result import Result, plotted
 from swashfilm.output.tables import Table
 from swashfilm.runs.reproduce.files import CLAIMS
@@ -33,7 +33,7 @@ class Reproduction(Result):
     def opened(cls, folder: Path) -> Reproduction:
         """Return the reproduction of a run folder; raise InputFaults where one of its files is missing."""
         found = super().opened(folder)
-        found.claims = json.loads((folder / CLAIMS).read_text("utf-8"))["claims"]
+        found.claims = read_kept(folder, CLAIMS)["claims"]
         return found
 
     @property
@@ -46,7 +46,7 @@ class Reproduction(Result):
         """Return the rows of claims.json of a run folder, SI, over `row`."""
         import pandas
 
-        rows = json.loads((folder / CLAIMS).read_text("utf-8"))["claims"]
+        rows = read_kept(folder, CLAIMS)["claims"]
         return pandas.DataFrame([_plain(row) for row in rows]).rename_axis("row").to_xarray()
 
     def plot_verdicts(self) -> list[Axes]:

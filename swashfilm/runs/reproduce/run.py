@@ -12,6 +12,7 @@ from diagnosis.study.acceptance import checked_recording
 from reynolds.numerics.cache import cache_folder
 from swashfilm.console.fidelity import Fidelity
 from swashfilm.console.schemas import write_new
+from swashfilm.formats.versions import headed
 from swashfilm.runs.map.run import POINT_COST
 from swashfilm.runs.reproduce.files import claim_rows, figure_row, write_reproduction
 from system.bench.calibration.equation_21 import LOSS_CHANNELS
@@ -83,8 +84,7 @@ def run_reproduce(asked: ReproduceCase, executor: Executor, folder: Path, report
     results = _results(asked, means)
     write_new(folder / "resolved.toml", "pump", resolved_toml(asked.pump))
     summary = {
-        "format": 1,
-        "kind": "reproduction",
+        **headed("reproduction"),
         "pump": asked.pump.name,
         "about": about(asked.pump),
         "fidelity": asked.fidelity.value,

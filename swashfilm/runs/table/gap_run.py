@@ -12,6 +12,7 @@ from gaps.response import Axis, Measure, Output, Response
 from reynolds.numerics.arrays import Array
 from swashfilm.case.gap.instant import GapCase
 from swashfilm.case.gap.revolution import RevolutionCase
+from swashfilm.formats.versions import headed
 from swashfilm.output.headline import named
 from swashfilm.runs.film.revolution.solve import NO_RUBBING
 from swashfilm.runs.table.gap_case import FORMAT, GapTableCase
@@ -88,8 +89,7 @@ def run_gap_table(asked: GapTableCase, folder: Path, report: Report, *, workers:
     (folder / "input.toml").write_text(asked.study.text, encoding="utf-8")
     (folder / "resolved.toml").write_text(case.resolved, encoding="utf-8")
     summary = record | {
-        "format": 1,
-        "kind": "gap_table",
+        **headed("gap_table"),
         "name": asked.name,
         "condensed": _condensed(case, asked.axes),
         "outputs": [

@@ -6,7 +6,7 @@ from typing import Any
 
 from gaps.response import Measure
 from swashfilm.output.answer import Answer, Tile
-from swashfilm.output.page import inlined, read_summary, write_page
+from swashfilm.output.page import inlined, kept_text, read_summary, write_page
 from swashfilm.output.touch.picture import Picture
 from swashfilm.runs.table.plots import NEGLIGIBLE, table_plots, words_of
 from system.inputs.shown import quantity_text
@@ -38,7 +38,7 @@ def write_table_page(folder: Path) -> Path:
         meanings=[(words_of(row["name"]), row["meaning"]) for kind in KINDS for row in summary.get(kind, [])],
         failed=[(place_text(summary["axes"], one["at"]), one["reason"]) for one in summary["failed"]],
         pictures=pictures,
-        resolved=(folder / "resolved.toml").read_text("utf-8"),
+        resolved=kept_text(folder, "resolved.toml"),
     )
 
 

@@ -8,6 +8,7 @@ import numpy as np
 
 from gaps.response import ErrorRegion, Response
 from swashfilm.console.schemas import write_new
+from swashfilm.formats.versions import headed
 from swashfilm.output.data.files import Column, write_columns
 from swashfilm.output.headline import named
 from swashfilm.output.run_folder import write_json
@@ -57,8 +58,7 @@ def table_summary(table: ResponseTable) -> dict[str, Any]:
     held = dict(origin.held) | {"inlet_pressure": origin.inlet_pressure, "case_pressure": origin.case_pressure}
     rows = [row | {"unit": "1", "meaning": MEANINGS[row["name"]]} for row in record["outputs"]]
     return record | {
-        "format": 1,
-        "kind": "response_table",
+        **headed("response_table"),
         "name": origin.pump,
         "condensed": {
             "condensed from": f"{origin.source.value} fidelity",

@@ -16,6 +16,7 @@ from system.inputs.sections.reader import Reading, read_section
 from system.inputs.sections.writer import section_rows
 from system.inputs.toml_table import Table, fault_lines
 from system.inputs.units import TURN, Dimension, QuantityError, format_quantity, parse_quantity
+from system.inputs.versions import version_fault
 from system.multibody.kinematics import swash_angle
 from system.multibody.transient.solver import ControlPressure, TransientCase, Transition
 from system.pump.chamber_kinds import kinds
@@ -56,8 +57,8 @@ def load_transient(path: Path, values: Mapping[str, object] | None = None) -> St
     """Return the transient of a file with other `values` of dotted keys; raise InputFaults with every fault."""
     text, tables = read_set(path, values or {})
     top = Table("", tables, [])
-    if top.get("format") != FORMAT:
-        top.fault("format", repr(tables.get("format")), f"format = {FORMAT}")
+    if fault := version_fault("format", top.get("format"), FORMAT, "transient"):
+        top.faults.append(fault)
     table = top.table("transient", needed="with pump, end and control_pressure")
     pump = read_case_pump(top, table, path.parent) if table else None
     section = _section(table) if table else None

@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from reynolds.numerics.arrays import Array
+from swashfilm.formats.versions import headed
 from swashfilm.output.data.files import columns_of, write_columns
 from swashfilm.runs.pump.summary import effect_lists
 from swashfilm.runs.transient.stops import contact_summary, stop_contacts
@@ -80,8 +81,7 @@ def transient_summary(found: Transient, name: str, data: xarray.Dataset) -> dict
     angle, ratio = found.swash_angle, data["displacement_ratio"].values
     turn = 2.0 * np.pi / found.case.point.shaft_speed
     return {
-        "format": 1,
-        "kind": "transient",
+        **headed("transient"),
         "name": name,
         "pump": found.case.pump.name,
         "swash_angle": {

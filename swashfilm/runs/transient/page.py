@@ -8,7 +8,7 @@ import numpy as np
 
 from swashfilm.output.answer import Answer
 from swashfilm.output.data.files import read_netcdf
-from swashfilm.output.page import inlined, read_summary, write_page
+from swashfilm.output.page import inlined, kept_text, read_summary, write_page
 from swashfilm.runs.transient import plots as transient_plots
 from swashfilm.runs.transient.answer import transient_tiles, transient_words
 from swashfilm.runs.transient.stops import contact_rows
@@ -40,7 +40,7 @@ def write_transient_page(folder: Path) -> Path:
         turns=turn_rows(summary),
         checks=check_rows(summary),
         pictures={text: picture for text, picture in shown.items() if text != caption},
-        resolved=(folder / "resolved.toml").read_text("utf-8"),
+        resolved=kept_text(folder, "resolved.toml"),
     )
 
 

@@ -23,7 +23,7 @@ def solve_transient(stated: StatedTransient) -> TransientRun:
     def write(folder: Path) -> tuple[str, ...]:
         (folder / "input.toml").write_text(stated.text, encoding="utf-8")
         (folder / "resolved.toml").write_text(stated.resolved, encoding="utf-8")
-        write_netcdf(data, folder / "results.nc")
+        write_netcdf(data, folder / "results.nc", "transient")
         write_course(folder, data)
         write_json(folder / "summary.json", summary)
         write_transient_page(folder)

@@ -13,15 +13,16 @@ from swashfilm.console.fidelity import Fidelity
 from swashfilm.console.floating_options import alike_faults, floating_faults, floating_options
 from swashfilm.console.inputs import COMMAND_LINE, expect, given_text
 from swashfilm.console.settings import set_values
-from swashfilm.runs.map.command import stated_axes
+from swashfilm.runs.map.command import solving_faults, stated_axes
 from swashfilm.runs.map.duty.cycle_file import read_cycle
 from swashfilm.runs.map.run import POINT_COST, MapCase, kept_table
-from swashfilm.runs.variation.options import chosen_keys, needs_keys, word_faults
+from swashfilm.runs.variation.options import chosen_keys, needs_keys
 from system.description.keys import PumpKey, pump_keys
 from system.description.pump import PumpDescription
 from system.inputs.faults import Fault, InputFaults
 from system.maps.plan import MapAxis, MapInput, MapPlan, map_plan
 from system.maps.point import DirectSolver, LumpedSolver, MapSolver, TableSolver
+from system.points.floating_gaps import FloatingOptions
 from system.points.table.sources import Source, solver_of
 from system.pump_file.file import load_pump
 from system.variation.sites import Sites, cycle_sites, plan_sites
@@ -73,7 +74,7 @@ def varied_case(
 
     together: lumped points of a pump are solved at once, without its course over the turn.
     """
-    faults = [*word_faults(options), *more]
+    faults = [*solving_faults(options), *more]
     set_keys = set_values(options.set, faults)
     axes = stated_axes(options, faults)
     expect(options.pump, "pump", "film")
@@ -81,7 +82,7 @@ def varied_case(
         pump = load_pump(options.pump, set_keys)
     except InputFaults as reason:
         raise InputFaults(reason.source, [*faults, *reason.faults], reason.lines) from None
-    plan = map_plan(pump, axes if options.cycle is None else _cycle_axes(pump, axes, options.cycle))
+    plan = map_plan(pump, axes if options.cycle is None else cycle_axes(pump, axes, options.cycle))
     faults += [*plan.checked().faults, *alike_faults(pump), *of_pump(pump)]
     known = variable_keys(pump, options.fidelity == Fidelity.TABLE.value)
     stated = pump_keys(pump)
@@ -94,15 +95,16 @@ def varied_case(
         raise InputFaults(COMMAND_LINE, faults)
     fidelity = Fidelity(options.fidelity)
     at_once = together and fidelity is Fidelity.LUMPED and solves_together(pump)
-    solver = TogetherSolver() if at_once else _solver(options, plan, fidelity)
-    work = VariedWork(pump, solver, _sites(plan, options.cycle))
+    floating = floating_options(options, pump)
+    solver = TogetherSolver() if at_once else varied_solver(plan, fidelity, floating, options.table)
+    work = VariedWork(pump, solver, varied_sites(plan, options.cycle))
     fixed = tuple(path for path in stated if path not in known)
     return VariedCase(
         work, keys, fixed, fidelity, plan, given_text(options.pump, set_keys), options.cycle, options.resume
     )
 
 
-def _cycle_axes(pump: PumpDescription, axes: Sequence[MapAxis], cycle: Path) -> list[MapAxis]:
+def cycle_axes(pump: PumpDescription, axes: Sequence[MapAxis], cycle: Path) -> list[MapAxis]:
     """Return the stated axes, and levels over the range of the cycle for the others that it varies."""
     stated = {axis.input for axis in axes}
     inputs = read_cycle(cycle, map_plan(pump, ()).axes).inputs
@@ -116,14 +118,15 @@ def _over(given: MapInput, values: np.ndarray) -> MapAxis:
     return MapAxis(given, tuple(map(float, np.linspace(least, most, CYCLE_LEVELS.get(given, 4)))))
 
 
-def _sites(plan: MapPlan, cycle: Path | None) -> Sites:
+def varied_sites(plan: MapPlan, cycle: Path | None) -> Sites:
+    """Return the points of a plan, with equal weights or those of a duty cycle; raise InputFaults as `read_cycle`."""
     return plan_sites(plan) if cycle is None else cycle_sites(plan, read_cycle(cycle, plan.axes))
 
 
-def _solver(options: argparse.Namespace, plan: MapPlan, fidelity: Fidelity) -> MapSolver:
+def varied_solver(plan: MapPlan, fidelity: Fidelity, floating: FloatingOptions, table: Path | None) -> MapSolver:
+    """Return the solver of a fidelity; floating: options of floating gaps; table: file of the fidelity table."""
     if fidelity is Fidelity.LUMPED:
         return LumpedSolver()
-    floating = floating_options(options, plan.pump)
     if fidelity is Fidelity.TABLE:
-        return TableSolver(kept_table(MapCase(plan, fidelity, table=options.table)))
+        return TableSolver(kept_table(MapCase(plan, fidelity, table=table)))
     return DirectSolver(solver_of(Source(fidelity.value), floating), POINT_COST[fidelity])

@@ -11,13 +11,13 @@ from typing import TYPE_CHECKING
 
 from swashfilm.case.gap.switches import add_floating_options
 from swashfilm.console.fidelity import Fidelity
-from swashfilm.console.inputs import option_value
 from swashfilm.console.settings import add_set_option
-from swashfilm.runs.map.command import FIDELITIES, LEVELS, PLANS, SOLVED, resume_faults
-from system.inputs.faults import Fault, nearest_choice
+from swashfilm.runs.map.command import FIDELITIES, LEVELS, PLANS, SOLVED
+from system.inputs.faults import Fault
 
 if TYPE_CHECKING:
     from system.description.keys import PumpKey
+    from system.variation.measures import Measure
     from system.work.tasks import Executor
 
 
@@ -49,21 +49,6 @@ def add_varied_options(command: argparse.ArgumentParser) -> None:
     command.add_argument("--resume", type=Path, metavar="DIR", help="run folder with solved pumps of this run")
 
 
-def word_faults(options: argparse.Namespace) -> Iterator[Fault]:
-    """Yield the faults of words that do not depend on the pump."""
-    names = [fidelity.value for fidelity in FIDELITIES]
-    for option, known in (("--plan", PLANS), ("--fidelity", names)):
-        word = option_value(options, option)
-        if word not in known:
-            yield Fault(option, repr(word), f"one of {', '.join(known)}", nearest_choice(word, known))
-    if options.workers is not None and not (options.workers.isdecimal() and 1 <= int(options.workers) <= 256):
-        yield Fault("--workers", repr(options.workers), "a number, 1 to 256")
-    if options.table and options.fidelity != Fidelity.TABLE.value:
-        yield Fault("--table", f"beside --fidelity {options.fidelity}", "no table, or --fidelity table")
-    if options.resume is not None:
-        yield from resume_faults(options.resume)
-
-
 def chosen_keys(
     options: argparse.Namespace, known: Mapping[str, PumpKey], stated: Mapping[str, PumpKey], faults: list[Fault]
 ) -> dict[str, PumpKey]:
@@ -92,9 +77,12 @@ def needs_keys(options: argparse.Namespace) -> bool:
     return options.fidelity == Fidelity.FLOATING.value and options.keys is None
 
 
-def solves_films(fidelity: Fidelity) -> bool:
-    """True for a fidelity that knows films."""
-    return fidelity is not Fidelity.LUMPED
+def known_measures(fidelity: Fidelity, *, together: bool = False) -> tuple[Measure, ...]:
+    """Return the measures that a fidelity knows; together: all points of a pump are solved at once."""
+    from system.variation.measures import Needs, measures_of
+
+    lumped = Needs.PRESSURE if together else Needs.COURSE
+    return measures_of({Fidelity.LUMPED: lumped, Fidelity.TABLE: Needs.FILMS}.get(fidelity, Needs.LOADS))
 
 
 def costly(fidelity: Fidelity) -> bool:

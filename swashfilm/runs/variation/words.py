@@ -1,4 +1,4 @@
-"""Words of both commands on varied pumps: where the pump is solved, and changes as people read them."""
+"""Words of the commands on varied pumps: where the pump is solved, and changes as people read them."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ import numpy as np
 from swashfilm.runs.variation.case import VariedCase
 from system.description.keys import PumpKey
 from system.inputs.shown import quantity_text
-from system.inputs.units import Dimension
+from system.inputs.units import Dimension, in_unit, reading_unit
 from system.maps.plan import MapInput, point_words
 from system.variation.sensitivity import one_of, unit_change
 
@@ -58,3 +58,15 @@ def size_text(key: PumpKey, size: float) -> str:
     if key.dimension is Dimension.ANGLE:
         return f"{np.degrees(size):.3g} deg"
     return quantity_text(size, key.dimension, digits=3)
+
+
+def key_unit(key: PumpKey) -> tuple[str, float]:
+    """Return the unit that people read a dimension in, and its factor on SI; a temperature in K."""
+    if key.dimension is None:
+        return "1", 1.0
+    if key.dimension is Dimension.TEMPERATURE:
+        return "K", 1.0
+    if key.dimension is Dimension.ANGLE:
+        return "deg", 180.0 / np.pi
+    unit = reading_unit(key.value, key.dimension)
+    return unit, in_unit(1.0, unit, key.dimension)

@@ -1,4 +1,4 @@
-"""The flow through two patches of an OpenFOAM case, read with pyvista: a flow coefficient at a Reynolds number.
+"""The flow through two patches of an OpenFOAM case: a flow coefficient at a Reynolds number.
 
 Incompressible cases have a kinematic pressure p/rho in m2/s2; the `dimensions` of a file `p` say which it holds.
 """
@@ -6,15 +6,18 @@ Incompressible cases have a kinematic pressure p/rho in m2/s2; the `dimensions` 
 from __future__ import annotations
 
 import re
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
+from reynolds.numerics.files import LARGEST_DATA, is_file, read_bounded
+from system.inputs.coefficients.openfoam_patches import read_patches
 from system.inputs.faults import Fault, InputFaults, nearest_choice, nearest_path
 
 _DIMENSIONS = re.compile(r"^\s*dimensions\s*\[([^\]]*)\]", re.MULTILINE)
+_WHOLE = re.compile(r"[+-]?\d{1,2}")
 KINEMATIC, PRESSURE = (0.0, 2.0, -2.0), (1.0, -1.0, -2.0)
 """Powers of kg, m and s in the dimensions of p."""
 IMBALANCE = 0.01
@@ -49,50 +52,39 @@ def read_case_flow(case: Path, inlet: str, outlet: str, density: float) -> CaseF
     dimensions, a flow that runs the other way, differs by more than IMBALANCE or does not fall in pressure.
     """
     control = case / "system" / "controlDict"
-    if not control.is_file():
+    if not is_file(control):
         fault = Fault("case", f"no {control}", "the folder of an OpenFOAM case", nearest_path(control))
         raise InputFaults(str(case), [fault])
-    time, boundary = _last_boundary(control)
+    read = read_patches(case, inlet, outlet)
     faults = [
-        Fault("patch", f"'{name}'", f"one of {', '.join(boundary.keys())}", nearest_choice(name, boundary.keys()))
+        Fault("patch", f"'{name}'", f"one of {', '.join(read.names)}", nearest_choice(name, read.names))
         for name in (inlet, outlet)
-        if name not in boundary.keys()  # noqa: SIM118 (a pyvista MultiBlock looks its names up in keys alone)
+        if name not in read.names
     ]
-    faults += [] if faults else _field_faults(case, boundary[inlet])
+    faults += [] if faults else _field_faults(case, read.fields)
     if faults:
         raise InputFaults(str(case), faults)
-    scale = density if _pressure_powers(case, time) == KINEMATIC else 1.0
-    (inflow, before), (outflow, behind) = (_through(boundary[name]) for name in (inlet, outlet))
-    found = CaseFlow(time, -inflow, scale * (before - behind), (outflow + inflow) / max(abs(inflow), 1e-300))
+    scale = density if _pressure_powers(case, read.time) == KINEMATIC else 1.0
+    (inflow, before), (outflow, behind) = read.through
+    found = CaseFlow(read.time, -inflow, scale * (before - behind), (outflow + inflow) / max(abs(inflow), 1e-300))
     return _held(case, found)
 
 
-def _last_boundary(control: Path) -> tuple[float, Any]:
-    """The last time of a case, and its patches then."""
-    import pyvista
-
-    reader = pyvista.OpenFOAMReader(str(control))
-    time = float(reader.time_values[-1])
-    reader.set_active_time_value(time)
-    reader.cell_to_point_creation = False
-    reader.enable_all_patch_arrays()
-    return time, reader.read()["boundary"]
-
-
-def _field_faults(case: Path, patch: Any) -> list[Fault]:
+def _field_faults(case: Path, fields: Sequence[str]) -> list[Fault]:
     """Fields that are not there."""
     return [
         Fault(f"field {name}", "no such field at the last time", "U and p", f"run the solver in {case}")
         for name in ("U", "p")
-        if name not in patch.cell_data
+        if name not in fields
     ]
 
 
 def _pressure_powers(case: Path, time: float) -> tuple[float, ...]:
     """Powers of kg, m and s in p; raises InputFaults for those of neither pressure."""
-    places = [place / "p" for place in case.iterdir() if _is_time(place.name, time) and (place / "p").is_file()]
-    found = _DIMENSIONS.search(places[0].read_text("latin-1")) if places else None
-    powers = tuple(float(word) for word in found[1].split()[:3]) if found else ()
+    places = [place / "p" for place in case.iterdir() if _is_time(place.name, time) and is_file(place / "p")]
+    text = read_bounded(places[0], LARGEST_DATA).decode("latin-1") if places else ""
+    found = _DIMENSIONS.search(text)
+    powers = tuple(float(word) for word in found[1].split()[:3] if _WHOLE.fullmatch(word)) if found else ()
     if powers not in (KINEMATIC, PRESSURE):
         stated = found[1].strip() if found else "no dimensions"
         fault = Fault("field p", f"dimensions [{stated}]", "[0 2 -2 ..] (kinematic) or [1 -1 -2 ..]")
@@ -105,15 +97,6 @@ def _is_time(name: str, time: float) -> bool:
         return abs(float(name) - time) <= 1e-9 * max(abs(time), 1.0)
     except ValueError:
         return False
-
-
-def _through(patch: Any) -> tuple[float, float]:
-    """Volume flow out through a patch (m3/s; faces of a boundary look outward), and its mean p."""
-    sized = patch.compute_cell_sizes(length=False, volume=False)
-    area = np.asarray(sized.cell_data["Area"])
-    normals = np.asarray(patch.extract_surface().face_normals)
-    out = np.einsum("ij,ij->i", np.asarray(patch.cell_data["U"]), normals)
-    return float(out @ area), float(np.asarray(patch.cell_data["p"]) @ area / area.sum())
 
 
 def _held(case: Path, found: CaseFlow) -> CaseFlow:

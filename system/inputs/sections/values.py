@@ -11,11 +11,13 @@ from enum import Enum
 from pathlib import Path
 from typing import Any
 
-from system.inputs.faults import nearest_choice, nearest_path
+from reynolds.numerics.files import is_file
+from system.inputs.faults import nearest_choice, nearest_path, printable
 from system.inputs.sections.fields import FieldType, Points, Section, Text, fields_of
 from system.inputs.sections.point_files import read_rows, wanted_file
 from system.inputs.toml_table import quoted
 from system.inputs.units import Dimension, QuantityError, format_quantity, parse_quantity, unit_scale, with_point
+from system.inputs.versions import LATER
 
 PURE_UNITS = {"1": 1.0, "%": 0.01}
 """Units of a pure number, with their factors."""
@@ -46,8 +48,8 @@ def read_value(field: FieldType, raw: object, folder: Path = HERE) -> object:
         raise QuantityError(repr(raw), wanted(field), with_point(raw) if isinstance(raw, str) else "")
     if not math.isfinite(raw) or (field.whole and raw != int(raw)):
         raise QuantityError(str(raw), wanted(field))
-    if field.format is not None and raw != field.format.number:
-        raise QuantityError(str(raw), wanted(field))
+    if field.format is not None and not 1 <= raw <= field.format.number:
+        raise QuantityError(str(raw), wanted(field), LATER if raw > field.format.number else "")
     return int(raw) if field.whole else float(raw)
 
 
@@ -218,14 +220,16 @@ def _text(raw: object, text: Text, folder: Path) -> Path | str | tuple[str, ...]
     may_be_empty = text is Text.WORDS
     if not (isinstance(names, list) and names and all(isinstance(one, str) and (one or may_be_empty) for one in names)):
         raise QuantityError(repr(raw), text.value)
+    if unfit := next((one for one in names if printable(one) != one), None):
+        raise QuantityError(repr(unfit), f"{text.value}, without control signs")
     if text is Text.NAMES:
         return tuple(names)
     if text is not Text.FILE:
         return str(raw)
-    path = (folder / str(raw)).resolve()
-    if not path.is_file():
+    path = folder / str(raw)
+    if not is_file(path):
         raise QuantityError(f"'{path}', which is no file", text.value, nearest_path(path))
-    return path
+    return path.resolve()
 
 
 def names_of(choices: Iterable[Enum]) -> str:

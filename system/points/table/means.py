@@ -25,6 +25,8 @@ from system.pump.operating import OperatingPoint, flat
 
 TABLE_FORMAT = 4
 """Raised when solved points give other numbers in a table: by what is kept of them, or by the laws behind it."""
+OLDEST_TABLE = 4
+"""No release wrote earlier formats."""
 GAP_PAIRS = {
     "piston": Pair.PISTON_CYLINDER,
     "slipper": Pair.SLIPPER_SWASH_PLATE,
@@ -77,12 +79,15 @@ class SolvedPoint:
     """A point as a costly fidelity solves it, with its films.
 
     In m: mean over area and turn, least anywhere in the turn; K: the hottest oil in the turn, above the case.
+    load_carried: one less the largest load over the turn that the film leaves to others, of the turn's largest load:
+    at a given position to anything, of a floating part to contact; None where no film was solved.
     """
 
     pump_point: PumpPoint
     film_mean: Gaps
     film_least: Gaps
     film_rise: Gaps
+    load_carried: Gaps | None = None
 
 
 @dataclass(frozen=True)

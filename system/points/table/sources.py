@@ -9,6 +9,7 @@ from typing import Any, Protocol
 
 import numpy as np
 
+from gaps.revolution.course import GapInstant
 from gaps.revolution.march import GapRevolution
 from gaps.standing.gap_film import GapFilm
 from reynolds.errors import NotConverged
@@ -78,7 +79,8 @@ class FilmsSolver:
             _oil_temperature(pump, films) - point.temperature if own.heat else 0.0
             for own, films in zip((physics.piston, physics.slipper, physics.valve_plate), series, strict=True)
         )
-        return SolvedPoint(found.pump_point, Gaps(*mean), Gaps(*least), Gaps(*rise))
+        carried = (_carried(films) for films in series)
+        return SolvedPoint(found.pump_point, Gaps(*mean), Gaps(*least), Gaps(*rise), Gaps(*carried))
 
     def row(self) -> FilmsSolver:
         """The same: given positions need no start."""
@@ -156,7 +158,20 @@ def solved_means(found: FloatingPoint) -> SolvedPoint:
     mean = (gap.mean_film for gap in gaps)
     least = (min(instant.least_gap for instant in gap.turn.instants) for gap in gaps)
     rise = (_hottest(gap, point) - point.temperature for gap in gaps)
-    return SolvedPoint(found.pump_point, Gaps(*mean), Gaps(*least), Gaps(*rise))
+    carried = (_by_film(gap.turn.instants) for gap in gaps)
+    return SolvedPoint(found.pump_point, Gaps(*mean), Gaps(*least), Gaps(*rise), Gaps(*carried))
+
+
+def _carried(films: Sequence[GapFilm[Any]]) -> float:
+    """One less the largest load that a film leaves to others, of the largest load of the turn."""
+    left = max(film.required_load - film.carried_load for film in films)
+    return 1.0 - left / max(film.required_load for film in films)
+
+
+def _by_film(instants: Sequence[GapInstant[Any]]) -> float:
+    """One less the largest contact force, of the largest force that presses the part against film and contact."""
+    contact = max(float(np.sum(np.abs(one.contact_force))) for one in instants)
+    return 1.0 - contact / max(float(np.sum(np.abs(one.outer_force))) for one in instants)
 
 
 def _oil_temperature(pump: PumpDescription, films: Sequence[GapFilm[Any]]) -> float:

@@ -10,10 +10,13 @@ import numpy as np
 
 from gaps.response import Axis, HeldOutError, Measure, Output, Response, Samples, Spacing
 from reynolds.numerics.cache import content_key
+from reynolds.numerics.files import read_json, replaced
+from reynolds.numerics.npz import read_npz, write_npz
 from system.description.pump import PumpDescription
 from system.inputs.faults import Fault, InputFaults, nearest_path
 from system.inputs.units import Dimension
-from system.points.table.means import MEANINGS, TABLE_FORMAT
+from system.inputs.versions import version_fault
+from system.points.table.means import MEANINGS, OLDEST_TABLE, TABLE_FORMAT
 from system.points.table.pump_numbers import NUMBERS, NumbersError
 from system.points.table.response_table import DIMENSIONS, Failed, ResponseTable, TableOrigin, box_text, point_text
 from system.points.table.sources import Source, films_alone
@@ -42,42 +45,54 @@ def keep_table(table: ResponseTable, place: Path) -> None:
 def write_response(place: Path, response: Response, record: Mapping[str, Any]) -> None:
     """Write `place`.npz, the points of a response with values, and `place`.json, the record of the response."""
     place.parent.mkdir(parents=True, exist_ok=True)
-    np.savez(
-        place.with_suffix(".npz"),
-        learnt_points=response.learnt.points,
-        learnt_values=response.learnt.values,
-        held_out_points=response.held_out.points,
-        held_out_values=response.held_out.values,
-    )
-    place.with_suffix(".json").write_text(json.dumps(record, indent=2) + "\n", encoding="utf-8")
+    arrays = {
+        "learnt_points": response.learnt.points,
+        "learnt_values": response.learnt.values,
+        "held_out_points": response.held_out.points,
+        "held_out_values": response.held_out.values,
+    }
+    write_npz(place.with_suffix(".npz"), arrays)
+    with replaced(place.with_suffix(".json")) as beside:
+        beside.write_text(json.dumps(record, indent=2) + "\n", encoding="utf-8")
 
 
 Read = TypeVar("Read")
 
 
-def read_response(path: Path, table_format: int, made: Callable[[Mapping[str, Any], Response], Read]) -> Read:
+def read_response(
+    path: Path, newest: int, made: Callable[[Mapping[str, Any], Response], Read], oldest: int = 1
+) -> Read:
     """Result of `made` for the record and response written by `write_response`, from its .json or .npz.
 
-    Raises InputFaults where there is none, or of another format.
+    Raises InputFaults where there is none, or of a format that is not one of `oldest` to `newest`.
     """
     try:
-        record = json.loads(path.with_suffix(".json").read_text("utf-8"))
-        if record["table_format"] != table_format:
-            found = f"format {record['table_format']} of {path.with_suffix('.json')}"
-            raise InputFaults("response table", [Fault("table_format", found, str(table_format), "build it anew")])
-        with np.load(path.with_suffix(".npz"), allow_pickle=False) as arrays:
-            learnt = Samples(arrays["learnt_points"], arrays["learnt_values"])
-            held_out = Samples(arrays["held_out_points"], arrays["held_out_values"])
-        return made(record, Response(_axes(record), _outputs(record), learnt, held_out))
-    except (OSError, ValueError, KeyError, TypeError) as reason:
+        record = read_json(path.with_suffix(".json"))
+        version = record["table_format"]
+        if fault := version_fault("table_format", version, newest, "response table", oldest):
+            raise InputFaults(str(path.with_suffix(".json")), [fault])
+        arrays = read_npz(path.with_suffix(".npz"))
+        learnt = Samples(arrays["learnt_points"], arrays["learnt_values"])
+        held_out = Samples(arrays["held_out_points"], arrays["held_out_values"])
+        return made(record, _response(_axes(record), _outputs(record), learnt, held_out))
+    except (ArithmeticError, AttributeError, LookupError, OSError, TypeError, ValueError) as reason:
         expected = "the .json and .npz that `swashfilm table` wrote, side by side"
         near = nearest_path(path.with_suffix(".json"))
         raise InputFaults("response table", [Fault(str(path), repr(reason), expected, near)]) from None
 
 
+def _response(axes: tuple[Axis, ...], outputs: tuple[Output, ...], learnt: Samples, held_out: Samples) -> Response:
+    """The response; raises ValueError for points or values of another shape than inputs and outputs."""
+    for samples in (learnt, held_out):
+        count = len(samples.points)
+        if not count or samples.points.shape != (count, len(axes)) or samples.values.shape != (count, len(outputs)):
+            raise ValueError(f"points of {samples.points.shape} with values of {samples.values.shape}")
+    return Response(axes, outputs, learnt, held_out)
+
+
 def read_table(path: Path) -> ResponseTable:
     """The table that `keep_table` wrote, by its .json or .npz; raises InputFaults for any other file."""
-    return read_response(path, TABLE_FORMAT, _pump_table)
+    return read_response(path, TABLE_FORMAT, _pump_table, OLDEST_TABLE)
 
 
 def _pump_table(record: Mapping[str, Any], response: Response) -> ResponseTable:
@@ -89,7 +104,7 @@ def _pump_table(record: Mapping[str, Any], response: Response) -> ResponseTable:
 def _numbers(rows: Sequence[Mapping[str, Any]], response: Response) -> NumbersError:
     if [row["name"] for row in rows] != list(NUMBERS):
         raise ValueError(f"numbers {', '.join(row['name'] for row in rows)}")
-    rms, largest = (np.array([row[key] for row in rows]) for key in ("held_out_rms", "held_out_largest"))
+    rms, largest = (np.array([_number(row[key]) for row in rows]) for key in ("held_out_rms", "held_out_largest"))
     points = response.held_out.points.tolist()
     worst = np.array([points.index(row["held_out_worst_at"]) for row in rows])
     return NumbersError(tuple(Measure(row["measure"]) for row in rows), HeldOutError(rms, largest, worst))
@@ -184,17 +199,48 @@ def response_record(response: Response, dimensions: Mapping[str, Dimension]) -> 
 
 
 def _origin(record: Mapping[str, Any]) -> TableOrigin:
-    plain = ("pump", "pump_key", "stated", "package", "inlet_pressure", "case_pressure", "held", "seconds")
-    failed = tuple(Failed(tuple(one["at"]), one["reason"]) for one in record["failed"])
-    return TableOrigin(source=Source(record["source"]), failed=failed, **{key: record[key] for key in plain})
+    return TableOrigin(
+        pump=_text(record["pump"]),
+        pump_key=_text(record["pump_key"]),
+        source=Source(record["source"]),
+        stated={name: _text(value) for name, value in record["stated"].items()},
+        package=_text(record["package"]),
+        inlet_pressure=_number(record["inlet_pressure"]),
+        case_pressure=_number(record["case_pressure"]),
+        held={name: _number(value) for name, value in record["held"].items()},
+        failed=tuple(Failed(tuple(map(_number, one["at"])), _text(one["reason"])) for one in record["failed"]),
+        seconds=_number(record["seconds"]),
+    )
+
+
+def _number(value: object) -> float:
+    """A number of a record; raises TypeError for anything else."""
+    if isinstance(value, bool) or not isinstance(value, (int, float)):
+        raise TypeError(f"{value!r} in place of a number")
+    return float(value)
+
+
+def _text(value: object) -> str:
+    """A text of a record; raises TypeError for anything else."""
+    if not isinstance(value, str):
+        raise TypeError(f"{value!r} in place of a text")
+    return value
 
 
 def _axes(record: Mapping[str, Any]) -> tuple[Axis, ...]:
-    return tuple(Axis(row["name"], row["lower"], row["upper"], Spacing(row["spacing"])) for row in record["axes"])
+    return tuple(
+        Axis(_text(row["name"]), _number(row["lower"]), _number(row["upper"]), Spacing(row["spacing"]))
+        for row in record["axes"]
+    )
 
 
 def _outputs(record: Mapping[str, Any]) -> tuple[Output, ...]:
     return tuple(
-        Output(row["name"], Measure(row["measure"]), row["least"], tuple(map(tuple, row.get("powers", ()))))
+        Output(
+            _text(row["name"]),
+            Measure(row["measure"]),
+            _number(row["least"]),
+            tuple((_text(name), _number(power)) for name, power in row.get("powers", ())),
+        )
         for row in record["outputs"]
     )

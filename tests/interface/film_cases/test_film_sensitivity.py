@@ -103,6 +103,12 @@ def test_fields_and_page_of_the_run_folder(case, tmp_path):
     assert "sensitivity_load [(N)/m3]" in (folder / "fields.csv").read_text("utf-8")
 
 
+def test_finer_meshes_beside_derivatives(case):
+    found = sf.film(case(SLIDER), sensitivity="load", refine=3)
+    assert set(found.summary["sensitivity"]["outputs"]) == {"load_N"}
+    assert "load_N" in found.summary["refinement"]["numbers"]
+
+
 def test_python_gives_tables_and_pictures(case):
     run = sf.film(case(SLIDER), sensitivity=["load"])
     assert any(title.startswith("Sensitivity") for title, _ in run.tables())

@@ -92,6 +92,20 @@ def test_a_map_by_a_cluster_has_the_same_numbers(local_cluster, tmp_path):
     assert (tmp_path / "here" / "map.csv").read_text() == (tmp_path / "there" / "map.csv").read_text()
 
 
+@pytest.mark.slow
+def test_an_optimisation_by_a_cluster_tries_the_same_designs(local_cluster, tmp_path):
+    case = tmp_path / "case.toml"
+    case.write_text(
+        'format = 1\n[optimise]\npump = "ref90"\ndesigns = 8\ngenerations = 2\n'
+        '[vary]\n"ports.groove_area" = "2..6 mm2"\n'
+        '[objectives]\nloss = "least"\nchamber_pressure_peak = "least"\n'
+    )
+    words = ["optimise", str(case)]
+    assert main([*words, "--workers", "1", "-o", str(tmp_path / "here")]) == 0
+    assert main([*words, "--cluster", local_cluster, "-o", str(tmp_path / "there")]) == 0
+    assert (tmp_path / "here" / "designs.csv").read_text() == (tmp_path / "there" / "designs.csv").read_text()
+
+
 def test_nothing_else_needs_dask():
     code = (
         "import sys, swashfilm.runs.map.run, system.work.cluster; "

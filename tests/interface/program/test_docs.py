@@ -31,8 +31,7 @@ from system.pump_file.schema import section_models
 
 ROOT = Path(__file__).parents[3]
 PAGES = [
-    ROOT / "README.md",
-    ROOT / "CHANGELOG.md",
+    *sorted(ROOT.glob("*.md")),
     ROOT / "examples" / "README.md",
     ROOT / "meshes" / "README.md",
     *sorted((ROOT / "docs").glob("*.md")),

@@ -13,14 +13,14 @@ def test_two_runs_into_one_folder_keep_both(tmp_path):
     def two_runs() -> None:
         with run_folder("one", wanted) as first:
             places.append(first)
-            (first / "summary.json").write_text("first")
+            (first / "numbers.txt").write_text("first")
             with run_folder("two", wanted) as second:
-                (second / "summary.json").write_text("second")
+                (second / "numbers.txt").write_text("second")
 
     with pytest.raises(InputFaults, match="another run has filled") as told:
         two_runs()
-    assert (wanted / "summary.json").read_text() == "second"
-    assert (places[0] / "summary.json").read_text() == "first"
+    assert (wanted / "numbers.txt").read_text() == "second"
+    assert (places[0] / "numbers.txt").read_text() == "first"
     assert str(places[0]) in told.value.faults[0].nearest
 
 
@@ -28,5 +28,5 @@ def test_an_empty_folder_is_taken(tmp_path):
     wanted = tmp_path / "mine"
     wanted.mkdir()
     with run_folder("one", wanted) as folder:
-        (folder / "summary.json").write_text("{}")
+        (folder / "numbers.txt").write_text("{}")
     assert [path.name for path in tmp_path.iterdir()] == ["mine"]

@@ -18,6 +18,7 @@ from system.inputs.sections.fields import fields_of
 ROOT = Path(__file__).parents[3]
 FILES = {
     "case": [*ROOT.glob("examples/films/*.toml")],
+    "optimise": [*ROOT.glob("examples/optimisations/*.toml")],
     "pump": [*ROOT.glob("system/description/pumps/*.toml"), *ROOT.glob("examples/pumps/*.toml")],
     "recording": [*ROOT.glob("examples/recordings/*/recording.toml")],
     "reference": [*ROOT.glob("examples/references/*.toml")],

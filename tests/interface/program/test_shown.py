@@ -113,7 +113,7 @@ def test_every_variable_of_a_netcdf_file_has_a_unit_and_a_name(tmp_path):
         {"film_pressure": ("vertex", [1.0, 2.0], {"units": "Pa"}), "cells": (("cell", "corner"), [[0, 1]])},
         coords={"x": ("vertex", [0.0, 1.0], {"units": "m", "long_name": "along the slide"})},
     )
-    write_netcdf(data, tmp_path / "results.nc")
+    write_netcdf(data, tmp_path / "results.nc", "film")
     with xarray.open_dataset(tmp_path / "results.nc", engine="h5netcdf") as found:
         assert found["film_pressure"].attrs == {"units": "Pa", "long_name": "film pressure"}
         assert found["x"].attrs == {"units": "m", "long_name": "along the slide"}

@@ -9,9 +9,9 @@ from stand_in_films import ThinningFilms
 
 import swashfilm as sf
 from swashfilm.__main__ import main
-from swashfilm.runs.variation.tolerance.limits import limit_of
+from swashfilm.runs.variation.limits import limit_of
 from system.points.table import sources
-from system.variation.measures import measures_of
+from system.variation.measures import Needs, measures_of
 from system.variation.scatter import Bound
 
 KEYS = "slipper.film_thickness,ports.groove_start,oil.bulk_modulus,bearings.front_share,friction.*"
@@ -200,7 +200,7 @@ def test_a_pump_without_tolerances(tmp_path, capsys):
 )
 def test_limits_as_text(text, name, bound, value):
     faults = []
-    found = limit_of(text, measures_of(films=True), faults)
+    found = limit_of(text, measures_of(Needs.FILMS), faults)
     assert not faults
     assert (found.measure.name, found.bound, found.value) == (name, bound, pytest.approx(value))
 

@@ -238,6 +238,7 @@ def test_a_folder_is_no_file(tmp_path):
         ("piston.engaged_length", 'engaged_length = "26 mm"', "more than the stroke"),
         ("pump.bore_cone_angle", 'bore_cone_angle = "74 deg"', "cuts every bore axis"),
         ("ports.groove_end", 'groove_end = "-6 deg"', "more than groove_start, -5 deg"),
+        ("ports.groove_end", 'groove_end = "-5 deg"', "more than groove_start, -5 deg"),
         ("ports.kidney_full_end", 'kidney_full_end = "39 deg"', "more than kidney_full_start, 40 deg"),
         ("ports.kidney_end", 'kidney_end = "176 deg"', "less than 175 deg"),
         ("ports.groove_area", 'groove_area = "160 mm2"', "less than kidney_area, 152 mm2"),

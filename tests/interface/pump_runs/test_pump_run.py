@@ -136,7 +136,7 @@ def test_report_is_made_anew_from_the_folder(lumped):
 
 
 def test_a_folder_that_is_not_whole_is_bad_input(lumped, tmp_path, capsys):
-    for name, text in (("summary.json", '{"kind": "pump"}'), ("results.nc", "cut off")):
+    for name, text in (("summary.json", '{"format": 1, "kind": "pump"}'), ("results.nc", "cut off")):
         broken = shutil.copytree(lumped, tmp_path / name)
         (broken / name).write_text(text, "utf-8")
         assert main(["report", str(broken)]) == 2

@@ -9,7 +9,7 @@ from gaps.films.reports import Active
 from swashfilm.output.answer import Tile
 from swashfilm.output.data.gap_names import TITLES
 from swashfilm.output.refinement import bar_text
-from swashfilm.runs.film.answer import LEAST_SHARE, amount
+from swashfilm.runs.film.answer import LEAST_SHARE, amount, leak_words
 from swashfilm.runs.film.revolution.plots import MEANING
 from system.inputs.units import Dimension
 
@@ -38,17 +38,12 @@ def revolution_words(summary: Mapping[str, Any]) -> str:
     words = [
         f"The film {TITLES[summary['gap']]} is thinnest at {summary['film_thickness_min_at_deg']:.0f} deg of shaft "
         f"angle: {least}, where its mean over the turn is {mean}.",
-        f"{_leak(summary['leakage_flow_m3_per_s'])} on the mean, and "
+        f"{leak_words(summary['leakage_flow_m3_per_s'], 'the case')} on the mean, and "
         f"{amount(summary['friction_power_W'], Dimension.POWER)} are lost to friction.",
         f"{_supports(summary['share_of_turn'])}.",
         _stability(summary["largest_multiplier"]),
     ]
     return " ".join(words)
-
-
-def _leak(flow: float) -> str:
-    size = amount(abs(flow), Dimension.VOLUME_FLOW)
-    return f"{size} leak out" if flow >= 0.0 else f"{size} flow in from the case"
 
 
 def _supports(shares: Mapping[str, float]) -> str:

@@ -8,7 +8,7 @@ from swashfilm.case.gap.physics import PHYSICS_HEAD, effect_rows
 from swashfilm.output.answer import Answer
 from swashfilm.output.data.files import read_netcdf
 from swashfilm.output.data.gap_names import TITLES
-from swashfilm.output.page import inlined, read_summary, write_page
+from swashfilm.output.page import inlined, kept_text, read_summary, write_page
 from swashfilm.output.refinement import refinement_head, refinement_rows
 from swashfilm.output.tables import read_csv
 from swashfilm.runs.film.page import summary_rows
@@ -51,7 +51,7 @@ def write_revolution_page(folder: Path) -> Path:
         physics=[PHYSICS_HEAD, *effect_rows(summary["physics_left_out"], summary["physics_seconds"])],
         refinement=[refinement_head(refinement), *refinement_rows(refinement)] if refinement else [],
         convergence=read_csv(folder / "convergence.csv"),
-        case=(folder / "resolved.toml").read_text("utf-8"),
+        case=kept_text(folder, "resolved.toml"),
     )
 
 

@@ -66,7 +66,7 @@ def run_revolution_case(
         write_refinement(folder / "refinement.csv", found)
     report(0, 1, "writing fields")
     data = revolution_dataset(study)
-    write_netcdf(data, folder / "results.nc")
+    write_netcdf(data, folder / "results.nc", "film_revolution")
     write_series(folder / f"{case.gap.value}.csv", data)
     write_convergence(folder / "convergence.csv", study)
     write_revolution_fields(folder, study)

@@ -11,6 +11,7 @@ from gaps.revolution.march import GapRevolution, mass_balance_error
 from gaps.revolution.warmth import GapTemperatures
 from reynolds.numerics.arrays import Array
 from swashfilm.case.gap.revolution import GapOverTurn, RevolutionCase
+from swashfilm.formats.versions import headed
 from swashfilm.runs.film.revolution.validity import revolution_warnings
 from system.description.gap import Gap
 from system.films.drives import Drives, drives, no_rubbing, slipper_shape
@@ -125,8 +126,7 @@ def revolution_summary(study: RevolutionStudy) -> dict[str, Any]:
     physics = study.case.options.physics
     tilts, friction = tilt(study), np.array([friction_power(study, one) for one in reports])
     return {
-        "format": 1,
-        "kind": "film_revolution",
+        **headed("film_revolution"),
         "name": study.case.name,
         "gap": study.case.gap.value,
         "film_thickness_min_m": least.film_thickness_min,

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from swashfilm.case.study import Combine, Study
+from swashfilm.formats.versions import headed
 from swashfilm.output.data.files import Column, column_of, write_columns
 from swashfilm.output.headline import about, headline_numbers
 from swashfilm.runs.film.series.courses import course_variables
@@ -59,8 +60,7 @@ def study_summary(study: Study[Any], outcomes: Sequence[StudyOutcome], kind: str
     rows = [headline_numbers(outcome.summary) for outcome in solved]
     keys = list(dict.fromkeys(key for row in rows for key in row))
     return {
-        "format": 1,
-        "kind": kind,
+        **headed(kind),
         "name": study.name,
         "combine": study.combine.value,
         "axes": [

@@ -10,7 +10,7 @@ from swashfilm.output.answer import Answer
 from swashfilm.output.data.files import read_netcdf, write_netcdf
 from swashfilm.output.figures import png_of
 from swashfilm.output.headline import named, number_text, summary_scales
-from swashfilm.output.page import PLOTS, inlined, read_summary, write_page
+from swashfilm.output.page import PLOTS, inlined, kept_text, read_summary, write_page
 from swashfilm.output.run_folder import write_json
 from swashfilm.runs.film.series.answer import axes_of, main_spans, study_tiles, study_words
 from swashfilm.runs.film.series.courses import course_plots
@@ -37,7 +37,7 @@ def write_study(study: Study[Any], outcomes: Sequence[StudyOutcome], folder: Pat
     """Write the files of a study of this kind, without points/, from its points; return the summary."""
     (folder / "input.toml").write_text(study.text, encoding="utf-8")
     write_study_table(folder / "study.csv", study, outcomes)
-    write_netcdf(study_dataset(study, outcomes, kind), folder / "study.nc")
+    write_netcdf(study_dataset(study, outcomes, kind), folder / "study.nc", kind)
     summary = study_summary(study, outcomes, kind)
     write_json(folder / "summary.json", summary)
     write_study_page(folder)
@@ -63,7 +63,7 @@ def write_study_page(folder: Path) -> Path:
         pictures={caption(key): inlined(figure) for key, figure in figures.items() if key != first},
         rows=list(span_rows(summary)),
         failed=list(failed_rows(summary)),
-        case=(folder / "input.toml").read_text("utf-8"),
+        case=kept_text(folder, "input.toml"),
         summary=summary,
     )
 

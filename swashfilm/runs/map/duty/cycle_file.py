@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Collection, Iterator, Mapping, Sequence
+from fractions import Fraction
 from pathlib import Path
 
 import numpy as np
@@ -10,7 +11,7 @@ from reynolds.errors import InputError
 from reynolds.numerics.arrays import Array
 from system.inputs.csv_table import Line, head_columns, read_csv_text
 from system.inputs.faults import Fault, InputFaults, nearest_choice
-from system.inputs.units import Dimension, QuantityError, unit_scale, with_point
+from system.inputs.units import LARGEST, Dimension, QuantityError, largest, unit_scale, with_point
 from system.maps.duty import Cycle
 from system.maps.plan import MapAxis, MapInput
 
@@ -127,14 +128,22 @@ def column_values(
         faults.append(Fault(f"line {uneven[0][0]}", found, f"{width}, the number of columns in the head", remedy))
         return
     for name, (place, factor, offset) in columns.items():
+        most = LARGEST if (kind := DIMENSIONS.get(name)) is None else largest(kind)
         numbers = []
         for number, cells in rows:
             text = cells[place].strip() if place < len(cells) else ""
             try:
-                numbers.append(factor * _finite(text) + offset)
+                numbers.append(_within(factor * _finite(text) + offset, most))
             except ValueError:
                 faults.append(Fault(f"{name}, line {number}", repr(text), "a number", with_point(text)))
         yield name, np.array(numbers)
+
+
+def _within(number: float, most: Fraction) -> float:
+    """Return a number of at most a size; raise ValueError for any other."""
+    if abs(number) > most:
+        raise ValueError
+    return number
 
 
 def _finite(text: str) -> float:

@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 
+from swashfilm.formats.versions import headed
 from swashfilm.output.data.files import Column, write_columns
 from swashfilm.output.run_folder import write_json
 from swashfilm.runs.map.duty.page import COURSE, write_duty_page
@@ -54,8 +55,7 @@ def known_error(data: MapData, error: MapError | None) -> MapError:
 def duty_summary(data: MapData, found: Duty) -> dict[str, Any]:
     """Return the summary of a cycle, SI."""
     return {
-        "format": 1,
-        "kind": "duty",
+        **headed("duty"),
         "name": data.name,
         "solver": data.words,
         "duration_s": found.duration,

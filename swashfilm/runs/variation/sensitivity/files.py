@@ -11,8 +11,7 @@ import numpy as np
 from swashfilm.output.data.files import write_netcdf
 from swashfilm.output.tables import write_csv
 from swashfilm.runs.variation.case import VariedCase
-from system.description.keys import PumpKey
-from system.inputs.units import Dimension, in_unit, reading_unit
+from swashfilm.runs.variation.words import key_unit
 from system.variation.differences import Verdict
 from system.variation.measures import NUMBERS
 from system.variation.sensitivity import Sensitivity
@@ -35,23 +34,11 @@ def write_table(path: Path, found: Sensitivity) -> None:
         errors = [
             f"{value:.3g}" if good else "" for value, good in zip(one.error * one.unit * scale, known, strict=True)
         ]
-        unit, factor = _unit_of(one.key)
+        unit, factor = key_unit(one.key)
         sigma = "" if one.sigma is None else f"{one.sigma * factor:.8g}"
         value, change = f"{one.key.value * factor:.8g}", f"{one.unit * factor:.8g}"
         rows.append([one.key.path, unit, value, change, one.stencil.side.value, sigma, *changes, *errors])
     write_csv(path, heads, rows)
-
-
-def _unit_of(key: PumpKey) -> tuple[str, float]:
-    """Return the unit that people read a dimension in, and its factor on SI; a temperature in K."""
-    if key.dimension is None:
-        return "1", 1.0
-    if key.dimension is Dimension.TEMPERATURE:
-        return "K", 1.0
-    if key.dimension is Dimension.ANGLE:
-        return "deg", 180.0 / np.pi
-    unit = reading_unit(key.value, key.dimension)
-    return unit, in_unit(1.0, unit, key.dimension)
 
 
 def write_data(path: Path, case: VariedCase, found: Sensitivity) -> None:
@@ -90,4 +77,4 @@ def write_data(path: Path, case: VariedCase, found: Sensitivity) -> None:
         data[name].attrs["units"] = "SI of the number per SI of the dimension"
     for name in ("value", "change", "middle"):
         data[name].attrs["units"] = "SI of each"
-    write_netcdf(data, path)
+    write_netcdf(data, path, "sensitivity")

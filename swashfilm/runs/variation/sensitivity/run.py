@@ -9,15 +9,15 @@ import numpy as np
 
 from swashfilm.console.fidelity import Fidelity
 from swashfilm.console.schemas import write_new
+from swashfilm.formats.versions import headed
 from swashfilm.output.run_folder import write_json
 from swashfilm.runs.variation.case import VariedCase
-from swashfilm.runs.variation.options import solves_films
+from swashfilm.runs.variation.options import known_measures
 from swashfilm.runs.variation.sensitivity.files import DATA, TABLE, write_data, write_table
 from swashfilm.runs.variation.sensitivity.page import write_sensitivity_page
 from swashfilm.runs.variation.words import change_text, percent_of, size_text, where
 from system.pump_file.file import resolved_toml
 from system.variation.differences import Verdict
-from system.variation.measures import measures_of
 from system.variation.sensitivity import Accuracy, KeySlopes, Sensitivity, one_sided, sensitivity
 from system.work.kept_results import POINTS, points_of_run
 from system.work.progress import Report
@@ -42,7 +42,7 @@ def run_sensitivity(case: VariedCase, folder: Path, executor: Executor, report: 
     found = sensitivity(
         case.work,
         case.keys,
-        measures_of(solves_films(case.fidelity)),
+        known_measures(case.fidelity),
         ACCURACY[case.fidelity],
         folder / POINTS,
         executor,
@@ -60,8 +60,7 @@ def run_sensitivity(case: VariedCase, folder: Path, executor: Executor, report: 
 def sensitivity_summary(case: VariedCase, found: Sensitivity) -> dict[str, Any]:
     """Return the summary: SI, a derivative by SI unit of its dimension; none where it has no number."""
     return {
-        "format": 1,
-        "kind": "sensitivity",
+        **headed("sensitivity"),
         "name": case.pump.name,
         **where(case),
         "measures": {

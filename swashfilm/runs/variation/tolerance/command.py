@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from swashfilm.console.command import Command
 from swashfilm.console.inputs import whole
 from swashfilm.console.terminal import show_result
-from swashfilm.runs.variation.options import add_varied_options, varied_executor
+from swashfilm.runs.variation.options import add_varied_options, known_measures, varied_executor
 from system.inputs.faults import Fault
 
 if TYPE_CHECKING:
@@ -56,13 +56,13 @@ def tolerance_case(options: argparse.Namespace) -> ToleranceCase:
     """Return the series of a command line; raise InputFaults with every fault."""
     from swashfilm.console.fidelity import Fidelity
     from swashfilm.runs.variation.case import varied_case
+    from swashfilm.runs.variation.limits import limit_of
     from swashfilm.runs.variation.tolerance.drawn import chosen_drawing_of, drawing_faults
-    from swashfilm.runs.variation.tolerance.limits import limit_of
     from swashfilm.runs.variation.tolerance.run import ToleranceCase
-    from system.variation.measures import measures_of
 
     faults: list[Fault] = []
-    measures = measures_of(options.fidelity != Fidelity.LUMPED.value, ripple=False)
+    fidelities = {one.value: one for one in Fidelity}
+    measures = known_measures(fidelities.get(options.fidelity, Fidelity.LUMPED), together=True)
     limits = [limit_of(text, measures, faults) for text in options.limit]
     pumps = whole(faults, "--pumps", options.pumps, PUMPS, (100, MOST_PUMPS), "a number of pumps")
     seed = whole(faults, "--seed", options.seed, 1, (0, 2**31 - 1))

@@ -69,4 +69,4 @@ def write_data(path: Path, case: VariedCase, found: Tolerance) -> None:
     )
     for name in ("dimension", "number", "value"):
         data[name].attrs["units"] = "SI of each"
-    write_netcdf(data, path)
+    write_netcdf(data, path, "tolerance")

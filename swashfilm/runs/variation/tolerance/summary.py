@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from swashfilm.formats.versions import headed
 from swashfilm.runs.variation.case import VariedCase
 from swashfilm.runs.variation.tolerance.files import si_unit
 from swashfilm.runs.variation.words import size_text, where
@@ -21,8 +22,7 @@ from system.variation.tolerance import Tolerance
 def tolerance_summary(case: VariedCase, drawing: Drawing, seed: int, found: Tolerance) -> dict[str, Any]:
     """Return the summary: scatter, shares, limits and counts; SI."""
     return {
-        "format": 1,
-        "kind": "tolerance",
+        **headed("tolerance"),
         "name": case.pump.name,
         **where(case),
         "pumps": {"drawn": found.pumps, "solved": len(found.numbers), "refused": found.refused, "failed": found.failed},

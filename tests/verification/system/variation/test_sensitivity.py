@@ -11,7 +11,7 @@ from system.maps.plan import MapAxis, MapInput
 from system.maps.point import LumpedSolver
 from system.pump.laws.friction_pairs import Pair
 from system.variation.differences import Side, Verdict
-from system.variation.measures import NUMBERS, measures_of
+from system.variation.measures import NUMBERS, Needs, measures_of
 from system.variation.sensitivity import Accuracy, sensitivity, unit_change
 from system.variation.sites import cycle_sites, plan_sites
 from system.variation.solving import VariedWork, variable_keys, varied
@@ -21,7 +21,7 @@ from system.work.progress import silent
 
 PUMP = load_pump("ref90")
 KEYS = variable_keys(PUMP, by_table=False)
-MEASURES = measures_of(films=False)
+MEASURES = measures_of(Needs.COURSE)
 FINE = Accuracy(step=0.01, noise=1e-6, rounds=2)
 LEVELS = (MapAxis(MapInput.SPEED, (100.0, 200.0)), MapAxis(MapInput.PRESSURE, (1e7, 2e7, 3e7)))
 

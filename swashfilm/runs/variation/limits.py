@@ -1,4 +1,4 @@
-"""Limits that every pump of a series has to keep, as text: `efficiency >= 88 %`, `case drain <= 1.5 L/min`."""
+"""Names and values of measures as people write them, and limits of them: `efficiency >= 88 %`."""
 
 from __future__ import annotations
 
@@ -11,6 +11,7 @@ from system.variation.measures import EFFICIENCY, MEASURES, Measure
 from system.variation.scatter import Bound, Limit
 
 _LIMIT = re.compile(r"\s*(.+?)\s*(>=|<=)\s*(.+?)\s*")
+_RATE = re.compile(r"\s*([+-]?[\d.]+(?:[eE][+-]?\d+)?)\s*(\S+)\s*")
 _DIMENSIONS = {
     "W": Dimension.POWER,
     "m3/s": Dimension.VOLUME_FLOW,
@@ -19,6 +20,7 @@ _DIMENSIONS = {
     "m": Dimension.LENGTH,
     "K": Dimension.TEMPERATURE,
 }
+_RATES = {"GPa/s": 1e9, "MPa/ms": 1e9, "bar/ms": 1e8, "MPa/s": 1e6, "Pa/s": 1.0}
 EXAMPLE = "such as 'efficiency >= 88 %' or 'case drain <= 1.5 L/min'"
 
 
@@ -31,18 +33,28 @@ def limit_of(text: str, known: Sequence[Measure], faults: list[Fault]) -> Limit 
     if match is None:
         faults.append(Fault("--limit", repr(text), f"a quantity, >= or <=, and a value, {EXAMPLE}"))
         return None
-    named = _names(known)
-    measure = named.get(match[1].lower())
+    measure = measure_of(match[1], known)
     if measure is None:
         found = f"'{match[1]}', no quantity of a pump at this fidelity"
         expected = f"one of {'; '.join(dict.fromkeys(one.words for one in known))}"
-        faults.append(Fault("--limit", found, expected, nearest_choice(match[1], named)))
+        faults.append(Fault("--limit", found, expected, nearest_choice(match[1], _names(known))))
         return None
     try:
-        return Limit(measure, Bound(match[2]), _value(match[3], measure), text.strip())
+        return Limit(measure, Bound(match[2]), measure_value(match[3], measure), text.strip())
     except QuantityError as reason:
         faults.append(Fault("--limit", f"{text!r}: {reason.found}", reason.expected, reason.nearest))
         return None
+
+
+def measure_of(name: str, known: Sequence[Measure]) -> Measure | None:
+    """Return the measure of a name or of its words, in any case; None where no known one has it."""
+    return _names(known).get(name.strip().lower())
+
+
+def nearest_measure(name: str, known: Sequence[Measure]) -> str:
+    """Return the name of the measure that is spelt most like a name, empty where none comes near."""
+    near = nearest_choice(name, _names(known))
+    return _names(known)[near].name if near else ""
 
 
 def _names(known: Sequence[Measure]) -> dict[str, Measure]:
@@ -53,11 +65,22 @@ def _names(known: Sequence[Measure]) -> dict[str, Measure]:
     return found | {"efficiency": MEASURES[EFFICIENCY], "loss": MEASURES["loss"]}
 
 
-def _value(text: str, measure: Measure) -> float:
+def measure_value(text: str, measure: Measure) -> float:
+    """Return a value (SI) of a measure as text; raise QuantityError for one of another unit."""
     if measure.unit in _DIMENSIONS:
         return parse_quantity(text, _DIMENSIONS[measure.unit])
+    if measure.unit == "Pa/s":
+        return _rate(text)
     number, percent = text.removesuffix("%"), text.endswith("%")
     try:
         return float(number) * (0.01 if percent else 1.0)
     except ValueError:
         raise QuantityError(repr(text), "a share, such as '88 %'") from None
+
+
+def _rate(text: str) -> float:
+    """Return a rate of pressure, Pa/s."""
+    match = _RATE.fullmatch(text)
+    if match is None or match[2] not in _RATES:
+        raise QuantityError(repr(text), f"a rate of pressure, such as '50 GPa/s', in {', '.join(_RATES)}")
+    return float(match[1]) * _RATES[match[2]]

@@ -1,0 +1,71 @@
+"""What a function is given as a file of the command: descriptions, tables and results are written to one."""
+
+from __future__ import annotations
+
+import re
+import tempfile
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from swashfilm.runs.map.result import MapRun
+    from system.description.pump import PumpDescription
+
+Case = str | Path | Mapping[str, Any]
+"""Path of a case file, its text, or its tables."""
+
+
+@contextmanager
+def pump_path(pump: str | Path | PumpDescription) -> Iterator[str]:
+    """Yield the name or path of a pump; a description is written to a temporary file."""
+    if isinstance(pump, (str, Path)):
+        yield str(pump)
+        return
+    from system.pump_file.file import resolved_toml
+
+    with _written(f"{pump.name}.toml", resolved_toml(pump)) as path:
+        yield str(path)
+
+
+@contextmanager
+def case_path(case: Case) -> Iterator[Path]:
+    """Yield the path of a case; text and tables are written to a temporary file."""
+    if isinstance(case, Mapping):
+        import tomli_w
+
+        case = tomli_w.dumps(case)
+    if isinstance(case, str) and "\n" in case:
+        with _written("case.toml", case) as path:
+            yield path
+        return
+    yield Path(case)
+
+
+@contextmanager
+def map_path(of: MapRun | str | Path) -> Iterator[Path]:
+    """Yield the path of a map; a result is written to a temporary folder."""
+    if isinstance(of, (str, Path)):
+        yield Path(of)
+        return
+    with tempfile.TemporaryDirectory(prefix="swashfilm-") as place:
+        of.write(Path(place))
+        yield Path(place)
+
+
+@contextmanager
+def map_or_pump_path(of: MapRun | str | Path | PumpDescription) -> Iterator[str]:
+    """Yield the path of a map, or the name or path of a pump; results and descriptions are written to one."""
+    from system.description.pump import PumpDescription
+
+    with pump_path(of) if isinstance(of, PumpDescription) else map_path(of) as place:
+        yield str(place)
+
+
+@contextmanager
+def _written(name: str, text: str) -> Iterator[Path]:
+    with tempfile.TemporaryDirectory(prefix="swashfilm-") as place:
+        path = Path(place) / re.sub(r"[^\w.-]+", "-", name)
+        path.write_text(text, encoding="utf-8")
+        yield path

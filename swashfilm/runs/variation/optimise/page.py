@@ -1,0 +1,99 @@
+"""Page of an optimisation: report.html from the files of the run folder."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from pathlib import Path
+from typing import Any
+
+from swashfilm.output.answer import Answer, Tile
+from swashfilm.output.data.files import read_netcdf
+from swashfilm.output.page import inlined, read_summary, write_page
+from swashfilm.runs.variation.optimise import rows
+from swashfilm.runs.variation.optimise.files import DATA
+from swashfilm.runs.variation.optimise.plots import dimension_plot, growth_plot, pareto_plot
+from system.variation.measures import MEASURES
+
+CAPTION = "All designs that were tried, the Pareto set among them, the start and the chosen design"
+GROWTH = "Hypervolume of the Pareto set after each generation: it no longer rises where the set is found"
+ALONG = "Dimensions of the designs of the Pareto set, each between its bounds"
+MOST_TILES = 4
+
+
+def write_optimise_page(folder: Path) -> Path:
+    """Write report.html of an optimisation's run folder; raise InputFaults where one of its files is missing."""
+    summary = read_summary(folder, ("summary.json", DATA), "an optimisation's run folder")
+    data = read_netcdf(folder / DATA)
+    several = summary["counts"]["pareto"] > 1
+    return write_page(
+        folder,
+        "optimise",
+        answer=optimise_answer(summary, inlined(pareto_plot(summary, data))),
+        summary=summary,
+        dimensions=list(rows.dimension_rows(summary)),
+        dimension_head=rows.compared_head(rows.DIMENSION_HEAD, summary),
+        asked=list(rows.measure_rows(summary, asked=True)),
+        others=list(rows.measure_rows(summary, asked=False)),
+        measure_head=rows.compared_head(rows.MEASURE_HEAD, summary),
+        constraints=list(rows.constraint_rows(summary)),
+        constraint_head=rows.compared_head(rows.CONSTRAINT_HEAD, summary),
+        obstacles=[] if summary["chosen"]["feasible"] else list(rows.obstacle_rows(summary)),
+        obstacle_head=rows.OBSTACLE_HEAD,
+        points=list(rows.point_rows(summary)) if summary["points"] > 1 else [],
+        point_head=rows.compared_head(rows.point_head(summary), summary),
+        counts=list(rows.count_rows(summary)),
+        growth=inlined(growth_plot(summary)) if summary["counts"]["feasible"] else None,
+        growth_caption=GROWTH,
+        along=inlined(dimension_plot(summary, data)) if several else None,
+        along_caption=ALONG,
+    )
+
+
+def optimise_answer(summary: Mapping[str, Any], picture: Any) -> Answer:
+    """Return the answer: the objectives of chosen design and start, the set, the constraints that hold."""
+    counts, label = summary["counts"], "chosen" if summary["chosen"]["feasible"] else "nearest"
+    tiles = [_tile(summary, one["name"], label) for one in summary["objectives"][:MOST_TILES]]
+    tiles.append(Tile(str(counts["pareto"]), "designs in the Pareto set", f"{counts['tried']} tried, "
+                      f"{counts['feasible']} feasible"))  # fmt: skip
+    tiles += [_constraint_tile(one) for one in summary["constraints"] if one["holds"] or not one["met"]][:2]
+    if len(tiles) < 3:
+        tiles.append(Tile(summary["method"]["name"], "search", summary["method"]["why"]))
+    return Answer(tuple(tiles), " ".join(_sentences(summary)), picture, CAPTION)
+
+
+def _tile(summary: Mapping[str, Any], name: str, label: str) -> Tile:
+    start, chosen, change = rows.compared(name, summary["measures"][name])
+    return Tile(chosen, f"{MEASURES[name].words}, {label}", f"start: {start}, {change}")
+
+
+def _constraint_tile(one: Mapping[str, Any]) -> Tile:
+    measure = MEASURES[one["measure"]]
+    if one["holds"]:
+        return Tile(measure.text(one["chosen"]), f"{measure.words} holds", one["words"])
+    missed = measure.change(abs(one["chosen"] - one["value"])).removeprefix("+")
+    return Tile(missed, f"{measure.words} is missed by", one["words"])
+
+
+def _sentences(summary: Mapping[str, Any]) -> Iterator[str]:
+    """Yield the answer in words."""
+    counts = summary["counts"]
+    if not summary["chosen"]["feasible"]:
+        yield f"None of {counts['tried']} designs meets all constraints."
+        if summary["obstacles"]:
+            first = summary["obstacles"][0]
+            measure = MEASURES[first["measure"]]
+            missed = measure.change(abs(first["nearest"] - first["value"])).removeprefix("+")
+            yield f"{first['words']} is in the way: the nearest design misses it by {missed}."
+        return
+    changes = [_change_words(summary, one["name"]) for one in summary["objectives"]]
+    yield f"The chosen design ({summary['chosen']['why']}) has {', '.join(changes)}."
+    holding = [one["words"] for one in summary["constraints"] if one["holds"]]
+    yield f"{', '.join(holding)} holds it back." if holding else "No constraint holds it back."
+    bounds = [one["name"] for one in summary["dimensions"] if one["at_bound"]]
+    if bounds:
+        yield f"At a bound: {', '.join(bounds)}."
+
+
+def _change_words(summary: Mapping[str, Any], name: str) -> str:
+    start, chosen, _ = rows.compared(name, summary["measures"][name])
+    return f"{MEASURES[name].words} {chosen} in place of {start}"

@@ -1,0 +1,53 @@
+"""What keeps designs from being feasible: each constraint, and by how much designs miss it."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from reynolds.numerics.arrays import Array
+from system.variation.optimisation.problem import MET, Constraint, Design, Problem
+
+
+@dataclass(frozen=True)
+class Obstacle:
+    """A constraint over all designs with a result.
+
+    met: how many meet it; best: the value that comes nearest, or keeps it best; nearest: the value at the design that
+    misses all constraints together by the least, violation there of the constraint's scale.
+    """
+
+    constraint: Constraint
+    met: int
+    best: float
+    nearest: float
+    violation: float
+
+
+@dataclass(frozen=True)
+class Obstacles:
+    """All constraints, the worst first; at: the design that misses them by the least; solved: designs with a result."""
+
+    rows: tuple[Obstacle, ...]
+    at: int
+    solved: int
+
+
+def obstacles(problem: Problem, designs: Sequence[Design]) -> Obstacles | None:
+    """Return what is in the way of feasible designs; None where no design has a result."""
+    solved = [at for at, one in enumerate(designs) if one.solved]
+    if not solved:
+        return None
+    own = [designs[at] for at in solved]
+    violations = problem.violations(own)
+    near = int(np.argmin(np.sum(np.maximum(violations, 0.0), axis=1)))
+    rows = [_obstacle(problem, own, one, violations[:, at], near) for at, one in enumerate(problem.constraints)]
+    return Obstacles(tuple(sorted(rows, key=lambda row: -row.violation)), solved[near], len(solved))
+
+
+def _obstacle(problem: Problem, own: Sequence[Design], one: Constraint, violation: Array, near: int) -> Obstacle:
+    values = problem.column(own, one.measure)
+    best = float(values[np.argmin(violation)])
+    return Obstacle(one, int(np.sum(violation <= MET)), best, float(values[near]), float(violation[near]))

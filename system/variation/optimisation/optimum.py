@@ -1,0 +1,74 @@
+"""Optimisation of a pump: the start, all designs that a search tries, the best of them, and what is in the way."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+from reynolds.errors import NotConverged
+from system.variation.optimisation.obstacles import Obstacles, obstacles
+from system.variation.optimisation.pareto import ParetoSet, pareto_set
+from system.variation.optimisation.problem import Design, Problem
+from system.variation.optimisation.trials import Trials, design_of
+from system.variation.solving import VariedWork, solved_variants
+from system.work.kept_results import KeptPoints
+from system.work.progress import Report
+from system.work.tasks import Executor, PartStatus
+
+Search = Callable[[Trials], None]
+"""Tries designs until it ends."""
+
+
+@dataclass(frozen=True)
+class Optimisation:
+    """Result of a search; problem: with the values of constraints that are told by the start.
+
+    start: the pump as stated; designs: all that were tried, in their order. obstacles: None where no design has a
+    result; internal: the reason of an error of the program at a design, else ""; seconds of processor time.
+    """
+
+    problem: Problem
+    start: Design
+    designs: tuple[Design, ...]
+    pareto: ParetoSet
+    obstacles: Obstacles | None
+    internal: str
+    seconds: float
+
+    def count(self, status: PartStatus) -> int:
+        """Return the number of designs that ended so."""
+        return sum(one.status is status for one in self.designs)
+
+
+def optimise(
+    work: VariedWork,
+    problem: Problem,
+    search: Search,
+    expected: int,
+    folder: Path,
+    executor: Executor,
+    report: Report,
+    earlier: KeptPoints | None = None,
+) -> Optimisation:
+    """Return the optimum of a problem: solve the start, then all that the search tries, each kept in a folder.
+
+    expected: designs in all, for progress. Raises NotConverged where the pump as stated has no result, which leaves
+    nothing to compare with.
+    """
+
+    def of_start(done: int, total: int, what: str) -> None:
+        report(0, expected, what)
+
+    (outcome,) = solved_variants(work, [()], folder, executor, of_start, earlier)
+    if outcome.status is not PartStatus.SOLVED:
+        raise NotConverged(f"the pump as stated: {outcome.reason}")
+    start = design_of(outcome, problem.start, 0, work.sites.weights, problem.measures)
+    asked = tuple(one.at_start(float(problem.column([start], one.measure)[0])) for one in problem.constraints)
+    problem = replace(problem, constraints=asked)
+    trials = Trials(work, problem, folder, executor, report, expected, earlier)
+    search(trials)
+    designs = tuple(trials.designs)
+    internal = next((one.reason for one in designs if one.status is PartStatus.INTERNAL), "")
+    best, blocked = pareto_set(problem, designs), obstacles(problem, designs)
+    return Optimisation(problem, start, designs, best, blocked, internal, trials.seconds + outcome.seconds)
