@@ -10,6 +10,7 @@ import numpy as np
 from diagnosis.planning.meters import ALWAYS
 from diagnosis.planning.never import Never
 from diagnosis.planning.plan import Plan, driven
+from swashfilm.formats.versions import headed
 from swashfilm.runs.plan.case import PlanCase
 from swashfilm.runs.plan.limits import AXES
 from system.bench.points import BenchPoints
@@ -21,8 +22,7 @@ def plan_summary(case: PlanCase, found: Plan, unseen: tuple[str, ...], seconds: 
     """Return the summary. unseen: names of asked suspects that no meter of the bench shows at all."""
     before, after, never = found.told_planned, found.told, found.never
     return {
-        "format": 1,
-        "kind": "plan",
+        **headed("plan"),
         "name": case.pump.name,
         "pairs": len(found.pairs),
         "told_planned": len(before),
