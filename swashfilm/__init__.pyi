@@ -5,6 +5,6 @@ from .api.files import new as new, open as open
 from .api.films import film as film, study as study
 from .api.maps import compare as compare, duty as duty, export as export, map as map
 from .api.pumps import load_pump as load_pump, run as run, table as table, vary as vary
-from .api.recordings import calibrate as calibrate, diagnose as diagnose
+from .api.recordings import calibrate as calibrate, diagnose as diagnose, plan as plan
 from .runs.table.gap_run import read_gap_table as read_gap_table
 from .version import __version__ as __version__

@@ -39,6 +39,7 @@ def campaigns() -> dict[str, Campaign]:
         Campaign("short", _charged(_scattered(60, 8)), inputs=tuple(one for one in INPUTS if one != "p_in")),
         Campaign("open circuit", _open(), circuit="open"),
         Campaign("no inlet meter", _scattered(140, 9), outputs=("Q_out", "Q_case", "torque")),
+        Campaign("grid", _grid(), outputs=("Q_out", "Q_case", "torque")),
     )
     return {one.name: one for one in found}
 
@@ -62,6 +63,11 @@ def _ovens() -> Settings:
     """168 points: 3 inlet temperatures, 2 strokes, 4 speeds, 7 pressures."""
     warm = product((35.0, 50.0, 70.0), (0.5, 1.0), (400.0, 900.0, 1500.0, 2100.0), range(75, 376, 50))
     return _settings((stroke, speed, pressure, oven) for oven, stroke, speed, pressure in warm)
+
+
+def _grid() -> Settings:
+    """36 points over the range of an ordinary bench at one temperature: 3 strokes, 3 speeds, 4 pressures."""
+    return _settings(product((0.2, 0.6, 1.0), (525.0, 1312.5, 2100.0), (58.5, 156.0, 253.5, 351.0), (50.0,)))
 
 
 def _scattered(count: int, seed: int) -> Settings:

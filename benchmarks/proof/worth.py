@@ -54,9 +54,9 @@ def worth(
     there = point.shaft_speed, point.delivery_pressure, point.displacement_ratio, point.temperature
     anywhere = tuple(float(rng.uniform(*ends)) for ends in box.ends)
     wanted = box.points(tuple(np.array([value]) for value in there))
-    brought, _ = next(forecasts(study, *explained, wanted)).odds(asked.limits.readings)
+    brought, _ = forecasts(study, *explained, wanted).at(0).odds(asked.limits.readings)
     before = log(true.probability / false.probability)
-    return Worth(before, told(there), told(anywhere), asked.chance, brought.mean)
+    return Worth(before, told(there), told(anywhere), asked.chance, float(brought.mean))
 
 
 def _recorded(
@@ -65,7 +65,7 @@ def _recorded(
     """`count` readings at a place of the box as the bench takes them: inputs as read, outputs (n, C) in SI."""
     wanted = box.points(tuple(np.array([value]) for value in place))
     wanted = replace(wanted, **{name: np.repeat(value, count) for name, value in vars(wanted).items()})
-    campaign = replace(campaigns()[rig.campaign], points=_settings(wanted), traces=())
+    campaign = replace(campaigns()[rig.campaign], points=settings_of(wanted), traces=())
     at = held(campaign, rng)
     truth = rig.run(at.moved("ratio", rig.setting))
     columns = read_after(campaign, at, truth, rig.faults, rig.calibrations, rng)
@@ -73,7 +73,7 @@ def _recorded(
     return _as_read(wanted, campaign, columns), np.stack(values, axis=1)
 
 
-def _settings(points: BenchPoints) -> Settings:
+def settings_of(points: BenchPoints) -> Settings:
     """The points as the plant has them: pressures absolute."""
     return Settings(
         points.speed, points.displacement_ratio, points.p_out + STANDARD_ATMOSPHERE,

@@ -11,6 +11,7 @@ from math import log
 
 import numpy as np
 
+from diagnosis.next_point.discrimination import promise
 from diagnosis.next_point.forecast import Contender, Forecast, forecasts, predicted, readings
 from diagnosis.next_point.operating_box import BenchBox, rows
 from diagnosis.study.model import Study
@@ -105,15 +106,16 @@ def next_point(
     points = box.points(tuple(_levels(*ends, count) for ends, count in zip(box.ends, LEVELS, strict=True)))
     best = np.sort(np.argsort(_separation(study, first, second, points))[::-1][:LOOKED_AT])
     some = rows(points, best)
-    found = list(forecasts(study, first, second, some))
-    gains = [forecast.gain(limits.readings) for forecast in found]
+    found = forecasts(study, first, second, some)
+    gains = promise(np.zeros(1), found.gain(limits.readings)[None], np.inf)
     order = np.argsort(gains)[::-1]
     at = int(order[0])
     ranked = tuple(
-        RankedPoint(operating_at(pump, some, place), float(some.T_in[place]), gains[place]) for place in order
+        RankedPoint(operating_at(pump, some, place), float(some.T_in[place]), float(gains[place])) for place in order
     )
     before = log(first.probability / second.probability)
-    after, chance = _led_to(found[at], before, limits)
+    there = found.at(at)
+    after, chance = _led_to(there, before, limits)
     return NextPoint(
         box=box,
         point=ranked[0].point,
@@ -121,10 +123,10 @@ def next_point(
         between=(first.text, second.text),
         separates=tuple(dict.fromkeys((*first.effects, *second.effects))),
         before=before,
-        gain=gains[at],
+        gain=float(gains[at]),
         after=after,
         chance=chance,
-        repeats=next((n for n in range(1, limits.most_repeats + 1) if found[at].gain(n) >= limits.enough), None),
+        repeats=next((n for n in range(1, limits.most_repeats + 1) if there.gain(n) >= limits.enough), None),
         expected=_expected(study, first, second, rows(some, np.array([at]))),
         limits=limits,
         ranked=ranked,
@@ -134,8 +136,8 @@ def next_point(
 def _led_to(forecast: Forecast, before: float, limits: NextPointLimits) -> tuple[float, float]:
     """ln odds for the true explanation after the readings, chance of `settled`, each the lesser of both cases."""
     cases = list(zip((before, -before), forecast.odds(limits.readings), strict=True))
-    after = min(odds + gain.mean for odds, gain in cases)
-    return after, min(gain.chance(limits.settled - odds) for odds, gain in cases)
+    after = min(odds + float(gain.mean) for odds, gain in cases)
+    return after, min(float(gain.chance(limits.settled - odds)) for odds, gain in cases)
 
 
 def _levels(lower: float, upper: float, count: int) -> Array:

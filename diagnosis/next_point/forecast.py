@@ -6,7 +6,6 @@ parameters can follow has no weight, however often it is read.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
@@ -38,21 +37,24 @@ class Contender:
 
 @dataclass(frozen=True)
 class OddsForecast:
-    """Gain in ln odds of the true explanation by readings: mean and one sigma, nats."""
+    """Gain in ln odds of the true explanation by readings: mean and one sigma, nats, (...)."""
 
-    mean: float
-    sigma: float
+    mean: Array
+    sigma: Array
 
-    def chance(self, wanted: float) -> float:
+    def chance(self, wanted: Array | float) -> Array:
         """Probability of `wanted` nats at least."""
-        return float(ndtr((self.mean - wanted) / max(self.sigma, 1e-12)))
+        found: Array = ndtr((self.mean - wanted) / np.maximum(self.sigma, 1e-12))
+        return found
 
 
 @dataclass(frozen=True)
 class Forecast:
-    """Forecasts of two explanations at one point, whitened: difference (m,), covariances (m, m) by parameters.
+    """Forecasts of two explanations at points, whitened: difference (..., m), covariances by parameters (..., m, m).
 
-    memory: correlation of the noise from one reading to the next, as in `Observations`.
+    One explanation's parameters are as uncertain as the other's where `first` and `second` are the same: then the gain
+    is half the squared distance of the two, |d|^2 / 2 in sigma. memory: correlation of the noise from one reading to
+    the next, as in `Observations`.
     """
 
     difference: Array
@@ -61,27 +63,38 @@ class Forecast:
     memory: tuple[float, ...] = ()
 
     def odds(self, repeats: int) -> tuple[OddsForecast, OddsForecast]:
-        """Gain of `repeats` readings if the first is true, and if the second is."""
-        noise = np.eye(self.difference.size) / independent(repeats, self.memory)
+        """Gain of `repeats` readings at each point if the first is true, and if the second is."""
+        noise = np.eye(self.difference.shape[-1]) / independent(repeats, self.memory)
+        if self.first is self.second:
+            pull = np.linalg.solve(noise + self.first, self.difference[..., None])[..., 0]
+            squares = np.sum(self.difference * pull, axis=-1)
+            equal = OddsForecast(0.5 * squares, np.sqrt(squares))
+            return equal, equal
         one, two = noise + self.first, noise + self.second
         return odds_forecast(self.difference, one, two), odds_forecast(self.difference, two, one)
 
-    def gain(self, repeats: int) -> float:
-        """Mean gain of `repeats` readings in nats, the lesser of both cases."""
-        return min(each.mean for each in self.odds(repeats))
+    def gain(self, repeats: int) -> Array:
+        """Mean gain (...) of `repeats` readings in nats, the lesser of both cases."""
+        one, two = self.odds(repeats)
+        return np.minimum(one.mean, two.mean)
+
+    def at(self, point: int) -> Forecast:
+        """The forecasts at one of the points."""
+        return Forecast(self.difference[point], self.first[point], self.second[point], self.memory)
 
 
-def forecasts(study: Study, first: Contender, second: Contender, points: BenchPoints) -> Iterator[Forecast]:
-    """Forecasts of the two at each of the points."""
+def forecasts(study: Study, first: Contender, second: Contender, points: BenchPoints) -> Forecast:
+    """Forecasts of the two at N points, m readings each."""
     one, other = (predicted(contender, points) for contender in (first, second))
     there = first.simulator.elsewhere(points)
     whitening = whitener(readings(study, one), there.input_slopes(first.posterior.values))
-    difference = whitening.whiten(other - one)
-    spreads = [_spread(contender, points, whitening) for contender in (first, second)]
-    for at in range(len(points.speed)):
-        own = whitening.rows[:, 0] == at
-        first_spread, second_spread = (spread[own] @ spread[own].T for spread in spreads)
-        yield Forecast(difference[own], first_spread, second_spread, study.observations.memory)
+    count = len(points.speed)
+    difference = whitening.whiten(other - one).reshape(count, -1)
+    spreads = (
+        _spread(contender, points, whitening).reshape(count, difference.shape[1], -1) for contender in (first, second)
+    )
+    first_spread, second_spread = (spread @ np.swapaxes(spread, 1, 2) for spread in spreads)
+    return Forecast(difference, first_spread, second_spread, study.observations.memory)
 
 
 def predicted(contender: Contender, points: BenchPoints) -> Array:
@@ -106,20 +119,23 @@ def log_density(study: Study, contender: Contender, points: BenchPoints, values:
 
 
 def odds_forecast(difference: Array, true: Array, other: Array) -> OddsForecast:
-    """ln odds of N(0, true) against N(difference, other) by readings of the first: mean and sigma.
+    """ln odds of N(0, true) against N(difference, other) by readings of the first: mean and sigma, (...).
+
+    difference: (..., m), covariances (..., m, m).
 
     Mean (tr(B) - m + d^T S2^-1 d + ln det S2 - ln det S1) / 2, the divergence (Kullback and Leibler 1951), never
     negative; variance tr((B - I)^2) / 2 + d^T S2^-1 S1 S2^-1 d, with B = S2^-1 S1: of a quadratic form of normal
     numbers (Searle 1971).
     """
-    factor = cho_factor(other)
-    ratio = cho_solve(factor, true)
-    pull = cho_solve(factor, difference)
-    volume = float(np.linalg.slogdet(other)[1] - np.linalg.slogdet(true)[1])
-    mean = 0.5 * (float(np.trace(ratio)) - difference.size + float(difference @ pull) + volume)
-    excess = ratio - np.eye(difference.size)
-    variance = 0.5 * float(np.trace(excess @ excess)) + float(pull @ true @ pull)
-    return OddsForecast(mean, float(np.sqrt(variance)))
+    ratio = np.linalg.solve(other, true)
+    pull = np.linalg.solve(other, difference[..., None])[..., 0]
+    volume = np.linalg.slogdet(other)[1] - np.linalg.slogdet(true)[1]
+    squares = np.sum(difference * pull, axis=-1)
+    mean = 0.5 * (np.trace(ratio, axis1=-2, axis2=-1) - difference.shape[-1] + squares + volume)
+    excess = ratio - np.eye(difference.shape[-1])
+    variance = 0.5 * np.sum(excess * np.swapaxes(excess, -1, -2), axis=(-2, -1))
+    variance = variance + np.sum(pull * (true @ pull[..., None])[..., 0], axis=-1)
+    return OddsForecast(mean, np.sqrt(np.maximum(variance, 0.0)))
 
 
 def independent(repeats: int, memory: tuple[float, ...]) -> float:

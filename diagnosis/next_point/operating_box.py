@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from math import nan
 
 import numpy as np
 from numpy.typing import NDArray
 
 from diagnosis.recording.model import Recording
-from diagnosis.study.inputs import bench_points, measured
+from diagnosis.study.inputs import WARMER, bench_points, measured
 from reynolds.numerics.arrays import Array
 from system.bench.points import BenchPoints
 from system.description.pump import PumpDescription
@@ -87,22 +88,35 @@ def ordinary_box(recording: Recording, pump: PumpDescription) -> BenchBox:
     From a quarter of the rated speed and a tenth of the rated rise of pressure to both, displacement from a fifth
     to all where the pump was swivelled, the inlet at 30 to 80 degC.
     """
-    box, rated = rig_box(recording, pump), pump.pump
+    box = rig_box(recording, pump)
     known = set(measured(recording, INPUTS))
     least_ratio, most_ratio = box.ends[2]
     swivels = most_ratio - least_ratio > VARIED * most_ratio
-    wide = (
-        (SLOW * rated.rated_speed, rated.rated_speed),
-        (box.inlet_pressure + UNLOADED * (rated.rated_pressure - box.inlet_pressure), rated.rated_pressure),
-        (SWIVELLED, 1.0) if swivels else box.ends[2],
-        (COLD + box.warmer, HOT + box.warmer),
-    )
+    speed, pressure, ratio, temperature = _ordinary_ends(pump, box.inlet_pressure, box.warmer)
+    wide = speed, pressure, ratio if swivels else box.ends[2], temperature
     axes = (ChannelName.SPEED, ChannelName.P_OUT, ChannelName.DISPLACEMENT_RATIO, ChannelName.T_CASE)
     ends = tuple(
         (min(own[0], more[0]), max(own[1], more[1])) if axis in known else own
         for axis, own, more in zip(axes, box.ends, wide, strict=True)
     )
     return replace(box, ends=ends)
+
+
+def pump_box(pump: PumpDescription) -> BenchBox:
+    """The range of an ordinary bench for a pump without a recording: all else as the pump's own operating point."""
+    stated = pump.operating
+    ends = _ordinary_ends(pump, stated.inlet_pressure, WARMER)
+    return BenchBox(ends, stated.inlet_pressure, stated.case_pressure, WARMER, (0.0, nan))
+
+
+def _ordinary_ends(pump: PumpDescription, inlet: float, warmer: float) -> tuple[tuple[float, float], ...]:
+    rated = pump.pump
+    return (
+        (SLOW * rated.rated_speed, rated.rated_speed),
+        (inlet + UNLOADED * (rated.rated_pressure - inlet), rated.rated_pressure),
+        (SWIVELLED, 1.0),
+        (COLD + warmer, HOT + warmer),
+    )
 
 
 def _ends(values: Array, rating: float) -> tuple[float, float]:

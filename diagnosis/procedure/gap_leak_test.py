@@ -84,7 +84,7 @@ def gap_leak_test(
         (one, one_spread), (other, other_spread) = ((leak[at], spread[at]) for leak, spread in known)
         sigma = meter.sigma + limits.gauge * abs(one)
         first_spread, second_spread = (np.array([[each @ each / sigma**2]]) for each in (one_spread, other_spread))
-        gain = Forecast(np.array([(other - one) / sigma]), first_spread, second_spread).gain(limits.readings)
+        gain = float(Forecast(np.array([(other - one) / sigma]), first_spread, second_spread).gain(limits.readings))
         found.append(GapLeakTest(gap, between, place, (float(one), float(other)), float(sigma), gain))
     best = max(found, key=lambda each: each.gain)
     return best if best.gain >= limits.settled else None

@@ -166,14 +166,13 @@ def study_of(
     base = linear_posterior(simulator, observations)
     centre = values_at(simulator.parameters, np.zeros(base.xi.size))
     factor = thresholds.name.fault_factor
-    candidates = tuple(
-        candidate
-        for entry in catalogue
-        for candidate in (
-            _of_extensions(entry, simulator, base) if entry.extensions else _of_parameters(entry, base, factor)
-        )
-    )
+    candidates = tuple(one for entry in catalogue for one in entry_candidates(entry, simulator, base, factor))
     return Study(recording, simulator, observations, base, candidates, simulator.components(centre), axes)
+
+
+def entry_candidates(entry: Entry, simulator: PumpSimulator, base: Posterior, factor: float) -> Iterator[Candidate]:
+    """The columns of an entry about a linear posterior at the prior mean; `factor` widens a stated tolerance."""
+    return _of_extensions(entry, simulator, base) if entry.extensions else _of_parameters(entry, base, factor)
 
 
 def concerned(effect: EffectId, parameters: Iterable[Parameter]) -> tuple[str, ...]:

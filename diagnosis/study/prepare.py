@@ -71,8 +71,8 @@ def prepare(
     )
     usable = replace(usable, notes=(*usable.notes, *taken, *unused))
     parameters = (
-        *_uncertain(pump, tolerances, films), *_sensors(usable, channels), *assumed_parameters(usable, pump),
-        *trace_parameters(usable),
+        *uncertain_parameters(pump, tolerances, films), *meter_parameters(usable, channels),
+        *assumed_parameters(usable, pump), *trace_parameters(usable),
     )  # fmt: skip
     bench = LumpedBench(
         pump, points, channels, parameters, inputs=inputs, own_laws=None if films is None else films.own_laws(pump)
@@ -110,7 +110,9 @@ def prepare(
     return replace(study, events=port_events(pump), scant=scant)
 
 
-def _uncertain(pump: PumpDescription, tolerances: Tolerances, films: FilmModel | None) -> tuple[Parameter, ...]:
+def uncertain_parameters(
+    pump: PumpDescription, tolerances: Tolerances, films: FilmModel | None = None
+) -> tuple[Parameter, ...]:
     """The pump's uncertain parameters; of films that balance forces, those that are no results."""
     found = base_parameters(pump, tolerances)
     return found if films is None else tuple(one for one in found if one.name not in BALANCED_NAMES)
@@ -150,7 +152,7 @@ def _of_another_make(bench: LumpedBench, axes: Array, sigma: Array, form: FormLi
     return bench.with_departures(departures(parts, shapes, sigma, form.other_make, apart))
 
 
-def _sensors(recording: Recording, channels: tuple[ChannelName, ...]) -> tuple[Parameter, ...]:
+def meter_parameters(recording: Recording, channels: tuple[ChannelName, ...]) -> tuple[Parameter, ...]:
     """Calibrations of outputs and inputs; the drain meter may drift by its zero's sigma, flow meters lag."""
     known = [channel for channel in recording.channels if channel.name in (*channels, *INPUTS)]
     found = list(sensor_parameters(known))

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
 _RESULTS = (
     "pump", "pump.vary", "film", "film.revolution", "film.series", "map", "map.duty", "compare", "table", "transient",
-    "reference", "reproduce", "diagnose", "calibrate", "variation.sensitivity", "variation.tolerance",
+    "plan", "reference", "reproduce", "diagnose", "calibrate", "variation.sensitivity", "variation.tolerance",
     "variation.optimise",
 )  # fmt: skip
 """Rooms of `swashfilm.runs` with results."""

@@ -1,7 +1,8 @@
-"""A recording beside the simulation of its pump."""
+"""A recording beside the simulation of its pump, and the plan of a test before it."""
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -12,6 +13,7 @@ from system.work.progress import Report, silent
 if TYPE_CHECKING:
     from swashfilm.runs.calibrate.result import CalibrationRun
     from swashfilm.runs.diagnose.result import DiagnosisRun
+    from swashfilm.runs.plan.result import PlanRun
     from system.description.pump import PumpDescription
 
 
@@ -67,3 +69,30 @@ def calibrate(
         found = found_by(known, readings, report, models, words.laws == LAWS[0])
         title = readings.title or words.recording.stem
         return CalibrationRun.ran(lambda folder: write_calibration_files(folder, found, title))
+
+
+def plan(
+    pump: str | Path | PumpDescription = "ref90",
+    *,
+    campaign: str | Path | None = None,
+    sensors: str | None = None,
+    suspects: str | Sequence[str] | None = None,
+    add: int | None = None,
+    limit: str | Sequence[str] = (),
+    report: Report = silent,
+    **options: object,
+) -> PlanRun:
+    """Plan a test: what its points tell apart, and which points and meters to add, as `swashfilm plan`.
+
+    limit: "speed <= 1800 rpm", or several. options: speeds, pressures, displacements, temperatures, inlet_pressures,
+    plan, cost, apart, set. Raises InputFaults and NotConverged.
+    """
+    limits = [limit] if isinstance(limit, str) else list(limit)
+    given = {"campaign": campaign, "sensors": sensors, "suspects": suspects, "add": add, "limit": limits}
+    with door("plan"), pump_path(pump) as name:
+        from swashfilm.runs.plan.command import plan_case
+        from swashfilm.runs.plan.result import PlanRun
+        from swashfilm.runs.plan.run import run_plan
+
+        case = plan_case(words_of("plan", [name], given | options))
+        return PlanRun.ran(lambda folder: run_plan(case, folder, report))

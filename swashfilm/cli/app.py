@@ -20,6 +20,7 @@ from swashfilm.runs.export import command as export
 from swashfilm.runs.film import command as film
 from swashfilm.runs.map import command as operating_map
 from swashfilm.runs.map.duty import command as duty
+from swashfilm.runs.plan import command as plan
 from swashfilm.runs.pump import command as run
 from swashfilm.runs.reference import coefficients_command as coefficients, command as reference
 from swashfilm.runs.reproduce import command as reproduce
@@ -31,7 +32,8 @@ from swashfilm.runs.variation.tolerance import command as tolerance
 from system.inputs.faults import Fault, InputFaults, nearest_choice
 
 _MODULES = (
-    run, film, table, transient, operating_map, duty, compare, sensitivity, tolerance, optimise, export, diagnose,
+    run, film, table, transient, operating_map, duty, compare, sensitivity, tolerance, optimise, export, plan,
+    diagnose,
     calibrate, reference, coefficients, reproduce, report, new, check, doctor, schema,
 )  # fmt: skip
 COMMANDS: dict[str, Command] = {module.COMMAND.name: module.COMMAND for module in _MODULES}

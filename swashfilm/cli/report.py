@@ -20,6 +20,7 @@ PAGES = {
     "film_revolution": "swashfilm.runs.film.revolution.page.write_revolution_page",
     "film_study": "swashfilm.runs.film.series.page.write_study_page",
     "pump_study": "swashfilm.runs.film.series.page.write_study_page",
+    "plan": "swashfilm.runs.plan.page.write_plan_page",
     "pump": "swashfilm.runs.pump.page.write_pump_page",
     "comparison": "swashfilm.runs.compare.page.write_compare_page",
     "duty": "swashfilm.runs.map.duty.page.write_duty_page",

@@ -25,6 +25,7 @@ VERSIONS = {
     "gap_table": 1,
     "map": 1,
     "optimisation": 1,
+    "plan": 1,
     "pump": 1,
     "pump_study": 1,
     "reference": 1,

@@ -134,7 +134,7 @@ def map_case(options: argparse.Namespace, axes: Sequence[MapAxis] | None = None)
     except InputFaults as reason:
         raise InputFaults(reason.source, [*faults, *reason.faults], reason.lines) from None
     plan = map_plan(pump, axes)
-    faults += [*_by_option(plan.checked().faults), *_solver_faults(options, plan)]
+    faults += [*by_option(plan.checked().faults), *_solver_faults(options, plan)]
     if faults:
         raise InputFaults(COMMAND_LINE, faults)
     checks = None if options.check is None else int(options.check)
@@ -162,7 +162,7 @@ def stated_axes(options: argparse.Namespace, faults: list[Fault]) -> list[MapAxi
     return list(axes.values())
 
 
-def _by_option(found: Sequence[Fault]) -> Iterator[Fault]:
+def by_option(found: Sequence[Fault]) -> Iterator[Fault]:
     """Yield the faults of a plan's points under the option of their input, those that expect the same as one."""
     alike: dict[tuple[str, str, str], list[str]] = {}
     for fault in found:

@@ -1,7 +1,7 @@
 """Duty cycle of a CSV file: time and operating point of the pump, one column each, units in the head."""
 
 import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from fractions import Fraction
 from pathlib import Path
 
@@ -32,6 +32,8 @@ UNITS = {
     "inlet pressure": "bar",
 }
 """Example unit of each column, for messages."""
+DIMENSIONS = {TIME: Dimension.TIME, **{name: given.dimension for name, given in HEADS.items()}}
+"""Dimension of each column, None for a bare number."""
 EXAMPLE = "time [s], speed [rpm], pressure [bar], displacement ratio [1]"
 _RATIO_UNITS = {"1": 1.0, "-": 1.0, "%": 0.01}
 
@@ -49,7 +51,7 @@ def read_cycle(path: Path, axes: tuple[MapAxis, ...]) -> Cycle:
     if len(text.rows) < 2:
         raise InputFaults(str(path), [Fault("rows", str(len(text.rows)), f"at least two, under {EXAMPLE}")])
     faults: list[Fault] = []
-    columns = dict(_columns(text.head, faults))
+    columns = dict(input_columns(text.head, DIMENSIONS, EXAMPLE, faults))
     needed = [TIME, *(head for head, given in HEADS.items() if _levels(axes, given) > 1)]
     lacking = [name for name in needed if name not in columns]
     if lacking and not faults:
@@ -58,7 +60,7 @@ def read_cycle(path: Path, axes: tuple[MapAxis, ...]) -> Cycle:
         faults.append(Fault("head", found, f"columns {heads} too: a cycle has a time, and the inputs of its map"))
     if faults:
         raise InputFaults(str(path), faults)
-    values = dict(_values(text.rows, len(text.head), columns, faults))
+    values = dict(column_values(text.rows, len(text.head), columns, faults))
     if faults:
         raise InputFaults(str(path), faults)
     try:
@@ -71,32 +73,40 @@ def _levels(axes: tuple[MapAxis, ...], given: MapInput) -> int:
     return next(len(axis.values) for axis in axes if axis.input is given)
 
 
-def _columns(head: list[str], faults: list[Fault]) -> Iterator[tuple[str, tuple[int, float, float]]]:
-    """Yield the name of each column, its index, and factor and offset to SI."""
-    known, named = [TIME, *HEADS], set[str]()
+def input_columns(
+    head: list[str],
+    dimensions: Mapping[str, Dimension | None],
+    example: str,
+    faults: list[Fault],
+    words: Collection[str] = (),
+) -> Iterator[tuple[str, tuple[int, float, float]]]:
+    """Yield the name of each column, its index, and factor and offset to SI; columns of `words` are passed over.
+
+    dimensions: of the names that a column may have, None for a bare number.
+    """
+    known, named = list(dimensions), set[str]()
     if all(column.unit is None for column in head_columns(head)):
         meant = dict.fromkeys(nearest_choice(cell.strip().lower(), known) for cell in head)
-        units = ", ".join(f"{name} [{UNITS[name]}]" for name in meant if name)
-        faults.append(Fault("head", f"'{','.join(head)}', without units", EXAMPLE, units))
+        units = ", ".join(f"{name} [{UNITS.get(name, '1')}]" for name in meant if name)
+        faults.append(Fault("head", f"'{','.join(head)}', without units", example, units))
         return
     for place, (cell, column) in enumerate(zip(head, head_columns(head), strict=True)):
         name, unit = column.name, column.unit
+        if name in words:
+            continue
         if unit is None or name not in known:
             near = nearest_choice(name.lower(), known)
-            faults.append(Fault("head", f"'{cell.strip()}'", EXAMPLE, f"{near} [{UNITS[near]}]" if near else ""))
+            nearest = f"{near} [{UNITS.get(near, '1')}]" if near else ""
+            faults.append(Fault("head", f"'{cell.strip()}'", example, nearest))
             continue
         if name in named:
             faults.append(Fault(f"head {name}", "twice", "each column once"))
             continue
         named.add(name)
         try:
-            yield name, (place, *_scale(unit, _dimension(name)))
+            yield name, (place, *_scale(unit, dimensions[name]))
         except QuantityError as reason:
             faults.append(Fault(f"head {name}", reason.found, reason.expected, reason.nearest))
-
-
-def _dimension(name: str) -> Dimension | None:
-    return Dimension.TIME if name == TIME else HEADS[name].dimension
 
 
 def _scale(unit: str, dimension: Dimension | None) -> tuple[float, float]:
@@ -107,10 +117,10 @@ def _scale(unit: str, dimension: Dimension | None) -> tuple[float, float]:
     return _RATIO_UNITS[unit], 0.0
 
 
-def _values(
+def column_values(
     rows: Sequence[Line], width: int, columns: Mapping[str, tuple[int, float, float]], faults: list[Fault]
 ) -> Iterator[tuple[str, Array]]:
-    """Return each column in SI; list a fault for rows with another number of cells than the head."""
+    """Yield each column in SI; list a fault for rows with another number of cells than the head."""
     uneven = [(number, len(cells)) for number, cells in rows if len(cells) != width]
     if uneven:
         found = f"{uneven[0][1]} cells, so in {len(uneven)} rows" if len(uneven) > 1 else f"{uneven[0][1]} cells"
@@ -118,7 +128,7 @@ def _values(
         faults.append(Fault(f"line {uneven[0][0]}", found, f"{width}, the number of columns in the head", remedy))
         return
     for name, (place, factor, offset) in columns.items():
-        most = LARGEST if (kind := _dimension(name)) is None else largest(kind)
+        most = LARGEST if (kind := DIMENSIONS.get(name)) is None else largest(kind)
         numbers = []
         for number, cells in rows:
             text = cells[place].strip() if place < len(cells) else ""

@@ -106,7 +106,7 @@ def _recording(points: BenchPoints, flow: Array) -> Recording:
 
 def _gains(study: Study, first: Contender, second: Contender, points: BenchPoints) -> Array:
     """(N,), nats that readings at each of the points bring at least, whichever of the two is true."""
-    return np.array([one.gain(LIMITS.readings) for one in forecasts(study, first, second, points)])
+    return forecasts(study, first, second, points).gain(LIMITS.readings)
 
 
 def _rivals(true: Law, seed: int, size: float = 0.3) -> tuple[Study, Contender, Contender]:
@@ -208,7 +208,7 @@ def test_what_the_point_promises_comes_about() -> None:
         found = next_point(study, load_pump("ref90"), _box(study), first, second, LIMITS)
         place = _repeated(_asked(found), LIMITS.readings)
         rng = np.random.default_rng(1000 + seed)
-        one = next(forecasts(study, first, second, _asked(found))).odds(LIMITS.readings)[0]
+        one = forecasts(study, first, second, _asked(found)).at(0).odds(LIMITS.readings)[0]
         flow = place.p_out / PRESSURE * LPM + 0.03 * LPM * _square(place) + SIGMA * rng.normal(size=LIMITS.readings)
         odds = log_density(study, first, place, flow[:, None]) - log_density(study, second, place, flow[:, None])
         settled.append(found.before + odds >= LIMITS.settled)

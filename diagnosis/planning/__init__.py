@@ -1,0 +1,1 @@
+"""A campaign before the test: which suspects it tells apart, which points and sensors to add."""

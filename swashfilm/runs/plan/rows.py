@@ -1,0 +1,137 @@
+"""Rows of a plan's tables, from its summary, and the words that they share."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterator, Mapping, Sequence
+from typing import Any
+
+from diagnosis.planning.further import DRAINS
+from diagnosis.recording.units import difference, difference_unit
+from diagnosis.report.format import CHANNELS, PLACES, listed
+from system.inputs.channels import ChannelName
+from system.inputs.shown import shown_in
+
+Summary = Mapping[str, Any]
+POINT_COLUMNS = (
+    ("speed", "speed", "rad/s"), ("p_out", "pressure", "Pa"), ("displacement_ratio", "displacement ratio", "1"),
+    ("T_case", "temperature", "K"), ("p_in", "inlet pressure", "Pa"),
+)  # fmt: skip
+"""Key in the summary, head without its unit as a campaign file has it, and SI unit of each input."""
+FURTHER_HEAD = ("a further meter", "pairs that it tells apart", "among them")
+SUSPECT_HEAD = ("suspect", "name for --suspects", "size", "costs", "stands out by", "shows most in")
+SENSOR_HEAD = ("meter", "one sigma of a reading", "calibration: gain", "zero", "")
+NEVER_HEAD = ("never told apart", "why", "what would tell")
+OPEN_HEAD = ("still open", "apart by", "")
+NAMED = 4
+"""Pairs that a cell names."""
+REASONS = {
+    "same_form": "both change the {channel} in the same way over speed, pressure, displacement and temperature",
+    "weak": "{weaker} stands out by {seen:.1f} sigma with these points, and by too little with any",
+}
+
+
+def point_head() -> list[str]:
+    """Return the heads of points.csv: a campaign file that may be planned again."""
+    return [
+        "order",
+        *(f"{name} [{shown_in(unit, name).unit}]" for _, name, unit in POINT_COLUMNS),
+        "repeats [1]",
+        "for",
+    ]
+
+
+def point_rows(summary: Summary) -> Iterator[tuple[str, ...]]:
+    """Yield a row for each point to drive, in its order."""
+    for one in summary["points"]:
+        inputs = (f"{shown_in(unit, name).of(one[key]):.6g}" for key, name, unit in POINT_COLUMNS)
+        yield str(one["order"]), *inputs, str(one["repeats"]), purpose(summary, one)
+
+
+def purpose(summary: Summary, point: Mapping[str, Any]) -> str:
+    """Return what a point is for, in words."""
+    if not point["for"]:
+        return "planned"
+    pairs = "; ".join(pair_words(summary, pair) for pair in point["for"][:2])
+    return f"{pairs} (planned, repeated)" if point["planned"] else pairs
+
+
+def pair_words(summary: Summary, pair: Sequence[int], joined: str = "from") -> str:
+    """Return both suspects of a pair in words."""
+    one, other = (summary["suspects"][at]["words"] for at in pair)
+    return f"{one} {joined} {other}"
+
+
+def channel_of(name: str) -> str:
+    """Return a channel in words."""
+    drain = next((gap for gap, own in DRAINS.items() if own == name), None)
+    return f"drain of {PLACES[drain]}" if drain else CHANNELS.get(ChannelName.named(name), name)
+
+
+def further_rows(summary: Summary) -> Iterator[tuple[str, ...]]:
+    """Yield the rows of FURTHER_HEAD."""
+    for one in summary["further"]:
+        named = "; ".join(pair_words(summary, pair) for pair in one["pairs"][:NAMED])
+        yield one["words"], str(len(one["pairs"])), named + (" .." if len(one["pairs"]) > NAMED else "")
+
+
+def suspect_rows(summary: Summary) -> Iterator[tuple[str, ...]]:
+    """Yield the rows of SUSPECT_HEAD."""
+    for one in summary["suspects"]:
+        capped = " (its largest likely size)" if one["capped"] else ""
+        yield (
+            one["words"], one["name"], one["size"] + capped, f"{100.0 * one['costs_efficiency']:.2g} points",
+            f"{one['seen_sigma']:.1f} sigma", channel_of(one["shows_in"]),
+        )  # fmt: skip
+
+
+def sensor_rows(summary: Summary) -> Iterator[tuple[str, ...]]:
+    """Yield the rows of SENSOR_HEAD."""
+    for one in summary["sensors"]:
+        name = ChannelName.named(one["name"])
+        unit = difference_unit(name)
+        parts = [f"{difference(name, one['sigma']):.3g} {unit}".removesuffix(" 1")] if one["sigma"] else []
+        parts += [f"{100.0 * one['sigma_relative']:.3g} %"] if one["sigma_relative"] else []
+        gain = f"{100.0 * one['gain_sigma']:.2g} %" if one["gain_sigma"] else ""
+        zero = f"{difference(name, one['zero_sigma']):.3g} {unit}".removesuffix(" 1") if one["zero_sigma"] else ""
+        yield one["name"], " + ".join(parts) or "exact", gain, zero, "ordinary bench" if one["assumed"] else "as stated"
+
+
+def never_rows(summary: Summary) -> Iterator[tuple[str, ...]]:
+    """Yield the rows of NEVER_HEAD: what is not seen at all by itself, then the pairs."""
+    for at, own in enumerate(summary["suspects"]):
+        pairs = [one for one in summary["never_apart"] if at in one["unseen"]]
+        if pairs:
+            helped = Counter(name for one in pairs for name in one["further"])
+            meters = [name for name, count in helped.most_common(2) if count >= len(pairs) / 2]
+            why = f"hardly moves any reading of this bench, by {own['seen_sigma']:.1f} sigma with these points"
+            yield f"{own['words']} from anything", why, _meters(summary, meters)
+    for one in summary["never_apart"]:
+        if not one["unseen"]:
+            weaker = min((summary["suspects"][at] for at in one["pair"]), key=lambda own: own["seen_sigma"])
+            channel = channel_of(weaker["shows_in"])
+            why = REASONS[one["reason"]].format(channel=channel, weaker=weaker["words"], seen=weaker["seen_sigma"])
+            yield pair_words(summary, one["pair"]), why, _meters(summary, one["further"])
+
+
+def _meters(summary: Summary, names: Sequence[str]) -> str:
+    words = {one["name"]: one["words"] for one in summary["further"]}
+    return listed((words[name] for name in names), "or") if names else "no meter that is known here"
+
+
+def open_rows(summary: Summary, most: int = 20) -> Iterator[tuple[str, str, str]]:
+    """Yield the pairs that points could tell apart and these do not, the nearest first."""
+    for pair in summary["open_pairs"][:most]:
+        distance = summary["distances"][pair[0]][pair[1]]
+        why = "differ by less than such laws are true" if distance >= summary["apart_sigma"] else ""
+        yield pair_words(summary, pair), f"{distance:.1f} sigma", why
+
+
+def count_rows(summary: Summary) -> Iterator[tuple[str, str]]:
+    """Yield the counts as the command prints them."""
+    readings = summary["planned_readings"]
+    yield "pairs of suspects", str(summary["pairs"])
+    yield f"told apart by {readings} planned readings", str(summary["told_planned"])
+    yield f"with {summary['added_readings']} readings more", str(summary["told"])
+    yield "still open", str(summary["open"])
+    yield "never told apart by points", str(summary["never"])

@@ -1,0 +1,77 @@
+"""Meters of a bench by a command line: `Q_out,Q_case=0.02 L/min,torque=0.2%`."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+from diagnosis.planning.further import DRAINS
+from diagnosis.planning.meters import ALWAYS, ORDINARY, Stated
+from diagnosis.recording.units import difference_unit
+from system.bench.outputs import SIMULATED
+from system.inputs.channels import ChannelName
+from system.inputs.faults import Fault, nearest_choice
+from system.inputs.units import Dimension, QuantityError, parse_quantity
+
+OPTION = "--sensors"
+KNOWN = tuple(one.value for one in (*SIMULATED, ChannelName.T_CASE, *ALWAYS))
+"""Channels with a sigma of their own; the inputs that set a point are always read."""
+
+
+@dataclass
+class Bench:
+    """Channels of the bench, and the sigma of those that have a stated one."""
+
+    channels: tuple[str, ...]
+    stated: dict[ChannelName, Stated] = field(default_factory=dict)
+
+
+def bench_of(text: str | None, faults: list[Fault]) -> Bench:
+    """Return the meters of a text; those of an ordinary bench where there is none; add faults to `faults`."""
+    if text is None:
+        return Bench(tuple(one.value for one in ORDINARY))
+    found = Bench(tuple(one.value for one in ALWAYS))
+    for part in text.split(","):
+        name, equals, sigma = (one.strip() for one in part.partition("="))
+        choices = (*KNOWN, *DRAINS.values())
+        if name not in choices:
+            expected = f"one of {', '.join(choices)}"
+            faults.append(Fault(OPTION, f"'{name}', no meter of a bench", expected, nearest_choice(name, choices)))
+            continue
+        found.channels = tuple(dict.fromkeys((*found.channels, name)))
+        if equals and name in DRAINS.values():
+            faults.append(Fault(OPTION, f"'{part.strip()}'", f"{name} alone: it is as good as that of Q_case"))
+        elif equals:
+            _state(found, ChannelName.named(name), sigma, faults)
+    if not set(found.channels) & {one.value for one in SIMULATED}:
+        outputs = ", ".join(one.value for one in SIMULATED)
+        faults.append(Fault(OPTION, "no meter of what the pump does", f"one at least of {outputs}"))
+    return found
+
+
+def _state(bench: Bench, channel: ChannelName, text: str, faults: list[Fault]) -> None:
+    warm = channel.dimension is Dimension.TEMPERATURE
+    share = "" if warm else ", or a share, such as 0.2%"
+    example = f"a sigma above 0 in {difference_unit(channel)}, such as 0.1 {difference_unit(channel)}{share}"
+    try:
+        stated = _sigma(channel, text)
+    except (QuantityError, ValueError) as reason:
+        near = reason.nearest if isinstance(reason, QuantityError) else ""
+        faults.append(Fault(OPTION, f"'{channel.value}={text}'", example, near))
+        return
+    if not (stated.sigma or stated.share or 0.0) > 0.0:
+        faults.append(Fault(OPTION, f"'{channel.value}={text}'", example))
+        return
+    bench.stated[channel] = stated
+
+
+def _sigma(channel: ChannelName, text: str) -> Stated:
+    """Return a sigma; raises QuantityError or ValueError for a text that is none."""
+    if text.endswith("%") and channel.dimension is not Dimension.TEMPERATURE:
+        return Stated(share=0.01 * float(text.removesuffix("%")))
+    if channel.dimension is None:
+        return Stated(sigma=float(text))
+    if channel.dimension is Dimension.TEMPERATURE:
+        if not text.endswith("K"):
+            raise QuantityError(repr(text), "a difference of temperatures in K")
+        return Stated(sigma=float(text.removesuffix("K")))
+    return Stated(sigma=parse_quantity(text, channel.dimension))
