@@ -27,6 +27,7 @@ FREE = (
     "diagnosis.json/mismatch/channels",
     "study.nc/variables",
     "study.csv",
+    "apart.csv",
     "data/FIGURE.csv",
     "summary.json/failed/*/values",
     "summary.json/table_error",

@@ -112,7 +112,7 @@ GROUPS = (
     )),
     Group("Pumps", (
         *(_pump(name) for name in ("ref90_worn", "ref90_edges", "cylindrical_block", "hst196")),
-        Example("examples/pumps/ref90_design.py", "python examples/pumps/ref90_design.py",
+        Example("examples/pumps/ref90_design.py", "python examples/pumps/ref90_design.py", DRAWS,
                 needs="A run takes 10 to 30 s for each of its rows."),
     )),
     Group("Transients", (
@@ -138,12 +138,12 @@ GROUPS = (
         Example("examples/hst196/series.py", f"python examples/hst196/series.py {MEASURED} series.png",
                 "hst196_series.png", needs="The table of measured units is not part of this repository."),
         Example("examples/hst196/floating.py", f"python examples/hst196/floating.py --rigid {MEASURED}",
-                left_out=MEASURED),
+                DRAWS, left_out=MEASURED),
     )),
     Group("Other models and rigs", (
         Example("examples/own_simulator/valve.py", "python examples/own_simulator/valve.py", DRAWS),
         Example("examples/cascaded_tanks/overflow.py", "python examples/cascaded_tanks/overflow.py dataBenchmark.csv",
-                needs="The benchmark's data are not part of this repository; the script says where they are."),
+                DRAWS, needs="The benchmark's data are not part of this repository; the script says where they are."),
         Example("examples/uci_hydraulic/rig.py",
                 "python examples/uci_hydraulic/rig.py uci_hydraulic recording --leak 1", DRAWS, needs=UCI),
         Example("examples/uci_hydraulic/leak.py", "python examples/uci_hydraulic/leak.py uci_hydraulic", DRAWS,
