@@ -81,7 +81,8 @@ def _sentences(summary: Mapping[str, Any]) -> Iterator[str]:
         yield f"More readings than {summary['most_added']} would tell more: --add N allows them."
     best = _best(summary)
     if best is not None:
-        yield f"The most useful further meter is {best['words']}: {len(best['pairs'])} pairs more."
+        more = len(best["pairs"])
+        yield f"The most useful further meter is {best['words']}: {more} pair{'s' if more > 1 else ''} more."
     elif summary["further"] and summary["told"] < pairs:
         yield "No further meter tells more."
     yield from _never(summary)

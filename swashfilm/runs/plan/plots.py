@@ -18,6 +18,8 @@ if TYPE_CHECKING:
 PLANNED, ADDED, NEVER = "#8fb9c5", "#b5523b", "#d4d4d4"
 COLOURS = ["#f3c9b5", "#f8e6dc", "#b9d3da", "#6fa3b2", "#2f6678"]
 """Of distances: below half of what is wanted, below it, above, well above, far above."""
+LETTER, LEGEND = 0.0078, 1.9
+"""Width of a letter in inches by its size in points, and of the legend in inches."""
 FEW = 12
 """Suspects up to which cells hold their numbers."""
 
@@ -30,14 +32,14 @@ def apart_plot(summary: Mapping[str, Any]) -> Figure:
     distances = np.array(summary["distances"])
     grey = hopeless(summary) | np.eye(count, dtype=bool)
     shown = np.ma.masked_where(grey, distances)
-    size = 1.8 + max(0.45 * min(count, FEW), 0.19 * count)
-    figure = figure_of(size + 1.2, size)
+    words = [one["words"] for one in summary["suspects"]]
+    letters = 7 if count > FEW else 9
+    size = max(0.45 * min(count, FEW), 0.19 * count) + 0.3 + LETTER * letters * max(map(len, words))
+    figure = figure_of(size + LEGEND, size)
     axes = figure.subplots()
     edges = [0.0, 0.5 * wanted, wanted, 1.5 * wanted, 2.5 * wanted, 1e9]
     colours = ListedColormap(COLOURS).with_extremes(bad=NEVER)
     axes.imshow(shown, cmap=colours, norm=BoundaryNorm(edges, colours.N), interpolation="nearest")
-    words = [one["words"] for one in summary["suspects"]]
-    letters = 7 if count > FEW else 9
     axes.set_xticks(range(count), words, rotation=90, fontsize=letters)
     axes.set_yticks(range(count), words, fontsize=letters)
     axes.set_facecolor(NEVER)
@@ -90,5 +92,6 @@ def points_plot(summary: Mapping[str, Any]) -> Figure:
         axes.set_xlabel(f"speed [{speed.unit}]")
         axes.grid(visible=True, alpha=0.3)
     panels[0].set_ylabel(f"delivery pressure [{pressure.unit}]")
-    panels[-1].legend(fontsize=8, loc="center")
+    marks = {name: mark for axes in panels for mark, name in zip(*axes.get_legend_handles_labels(), strict=True)}
+    figure.legend(marks.values(), marks.keys(), fontsize=8, loc="outside lower center", ncols=2, frameon=False)
     return figure

@@ -79,8 +79,9 @@ def suspect_rows(summary: Summary) -> Iterator[tuple[str, ...]]:
     """Yield the rows of SUSPECT_HEAD."""
     for one in summary["suspects"]:
         capped = " (its largest likely size)" if one["capped"] else ""
+        cost = f"{100.0 * one['costs_efficiency']:.2g}"
         yield (
-            one["words"], one["name"], one["size"] + capped, f"{100.0 * one['costs_efficiency']:.2g} points",
+            one["words"], one["name"], one["size"] + capped, f"{cost} point{'' if cost == '1' else 's'}",
             f"{one['seen_sigma']:.1f} sigma", channel_of(one["shows_in"]),
         )  # fmt: skip
 
