@@ -10,7 +10,6 @@ from swashfilm.console.command import Command
 from swashfilm.console.inputs import COMMAND_LINE
 from swashfilm.console.pressures import add_units_option
 from swashfilm.console.terminal import show
-from swashfilm.output.page import read_summary
 from system.inputs.faults import Fault, InputFaults, nearest_path
 
 PAGES = {
@@ -60,6 +59,8 @@ def _told(reason: Exception) -> str:
 
 def _page_of(folder: Path) -> Callable[[Path], Path]:
     """Return the function that writes the page of a run folder."""
+    from swashfilm.output.page import read_summary
+
     if not (folder / "summary.json").exists():
         fault = Fault("DIR", f"no {folder / 'summary.json'}", "the folder of a finished run", nearest_path(folder))
         raise InputFaults(COMMAND_LINE, [fault])

@@ -139,7 +139,7 @@ def test_tables_hold_no_formula(tmp_path):
     assert all(row[1] == "-1.5" for row in rows)
     write_columns(tmp_path / "b.csv", [Column("name", [FORMULAS[0]]), Column("speed", [-1.0], "rad/s")])
     assert read_csv(tmp_path / "b.csv")[1][0] == f"'{FORMULAS[0]}"
-    (tmp_path / "summary.json").write_text(json.dumps({"name": FORMULAS[0], "x_m": 1.0}))
+    (tmp_path / "summary.json").write_text(json.dumps({"format": 1, "kind": "film", "name": FORMULAS[0], "x_m": 1.0}))
     write_workbook(tmp_path, tmp_path / "c.xlsx")
     cells = [cell for sheet in load_workbook(tmp_path / "c.xlsx") for row in sheet.iter_rows() for cell in row]
     assert all(cell.data_type != "f" for cell in cells)

@@ -214,7 +214,7 @@ def test_pump_and_axes_are_told_of_together(tmp_path, capsys):
         (lambda place: place.write_text('name = "pump"'), "swashfilm map"),
         (lambda place: place.mkdir(), "a folder without map.nc"),
         (lambda place: (place / "points").mkdir(parents=True), "--resume"),
-        (lambda place: (place.mkdir(), (place / "map.nc").write_text("x")), "not a map of swashfilm"),
+        (lambda place: (place.mkdir(), (place / "map.nc").write_text("x")), "the NetCDF file of a run"),
     ],
 )
 def test_what_is_no_map_is_told(build, told, tmp_path, capsys):

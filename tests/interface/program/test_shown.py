@@ -134,7 +134,7 @@ def test_a_film_is_shown_in_bar_and_kept_in_si(case, capsys):
 def test_a_run_leaves_a_workbook(case):
     assert main(["film", case, "--excel", "--csv", "-o", "run"]) == 0
     book = openpyxl.load_workbook("run/run.xlsx")
-    assert book.sheetnames == ["summary", "fields"]
+    assert book.sheetnames == ["summary", "fields", "sections"]
     assert all(sheet.freeze_panes == "A2" for sheet in book)
     rows = {name: (value, unit) for name, value, unit in book["summary"].iter_rows(values_only=True)}
     assert rows["number"] == ("value", "unit")
@@ -147,11 +147,13 @@ def test_a_run_leaves_a_workbook(case):
 
 def test_a_text_of_a_workbook_is_no_formula(tmp_path):
     texts = ["=1+1", "+x", "-x", "@x", "-1.5"]
-    (tmp_path / "summary.json").write_text(json.dumps({"name": "=cmd()"}), encoding="utf-8")
+    (tmp_path / "summary.json").write_text(
+        json.dumps({"format": 1, "kind": "film", "name": "=cmd()"}), encoding="utf-8"
+    )
     (tmp_path / "table.csv").write_text("reason\n" + "\n".join(texts) + "\n", encoding="utf-8")
     write_workbook(tmp_path, tmp_path / "book.xlsx")
     book = openpyxl.load_workbook(tmp_path / "book.xlsx")
     cells = [row[0] for row in book["table"].iter_rows(min_row=2)]
     assert [cell.value for cell in cells] == ["=1+1", "+x", "-x", "@x", -1.5]
     assert [cell.data_type for cell in cells] == ["s", "s", "s", "s", "n"]
-    assert book["summary"]["B2"].data_type == "s"
+    assert [row[1].data_type for row in book["summary"].iter_rows(min_row=2) if row[1].value == "=cmd()"] == ["s"]

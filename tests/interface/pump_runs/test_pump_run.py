@@ -136,11 +136,14 @@ def test_report_is_made_anew_from_the_folder(lumped):
 
 
 def test_a_folder_that_is_not_whole_is_bad_input(lumped, tmp_path, capsys):
-    for name, text in (("summary.json", '{"format": 1, "kind": "pump"}'), ("results.nc", "cut off")):
+    for name, text, told in (
+        ("summary.json", '{"format": 1, "kind": "pump"}', "files as a run of this version wrote them"),
+        ("results.nc", "cut off", "the NetCDF file of a run"),
+    ):
         broken = shutil.copytree(lumped, tmp_path / name)
         (broken / name).write_text(text, "utf-8")
         assert main(["report", str(broken)]) == 2
-        assert "files of a finished run of this version" in capsys.readouterr().err
+        assert told in capsys.readouterr().err
 
 
 def test_a_pump_that_delivers_nothing_has_no_efficiency(tmp_path, capsys):

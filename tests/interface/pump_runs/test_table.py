@@ -66,7 +66,7 @@ def test_a_table_is_built_told_and_run(stand_in, tmp_path, capsys):
     assert "warning: large_error: slipper.film_least" in out.out
     assert "38/38" in out.err
     assert {path.name for path in folder.iterdir()} == {
-        "resolved.toml", "table.npz", "table.json", "points.csv", "summary.json", "report.html",
+        "resolved.toml", "pump.schema.json", "table.npz", "table.json", "points.csv", "summary.json", "report.html",
     }  # fmt: skip
     record = json.loads((folder / "table.json").read_text())
     assert record["source"] == "fixed"
