@@ -14,6 +14,7 @@ from swashfilm.runs.map.answer import percent
 from swashfilm.runs.map.duty.page import energy_text
 from swashfilm.runs.map.plots import HEADLINE
 from swashfilm.runs.map.slices import place_words
+from system.inputs.shown import ROUND_OFF
 from system.maps.data import LOSSES
 from system.maps.plan import MapInput
 
@@ -176,7 +177,8 @@ def difference_rows(summary: Row) -> Iterator[tuple[str, ...]]:
 def _difference_cells(row: Row, summary: Row, unit: str) -> tuple[str, ...]:
     """Return mean and largest difference, its point, and the error of both there."""
     scale, largest = _SCALES[row["unit"]][0], row["largest"]
-    error = f"{largest['error'] * scale:.1g}{unit}"
+    small = largest["error"] < ROUND_OFF * abs(largest["value"])
+    error = "round-off" if small else f"{largest['error'] * scale:.1g}{unit}"
     if not row["told"]:
         return NOTHING, "", "", error
     mean = _apart(row, row["unit"])
