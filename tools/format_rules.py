@@ -1,4 +1,4 @@
-"""What run folders alone do not say of their format. Paths: file, then keys by `/`; `*` stands for anything."""
+"""Rules of formats that run folders alone do not show. Paths: file, then keys by `/`; `*` stands for anything."""
 
 FREE = (
     "summary.json/*numbers",

@@ -1,4 +1,4 @@
-"""What a command on a mutated file has come to."""
+"""Outcome of a command on a mutated file."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ _CONTROL = re.compile(r"[\x00-\x08\x0b-\x1f\x7f\x80-\x9f]")
 
 
 class Outcome(Enum):
-    """What came of a case."""
+    """Outcome of a case."""
 
     REFUSED = "refused in words"
     ACCEPTED = "accepted"
@@ -43,7 +43,7 @@ class Outcome(Enum):
 
 @dataclass(frozen=True)
 class Ended:
-    """How a command ended: its exit code or the signal, whether it had to be ended, its memory, what it said."""
+    """End of a command: its exit code or the signal, whether it had to be ended, its memory, what it said."""
 
     code: int | None
     signal: int

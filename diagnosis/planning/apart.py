@@ -1,4 +1,4 @@
-"""How far apart a campaign tells suspects: distances in sigma, and what one reading more promises.
+"""Distances of suspects under a campaign, in sigma, and the promise of one reading more.
 
 The readings of suspect i are those of the pump and its own columns at its size, y = y0 + J xi + V t_i + noise. Its
 rival j follows them as well as it can, by the uncertain parameters xi of priors N(0, 1) and by its own sizes b of
@@ -84,7 +84,7 @@ class Contest:
         return Rivalry(taken.max(axis=0), tuple(rival.members[member] for member in best), sizes)
 
     def _followed(self, fitted: Fitted, columns: tuple[int, ...]) -> tuple[Array, Array]:
-        """What sizes of some columns take of t^T M t of every suspect (S,), and these sizes (q, S).
+        """Part of t^T M t of every suspect (S,) that sizes of some columns take, and these sizes (q, S).
 
         Of sizes that must have a sign those are 0 that would have the other (all subsets are tried); a suspect of
         either sign has the one that the rival follows best.

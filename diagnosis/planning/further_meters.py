@@ -91,7 +91,7 @@ def meter_worths(
     limits: FormLimits,
     report: Report = silent,
 ) -> tuple[MeterWorth, ...]:
-    """What each meter adds to the pairs `told` by so many readings (N,), the best first."""
+    """Pairs that each meter adds to those `told` by so many readings (N,), the best first."""
     found = []
     for number, meter in enumerate(meters):
         report(number, len(meters), f"campaign with {meter.words}")

@@ -69,7 +69,7 @@ class Purpose:
 
 @dataclass(frozen=True)
 class Plan:
-    """What a campaign tells of S suspects, and what to add to it.
+    """A planned campaign: the pairs of S suspects that it tells apart, and points and meters to add.
 
     points: N, the planned first; planned, counts: readings at each (N,), as asked and with the added. before, after,
     ever: (S, S), sigma, by the planned campaign, with the added points, and with MANY readings at every point; seen:

@@ -84,7 +84,7 @@ def plain_answer(study: Study, diagnosis: Diagnosis, cost: str) -> PlainAnswer:
 
 
 def _measure(study: Study, diagnosis: Diagnosis) -> str:
-    """What to measure next; where nothing is found and that is not sure, what would show more."""
+    """The next measurement; where nothing is found and that is not sure, the one that would show more."""
     found = diagnosis.kind is not Kind.NO_MISMATCH or diagnosis.status is VerdictStatus.SUSPICION
     sure = found or sure_words(diagnosis, study.scant) in SURE
     return measure_words(diagnosis) if sure else hidden_words(study)

@@ -44,7 +44,7 @@ def measure_words(diagnosis: Diagnosis) -> str:
 
 
 def hidden_words(study: Study) -> str:
-    """What would show more, where nothing is found and the record of such answers is poor: meters, axes, dimensions."""
+    """Meters, axes and dimensions that would show more, where nothing is found and such answers have a poor record."""
     moving = axis_values(study.recording)
     meters = [CHANNELS[one] for one in METERS if one not in study.channels]
     axes = [f"other {CHANNELS[axis]}s" for axis in MAP_AXES if axis not in moving]

@@ -1,4 +1,4 @@
-"""What a function is given as a file of the command: descriptions, tables and results are written to one."""
+"""Arguments of a function as files of the command: descriptions, tables and results are written to one."""
 
 from __future__ import annotations
 

@@ -55,7 +55,7 @@ _Over = Callable[[str], Callable[[Columns, Array], Array]]
 
 
 class Needs(Enum):
-    """What a fidelity must solve for a number: each holds those before it."""
+    """Solution that a number needs of a fidelity: each holds those before it."""
 
     PRESSURE = 0  # in the chambers, at the sampled angles
     COURSE = 1  # of the flows over the turn

@@ -19,7 +19,7 @@ PARTS = ("film temperature", "mixed friction", "churning", "piston friction", "s
 
 
 class Verdict(Enum):
-    """What a comparison tells of the model."""
+    """Verdict of a comparison on the model."""
 
     NOISE = "within the noise"
     MODEL = "model error"
@@ -51,7 +51,7 @@ class Trend:
 
 @dataclass(frozen=True)
 class Measured:
-    """What a row against a measured number needs beside its numbers."""
+    """Source, licence and uncertainties of a row against a measured number."""
 
     part: str
     licence: str

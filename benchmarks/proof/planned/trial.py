@@ -82,7 +82,7 @@ class Trial:
 
 
 def concealed() -> tuple[Concealed, ...]:
-    """What the check conceals, in a drawn order: all that a grid of steady points can show."""
+    """Effects that the check conceals, in a drawn order: all that a grid of steady points can show."""
     outputs = {f"{one}_" for one in campaigns()[GRID].outputs}
     faults = [one for one in SENSORS if any(one.id.startswith(name) for name in (*outputs, "p_out", "T_case"))]
     known = [*(one for one in PHYSICS if one.label not in NEEDS), *PARAMETERS, *faults]

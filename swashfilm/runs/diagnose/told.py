@@ -71,7 +71,7 @@ def _paragraphs(answer: Mapping[str, Any]) -> Iterator[_Paragraph]:
 
 
 def _looks(looks: Sequence[Mapping[str, str]]) -> Iterator[str]:
-    """What to look at; of several causes, and of a suspicion, behind its name, for it holds if that is the cause."""
+    """Places to look at; of several causes, and of a suspicion, each behind the name of its cause."""
     for one in looks:
         yield f"{one['name']}: {one['text']}" if one["name"] else one["text"]
 

@@ -1,4 +1,4 @@
-"""What can be told of a problem before a pump is solved: bounds that no geometry has, constraints that none meets."""
+"""Faults of a problem before a pump is solved: bounds that no geometry has, constraints that no pump meets."""
 
 from __future__ import annotations
 

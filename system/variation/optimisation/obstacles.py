@@ -1,4 +1,4 @@
-"""What keeps designs from being feasible: each constraint, and by how much designs miss it."""
+"""Constraints that keep designs from being feasible, and the amounts by which designs miss them."""
 
 from __future__ import annotations
 
