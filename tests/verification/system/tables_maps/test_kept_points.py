@@ -173,7 +173,9 @@ def test_a_killed_run_costs_what_was_at_work(solves, tmp_path):
     run.wait()
     time.sleep(2.0)
     kept, begun = len(list(store.folder.glob("*.json"))), len(list(solves.iterdir()))
-    assert 3 <= kept < begun <= kept + 2
+    # The kill may come between two parts, when nothing is at work.
+    assert 3 <= kept <= begun <= kept + 2
+    assert kept < len(PARTS)
     assert run_kept(Squares(solves), PARTS, store, ProcessPool(1)).known == kept
     assert Squares(solves).solves() == begun + len(PARTS) - kept
 
