@@ -5,7 +5,7 @@ FREE = (
     "*/max_at",
     "*/min_at",
     "summary.json/energy_J",
-    "summary.json/marked",
+    "summary.json/*marked",
     "summary.json/*flow_m3_per_s",
     "*/physics_seconds",
     "*/stated",

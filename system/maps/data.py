@@ -13,7 +13,7 @@ from reynolds.errors import InputError
 from reynolds.numerics.arrays import Array
 from system.maps.displacement import Derived, toet_displacement
 from system.maps.plan import MapAxis, MapInput, MapPlan
-from system.maps.point import MapWork, columns
+from system.maps.point import columns
 from system.pump.assembly import PointWarning
 from system.pump.bench import BenchReading
 from system.pump.efficiency import EfficiencyBasis, EfficiencyDefinition, efficiency
@@ -152,13 +152,13 @@ class Best:
     overall: float
 
 
-def map_data(plan: MapPlan, work: MapWork, outcomes: tuple[PartOutcome, ...]) -> MapData:
-    """The map of a plan's outcomes, which are in the order of its points."""
+def map_data(plan: MapPlan, words: str, outcomes: tuple[PartOutcome, ...]) -> MapData:
+    """The map of a plan's outcomes, which are in the order of its points; words: how they were solved."""
     numbers = [outcome.record.get("numbers", {}) for outcome in outcomes]
     remarks = [tuple((name, text) for name, text in one.record.get("warnings", ())) for one in outcomes]
     return MapData(
         name=plan.pump.name,
-        words=work.solver.words,
+        words=words,
         bulk_modulus=plan.pump.oil.bulk_modulus,
         axes=plan.axes,
         values={

@@ -255,6 +255,11 @@ def point_numbers(solved: SolvedPoint) -> dict[str, float]:
     }
 
 
+def point_remarks(solved: SolvedPoint) -> list[list[str]]:
+    """The warnings of a point, [name, text] each."""
+    return [[remark.warning.value, remark.text] for remark in solved.pump_point.warnings]
+
+
 @dataclass(frozen=True)
 class MapWork:
     """The points of a map as work in parts."""
@@ -271,8 +276,7 @@ class MapWork:
     def solve(self, point: OperatingPoint) -> dict[str, object]:
         """The point's numbers and warnings."""
         solved = self.solver.solve(self.pump, point)
-        remarks = [[remark.warning.value, remark.text] for remark in solved.pump_point.warnings]
-        return {"numbers": point_numbers(solved), "warnings": remarks}
+        return {"numbers": point_numbers(solved), "warnings": point_remarks(solved)}
 
     def row(self) -> MapWork:
         """The same points, each on from the one before."""

@@ -17,7 +17,7 @@ from system.description.keys import PumpKey, pump_keys, with_values
 from system.description.pump import PumpDescription
 from system.description.tolerance import ToleranceSection
 from system.inputs.faults import Fault, InputFaults
-from system.maps.point import KEY_LENGTH, MapSolver
+from system.maps.point import KEY_LENGTH, MapSolver, point_numbers as map_numbers, point_remarks
 from system.pump_file.file import check_pump, resolved_toml
 from system.variation.measures import point_numbers
 from system.variation.sites import Sites
@@ -65,18 +65,22 @@ def variable_keys(pump: PumpDescription, by_table: bool) -> dict[str, PumpKey]:
 
 @dataclass(frozen=True)
 class VariedWork:
-    """Variants of a pump as work in parts: each is solved at all sites."""
+    """Variants of a pump as work in parts: each is solved at all sites.
+
+    whole: numbers and warnings of a map are kept of each site beside the NUMBERS; not of sites solved together.
+    """
 
     pump: PumpDescription
     solver: MapSolver | TogetherSolver
     sites: Sites
+    whole: bool = False
 
     def key(self, variant: Variant) -> str:
         """Name of all that a variant's numbers depend on."""
         made_by = "varied pump", FORMAT, version("swashfilm"), sorted(self.solver.stated.items()), self._read
         points = np.array([list(vars(point).values()) for point in self.sites.points])
         paths, values = [path for path, _ in variant], np.array([value for _, value in variant])
-        return content_key(*made_by, self.pump.file_contents, points, paths, values)[:KEY_LENGTH]
+        return content_key(*made_by, self.whole, self.pump.file_contents, points, paths, values)[:KEY_LENGTH]
 
     def solve(self, variant: Variant) -> dict[str, object]:
         """The numbers of all sites, and the names of their warnings, which points solved together have not."""
@@ -86,7 +90,10 @@ class VariedWork:
         solver = self.solver.row()
         solved = [solver.solve(pump, point) for point in self.sites.of(pump)]
         names = sorted({remark.warning.value for one in solved for remark in one.pump_point.warnings})
-        return {"numbers": [point_numbers(pump, one) for one in solved], "warnings": names}
+        found: dict[str, object] = {"numbers": [point_numbers(pump, one) for one in solved], "warnings": names}
+        if self.whole:
+            found["map"] = [[[*map_numbers(one).values()], point_remarks(one)] for one in solved]
+        return found
 
     @cached_property
     def _read(self) -> str:

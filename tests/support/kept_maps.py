@@ -29,5 +29,5 @@ def kept_map(folder, levels, without=(), solver=None):
         outcomes[k] = replace(outcomes[k], status=PartStatus.NOT_CONVERGED, reason="no film", record={})
     folder.mkdir()
     about = {"stated": {}, "resolved_toml": "", "assumptions": []}
-    write_map(folder / "map.nc", map_data(plan, work, tuple(outcomes)), None, about)
+    write_map(folder / "map.nc", map_data(plan, work.solver.words, tuple(outcomes)), None, about)
     return folder

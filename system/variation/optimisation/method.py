@@ -1,4 +1,4 @@
-"""Choice of the search: by derivatives where one smooth objective has them, else evolution."""
+"""Choice of the search: by derivatives or a model for one objective, by evolution for several and for jumps."""
 
 from __future__ import annotations
 
@@ -18,12 +18,15 @@ class Method(Enum):
 
     EVOLUTION = "evolution"
     GRADIENT = "gradient"
+    TRUST_REGION = "trust_region"
 
 
-def usual_method(problem: Problem) -> tuple[Method, str]:
-    """Return the search that suits a problem, and why."""
+def usual_method(problem: Problem, *, costly: bool) -> tuple[Method, str]:
+    """Return the search that suits a problem, and why; costly: its films are solved, in seconds or minutes."""
     if len(problem.objectives) > 1:
         return Method.EVOLUTION, f"{len(problem.objectives)} objectives have a set of best designs, no single one"
+    if costly:
+        return Method.TRUST_REGION, "a quadratic model of one objective needs the fewest of costly designs"
     kinked = [one.words for one in problem.asked if one.name.startswith(_KINKED)]
     if kinked:
         return Method.EVOLUTION, f"the slope of {kinked[0]} jumps, so derivatives mislead"

@@ -160,12 +160,16 @@ class Problem:
         return np.array([one.numbers[at] if one.solved else np.nan for one in designs])
 
 
+MapRecord = tuple[list[float], list[list[str]]]
+"""Numbers of a map's point in the order of its columns, SI, and its warnings, [name, text] each."""
+
+
 @dataclass(frozen=True)
 class Design:
     """A design: its place (k,) in the unit cube, the generation that tried it, and its measures (M,), SI.
 
-    at_sites: NUMBERS (P, ..) at each operating point; warnings: their names. Without a result all are empty, and
-    `reason` tells why.
+    at_sites: NUMBERS (P, ..) at each operating point; of_map: numbers and warnings of a map there, where they are kept;
+    warnings: their names. Without a result all are empty, and `reason` tells why.
     """
 
     place: Array
@@ -175,6 +179,7 @@ class Design:
     at_sites: Array
     warnings: tuple[str, ...] = ()
     reason: str = ""
+    of_map: tuple[MapRecord, ...] = ()
 
     @property
     def solved(self) -> bool:

@@ -70,5 +70,5 @@ def design_of(
     if outcome.status is not PartStatus.SOLVED:
         return Design(place, generation, outcome.status, np.empty(0), np.empty(0), (), outcome.reason)
     sites = numbers_in(outcome)
-    warnings = tuple(outcome.record["warnings"])
-    return Design(place, generation, outcome.status, measured(sites, weights, measures), sites, warnings)
+    warnings, of_map = tuple(outcome.record["warnings"]), tuple((*one,) for one in outcome.record.get("map", ()))
+    return Design(place, generation, outcome.status, measured(sites, weights, measures), sites, warnings, "", of_map)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import argparse
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Annotated
@@ -15,7 +15,7 @@ from swashfilm.console.floating_options import alike_faults, floating_faults, fl
 from swashfilm.runs.variation.case import VariedCase, varied_sites, varied_solver
 from swashfilm.runs.variation.optimise.asked import constraints_of, objectives_of, varied_of
 from swashfilm.runs.variation.optimise.points import points_plan
-from swashfilm.runs.variation.options import known_measures
+from swashfilm.runs.variation.options import costly, known_measures
 from system.description.keys import pump_keys
 from system.description.pump import PumpDescription
 from system.inputs.faults import Fault, InputFaults, nearest_choice
@@ -28,10 +28,17 @@ from system.variation.optimisation.checks import bound_faults, constraint_faults
 from system.variation.optimisation.gradient import gradient_designs
 from system.variation.optimisation.method import Method, usual_method
 from system.variation.optimisation.problem import Problem
+from system.variation.optimisation.trust_region import fewest_designs
 from system.variation.solving import VariedWork, variable_keys
 
 FORMAT = 1
 DESIGNS, GENERATIONS, SEED = 40, 40, 1
+NUMBERS = {
+    Method.EVOLUTION: ("designs", "generations"),
+    Method.GRADIENT: ("generations",),
+    Method.TRUST_REGION: ("designs",),
+}
+"""Keys that say how long a search goes on."""
 KNEE = "knee"
 TABLES = ("vary", "objectives", "constraints", "points")
 
@@ -43,8 +50,8 @@ class OptimiseSection:
     pump: Annotated[str, Text.NAME]  # a built-in pump, or a pump file beside the case
     fidelity: Fidelity = Fidelity.LUMPED
     table: Annotated[str, Text.NAME] | None = None  # of the fidelity table: its file beside the case
-    method: Method | None = None  # left out: by derivatives for one smooth objective, else by evolution
-    designs: Annotated[int, Limits(least=8, most=10_000)] | None = None  # of a generation; 40
+    method: Method | None = None  # left out: by objectives and fidelity
+    designs: Annotated[int, Limits(least=8, most=10_000)] | None = None  # of a generation; in all by trust region; 40
     generations: Annotated[int, Limits(least=1, most=10_000)] | None = None  # or steps along the gradient; 40
     seed: Annotated[int, Limits(least=0, most=2**31 - 1)] = SEED  # the same seed tries the same designs
     choose: Annotated[str, Text.WORDS] = KNEE  # the objective whose best design is chosen, or a row of pareto.csv
@@ -52,7 +59,8 @@ class OptimiseSection:
 
 @dataclass(frozen=True)
 class Search:
-    """Search of an optimisation: method and why, designs of a generation, generations, seed, what is chosen."""
+    """Search of an optimisation: method and why, designs of a generation (by trust region of all), generations, seed,
+    what is chosen."""
 
     method: Method
     why: str
@@ -63,8 +71,11 @@ class Search:
 
     def trials(self, problem: Problem) -> int:
         """Return the number of designs that it tries, about."""
-        if self.method is Method.GRADIENT:
-            return gradient_designs(problem, self.generations)
+        match self.method:
+            case Method.GRADIENT:
+                return gradient_designs(problem, self.generations)
+            case Method.TRUST_REGION:
+                return self.designs
         return self.designs * self.generations
 
 
@@ -110,16 +121,16 @@ def _read(path: Path, text: str, top: Table, options: argparse.Namespace) -> Opt
     problem = Problem(space, objectives_of(top, measures, fidelity), constraints_of(top, measures, fidelity), measures)
     plan, cycle = points_plan(top, pump.pump, path.parent)
     top.faults += [*alike_faults(pump.pump), *floating_faults(options, pump.pump, fidelity.value, "fidelity")]
-    top.faults += _cost_faults(section)
+    top.faults += _table_faults(section)
     if top.faults or plan is None:
         return None
     search = _search(section, problem, options)
-    top.faults += [*_problem_faults(pump.pump, problem, plan.points), *_search_faults(search, problem)]
+    top.faults += [*_problem_faults(pump.pump, problem, plan.points), *_search_faults(section, search, problem)]
     if top.faults:
         return None
     beside = None if section.table is None else path.parent / section.table
     work = VariedWork(pump.pump, varied_solver(plan, fidelity, floating_options(options, pump.pump), beside),
-                      varied_sites(plan, cycle))  # fmt: skip
+                      varied_sites(plan, cycle), whole=True)  # fmt: skip
     fixed = tuple(key for key in pump_keys(pump.pump) if key not in known)
     keys = {one.name: one.key for one in space}
     varied = VariedCase(work, keys, fixed, fidelity, plan, text, cycle, options.resume)
@@ -134,7 +145,7 @@ def _section(table: Table) -> OptimiseSection:
 
 
 def _search(section: OptimiseSection, problem: Problem, options: argparse.Namespace) -> Search:
-    usual, why = usual_method(problem)
+    usual, why = usual_method(problem, costly=costly(section.fidelity))
     method = section.method or usual
     return Search(
         method, why if method is usual else "as the case states", section.designs or DESIGNS,
@@ -142,17 +153,11 @@ def _search(section: OptimiseSection, problem: Problem, options: argparse.Namesp
     )  # fmt: skip
 
 
-def _cost_faults(section: OptimiseSection) -> list[Fault]:
-    """Return the faults of a fidelity without its inputs: a table's file elsewhere, numbers of costly designs."""
-    faults = []
-    if section.table is not None and section.fidelity is not Fidelity.TABLE:
-        faults.append(Fault("optimise.table", f"beside fidelity {section.fidelity.value}", 'fidelity = "table"'))
-    if section.fidelity is Fidelity.FLOATING:
-        usual = f"the usual {DESIGNS} x {GENERATIONS} designs with floating films would take days"
-        lacking = [key for key in ("designs", "generations") if getattr(section, key) is None]
-        faults += [Fault(f"optimise.{key}", f"missing: {usual}", "a number that your time allows", f"{key} = 8")
-                   for key in lacking]  # fmt: skip
-    return faults
+def _table_faults(section: OptimiseSection) -> list[Fault]:
+    """Return the fault of a table's file beside another fidelity."""
+    if section.table is None or section.fidelity is Fidelity.TABLE:
+        return []
+    return [Fault("optimise.table", f"beside fidelity {section.fidelity.value}", 'fidelity = "table"')]
 
 
 def _problem_faults(pump: PumpDescription, problem: Problem, points: Sequence[OperatingPoint]) -> list[Fault]:
@@ -164,13 +169,30 @@ def _problem_faults(pump: PumpDescription, problem: Problem, points: Sequence[Op
     return found
 
 
-def _search_faults(search: Search, problem: Problem) -> list[Fault]:
-    """Return the faults of a search: a gradient of several objectives, and a choice of nothing that there will be."""
+def _search_faults(section: OptimiseSection, search: Search, problem: Problem) -> list[Fault]:
+    """Return the faults of a search: of one objective beside several, its numbers, a choice of nothing."""
     count = len(problem.objectives)
-    if search.method is Method.GRADIENT and count > 1:
-        found = f"'gradient' beside {count} objectives"
+    if search.method is not Method.EVOLUTION and count > 1:
+        found = f"'{search.method.value}' beside {count} objectives"
         return [Fault("optimise.method", found, "one objective, or 'evolution'", "evolution")]
-    return _choice_faults(search, problem)
+    return [*_number_faults(section, search, problem), *_choice_faults(search, problem)]
+
+
+def _number_faults(section: OptimiseSection, search: Search, problem: Problem) -> Iterator[Fault]:
+    """Yield the faults of `designs` and `generations`: too few, lacking for costly designs, or of another search."""
+    needed = NUMBERS[search.method]
+    for key in ("designs", "generations"):
+        stated = getattr(section, key)
+        if key not in needed and stated is not None:
+            found = f"{stated} beside method {search.method.value}"
+            yield Fault(f"optimise.{key}", found, f"{' and '.join(needed)} alone", "leave it out")
+        if key in needed and stated is None and section.fidelity is Fidelity.FLOATING:
+            found = f"missing: the usual {search.trials(problem)} designs with floating films would take days"
+            yield Fault(f"optimise.{key}", found, "a number that your time allows", f"{key} = 8")
+    fewest = fewest_designs(len(problem.space))
+    if search.method is Method.TRUST_REGION and search.designs < fewest:
+        expected = f"at least {fewest}: a model of {len(problem.space)} dimensions, and a step"
+        yield Fault("optimise.designs", str(search.designs), expected, str(fewest))
 
 
 def _choice_faults(search: Search, problem: Problem) -> list[Fault]:

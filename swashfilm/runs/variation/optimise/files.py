@@ -14,7 +14,6 @@ from swashfilm.output.tables import write_csv
 from swashfilm.runs.variation.case import VariedCase
 from swashfilm.runs.variation.words import key_unit
 from system.description.pump import PumpDescription
-from system.pump_file.file import resolved_toml
 from system.variation.measures import NUMBERS
 from system.variation.optimisation.optimum import Optimisation
 from system.variation.optimisation.problem import Design
@@ -48,10 +47,9 @@ def _cells(found: Optimisation, design: Design) -> list[str]:
     return own + [f"{one.read(value):.8g}" for one, value in zip(found.problem.measures, design.numbers, strict=True)]
 
 
-def write_chosen(path: Path, pump: PumpDescription, variant: Variant, said: str) -> None:
-    """Write the pump with the values of a design as a pump file, headed by a comment."""
-    made = replace(varied(pump, variant), name=f"{pump.name}-chosen")
-    path.write_text(f"# {said}\n{resolved_toml(made)}", encoding="utf-8")
+def chosen_pump(pump: PumpDescription, variant: Variant) -> PumpDescription:
+    """Return the pump with the values of a design, and a name of its own."""
+    return replace(varied(pump, variant), name=f"{pump.name}-chosen")
 
 
 def write_data(path: Path, case: VariedCase, found: Optimisation) -> None:

@@ -9,7 +9,9 @@ from typing import Any
 from swashfilm.output.answer import Answer, Tile
 from swashfilm.output.data.files import read_netcdf
 from swashfilm.output.page import inlined, read_summary, write_page
+from swashfilm.runs.compare import page as compared
 from swashfilm.runs.variation.optimise import rows
+from swashfilm.runs.variation.optimise.beside import BESIDE
 from swashfilm.runs.variation.optimise.files import DATA
 from swashfilm.runs.variation.optimise.plots import dimension_plot, growth_plot, pareto_plot
 from system.variation.measures import MEASURES
@@ -46,7 +48,21 @@ def write_optimise_page(folder: Path) -> Path:
         growth_caption=GROWTH,
         along=inlined(dimension_plot(summary, data)) if several else None,
         along_caption=ALONG,
+        beside=_beside(folder / BESIDE),
     )
+
+
+def _beside(folder: Path) -> list[tuple[str, tuple[str, ...], list[tuple[str, ...]]]]:
+    """Return (title, head, rows) of the tables of start and chosen design; none without a chosen design."""
+    if not folder.is_dir():
+        return []
+    found = read_summary(folder)
+    tables = [
+        ("Over the cycle", compared.DUTY_HEAD, list(compared.duty_rows(found)) if found["duty"] else []),
+        ("Efficiency, differences in percentage points", compared.EFFICIENCY_HEAD, compared.efficiency_rows(found)),
+        ("Flows, powers and losses", compared.DIFFERENCE_HEAD, list(compared.difference_rows(found))),
+    ]
+    return [table for table in tables if table[2]]
 
 
 def optimise_answer(summary: Mapping[str, Any], picture: Any) -> Answer:

@@ -8,8 +8,9 @@ from typing import Any
 
 from swashfilm.console.fidelity import Fidelity
 from swashfilm.output.run_folder import write_json
+from swashfilm.runs.variation.optimise.beside import write_beside
 from swashfilm.runs.variation.optimise.case import KNEE, OptimiseCase
-from swashfilm.runs.variation.optimise.files import CHOSEN, DATA, write_chosen, write_data, write_designs
+from swashfilm.runs.variation.optimise.files import CHOSEN, DATA, chosen_pump, write_data, write_designs
 from swashfilm.runs.variation.optimise.page import write_optimise_page
 from swashfilm.runs.variation.optimise.summary import optimise_summary
 from system.inputs.faults import Fault, InputFaults
@@ -19,20 +20,21 @@ from system.variation.optimisation.gradient import descend
 from system.variation.optimisation.method import Method
 from system.variation.optimisation.optimum import Optimisation, Search, optimise
 from system.variation.optimisation.pareto import knee
+from system.variation.optimisation.trust_region import approach
 from system.work.kept_results import POINTS, points_of_run
 from system.work.progress import Report
 from system.work.tasks import Executor
 
 STEP = {Fidelity.LUMPED: 1e-3, Fidelity.TABLE: 5e-3}
-"""Step of differences, of the distance of the bounds; SOLVED for films, whose solvers have more noise."""
+"""Step of differences and last region of trust, of the bounds' distance; SOLVED for films, which have more noise."""
 SOLVED = 0.02
 
 
 def run_optimise(case: OptimiseCase, folder: Path, executor: Executor, report: Report) -> dict[str, Any]:
-    """Optimise a pump; write points/, summary.json, designs.csv, pareto.csv, chosen.toml, results.nc and the page.
+    """Optimise a pump; write points/, summary.json, designs.csv, pareto.csv, chosen.toml, compare/, results.nc, page.
 
-    Returns the summary; without a feasible design there is no chosen.toml. Raises NotConverged where the pump as
-    stated has no result, InputFaults for a chosen row that the Pareto set has not.
+    Returns the summary; without a feasible design there are no chosen.toml and compare/. Raises NotConverged where
+    the pump as stated has no result, InputFaults for a chosen row that the Pareto set has not.
     """
     varied = case.varied
     (folder / "input.toml").write_text(varied.given, encoding="utf-8")
@@ -47,7 +49,10 @@ def run_optimise(case: OptimiseCase, folder: Path, executor: Executor, report: R
     write_designs(folder, found)
     if chosen is not None:
         said = f"Design {chosen + 1} of swashfilm optimise {case.name}: {summary['chosen']['why']}"
-        write_chosen(folder / CHOSEN, varied.pump, found.problem.variant(found.designs[chosen].place), said)
+        design = found.designs[chosen]
+        pump = chosen_pump(varied.pump, found.problem.variant(design.place))
+        (folder / CHOSEN).write_text(f"# {said}\n{resolved_toml(pump)}", encoding="utf-8")
+        write_beside(folder, varied, found.start, pump, design)
     write_data(folder / DATA, varied, found)
     write_json(folder / "summary.json", summary)
     write_optimise_page(folder)
@@ -56,9 +61,12 @@ def run_optimise(case: OptimiseCase, folder: Path, executor: Executor, report: R
 
 def search_of(case: OptimiseCase) -> Search:
     """Return the search of a case."""
-    own = case.search
-    if own.method is Method.GRADIENT:
-        return partial(descend, step=STEP.get(case.varied.fidelity, SOLVED), iterations=own.generations)
+    own, step = case.search, STEP.get(case.varied.fidelity, SOLVED)
+    match own.method:
+        case Method.GRADIENT:
+            return partial(descend, step=step, iterations=own.generations)
+        case Method.TRUST_REGION:
+            return partial(approach, designs=own.designs, last=step)
     return partial(evolve, designs=own.designs, generations=own.generations, seed=own.seed)
 
 

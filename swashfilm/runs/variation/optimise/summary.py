@@ -15,7 +15,7 @@ from system.pump.operating import OperatingPoint
 from system.variation.measures import measured
 from system.variation.optimisation.method import Method
 from system.variation.optimisation.optimum import Optimisation
-from system.variation.optimisation.problem import MET, Constraint, Design, Varied
+from system.variation.optimisation.problem import MET, Constraint, Design, Problem, Varied
 from system.work.tasks import PartStatus
 
 HOLDS = 0.01
@@ -45,7 +45,7 @@ def optimise_summary(case: OptimiseCase, found: Optimisation, chosen: int | None
             "feasible": chosen is not None,
             "design": None if shown is None else shown + 1,
             "row": None if chosen is None else found.pareto.members.index(chosen) + 1,
-            "why": _why(search.choose, chosen),
+            "why": _why(search.choose, problem, chosen),
         },
         "dimensions": [_dimension(found, one, at, design) for at, one in enumerate(problem.space)],
         "objectives": [{"name": one.measure.name, "aim": one.aim.value} for one in problem.objectives],
@@ -67,9 +67,12 @@ def _number(value: float) -> float | None:
     return float(value) if np.isfinite(value) else None
 
 
-def _why(choose: str, chosen: int | None) -> str:
+def _why(choose: str, problem: Problem, chosen: int | None) -> str:
     if chosen is None:
         return "no design is feasible: the one that misses the constraints by the least"
+    if choose == KNEE and len(problem.objectives) == 1:
+        (only,) = problem.objectives
+        return f"the {only.aim.value} {only.measure.words} of all feasible designs"
     if choose == KNEE:
         return "the knee: nearest to the ideal point, objectives scaled by their ranges over the Pareto set"
     return f"row {choose} of pareto.csv" if choose.isdecimal() else f"the best {choose} of the Pareto set"

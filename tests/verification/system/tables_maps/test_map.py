@@ -33,7 +33,7 @@ AXES = (
 @cache
 def solved(axes=AXES, pump=PUMP):
     plan, work = map_plan(pump, axes), MapWork(pump, LumpedSolver())
-    return map_data(plan, work, tuple(done_part(work, point) for point in plan.points))
+    return map_data(plan, work.solver.words, tuple(done_part(work, point) for point in plan.points))
 
 
 @cache
@@ -135,7 +135,7 @@ def test_a_failed_point_leaves_a_gap():
     plan, work = map_plan(PUMP, AXES[1:2]), MapWork(PUMP, LumpedSolver())
     outcomes = [done_part(work, point) for point in plan.points]
     outcomes[2] = replace(outcomes[2], status=PartStatus.NOT_CONVERGED, reason="it stalls", record={})
-    data = map_data(plan, work, tuple(outcomes))
+    data = map_data(plan, work.solver.words, tuple(outcomes))
     assert np.sum(data.solved) == 4
     assert np.isnan(data.efficiency(EfficiencyDefinition.PAPER).overall[0, 2, 0, 0, 0])
     with pytest.raises(InputFaults, match="1 of 5 points without a result, the first: it stalls"):

@@ -19,6 +19,7 @@ from system.variation.optimisation.method import Method, usual_method
 from system.variation.optimisation.optimum import optimise
 from system.variation.optimisation.pareto import knee
 from system.variation.optimisation.problem import Aim, Constraint, Objective, Problem, Varied
+from system.variation.optimisation.trust_region import approach
 from system.variation.scatter import Bound
 from system.work.kept_results import KeptPoints
 from system.work.processes import ProcessPool
@@ -175,7 +176,7 @@ def test_gradient_meets_a_line(tmp_path):
     """(x - 2)^2 + (y - 1)^2 under x + y <= 2: the foot (1.5, 0.5) of the line, feasible, in some ten steps."""
     toy = Toy((("loss", lambda x, y: (x - 2.0) ** 2 + (y - 1.0) ** 2), ("drain_flow", lambda x, y: x + y)), 0.1)
     asked = problem((Objective(LOSS, Aim.LEAST),), (Constraint(DRAIN, Bound.MOST, 2.0, "drain_flow <= 2"),))
-    assert usual_method(asked)[0] is Method.GRADIENT
+    assert usual_method(asked, costly=False)[0] is Method.GRADIENT
     found = solved(tmp_path, asked, toy, partial(descend, step=1e-4, iterations=40))
     (best,) = found.pareto.members
     assert [value for _, value in found.problem.variant(found.designs[best].place)] == pytest.approx(
@@ -185,10 +186,13 @@ def test_gradient_meets_a_line(tmp_path):
 
 
 def test_choice_of_the_search():
-    assert usual_method(problem())[0] is Method.EVOLUTION
-    method, why = usual_method(problem(TWO[:1]))
+    assert usual_method(problem(), costly=True)[0] is Method.EVOLUTION
+    method, why = usual_method(problem(TWO[:1]), costly=False)
     assert method is Method.EVOLUTION
     assert why == "the slope of highest chamber pressure jumps, so derivatives mislead"
+    method, why = usual_method(problem(TWO[:1]), costly=True)
+    assert method is Method.TRUST_REGION
+    assert "fewest of costly designs" in why
 
 
 def test_limit_by_the_start(tmp_path):
@@ -228,3 +232,35 @@ def test_designs_without_a_result(tmp_path):
 def test_start_without_a_result(tmp_path):
     with pytest.raises(NotConverged, match="as stated"):
         solved(tmp_path, problem(), Toy(BINH_KORN.functions, -1.0), evolution(20, 1))
+
+
+def test_trust_region_meets_a_kinked_line(tmp_path):
+    """(x - 2)^2 + (y - 1)^2 under max(x + y, 2 x) <= 2: the kink (1, 1), by a quadratic model in few designs."""
+    functions = (
+        ("loss", lambda x, y: 1.0 + (x - 2.0) ** 2 + (y - 1.0) ** 2),
+        ("drain_flow", lambda x, y: max(x + y, 2 * x)),
+    )
+    asked = problem((Objective(LOSS, Aim.LEAST),), (Constraint(DRAIN, Bound.MOST, 2.0, "drain_flow <= 2"),))
+    found = solved(tmp_path, asked, Toy(functions, 0.1), partial(approach, designs=30, last=1e-3))
+    (best,) = found.pareto.members
+    place = [value for _, value in found.problem.variant(found.designs[best].place)]
+    assert place == pytest.approx((1.0, 1.0), abs=0.03)
+    assert len(found.designs) <= 30
+
+
+def test_trust_region_past_designs_without_a_result(tmp_path):
+    """The start beside masses below zero: refused designs turn the search back, and it ends where it should."""
+    toy = Toy((("loss", lambda x, y: 1.0 + (x - 1.5) ** 2 + (y - 1.0) ** 2),), 0.2)
+    asked = problem((Objective(LOSS, Aim.LEAST),), (), ((-2.0, 5.0), (-1.0, 3.0)))
+    found = solved(tmp_path, asked, toy, partial(approach, designs=60, last=1e-3))
+    assert found.count(PartStatus.FAULTY) + found.count(PartStatus.NOT_CONVERGED) > 0
+    (best,) = found.pareto.members
+    place = [value for _, value in found.problem.variant(found.designs[best].place)]
+    assert place == pytest.approx((1.5, 1.0), abs=0.05)
+
+
+def test_trust_region_keeps_its_budget(tmp_path):
+    toy = Toy((("loss", lambda x, y: 1.0 + (x - 4.0) ** 2 + (y - 2.0) ** 4),), 0.1)
+    asked = problem((Objective(LOSS, Aim.LEAST),), ())
+    found = solved(tmp_path, asked, toy, partial(approach, designs=8, last=1e-4))
+    assert len(found.designs) <= 8
