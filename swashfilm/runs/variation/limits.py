@@ -66,7 +66,10 @@ def _names(known: Sequence[Measure]) -> dict[str, Measure]:
 
 
 def measure_value(text: str, measure: Measure) -> float:
-    """Return a value (SI) of a measure as text; raise QuantityError for one of another unit."""
+    """Return a value (SI) of a measure as text; raise QuantityError for one without a unit, or of another one."""
+    if measure.unit != "1" and _bare(text):
+        meant = f"{text.strip()} {measure.shown}"
+        raise QuantityError(f"{text!r}, without a unit", f"a value with its unit, such as '{meant}'", meant)
     if measure.unit in _DIMENSIONS:
         return parse_quantity(text, _DIMENSIONS[measure.unit])
     if measure.unit == "Pa/s":
@@ -76,6 +79,15 @@ def measure_value(text: str, measure: Measure) -> float:
         return float(number) * (0.01 if percent else 1.0)
     except ValueError:
         raise QuantityError(repr(text), "a share, such as '88 %'") from None
+
+
+def _bare(text: str) -> bool:
+    """True for a number without a unit."""
+    try:
+        float(text)
+    except ValueError:
+        return False
+    return True
 
 
 def _rate(text: str) -> float:

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 from pathlib import Path
 
 from reynolds.errors import NotConverged
+from system.inputs.faults import Fault, InputFaults
+from system.variation.optimisation.checks import constraint_faults
 from system.variation.optimisation.obstacles import Obstacles, obstacles
 from system.variation.optimisation.pareto import ParetoSet, pareto_set
 from system.variation.optimisation.problem import Design, Problem
@@ -54,7 +56,7 @@ def optimise(
     """Return the optimum of a problem: solve the start, then all that the search tries, each kept in a folder.
 
     expected: designs in all, for progress. Raises NotConverged where the pump as stated has no result, which leaves
-    nothing to compare with.
+    nothing to compare with, InputFaults for limits by the start that no pump meets.
     """
 
     def of_start(done: int, total: int, what: str) -> None:
@@ -66,9 +68,23 @@ def optimise(
     start = design_of(outcome, problem.start, 0, work.sites.weights, problem.measures)
     asked = tuple(one.at_start(float(problem.column([start], one.measure)[0])) for one in problem.constraints)
     problem = replace(problem, constraints=asked)
+    if faults := list(_start_faults(work, problem)):
+        raise InputFaults("optimisation", faults)
     trials = Trials(work, problem, folder, executor, report, expected, earlier)
     search(trials)
     designs = tuple(trials.designs)
     internal = next((one.reason for one in designs if one.status is PartStatus.INTERNAL), "")
     best, blocked = pareto_set(problem, designs), obstacles(problem, designs)
     return Optimisation(problem, start, designs, best, blocked, internal, trials.seconds + outcome.seconds)
+
+
+def _start_faults(work: VariedWork, problem: Problem) -> Iterator[Fault]:
+    """Yield the faults of limits by the start, whose values are now known, that no design can meet."""
+    told = [
+        replace(one, of_start=None, text=f"{one.text}, {one.measure.text(one.value)}")
+        for one in problem.constraints
+        if one.of_start is not None
+    ]
+    if told:
+        for _, fault in constraint_faults(work.pump, work.sites.points, replace(problem, constraints=tuple(told))):
+            yield replace(fault, path=f"constraints.{fault.path}")

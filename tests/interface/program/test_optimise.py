@@ -323,6 +323,13 @@ FAULTS = [
         "a least value below",
         "",
     ),
+    (("<= 50 MPa", "<= 50"), "constraints.chamber_pressure_peak", "a value with its unit", "50 MPa"),
+    (
+        ("<= 50 MPa", "<= 0.5 start"),
+        "constraints.chamber_pressure_peak",
+        "chambers deliver at the delivery pressure",
+        "<= 35 MPa",
+    ),
     (("[constraints]", "[constraint]"), "constraint", "one of format, optimise", "constraints"),
     (("format = 1", "format = 2"), "format", "format = 1", ""),
 ]

@@ -14,6 +14,7 @@ from swashfilm.runs.variation.tolerance.files import si_unit
 from swashfilm.runs.variation.words import size_text, where
 from system.description.drawn import Drawing, Drawn, DrawnFit, pump_sigma
 from system.description.keys import pump_keys
+from system.inputs.shown import ROUND_OFF
 from system.maps.plan import point_words
 from system.variation.scatter import CONFIDENCE, QUANTILES, Scatter
 from system.variation.tolerance import Tolerance
@@ -100,7 +101,11 @@ def _warnings(found: Tolerance) -> list[str]:
         f"points_failed: {count} of {found.pumps} pumps have no result: {reason}"
         for reason, count in found.failed.items()
     ]
-    rough = [one.words for one, part in zip(found.measures, found.surface.held_out, strict=True) if part < 0.9]
+    rough = [
+        one.words
+        for one, own, part in zip(found.measures, found.scatters, found.surface.held_out, strict=True)
+        if part < 0.9 and own.deviation > ROUND_OFF * abs(own.mean)
+    ]
     if rough:
         said.append(
             f"shares_uncertain: a quadratic surface explains less than 90 % of {', '.join(rough)}: their shares are a "

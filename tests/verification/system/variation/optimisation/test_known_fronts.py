@@ -38,6 +38,7 @@ class Toy:
     functions: tuple
     start: float = 1.0
     solver = SimpleNamespace(cost=1e-3)
+    pump = None
     sites = SimpleNamespace(points=(None,), weights=np.ones(1))
 
     def key(self, variant):
