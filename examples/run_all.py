@@ -1,9 +1,9 @@
 """Run every example that needs no data of others, as a user runs it, each in a run folder of its own.
 
-    python examples/run_all.py [--workers N] [WORD ..]
+    python examples/run_all.py [--workers N] [--long] [WORD ..]
 
-With words, only examples whose command contains one of them. Prints the time of each. The exit code is 1 where one
-fails.
+With words, only examples whose command contains one of them; LONG ones run with --long alone. Prints the time of each.
+The exit code is 1 where one fails.
 """
 
 from __future__ import annotations
@@ -21,7 +21,9 @@ from time import perf_counter
 ROOT = Path(__file__).resolve().parents[1]
 EXAMPLES = ROOT / "examples"
 LIMIT = 1200.0
-"""Seconds that one example may take."""
+"""Seconds that one example may take; with --long hours."""
+LONG = ("examples/optimisations/floating_slipper.toml",)
+"""Examples that take more than some minutes."""
 
 
 @dataclass(frozen=True)
@@ -37,9 +39,11 @@ def main(words: Sequence[str]) -> int:
     """Run the examples side by side and return the exit code."""
     parser = argparse.ArgumentParser(description="Run every example that needs no data of others.")
     parser.add_argument("--workers", type=int, default=2, help="examples side by side (2)")
+    parser.add_argument("--long", action="store_true", help=f"also {', '.join(LONG)}")
     parser.add_argument("words", nargs="*", help="only examples whose command contains one of them")
     asked = parser.parse_args(words)
     picked = [one for one in commands() if not asked.words or any(word in " ".join(one) for word in asked.words)]
+    picked = [one for one in picked if asked.long or not set(LONG) & set(one)]
     with tempfile.TemporaryDirectory() as place, ThreadPoolExecutor(asked.workers) as pool:
         folders = [Path(place) / str(number) for number in range(len(picked))]
         failed = [outcome for outcome in pool.map(run, picked, folders) if shown(outcome).failure]
@@ -70,12 +74,17 @@ def run(words: list[str], folder: Path) -> Outcome:
     arguments = ["-m", *words, "-o", str(folder)] if words[0] == "swashfilm" else words
     try:
         done = subprocess.run(
-            [sys.executable, *arguments], cwd=ROOT, capture_output=True, text=True, timeout=LIMIT, check=False
+            [sys.executable, *arguments], cwd=ROOT, capture_output=True, text=True, timeout=limit(words), check=False
         )
         failure = done.stdout[-2000:] + done.stderr[-2000:] if done.returncode else ""
     except subprocess.TimeoutExpired:
-        failure = f"not done within {LIMIT:.0f} s"
+        failure = f"not done within {limit(words):.0f} s"
     return Outcome(" ".join(words), perf_counter() - start, failure)
+
+
+def limit(words: Sequence[str]) -> float:
+    """Return the seconds that an example may take."""
+    return 10.0 * LIMIT if set(LONG) & set(words) else LIMIT
 
 
 def shown(outcome: Outcome) -> Outcome:

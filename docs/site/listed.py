@@ -120,7 +120,7 @@ GROUPS = (
                 "plot_plate"),
     )),
     Group("Optimisations", (
-        _optimised("port_timing"), _optimised("slipper_land"),
+        _optimised("port_timing"), _optimised("slipper_land"), _optimised("floating_slipper"),
         Example("examples/optimisations/piston_profile.py", "python examples/optimisations/piston_profile.py"),
     )),
     Group("References", (

@@ -1,0 +1,147 @@
+"""Scores of the answers to a split: detection, isolation, classification errors, time; with Wilson's intervals."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from proof.calibration import wilson
+from proof.judged import SURE, in_set, is_right, is_wrong_name
+from proof.outcome import Claimed, Outcome, Ranked as Weighed
+from proof.parts import Plant
+
+from system.effects.effect import Kind
+
+from .answer import Answer
+from .truth import Truth
+
+NOTHING = Kind.NO_MISMATCH.value
+
+
+@dataclass(frozen=True)
+class Share:
+    """A count of so many, with the ends of Wilson's 95 % interval."""
+
+    hits: int
+    of: int
+
+    @property
+    def text(self) -> str:
+        """The share in % with its interval, and the counts."""
+        if not self.of:
+            return "-"
+        low, high = (100.0 * end for end in wilson(self.hits, self.of))
+        return f"{100.0 * self.hits / self.of:.0f} % ({low:.0f} to {high:.0f}), {self.hits}/{self.of}"
+
+
+@dataclass(frozen=True)
+class Score:
+    """Score of one entry over the recordings of a split; a recording without an answer counts as not detected.
+
+    false_positive: of nulls, alarms; false_negative: of the others, no alarm; detected: both right, of all; right: of
+    recordings with something concealed, all of it named and nothing else; right_at: the same by plant; wrong: of all,
+    something named that is not there; sure_and_wrong: at a probability of .9 or more; in_set: of rankings given,
+    the truth among the explanations that hold 95 %. errors: of classification, per recording: ids named that are not
+    there, and ids there that are not named. cpu_s: median.
+    """
+
+    entry: str
+    answered: Share
+    false_positive: Share
+    false_negative: Share
+    detected: Share
+    right: Share
+    right_at: Mapping[str, Share]
+    wrong: Share
+    sure_and_wrong: Share
+    in_set: Share
+    errors: float
+    cpu_s: float
+
+
+@dataclass(frozen=True)
+class Judged:
+    """An answer, or none, beside the truth."""
+
+    truth: Truth
+    answer: Answer | None
+    outcome: Outcome
+
+    @property
+    def null(self) -> bool:
+        """True where nothing is concealed."""
+        return self.truth.verdict == NOTHING
+
+    @property
+    def alarm(self) -> bool:
+        """True where the answer says that something is off."""
+        if self.answer is None or self.answer.status == "failed":
+            return False
+        return self.answer.verdict != NOTHING or self.answer.status == "suspicion"
+
+    @property
+    def sure_and_wrong(self) -> bool:
+        """True where something is named that is not there, at a probability of .9 or more."""
+        return is_wrong_name(self.outcome) and any(one.probability >= SURE for one in self.outcome.claims)
+
+    @property
+    def errors(self) -> int:
+        """Ids named that are not there, and ids there that are not named; an id of a class stands for the class."""
+        names = () if self.answer is None or self.answer.status != "named" else self.answer.names
+        left, errors = [*self.truth.ids], 0
+        for one in names:
+            own = next((id for id in (one.id, *one.equivalent) if id in left), None)
+            if own is not None:
+                left.remove(own)
+            elif not {one.id, *one.equivalent} & set(self.truth.beside):
+                errors += 1
+        return errors + len(left)
+
+
+def score(entry: str, truths: Sequence[Truth], answers: Mapping[str, Answer]) -> Score:
+    """Return the score of an entry's answers to all recordings of a split."""
+    all_of = [judged(one, answers.get(one.recording)) for one in truths]
+    nulls, hidden = [one for one in all_of if one.null], [one for one in all_of if not one.null]
+    ranked = [one for one in all_of if one.answer is not None and one.answer.ranking]
+    times = [one.cpu_s for one in answers.values() if np.isfinite(one.cpu_s)]
+    return Score(
+        entry=entry,
+        answered=_share(all_of, lambda one: one.answer is not None and one.answer.status != "failed"),
+        false_positive=_share(nulls, lambda one: one.alarm),
+        false_negative=_share(hidden, lambda one: not one.alarm),
+        detected=_share(all_of, lambda one: one.answer is not None and one.alarm is not one.null),
+        right=_share(hidden, lambda one: is_right(one.outcome)),
+        right_at={
+            plant.value: _share([one for one in hidden if one.truth.plant == plant.value],
+                                lambda one: is_right(one.outcome)) for plant in Plant
+        },
+        wrong=_share(all_of, lambda one: is_wrong_name(one.outcome)),
+        sure_and_wrong=_share(all_of, lambda one: one.sure_and_wrong),
+        in_set=_share(ranked, lambda one: in_set(one.outcome)),
+        errors=float(np.mean([one.errors for one in all_of])) if all_of else 0.0,
+        cpu_s=float(np.median(times)) if times else float("nan"),
+    )  # fmt: skip
+
+
+def judged(truth: Truth, answer: Answer | None) -> Judged:
+    """Return an answer beside the truth; without one, or where the tool failed, as nothing told."""
+    gaps = tuple(gap or None for gap in truth.gaps)
+    known = Outcome(
+        name=truth.recording, part=truth.part, campaign="", seed=0, asked=0.0, score=truth.score, sizes={},
+        truth=truth.verdict, effects=truth.ids, pairs=gaps, shares={}, beside=truth.beside, status="failed",
+    )  # fmt: skip
+    if answer is None or answer.status == "failed":
+        return Judged(truth, None if answer is None else answer, known)
+    told = answer.status == "named"
+    names = tuple(Claimed(one.id, one.gap or None, one.probability, one.equivalent) for one in answer.names if told)
+    weighed = tuple(
+        Weighed(one.ids, tuple(gap or None for gap in one.gaps), "", one.probability) for one in answer.ranking
+    )
+    outcome = Outcome(**vars(known) | {"verdict": answer.verdict, "status": answer.status, "claims": names,
+                                       "ranked": weighed})  # fmt: skip
+    return Judged(truth, answer, outcome)
+
+
+def _share(listed: Sequence[Judged], test: Callable[[Judged], bool]) -> Share:
+    return Share(sum(map(test, listed)), len(listed))
