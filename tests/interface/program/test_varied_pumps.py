@@ -2,6 +2,7 @@
 
 import csv
 import json
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -10,6 +11,7 @@ from stand_in_films import ThinningFilms
 import swashfilm as sf
 from swashfilm.__main__ import main
 from swashfilm.runs.variation.limits import limit_of
+from swashfilm.runs.variation.tolerance.summary import warnings_of
 from system.points.table import sources
 from system.variation.measures import Needs, measures_of
 from system.variation.scatter import Bound
@@ -237,3 +239,14 @@ def test_tolerance_by_a_response_table(film_table):
     with pytest.raises(sf.InputFaults, match=r"slipper.film_thickness.*the films of a response table") as reason:
         sf.tolerance("ref90", **of_table | {"pumps": 400})
     assert "oil.kinematic_viscosity_40C" in reason.value.faults[0].nearest
+
+
+def test_shares_of_numbers_that_do_not_scatter_are_no_warning():
+    """A number that is the same for all pumps, up to round-off, has no variance that a surface could miss."""
+    rough, same = SimpleNamespace(words="loss"), SimpleNamespace(words="hottest oil")
+    found = SimpleNamespace(
+        refused={}, failed={}, measures=(rough, same), surface=SimpleNamespace(held_out=np.array([0.5, 0.0])),
+        scatters=(SimpleNamespace(mean=1000.0, deviation=3.0), SimpleNamespace(mean=320.0, deviation=1e-13)),
+    )  # fmt: skip
+    (warning,) = warnings_of(found)
+    assert warning.startswith("shares_uncertain: a quadratic surface explains less than 90 % of loss:")

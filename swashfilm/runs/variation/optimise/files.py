@@ -1,4 +1,4 @@
-"""Tables, data set and chosen pump of an optimisation's run folder."""
+"""Tables, data set, chosen pump of an optimisation's run folder, and in compare/ that pump beside the start."""
 
 from __future__ import annotations
 
@@ -11,15 +11,20 @@ import numpy as np
 
 from swashfilm.output.data.files import write_netcdf
 from swashfilm.output.tables import write_csv
+from swashfilm.runs.compare.run import Side, run_compare
+from swashfilm.runs.map.duty.cycle_file import read_cycle
 from swashfilm.runs.variation.case import VariedCase
 from swashfilm.runs.variation.words import key_unit
 from system.description.pump import PumpDescription
+from system.maps.data import MapData, map_data
+from system.maps.point import columns
 from system.variation.measures import NUMBERS
 from system.variation.optimisation.optimum import Optimisation
 from system.variation.optimisation.problem import Design
 from system.variation.solving import Variant, varied
+from system.work.tasks import PartOutcome, PartStatus
 
-DATA, DESIGNS, PARETO, CHOSEN = "results.nc", "designs.csv", "pareto.csv", "chosen.toml"
+DATA, DESIGNS, PARETO, CHOSEN, BESIDE = "results.nc", "designs.csv", "pareto.csv", "chosen.toml", "compare"
 
 
 def write_designs(folder: Path, found: Optimisation) -> None:
@@ -50,6 +55,24 @@ def _cells(found: Optimisation, design: Design) -> list[str]:
 def chosen_pump(pump: PumpDescription, variant: Variant) -> PumpDescription:
     """Return the pump with the values of a design, and a name of its own."""
     return replace(varied(pump, variant), name=f"{pump.name}-chosen")
+
+
+def write_beside(folder: Path, case: VariedCase, start: Design, pump: PumpDescription, chosen: Design) -> None:
+    """Write the folder compare/: start (A) and chosen design (B), a pump, at the points and over the cycle."""
+    place = folder / BESIDE
+    place.mkdir()
+    one = Side("resolved.toml", design_map(case, case.pump, start), None)
+    other = Side(CHOSEN, design_map(case, pump, chosen), None)
+    cycle = None if case.cycle is None else read_cycle(case.cycle, case.plan.axes)
+    run_compare((one, other), cycle, place)
+
+
+def design_map(case: VariedCase, pump: PumpDescription, design: Design) -> MapData:
+    """Return the numbers of a design, a pump, at the operating points as a map."""
+    heads = [f"{column} [{unit}]" for column, unit, _ in columns()]
+    records = [{"numbers": dict(zip(heads, row, strict=True)), "warnings": remarks} for row, remarks in design.of_map]
+    found = [PartOutcome("", PartStatus.SOLVED, "", record, 0.0, "") for record in records]
+    return map_data(replace(case.plan, pump=pump), case.work.solver.words, tuple(found))
 
 
 def write_data(path: Path, case: VariedCase, found: Optimisation) -> None:

@@ -11,8 +11,7 @@ from swashfilm.output.data.files import read_netcdf
 from swashfilm.output.page import inlined, read_summary, write_page
 from swashfilm.runs.compare import page as compared
 from swashfilm.runs.variation.optimise import rows
-from swashfilm.runs.variation.optimise.beside import BESIDE
-from swashfilm.runs.variation.optimise.files import DATA
+from swashfilm.runs.variation.optimise.files import BESIDE, DATA
 from swashfilm.runs.variation.optimise.plots import dimension_plot, growth_plot, pareto_plot
 from system.variation.measures import MEASURES
 

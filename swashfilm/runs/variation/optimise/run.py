@@ -8,9 +8,8 @@ from typing import Any
 
 from swashfilm.console.fidelity import Fidelity
 from swashfilm.output.run_folder import write_json
-from swashfilm.runs.variation.optimise.beside import write_beside
 from swashfilm.runs.variation.optimise.case import KNEE, OptimiseCase
-from swashfilm.runs.variation.optimise.files import CHOSEN, DATA, chosen_pump, write_data, write_designs
+from swashfilm.runs.variation.optimise.files import CHOSEN, DATA, chosen_pump, write_beside, write_data, write_designs
 from swashfilm.runs.variation.optimise.page import write_optimise_page
 from swashfilm.runs.variation.optimise.summary import optimise_summary
 from system.inputs.faults import Fault, InputFaults

@@ -52,7 +52,7 @@ def tolerance_summary(case: VariedCase, drawing: Drawing, seed: int, found: Tole
              "missing": asdict(one.missing), "missing_at_a_point": asdict(one.anywhere)}
             for one in found.limits
         ],
-        "warnings": _warnings(found),
+        "warnings": warnings_of(found),
         "internal_error": found.internal,
         "cost": {"processor_s": found.seconds},
     }  # fmt: skip
@@ -90,7 +90,7 @@ def _words(one: Drawn | DrawnFit, shown: Callable[[float], str]) -> str:
     return f"{one.shape.value} about {shown(one.middle)}{together}{several}"
 
 
-def _warnings(found: Tolerance) -> list[str]:
+def warnings_of(found: Tolerance) -> list[str]:
     """Return what keeps pumps from a result, and numbers that the surface does not describe."""
     said = [
         f"pumps_refused: {count} of {found.pumps} pumps are refused by the geometry and have no part in the scatter: "
