@@ -35,9 +35,11 @@ def limit_of(text: str, known: Sequence[Measure], faults: list[Fault]) -> Limit 
         return None
     measure = measure_of(match[1], known)
     if measure is None:
-        found = f"'{match[1]}', no quantity of a pump at this fidelity"
+        beyond = measure_of(match[1], [*MEASURES.values()]) is not None
+        found = f"'{match[1]}', {'which this fidelity does not know' if beyond else 'no quantity of a pump'}"
         expected = f"one of {'; '.join(dict.fromkeys(one.words for one in known))}"
-        faults.append(Fault("--limit", found, expected, nearest_choice(match[1], _names(known))))
+        near = "--fidelity floating" if beyond else nearest_choice(match[1], _names(known))
+        faults.append(Fault("--limit", found, expected, near))
         return None
     try:
         return Limit(measure, Bound(match[2]), measure_value(match[3], measure), text.strip())

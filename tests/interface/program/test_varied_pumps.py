@@ -164,7 +164,7 @@ def test_both_as_functions(tmp_path):
         (["tolerance", "--limit", "case drain <= 1.5 bar"], ["not a volume flow"]),
         (["tolerance", "--limit", "efficiency >= much"], ["a share"]),
         (["tolerance", "--limit", "88 %"], ["a quantity, >= or <="]),
-        (["tolerance", "--limit", "least film, slipper >= 1 um"], ["no quantity of a pump at this fidelity"]),
+        (["tolerance", "--limit", "least film, slipper >= 1 um"], ["fidelity does not know", "--fidelity floating"]),
     ],
 )
 def test_faults(words, expected, capsys):
