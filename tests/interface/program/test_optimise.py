@@ -249,6 +249,7 @@ def test_films_by_a_model(tmp_path, monkeypatch):
     assert film["met"]
     page = (found.save(tmp_path / "run") / "report.html").read_text().replace("\u00a0", " ")
     assert "COBYQA of SciPy" in page
+    assert "differ by less than the error of both" not in page
     case["optimise"] |= {"generations": 4}
     with pytest.raises(sf.InputFaults) as raised:
         sf.optimise(case, workers=1)

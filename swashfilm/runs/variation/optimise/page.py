@@ -10,6 +10,7 @@ from swashfilm.output.answer import Answer, Tile
 from swashfilm.output.data.files import read_netcdf
 from swashfilm.output.page import inlined, read_summary, write_page
 from swashfilm.runs.compare import page as compared
+from swashfilm.runs.map.plots import HEADLINE
 from swashfilm.runs.variation.optimise import rows
 from swashfilm.runs.variation.optimise.files import BESIDE, DATA
 from swashfilm.runs.variation.optimise.plots import dimension_plot, growth_plot, pareto_plot
@@ -26,10 +27,11 @@ def write_optimise_page(folder: Path) -> Path:
     summary = read_summary(folder, ("summary.json", DATA), "an optimisation's run folder")
     data = read_netcdf(folder / DATA)
     several = summary["counts"]["pareto"] > 1
+    found = read_summary(folder / BESIDE) if (folder / BESIDE).is_dir() else None
     return write_page(
         folder,
         "optimise",
-        answer=optimise_answer(summary, inlined(pareto_plot(summary, data))),
+        answer=optimise_answer(summary, inlined(pareto_plot(summary, data)), found),
         summary=summary,
         dimensions=list(rows.dimension_rows(summary)),
         dimension_head=rows.compared_head(rows.DIMENSION_HEAD, summary),
@@ -47,15 +49,12 @@ def write_optimise_page(folder: Path) -> Path:
         growth_caption=GROWTH,
         along=inlined(dimension_plot(summary, data)) if several else None,
         along_caption=ALONG,
-        beside=_beside(folder / BESIDE),
+        beside=[] if found is None else _beside(found),
     )
 
 
-def _beside(folder: Path) -> list[tuple[str, tuple[str, ...], list[tuple[str, ...]]]]:
-    """Return (title, head, rows) of the tables of start and chosen design; none without a chosen design."""
-    if not folder.is_dir():
-        return []
-    found = read_summary(folder)
+def _beside(found: Mapping[str, Any]) -> list[tuple[str, tuple[str, ...], list[tuple[str, ...]]]]:
+    """Return (title, head, rows) of the tables of start and chosen design."""
     tables = [
         ("Over the cycle", compared.DUTY_HEAD, list(compared.duty_rows(found)) if found["duty"] else []),
         ("Efficiency, differences in percentage points", compared.EFFICIENCY_HEAD, compared.efficiency_rows(found)),
@@ -64,8 +63,11 @@ def _beside(folder: Path) -> list[tuple[str, tuple[str, ...], list[tuple[str, ..
     return [table for table in tables if table[2]]
 
 
-def optimise_answer(summary: Mapping[str, Any], picture: Any) -> Answer:
-    """Return the answer: the objectives of chosen design and start, the set, the constraints that hold."""
+def optimise_answer(summary: Mapping[str, Any], picture: Any, beside: Mapping[str, Any] | None) -> Answer:
+    """Return the answer: objectives of chosen design and start, the set, constraints that hold.
+
+    beside: summary of the comparison of both, None where there is none.
+    """
     counts, label = summary["counts"], "chosen" if summary["chosen"]["feasible"] else "nearest"
     tiles = [_tile(summary, one["name"], label) for one in summary["objectives"][:MOST_TILES]]
     tiles.append(Tile(str(counts["pareto"]), "designs in the Pareto set", f"{counts['tried']} tried, "
@@ -73,7 +75,7 @@ def optimise_answer(summary: Mapping[str, Any], picture: Any) -> Answer:
     tiles += [_constraint_tile(one) for one in summary["constraints"] if one["holds"] or not one["met"]][:2]
     if len(tiles) < 3:
         tiles.append(Tile(summary["method"]["name"], "search", summary["method"]["why"]))
-    return Answer(tuple(tiles), " ".join(_sentences(summary)), picture, CAPTION)
+    return Answer(tuple(tiles), " ".join([*_sentences(summary), *_within_error(beside)]), picture, CAPTION)
 
 
 def _tile(summary: Mapping[str, Any], name: str, label: str) -> Tile:
@@ -107,6 +109,15 @@ def _sentences(summary: Mapping[str, Any]) -> Iterator[str]:
     bounds = [one["name"] for one in summary["dimensions"] if one["at_bound"]]
     if bounds:
         yield f"At a bound: {', '.join(bounds)}."
+
+
+def _within_error(beside: Mapping[str, Any] | None) -> Iterator[str]:
+    """Yield that the efficiencies of start and chosen design do not differ by more than the error of both."""
+    words = f"{compared.EFFICIENCY}{HEADLINE.label}"
+    row = next((row for row in beside["differences"] if row["words"] == words), None) if beside else None
+    if row is not None and not row["told"]:
+        error = f"{100.0 * row['error']:.1g}"
+        yield f"Their overall efficiencies differ by less than the error of both, {error} percentage points."
 
 
 def _change_words(summary: Mapping[str, Any], name: str) -> str:
