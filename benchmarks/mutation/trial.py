@@ -7,13 +7,13 @@ import re
 import shutil
 import subprocess
 import sys
-import tempfile
 import time
 from collections.abc import Sequence
 from dataclasses import dataclass
 from enum import StrEnum
 from pathlib import Path
 
+from .compiled_code import anew
 from .edits import Edit
 
 HANGS = 400.0  # s, in which one test of the default suite ends even on a loaded machine
@@ -22,7 +22,7 @@ FAILED = re.compile(r"^(?:FAILED|ERROR) (\S+)", re.MULTILINE)
 
 
 class Fate(StrEnum):
-    """What the tests made of a mutation."""
+    """Outcome of a mutation."""
 
     KILLED = "killed"
     HANGS = "one test does not end"
@@ -69,10 +69,10 @@ class Copy:
     def _edited(self, edit: Edit, tests: Sequence[str], limit: float) -> tuple[Fate, str]:
         path = self.place / edit.file
         source, stamp = path.read_bytes(), path.stat()
-        with tempfile.TemporaryDirectory() as fresh:
+        with anew(self.place, edit.file):
             try:
                 path.write_bytes(edit.applied(source))
-                return self._run(tests, limit, fresh if _compiled(edit, source) else None)
+                return self._run(tests, limit)
             finally:
                 path.write_bytes(source)
                 os.utime(path, ns=(stamp.st_atime_ns, stamp.st_mtime_ns))
@@ -80,13 +80,11 @@ class Copy:
     def _is_sound(self, test: str, limit: float) -> bool:
         """Whether a test passes without any mutation; one that does not has noticed nothing."""
         if test not in self._sound:
-            self._sound[test] = self._run([test], limit, None)[0] is Fate.SURVIVED
+            self._sound[test] = self._run([test], limit)[0] is Fate.SURVIVED
         return self._sound[test]
 
-    def _run(self, tests: Sequence[str], limit: float, cache: str | None) -> tuple[Fate, str]:
+    def _run(self, tests: Sequence[str], limit: float) -> tuple[Fate, str]:
         environment = os.environ | {"PYTHONPATH": str(self.place), "OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1"}
-        if cache is not None:
-            environment["NUMBA_CACHE_DIR"] = cache
         ends = ["-o", f"faulthandler_timeout={HANGS}", "-o", "faulthandler_exit_on_timeout=true"]
         command = [sys.executable, "-m", "pytest", "-x", "-q", "-rfE", "--tb=no", *ends, *tests]
         run = subprocess.Popen(
@@ -112,8 +110,3 @@ class Copy:
         if run.returncode != 0:
             raise RuntimeError(f"pytest ends with {run.returncode} and names no test:\n{told[-2000:]}")
         return Fate.SURVIVED, ""
-
-
-def _compiled(edit: Edit, source: bytes) -> bool:
-    """Whether compiled code of other files may hold the line: a kernel, or a number that kernels take in."""
-    return b"jit" in source or edit.function == "module"
