@@ -17,7 +17,7 @@ from .sample import SHARES
 @contextmanager
 def anew(place: Path, file: str) -> Iterator[None]:
     """Within: no compiled code of the module or of a kernel that imports it; afterwards the code as before."""
-    modules = {file, *(_file(name) for name in _imports().find_downstream_modules(_name(file)))}
+    modules = {file, *(_file(name) for name in imports().find_downstream_modules(module_name(file)))}
     kernels = [place / module for module in modules if _is_kernel(place / module)]
     with tempfile.TemporaryDirectory() as aside:
         for number, kernel in enumerate(kernels):
@@ -35,7 +35,8 @@ def anew(place: Path, file: str) -> Iterator[None]:
 
 
 @cache
-def _imports() -> grimp.ImportGraph:
+def imports() -> grimp.ImportGraph:
+    """Imports between the modules of the four packages."""
     return grimp.build_graph(*SHARES, cache_dir=None)
 
 
@@ -47,7 +48,8 @@ def _caches(kernel: Path) -> list[Path]:
     return list((kernel.parent / "__pycache__").glob(f"{kernel.stem}.*.nb[ic]"))
 
 
-def _name(file: str) -> str:
+def module_name(file: str) -> str:
+    """Dotted name of a module by its file."""
     return file.removesuffix(".py").removesuffix("/__init__").replace("/", ".")
 
 

@@ -1,61 +1,61 @@
-"""The order of test files for an edit: those first that speak of the edited module or of what uses it."""
+"""The order of test files for an edit: those first that import the edited module, or what imports it."""
 
 from __future__ import annotations
 
-import re
-from collections.abc import Mapping
+import ast
+from collections import Counter
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 
+from .compiled_code import imports, module_name
 from .sample import SHARES
 
-WORD = re.compile(r"[A-Za-z_][A-Za-z_0-9]{3,}")
-DEFINED = re.compile(r"^(?:class|def|async def)\s+([A-Za-z_0-9]+)|^([A-Z_][A-Z_0-9]+)\s*[:=]", re.MULTILINE)
-FARTHER = 0.3  # weight of a name that is one module farther from the edit
+FARTHER = 0.3  # weight of a module that is one import farther from the edit
+SAME_FOLDER = 0.05  # weight of a part of the path that test and module share
 
 
 class Nearness:
-    """Words of all modules and test files, read once."""
+    """Imports of all modules and test files, read once."""
 
     def __init__(self, root: Path):
-        modules = [path for package in SHARES for path in (root / package).rglob("*.py")]
-        self._defined = {_place(path, root): _defined(path.read_text()) for path in modules}
-        self._used = {_place(path, root): _words(path) for path in modules}
-        self._tests = {_place(path, root): _words(path) for path in (root / "tests").rglob("test_*.py")}
+        self._lazy = {package: _lazy_names(root / package / "__init__.pyi") for package in SHARES}
+        tests = sorted((root / "tests").rglob("test_*.py"))
+        self._tests = {path.relative_to(root).as_posix(): frozenset(self._imported(path)) for path in tests}
+        self._users = Counter(module for modules in self._tests.values() for module in modules)
 
     def order(self, file: str) -> list[str]:
-        """All test files, the nearest first: a name that few tests speak of weighs most."""
-        weights = self._names(file)
-        spoken = {name: sum(name in words for words in self._tests.values()) for name in weights}
+        """All test files, the nearest first: a module that few tests import weighs most."""
+        weights, parts = _weights(module_name(file)), set(Path(file).with_suffix("").parts)
         marks = {
-            test: sum(weights[name] / spoken[name] for name in words & weights.keys()) + 0.01 * _shared_path(test, file)
-            for test, words in self._tests.items()
+            test: sum(weights.get(module, 0.0) / self._users[module] for module in modules)
+            + SAME_FOLDER * len(parts & set(Path(test).parts)) ** 2
+            for test, modules in self._tests.items()
         }
         return sorted(marks, key=lambda test: (-marks[test], test))
 
-    def _names(self, file: str) -> Mapping[str, float]:
-        """Names of the module, and of the modules that use it, three steps far."""
-        weights = dict.fromkeys(self._defined[file], 1.0)
-        reached, weight = {file}, 1.0
-        for _ in range(3):
-            weight *= FARTHER
-            users = {user for user, words in self._used.items() if user not in reached and words & weights.keys()}
-            reached |= users
-            weights = {name: weight for user in users for name in self._defined[user]} | weights
-        return weights
+    def _imported(self, path: Path) -> Iterator[str]:
+        """Modules whose names a test file imports, through the lazy names of a package."""
+        for node in ast.walk(ast.parse(path.read_text("utf-8"))):
+            if isinstance(node, ast.ImportFrom) and node.module:
+                known = self._lazy.get(node.module, {})
+                yield from (known.get(one.name, node.module) for one in node.names)
 
 
-def _place(path: Path, root: Path) -> str:
-    return path.relative_to(root).as_posix()
+def _weights(module: str) -> Mapping[str, float]:
+    """1 for the module, `FARTHER` for what imports it, its square for what imports that, and so on."""
+    weights, last, weight = {module: 1.0}, {module}, 1.0
+    while last:
+        weight *= FARTHER
+        last = {user for one in last for user in imports().find_modules_that_directly_import(one)} - weights.keys()
+        weights |= dict.fromkeys(last, weight)
+    return weights
 
 
-def _words(path: Path) -> frozenset[str]:
-    return frozenset(WORD.findall(path.read_text()))
-
-
-def _defined(text: str) -> frozenset[str]:
-    return frozenset(name for pair in DEFINED.findall(text) for name in pair if len(name) > 3)
-
-
-def _shared_path(test: str, file: str) -> int:
-    parts = set(Path(file).with_suffix("").parts)
-    return len(parts & set(Path(test).parts))
+def _lazy_names(stub: Path) -> Mapping[str, str]:
+    """Full name of the module of each name that a package exports."""
+    found = {}
+    for node in ast.parse(stub.read_text("utf-8")).body:
+        if isinstance(node, ast.ImportFrom) and node.module:
+            inner = node.module if node.level == 0 else f"{stub.parent.name}.{node.module}"
+            found |= {one.asname or one.name: inner for one in node.names}
+    return found

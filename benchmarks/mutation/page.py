@@ -18,7 +18,7 @@ HEAD = """# Mutations of the physics
 A single edit of a formula, a sign, a limit or a number is made in a module that computes; the default tests run, and
 one of them should fail. Edits are drawn at random from all of `reynolds`, `gaps`, `system` and `diagnosis`: a sign or
 an operator exchanged, a term or a factor left out, a comparison reversed, a number doubled, a maximum for a minimum.
-Test files run in the order of the names that they share with the edited module, {near} of them at most; `--whole` runs
+Test files run in the order of their imports of the edited module, {near} of them at most; `--whole` runs
 all for what survives these. A test that fails without the edit too has noticed nothing. An edit that changes no
 result that the program promises is *equivalent*; the reason stands beside it.
 
