@@ -6,6 +6,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 import numpy as np
+from proof.judged import is_right
 from proof.markdown import table
 from proof.parts import Plant
 
@@ -32,19 +33,19 @@ tell.** [The proof](proof.md) has this diagnosis on some hundreds of recordings 
 - Right: of recordings with something concealed, all of it named and nothing else; an id that a tool cannot tell from
   the true one may stand in its class, a fault of a meter beside physics need not be named.
 - Wrong name: of all, something named that is not there; sure: at a probability of .9 or more.
-- Errors a recording: ids named that are not there, and ids there that are not named, in the mean: the DX competition's
-  classification errors.
+- Errors a recording: ids named that are not there, and ids there that are not named (unknown physics too), in the mean:
+  the DX competition's classification errors.
 - There is no time of detection or isolation: what is concealed is there from the first reading to the last.
 - The rivals take the study of this program (readings, priors, slopes) and know steady points alone: they have no
-  answer to the series of the rough plant, which count as not detected. `stepwise-bic` adds columns of the catalogue by
-  Schwarz' criterion, `sparse-regression` is LASSO on textbook terms, `gaussian-process` a smooth discrepancy without
-  a name, `largest-residual` the usual suspect of the channel that is off most. Their time is not counted apart.
+  answer to the series of the rough plant, which count as not detected, and of a null as no alarm. `stepwise-bic` adds
+  columns of the catalogue by Schwarz' criterion, `sparse-regression` is LASSO on textbook terms, `gaussian-process` a
+  smooth discrepancy without a name, `largest-residual` the usual suspect of the channel that is off most. They tell no
+  probabilities: a name of theirs counts as sure. Their time is not counted apart.
 """
 CASES = """
 ## Each recording
 
-z is the length of the concealed shift in sigma that is left once all that is uncertain is fitted. Bold: no error of
-classification.
+z is the length of the concealed shift in sigma that is left once all that is uncertain is fitted. Bold: right.
 
 """
 PLANTS = {Plant.FIRST: "first plant", Plant.OTHER: "other laws", Plant.ROUGH: "rough"}
@@ -88,10 +89,9 @@ def _told(truth: Truth, answer: Answer | None) -> str:
         return "-"
     if answer.status == "failed":
         return "failed"
-    own = judged(truth, answer)
     named = ", ".join(f"{one.id} ({one.gap})" if one.gap else one.id for one in answer.names)
     told = named if answer.status == "named" and named else f"{answer.verdict}, {answer.status}"
-    return told if own.errors else f"**{told}**"
+    return f"**{told}**" if is_right(judged(truth, answer).outcome) else told
 
 
 def write_page(

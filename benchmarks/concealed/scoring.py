@@ -16,7 +16,7 @@ from system.effects.effect import Kind
 from .answer import Answer
 from .truth import Truth
 
-NOTHING = Kind.NO_MISMATCH.value
+NOTHING, UNKNOWN = Kind.NO_MISMATCH.value, Kind.UNKNOWN_PHYSICS.value
 
 
 @dataclass(frozen=True)
@@ -87,7 +87,10 @@ class Judged:
 
     @property
     def errors(self) -> int:
-        """Ids named that are not there, and ids there that are not named; an id of a class stands for the class."""
+        """Ids named that are not there, and ids there that are not named; an id of a class stands for the class.
+
+        Unknown physics that is not told as such is one that is not named.
+        """
         names = () if self.answer is None or self.answer.status != "named" else self.answer.names
         left, errors = [*self.truth.ids], 0
         for one in names:
@@ -96,7 +99,8 @@ class Judged:
                 left.remove(own)
             elif not {one.id, *one.equivalent} & set(self.truth.beside):
                 errors += 1
-        return errors + len(left)
+        told = self.answer is not None and self.answer.verdict == UNKNOWN
+        return errors + len(left) + (self.truth.verdict == UNKNOWN and not told)
 
 
 def score(entry: str, truths: Sequence[Truth], answers: Mapping[str, Answer]) -> Score:

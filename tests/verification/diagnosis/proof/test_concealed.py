@@ -71,7 +71,7 @@ def test_no_answer(bench, truths, tmp_path):
     found = bench.scoring.score("e", truths, bench.answer.read_answers(tmp_path, ["a", "b", "c", "d"]))
     assert (found.answered.hits, found.detected.hits, found.right.hits, found.wrong.hits) == (0, 0, 0, 0)
     assert (found.false_negative.hits, found.false_positive.hits) == (3, 0)
-    assert found.errors == 3 / 4
+    assert found.errors == 4 / 4
     assert found.in_set.text == "-"
 
 
@@ -89,7 +89,7 @@ def test_wrong_answers(bench, truths):
     found = bench.scoring.score("w", truths, told)
     assert (found.false_positive.hits, found.false_negative.hits, found.right.hits) == (1, 0, 0)
     assert (found.wrong.hits, found.sure_and_wrong.hits) == (2, 1)
-    assert found.errors == pytest.approx((1 + 0 + 0 + 1) / 4)
+    assert found.errors == pytest.approx((1 + 0 + 1 + 1) / 4)
 
 
 def test_a_class_stands_for_its_member(bench, truths):
