@@ -26,6 +26,8 @@ VARIED = 0.05  # of the greatest displacement ratio: a pump that was swivelled s
 class BenchBox:
     """Ends of speed, delivery pressure, displacement ratio, case temperature, SI; all else is held.
 
+    A fifth pair of ends, where there is one, is that of the inlet pressure.
+
     inlet_pressure, case_pressure in Pa gauge; warmer: case over inlet temperature in K; last: order and hours of
     the recording's end.
     """
@@ -37,14 +39,14 @@ class BenchBox:
     last: tuple[float, float]
 
     def points(self, levels: Sequence[Array]) -> BenchPoints:
-        """Every combination of levels of the four axes, taken after the recording's last point."""
-        speed, pressure, ratio, temperature = (axis.ravel() for axis in np.meshgrid(*levels, indexing="ij"))
+        """Every combination of levels of the axes, taken after the recording's last point."""
+        speed, pressure, ratio, temperature, *inlet = (axis.ravel() for axis in np.meshgrid(*levels, indexing="ij"))
         order, hours = self.last
         return BenchPoints(
             speed=speed,
             displacement_ratio=ratio,
             p_out=pressure,
-            p_in=np.full(speed.size, self.inlet_pressure),
+            p_in=inlet[0] if inlet else np.full(speed.size, self.inlet_pressure),
             p_case=np.full(speed.size, self.case_pressure),
             T_case=temperature,
             T_in=temperature - self.warmer,

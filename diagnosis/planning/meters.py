@@ -12,6 +12,7 @@ from math import radians, sqrt
 
 from diagnosis.recording.model import RecordedChannel
 from diagnosis.recording.units import channel_unit
+from system.bench.outputs import DRAINS
 from system.description.pump import PumpDescription
 from system.inputs.channels import INPUTS, ChannelName
 from system.inputs.units import TURN
@@ -61,8 +62,10 @@ def _usual(pump: PumpDescription) -> Iterator[RecordedChannel]:
     yield _meter(ChannelName.T_CASE, 0.2, 0.0, 0.0, 0.3)
     for name in (ChannelName.Q_OUT, ChannelName.Q_IN):
         yield _meter(name, 5e-4 * flow, 6e-4, CLASS_A, 5e-4 * flow)
-    yield _meter(ChannelName.Q_CASE, 1e-4 * flow, 4e-3, CLASS_A, 1e-4 * flow)
+    for name in (ChannelName.Q_CASE, *DRAINS.values()):
+        yield _meter(name, 1e-4 * flow, 4e-3, CLASS_A, 1e-4 * flow)
     yield _meter(ChannelName.TORQUE, 5e-4 * torque, 6e-4, CLASS_A, 5e-4 * torque)
+    yield _meter(ChannelName.TORQUE_UNCOUPLED, 5e-4 * torque, 0.0, 0.0, 0.0)
     yield _meter(ChannelName.P_CHAMBER, 1e-3 * pressure, 0.0, CLASS_A, 1e-3 * pressure)
     yield _meter(ChannelName.ANGLE, 0.0, 0.0, 0.0, radians(0.3))
 
