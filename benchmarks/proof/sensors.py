@@ -92,7 +92,7 @@ def read(
     along = np.linspace(0.0, 1.0, at.speed.size)
     columns, calibrations = {}, {}
     for name, value in _actual(campaign, at, truth).items():
-        calibrations[name] = _calibrated(METERS[name], rng)
+        calibrations[name] = calibrated(METERS[name], rng)
         columns[name] = _channel(METERS[name], value, _of(faults, name), calibrations[name], along, rng)
     columns["ratio"] = np.round(campaign.points.ratio, METERS["ratio"].digits)
     if campaign.uncoupled:
@@ -122,6 +122,12 @@ def read_after(
     return columns | {"ratio": np.round(campaign.points.ratio, METERS["ratio"].digits)}
 
 
+def uncoupled(count: int, faults: tuple[Fault, ...], known: Calibration, rng: np.random.Generator) -> Array:
+    """Readings of the torque meter without the pump, at the end of a campaign."""
+    ended = np.ones(count)
+    return _channel(METERS["torque"], np.zeros(count), _of(faults, "torque"), known, ended, rng)
+
+
 def stated_sigma(meter: Meter, value: Array) -> Array:
     """Repeatability in SI at values in SI, the step of the reading in it."""
     step = 10.0**-meter.digits / np.sqrt(12.0)
@@ -143,7 +149,8 @@ def _actual(campaign: Campaign, at: Settings, truth: Truth) -> dict[str, Array]:
     return inputs | {name: getattr(truth, name) for name in campaign.outputs}
 
 
-def _calibrated(meter: Meter, rng: np.random.Generator) -> Calibration:
+def calibrated(meter: Meter, rng: np.random.Generator) -> Calibration:
+    """How far a meter of a kind is off."""
     return Calibration(meter.gain * rng.normal(), meter.zero * rng.normal(), DRIFT * meter.zero * rng.normal())
 
 

@@ -9,7 +9,7 @@ from math import nan
 import numpy as np
 from numpy.typing import NDArray
 
-from diagnosis.recording.model import Recording
+from diagnosis.recording.model import Circuit, Recording
 from diagnosis.study.inputs import WARMER, bench_points, measured
 from reynolds.numerics.arrays import Array
 from system.bench.points import BenchPoints
@@ -19,6 +19,7 @@ from system.inputs.channels import INPUTS, ChannelName
 BEYOND = 0.1  # of a range as recorded, beyond each of its ends
 SLOW, UNLOADED, SWIVELLED = 0.25, 0.1, 0.2  # of rated speed, rise of pressure, displacement: least on a bench
 COLD, HOT = 303.15, 353.15  # K: inlet temperatures that a bench with heater and cooler holds
+CHARGED = (0.6, 1.2)  # of the charge pressure of a closed circuit: its relief valve is set within it
 VARIED = 0.05  # of the greatest displacement ratio: a pump that was swivelled so far can be
 
 
@@ -88,7 +89,8 @@ def ordinary_box(recording: Recording, pump: PumpDescription) -> BenchBox:
     """The box of `rig_box`, widened to the range of an ordinary bench along each measured axis.
 
     From a quarter of the rated speed and a tenth of the rated rise of pressure to both, displacement from a fifth
-    to all where the pump was swivelled, the inlet at 30 to 80 degC.
+    to all where the pump was swivelled, the inlet at 30 to 80 degC; the charge pressure of a closed circuit, where it
+    was measured, from 0.6 to 1.2 of its median.
     """
     box = rig_box(recording, pump)
     known = set(measured(recording, INPUTS))
@@ -101,6 +103,8 @@ def ordinary_box(recording: Recording, pump: PumpDescription) -> BenchBox:
         (min(own[0], more[0]), max(own[1], more[1])) if axis in known else own
         for axis, own, more in zip(axes, box.ends, wide, strict=True)
     )
+    if recording.circuit is Circuit.CLOSED and ChannelName.P_IN in known and box.inlet_pressure > 0.0:
+        ends = (*ends, (CHARGED[0] * box.inlet_pressure, CHARGED[1] * box.inlet_pressure))
     return replace(box, ends=ends)
 
 

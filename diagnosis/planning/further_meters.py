@@ -8,12 +8,11 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from diagnosis.next_point.meters import WORDS
 from diagnosis.planning.apart import Contest, all_pairs
 from diagnosis.planning.responses import Foreseen, White, foresee_traces
-from diagnosis.report.format import PLACES
 from diagnosis.thresholds import FormLimits, Thresholds
 from reynolds.numerics.arrays import Array
-from system.bench.outputs import DRAINS
 from system.inputs.channels import ChannelName
 from system.work.progress import Report, silent
 
@@ -21,17 +20,6 @@ TRACED = 4
 """Points of the campaign at which a transducer records the chamber."""
 UNCOUPLED = 2
 """Readings of the torque meter without the pump: before the campaign and after it."""
-WORDS = {
-    ChannelName.Q_OUT: "a meter of the delivery flow",
-    ChannelName.Q_IN: "a meter of the inlet flow",
-    ChannelName.Q_CASE: "a meter of the case drain",
-    ChannelName.TORQUE: "a torque meter",
-    ChannelName.T_CASE: "a thermometer in the case drain",
-    **{channel: f"a metered drain of {PLACES[gap]} alone" for gap, channel in DRAINS.items()},
-    ChannelName.TORQUE_UNCOUPLED: "the torque meter read with the pump uncoupled",
-    ChannelName.P_CHAMBER: "the chamber pressure over the turn",
-}
-"""What a bench may add, in words."""
 
 
 @dataclass(frozen=True)

@@ -180,6 +180,10 @@ class LumpedBench:
         """The same pump with the same parameters and laws at other points."""
         return self._like(points=points, departures=None, drifts=None)
 
+    def reading(self, channels: tuple[ChannelName, ...]) -> LumpedBench:
+        """The same bench with other outputs read."""
+        return self._like(channels=channels, departures=None)
+
     def traces(self, values: Array, points: tuple[int, ...], angles: Array) -> Array:
         """Chamber pressure (len(points), K) in Pa gauge at shaft angles (K,) rad, as `turns` of a finer bench."""
         return self.finely(points).turns(values, angles)

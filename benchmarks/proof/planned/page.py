@@ -54,8 +54,8 @@ def _counts(results: Path, trials: Sequence[Trial]) -> Iterator[str]:
     lost = sum(one.truth not in one.chances for one in grids)
     yield (
         f"Of {len(concealed())} things that may be concealed the first {len(grids)} of a drawn order were tried, in "
-        f"{minutes:.0f} min of process time. {len(trials)} of them left {len(pairs)} pairs open. In {lost} the truth is "
-        "not among the explanations by the grid, and no pair counts.\n"
+        f"{minutes:.0f} min of process time. {len(trials)} of them left {len(pairs)} pairs open. In {lost} the truth "
+        "is not among the explanations by the grid, and no pair counts.\n"
     )
     points, meter = [pair.points for pair in pairs], [pair.meter for pair in pairs]
     foreseen = [[one for one in own if one.told] for own in (points, meter)]

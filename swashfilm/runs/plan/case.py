@@ -10,10 +10,9 @@ from itertools import product
 import numpy as np
 from numpy.typing import NDArray
 
+from diagnosis.next_point.meters import WORDS, meters
 from diagnosis.next_point.operating_box import BenchBox, pump_box
 from diagnosis.planning.design import Asked, spread_order
-from diagnosis.planning.further_meters import WORDS
-from diagnosis.planning.meters import meters
 from diagnosis.planning.responses import expected_parameters
 from diagnosis.planning.suspects import COST, suspect_names
 from diagnosis.recording.model import RecordedChannel

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
-from diagnosis.planning.further_meters import WORDS
-from diagnosis.planning.meters import ALWAYS, ORDINARY, Stated
+from diagnosis.next_point.meters import ALWAYS, ORDINARY, WORDS, Stated
 from diagnosis.recording.units import difference_unit
 from system.bench.outputs import DRAINS, SIMULATED
 from system.inputs.channels import ChannelName

@@ -8,8 +8,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from diagnosis.next_point.meters import ALWAYS
 from diagnosis.planning.design import Equipped, Purpose, driven
-from diagnosis.planning.meters import ALWAYS
 from diagnosis.planning.never import Never
 from diagnosis.planning.plan import Plan
 from swashfilm.formats.versions import headed

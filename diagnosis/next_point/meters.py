@@ -23,6 +23,19 @@ ALWAYS = tuple(one for one in INPUTS if one is not ChannelName.T_CASE)
 """Inputs that every bench reads: they are what a point is set by."""
 ORDINARY = (*ALWAYS, ChannelName.Q_OUT, ChannelName.Q_CASE, ChannelName.TORQUE)
 """Channels of an ordinary bench: delivery flow, drain flow and torque beside the inputs; none in the drain's oil."""
+WORDS = {
+    ChannelName.Q_OUT: "a meter of the delivery flow",
+    ChannelName.Q_IN: "a meter of the inlet flow",
+    ChannelName.Q_CASE: "a meter of the case drain",
+    ChannelName.TORQUE: "a torque meter",
+    ChannelName.T_CASE: "a thermometer in the case drain",
+    ChannelName.Q_PISTON: "a metered drain of the pistons alone",
+    ChannelName.Q_SLIPPER: "a metered drain of the slippers alone",
+    ChannelName.Q_VALVE_PLATE: "a metered drain of the valve plate alone",
+    ChannelName.TORQUE_UNCOUPLED: "a reading of the torque meter uncoupled from the pump",
+    ChannelName.P_CHAMBER: "the chamber pressure over the turn",
+}
+"""What a bench may add, in words."""
 
 
 @dataclass(frozen=True)
