@@ -146,7 +146,8 @@ def count_rows(summary: Summary) -> Iterator[tuple[str, str]]:
     readings = summary["planned_readings"]
     yield "pairs of suspects", str(summary["pairs"])
     yield f"told apart by {readings} planned readings", str(summary["told_planned"])
-    yield f"with {summary['added_readings']} readings more", str(summary["told"])
+    added = summary["added_readings"]
+    yield f"with {added} reading{'s' if added != 1 else ''} more", str(summary["told"])
     if summary["equipped"]:
         yield f"with {equipment(summary)} as well", str(summary["equipped"]["told"])
     yield "still open", str(summary["open"])
