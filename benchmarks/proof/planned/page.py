@@ -34,8 +34,8 @@ settled at odds of {odds:g} to 1 for the truth.
 Written by `python benchmarks/plan_check.py`.
 """
 TABLE = (
-    "concealed", "open rival", "odds by the grid", "foreseen, grid", "foreseen, points", "odds, points", "meter",
-    "foreseen, meter", "odds, meter",
+    "concealed", "open rival", "odds by the grid", "foreseen, grid", "best for this pair", "foreseen, points",
+    "odds, points", "meter", "foreseen, meter", "odds, meter",
 )  # fmt: skip
 
 
@@ -61,7 +61,12 @@ def _counts(results: Path, trials: Sequence[Trial]) -> Iterator[str]:
     foreseen = [[one for one in own if one.told] for own in (points, meter)]
     never = sum(pair.never for pair in pairs)
     yield f"- With one meter more {_share(meter)} of the open pairs are settled; the gate is 80 %."
-    yield f"- By points alone {_share(points)}. The plan foresees that no point of this bench tells {never} of them."
+    yield f"- By points alone {_share(points)}. The plan foresees that no point of this bench tells {never} of them, "
+    yield "  however often it is read."
+    yield f"- The ceiling of points alone: a campaign of {CORNERS + ADDED} readings made for one pair alone, of any"
+    yield "  points read as often as it likes (found by exchange), is foreseen to tell "
+    yield f"  {sum(pair.best_told for pair in pairs)} of the {len(pairs)}; the plan, which serves all pairs of a case"
+    yield f"  at once, {len(foreseen[0])}."
     yield f"- Of the pairs that the plan foresees to be told apart, by points alone {_share(foreseen[0])} are settled,"
     yield f"  with the meter {_share(foreseen[1])}."
     yield f"- Asked for: {_asked(trials)}.\n"
@@ -84,6 +89,7 @@ def _share(told: Sequence[Told]) -> str:
 def _row(trial: Trial, pair: Pair) -> tuple[str, ...]:
     return (
         trial.truth, pair.rival, f"{pair.odds:.2g}", f"{pair.distance:.1f} sigma",
+        f"{pair.best:.1f} sigma, {'told apart' if pair.best_told else 'open'}",
         _foreseen(pair.points, "never" if pair.never else "open"), _odds(pair.points, trial.said[0]),
         f"`{trial.asked}`" if trial.asked else "none", _foreseen(pair.meter, "open"), _odds(pair.meter, trial.said[1]),
     )  # fmt: skip

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 import numpy as np
+from numpy.typing import NDArray
 
+from diagnosis.next_point.discrimination import added_points
 from diagnosis.next_point.operating_box import pump_box
-from diagnosis.planning.apart import Apart
+from diagnosis.planning.apart import Apart, Contest, PairCampaign
 from diagnosis.planning.design import Asked, spread_order
 from diagnosis.planning.plan import Plan, contest_of, plan_campaign
 from diagnosis.planning.responses import foresee
@@ -32,14 +34,30 @@ SCORE = 8.0
 CORNERS, ADDED = 8, 28
 AIM = 7.0
 """Sigma of every pair that the plan aims at, so that it spends as many readings as the grid."""
+FAR = 50.0
+"""Sigma that the best campaign for a pair alone aims at: more than any reaches."""
 LEVELS = (4, 4, 2, 3, 2)
 CHARGE = (15e5 - STANDARD_ATMOSPHERE, 30e5 - STANDARD_ATMOSPHERE)
 """Pa gauge, ends of the charge pressure that the bench can set."""
 MIDDLE = 328.15  # K, of the case at the corners
 
 
-def planned(names: list[str], thresholds: Thresholds) -> tuple[Plan, Array]:
-    """The plan for some suspects, the truth first, and their distances (S, S) as it foresees them for the grid.
+@dataclass(frozen=True)
+class CasePlan:
+    """The plan of a case, and beside it what is foreseen of the first suspect against each other one.
+
+    grid, best: (S,), sigma, by the grid, and by the best campaign of as many readings for that pair alone: any points,
+    each read as often as it likes; best_told: (S,), true where that campaign tells the two apart.
+    """
+
+    plan: Plan
+    grid: Array
+    best: Array
+    best_told: NDArray[np.bool_]
+
+
+def planned(names: list[str], thresholds: Thresholds) -> CasePlan:
+    """The plan for some suspects, the truth first.
 
     It begins with the corners of the box and may add as many readings as make the grid's number, at levels over the
     box or at the grid's own points, and ask for one meter more. All suspects cost as much as makes the truth stand out
@@ -60,7 +78,21 @@ def planned(names: list[str], thresholds: Thresholds) -> tuple[Plan, Array]:
 
     cost = COST * SCORE / float(np.sqrt(by_grid(COST).seen[0]))
     plan = plan_campaign(foreseen, replace(asked, cost=cost), chosen, thresholds)
-    return plan, by_grid(cost).distances
+    best, best_told = _alone(contest_of(foreseen, asked.channels, plan.suspects), plan.wanted, thresholds)
+    return CasePlan(plan, by_grid(cost).distances[0], best, best_told)
+
+
+def _alone(contest: Contest, wanted: float, thresholds: Thresholds) -> tuple[Array, NDArray[np.bool_]]:
+    """Distances of the first suspect by the best campaign for each pair alone, found by exchange; whether it tells."""
+    readings, count = CORNERS + ADDED, len(contest.white.columns)
+    none, often = np.zeros(count, dtype=np.int64), np.full(count, readings)
+    distances, told = np.zeros(len(contest.suspects)), np.zeros(len(contest.suspects), dtype=bool)
+    for other in range(1, len(contest.suspects)):
+        alone = PairCampaign(contest, ((0, other),), FAR)
+        found = contest.apart(np.bincount(added_points(alone, none, often, readings, 0.0).points, minlength=count))
+        distances[other] = found.distances[0, other]
+        told[other] = contest.told(found, wanted, thresholds.form)[0, other]
+    return distances, told
 
 
 def _asked() -> tuple[Asked, int]:

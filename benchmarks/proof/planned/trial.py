@@ -84,13 +84,16 @@ class Told:
 class Pair:
     """A pair that the grid leaves open: the rival, odds for the truth by the grid, distance foreseen for the grid.
 
-    points: by the meters at hand; meter: with the one that the plan asks for; never: no point tells the two apart.
+    points: by the meters at hand; meter: with the one that the plan asks for; never: no point tells the two apart;
+    best, best_told: distance by the best campaign of as many readings for this pair alone, and whether it tells.
     """
 
     rival: str
     odds: float
     distance: float
     never: bool
+    best: float
+    best_told: bool
     points: Told
     meter: Told
 
@@ -132,7 +135,8 @@ def by_grid(one: Concealed, number: int) -> ByGrid:
 def tried(one: Concealed, number: int, grid: ByGrid) -> Trial:
     """Both planned campaigns on the same pump, the bench calibrated anew for each."""
     begun, thresholds, made = process_time(), load_thresholds(), _made(one, number)
-    plan, on_grid = planned([grid.truth, *grid.open], thresholds)
+    found = planned([grid.truth, *grid.open], thresholds)
+    plan = found.plan
     hopeless = {never.pair for never in plan.never}
     where = {rival: (0, at) for at, rival in enumerate(grid.open, start=1)}
     hopeful = any(pair not in hopeless for pair in where.values())
@@ -144,9 +148,9 @@ def tried(one: Concealed, number: int, grid: ByGrid) -> Trial:
         chances, said_with = _recorded(plan, more.counts, more.meters, made, number, thresholds)
         with_meter, readings = _told(more.after, more.told, chances, grid.truth, where), int(more.counts.sum())
     pairs = tuple(
-        Pair(rival, _odds(grid.chances, grid.truth, rival), float(on_grid[pair]), pair in hopeless,
-             own[rival], with_meter[rival])
-        for rival, pair in where.items()
+        Pair(rival, _odds(grid.chances, grid.truth, rival), float(found.grid[at]), (0, at) in hopeless,
+             float(found.best[at]), bool(found.best_told[at]), own[rival], with_meter[rival])
+        for at, rival in enumerate(grid.open, start=1)
     )  # fmt: skip
     asked = " + ".join(meter.name for meter in plan.equipped.meters) if plan.equipped else ""
     return Trial(
