@@ -1,4 +1,4 @@
-"""What is asked for where no points of the range recorded settle two explanations: another range, a meter more."""
+"""The request where no points of the recorded range settle two explanations: another range, a meter more."""
 
 from __future__ import annotations
 

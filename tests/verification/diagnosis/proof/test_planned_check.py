@@ -19,7 +19,7 @@ def check(proof: SimpleNamespace) -> SimpleNamespace:
 
 
 def _kept(check: SimpleNamespace, folder: Path) -> tuple[object, object]:
-    """One grid that leaves two of three rivals open, and its planned campaigns: one settled by points, both with a meter."""
+    """A grid that leaves a rival open, and planned campaigns: one pair settled by points, both with a meter."""
     grid = check.trial.ByGrid(
         "seal", "seal_drag", {"seal_drag": 0.6, "torque_offset": 0.3, "churning": 0.01}, "class", 6.0
     )
