@@ -48,7 +48,7 @@ def test_the_page_counts_what_is_settled(check: SimpleNamespace, tmp_path: Path)
     for part in (
         "in 1 min of process time. 1 of them left 2 pairs open",
         "With one meter more 2 of 2", "By points alone 1 of 2", "no point of this bench tells 1 of them",
-        "1 of the 2; the plan", "`torque_uncoupled` 1 times", "2, open", "400, settled",
+        "to tell 1 of the 2", "`torque_uncoupled` 1 times", "2, open", "400, settled",
     ):  # fmt: skip
         assert part in told, told
 
