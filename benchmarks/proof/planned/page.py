@@ -36,15 +36,16 @@ Written by `python benchmarks/plan_check.py`.
 REASONS = """
 What stays open, and why:
 
-- Films and openings of different gaps are one in the case drain, as long as the films are known to their tolerance only:
-  no point separates them, at any temperature or charge pressure. The drain of one gap does, where the pump's case can be
-  made so that it is caught. It tells that gap from the two others, not these from each other: that needs a second one.
-- A zero of the torque meter and a constant drag are one at every point. The meter read with the pump uncoupled separates
-  them. The drag of a charge pump follows its pressure: points at two charge pressures separate it from both.
-- "Best for this pair" shows that another choice of points would hardly change it: it has the same number of readings for
-  the one pair.
-- A distance is to first order, at the size that makes the truth stand out by 8 sigma on the grid. Where a pair is settled
-  against what was foreseen, or open, the laws bend: those of the plant are not those of the program.
+- Films and openings of different gaps are one in the case drain, as long as the films are known to their tolerance
+  only: no point separates them, at any temperature or charge pressure. The drain of one gap does, where the pump's case
+  can be made so that it is caught. It tells that gap from the two others, not these from each other: that needs a
+  second one.
+- A zero of the torque meter and a constant drag are one at every point. The meter read with the pump uncoupled
+  separates them. The drag of a charge pump follows its pressure: points at two charge pressures separate it from both.
+- "Best for this pair" shows that another choice of points would hardly change it: it has the same number of readings
+  for the one pair.
+- A distance is to first order, at the size that makes the truth stand out by 8 sigma on the grid. Where a pair is
+  settled against what was foreseen, or open, the laws bend: those of the plant are not those of the program.
 """
 TABLE = (
     "concealed", "open rival", "odds by the grid", "foreseen, grid", "best for this pair", "foreseen, points",
