@@ -112,16 +112,16 @@ def _clear(outcomes: Outcomes) -> list[Outcome]:
 
 
 def _asked(outcomes: Outcomes) -> tuple[Gate, ...]:
-    """Of two explanations that the recording leaves open: whether three more readings settle them.
+    """Of two explanations that the recording leaves open: whether what the verdict asks for settles them.
 
-    By the point asked for, by one drawn at random; and by the point where the verdict says that it will.
+    By up to three points or one meter, by as many points drawn at random; and where the verdict says that it will.
     """
     open_pairs = left_open(outcomes)
     promised = [worth for worth in open_pairs if worth.promised >= LIMITS.promised]
     return (
-        share("open pairs settled by the requested point, 3 readings", open_pairs, by_asked, at_least=0.8),
+        share("open pairs settled by what is asked for", open_pairs, by_asked, at_least=0.8),
         share("open pairs settled where the verdict says so", promised, by_asked, at_least=0.8),
-        share("open pairs settled by a random point", open_pairs, _by_other, at_most=0.3),
+        share("open pairs settled by random points", open_pairs, _by_other, at_most=0.3),
     )
 
 

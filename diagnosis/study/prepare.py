@@ -23,7 +23,7 @@ from reynolds.errors import InputError
 from reynolds.numerics.arrays import Array
 from system.bench.components import LEAKAGE
 from system.bench.departures import departures
-from system.bench.outputs import SIMULATED
+from system.bench.outputs import METERED, SIMULATED
 from system.bench.parameters import base_parameters
 from system.bench.sensors import drift_parameter, lag_parameter, sensor_parameters
 from system.bench.simulator import LumpedBench
@@ -59,7 +59,7 @@ def prepare(
     a simulated output, NotConverged where a point cannot be simulated.
     """
     usable = complete(recording)
-    channels, inputs = measured(usable, SIMULATED), measured(usable, INPUTS)
+    channels, inputs = measured(usable, METERED), measured(usable, INPUTS)
     if not channels:
         names = ", ".join(channel.value for channel in SIMULATED)
         raise InputError("recording", "none of the simulated outputs", f"at least one of {names}")
@@ -67,7 +67,7 @@ def prepare(
     unused = tuple(
         DataNote(NoteKind.NOTED, name, (), f"{name.value} is recorded, but the simulation does not give it")
         for name in measured(usable, OUTPUTS)
-        if name not in SIMULATED
+        if name not in METERED
     )
     usable = replace(usable, notes=(*usable.notes, *taken, *unused))
     parameters = (

@@ -37,7 +37,7 @@ def wide_gates(outcomes: Outcomes) -> tuple[Gate, ...]:
         share("wrong and P >= 0.9, flagged or not", outcomes, is_sure_and_wrong, at_most=0.005),
         number("calibration error (ECE)", outcomes, calibration_error, 0.03),
         median("held-out residual over noise, right names at z >= 8", right, left, at_most=1.1),
-        share("open pairs settled by the requested point", left_open(outcomes), by_asked, at_least=0.8),
+        share("open pairs settled by what is asked for", left_open(outcomes), by_asked, at_least=0.8),
         share("no diagnosis", outcomes, is_failed, at_most=0.0),
     )
 

@@ -152,9 +152,9 @@ def test_a_point_is_worth_what_it_settles(proof: SimpleNamespace, right: object)
     settled = replace(right, worth=proof.outcome.Worth(6.0, 0.0, 0.0, 0.9))
     beyond = replace(right, worth=proof.outcome.Worth(1.0, 0.1, 0.0, 0.02))
     found = {gate.name: gate for gate in proof.gates.gates([left_open, settled, beyond])}
-    by_asked = found["open pairs settled by the requested point, 3 readings"]
+    by_asked = found["open pairs settled by what is asked for"]
     promised = found["open pairs settled where the verdict says so"]
-    by_other = found["open pairs settled by a random point"]
+    by_other = found["open pairs settled by random points"]
     assert (by_asked.passed, by_asked.cases) == (False, 2)
     assert (promised.passed, promised.cases) == (True, 1)
     assert (by_other.passed, by_other.cases) == (True, 2)
