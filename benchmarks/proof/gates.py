@@ -184,7 +184,7 @@ def _abstains(one: Outcome) -> bool:
 
 
 def _sure_name(one: Outcome) -> bool:
-    return bool(one.claims) and one.status in ("named", "class")
+    return bool(one.claims) and one.status in ("named", "class") and not is_right(one)
 
 
 def _channel(one: Outcome) -> bool:

@@ -74,7 +74,9 @@ def finding(diagnosis: Diagnosis) -> str:
         return "Simulation and recording agree within the scatter of the meters and the tolerances of the pump."
     if diagnosis.kind is Kind.UNKNOWN_PHYSICS:
         parts = listed((f"the {COMPONENTS[one]}" for one in diagnosis.location.tie), "or")
-        place = f" It lies most likely in {parts}." if parts else ""
+        inputs = listed(map(channel_words, diagnosis.location.inputs))
+        goes = f" and changes with {inputs}" if inputs else ""
+        place = f" It lies most likely in {parts}{goes}." if parts else ""
         return f"No effect of the catalogue explains the mismatch.{place}"
     return " ".join(
         f"{finding_sentence(claim, diagnosis)}{_of_which(at, diagnosis)}." for at, claim in enumerate(diagnosis.effects)

@@ -85,6 +85,21 @@ def multiplier_evidence(posterior: Posterior, columns: Array, widths: Sequence[f
     return _averaged(columns.T @ posterior.residual, columns.T @ project(posterior, columns), widths)
 
 
+def family_evidences(
+    posterior: Posterior, columns: Array, families: Sequence[NDArray[np.int64]], widths: Sequence[float]
+) -> Array:
+    """(F,), `multiplier_evidence` of each family of the columns (n, m), given by its places."""
+    agreement, content = columns.T @ posterior.residual, columns.T @ project(posterior, columns)
+    return np.array([_averaged(agreement[own], content[np.ix_(own, own)], widths) for own in families])
+
+
+def taken_up(posterior: Posterior, columns: Array, widths: Sequence[float]) -> float:
+    """Nats of the objective that columns (n, m) take up, g^T (1/w^2 + G)^-1 g / 2, at the width of most evidence."""
+    width = max(widths, key=lambda width: multiplier_evidence(posterior, columns, [width]))
+    agreement, content = columns.T @ posterior.residual, columns.T @ project(posterior, columns)
+    return 0.5 * float(agreement @ np.linalg.solve(content + np.eye(len(content)) / width**2, agreement))
+
+
 def multiplier_evidences_without(
     posterior: Posterior, columns: Array, parts: NDArray[np.int64], widths: Sequence[float]
 ) -> Array:
