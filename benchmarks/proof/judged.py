@@ -27,7 +27,7 @@ def is_right(outcome: Outcome) -> bool:
     A fault beside the truth may be named too. Unknown physics is told as a verdict, or in the class of every claim.
     """
     if not outcome.effects:
-        told = outcome.verdict == outcome.truth or _is_open(outcome)
+        told = outcome.verdict == outcome.truth or is_open(outcome)
         return told and outcome.status != "suspicion"
     left = [one for one in outcome.claims if one.effect not in outcome.beside]
     if outcome.status == "suspicion" or len(left) != len(outcome.effects):
@@ -44,7 +44,7 @@ def is_right(outcome: Outcome) -> bool:
     return True
 
 
-def _is_open(outcome: Outcome) -> bool:
+def is_open(outcome: Outcome) -> bool:
     """Whether the truth is unknown physics and no claim is told without it."""
     of_claims = [UNKNOWN in one.equivalent for one in outcome.claims]
     return outcome.truth == UNKNOWN and bool(of_claims) and all(of_claims)

@@ -1,9 +1,10 @@
 """Departures of a law over the map, of which only is known that few inputs make them.
 
 A law a(x) becomes a(x) (1 + Phi b), b ~ N(0, w^2). Phi are the shapes of one family: a polynomial of second order in
-none to four of the inputs, or any course over one of them. Families of as many inputs share a mass, and so do the
+one to four of the inputs, or any course over one of them. Families of as many inputs share a mass, and so do the
 courses. A departure by one input costs little evidence, one by many costs more: which inputs matter is found, not
-assumed (Occam's factor; MacKay 1992, doi:10.1162/neco.1992.4.3.415).
+assumed (Occam's factor; MacKay 1992, doi:10.1162/neco.1992.4.3.415). A factor that is the same everywhere is none: it
+is a wrong value, a meter's gain, or a law of the catalogue, which are hypotheses of their own.
 """
 
 from __future__ import annotations
@@ -63,14 +64,14 @@ class DepartureEvidence:
 
 
 def departure_shapes(recording: Recording) -> Shapes:
-    """All families of shapes over the inputs that move in a recording."""
+    """All families of shapes over the inputs that move in a recording; a constant where none does."""
     inputs = _inputs(recording)
     names, scaled = tuple(inputs), [on_axis(name, values) for name, values in inputs.items()]
     columns, places = _monomials(scaled, len(next(iter(inputs.values()), recording.steady.values)))
     most = min(MOST, len(names))
-    kinds = most + 1 + bool(names)
-    families = []
-    for count in range(most + 1):
+    kinds = most + 1
+    families = [] if names else [Family((), np.zeros(1, dtype=np.int64), 0.0)]
+    for count in range(1, most + 1):
         share = -log(kinds) - log(comb(len(names), count))
         for chosen in combinations(range(len(names)), count):
             own = [places[()], *(places[one,] for one in chosen)]

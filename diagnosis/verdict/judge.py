@@ -58,10 +58,10 @@ def judge(
 
     along: coordinates (N,) by name, with which an effect may grow (`diagnosis.verdict.trend`).
 
-    A mismatch needs an improbable null and a candidate (or a free multiplier) as striking as chance hardly makes
-    one; one of the two alone is a suspicion of the likeliest kind, and claims nothing. A name needs probability,
-    odds to all that claim something else, sizes above zero, and no veto of held-out regions; it is incomplete if
-    a part of the mismatch remains.
+    A mismatch needs an improbable null and a candidate (or a departure) as striking as chance hardly makes one; one
+    of the two alone is a suspicion of the likeliest kind, and claims nothing. A name needs probability, odds to all
+    that claim something else, sizes above zero, and no veto of held-out regions; it is incomplete if a part of the
+    mismatch remains. Unknown physics as likely as a name is in the class of each claim.
     """
     limits = thresholds.mismatch
     null = next(each for each in explanations if each.hypothesis.kind is Kind.NO_MISMATCH)

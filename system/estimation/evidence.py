@@ -90,7 +90,8 @@ def family_evidences(
 ) -> Array:
     """(F,), `multiplier_evidence` of each family of the columns (n, m), given by its places."""
     agreement, content = columns.T @ posterior.residual, columns.T @ project(posterior, columns)
-    return np.array([_averaged(agreement[own], content[np.ix_(own, own)], widths) for own in families])
+    found = [_by_width(agreement[own], content[np.ix_(own, own)], widths) for own in families]
+    return np.asarray(logsumexp(np.array(found), axis=1)) - log(len(widths))
 
 
 def taken_up(posterior: Posterior, columns: Array, widths: Sequence[float]) -> float:
@@ -125,9 +126,13 @@ def multiplier_evidences_without(
 
 def _averaged(agreement: Array, content: Array, widths: Sequence[float]) -> float:
     """ln evidence of columns with g = `agreement` (m,) and G = `content` (m, m), averaged over prior widths."""
+    return float(logsumexp(_by_width(agreement, content, widths))) - log(len(widths))
+
+
+def _by_width(agreement: Array, content: Array, widths: Sequence[float]) -> Array:
+    """The same for each prior width, (W,)."""
     level, axes = np.linalg.eigh(0.5 * (content + content.T))
     level = np.maximum(level, 0.0)
     along = (axes.T @ agreement) ** 2
     width = np.asarray(widths, dtype=float)[:, None]
-    each = 0.5 * (along / (width**-2 + level) - np.log1p(width**2 * level)).sum(axis=1)
-    return float(logsumexp(each)) - log(width.size)
+    return np.asarray(0.5 * (along / (width**-2 + level) - np.log1p(width**2 * level)).sum(axis=1))
