@@ -185,8 +185,10 @@ def test_unknown_physics_is_told_with_what_it_is_most_like(named: Diagnosis) -> 
 
 def test_a_cause_outside_the_catalogue_may_be_in_the_class(named: Diagnosis) -> None:
     claim = replace(named.effects[0], equivalent=(E.UNKNOWN_PHYSICS,))
-    text = statement(replace(named, status=VerdictStatus.CLASS, effects=(claim,)))
-    assert "A cause outside the catalogue in place of elastic opening fits this recording as well." in text
+    second = replace(named.hypotheses[1], hypothesis=hypothesis(E.UNKNOWN_PHYSICS, kind=Kind.UNKNOWN_PHYSICS))
+    weighed = (named.hypotheses[0], replace(second, probability=0.4))
+    text = statement(replace(named, status=VerdictStatus.CLASS, effects=(claim,), hypotheses=weighed))
+    assert "A cause outside the catalogue (0.4) in place of elastic opening fits this recording as well." in text
 
 
 def test_angles_and_times_are_part_of_where(named: Diagnosis) -> None:
