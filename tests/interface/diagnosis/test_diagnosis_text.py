@@ -187,7 +187,11 @@ def test_a_cause_outside_the_catalogue_may_be_in_the_class(named: Diagnosis) -> 
     claim = replace(named.effects[0], equivalent=(E.UNKNOWN_PHYSICS,))
     second = replace(named.hypotheses[1], hypothesis=hypothesis(E.UNKNOWN_PHYSICS, kind=Kind.UNKNOWN_PHYSICS))
     weighed = (named.hypotheses[0], replace(second, probability=0.4))
-    text = statement(replace(named, status=VerdictStatus.CLASS, effects=(claim,), hypotheses=weighed))
+    found = replace(named, status=VerdictStatus.CLASS, effects=(claim,), hypotheses=weighed, next_point=None)
+    text = statement(found)
+    assert measure_words(found) == "More points tell a law of the catalogue from a cause outside it."
+    there = replace(found, location=replace(found.location, inputs=(ChannelName.SPEED,)))
+    assert measure_words(there).startswith("More points at other values of speed tell")
     assert "A cause outside the catalogue (0.4) in place of elastic opening fits this recording as well." in text
 
 
