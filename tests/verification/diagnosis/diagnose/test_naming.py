@@ -595,7 +595,7 @@ def test_unknown_physics_as_likely_as_a_name_is_in_its_class(ahead: float) -> No
 
 
 def _left_by_churning(study: Study) -> tuple[str, ...]:
-    """What churning leaves of a recording, in words."""
+    """The trace of churning in a recording, in words."""
     own = next(each for each in hypotheses(study, LIMITS) if each.effects == (EffectId.CHURNING,))
     null, best = (refit(study, each, LIMITS) for each in (hypotheses(study, LIMITS)[0], own))
     return residue_notes(study, null, best, _coordinates(), LIMITS)
