@@ -59,6 +59,7 @@ The gates were set before the program was written. A case without a required num
 
 - Small sizes: the gate requires a suspicion or a class. At z = 3 a recording is often rightly taken as one without
   mismatch; such verdicts are counted separately.
+- Unknown physics counts as recognised where it is the verdict, or in the class of every claim, as an effect does.
 - Gap: counts where the truth has a gap, whatever the claim. A suspicion claims nothing and counts as missed.
 - Region: the true region is where the first-named channel shifts by at least half of its largest shift.
 - Window: the true window holds four fifths of the squared difference of the chamber pressures.

@@ -9,7 +9,7 @@ from diagnosis.report.format import CHANNELS, channel_words, if_words, listed, p
 from diagnosis.study.map_axes import axis_values
 from diagnosis.study.model import Study
 from diagnosis.verdict.diagnosis import Diagnosis, VerdictStatus
-from system.effects.effect import Kind
+from system.effects.effect import EffectId, Kind
 from system.inputs.channels import ChannelName
 
 NO_NEXT_POINT = "no next point can be proposed"
@@ -38,6 +38,10 @@ def measure_words(diagnosis: Diagnosis) -> str:
         return NOTHING_MORE
     if not diagnosis.effects:
         return "Read the points with the largest difference again."
+    if any(EffectId.UNKNOWN_PHYSICS in claim.equivalent for claim in diagnosis.effects):
+        inputs = listed(map(channel_words, diagnosis.location.inputs))
+        where = f" at other values of {inputs}" if inputs else ""
+        return f"More points{where} tell a law of the catalogue from a cause outside it."
     if diagnosis.status is VerdictStatus.INCOMPLETE:
         return "Read the points again that still differ most: nothing else that could be fitted explains them better."
     return NOTHING_ELSE if stated_probability(diagnosis) >= diagnosis.thresholds.name.probability else NO_POINT_TELLS

@@ -187,6 +187,21 @@ def test_unknown_physics_is_told_with_what_it_is_most_like(named: Diagnosis) -> 
     text = statement(replace(named, kind=Kind.UNKNOWN_PHYSICS, effects=()))
     assert text.startswith("A mismatch without a known cause.")
     assert "It lies most likely in the leakage of the valve plate." in text
+    location = replace(named.location, inputs=(ChannelName.SPEED, ChannelName.P_CASE))
+    text = statement(replace(named, kind=Kind.UNKNOWN_PHYSICS, effects=(), location=location))
+    assert "the leakage of the valve plate and changes with speed and case pressure (p_case)." in text
+
+
+def test_a_cause_outside_the_catalogue_may_be_in_the_class(named: Diagnosis) -> None:
+    claim = replace(named.effects[0], equivalent=(E.UNKNOWN_PHYSICS,))
+    second = replace(named.hypotheses[1], hypothesis=hypothesis(E.UNKNOWN_PHYSICS, kind=Kind.UNKNOWN_PHYSICS))
+    weighed = (named.hypotheses[0], replace(second, probability=0.4))
+    found = replace(named, status=VerdictStatus.CLASS, effects=(claim,), hypotheses=weighed, next_point=None)
+    text = statement(found)
+    assert measure_words(found) == "More points tell a law of the catalogue from a cause outside it."
+    there = replace(found, location=replace(found.location, inputs=(ChannelName.SPEED,)))
+    assert measure_words(there).startswith("More points at other values of speed tell")
+    assert "A cause outside the catalogue (0.4) in place of elastic opening fits this recording as well." in text
 
 
 def test_angles_and_times_are_part_of_where(named: Diagnosis) -> None:

@@ -198,6 +198,22 @@ def test_gates_of_kinds(proof: SimpleNamespace, right: object) -> None:
     assert gates["no diagnosis, all cases"].passed is False
 
 
+def test_unknown_physics_is_recognised_in_the_class_of_every_claim(proof: SimpleNamespace, right: object) -> None:
+    """A verdict of its own, a class that holds it, a name without it, one of two names without it."""
+    claimed = proof.outcome.Claimed
+    strange = replace(right, part="unknown", truth="unknown_physics", effects=(), pairs=())
+    told = replace(strange, verdict="unknown_physics", claims=())
+    inside, closed = claimed("churning", None, 0.6, ("unknown_physics",)), claimed("seal_drag", None, 0.6, ())
+    classes = ((inside,), (closed,), (inside, closed))
+    cases = [told, *(replace(strange, status="class", claims=each) for each in classes)]
+    assert [proof.judged.is_right(one) for one in cases] == [True, True, False, False]
+    assert [proof.judged.is_wrong_name(one) for one in cases] == [False, False, True, True]
+    gates = {gate.name: gate for gate in proof.gates.gates(cases)}
+    assert gates["unknown physics recognised at z >= 8"].found.startswith("50.0% (2 of 4")
+    assert gates["unknown physics recognised at z >= 8"].found.endswith("1 of them in the class of a name")
+    assert gates["unknown physics given a name at z >= 8"].found.startswith("50.0% (2 of 4")
+
+
 def test_what_nulls_leave_is_no_ones_to_remove(proof: SimpleNamespace, right: object) -> None:
     """Nulls leave 1.1 of the noise's square; of 4 a fit leaves 1.39: nine tenths of 2.9 with it, .87 without."""
     null = replace(right, part="null", truth="no_mismatch", effects=(), pairs=(), claims=(), score=0.0,

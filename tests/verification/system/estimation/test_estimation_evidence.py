@@ -13,7 +13,15 @@ from scipy.special import logsumexp
 from reynolds import Array
 from system import Channel, Observations, Parameter, Role, Scale, linear_posterior, maximum_posterior
 from system.estimation.determined import undetermined
-from system.estimation.evidence import Sign, mixture_evidence, multiplier_evidence, multiplier_evidences_without, score
+from system.estimation.evidence import (
+    Sign,
+    family_evidences,
+    mixture_evidence,
+    multiplier_evidence,
+    multiplier_evidences_without,
+    score,
+    taken_up,
+)
 from system.estimation.posterior import log_mass, settled
 
 POINTS = 12
@@ -156,6 +164,25 @@ def test_multiplier(case) -> None:
     each = [_marginal(base, columns, np.full(15, width), readings) - null for width in (0.01, 0.1, 1.0)]
     found = multiplier_evidence(_fitted(base, readings), columns, (0.01, 0.1, 1.0))
     assert found == pytest.approx(logsumexp(each) - log(3.0), abs=1e-9)
+
+
+def test_families_of_columns_are_each_by_itself(case) -> None:
+    base, _, readings = case
+    columns, widths = _columns(13, 6), (0.01, 0.1, 1.0)
+    fit, families = _fitted(base, readings), (np.array([0, 2]), np.array([1]), np.arange(6))
+    found = family_evidences(fit, columns, families, widths)
+    assert found == pytest.approx([multiplier_evidence(fit, columns[:, own], widths) for own in families], abs=1e-10)
+
+
+def test_columns_take_up_what_their_fit_does(case) -> None:
+    """The fall of the objective by a fit with these columns, of prior N(0, w^2), at the width of most evidence."""
+    base, _, readings = case
+    columns = _columns(13, 2)
+    fit = _fitted(base, readings)
+    widths = (0.1, 3.0)
+    best = max(widths, key=lambda width: multiplier_evidence(fit, columns, [width]))
+    both = _fitted(np.column_stack((base, best * columns)), readings)
+    assert taken_up(fit, columns, widths) == pytest.approx(0.5 * (fit.objective - both.objective), abs=1e-8)
 
 
 def test_multiplier_without_a_part_is_that_of_the_rest(case) -> None:
