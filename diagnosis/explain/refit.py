@@ -151,16 +151,16 @@ def _trials(thresholds: Thresholds, sizes: tuple[float, ...]) -> Trials:
 
 
 def _about(study: Study, hypothesis: Hypothesis, part: Explanation | None) -> tuple[Expansion, tuple[str, ...]]:
-    """Linear model about which a fit starts, at the peak of a part or at the prior mean, and the names new to it."""
+    """Linear model about which a fit starts, at the peak of a part or that of the study, and the names new to it."""
     if part is None or part.posterior is None or not set(part.hypothesis.open_names) < set(hypothesis.open_names):
-        return _prior_mean(study), hypothesis.open_names
+        return _whole(study), hypothesis.open_names
     known = part.hypothesis.open_names
     own = Expansion(part.posterior, part.posterior.xi)
     return own, tuple(name for name in hypothesis.open_names if name not in known)
 
 
-def _prior_mean(study: Study) -> Expansion:
-    return Expansion(study.base, np.zeros_like(study.base.xi))
+def _whole(study: Study) -> Expansion:
+    return Expansion(study.base, study.place)
 
 
 def _gross(about: Expansion, thresholds: Thresholds) -> bool:
@@ -291,7 +291,7 @@ def first_look(study: Study, hypothesis: Hypothesis, thresholds: Thresholds) -> 
     """
     simulator = simulator_of(study, hypothesis, thresholds)
     trials = _trials(thresholds, thresholds.fit.look_sizes)
-    promised, xi = start(study, simulator, _prior_mean(study), hypothesis.open_names, trials)
+    promised, xi = start(study, simulator, _whole(study), hypothesis.open_names, trials)
     predicted = simulator.predict(values_at(simulator.parameters, xi))
     left = study.base.whitening.whiten(study.observations.values - predicted)
     return FirstLook(promised, float(left @ left + xi @ xi))

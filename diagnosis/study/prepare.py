@@ -15,6 +15,7 @@ from diagnosis.study.inputs import assumed_parameters, bench_points, complete, m
 from diagnosis.study.map_axes import scaled_axes, smooth_shapes
 from diagnosis.study.model import Study, study_of
 from diagnosis.study.noise_correlation import noise_correlation, noise_excess
+from diagnosis.study.null_place import null_place
 from diagnosis.study.readings import observations
 from diagnosis.study.traces.bench import traced_bench
 from diagnosis.study.traces.misfits import port_events, trace_misfits, trace_parameters
@@ -84,13 +85,15 @@ def prepare(
         bench = _of_another_make(bench, axes, found.sigma, thresholds.form)
     traces = usable.channel(ChannelName.P_CHAMBER) if usable.traces else None
     bare = study_of(usable, bench, found, axes, (), thresholds)
+    about = null_place(bare, thresholds) if scant else {}
+    bare = study_of(usable, bench, found, axes, (), thresholds, about) if about else bare
     if found.correlation:  # of a series: its noise is an estimate
         excess = noise_excess(bare, thresholds.mismatch)
         found = replace(found, sigma=found.sigma * excess)
         usable = replace(
             usable, notes=(*usable.notes, *_excess_notes(channels, excess, thresholds.mismatch.told_excess))
         )
-        bare = study_of(usable, bench, found, axes, (), thresholds)
+        bare = study_of(usable, bench, found, axes, (), thresholds, about)
     memory = () if found.correlation else noise_correlation(bare, thresholds.mismatch)
     if memory:
         text = f"residuals persist from point to point: noise is assumed correlated by {memory[0]:.2f} in the order"
@@ -98,7 +101,7 @@ def prepare(
         found = replace(found, memory=memory)
     if traces:
         traced = traced_bench(bench, usable.traces, traces)
-        study = study_of(usable, traced, traced.observations(found), axes, catalogue, thresholds)
+        study = study_of(usable, traced, traced.observations(found), axes, catalogue, thresholds, about)
         study = replace(study, traces=trace_misfits(traced, traces, thresholds.mismatch.pull))
     else:
         courses = drift_courses(bare, thresholds)
@@ -106,7 +109,7 @@ def prepare(
         bench = bench.only(felt(bare, thresholds)).with_drifts(shapes, drift_parameters(bare, courses))
         bench = bench.with_departures(course_departures(bare, courses, thresholds.form.drift)) if courses else bench
         usable = replace(usable, notes=(*usable.notes, *_drift_notes(courses, usable)))
-        study = study_of(usable, bench, found, axes, catalogue, thresholds)
+        study = study_of(usable, bench, found, axes, catalogue, thresholds, about)
     return replace(study, events=port_events(pump), scant=scant)
 
 
