@@ -35,6 +35,7 @@ from system.effects.extension import Entry
 from system.estimation.parameters import Parameter
 from system.estimation.posterior import values_at
 from system.inputs.channels import INPUTS, OUTPUTS, ChannelName
+from system.inputs.units import TURN
 from system.points.table.film_physics import FilmModel
 
 LEAST_ACROSS = 1e6  # Pa
@@ -141,7 +142,8 @@ def _of_another_make(bench: LumpedBench, axes: Array, sigma: Array, form: FormLi
     """The bench with departures of its leakage and friction from the simulation's laws.
 
     Leakage departs by smooth factors and a power of the pressure. While ports change, chambers leak into the case what
-    delivery does not lack: a share of the drain by itself, and one that the chamber's peaks add.
+    delivery does not lack: a share of the drain by itself, and one that the chamber's peaks add. Ports give back more
+    or less of the energy that oil in the dead volumes holds, which torque alone shows.
     """
     centre = values_at(bench.parameters, np.zeros(len(bench.parameters)))
     across = np.maximum(bench.points.p_out - bench.points.p_case, LEAST_ACROSS)
@@ -149,10 +151,21 @@ def _of_another_make(bench: LumpedBench, axes: Array, sigma: Array, form: FormLi
     shapes = np.column_stack([first, form.bent * second, np.log(across / np.median(across))])
     of_ports = np.column_stack([np.full_like(across, form.of_ports), form.peaks / across])
     parts = bench.components(centre)
-    is_drain = np.array([name is ChannelName.Q_CASE for name in bench.channels])
+    is_drain, is_torque = (
+        np.array([name is one for name in bench.channels]) for one in (ChannelName.Q_CASE, ChannelName.TORQUE)
+    )
     drained = np.sum([parts[part] for part in LEAKAGE], axis=0) * is_drain
-    apart = drained[:, :, None] * of_ports[:, None, :]
+    apart = np.dstack([
+        drained[:, :, None] * of_ports[:, None, :],
+        form.recovered * (_stored(bench) / TURN)[:, None, None] * is_torque[:, None],
+    ])  # fmt: skip
     return bench.with_departures(departures(parts, shapes, sigma, form.other_make, apart))
+
+
+def _stored(bench: LumpedBench) -> Array:
+    """Energy (N,) in J that oil in all dead volumes holds at delivery pressure: z V_d dp^2/(2 K), once a turn."""
+    pump, across = bench.pump, bench.points.p_out - bench.points.p_in
+    return np.asarray(pump.pump.pistons * pump.pump.dead_volume * across**2 / (2.0 * pump.oil.bulk_modulus))
 
 
 def meter_parameters(recording: Recording, channels: tuple[ChannelName, ...]) -> tuple[Parameter, ...]:
