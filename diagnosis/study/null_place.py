@@ -23,7 +23,9 @@ def null_place(study: Study, thresholds: Thresholds) -> Mapping[str, float]:
     limits = thresholds.fit
     held = tuple(each.held(limits.tolerated) for each in study.simulator.parameters)
     simulator = study.simulator.with_parameters(held)
-    ends = FitLimits(change=limits.change, patience=limits.patience, gross=limits.gross)
+    ends = FitLimits(
+        change=limits.change, patience=limits.patience, gross=limits.gross, stall=2.0 * thresholds.name.odds
+    )
     try:
         fit = maximum_posterior(simulator, study.observations, limits=ends)
     except NotConverged:

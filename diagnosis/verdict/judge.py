@@ -13,6 +13,7 @@ from diagnosis.detect.mismatch import Detection
 from diagnosis.explain.hypotheses import Hypothesis
 from diagnosis.explain.model_error import class_gap, place_gap, shared_out
 from diagnosis.explain.ranked import Explanation
+from diagnosis.explain.refit import fit_limits
 from diagnosis.study.model import Study
 from diagnosis.thresholds import Thresholds
 from diagnosis.verdict.diagnosis import ClaimedEffect, Estimate, VerdictStatus
@@ -77,7 +78,7 @@ def judge(
     members = equivalents(best, explanations, class_gap(explanations, thresholds), place_gap(explanations, thresholds))
     explanations, members = shared_out(explanations, members, thresholds)
     best = members[0]
-    against = _objections(best, members, explanations, thresholds)
+    against = _objections(study, best, members, explanations, thresholds)
     if against:
         return _suspicion(explanations, against, thresholds)
     left = residue_notes(study, null, best, along, thresholds)
@@ -177,7 +178,11 @@ def _unknown(
 
 
 def _objections(
-    best: Explanation, members: Sequence[Explanation], explanations: Sequence[Explanation], thresholds: Thresholds
+    study: Study,
+    best: Explanation,
+    members: Sequence[Explanation],
+    explanations: Sequence[Explanation],
+    thresholds: Thresholds,
 ) -> tuple[str, ...]:
     """Reasons against naming the class. Its members count together: the gaps of one id share its prior."""
     limits = thresholds.name
@@ -192,7 +197,7 @@ def _objections(
         found.append(f"{rival.hypothesis.text} is only {ahead:.1f} nats behind")
     if best.posterior is None:
         found.append("it could not be refitted")
-    elif not is_peak(best.posterior):
+    elif not is_peak(best.posterior, fit_limits(study, thresholds)):
         found.append("its fit has not reached a peak")
     elif not _sure(best.posterior, best.hypothesis, thresholds):
         found.append("its size is not sure")
