@@ -1,4 +1,4 @@
-"""What a diagnosis costs: time and fits of recordings of REF90, one after the other.
+"""Cost of a diagnosis: time and fits of recordings of REF90, one after the other.
 
 python benchmarks/diagnose.py [--workers N] examples/recordings/open-01 examples/recordings/open-06
 """

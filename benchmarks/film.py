@@ -1,4 +1,4 @@
-"""How long a film takes: the finite journal bearing (L/D 1, eccentricity ratio 0.6), beside plain scikit-fem.
+"""Time of a film: the finite journal bearing (L/D 1, eccentricity ratio 0.6), beside plain scikit-fem.
 
     python benchmarks/film.py          about 1e4, 1e5 and 1e6 unknowns; a few minutes
     python benchmarks/film.py --quick  without scikit-fem and spsolve at 1e6 unknowns: minutes and GB less

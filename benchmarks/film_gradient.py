@@ -1,4 +1,4 @@
-"""How long the derivatives of a film by its thickness take, beside the film itself and beside differences.
+"""Time of the derivatives of a film by its thickness, beside the film itself and beside differences.
 
     python benchmarks/film_gradient.py          about a minute
 

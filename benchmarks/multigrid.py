@@ -1,4 +1,4 @@
-"""What multigrid on grids costs: set-up, solve, steps and work units over films and mesh sizes.
+"""Cost of multigrid on grids: set-up, solve, steps and work units over films and mesh sizes.
 
     python benchmarks/multigrid.py          2e3, 1e4, 1e5 and 1e6 unknowns; about a minute
     python benchmarks/multigrid.py --quick  up to 1e4
@@ -88,7 +88,7 @@ def _triad(a, b, c):
 
 
 def bandwidth() -> float:
-    """What one thread moves in the triad, bytes/s."""
+    """Memory traffic of one thread in the triad, bytes/s."""
     a, b, c = np.ones((3, 10_000_000))  # pages of zeros never written would be one page
     _triad(a, b, c)
     return 24.0 * len(a) / least(lambda: _triad(a, b, c), 60)

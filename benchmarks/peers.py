@@ -235,7 +235,7 @@ def code() -> str:
 
 
 def multigrid_work(quick: bool) -> str:
-    """What `multigrid.py` prints: work units and share of the memory's bandwidth of this solver's multigrid."""
+    """Lines of `multigrid.py`: work units and share of the memory's bandwidth of this solver's multigrid."""
     command = [sys.executable, str(HERE / "multigrid.py"), *(["--quick"] if quick else [])]
     return subprocess.run(command, capture_output=True, text=True, check=True, timeout=TIMEOUT).stdout
 

@@ -1,4 +1,4 @@
-"""What every test may ask for: a row of the validation page, a mesh refinement, the shared material."""
+"""Fixtures of all tests: a row of the validation page, a mesh refinement, the shared material."""
 
 from __future__ import annotations
 

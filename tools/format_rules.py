@@ -79,6 +79,6 @@ NULL = {
     "diagnosis.json/scaling": "object",
     "diagnosis.json/next_test": "object",
 }
-"""What may be null, and its type where it is not."""
+"""Entries that may be null, and their type where they are not."""
 STATED = ("*/units", "*/long_name", "*.nc/*dimensions/*", "summary.json/kind", "summary.json/format", "*.csv/*")
 """Values that are part of a format, not results."""

@@ -1,4 +1,4 @@
-"""What every peer written in Python agrees on: its arguments, what it keeps, the line it prints.
+"""Common parts of peers in Python: their arguments, what it keeps, the line it prints.
 
 `peers.py` starts each peer once per mesh, with `benchmarks` on the path of modules:
 

@@ -1,4 +1,4 @@
-"""What is run on the bench: set points of five campaigns, how steadily they are held, and what is measured."""
+"""Campaigns of the bench: set points of five campaigns, how steadily they are held, and what is measured."""
 
 from __future__ import annotations
 

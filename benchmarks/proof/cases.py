@@ -63,7 +63,7 @@ class Case:
 
     @property
     def name(self) -> str:
-        """What is concealed, how large, where: one line."""
+        """The concealed effect, its size and place in one line."""
         told = " + ".join(one.label for one in self.concealed) or "nothing"
         grade = f", z {self.score:g}" if self.score else ""
         return f"{told}{grade}, {self.campaign}, seed {self.seed}"
@@ -193,7 +193,7 @@ def _unknowns(seed: int) -> Iterator[Case]:
 
 
 def _traces(seed: int) -> Iterator[Case]:
-    """What shows in chamber traces only, at sizes of its own: a groove that wears away before its beginning."""
+    """Effects that show in chamber traces only, at sizes of its own: a groove that wears away before its beginning."""
     for k, size in enumerate((0.04, 0.08, 0.12, 0.16)):
         worn = Concealed(f"notch_erosion {size:g} rad", "notch_erosion", hidden=Hidden(erosion=size))
         yield Case(Part.TRACE, "map", seed * 1000 + 400 + k, (worn,))

@@ -14,7 +14,7 @@ GIVEN = "bench"
 
 
 def of_case(case: Case, made: Made) -> Outcome:
-    """What is true of a case."""
+    """The truth of a case."""
     known = [one for one in case.concealed if one.id]
     return Outcome(
         name=case.name, part=case.part.value, campaign=case.campaign, seed=case.seed, asked=case.score,
@@ -25,7 +25,7 @@ def of_case(case: Case, made: Made) -> Outcome:
 
 
 def of_folder(folder: Path) -> Outcome:
-    """What answers.json beside the folder says of its recording; its score is not known: 0."""
+    """The answer in answers.json beside the folder; its score is not known: 0."""
     answer = json.loads((folder.parent / "answers.json").read_text("utf-8"))[folder.name]
     effects, channels = tuple(answer.get("effects", ())), answer.get("channels", ())
     pairs = (answer.get("pair"), *(None for _ in effects[1:]))[: len(effects)]

@@ -46,7 +46,7 @@ SEED = 7
 
 
 class FilmCase(Enum):
-    """What the films of a plant have beyond rigid walls and oil as warm as the case, whatever its pressure."""
+    """Physics of the plant's films beyond rigid walls and oil at the case's temperature, whatever its pressure."""
 
     RIGID = "rigid"
     VISCOSITY_PRESSURE = "viscosity_pressure"
@@ -136,7 +136,7 @@ def truths(plant: FilmPlant) -> Array:
 
 
 def readings(plant: FilmPlant, seed: int) -> tuple[Campaign, Readings]:
-    """What the bench's sensors make of a plant, calibrations and noise drawn by the seed."""
+    """Readings of a plant by the bench's sensors, calibrations and noise drawn by the seed."""
     rows = truths(plant)
     rpm, stroke, pressure, warmth, out, drawn, drain, torque = rows.T
     none = Losses(*np.zeros((4, len(rows))))

@@ -1,4 +1,4 @@
-"""How near what was located is to where it is: regions of the map, windows of shaft angle."""
+"""Distance of the located mismatch from the true one: regions of the map, windows of shaft angle."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What one would find who knew the law: the truth's own fit, and its residual on points held out."""
+"""The finding of one who knows the law: the truth's own fit, and its residual on points held out."""
 
 from __future__ import annotations
 

@@ -29,7 +29,7 @@ class Claimed:
 
 @dataclass(frozen=True)
 class Rival:
-    """What another way of looking makes of the same recording: whether it sees a mismatch, and its name."""
+    """Finding of another method on the same recording: whether it sees a mismatch, and its name."""
 
     alarm: bool
     named: tuple[str, ...]

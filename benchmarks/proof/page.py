@@ -133,7 +133,7 @@ def _calibration() -> str:
 
 
 def _grades(outcomes: Sequence[Outcome]) -> str:
-    """How often a mismatch is seen, named right and named wrong, by part and score."""
+    """Shares of mismatches seen, named right and named wrong, by part and score."""
     rows = []
     for part in Part:
         own = [one for one in outcomes if one.part == part.value]

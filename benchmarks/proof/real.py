@@ -39,7 +39,7 @@ more each; the diagnosis has the lumped simulation. Rigid: nothing is left out (
 
 
 def sections() -> Mapping[str, Callable[[], Told]]:
-    """What makes each section, by its name, as far as its data are beside the checkout."""
+    """Writers of the sections by name, as far as their data are beside the checkout."""
     of_data = {
         "uci_hydraulic": {"rig": rig, "cycles": cycles},
         "cascaded_tanks": {"tanks": tanks},
@@ -116,7 +116,7 @@ class _Found:
 
 
 def _state(cycle: ModuleType, data: object, settings: tuple[int, ...]) -> _Found | None:
-    """What is found in a state; None where too few of its cycles work."""
+    """Finding in a state; None where too few of its cycles work."""
     state = cycle.State(*settings)
     try:
         ladder, (before, after) = cycle.explained(data, state)

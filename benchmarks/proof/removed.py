@@ -1,4 +1,4 @@
-"""How much of what could be explained a claimed fit takes away, on points held out."""
+"""Share of the explainable residual that a claimed fit removes, on points held out."""
 
 from __future__ import annotations
 

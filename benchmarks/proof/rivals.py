@@ -1,4 +1,4 @@
-"""What other ways make of the same study: usual practice, and this diagnosis with one of its parts taken out.
+"""Other methods on the same study: usual practice, and this diagnosis with one of its parts taken out.
 
 All are linear, at the prior mean, so that they are judged alike; "screen" is this diagnosis as linear as they.
 """
@@ -30,7 +30,7 @@ from .outcome import Rival
 USUAL_NAME = {
     "Q_case": "film_thickness", "torque": "friction_coefficient", "Q_out": "displacement", "Q_in": "Q_in_gain",
 }  # fmt: skip
-"""What one blames first where a channel is off."""
+"""The usual first suspect of a channel that is off."""
 SURE = 0.01  # p below which the usual ways see a mismatch
 DRAWS = 1999
 LEAST = 1e-6  # share of a column's square that must be its own to be judged

@@ -1,4 +1,4 @@
-"""What the bench reads: quantised, with noise that has memory and tails, within calibration or at fault."""
+"""Readings of the bench: quantised, with noise that has memory and tails, within calibration or at fault."""
 
 from __future__ import annotations
 
@@ -65,7 +65,7 @@ class Fault:
 
 @dataclass(frozen=True)
 class Calibration:
-    """How far one meter is off: gain relative, zero and drift over the campaign in the unit of its column."""
+    """Error of one meter: gain relative, zero and drift over the campaign in the unit of its column."""
 
     gain: float
     zero: float
@@ -84,7 +84,7 @@ class Readings:
 def read(
     campaign: Campaign, at: Settings, truth: Truth, faults: tuple[Fault, ...], rng: np.random.Generator
 ) -> Readings:
-    """What the campaign's sensors say of the truth."""
+    """Readings of the truth by the campaign's sensors."""
     along = np.linspace(0.0, 1.0, at.speed.size)
     columns, calibrations = {}, {}
     for name, value in _actual(campaign, at, truth).items():

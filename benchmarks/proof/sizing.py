@@ -1,4 +1,4 @@
-"""How large a concealed thing is: its score z beside noise, tolerances and calibrations, by the plant alone."""
+"""Size of a concealed effect: its score z beside noise, tolerances and calibrations, by the plant alone."""
 
 from __future__ import annotations
 

@@ -36,7 +36,7 @@ TRIERS = (
     "trial.py", "wide/trial.py", "expected.py", "oracle.py", "worth.py", "rivals.py", "baselines.py", "film_trial.py",
     "real.py",
 )  # fmt: skip
-"""What puts a case to it and keeps what came of it."""
+"""Function that tries a case and keeps its outcome."""
 VERSIONS = {Plant.FIRST: FIRST_VERSION, Plant.OTHER: OTHER_VERSION, Plant.ROUGH: ROUGH_VERSION}
 
 

@@ -59,7 +59,7 @@ SAME = {
 
 @dataclass(frozen=True)
 class Diagnosed:
-    """What was found, by this diagnosis and by other ways, and the study that it was found in."""
+    """Findings of this diagnosis and of other methods, and their study."""
 
     found: Diagnosis
     rivals: dict[str, Rival]
@@ -104,7 +104,7 @@ def _rig(case: Case, made: Made) -> Rig:
 def tried(
     folder: Path, expected: Outcome, pump: str | Path = BENCH, with_rivals: bool = True
 ) -> tuple[Outcome, Diagnosed | None]:
-    """What is told beside what is expected; a recording of which no diagnosis comes about tells why."""
+    """The finding beside the expected one; a recording without a diagnosis states why."""
     begun = process_time()
     try:
         diagnosed = diagnose_folder(folder, pump, with_rivals)
@@ -115,7 +115,7 @@ def tried(
 
 
 def diagnose_folder(folder: Path, pump: str | Path = BENCH, with_rivals: bool = True) -> Diagnosed:
-    """What `swashfilm diagnose PUMP FOLDER` finds, and what others make of the same study."""
+    """Findings of `swashfilm diagnose PUMP FOLDER` and of other methods on the same study."""
     known, thresholds = load_known_pump(pump), load_thresholds()
     recording, allowed = checked_recording(folder, known), tolerances(known.pump)[0]
     known = levelled(known, recording, allowed)

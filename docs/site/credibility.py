@@ -51,7 +51,7 @@ class Factor:
 
 @dataclass(frozen=True)
 class Criterion:
-    """What a use asks of the evidence, what was found, and whether that suffices."""
+    """Evidence that a use requires, evidence found, and whether that suffices."""
 
     asked: str
     found: str

@@ -132,7 +132,7 @@ def tail(example: Example) -> str:
 
 
 def told(example: Example) -> str:
-    """What the file says of itself, beyond the page's title: a paragraph, of a script literal text."""
+    """The file's own description beyond the page's title: a paragraph, of a script literal text."""
     if example.opening.rstrip(".").lower() == title(example).lower():
         return ""
     if example.file.endswith(".py"):

@@ -44,7 +44,7 @@ class Example:
 
     @cached_property
     def opening(self) -> str:
-        """What the file says of itself: its opening comment as one paragraph; docstring, title of a recording."""
+        """The file's own description: its opening comment as one paragraph; docstring, title of a recording."""
         text = (ROOT / self.file).read_text("utf-8")
         if self.file.endswith(".py"):
             return text.split('"""')[1].strip()

@@ -1,4 +1,4 @@
-"""What the gallery and the pages of the examples share: a command's run folder, and a thumbnail of its picture."""
+"""Common parts of the gallery and of the example pages: a command's run folder, and a thumbnail of its picture."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What a model of two tanks lacks, found from one record and tested on another.
+"""Physics that a model of two tanks lacks, found from one record and tested on another.
 
     python examples/cascaded_tanks/overflow.py DATA.csv [--picture FILE.png]
 

@@ -53,7 +53,7 @@ class Losses:
 
     @property
     def leakage(self) -> float:
-        """What the six gaps leak."""
+        """Leakage of the six gaps."""
         return sum(share for name, share in self.shares.items() if name not in (SWASH, OIL))
 
 

@@ -86,7 +86,7 @@ VARIANTS = (
 
 @dataclass(frozen=True)
 class Row:
-    """What a variant does; of all parts of the gap: mean and least film (um), powers (W), leakage (L/min), oil (degC).
+    """Results of a variant; of all parts of the gap: mean and least film (um), powers (W), leakage (L/min), oil (degC).
 
     reason: why the gap has no periodic film, else "".
     """

@@ -1,4 +1,4 @@
-"""What has changed in a real rig: causes found from the difference of two mean working cycles.
+"""Changes in a real rig: causes found from the difference of two mean working cycles.
 
     python examples/uci_hydraulic/cycle.py DATA [--cooler 20] [--valve 73] [--leak 1] [--accumulator 90]
         [--picture FILE.png]

@@ -45,9 +45,17 @@ def run_report(options: argparse.Namespace) -> int:
     except InputFaults:
         raise
     except (ArithmeticError, AttributeError, LookupError, OSError, TypeError, ValueError) as reason:
-        raise InputFaults(str(folder), [Fault("DIR", _told(reason), EXPECTED)]) from reason
+        raise InputFaults(str(folder), _faults(folder, reason)) from reason
     show(f"report in {page}")
     return 0
+
+
+def _faults(folder: Path, reason: Exception) -> list[Fault]:
+    """Return where the summary differs from its schema; where it does not, what the page found wrong."""
+    from swashfilm.formats.check import summary_faults
+    from swashfilm.output.page import read_summary
+
+    return summary_faults(folder / "summary.json", read_summary(folder)) or [Fault("DIR", _told(reason), EXPECTED)]
 
 
 def _told(reason: Exception) -> str:

@@ -45,7 +45,7 @@ def harmless(cell: object) -> object:
 
 
 def read_csv(path: Path) -> list[list[str]]:
-    """Return the rows of a CSV by `write_csv`, the head first; raise InputFaults for a file that is none."""
+    """Return the rows of a CSV by `write_csv`, the head first; raise InputFaults for a file of another form."""
     try:
         return list(csv.reader(io.StringIO(read_text(path, LARGEST_DATA))))
     except (OSError, ValueError, csv.Error) as reason:

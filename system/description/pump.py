@@ -42,6 +42,7 @@ from system.inputs.sections.fields import (
     Density,
     Displacement,
     Expansion,
+    Film,
     FlowFile,
     Force,
     Fraction,
@@ -89,7 +90,7 @@ class PumpSection:
 class PistonSection:
     """[piston]: one piston in its bore; lengths at inner dead centre and full swash angle."""
 
-    radial_clearance: Length  # bore radius less piston radius
+    radial_clearance: Film  # bore radius less piston radius
     engaged_length: Length  # of piston in the bore
     overhang: Annotated[float, Dimension.LENGTH, NotNegative]  # ball centre to bore edge
     eccentricity_ratio: Annotated[float, Limits(least=0.0, below=1.0)]  # given; used where no balance is
@@ -114,7 +115,7 @@ class SlipperSection:
     land_outer_radius: Length  # the rim
     orifice_diameter: Length  # of the bore that feeds the pocket
     orifice_length: Length  # of the same bore
-    film_thickness: Length  # given; used where no balance is
+    film_thickness: Film  # given; used where no balance is
     mass: Mass  # slipper alone
     centre_of_mass_to_ball: Annotated[float, Dimension.LENGTH, NotNegative]  # towards the swash plate
     ball_joint_radius: Length  # of the ball
@@ -153,7 +154,7 @@ class ValvePlateSection:
     kidney_pitch_radius: Length  # middle of the kidneys
     kidney_width: Length  # radial, of a block kidney
     kidney_arc: Annotated[float, Dimension.ANGLE, Positive]  # over all, rounded ends included
-    film_thickness: Length  # given, on the shaft axis; used where no balance is
+    film_thickness: Film  # given, on the shaft axis; used where no balance is
     tilt_x: Angle  # given; opens towards the inner dead centre
     tilt_y: Angle  # given; opens a quarter turn on
     residual_clamping: Coefficient  # fraction of the pressure force

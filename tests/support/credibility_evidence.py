@@ -1,4 +1,4 @@
-"""What the tests and the proofs found, as the page on credibility takes it."""
+"""Findings of tests and proofs for the page on credibility."""
 
 from __future__ import annotations
 

@@ -44,7 +44,7 @@ def toy_observations(readings: Array) -> Observations:
 
 
 class ToySimulator:
-    """What toys have alike: inputs without noise, differences outright, neither traces nor other points."""
+    """Common parts of toys: inputs without noise, differences outright, neither traces nor other points."""
 
     def input_slopes(self, values: Array) -> Array:
         """(N, 3, 0)."""

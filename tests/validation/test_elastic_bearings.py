@@ -150,7 +150,7 @@ def test_freund_diaphragm(tmp_path, validation):
 
 @pytest.mark.long
 def test_freund_diaphragm_converges(tmp_path):
-    """What agrees is no accident of the mesh: a finer one changes less than the reading does."""
+    """The agreement is no accident of the mesh: a finer one changes less than the reading does."""
     coarse, fine = (_freund(tmp_path, n) for n in (2, 3))
     at = np.arange(5.0, 200.0, 5.0)
     for field, largest in ((1, 1175.0), (2, 195.0)):

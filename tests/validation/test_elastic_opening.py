@@ -103,6 +103,6 @@ def test_leakage_grows_faster_than_pressure(space, walls, validation, pressure):
 
 
 def test_the_factor_knows_no_viscosity(space, walls):
-    """What tells it from heat and from pressure-viscosity: hot or cold, the leakage grows by the same factor."""
+    """Distinction from heat and from pressure-viscosity: hot or cold, the leakage grows by the same factor."""
     cold, hot = (leak(space, walls, RATED, mu)[0] / leak(space, None, RATED, mu)[0] for mu in (60e-3, 10e-3))
     assert hot == pytest.approx(cold, rel=1e-6)

@@ -8,7 +8,7 @@ from system import FloatingOptions, floating_point, load_pump, operating_point
 
 @pytest.mark.long
 def test_energy_between_walls_that_give_way(energy_balances):
-    """What the bodies store comes back over a turn: the shaft pays for oil and heat alone."""
+    """The energy stored in the bodies returns over a turn: the shaft pays for oil and heat alone."""
     pump = load_pump("ref90", {"operating.pressure": "10 MPa"})
     found = floating_point(
         pump, operating_point(pump), FloatingOptions(Physics().without(Effect.HEAT), steps=36, finer=0.5)

@@ -89,7 +89,7 @@ class Bearing:
     slope: np.ndarray | None = None
 
     def force(self, place: np.ndarray) -> np.ndarray:
-        """What film and contact bear (N), along the load and across, the shaft's axis at `place` in clearances."""
+        """Load of film and contact (N), along the load and across, the shaft's axis at `place` in clearances."""
         angle = self.space.points[0] / self.radius
         thickness = self.clearance * (1.0 - place[0] * np.cos(angle) - place[1] * np.sin(angle))
         posed = replace(self.problem.film, thickness=thickness)

@@ -34,13 +34,13 @@ def mean_film(at: At) -> float:
 
 
 def torque(at: At) -> float:
-    """What all slippers take of the shaft's torque by shear and contact, N m."""
+    """Shaft torque of all slippers by shear and contact, N m."""
     power = np.mean([instant.report.friction.power for instant in slipper(at).turn.instants])
     return float(PISTONS * power / (at.speed * np.pi / 30.0))
 
 
 def drain(at: At) -> float:
-    """What all slippers pass into the case, L/min, mean of the turn."""
+    """Leakage of all slippers into the case, L/min, mean of the turn."""
     return LITRES_A_MINUTE * PISTONS * float(np.mean([i.report.leakage for i in slipper(at).turn.instants]))
 
 
@@ -182,7 +182,7 @@ SUCTION = np.radians((40.0, 150.0))  # the suction kidney fully open
 
 
 def pressed_out(at: At) -> float:
-    """How far off its middle the slipper is pressed at most during suction, over its outer radius; inf: pulled."""
+    """Largest offset of the slipper's load during suction, over its outer radius; inf: pulled."""
     group, _, drive = driven(at)
     angles = np.linspace(0.0, 2.0 * np.pi, len(drive.group), endpoint=False)
     while_drawing = (angles > SUCTION[0]) & (angles < SUCTION[1])

@@ -73,7 +73,7 @@ def pads(along: int, across: int) -> FilmMesh:
 
 @dataclass(frozen=True)
 class Heating:
-    """What the sources leave open or give twice.
+    """Values that the sources leave open or give twice.
 
     carried_over: share of the hot oil that leaves a pad; 0.7 to 0.9 is usual (Heshmat and Pinkus 1986). bath: heat
     transfer at a pad's back, W/(m2 K); the sources' codes take 73.59 to 100. conductivity of the oil, W/(m K).

@@ -32,7 +32,7 @@ OFF: tuple[tuple[Effect, ...], ...] = (
     (Effect.ELASTIC_WALLS, Effect.ROUGHNESS),
     (Effect.PRESSURE_VISCOSITY, Effect.ROUGHNESS),
 )
-"""What the simulations leave out. Without cavitation the block's film has no solution: it would bear tension."""
+"""Physics left out by the simulations. Without cavitation the block's film has no solution: it would bear tension."""
 
 
 def off_text(off: tuple[Effect, ...]) -> str:

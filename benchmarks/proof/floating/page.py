@@ -47,7 +47,7 @@ def page(outcomes: Sequence[Outcome], models: dict[str, FilmModel]) -> str:
 
 
 def _of_sets(outcomes: Sequence[Outcome], models: dict[str, FilmModel]) -> str:
-    """What each simulation leaves out, how much it shows, and the error of its tables."""
+    """Physics that each simulation leaves out, its size, and the error of the tables."""
     rows = []
     for off in OFF:
         name = off_text(off)

@@ -60,7 +60,7 @@ def truth_row(row: Array) -> tuple[float, ...]:
 
 
 def readings(seed: int) -> tuple[Campaign, Readings]:
-    """What the bench's sensors make of the plant, calibrations and noise drawn by the seed."""
+    """Readings of the plant by the bench's sensors, calibrations and noise drawn by the seed."""
     rows = np.loadtxt(KEPT, delimiter=",", skiprows=1)
     rpm, stroke, pressure, warmth, out, drawn, drain, torque = rows.T
     ones, own = np.ones(len(rows)), pump().operating

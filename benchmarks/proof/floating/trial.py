@@ -54,7 +54,7 @@ class Case:
 
 @dataclass(frozen=True)
 class Outcome:
-    """What was said of a case.
+    """The finding of a case.
 
     claims: effect, probability, share with its sigma (none of effects outside the films); score: sigma of what is
     concealed; chi2: per reading, before and after; held_out: rms over noise by channel, before and after.

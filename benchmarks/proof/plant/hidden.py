@@ -1,4 +1,4 @@
-"""What may be concealed in the plant, each by one size (SI), 0 where it is absent."""
+"""Effects that may be concealed in the plant, each by one size (SI), 0 where it is absent."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What the pump's pairs lose over a turn: rubbing, shear, and what is concealed in them."""
+"""Losses of the pump's pairs over a turn: rubbing, shear, and what is concealed in them."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""How a piston moves: its ball centre is where the bore's axis meets the swash plane; angle 0 is inner dead."""
+"""Motion of a piston: its ball centre is where the bore's axis meets the swash plane; angle 0 is inner dead."""
 
 from __future__ import annotations
 

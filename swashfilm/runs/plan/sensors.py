@@ -65,7 +65,7 @@ def _state(bench: Bench, channel: ChannelName, text: str, faults: list[Fault]) -
 
 
 def _sigma(channel: ChannelName, text: str) -> Stated:
-    """Return a sigma; raises QuantityError or ValueError for a text that is none."""
+    """Return a sigma; raises QuantityError or ValueError for a text that is not a sigma."""
     if text.endswith("%") and channel.dimension is not Dimension.TEMPERATURE:
         return Stated(share=0.01 * float(text.removesuffix("%")))
     if channel.dimension is None:

@@ -136,6 +136,7 @@ Positive = Limits(above=0.0)
 NotNegative = Limits(least=0.0)
 
 Length = Annotated[float, Dimension.LENGTH, Positive]
+Film = Annotated[float, Dimension.LENGTH, Limits(least=1e-8, why="oil thinner than 10 nm is no continuum")]
 AnyLength = Annotated[float, Dimension.LENGTH]
 Area = Annotated[float, Dimension.AREA, Positive]
 Volume = Annotated[float, Dimension.VOLUME, Positive]

@@ -182,7 +182,7 @@ def test_a_recording_is_checked_without_being_diagnosed(tmp_path: Path, capsys: 
 
 
 def test_readings_without_noise_are_refused(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    """What a simulator wrote is no recording: exit code 2, with what to do."""
+    """A file that a simulator wrote is no recording: exit code 2, with what to do."""
     folder = _record(tmp_path, 0.0, noise=0.01)
     assert main(["diagnose", "ref90", str(folder), "-o", str(tmp_path / "out")]) == 2
     assert "far less than their repeatability" in capsys.readouterr().err

@@ -166,7 +166,7 @@ def test_every_kind_of_answer_has_a_record(kind: AnswerKind, scant: bool) -> Non
 
 
 def test_cost_is_told_where_a_finding_shows_most() -> None:
-    """What is lost and what is gained, without changes that cannot be seen."""
+    """Losses and gains, without changes that cannot be seen."""
     pump = load_pump("ref90")
     changes = (
         Change("delivery flow", "L/min", 100.0, 97.5), Change("shaft torque", "N m", 200.0, 200.1),

@@ -20,7 +20,7 @@ kinematic_viscosity_100C = "6.8 mm2/s"
 
 
 def refused(capsys: pytest.CaptureFixture[str], *words: str) -> str:
-    """What the command says of words that it refuses with exit 2."""
+    """The message on words that are refused with exit 2."""
     assert main(["diagnose", *words]) == 2
     return capsys.readouterr().err
 

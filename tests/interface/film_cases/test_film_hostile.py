@@ -1,4 +1,4 @@
-"""What a stranger gets wrong in a film case, and numbers that cannot be read: the message names place and value."""
+"""Mistakes of a stranger in a film case, and numbers that cannot be read: the message names place and value."""
 
 import json
 from pathlib import Path
@@ -45,7 +45,7 @@ NOTHING_THERE = '[study]\n"film.velocity[7]" = ["1 m/s", "2 m/s"]\n'
 
 @pytest.fixture
 def told(tmp_path, capsys):
-    """What the command says of a case that it refuses, nothing written."""
+    """Words of the command on a case that it refuses; nothing is written."""
 
     def refused(text: str) -> str:
         path = tmp_path / "case.toml"

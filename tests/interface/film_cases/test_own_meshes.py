@@ -107,7 +107,7 @@ def test_what_is_doubtful_about_a_mesh(tmp_path):
 
 
 def test_a_mesh_that_has_changed_is_another_pump(tmp_path):
-    """What is kept by content is not taken for a pump whose mesh has changed since."""
+    """A result that is kept by content is not taken for a pump whose mesh has changed since."""
     file = tmp_path / "slipper.vtu"
     file.write_bytes(EXAMPLE.read_bytes())
     before = load_pump("ref90", {"slipper.body": OWN | {"mesh": str(file)}})

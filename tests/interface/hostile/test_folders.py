@@ -1,6 +1,7 @@
 """Run folders on a full disk, in a read-only folder, with links in them, and stopped at any moment."""
 
 import errno
+import json
 import math
 import os
 import signal
@@ -189,6 +190,21 @@ def test_a_damaged_summary_is_told_by_its_file(tmp_path, capsys, text):
         (run / name).write_text("format = 1\n")
     assert main(["report", str(run)]) == 2
     assert str(run) in capsys.readouterr().err
+
+
+def test_a_summary_without_a_key_is_told_by_its_places(tmp_path, capsys):
+    run = tmp_path / "run"
+    assert main(["run", "ref90", "--fidelity", "lumped", "-o", str(run)]) == 0
+    path = run / "summary.json"
+    summary = json.loads(path.read_text())
+    del summary["efficiency"]
+    path.write_text(json.dumps(summary | {"fidelity": 3}))
+    capsys.readouterr()
+    assert main(["report", str(run)]) == 2
+    told = capsys.readouterr().err
+    assert "2 faults" in told
+    assert "'efficiency' is a required property" in told
+    assert "summary.json fidelity\n    found:    3 is not of type 'string'" in told
 
 
 MAP = ("map", "ref90", "--fidelity", "lumped", "--speeds", "1000..2000rpm:3", "--pressures", "10..30MPa:3",

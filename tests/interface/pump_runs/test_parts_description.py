@@ -1,4 +1,4 @@
-"""What a pump file says of parts that float: points, choices, tables in tables, single parts, what is taken."""
+"""A pump file on parts that float: points, choices, tables in tables, single parts, what is taken."""
 
 from dataclasses import replace
 

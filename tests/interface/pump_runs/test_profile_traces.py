@@ -27,7 +27,7 @@ def worn(place: np.ndarray) -> np.ndarray:
 
 
 def heights(place: np.ndarray) -> np.ndarray:
-    """What a profilometer reads of it, askew."""
+    """Reading of it by a profilometer, askew."""
     return np.asarray(25.0 - 0.3 * place - worn(place))
 
 

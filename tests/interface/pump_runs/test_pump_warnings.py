@@ -1,4 +1,4 @@
-"""What `swashfilm run` tells a reader to doubt about the films of the three gaps."""
+"""Warnings of `swashfilm run` about the films of the three gaps."""
 
 from types import SimpleNamespace
 

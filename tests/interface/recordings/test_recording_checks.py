@@ -1,4 +1,4 @@
-"""What the readings of a recording tell: each planted slip is found, and nothing in sound ones."""
+"""Checks of the readings of a recording: each planted slip is found, and nothing in sound ones."""
 
 from dataclasses import replace
 

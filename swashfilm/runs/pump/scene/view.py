@@ -186,7 +186,7 @@ def _place(view: _View, places: Sequence[Array], table: str, rows: list[list[int
 
 
 def motion(start: Array, end: Array) -> Array | None:
-    """Return the rigid motion [R | t] (3, 4) of points (n, 3) mm, by Kabsch's method; None where it is none.
+    """Return the rigid motion [R | t] (3, 4) of points (n, 3) mm, by Kabsch's method; None if not rigid.
 
     Source: Kabsch, Acta Crystallographica A32 (1976) 922.
     """

@@ -29,7 +29,7 @@ _START = re.compile(r"(?:([\d.]+)\s*)?start")
 
 
 def varied_of(top: Table, pump: PumpDescription, known: Mapping[str, PumpKey]) -> tuple[Varied, ...]:
-    """Return the dimensions of [vary]; list the fault of each that is none, and of bounds that are no range.
+    """Return the dimensions of [vary]; list the fault of each unknown one, and of bounds that are no range.
 
     known: those that the fidelity can vary.
     """
@@ -77,7 +77,7 @@ def _nearest_aim(raw: object) -> str:
 
 
 def constraints_of(top: Table, known: Sequence[Measure], fidelity: Fidelity) -> tuple[Constraint, ...]:
-    """Return the constraints, of a list each; list the fault of each that is none."""
+    """Return the constraints, of a list each; list the fault of each unknown one."""
     table, found = top.table("constraints"), []
     for name, raw in _entries(table.values) if table else ():
         where = f"constraints.{name}"

@@ -74,6 +74,6 @@ def _bars(
 
 
 def _name(row: Row) -> str:
-    """Return a dimension with its value, of the others than lengths and angles also their own change if it is none."""
+    """Return a dimension with its value, and with its change where that is not the one of its kind."""
     exact = row["change_text"] if kind_of(row) == "1 %" and row["change_text"] != "1 %" else ""
     return f"{row['key']} = {row['text']}" + (f", +{exact}" if exact else "")

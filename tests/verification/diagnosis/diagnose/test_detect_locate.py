@@ -37,7 +37,7 @@ def _map() -> Recording:
 
 
 def _parts() -> dict[str, Array]:
-    """What each part of the toy adds to the readings (N, 3): flows in L/min, torque in N m."""
+    """Contribution of each part of the toy to the readings (N, 3): flows in L/min, torque in N m."""
     n, p, e, heat = (values for values in axis_values(_map()).values())
     viscosity = np.exp(-0.035 * (heat - 333.0))
     leakage, one = p / 35e6, np.ones(POINTS)

@@ -574,7 +574,7 @@ def test_what_stands_out_of_what_is_left_is_told() -> None:
 
 
 def _left_by_churning(study: Study) -> tuple[str, ...]:
-    """What churning leaves of a recording, in words."""
+    """The trace of churning in a recording, in words."""
     own = next(each for each in hypotheses(study, LIMITS) if each.effects == (EffectId.CHURNING,))
     null, best = (refit(study, each, LIMITS) for each in (hypotheses(study, LIMITS)[0], own))
     return residue_notes(study, null, best, _coordinates(), LIMITS)

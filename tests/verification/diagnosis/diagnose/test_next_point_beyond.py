@@ -1,4 +1,4 @@
-"""What is asked for where no point of the range recorded settles two explanations: another range, a gap's leak."""
+"""The request where no point of the recorded range settles two explanations: another range, a gap's leak."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What the proof looks at beside the verdict: the truth's own fit, the turn, points recorded afterwards."""
+"""Findings of the proof beside the verdict: the truth's own fit, the turn, points recorded afterwards."""
 
 from __future__ import annotations
 

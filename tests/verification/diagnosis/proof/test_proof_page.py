@@ -1,4 +1,4 @@
-"""How the proof judges: right, wrong and grave verdicts; gates that can fail; a page with its thresholds."""
+"""Judgement of the proof: right, wrong and grave verdicts; gates that can fail; a page with its thresholds."""
 
 from __future__ import annotations
 
@@ -108,7 +108,7 @@ def test_calibration_of_one_case(proof: SimpleNamespace, right: object) -> None:
 
 
 def test_outcomes_outlast_a_break(proof: SimpleNamespace, right: object, tmp_path: Path) -> None:
-    """What was kept is what is loaded, under the case's own key; another seed has none."""
+    """A kept outcome is loaded under the case's own key; another seed has none."""
     case = proof.cases.cases(proof.cases.Part.NULL, 52)[0]
     proof.store.keep(tmp_path, proof.store.name_of(case), right)
     assert proof.store.load(tmp_path, proof.store.name_of(case)) == right

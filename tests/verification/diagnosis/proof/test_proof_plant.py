@@ -86,7 +86,7 @@ def test_films_leak_as_the_drawing_says(plant: SimpleNamespace) -> None:
 
 
 def test_mass_balances_over_a_turn(plant: SimpleNamespace) -> None:
-    """What the suction port gives leaves by delivery, bore and plate, to the stages' own closing."""
+    """Inflow of the suction port equals outflow by delivery, bore and plate, to the closing of the stages."""
     truth = plant.run(plant.ref90(), _points(plant))
     dense = 860.0 * np.exp((np.array([10.0e6, 20.0e6, 35.0e6]) - 101325.0) / 1.6e9)
     taken = truth.Q_in * 860.0 * np.exp((2.5e6 - 101325.0) / 1.6e9)

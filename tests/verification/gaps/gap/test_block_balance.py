@@ -248,7 +248,7 @@ def test_a_tilt_that_stands_in_space_is_the_film_of_the_standing_frame(validatio
 
 
 def test_a_pitch_on_every_unknown_meets_its_like():
-    """What the block's mesh holds after a pitch, renumbered, stands where it stood."""
+    """The block's mesh after a pitch, renumbered, has its nodes where they stood."""
     film = BlockFilm(PORTS, drive(**RUNNING), cells=(2, 8))
     ring, period = film.ring, PITCH / SPEED
     later = ring.turned(PITCH)

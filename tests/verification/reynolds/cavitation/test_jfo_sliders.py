@@ -104,7 +104,7 @@ def _starved(fraction: float, n: int, cell: Cell) -> tuple[float, ...]:
 @pytest.mark.parametrize("cell", list(Cell))
 @pytest.mark.parametrize("row", STARVED, ids=lambda row: f"{row[0]:g}")
 def test_starved_slider(row, cell, validation, refine):
-    """What enters is film fraction x U h/2; the film begins where a full one carries no less."""
+    """The inflow is film fraction x U h/2; the film begins where a full one carries no less."""
     fraction, start, load, peak = row
     *found, front = refine(lambda n: _starved(fraction, n, cell), MESHES, 1.0)
     quantities = (

@@ -87,7 +87,7 @@ def test_newton_converges_quadratically(name, cavitation, monkeypatch):
 @pytest.mark.parametrize("cavitation", list(Cavitation))
 @pytest.mark.parametrize("physics", ["springs", "half-space", "all"])
 def test_mass_per_step_between_soft_walls(cavitation, physics):
-    """What enters is what is held more, d(p/k)/dt included, to round-off at every step and whatever its size."""
+    """The inflow equals the growth of the content, d(p/k)/dt included, to round-off at steps of every size."""
     space = film_space(rectangle((LENGTH, LENGTH), (8, 8), cell=Cell.QUADRILATERAL))
     ends = dict.fromkeys(("left", "right", "top", "bottom"), Held(1e5))
 

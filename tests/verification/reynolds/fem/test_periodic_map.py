@@ -179,7 +179,7 @@ def test_step_that_overshoots_is_taken_back():
 
 
 def test_a_turn_that_does_not_repeat_goes_on():
-    """What else a turn leaves behind (here: how many there were) has to come back too."""
+    """Anything else that a turn leaves behind (here: the count of turns) returns too."""
     count = []
 
     def turn(start: np.ndarray, before: Mapped | None) -> Mapped:

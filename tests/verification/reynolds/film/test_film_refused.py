@@ -1,4 +1,4 @@
-"""What no film has for an answer is refused in words: never a number, never another library's error."""
+"""Requests without an answer are refused in words: never a number, never another library's error."""
 
 from __future__ import annotations
 

@@ -285,7 +285,7 @@ def test_rough_walls_that_touch_give_way_alike_in_any_form():
 
 
 def test_mass_in_time_between_walls_of_low_rank():
-    """What enters is what is held more, d(Cp)/dt included, at every step."""
+    """The inflow equals the growth of the content, d(Cp)/dt included, at every step."""
     space = film_space(rectangle((LENGTH, LENGTH), (21, 21), cell=Cell.QUADRILATERAL))
     walls = Compliance(face_wall(plate(space, 3), space).matrix)
 

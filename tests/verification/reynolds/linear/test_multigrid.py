@@ -71,7 +71,7 @@ def test_it_agrees_with_a_direct_solve(cell, cells, around_x, around_y, shear, k
 @pytest.mark.parametrize("mesh", [annulus(1.0, 2.0, (9, 31)), rectangle((1.0, 2.0), (9, 10), periodic_x=True)])
 @pytest.mark.parametrize(("precision", "large"), [(one, large) for one in Precision for large in (False, True)])
 def test_the_cycle_is_symmetric_and_positive(mesh, precision, large, monkeypatch):
-    """What conjugate gradients ask of a preconditioner, and that it never makes an error larger: M A < 2."""
+    """The preconditioner is symmetric and positive, and never enlarges an error: M A < 2."""
     space = film_space(mesh)
     fixed = np.zeros(space.size, dtype=bool)
     fixed[:4] = True

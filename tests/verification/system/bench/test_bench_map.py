@@ -98,7 +98,7 @@ def test_coarse_map_is_within_a_tenth_of_a_reading_s_noise():
 
 
 def test_values_are_those_of_a_pump_file_that_states_them(tmp_path):
-    """What a fit finds goes back into a pump file: the map at the values is the map of that pump."""
+    """The values of a fit return into a pump file: the map at the values is the map of that pump."""
     bench = _bench(samples_per_pitch=lumped.SAMPLES_PER_PITCH, tolerance=1e-7)
     rng = np.random.default_rng(5)
     values = np.array([np.clip(one.value(rng.normal()), one.lower, one.upper) for one in bench.parameters])

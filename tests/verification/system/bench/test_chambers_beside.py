@@ -110,7 +110,7 @@ def test_first_order_changes_of_gaps_are_those_of_fine_steps(changed):
 
 
 def test_first_order_changes_conserve_oil():
-    """What gaps let out more is missing at the ports."""
+    """Added leakage of the gaps is missing at the ports."""
     courses = solve_map(PUMP, _problem(), TOLERANCE)
     thicker = _problem(**{"film_thickness.slipper": 1.05 * PUMP.slipper.film_thickness})
     out = (other_gaps(courses, thicker).integrals - courses.integrals)[:, :PATHS]

@@ -134,7 +134,7 @@ def test_wrong_slopes_lead_to_the_same_peak() -> None:
 
 
 def test_active_bound() -> None:
-    """What wants beyond a bound is held on it, and the rest is best there: y = x^2 but for the prior."""
+    """A value that tends beyond a bound is held on it, and the others are best there: y = x^2 but for the prior."""
     found = _rosenbrock(bounds=(-2.0, 0.5))
     assert found.values[0] == 0.5
     held = 0.25 * 1e4 / (1e4 + 1.0 / 9.0)

@@ -110,7 +110,7 @@ def test_objective_is_chi_square(fits) -> None:
 
 
 def test_without_input_noise_chi_square_is_too_large() -> None:
-    """What the whitening leaves out shows: the same readings, their input taken as exact."""
+    """A term that the whitening leaves out shows: the same readings, their input taken as exact."""
     bench = _bench()
     blind = [
         linear_posterior(bench, replace(observed, input_sigma=np.zeros((POINTS, 1)))).objective

@@ -38,7 +38,7 @@ def worn() -> FilmsPoint:
 
 
 def leaked(point: FilmsPoint) -> np.ndarray:
-    """What each chamber's piston leaks in a turn (m3)."""
+    """Leakage of each chamber's piston in a turn (m3)."""
     return np.array([float(one.outflow.piston) for one in point.pump_point.chambers])
 
 
@@ -94,7 +94,7 @@ def test_balances_close_and_the_torque_pulses_once_a_turn(alike, worn):
 
 @pytest.mark.slow
 def test_films_and_closed_laws_agree_about_the_worn_piston(alike, worn):
-    """What the wider gap leaks more, by its films and by the cube of its clearance: the warm films leak 8 % more."""
+    """Added leakage of the wider gap, by its films and by the cube of its clearance: the warm films leak 8 % more."""
     lumped = [lumped_point(one, operating_point(one)) for one in (PUMP, with_clearance(WEAR * CLEARANCE))]
     by_law = np.subtract(*(one.leakage_flow.piston for one in reversed(lumped)))
     by_films = worn.pump_point.leakage_flow.piston - alike.pump_point.leakage_flow.piston

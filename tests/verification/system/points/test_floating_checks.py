@@ -1,4 +1,4 @@
-"""What is doubtful about a pump whose gaps are to float: each check fails where it should and nowhere else."""
+"""Checks of a pump whose gaps are to float: each one fails where it should and nowhere else."""
 
 from __future__ import annotations
 

@@ -53,7 +53,7 @@ def test_piston_and_slipper_together_obey_newton():
 
 
 def test_the_piston_turns_about_its_guide_as_its_forces_ask():
-    """What presses on both ends of the guide is force and moment of joint, mass and friction."""
+    """The forces on both ends of the guide balance force and moment of joint, mass and friction."""
     group, parts = posed()
     found = drives(group, parts, ANGLES, np.full(18, 2e7), no_rubbing(18))
     guide = parts.piston.guide_length

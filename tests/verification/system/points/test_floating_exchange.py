@@ -1,4 +1,4 @@
-"""What floating gaps tell chambers and shaft: places of the block's flows, small motion, periodic resampling."""
+"""Outputs of floating gaps for chambers and shaft: places of the block's flows, small motion, periodic resampling."""
 
 from __future__ import annotations
 

@@ -47,7 +47,7 @@ def test_power_is_accounted_for(found, energy_balances):
 
 @pytest.mark.long
 def test_oil_is_kept_by_each_gap(found):
-    """What comes in goes out over the march, as nearly as turns close and films follow their slopes."""
+    """Inflow equals outflow over the march, as nearly as turns close and films follow their slopes."""
     missing = found.mass_balance_error
     assert missing.piston < 0.01
     assert missing.slipper < 0.01

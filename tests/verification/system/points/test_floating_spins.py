@@ -43,7 +43,7 @@ def found(tmp_path_factory) -> FloatingPoint:
 
 
 def test_films_and_joint_hold_the_spins(found):
-    """What the films resist at these spins is what the joint gives: they are their own answer."""
+    """The torque of the films at these spins equals that of the joint: the spins are a solution."""
     kind = found.kinds[0]
     speed, spins = kind.rotor.point.shaft_speed, kind.rotor.spins
     assert found.rounds[-1].spin_change <= SPIN_TOLERANCE

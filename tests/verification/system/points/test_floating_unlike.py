@@ -40,7 +40,7 @@ def found():
 
 
 def leaked(point: FloatingPoint) -> np.ndarray:
-    """What each chamber's piston leaks in a turn (m3)."""
+    """Leakage of each chamber's piston in a turn (m3)."""
     return np.array([float(one.outflow.piston) for one in point.pump_point.chambers])
 
 

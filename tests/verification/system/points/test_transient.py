@@ -114,7 +114,7 @@ def test_oil_is_kept_and_energy_balances(destroked):
 
 
 def test_the_actuator_keeps_its_oil(destroked):
-    """What its orifice passed, by Simpson's rule over the sampled pressures, is what its volume took."""
+    """The volume took the flow of its orifice, by Simpson's rule over the sampled pressures."""
     case, parts = destroked.case, destroked.mechanism
     plate, oil = parts.plate, case.pump.oil
     way = parts.actuator.arm * (np.sin(destroked.swash_angle) - np.sin(plate.angle_min))

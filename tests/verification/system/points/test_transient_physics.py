@@ -82,7 +82,7 @@ def test_every_effect_has_its_case():
 @pytest.mark.slow
 @pytest.mark.parametrize(("effect", "values"), CASES, ids=[f"{name}-{len(values)}" for name, values in CASES])
 def test_a_held_plate_is_the_lumped_point_with_the_effect(effect, values):
-    """What the effect changes, as the lumped fidelity has it.
+    """Change by the effect in the lumped fidelity.
 
     That one sees the gaps as they are without it, a transient as they are with it: 0.5 % of the largest change.
     """

@@ -50,7 +50,7 @@ def test_compression_alone(share, validation):
 
 
 def test_leakage_alone(validation):
-    """What the chambers at high pressure leak, half of them at a time, is lost twice: 1 - z G (p - p_case)/Q."""
+    """The leakage of the chambers at high pressure, half of them at a time, is lost twice: 1 - z G (p - p_case)/Q."""
     found = couple({**TIGHT, **STIFF, "slipper.film_thickness": "15 um", "valve_plate.film_thickness": "15 um"})
     pump, point = load_pump(PUMP), found.pump.point
     plate, slipper = pump.valve_plate, pump.slipper

@@ -1,4 +1,4 @@
-"""What lands lose at their edges: closed forms, limits, and that flow and energy stay whole."""
+"""Losses at the edges of lands: closed forms, limits, and that flow and energy stay whole."""
 
 from __future__ import annotations
 

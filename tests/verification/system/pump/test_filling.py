@@ -28,7 +28,7 @@ def _point(pump: PumpDescription, rpm: float, inlet: float) -> PumpPoint:
 
 
 def _lost_at_suction(found: PumpPoint) -> float:
-    """What a chamber lacks of the inlet's pressure about the middle of its suction stroke, Pa."""
+    """Shortfall of a chamber below the inlet's pressure about the middle of its suction stroke, Pa."""
     about = np.abs(found.cycle.shaft_angle - pi / 2.0) < 0.5
     return found.point.inlet_pressure - float(found.cycle.pressure[about].min())
 

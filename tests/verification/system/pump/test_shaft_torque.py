@@ -105,7 +105,7 @@ def test_virtual_work(drive):
 
 @pytest.mark.parametrize("k", [0, 100, 333, 540, 700])
 def test_against_the_balance_of_the_joint(k):
-    """What the bore does to the piston about the shaft, from `gaps.loads.ball_joint` and the piston's balance."""
+    """Moment of the bore on the piston about the shaft, from `gaps.loads.ball_joint` and the piston's balance."""
     forces, phi, drive = some_forces(), float(ANGLE[k]), CONE
     bore, plate = bore_axis(drive, phi), plate_axes(drive)
     ball = float(ball_radius(drive, phi)) * np.array([np.cos(phi), np.sin(phi), 0.0])

@@ -75,7 +75,7 @@ def test_too_few_levels_are_refused_or_told():
 
 
 def test_ref90_displaces_less_by_toet_than_it_sweeps():
-    """What compression and commutation take in proportion to speed: .4 % on the reference pump."""
+    """Flow taken by compression and commutation in proportion to speed: .4 % on the reference pump."""
     pump = load_pump(BENCH)
     grid = list(product(SPEEDS, (5e6, 12e6, 20e6, 27.5e6, 35e6)))
     found = [

@@ -68,7 +68,7 @@ def table(folder):
 
 
 def numbers(point: PumpPoint) -> dict[str, float]:
-    """What a table must give back."""
+    """The values that a table must return."""
     flows = {f"leakage {gap}": flow for gap, flow in asdict(point.leakage_flow).items()}
     losses = {pair.value: point.pairs.loss(pair).mean for pair in Pair}
     return flows | losses | {"torque": point.bench.shaft_torque, "delivery": point.bench.delivery_flow}
@@ -190,7 +190,7 @@ def test_a_table_of_failures_is_none(tmp_path):
 
 
 def test_a_case_can_be_sent_to_another_process():
-    """What workers get: the same points by the same names there."""
+    """Workers get the same points by the same names."""
     here = case(FilmsSolver())
     there = pickle.loads(pickle.dumps(here))
     assert there == here

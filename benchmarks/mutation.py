@@ -1,0 +1,80 @@
+"""Mutations of the physics, each tried against the default tests; writes docs/mutations.md.
+
+    python benchmarks/mutation.py --count 40              the first 40 of the sample, as far as they are not kept
+    python benchmarks/mutation.py --part 1/2              the odd ones: a second process may do --part 2/2
+    python benchmarks/mutation.py --whole                 all test files for what survived the nearest ones
+    python benchmarks/mutation.py --again NAME            one edit anew, after a test was written
+    python benchmarks/mutation.py --count 0               writes the page from what is kept
+
+An edit takes from ten seconds to ten minutes. The edits are made in a copy of the checkout under build/mutation. Each
+outcome is a file of its own in benchmarks/mutation/outcomes as soon as it is known; Ctrl-C loses the edit in hand.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import sys
+from dataclasses import asdict
+from pathlib import Path
+
+from mutation.nearest import Nearness
+from mutation.page import missed, page_text
+from mutation.sample import sample
+from mutation.trial import Copy, Fate, Trial
+
+ROOT = Path(__file__).resolve().parents[1]
+KEPT = Path(__file__).parent / "mutation" / "outcomes"
+NEAR = 25
+LIMIT = 900.0  # s
+WHOLE_LIMIT = 5400.0  # s
+
+
+def main() -> int:
+    """Try the missing edits and write the page; return 1 where one survives that is not equivalent."""
+    options = _options()
+    KEPT.mkdir(exist_ok=True)
+    try:
+        _run(options)
+    except KeyboardInterrupt:
+        print("interrupted; what was finished is kept")
+    kept = _kept()
+    options.page.write_text(page_text(kept, NEAR), encoding="utf-8")
+    for one in missed(kept):
+        print(f"survived: {one.name} {one.file} {one.function}\n    {one.before}\n    {one.after}")
+    return int(bool(missed(kept)))
+
+
+def _options() -> argparse.Namespace:
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--count", type=int, default=200, metavar="N", help="edits of the sample (200)")
+    parser.add_argument("--part", default="1/1", metavar="I/N", help="every Nth of them, beginning with the Ith")
+    parser.add_argument("--whole", action="store_true", help="all test files for what survived")
+    parser.add_argument("--again", action="append", default=[], metavar="NAME", help="this edit anew")
+    parser.add_argument("--page", type=Path, default=ROOT / "docs" / "mutations.md", metavar="FILE")
+    return parser.parse_args()
+
+
+def _run(options: argparse.Namespace) -> None:
+    known = {one.name: one for one in _kept()}
+    own, of = map(int, options.part.split("/"))
+    chosen = sample(ROOT, max(options.count, 200) if options.again else options.count)
+    nearness, copy = Nearness(ROOT), Copy(ROOT, ROOT / "build" / "mutation" / f"{own}" / "checkout")
+    for edit in chosen[own - 1 :: of]:
+        before = known.get(edit.name)
+        whole = options.whole and before is not None and before.fate is Fate.SURVIVED
+        if not (whole or edit.name in options.again or (before is None and not options.again)):
+            continue
+        tests = nearness.order(edit.file)
+        trial = copy.tried(edit, tests if whole else tests[:NEAR], WHOLE_LIMIT if whole else LIMIT)
+        (KEPT / f"{edit.name}.json").write_text(json.dumps(asdict(trial), indent=1) + "\n", encoding="utf-8")
+        print(f"{trial.fate}: {edit.file} {edit.function}, {trial.seconds:.0f} s {trial.noticed_by}", flush=True)
+
+
+def _kept() -> list[Trial]:
+    texts = [path.read_text("utf-8") for path in sorted(KEPT.glob("*.json"))]
+    return [Trial(**(one | {"fate": Fate(one["fate"])})) for one in map(json.loads, texts)]
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,1 @@
+"""Mutations of the physics, and the default tests that must notice them."""

@@ -1,0 +1,78 @@
+"""Page of the mutations: how many the default tests notice, and each one that they do not."""
+
+from __future__ import annotations
+
+import tomllib
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+
+from proof.calibration import wilson
+from proof.markdown import table
+
+from .trial import Fate, Trial
+
+SAME = Path(__file__).with_name("equivalent.toml")
+GATE = 0.95
+HEAD = """# Mutations of the physics
+
+A single edit of a formula, a sign, a limit or a number is made in a module that computes; the default tests run, and
+one of them should fail. Edits are drawn at random from all of `reynolds`, `gaps`, `system` and `diagnosis`: a sign or
+an operator exchanged, a term or a factor left out, a comparison reversed, a number doubled, a maximum for a minimum.
+Test files run in the order of their imports of the edited module, {near} of them at most; `--whole` runs
+all for what survives these. A test that fails without the edit too has noticed nothing. An edit that changes no
+result that the program promises is *equivalent*; the reason stands beside it.
+
+Written by `python benchmarks/mutation.py`.
+
+"""
+
+
+def page_text(trials: Sequence[Trial], near: int) -> str:
+    """Counts by package and by kind, then what survived, with reasons."""
+    same = equivalents()
+    decided = [trial for trial in trials if trial.fate is not Fate.UNDECIDED]
+    parts = [HEAD.format(near=near), _whole(trials, decided, same)]
+    packages = sorted({trial.file.split("/")[0] for trial in trials})
+    rows = [_row(name, [one for one in decided if one.file.startswith(f"{name}/")], same) for name in packages]
+    kinds = sorted({trial.kind for trial in trials})
+    rows += [_row(kind, [one for one in decided if one.kind == kind], same) for kind in kinds]
+    parts.append(table(("of", "decided", "noticed", "equivalent", "survived"), rows))
+    left = [one for one in decided if one.fate is Fate.SURVIVED]
+    told = [(_code(one), one.before, one.after, same.get(one.name, "**survived**")) for one in left]
+    parts.append("\n## What the tests do not notice\n\n")
+    parts.append(table(("place", "line", "edited", "reason"), [(a, f"`{b}`", f"`{c}`", d) for a, b, c, d in told]))
+    return "".join(parts)
+
+
+def equivalents() -> Mapping[str, str]:
+    """Reasons of equivalent edits by the name of the edit."""
+    return {name: one["reason"] for name, one in tomllib.loads(SAME.read_text("utf-8")).items()}
+
+
+def missed(trials: Sequence[Trial]) -> list[Trial]:
+    """Edits that survived and are not equivalent."""
+    same = equivalents()
+    return [one for one in trials if one.fate is Fate.SURVIVED and one.name not in same]
+
+
+def _whole(trials: Sequence[Trial], decided: Sequence[Trial], same: Mapping[str, str]) -> str:
+    counted = [one for one in decided if one.name not in same]
+    noticed = sum(one.fate is not Fate.SURVIVED for one in counted)
+    low, high = wilson(noticed, len(counted))
+    undecided = len(trials) - len(decided)
+    return (
+        f"Of {len(trials)} edits {len(decided)} are decided ({undecided} ran out of time). The tests notice "
+        f"{noticed} of {len(counted)} that are not equivalent: {noticed / max(len(counted), 1):.1%} (Wilson's "
+        f"95 % interval {low:.0%} to {high:.0%}); the gate is {GATE:.0%}.\n\n"
+    )
+
+
+def _row(name: str, trials: Sequence[Trial], same: Mapping[str, str]) -> tuple[str, ...]:
+    survived = [one for one in trials if one.fate is Fate.SURVIVED]
+    alike = sum(one.name in same for one in survived)
+    counts = len(trials), len(trials) - len(survived), alike, len(survived) - alike
+    return name, *map(str, counts)
+
+
+def _code(trial: Trial) -> str:
+    return f"`{trial.file}` `{trial.function}` ({trial.name})"
