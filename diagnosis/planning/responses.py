@@ -211,7 +211,7 @@ def _with_candidates(study: Study, catalogue: Sequence[Entry], thresholds: Thres
     simulator: PumpSimulator = study.simulator
     for number, entry in enumerate(catalogue):
         report(number, len(catalogue), f"readings with {entry.id.value.replace('_', ' ')}")
-        found += entry_candidates(entry, simulator, study.base, thresholds.name.fault_factor)
+        found += entry_candidates(entry, simulator, study.base, thresholds.name.fault_factor, study.place)
     return replace(study, candidates=tuple(found))
 
 

@@ -14,6 +14,7 @@ from diagnosis.detect.mismatch import Detection
 from diagnosis.explain.hypotheses import Hypothesis
 from diagnosis.explain.model_error import class_gap, place_gap, shared_out
 from diagnosis.explain.ranked import Explanation
+from diagnosis.explain.refit import fit_limits
 from diagnosis.study.model import Study
 from diagnosis.thresholds import Thresholds
 from diagnosis.verdict.diagnosis import ClaimedEffect, Estimate, VerdictStatus
@@ -77,11 +78,11 @@ def judge(
         return _unknown(study, free, explanations, thresholds)
     members = equivalents(best, explanations, class_gap(explanations, thresholds), place_gap(explanations, thresholds))
     explanations, members = shared_out(explanations, members, thresholds)
-    best, beside = members[0], _beside(members, explanations, thresholds)
-    against = _objections(best, members, beside, explanations, thresholds)
+    beside = _beside(members, explanations, thresholds)
+    against = _objections(study, members, beside, explanations, thresholds)
     if against:
         return _suspicion(explanations, against, thresholds)
-    left = residue_notes(study, null, best, along, thresholds)
+    left = residue_notes(study, null, members[0], along, thresholds)
     if left:
         explanations, members = _less_sure(explanations, members, thresholds.record.incomplete, (Kind.UNKNOWN_PHYSICS,))
     record = _record_of_scant(study, thresholds)
@@ -90,7 +91,7 @@ def judge(
     claims = _claims(members, beside, explanations, thresholds)
     alike = any(claim.equivalent or claim.elsewhere for claim in claims)
     status = VerdictStatus.INCOMPLETE if left else VerdictStatus.CLASS if alike else VerdictStatus.NAMED
-    return Judgement(best.hypothesis.kind, status, claims, members, (*left, *record), explanations)
+    return Judgement(members[0].hypothesis.kind, status, claims, members, (*left, *record), explanations)
 
 
 def _record_of_scant(study: Study, thresholds: Thresholds) -> tuple[str, ...]:
@@ -209,7 +210,7 @@ def _unknown(
 
 
 def _objections(
-    best: Explanation,
+    study: Study,
     members: Sequence[Explanation],
     beside: Sequence[Explanation],
     explanations: Sequence[Explanation],
@@ -219,7 +220,7 @@ def _objections(
 
     beside: unknown physics, where the class holds it too.
     """
-    limits = thresholds.name
+    best, limits = members[0], thresholds.name
     own = [each for each in explanations if each in members or each in beside or agrees(each, members)]
     probability = sum(each.probability for each in own)
     rival = max((each for each in explanations if each not in own), key=_weight)
@@ -231,7 +232,7 @@ def _objections(
         found.append(f"{rival.hypothesis.text} is only {ahead:.1f} nats behind")
     if best.posterior is None:
         found.append("it could not be refitted")
-    elif not is_peak(best.posterior):
+    elif not is_peak(best.posterior, fit_limits(study, thresholds)):
         found.append("its fit has not reached a peak")
     elif not _sure(best.posterior, best.hypothesis, thresholds):
         found.append("its size is not sure")

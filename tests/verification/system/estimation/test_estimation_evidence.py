@@ -279,3 +279,14 @@ def test_a_fit_beside_its_peak_is_settled_before_columns_are_weighed() -> None:
     assert abs(multiplier_evidence(ended, column, [1.0]) - exact) > 10.0
     assert multiplier_evidence(settled(ended), column, [1.0]) == pytest.approx(exact, abs=1e-6)
     assert settled(ended).xi == pytest.approx(peak.xi)
+
+
+def test_a_linear_model_is_the_same_about_any_place() -> None:
+    """Peak, residual and evidence of linear readings do not depend on where the slopes are taken."""
+    columns = _columns(11, 3)
+    simulator = Columns(tuple(_parameter(name) for name in "abc"), columns)
+    observed = _observed(columns @ np.array([0.5, -1.0, 0.2]) + np.random.default_rng(12).normal(size=POINTS))
+    at_mean = linear_posterior(simulator, observed)
+    elsewhere = linear_posterior(simulator, observed, np.array([1.0, -2.0, 0.3]))
+    for name in ("xi", "residual", "predictions", "objective", "log_evidence"):
+        assert getattr(elsewhere, name) == pytest.approx(getattr(at_mean, name)), name
