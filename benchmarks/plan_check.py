@@ -4,16 +4,15 @@
     python benchmarks/plan_check.py --cases 5     only the first 5 of the drawn order
     python benchmarks/plan_check.py --cases 0     runs nothing, writes the page from what is there
 
-Each case takes a minute of process time; its result is a file of its own in --results, those of the page in
-benchmarks/proof/planned/outcomes.
+A case takes a quarter of a minute of process time, one whose grid leaves pairs open a minute. The grid's diagnosis and
+the planned campaigns are files of their own in --results: a changed plan needs the second alone. Those of the page
+are in benchmarks/proof/planned/outcomes.
 """
 
 from __future__ import annotations
 
 import argparse
-import json
 import sys
-from dataclasses import asdict
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -28,21 +27,20 @@ def main() -> int:
     reader.add_argument("--page", type=Path, default=ROOT / "docs" / "plan_check.md", metavar="FILE")
     options = reader.parse_args()
     sys.path.insert(0, str(ROOT))
+    from proof.planned.kept import kept_grid, kept_trial
     from proof.planned.page import write_page
-    from proof.planned.trial import concealed, tried
+    from proof.planned.trial import concealed
 
     options.results.mkdir(parents=True, exist_ok=True)
     for number, one in enumerate(concealed()[: options.cases]):
-        path = options.results / f"{number:03d}.json"
-        if path.exists():
+        grid = kept_grid(options.results, one, number)
+        if not grid.open:
+            print(f"{number} {grid.name}: no open pair", flush=True)
             continue
-        found = tried(one, number)
-        path.write_text(json.dumps(asdict(found), indent=1), encoding="utf-8")
-        settled = sum(pair.odds_planned >= 20.0 for pair in found.pairs)
-        print(
-            f"{number} {found.name}: {settled} of {len(found.pairs)} open pairs settled, {found.seconds:.0f} s",
-            flush=True,
-        )
+        found = kept_trial(options.results, one, number, grid)
+        points, meter = found.settled
+        told = f"{points} of {len(found.pairs)} open pairs settled by points, {meter} with {found.asked or 'no meter'}"
+        print(f"{number} {found.name}: {told}", flush=True)
     print(f"page in {write_page(options.results, options.page)}")
     return 0
 

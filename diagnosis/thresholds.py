@@ -123,6 +123,7 @@ class FormLimits:
     bent: float
     of_ports: float
     peaks: float
+    recovered: float
     drift: float
 
 

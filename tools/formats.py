@@ -76,8 +76,11 @@ def main(words: list[str]) -> int:
     for names, schema in changed.items():
         if names.key not in refused:
             names.path.write_text(schema_text(schema), encoding="utf-8")
-            prints.setdefault(UNRELEASED, {})[names.key] = fingerprint(names.path)
             print(f"{names.path.relative_to(ROOT)} written")
+    # Also of schemas that a merge has changed.
+    prints[UNRELEASED] = {
+        path.stem: fingerprint(path) for path in KEPT.glob("*.json") if path.stem not in released(prints)
+    }
     write_fingerprints(prints)
     return 1 if refused else 0
 

@@ -19,7 +19,10 @@ INPUTS = ("speed", "ratio", "p_out", "p_in", "p_case", "T_in", "T_case")
 
 @dataclass(frozen=True)
 class Campaign:
-    """Set points in the order in which they are taken; outputs and inputs with a sensor; points with traces."""
+    """Set points in the order in which they are taken; outputs and inputs with a sensor; points with traces.
+
+    uncoupled: points beside which the torque meter is read without the pump.
+    """
 
     name: str
     points: Settings
@@ -27,6 +30,7 @@ class Campaign:
     inputs: tuple[str, ...] = INPUTS
     traces: tuple[int, ...] = ()
     circuit: str = "closed"
+    uncoupled: tuple[int, ...] = ()
 
 
 @cache

@@ -10,7 +10,7 @@ from diagnosis.thresholds import load_thresholds
 
 from .calibration import brier, calibration_error
 from .gate import Gate, Outcomes, beside, median, number, share, wilson_end
-from .judged import in_set, is_grave, is_named, is_right, is_wrong_name, rank
+from .judged import in_set, is_grave, is_named, is_open, is_right, is_wrong_name, rank
 from .located import region_overlap, turn_error
 from .outcome import Outcome, Worth
 from .removed import LEAST, excess, left_by_nothing, removed, removed_of_all
@@ -67,7 +67,7 @@ def _kinds(outcomes: Outcomes) -> tuple[Gate, ...]:
     return (
         share("sensor called physics", sensor, _is(PHYSICS, UNKNOWN), at_most=0.03),
         share("physics called sensor", physics, _is(SENSOR), at_most=0.03),
-        share("unknown physics recognised at z >= 8", unknown, is_right, at_least=0.85),
+        recognised(unknown),
         share("unknown physics given a name at z >= 8", unknown, _sure_name, at_most=0.05),
     )
 
@@ -107,21 +107,27 @@ def _fits(outcomes: Outcomes) -> tuple[Gate, ...]:
     )
 
 
+def recognised(unknown: Outcomes) -> Gate:
+    """Unknown physics told as such, or in the class of every claim."""
+    gate = share("unknown physics recognised at z >= 8", unknown, is_right, at_least=0.85)
+    return beside(gate, f"{sum(is_open(one) and is_right(one) for one in unknown)} of them in the class of a name")
+
+
 def _clear(outcomes: Outcomes) -> list[Outcome]:
     return [one for one in outcomes if one.part in KNOWN and one.part != "pair" and one.score >= CLEAR]
 
 
 def _asked(outcomes: Outcomes) -> tuple[Gate, ...]:
-    """Of two explanations that the recording leaves open: whether three more readings settle them.
+    """Of two explanations that the recording leaves open: whether what the verdict asks for settles them.
 
-    By the point asked for, by one drawn at random; and by the point where the verdict says that it will.
+    By up to three points or one meter, by as many points drawn at random; and where the verdict says that it will.
     """
     open_pairs = left_open(outcomes)
     promised = [worth for worth in open_pairs if worth.promised >= LIMITS.promised]
     return (
-        share("open pairs settled by the requested point, 3 readings", open_pairs, by_asked, at_least=0.8),
+        share("open pairs settled by what is asked for", open_pairs, by_asked, at_least=0.8),
         share("open pairs settled where the verdict says so", promised, by_asked, at_least=0.8),
-        share("open pairs settled by a random point", open_pairs, _by_other, at_most=0.3),
+        share("open pairs settled by random points", open_pairs, _by_other, at_most=0.3),
     )
 
 
@@ -184,7 +190,7 @@ def _abstains(one: Outcome) -> bool:
 
 
 def _sure_name(one: Outcome) -> bool:
-    return bool(one.claims) and one.status in ("named", "class")
+    return bool(one.claims) and one.status in ("named", "class") and not is_right(one)
 
 
 def _channel(one: Outcome) -> bool:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from .outcome import Claimed, Outcome, Ranked
 
+UNKNOWN = "unknown_physics"
 FLAGGED = ("suspicion", "incomplete", "failed")
 SET = 0.95
 SURE = 0.9
@@ -12,7 +13,7 @@ Place = tuple[tuple[str, str], ...]
 
 def truth_of(outcome: Outcome) -> frozenset[str]:
     """The ids of the truth as an explanation has them."""
-    return frozenset(outcome.effects) if outcome.truth != "unknown_physics" else frozenset({"unknown_physics"})
+    return frozenset(outcome.effects) if outcome.truth != UNKNOWN else frozenset({UNKNOWN})
 
 
 def _is_whole_truth(ids: frozenset[str], outcome: Outcome) -> bool:
@@ -23,10 +24,11 @@ def _is_whole_truth(ids: frozenset[str], outcome: Outcome) -> bool:
 def is_right(outcome: Outcome) -> bool:
     """Whether the verdict is the truth, by its effects or the classes they are in; no gap told is not wrong.
 
-    A fault beside the truth may be named too.
+    A fault beside the truth may be named too. Unknown physics is told as a verdict, or in the class of every claim.
     """
     if not outcome.effects:
-        return outcome.verdict == outcome.truth and outcome.status != "suspicion"
+        told = outcome.verdict == outcome.truth or is_open(outcome)
+        return told and outcome.status != "suspicion"
     left = [one for one in outcome.claims if one.effect not in outcome.beside]
     if outcome.status == "suspicion" or len(left) != len(outcome.effects):
         return False
@@ -42,6 +44,12 @@ def is_right(outcome: Outcome) -> bool:
     return True
 
 
+def is_open(outcome: Outcome) -> bool:
+    """Whether the truth is unknown physics and no claim is told without it."""
+    of_claims = [UNKNOWN in one.equivalent for one in outcome.claims]
+    return outcome.truth == UNKNOWN and bool(of_claims) and all(of_claims)
+
+
 def _at_gap(claim: Claimed, pair: str | None) -> bool:
     """Whether a claim is at a gap: told, in its class, or at none; in a plant without gaps (None) no gap is wrong."""
     return claim.pair is None or pair in (None, claim.pair, *claim.elsewhere)
@@ -49,15 +57,15 @@ def _at_gap(claim: Claimed, pair: str | None) -> bool:
 
 def is_named(outcome: Outcome) -> bool:
     """Whether anything is claimed: an effect, or that it is something unknown."""
-    unknown = outcome.verdict == "unknown_physics" and outcome.status == "named"
+    unknown = outcome.verdict == UNKNOWN and outcome.status == "named"
     return bool(outcome.claims) or unknown
 
 
 def is_wrong_name(outcome: Outcome) -> bool:
     """Whether something is claimed that is not the truth; part of the truth alone is not wrong."""
     if not outcome.claims:
-        return is_named(outcome) and outcome.truth != "unknown_physics"
-    known = {*outcome.effects, *outcome.beside}
+        return is_named(outcome) and outcome.truth != UNKNOWN
+    known = {*truth_of(outcome), *outcome.beside}
     wrong_gap = [
         one
         for one in outcome.claims

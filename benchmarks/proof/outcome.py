@@ -39,9 +39,9 @@ class Rival:
 class Worth:
     """What readings recorded after the diagnosis tell of two explanations, one of them the truth, in nats for it.
 
-    before: by the recording; asked: three more readings at the point that was asked for; other: at a point drawn
-    from the same box; foretold: what those at the point asked for were to bring. promised: the chance of odds of
-    20 to 1 that was told with the point.
+    before: by the recording; asked: three more readings at each of the points that were asked for; other: at as many
+    points drawn from the same box; foretold: what the test asked for was to bring. promised: the chance of odds of
+    20 to 1 that was told with the test. points: those asked for; meter: channel that was to be added, empty for none.
     """
 
     before: float
@@ -49,6 +49,8 @@ class Worth:
     other: float
     promised: float
     foretold: float = 0.0
+    points: int = 1
+    meter: str = ""
 
 
 @dataclass(frozen=True)

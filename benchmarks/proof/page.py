@@ -59,6 +59,7 @@ The gates were set before the program was written. A case without a required num
 
 - Small sizes: the gate requires a suspicion or a class. At z = 3 a recording is often rightly taken as one without
   mismatch; such verdicts are counted separately.
+- Unknown physics counts as recognised where it is the verdict, or in the class of every claim, as an effect does.
 - Gap: counts where the truth has a gap, whatever the claim. A suspicion claims nothing and counts as missed.
 - Region: the true region is where the first-named channel shifts by at least half of its largest shift.
 - Window: the true window holds four fifths of the squared difference of the chamber pressures.
@@ -68,9 +69,11 @@ The gates were set before the program was written. A case without a required num
   noise does not explain; at z = 8 they are most of it.
 - The removed share of all right names together subtracts the residual of nulls of the same campaign and channel,
   because the excess of one case scatters as much as its size.
-- An open pair: the recording leaves the odds below 20 to 1, and one of the two is the truth. Three readings of the
-  plant's bench at the requested point may settle it. The verdict says that a point settles the pair where its chance is
-  at least 80 %, whichever of the two is true; otherwise it says that no point of an ordinary bench does.
+- An open pair: the recording leaves the odds below 20 to 1, and one of the two is the truth. What the verdict asks for
+  may settle it: up to three points, three readings each by the plant's bench, with one meter more where points alone do
+  not. The plants read drains of one gap and the uncoupled torque meter by their own laws. The verdict says that a test
+  settles the pair where its chance is at least 80 %, whichever of the two is true; otherwise it tells the chance. The
+  random points are as many, without a meter.
 - Intervals are those of parameters with the same meaning in plant and simulation, under right names. No recording of
   this kind separates clearance of the piston, eccentricity and sealing length; they are not among them.
 - Probabilities are those of ids, the gaps of one id together.

@@ -46,6 +46,10 @@ METERS = {
     "Q_in": Meter("Q_in_lpm", "L/min", LITRES_A_MINUTE, 0.12, 0.001, 0.001, 0.12, 3),
     "Q_case": Meter("Q_case_lpm", "L/min", LITRES_A_MINUTE, 0.015, 0.004, 0.004, 0.015, 4),
     "torque": Meter("torque_Nm", "N m", 1.0, 0.25, 0.0006, 0.001, 0.25, 3),
+    "Q_piston": Meter("Q_piston_lpm", "L/min", LITRES_A_MINUTE, 0.015, 0.004, 0.004, 0.015, 4),
+    "Q_slipper": Meter("Q_slipper_lpm", "L/min", LITRES_A_MINUTE, 0.015, 0.004, 0.004, 0.015, 4),
+    "Q_valve_plate": Meter("Q_valve_plate_lpm", "L/min", LITRES_A_MINUTE, 0.015, 0.004, 0.004, 0.015, 4),
+    "torque_uncoupled": Meter("torque_uncoupled_Nm", "N m", 1.0, 0.25, 0.0, 0.0, 0.0, 3),
 }  # fmt: skip
 
 
@@ -88,9 +92,14 @@ def read(
     along = np.linspace(0.0, 1.0, at.speed.size)
     columns, calibrations = {}, {}
     for name, value in _actual(campaign, at, truth).items():
-        calibrations[name] = _calibrated(METERS[name], rng)
+        calibrations[name] = calibrated(METERS[name], rng)
         columns[name] = _channel(METERS[name], value, _of(faults, name), calibrations[name], along, rng)
     columns["ratio"] = np.round(campaign.points.ratio, METERS["ratio"].digits)
+    if campaign.uncoupled:
+        own = calibrations["torque"]
+        zero = _channel(METERS["torque"], np.zeros(along.size), _of(faults, "torque"), own, along, rng)
+        read_there = np.isin(np.arange(along.size), campaign.uncoupled)
+        columns["torque_uncoupled"] = np.where(read_there, zero, np.nan)
     shift, order = ENCODER * rng.normal(), np.argsort(truth.angle % (2.0 * np.pi))
     traces = {point: _trace(truth, point, order, shift, rng) for point in campaign.traces}
     return Readings(columns, traces, calibrations)
@@ -111,6 +120,12 @@ def read_after(
         for name, value in _actual(campaign, at, truth).items()
     }
     return columns | {"ratio": np.round(campaign.points.ratio, METERS["ratio"].digits)}
+
+
+def uncoupled(count: int, faults: tuple[Fault, ...], known: Calibration, rng: np.random.Generator) -> Array:
+    """Readings of the torque meter without the pump, at the end of a campaign."""
+    ended = np.ones(count)
+    return _channel(METERS["torque"], np.zeros(count), _of(faults, "torque"), known, ended, rng)
 
 
 def stated_sigma(meter: Meter, value: Array) -> Array:
@@ -134,7 +149,8 @@ def _actual(campaign: Campaign, at: Settings, truth: Truth) -> dict[str, Array]:
     return inputs | {name: getattr(truth, name) for name in campaign.outputs}
 
 
-def _calibrated(meter: Meter, rng: np.random.Generator) -> Calibration:
+def calibrated(meter: Meter, rng: np.random.Generator) -> Calibration:
+    """How far a meter of a kind is off."""
     return Calibration(meter.gain * rng.normal(), meter.zero * rng.normal(), DRIFT * meter.zero * rng.normal())
 
 

@@ -1,22 +1,26 @@
-"""What the next point is worth: the rig run there and at a point drawn at random, and what the readings say of the
-two explanations that the point was to separate."""
+"""What the next test is worth: the rig run as it asks, and at as many points drawn at random, and what the readings say
+of the two explanations that the test was to separate."""
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
 from math import log
 
 import numpy as np
 
-from diagnosis.next_point.forecast import forecasts, log_density
+from diagnosis.next_point.forecast import log_density, outlook
 from diagnosis.next_point.operating_box import BenchBox
 from diagnosis.procedure.next_test import contender, rivals
+from diagnosis.recording.model import RecordedChannel
 from diagnosis.study.model import Study
 from diagnosis.thresholds import Thresholds
 from diagnosis.verdict.diagnosis import Diagnosis
 from system.bench.points import BenchPoints
 from system.description.pump import PumpDescription
+from system.inputs.channels import ChannelName
 from system.inputs.units import STANDARD_ATMOSPHERE
+from system.pump.operating import OperatingPoint
 
 from .campaigns import Campaign, campaigns, held
 from .oracle import is_of_truth
@@ -24,8 +28,10 @@ from .outcome import Outcome, Worth
 from .plant.machine import Array
 from .plant.settings import Settings
 from .rig import Rig
-from .sensors import METERS, read_after
+from .sensors import METERS, calibrated, read_after, uncoupled
 
+Places = Sequence[tuple[float, ...]]
+"""Of points along the axes of a box."""
 SEEDS = 900_000  # added to a case's: draws of its own
 GAUGE = ("p_out", "p_in", "p_case")
 NAMES = {"ratio": "displacement_ratio"}  # of the plant's settings, where the simulation's differ
@@ -34,7 +40,7 @@ NAMES = {"ratio": "displacement_ratio"}  # of the plant's settings, where the si
 def worth(
     study: Study, pump: PumpDescription, found: Diagnosis, rig: Rig, expected: Outcome, thresholds: Thresholds
 ) -> Worth | None:
-    """Nats for the truth by the recording, by the point asked for, by a random one; None where nothing is asked.
+    """Nats for the truth by the recording, by the test asked for, by random points; None where nothing is asked.
 
     None too where neither of the two explanations is the truth.
     """
@@ -45,31 +51,61 @@ def worth(
     box, rng = asked.box, np.random.default_rng(SEEDS + rig.seed)
     explained = [contender(study, each, thresholds) for each in (true, false)]
 
-    def told(place: tuple[float, ...]) -> float:
-        points, values = _recorded(study, box, place, rig, asked.limits.readings, rng)
-        one, other = (log_density(study, each, points, values) for each in explained)
+    def told(places: Places, further: tuple[RecordedChannel, ...]) -> float:
+        points, values = _recorded(study, box, places, rig, asked.limits.readings, rng, further)
+        one, other = (log_density(study, each, points, values, further) for each in explained)
         return one - other
 
-    point = asked.point
-    there = point.shaft_speed, point.delivery_pressure, point.displacement_ratio, point.temperature
-    anywhere = tuple(float(rng.uniform(*ends)) for ends in box.ends)
-    wanted = box.points(tuple(np.array([value]) for value in there))
-    brought, _ = forecasts(study, *explained, wanted).at(0).odds(asked.limits.readings)
+    there = [_place(one.point, box) for one in asked.places]
+    further = () if asked.meter is None else (asked.meter,)
+    anywhere = [tuple(float(rng.uniform(*ends)) for ends in box.ends) for _ in there]
+    foretold = outlook(study, *explained, _points(box, there), further).foretold(further)
+    brought, _ = foretold.together(np.arange(len(there))).odds(asked.limits.readings)
     before = log(true.probability / false.probability)
-    return Worth(before, told(there), told(anywhere), asked.chance, float(brought.mean))
+    meter = "" if asked.meter is None else asked.meter.name.value
+    return Worth(
+        before, told(there, further), told(anywhere, ()), asked.chance, float(brought.mean), len(there), meter
+    )  # fmt: skip
+
+
+def _place(point: OperatingPoint, box: BenchBox) -> tuple[float, ...]:
+    """A point along the axes of a box."""
+    found = (
+        point.shaft_speed, point.delivery_pressure, point.displacement_ratio, point.temperature, point.inlet_pressure,
+    )  # fmt: skip
+    return found[: len(box.ends)]
+
+
+def _points(box: BenchBox, places: Places) -> BenchPoints:
+    """Places of the box as points, in their order."""
+    single = [box.points(tuple(np.array([value]) for value in place)) for place in places]
+    return BenchPoints(**{name: np.concatenate([vars(one)[name] for one in single]) for name in vars(single[0])})
 
 
 def _recorded(
-    study: Study, box: BenchBox, place: tuple[float, ...], rig: Rig, count: int, rng: np.random.Generator
+    study: Study,
+    box: BenchBox,
+    places: Places,
+    rig: Rig,
+    count: int,
+    rng: np.random.Generator,
+    further: tuple[RecordedChannel, ...],
 ) -> tuple[BenchPoints, Array]:
-    """`count` readings at a place of the box as the bench takes them: inputs as read, outputs (n, C) in SI."""
-    wanted = box.points(tuple(np.array([value]) for value in place))
+    """`count` readings at each place of the box as the bench takes them: inputs as read, outputs (n, C) in SI."""
+    wanted = _points(box, places)
     wanted = replace(wanted, **{name: np.repeat(value, count) for name, value in vars(wanted).items()})
-    campaign = replace(campaigns()[rig.campaign], points=settings_of(wanted), traces=())
+    known = campaigns()[rig.campaign]
+    added = tuple(one.name.value for one in further)
+    alone = ChannelName.TORQUE_UNCOUPLED.value
+    outputs = (*known.outputs, *(name for name in added if name != alone))
+    campaign = replace(known, points=settings_of(wanted), traces=(), outputs=outputs)
     at = held(campaign, rng)
     truth = rig.run(at.moved("ratio", rig.setting))
-    columns = read_after(campaign, at, truth, rig.faults, rig.calibrations, rng)
-    values = [_si(name.value, columns[name.value]) for name in study.channels]
+    calibrations = rig.calibrations | {name: calibrated(METERS[name], rng) for name in added}
+    columns = read_after(campaign, at, truth, rig.faults, calibrations, rng)
+    if alone in added:
+        columns[alone] = uncoupled(at.speed.size, rig.faults, rig.calibrations["torque"], rng)
+    values = [_si(name, columns[name]) for name in (*(one.value for one in study.channels), *added)]
     return _as_read(wanted, campaign, columns), np.stack(values, axis=1)
 
 

@@ -97,7 +97,7 @@ def _gaps(recording: Recording) -> Iterable[DataNote]:
         names = ", ".join(name.value for name in SIMULATED)
         yield DataNote(NoteKind.FAULT, None, (), f"none of {names} is recorded; record at least one of them")
     for channel in recording.channels:
-        if channel.name in (ChannelName.ANGLE, ChannelName.P_CHAMBER):
+        if channel.name in (ChannelName.ANGLE, ChannelName.P_CHAMBER, ChannelName.TORQUE_UNCOUPLED):
             continue
         missing = np.flatnonzero(~np.isfinite(recording.steady.column(channel.name)))
         count = len(recording.steady.values)

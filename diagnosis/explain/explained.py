@@ -10,9 +10,7 @@ from diagnosis.detect.component_evidence import likeliest_multiplier
 from diagnosis.explain.hypotheses import Hypothesis, simulator_of
 from diagnosis.explain.ranked import Explanation
 from diagnosis.recording.model import TraceBlock
-from diagnosis.study.map_axes import smooth_shapes
 from diagnosis.study.model import Study, TraceMisfit
-from diagnosis.study.multipliers import multiplier_columns
 from diagnosis.thresholds import Thresholds
 from reynolds.numerics.arrays import Array
 from system.effects.components import Component
@@ -34,7 +32,7 @@ class ExplainedMismatch:
 
 
 def explained_mismatch(study: Study, explanation: Explanation, thresholds: Thresholds) -> ExplainedMismatch:
-    """The addition of a refitted explanation, or of a component with a free multiplier. Raises NotConverged."""
+    """The addition of a refitted explanation, or of a component whose law departs. Raises NotConverged."""
     if explanation.hypothesis.component is not None:
         return _by_multiplier(study, explanation.hypothesis.component, thresholds)
     posterior, own = explanation.posterior, explanation.hypothesis
@@ -70,10 +68,8 @@ def _closed(posterior: Posterior, own: Hypothesis) -> Array:
 
 
 def _by_multiplier(study: Study, component: Component, thresholds: Thresholds) -> ExplainedMismatch:
-    """The component's law times 1 + Phi beta, beta at its most likely in the linear model."""
+    """The component's law times its likeliest departure in the linear model."""
     base = study.base
-    beta = likeliest_multiplier(study, component, thresholds)
-    added = study.components[component] * (smooth_shapes(study.axes) @ beta)[:, None]
-    apart = project(base, multiplier_columns(study, base, component))
-    left = base.whitening.unwhiten(base.residual - apart @ beta)
+    added = study.components[component] * likeliest_multiplier(study, component, thresholds)[:, None]
+    left = base.whitening.unwhiten(base.residual - project(base, base.whitening.whiten(added)))
     return ExplainedMismatch(added, np.where(study.observations.measured, left, np.nan))

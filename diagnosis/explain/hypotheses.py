@@ -25,7 +25,7 @@ class Hypothesis:
 
     extra: parameters added to the simulator; widened: names of parameters with a widened prior; log_prior: natural
     logarithm of the prior probability; laws: switched on, each with the open members of its grid; component: of
-    unknown physics, whose law has a free multiplier over the map; other_form: the laws are of another form than
+    unknown physics, whose law departs over the map; other_form: the laws are of another form than
     the pump's; stand_ins: effects that compensate this error of form; reach: factor on the fault factor.
     """
 

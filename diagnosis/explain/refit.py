@@ -70,7 +70,7 @@ def within_tolerance(study: Study, null: Explanation, thresholds: Thresholds) ->
     simulator = simulator.with_parameters(tuple(each.held(pull) for each in simulator.parameters))
     start = Bounds.of(simulator.parameters).within(fit.xi)
     try:
-        held = maximum_posterior(simulator, study.observations, start, _fit_limits(thresholds))
+        held = maximum_posterior(simulator, study.observations, start, fit_limits(study, thresholds))
     except NotConverged:
         return fit
     return _of_free(held, np.abs(held.xi) < thresholds.fit.at_bound * pull)
@@ -119,7 +119,7 @@ def _refitted(study: Study, begun: _Begun, thresholds: Thresholds, hopeless: flo
     Members of a grid that are not refitted count as 0, so that their average is never too high. A member that stays
     hopelessly behind one that is fitted already stops early.
     """
-    limits = replace(_fit_limits(thresholds), hopeless=hopeless)
+    limits = replace(fit_limits(study, thresholds), hopeless=hopeless)
     if _gross(begun.about, thresholds):
         limits = replace(limits, patience=thresholds.fit.gross_patience)
     failed = list(begun.failed)
@@ -141,9 +141,13 @@ def _refitted(study: Study, begun: _Begun, thresholds: Thresholds, hopeless: flo
     return Explanation(best, evidence, False, posterior, _size_over_sigma(posterior, best), 0.0, None)
 
 
-def _fit_limits(thresholds: Thresholds) -> FitLimits:
-    own = thresholds.fit
-    return FitLimits(change=own.change, patience=own.patience, gross=own.gross)
+def fit_limits(study: Study, thresholds: Thresholds) -> FitLimits:
+    """Ends of a fit. Of a pump known by its type plate the last nats are open: below the odds of a name nothing hangs
+    on them, and the evidence is that of the peak that the slopes promise.
+    """
+    own, odds = thresholds.fit, thresholds.name.odds
+    limits = FitLimits(change=own.change, patience=own.patience, gross=own.gross)
+    return replace(limits, stall=2.0 * odds) if study.scant else limits
 
 
 def _trials(thresholds: Thresholds, sizes: tuple[float, ...]) -> Trials:
@@ -151,16 +155,16 @@ def _trials(thresholds: Thresholds, sizes: tuple[float, ...]) -> Trials:
 
 
 def _about(study: Study, hypothesis: Hypothesis, part: Explanation | None) -> tuple[Expansion, tuple[str, ...]]:
-    """Linear model about which a fit starts, at the peak of a part or at the prior mean, and the names new to it."""
+    """Linear model about which a fit starts, at the peak of a part or that of the study, and the names new to it."""
     if part is None or part.posterior is None or not set(part.hypothesis.open_names) < set(hypothesis.open_names):
-        return _prior_mean(study), hypothesis.open_names
+        return _whole(study), hypothesis.open_names
     known = part.hypothesis.open_names
     own = Expansion(part.posterior, part.posterior.xi)
     return own, tuple(name for name in hypothesis.open_names if name not in known)
 
 
-def _prior_mean(study: Study) -> Expansion:
-    return Expansion(study.base, np.zeros_like(study.base.xi))
+def _whole(study: Study) -> Expansion:
+    return Expansion(study.base, study.place)
 
 
 def _gross(about: Expansion, thresholds: Thresholds) -> bool:
@@ -291,7 +295,7 @@ def first_look(study: Study, hypothesis: Hypothesis, thresholds: Thresholds) -> 
     """
     simulator = simulator_of(study, hypothesis, thresholds)
     trials = _trials(thresholds, thresholds.fit.look_sizes)
-    promised, xi = start(study, simulator, _prior_mean(study), hypothesis.open_names, trials)
+    promised, xi = start(study, simulator, _whole(study), hypothesis.open_names, trials)
     predicted = simulator.predict(values_at(simulator.parameters, xi))
     left = study.base.whitening.whiten(study.observations.values - predicted)
     return FirstLook(promised, float(left @ left + xi @ xi))

@@ -11,12 +11,12 @@ from scipy.special import log_ndtr, logsumexp
 
 from diagnosis.explain.hypotheses import Hypothesis, candidates_of
 from diagnosis.explain.ranked import Explanation
+from diagnosis.study.departures import departure_evidence, departure_shapes
 from diagnosis.study.model import Candidate, Study
-from diagnosis.study.multipliers import multiplier_columns
 from diagnosis.thresholds import Thresholds
 from reynolds.numerics.arrays import Array
 from system.effects.components import Component
-from system.estimation.evidence import Sign, multiplier_evidence, project, score
+from system.estimation.evidence import Sign, project, score
 from system.estimation.posterior import Posterior
 
 
@@ -70,9 +70,9 @@ def joint_evidence(posterior: Posterior, candidates: Sequence[Candidate], widths
 
 
 def unknown_gain(study: Study, posterior: Posterior, component: Component, thresholds: Thresholds) -> float:
-    """Gain in ln evidence of a free multiplier on the component's law over a posterior."""
-    columns = multiplier_columns(study, posterior, component)
-    return multiplier_evidence(posterior, columns, thresholds.locate.multiplier_widths)
+    """Gain in ln evidence of a departure of the component's law over a posterior."""
+    law, widths = study.components[component], thresholds.locate.multiplier_widths
+    return departure_evidence(posterior, law, departure_shapes(study.recording), widths).log_evidence
 
 
 def _screened(study: Study, posterior: Posterior, hypothesis: Hypothesis, thresholds: Thresholds) -> Explanation:

@@ -9,16 +9,19 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy.linalg import cho_factor, cho_solve, toeplitz
 from scipy.special import ndtr
 
+from diagnosis.recording.model import RecordedChannel, reading_sigma
 from diagnosis.study.model import PumpSimulator, Study
 from reynolds.numerics.arrays import Array
 from system.bench.points import BenchPoints
+from system.bench.simulator import LumpedBench
 from system.effects.effect import EffectId
-from system.estimation.observations import Observations
+from system.estimation.observations import Channel, Observations
 from system.estimation.posterior import Posterior, standard_slopes
-from system.estimation.whitening import Whitening, autocorrelation, whitener
+from system.estimation.whitening import autocorrelation, whitener
 
 
 @dataclass(frozen=True)
@@ -83,36 +86,101 @@ class Forecast:
         return Forecast(self.difference[point], self.first[point], self.second[point], self.memory)
 
 
+@dataclass(frozen=True)
+class Foretold:
+    """Two explanations at N points, m readings each, whitened: difference (N, m), and factors (N, m, k) of covariances.
+
+    Covariances of both by their parameters; memory as in `Forecast`.
+    """
+
+    difference: Array
+    first: Array
+    second: Array
+    memory: tuple[float, ...] = ()
+
+    def each(self) -> Forecast:
+        """The forecasts at each point by itself."""
+        return self._of(self.difference, self.first, self.second)
+
+    def together(self, chosen: NDArray[np.int64]) -> Forecast:
+        """The forecasts of readings at several points together; chosen: (..., n), points of each choice."""
+        shape = chosen.shape[:-1]
+        first, second = (own[chosen].reshape(*shape, -1, own.shape[-1]) for own in (self.first, self.second))
+        return self._of(self.difference[chosen].reshape(*shape, -1), first, second)
+
+    def _of(self, difference: Array, first: Array, second: Array) -> Forecast:
+        one, other = (own @ np.swapaxes(own, -1, -2) for own in (first, second))
+        return Forecast(difference, one, other, self.memory)
+
+
+@dataclass(frozen=True)
+class Outlook:
+    """What two explanations predict at N points, SI, of all channels of the study and of further meters.
+
+    first, second: (N, C) readings; slopes: of each (N, C, k), times a factor of the parameters' covariance;
+    input_slopes: (N, C, M). C goes on with the further meters.
+    """
+
+    study: Study
+    first: Array
+    second: Array
+    slopes: tuple[Array, Array]
+    input_slopes: Array
+    further: tuple[RecordedChannel, ...] = ()
+
+    def foretold(self, meters: tuple[RecordedChannel, ...] = ()) -> Foretold:
+        """The forecasts of the study's channels and of some of the further meters."""
+        count = len(self.study.channels)
+        read = [*range(count), *(count + self.further.index(one) for one in meters)]
+        whitening = whitener(readings(self.study, self.first[:, read], further=meters), self.input_slopes[:, read])
+        points = len(self.first)
+
+        def factor(of: Array, slopes: Array) -> Array:
+            known = np.concatenate([slopes[:, read], _calibrations(of[:, read], meters)], axis=2)
+            return whitening.whiten(known).reshape(points, -1, known.shape[2])
+
+        difference = whitening.whiten((self.second - self.first)[:, read]).reshape(points, -1)
+        first, second = (factor(self.first, own) for own in self.slopes)
+        return Foretold(difference, first, second, self.study.observations.memory)
+
+
+def outlook(
+    study: Study, first: Contender, second: Contender, points: BenchPoints, further: tuple[RecordedChannel, ...] = ()
+) -> Outlook:
+    """What the two predict at N points."""
+    there = [_there(one, points, further) for one in (first, second)]
+    one, other = (
+        bench.predict(own.posterior.values) for bench, own in zip(there, (first, second), strict=True)
+    )  # fmt: skip
+    spreads = [_spread(own, bench) for bench, own in zip(there, (first, second), strict=True)]
+    input_slopes = there[0].input_slopes(first.posterior.values)
+    return Outlook(study, one, other, (spreads[0], spreads[1]), input_slopes, further)
+
+
 def forecasts(study: Study, first: Contender, second: Contender, points: BenchPoints) -> Forecast:
     """Forecasts of the two at N points, m readings each."""
-    one, other = (predicted(contender, points) for contender in (first, second))
-    there = first.simulator.elsewhere(points)
-    whitening = whitener(readings(study, one), there.input_slopes(first.posterior.values))
-    count = len(points.speed)
-    difference = whitening.whiten(other - one).reshape(count, -1)
-    spreads = (
-        _spread(contender, points, whitening).reshape(count, difference.shape[1], -1) for contender in (first, second)
-    )
-    first_spread, second_spread = (spread @ np.swapaxes(spread, 1, 2) for spread in spreads)
-    return Forecast(difference, first_spread, second_spread, study.observations.memory)
+    return outlook(study, first, second, points).foretold().each()
 
 
-def predicted(contender: Contender, points: BenchPoints) -> Array:
+def predicted(contender: Contender, points: BenchPoints, further: tuple[RecordedChannel, ...] = ()) -> Array:
     """Readings (N, C) in SI at the points, predicted by the contender's fit."""
-    return contender.simulator.elsewhere(points).predict(contender.posterior.values)
+    return _there(contender, points, further).predict(contender.posterior.values)
 
 
-def log_density(study: Study, contender: Contender, points: BenchPoints, values: Array) -> float:
+def log_density(
+    study: Study, contender: Contender, points: BenchPoints, values: Array, further: tuple[RecordedChannel, ...] = ()
+) -> float:
     """ln of the joint density of readings (N, C), SI, at new points by the forecast of an explanation.
 
     nan: not read. Up to a constant that all explanations share. Consecutive readings have the correlation of the
-    recording's noise.
+    recording's noise. The columns go on with those of further meters.
     """
-    there = contender.simulator.elsewhere(points)
-    new = readings(study, values, study.observations.memory)
+    there = _there(contender, points, further)
+    new = readings(study, values, study.observations.memory, further)
     whitening = whitener(new, there.input_slopes(contender.posterior.values))
-    residual = whitening.whiten(values - there.predict(contender.posterior.values))
-    spread = _spread(contender, points, whitening)
+    foreseen = there.predict(contender.posterior.values)
+    residual = whitening.whiten(values - foreseen)
+    spread = whitening.whiten(np.concatenate([_spread(contender, there), _calibrations(foreseen, further)], axis=2))
     covariance = np.eye(residual.size) + spread @ spread.T
     squares = float(residual @ cho_solve(cho_factor(covariance), residual))
     return whitening.log_determinant - 0.5 * (squares + float(np.linalg.slogdet(covariance)[1]))
@@ -146,29 +214,53 @@ def independent(repeats: int, memory: tuple[float, ...]) -> float:
     return float(np.linalg.solve(correlation, np.ones(repeats)).sum())
 
 
-def readings(study: Study, predictions: Array, memory: tuple[float, ...] = ()) -> Observations:
-    """Readings at new points that are as predicted, with the noise of the recording's channels."""
+def readings(
+    study: Study, predictions: Array, memory: tuple[float, ...] = (), further: tuple[RecordedChannel, ...] = ()
+) -> Observations:
+    """Readings at new points that are as predicted, with the noise of the recording's channels and of further ones."""
     known_readings, count = study.observations, len(study.channels)
-    recorded = [study.recording.channel(name) for name in study.channels]
+    recorded = [*(study.recording.channel(name) for name in study.channels), *further]
     sigma = [
-        np.full(len(predictions), np.nan) if one is None else one.sigma + one.sigma_relative * np.abs(column)
+        np.full(len(predictions), np.nan) if one is None else reading_sigma(one, column)
         for one, column in zip(recorded, predictions.T, strict=True)
     ]
-    known = known_readings.measured[:, :count].any(axis=0) & np.array([one is not None for one in recorded])
+    had = known_readings.measured[:, :count].any(axis=0)
+    known = np.append(had, np.ones(len(further), dtype=bool)) & np.array([one is not None for one in recorded])
+    new = tuple(Channel(one.name.value, one.name.dimension) for one in further)
     return Observations(
-        channels=known_readings.channels[:count],
+        channels=(*known_readings.channels[:count], *new),
         values=np.where(known, predictions, np.nan),
         sigma=np.stack(sigma, axis=1),
         inputs=known_readings.inputs,
         input_sigma=np.tile(np.median(known_readings.input_sigma, axis=0), (len(predictions), 1)),
-        quantum=known_readings.quantum[:count],
+        quantum=np.append(known_readings.quantum[:count], np.zeros(len(further))),
         blocks=np.arange(len(predictions)),
         memory=memory,
     )
 
 
-def _spread(contender: Contender, points: BenchPoints, whitening: Whitening) -> Array:
-    """(n, k), factor of the covariance that a contender's parameters give its predictions, whitened."""
-    slopes = whitening.whiten(standard_slopes(contender.simulator.elsewhere(points), contender.posterior.xi))
+def _there(contender: Contender, points: BenchPoints, further: tuple[RecordedChannel, ...]) -> PumpSimulator:
+    """The contender's simulator at other points, with further outputs read."""
+    there = contender.simulator.elsewhere(points)
+    if not further:
+        return there
+    if not isinstance(there, LumpedBench):
+        raise TypeError("a simulator of other outputs than those recorded is needed")
+    return there.reading((*there.channels, *(one.name for one in further)))
+
+
+def _spread(contender: Contender, there: PumpSimulator) -> Array:
+    """(N, C, k), factor of the covariance that a contender's parameters give its predictions, SI."""
+    slopes = standard_slopes(there, contender.posterior.xi)
     spread: Array = slopes @ np.linalg.cholesky(contender.posterior.covariance)
     return spread
+
+
+def _calibrations(values: Array, further: tuple[RecordedChannel, ...]) -> Array:
+    """(N, C, 2 F), one sigma of gain and zero of the F further meters, the last columns of readings (N, C)."""
+    found = np.zeros((*values.shape, 2 * len(further)))
+    for at, one in enumerate(further):
+        column = values.shape[1] - len(further) + at
+        found[:, column, 2 * at] = one.gain_sigma * values[:, column]
+        found[:, column, 2 * at + 1] = one.zero_sigma
+    return found

@@ -9,7 +9,7 @@ from math import nan
 import numpy as np
 from numpy.typing import NDArray
 
-from diagnosis.recording.model import Recording
+from diagnosis.recording.model import Circuit, Recording
 from diagnosis.study.inputs import WARMER, bench_points, measured
 from reynolds.numerics.arrays import Array
 from system.bench.points import BenchPoints
@@ -19,12 +19,15 @@ from system.inputs.channels import INPUTS, ChannelName
 BEYOND = 0.1  # of a range as recorded, beyond each of its ends
 SLOW, UNLOADED, SWIVELLED = 0.25, 0.1, 0.2  # of rated speed, rise of pressure, displacement: least on a bench
 COLD, HOT = 303.15, 353.15  # K: inlet temperatures that a bench with heater and cooler holds
+CHARGED = (0.6, 1.2)  # of the charge pressure of a closed circuit: its relief valve is set within it
 VARIED = 0.05  # of the greatest displacement ratio: a pump that was swivelled so far can be
 
 
 @dataclass(frozen=True)
 class BenchBox:
     """Ends of speed, delivery pressure, displacement ratio, case temperature, SI; all else is held.
+
+    A fifth pair of ends, where there is one, is that of the inlet pressure.
 
     inlet_pressure, case_pressure in Pa gauge; warmer: case over inlet temperature in K; last: order and hours of
     the recording's end.
@@ -37,14 +40,14 @@ class BenchBox:
     last: tuple[float, float]
 
     def points(self, levels: Sequence[Array]) -> BenchPoints:
-        """Every combination of levels of the four axes, taken after the recording's last point."""
-        speed, pressure, ratio, temperature = (axis.ravel() for axis in np.meshgrid(*levels, indexing="ij"))
+        """Every combination of levels of the axes, taken after the recording's last point."""
+        speed, pressure, ratio, temperature, *inlet = (axis.ravel() for axis in np.meshgrid(*levels, indexing="ij"))
         order, hours = self.last
         return BenchPoints(
             speed=speed,
             displacement_ratio=ratio,
             p_out=pressure,
-            p_in=np.full(speed.size, self.inlet_pressure),
+            p_in=inlet[0] if inlet else np.full(speed.size, self.inlet_pressure),
             p_case=np.full(speed.size, self.case_pressure),
             T_case=temperature,
             T_in=temperature - self.warmer,
@@ -86,7 +89,8 @@ def ordinary_box(recording: Recording, pump: PumpDescription) -> BenchBox:
     """The box of `rig_box`, widened to the range of an ordinary bench along each measured axis.
 
     From a quarter of the rated speed and a tenth of the rated rise of pressure to both, displacement from a fifth
-    to all where the pump was swivelled, the inlet at 30 to 80 degC.
+    to all where the pump was swivelled, the inlet at 30 to 80 degC; the charge pressure of a closed circuit, where it
+    was measured, from 0.6 to 1.2 of its median.
     """
     box = rig_box(recording, pump)
     known = set(measured(recording, INPUTS))
@@ -99,6 +103,8 @@ def ordinary_box(recording: Recording, pump: PumpDescription) -> BenchBox:
         (min(own[0], more[0]), max(own[1], more[1])) if axis in known else own
         for axis, own, more in zip(axes, box.ends, wide, strict=True)
     )
+    if recording.circuit is Circuit.CLOSED and ChannelName.P_IN in known and box.inlet_pressure > 0.0:
+        ends = (*ends, (CHARGED[0] * box.inlet_pressure, CHARGED[1] * box.inlet_pressure))
     return replace(box, ends=ends)
 
 

@@ -2,16 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator, Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
+from diagnosis.next_point.meters import WORDS
 from diagnosis.planning.apart import Contest, all_pairs
-from diagnosis.planning.further import DRAINS
 from diagnosis.planning.responses import Foreseen, White, foresee_traces
-from diagnosis.report.format import PLACES
 from diagnosis.thresholds import FormLimits, Thresholds
 from reynolds.numerics.arrays import Array
 from system.inputs.channels import ChannelName
@@ -19,29 +18,43 @@ from system.work.progress import Report, silent
 
 TRACED = 4
 """Points of the campaign at which a transducer records the chamber."""
-WORDS = {
-    ChannelName.Q_OUT: "a meter of the delivery flow",
-    ChannelName.Q_IN: "a meter of the inlet flow",
-    ChannelName.Q_CASE: "a meter of the case drain",
-    ChannelName.TORQUE: "a torque meter",
-    ChannelName.T_CASE: "a thermometer in the case drain",
-}
+UNCOUPLED = 2
+"""Readings of the torque meter without the pump: before the campaign and after it."""
 
 
 @dataclass(frozen=True)
 class FurtherMeter:
-    """A meter that the bench lacks: the responses of the bench with it, or its own readings beside any campaign."""
+    """A meter that the bench lacks: the responses of the bench with it, or its own readings beside any campaign.
 
-    name: str
-    words: str
+    points: those of the campaign at which it reads beside.
+    """
+
+    channel: ChannelName
     white: White | None = None
     beside: White | None = None
+    points: tuple[int, ...] = ()
+
+    @property
+    def name(self) -> str:
+        """Name of its channel."""
+        return self.channel.value
+
+    @property
+    def words(self) -> str:
+        """The meter in words."""
+        return WORDS[self.channel]
 
     def added_to(self, contest: Contest) -> Contest:
         """The contest with the meter."""
         if self.white is not None:
             return replace(contest, white=self.white)
         return contest if self.beside is None else replace(contest, beside=(*contest.beside, self.beside))
+
+    def on(self, foreseen: Foreseen, channels: Collection[str]) -> FurtherMeter:
+        """The same meter of a bench with other channels."""
+        if self.white is None:
+            return self
+        return replace(self, white=foreseen.responses.white({*channels, self.name}))
 
 
 @dataclass(frozen=True)
@@ -60,26 +73,38 @@ def further_meters(
     campaign: NDArray[np.int64],
     thresholds: Thresholds,
     report: Report = silent,
+    known: Collection[str] | None = None,
 ) -> tuple[FurtherMeter, ...]:
-    """Every meter that a bench of these channels lacks; a transducer at TRACED points of the campaign."""
-    return tuple(_further(foreseen, channels, campaign, thresholds, report))
+    """The meters that a bench of these channels lacks; of those that are `known` by name, where names are stated.
+
+    A transducer reads the chamber at TRACED points of the campaign; the torque meter UNCOUPLED times without the pump.
+    """
+    lacking = (one for one in WORDS if one.value not in channels and (known is None or one.value in known))
+    return tuple(_further(one, foreseen, channels, campaign, thresholds, report) for one in lacking)
 
 
 def _further(
-    foreseen: Foreseen, channels: Collection[str], campaign: NDArray[np.int64], thresholds: Thresholds, report: Report
-) -> Iterator[FurtherMeter]:
-    for name, words in WORDS.items():
-        if name.value not in channels:
-            yield FurtherMeter(name.value, words, foreseen.responses.white({*channels, name.value}))
-    for gap, drain in DRAINS.items():
-        if drain not in channels:
-            words = f"a metered drain of {PLACES[gap]} alone"
-            yield FurtherMeter(drain, words, foreseen.responses.white({*channels, drain}))
-    pressure = foreseen.points.p_out[campaign]
-    some = campaign[np.argsort(pressure, kind="stable")][np.linspace(0, len(campaign) - 1, TRACED).round().astype(int)]
-    traces = foresee_traces(foreseen, tuple(int(at) for at in np.unique(some)), thresholds, report)
-    words = f"the chamber pressure over the turn, at {len(np.unique(some))} points"
-    yield FurtherMeter(ChannelName.P_CHAMBER.value, words, beside=traces)
+    own: ChannelName,
+    foreseen: Foreseen,
+    channels: Collection[str],
+    campaign: NDArray[np.int64],
+    thresholds: Thresholds,
+    report: Report,
+) -> FurtherMeter:
+    if own is ChannelName.P_CHAMBER:
+        points = tuple(int(at) for at in traced_points(foreseen.points.p_out, campaign))
+        return FurtherMeter(own, beside=foresee_traces(foreseen, channels, points, thresholds, report), points=points)
+    if own is ChannelName.TORQUE_UNCOUPLED:
+        alone = foreseen.responses.white({own.value})
+        some = slice(0, UNCOUPLED)
+        return FurtherMeter(own, beside=White(alone.slopes[some], alone.columns[some]))
+    return FurtherMeter(own, foreseen.responses.white({*channels, own.value}))
+
+
+def traced_points(pressure: Array, campaign: NDArray[np.int64]) -> NDArray[np.int64]:
+    """At most TRACED points of a campaign whose delivery pressures spread over its range; pressure: of all points."""
+    rising = campaign[np.argsort(pressure[campaign], kind="stable")]
+    return np.unique(rising[np.linspace(0, len(rising) - 1, TRACED).round().astype(int)])
 
 
 def meter_worths(

@@ -11,7 +11,6 @@ from dataclasses import dataclass, fields, replace
 import numpy as np
 
 from diagnosis.next_point.operating_box import rows
-from diagnosis.planning.further import DRAINS, DrainedBench
 from diagnosis.recording.model import Circuit, RecordedChannel, Recording, SteadyTable, TraceBlock
 from diagnosis.study.inputs import WARMER
 from diagnosis.study.map_axes import scaled_axes
@@ -22,20 +21,18 @@ from diagnosis.study.traces.bench import traced_bench
 from diagnosis.study.traces.misfits import trace_parameters
 from diagnosis.thresholds import Thresholds
 from reynolds.numerics.arrays import Array
-from system.bench.outputs import SIMULATED
+from system.bench.outputs import METERED
 from system.bench.points import BenchPoints
 from system.bench.simulator import LumpedBench
-from system.description.gap import Gap
 from system.description.pump import PumpDescription
 from system.description.tolerances import Tolerances
 from system.effects.catalogue.entries import CATALOGUE
 from system.effects.extension import Entry
-from system.estimation.observations import Channel, Observations
+from system.estimation.observations import Observations
 from system.estimation.parameters import Parameter
 from system.estimation.posterior import values_at
 from system.estimation.whitening import Whitening, whitener
 from system.inputs.channels import INPUTS, ChannelName
-from system.inputs.units import Dimension
 from system.work.progress import Report, silent
 
 TURN_ANGLES = 720
@@ -58,8 +55,8 @@ class White:
 class Responses:
     """Expected readings of all C channels at N points, SI, with what changes them.
 
-    slopes: (N, C, k), by one sigma of each of `parameters` and of further meters; columns: (N, C, Q), by one
-    spread of each candidate; input_slopes: (N, C, M), SI per SI.
+    slopes: (N, C, k), by one sigma of each of `parameters`; columns: (N, C, Q), by one spread of each candidate;
+    input_slopes: (N, C, M), SI per SI.
     """
 
     readings: Observations
@@ -84,8 +81,7 @@ class Responses:
             quantum=self.readings.quantum[read],
         )
         whitening = whitener(own, self.input_slopes[:, read][..., given])
-        scale = np.ones(self.slopes.shape[2])
-        scale[: len(self.parameters)] = [self._taken(one, channels) for one in self.parameters]
+        scale = np.array([self._taken(one, channels) for one in self.parameters])
         return White(_laid_out(whitening, self.slopes[:, read] * scale), _laid_out(whitening, self.columns[:, read]))
 
     @staticmethod
@@ -109,12 +105,12 @@ class Foreseen:
 
     study: Study
     responses: Responses
-    bench: DrainedBench
+    bench: LumpedBench
 
     @property
     def points(self) -> BenchPoints:
         """The N points."""
-        return self.bench.bench.points
+        return self.bench.points
 
     @property
     def candidates(self) -> tuple[Candidate, ...]:
@@ -131,37 +127,30 @@ def foresee(
     catalogue: Sequence[Entry] = CATALOGUE,
     report: Report = silent,
 ) -> Foreseen:
-    """Responses of all steady channels and of the drains of the gaps, to the candidates of a catalogue.
+    """Responses of all steady channels to the candidates of a catalogue.
 
     Raises NotConverged as the bench does.
     """
     recording = _recording(pump, points, meters)
-    bench = LumpedBench(pump, points, SIMULATED, _parameters(pump, recording, tolerances), inputs=INPUTS)
+    bench = LumpedBench(pump, points, METERED, _parameters(pump, recording, tolerances), inputs=INPUTS)
     centre = values_at(bench.parameters, np.zeros(len(bench.parameters)))
-    drained = DrainedBench(bench)
-    expected = drained.predict(centre)
-    recording = _with_readings(recording, expected[:, : len(SIMULATED)])
-    steady = observations(recording, SIMULATED, INPUTS)
-    drain = next(one for one in recording.channels if one.name is ChannelName.Q_CASE)
-    leaks = expected[:, len(SIMULATED) :]
-    whole = replace(
-        steady,
-        channels=(*steady.channels, *(Channel(name, Dimension.VOLUME_FLOW) for name in DRAINS.values())),
-        values=expected,
-        sigma=np.hstack([steady.sigma, drain.sigma + drain.sigma_relative * np.abs(leaks)]),
-        quantum=np.zeros(expected.shape[1]),
-    )
-    bare = study_of(recording, drained, whole, scaled_axes(recording), (), thresholds)
+    recording = _with_readings(recording, bench.predict(centre))
+    steady = observations(recording, METERED, INPUTS)
+    bare = study_of(recording, bench, steady, scaled_axes(recording), (), thresholds)
     study = _with_candidates(bare, catalogue, thresholds, report)
-    return Foreseen(study, _gauged(_responses(study, centre), leaks, drain), drained)
+    return Foreseen(study, _responses(study, centre), bench)
 
 
 def foresee_traces(
-    foreseen: Foreseen, points: tuple[int, ...], thresholds: Thresholds, report: Report = silent
+    foreseen: Foreseen,
+    channels: Collection[str],
+    points: tuple[int, ...],
+    thresholds: Thresholds,
+    report: Report = silent,
 ) -> White:
-    """Responses of chamber traces at some of the points, beside the same parameters and candidates."""
+    """Responses of chamber traces at some of the points on a bench of some channels, to the same candidates."""
     study, chosen = foreseen.study, np.array(points)
-    bench = foreseen.bench.bench.elsewhere(rows(foreseen.points, chosen))
+    bench = foreseen.bench.elsewhere(rows(foreseen.points, chosen))
     centre = values_at(bench.parameters, np.zeros(len(bench.parameters)))
     angles = 2.0 * np.pi * np.arange(TURN_ANGLES) / TURN_ANGLES
     turns = bench.traces(centre, tuple(range(len(points))), angles)
@@ -171,7 +160,7 @@ def foresee_traces(
         raise ValueError("no chamber transducer among the meters")
     recording = replace(study.recording, steady=study.recording.steady.at(chosen), traces=blocks)
     traced = traced_bench(bench, blocks, transducer)
-    whole = traced.observations(observations(recording, SIMULATED, INPUTS))
+    whole = traced.observations(observations(recording, METERED, INPUTS))
     bare = study_of(recording, traced, whole, scaled_axes(recording), (), thresholds)
     wanted = {one.entry.id for one in study.candidates}
     own = _with_candidates(bare, [one for one in CATALOGUE if one.id in wanted], thresholds, report)
@@ -181,9 +170,8 @@ def foresee_traces(
         replace(one, column=known[_key(one)].column if _key(one) in known else empty) for one in study.candidates
     )
     found = _responses(replace(own, candidates=aligned), centre)
-    white = found.white({ChannelName.P_CHAMBER.value, *(one.value for one in INPUTS)})
-    gauges = foreseen.responses.slopes.shape[2] - white.slopes.shape[2]
-    return replace(white, slopes=np.pad(white.slopes, ((0, 0), (0, 0), (0, gauges))))
+    inputs = {one.value for one in INPUTS if one.value in channels}
+    return found.white({ChannelName.P_CHAMBER.value, *inputs})
 
 
 def expected_parameters(
@@ -197,7 +185,7 @@ def expected_parameters(
 def _parameters(pump: PumpDescription, recording: Recording, tolerances: Tolerances) -> tuple[Parameter, ...]:
     angle = np.zeros(1)
     traced = replace(recording, traces=(TraceBlock(0, angle, angle, None, 1),))
-    meters = meter_parameters(recording, SIMULATED)
+    meters = meter_parameters(recording, METERED)
     return (*uncertain_parameters(pump, tolerances), *meters, *trace_parameters(traced))
 
 
@@ -212,7 +200,7 @@ def _recording(pump: PumpDescription, points: BenchPoints, meters: tuple[Recorde
 
 def _with_readings(recording: Recording, expected: Array) -> Recording:
     values = recording.steady.values.copy()
-    for at, name in enumerate(SIMULATED):
+    for at, name in enumerate(METERED):
         values[:, list(ChannelName).index(name)] = expected[:, at]
     return replace(recording, steady=replace(recording.steady, values=values))
 
@@ -223,7 +211,7 @@ def _with_candidates(study: Study, catalogue: Sequence[Entry], thresholds: Thres
     simulator: PumpSimulator = study.simulator
     for number, entry in enumerate(catalogue):
         report(number, len(catalogue), f"readings with {entry.id.value.replace('_', ' ')}")
-        found += entry_candidates(entry, simulator, study.base, thresholds.name.fault_factor)
+        found += entry_candidates(entry, simulator, study.base, thresholds.name.fault_factor, study.place)
     return replace(study, candidates=tuple(found))
 
 
@@ -237,16 +225,6 @@ def _responses(study: Study, centre: Array) -> Responses:
         columns=base.whitening.unwhiten(columns),
         input_slopes=study.simulator.input_slopes(centre),
     )
-
-
-def _gauged(found: Responses, leaks: Array, drain: RecordedChannel) -> Responses:
-    """The responses with gain and zero of the meters in the gaps' own drains, as good as the drain's."""
-    count, channels, _ = found.slopes.shape
-    own = np.zeros((count, channels, 2 * len(Gap)))
-    for at in range(len(Gap)):
-        own[:, channels - len(Gap) + at, 2 * at] = drain.gain_sigma * leaks[:, at]
-        own[:, channels - len(Gap) + at, 2 * at + 1] = drain.zero_sigma
-    return replace(found, slopes=np.concatenate([found.slopes, own], axis=2))
 
 
 def _key(one: Candidate) -> tuple[str, str, int]:

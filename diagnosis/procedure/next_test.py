@@ -1,4 +1,4 @@
-"""The next test: a point that separates the first explanation from its likeliest rival."""
+"""The next test: points, or a meter more, that separate the first explanation from its likeliest rival."""
 
 from __future__ import annotations
 
@@ -7,20 +7,25 @@ from dataclasses import replace
 
 from diagnosis.explain.hypotheses import simulator_of
 from diagnosis.explain.ranked import Explanation
-from diagnosis.next_point.choose import NextPoint, next_point
+from diagnosis.next_point.choose import NextPoint, metered_test, next_point
 from diagnosis.next_point.forecast import Contender
+from diagnosis.next_point.meters import meters
 from diagnosis.next_point.operating_box import ordinary_box, rig_box
-from diagnosis.procedure.gap_leak_test import gap_leak_test
+from diagnosis.recording.model import RecordedChannel
 from diagnosis.report.explanations import explanation_words
 from diagnosis.study.model import Study
+from diagnosis.study.traces.bench import TracedBench
 from diagnosis.thresholds import NextPointLimits, Thresholds
 from diagnosis.verdict.diagnosis import Diagnosis
 from reynolds.errors import InputError, NotConverged
+from system.bench.outputs import DRAINS, SIMULATED
+from system.bench.simulator import LumpedBench
 from system.description.pump import PumpDescription
+from system.inputs.channels import ChannelName
 
 
 def with_next_point(study: Study, pump: PumpDescription, found: Diagnosis, thresholds: Thresholds) -> Diagnosis:
-    """The diagnosis with the point that separates its first explanation from the likeliest other.
+    """The diagnosis with the test that separates its first explanation from the likeliest other.
 
     Unchanged if there is no refitted rival. Raises NotConverged where a point cannot be simulated.
     """
@@ -34,23 +39,41 @@ def with_next_point(study: Study, pump: PumpDescription, found: Diagnosis, thres
 def proposed_point(
     study: Study, pump: PumpDescription, first: Contender, second: Contender, limits: NextPointLimits
 ) -> NextPoint:
-    """A point of the rig's box if one settles two that are open, else one of an ordinary bench's if that does.
+    """Points of the rig's box if they settle two that are open, else of an ordinary bench's, else with a meter more.
 
-    Else the rig's best, with another test if one settles them. Raises NotConverged if a point of the rig's box
+    Where none of them settles the two, the test of the largest chance. Raises NotConverged if a point of the rig's box
     cannot be simulated; for a point farther out the failure is part of the text.
     """
-    box = rig_box(study.recording, pump)
-    point = next_point(study, pump, box, first, second, limits)
-    if point.settles or not point.is_open:
-        return point
+    near = next_point(study, pump, rig_box(study.recording, pump), first, second, limits)
+    if near.settles or not near.is_open:
+        return near
+    tests = [near]
     try:
         farther = next_point(study, pump, ordinary_box(study.recording, pump), first, second, limits)
+        tests.append(replace(farther, beyond=True))
     except (NotConverged, InputError) as reason:
-        return replace(point, instead=f"Farther out nothing can be predicted: {reason}.")
-    if farther.settles:
-        return replace(farther, beyond=True)
-    leak = gap_leak_test(study, box, first, second, limits)
-    return replace(point, instead=leak.text if leak else "")
+        tests = [replace(near, note=f"Farther out nothing can be predicted: {reason}.")]
+    if not tests[-1].settles and (further := further_meters(study, pump, limits)):
+        tests.append(metered_test(study, pump, near.box, first, second, limits, further))
+    return max(tests, key=lambda test: (test.settles, test.chance, test.after))
+
+
+def further_meters(study: Study, pump: PumpDescription, limits: NextPointLimits) -> tuple[RecordedChannel, ...]:
+    """Meters that the bench of a recording lacks and could add, none for a user's own simulator.
+
+    A drain of one gap reads as the drain's meter does, its gain known to `limits.gauge`. The torque meter reads the
+    uncoupled shaft as it reads the pump. Others are those of an ordinary bench.
+    """
+    if not isinstance(study.simulator, LumpedBench | TracedBench):
+        return ()
+    usual = {one.name: one for one in meters(pump, {})}
+    drain = study.recording.channel(ChannelName.Q_CASE) or usual[ChannelName.Q_CASE]
+    torque = study.recording.channel(ChannelName.TORQUE)
+    found = [usual[one] for one in SIMULATED if one not in study.channels]
+    found += [replace(drain, name=one, gain_sigma=limits.gauge) for one in DRAINS.values() if one not in study.channels]
+    if torque is not None and ChannelName.TORQUE in study.channels:
+        found.append(replace(torque, name=ChannelName.TORQUE_UNCOUPLED, gain_sigma=0.0, zero_sigma=0.0))
+    return tuple(one for one in found if one.name not in study.channels)
 
 
 def rivals(found: Diagnosis, thresholds: Thresholds) -> tuple[Explanation, Explanation] | None:

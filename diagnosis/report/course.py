@@ -24,6 +24,16 @@ SIDES = {
     ChannelName.Q_OUT: ("The pump delivers more oil than simulated", "The pump delivers less oil than simulated"),
     ChannelName.Q_IN: ("The pump takes in more oil than simulated", "The pump takes in less oil than simulated"),
     ChannelName.Q_CASE: ("The case drains more oil than simulated", "The case drains less oil than simulated"),
+    ChannelName.Q_PISTON: ("The pistons leak more oil than simulated", "The pistons leak less oil than simulated"),
+    ChannelName.Q_SLIPPER: ("The slippers leak more oil than simulated", "The slippers leak less oil than simulated"),
+    ChannelName.Q_VALVE_PLATE: (
+        "The valve plate leaks more oil than simulated",
+        "The valve plate leaks less oil than simulated",
+    ),
+    ChannelName.TORQUE_UNCOUPLED: (
+        "The torque meter reads more than nothing uncoupled",
+        "The torque meter reads less than nothing uncoupled",
+    ),
     ChannelName.TORQUE: ("The shaft takes more torque than simulated", "The shaft takes less torque than simulated"),
     ChannelName.T_OUT: ("The oil leaves warmer than simulated", "The oil leaves cooler than simulated"),
     ChannelName.ELECTRIC_POWER: ("The motor takes more power than simulated", "The motor takes less than simulated"),

@@ -67,11 +67,17 @@ def _gain(found: NextPoint) -> str:
     first, second = found.between
     ahead, behind = (first, second) if found.before >= 0.0 else (second, first)
     return (
-        f"Odds of {behind} to {ahead}: {_odds(abs(found.before))} now. {found.limits.readings} readings at "
-        f"{point_words(found)} multiply those for the true one by {_times(found.gain)} on average; expected "
+        f"Odds of {behind} to {ahead}: {_odds(abs(found.before))} now. {found.readings} readings at "
+        f"{_where(found)} multiply those for the true one by {_times(found.gain)} on average; expected "
         f"are {_odds(found.after)}, 1:20 or better has a chance of {chance(found.chance)}. There the two are "
         f"{found.expected.apart:.1f} sigma of one reading of {found.expected.channel} apart."
     )
+
+
+def _where(found: NextPoint) -> str:
+    first, *others = (point_words(found, place) for place in found.places)
+    more = f" and {len(others)} point{'s' if len(others) > 1 else ''} more" if others else ""
+    return f"{first}{more}{f', with {found.meter_words},' if found.meter else ''}"
 
 
 def _times(nats: float) -> str:

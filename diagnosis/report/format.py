@@ -26,8 +26,10 @@ CHANNELS = {
     ChannelName.P_IN: "inlet pressure", ChannelName.P_CASE: "case pressure", ChannelName.T_IN: "inlet temperature",
     ChannelName.T_OUT: "outlet temperature", ChannelName.T_CASE: "case temperature",
     ChannelName.Q_OUT: "delivery flow", ChannelName.Q_IN: "inlet flow", ChannelName.Q_CASE: "case drain",
-    ChannelName.TORQUE: "shaft torque", ChannelName.ELECTRIC_POWER: "motor power", ChannelName.ANGLE: "shaft angle",
-    ChannelName.P_CHAMBER: "chamber pressure",
+    ChannelName.Q_PISTON: "drain of the pistons", ChannelName.Q_SLIPPER: "drain of the slippers",
+    ChannelName.Q_VALVE_PLATE: "drain of the valve plate", ChannelName.TORQUE: "shaft torque",
+    ChannelName.TORQUE_UNCOUPLED: "torque of the uncoupled shaft", ChannelName.ELECTRIC_POWER: "motor power",
+    ChannelName.ANGLE: "shaft angle", ChannelName.P_CHAMBER: "chamber pressure",
 }  # fmt: skip
 """Names of the channels in sentences."""
 

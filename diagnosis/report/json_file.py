@@ -11,7 +11,7 @@ from typing import Any
 
 from diagnosis.detect.time_scan import TimeKind, TimeMark
 from diagnosis.explain.ranked import Explanation, HeldOut
-from diagnosis.next_point.choose import NextPoint
+from diagnosis.next_point.choose import NextPoint, RankedPoint
 from diagnosis.recording.units import difference, difference_unit, reading
 from diagnosis.report.answer import PlainAnswer
 from diagnosis.report.format import if_words, last_word
@@ -178,26 +178,33 @@ def _scaling(diagnosis: Diagnosis) -> dict[str, Any] | None:
 
 
 def _next_test(found: NextPoint) -> dict[str, Any]:
-    point = found.point
     return {
-        "point": {
-            "speed_rpm": reading(ChannelName.SPEED, point.shaft_speed),
-            "p_out_bar": point.delivery_pressure * 1e-5,
-            "displacement_ratio": point.displacement_ratio,
-            "T_in_degC": reading(ChannelName.T_IN, found.inlet_temperature),
-            "T_case_degC": reading(ChannelName.T_CASE, point.temperature),
-        },
+        "point": _point(found.places[0]),
+        "points": [_point(place) for place in found.places],
+        "meter": None if found.meter is None else {"channel": found.meter.name.value, "words": found.meter_words},
         "separates": [effect.value for effect in found.separates],
         "between": list(found.between),
         "settles": found.settles,
         "chance": found.chance,
-        "readings": found.limits.readings,
+        "readings": found.readings,
         "gain_nats": found.gain,
         "log_odds": {"now": found.before, "predicted": found.after},
         "beyond_recorded": found.beyond,
         "repeats": found.repeats,
         "why": _why(found),
-        "instead": found.instead,
+        "note": found.note,
+    }
+
+
+def _point(place: RankedPoint) -> dict[str, float]:
+    point = place.point
+    return {
+        "speed_rpm": reading(ChannelName.SPEED, point.shaft_speed),
+        "p_out_bar": point.delivery_pressure * 1e-5,
+        "p_in_bar": point.inlet_pressure * 1e-5,
+        "displacement_ratio": point.displacement_ratio,
+        "T_in_degC": reading(ChannelName.T_IN, place.inlet_temperature),
+        "T_case_degC": reading(ChannelName.T_CASE, point.temperature),
     }
 
 

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from diagnosis.next_point.choose import NextPoint
+from diagnosis.next_point.choose import NextPoint, RankedPoint
 from diagnosis.recording.units import channel_unit, reading
 from diagnosis.report.certainty import stated_probability
-from diagnosis.report.format import CHANNELS, channel_words, if_words, listed, setting_text
+from diagnosis.report.format import CHANNELS, channel_words, if_words, listed, pressure_text, setting_text
 from diagnosis.study.map_axes import axis_values
 from diagnosis.study.model import Study
 from diagnosis.verdict.diagnosis import Diagnosis, VerdictStatus
-from system.effects.effect import Kind
+from system.effects.effect import EffectId, Kind
 from system.inputs.channels import ChannelName
 
 NO_NEXT_POINT = "no next point can be proposed"
@@ -38,6 +38,10 @@ def measure_words(diagnosis: Diagnosis) -> str:
         return NOTHING_MORE
     if not diagnosis.effects:
         return "Read the points with the largest difference again."
+    if any(EffectId.UNKNOWN_PHYSICS in claim.equivalent for claim in diagnosis.effects):
+        inputs = listed(map(channel_words, diagnosis.location.inputs))
+        where = f" at other values of {inputs}" if inputs else ""
+        return f"More points{where} tell a law of the catalogue from a cause outside it."
     if diagnosis.status is VerdictStatus.INCOMPLETE:
         return "Read the points again that still differ most: nothing else that could be fitted explains them better."
     return NOTHING_ELSE if stated_probability(diagnosis) >= diagnosis.thresholds.name.probability else NO_POINT_TELLS
@@ -55,29 +59,43 @@ def hidden_words(study: Study) -> str:
 
 
 def next_point_text(found: NextPoint) -> str:
-    """The next point to record with the expected readings; or that no point decides, and what would instead."""
-    at, (one, other), (first, second) = point_words(found), found.expected.texts, if_words(*found.between)
+    """The next test with the readings to expect, and the chance that it decides."""
+    (one, other), (first, second) = found.expected.texts, if_words(*found.between)
     reads = f"{_channel(found.expected.channel)} reads {one} {first}, {other} {second}."
+    added = f"Add to the bench: {found.meter_words}. " if found.meter else ""
+    places = [point_words(found, place) for place in found.places]
+    if len(places) == 1:
+        asks = f"Record {places[0]}: {reads}"
+    else:
+        asks = f"Record {'; '.join(places)}: {found.limits.readings} times each. At the first {reads}"
+    beyond = " This is outside the range recorded." if found.beyond else ""
+    note = f" {found.note}" if found.note else ""
+    return f"{added}{asks} {_sure(found)}{beyond}{note}"
+
+
+def _sure(found: NextPoint) -> str:
+    """The chance that the readings decide, or how many would."""
     if found.settles:
-        beyond = " This is outside the range recorded." if found.beyond else ""
-        sure = f"{found.limits.readings} readings decide with a chance of {100.0 * min(found.chance, 0.99):.0f} %."
-        return f"Record {at}: {reads} {sure}{beyond}"
-    if found.instead:
-        return f"Another steady point will hardly decide. {found.instead}"
-    repeats = f" {found.repeats} readings there decide." if found.repeats else " One point alone will hardly decide."
-    return f"Record {at}: {reads}{repeats}"
-
-
-def point_words(found: NextPoint) -> str:
-    """The operating point with the temperatures of inlet and case."""
-    point = found.point
-    warm = (
-        f"{reading(ChannelName.T_IN, value):.0f} {channel_unit(ChannelName.T_IN)}"
-        for value in (found.inlet_temperature, point.temperature)
+        return f"{found.readings} readings decide with a chance of {100.0 * min(found.chance, 0.99):.0f} %."
+    if found.repeats:
+        each = " of each" if found.others else " there"
+        return f"{found.repeats} readings{each} decide."
+    return (
+        f"The {found.readings} readings will hardly decide, with a chance of {100.0 * found.chance:.0f} %: no other "
+        "points of this bench and no further meter are surer."
     )
-    inlet, case = warm
+
+
+def point_words(found: NextPoint, place: RankedPoint) -> str:
+    """An operating point of a test with both temperatures of the oil, and its inlet pressure where that varies."""
+    point = place.point
+    inlet, case = (
+        f"{reading(ChannelName.T_IN, value):.0f} {channel_unit(ChannelName.T_IN)}"
+        for value in (place.inlet_temperature, point.temperature)
+    )
     setting = setting_text(point.shaft_speed, point.delivery_pressure, point.displacement_ratio)
-    return f"{setting}, oil at {inlet} in the inlet and {case} in the case"
+    charged = f", {pressure_text(point.inlet_pressure)} at the inlet" if found.varies_inlet else ""
+    return f"{setting}{charged}, oil at {inlet} in the inlet and {case} in the case"
 
 
 def _channel(name: str) -> str:

@@ -127,19 +127,21 @@ def parameter_rows(diagnosis: Diagnosis) -> Iterator[Row]:
 def next_point_head() -> tuple[str, ...]:
     """Columns of the points for a next measurement."""
     inputs = (
-        ChannelName.SPEED, ChannelName.P_OUT, ChannelName.DISPLACEMENT_RATIO, ChannelName.T_IN, ChannelName.T_CASE,
+        ChannelName.SPEED, ChannelName.P_OUT, ChannelName.DISPLACEMENT_RATIO, ChannelName.P_IN, ChannelName.T_IN,
+        ChannelName.T_CASE,
     )  # fmt: skip
     return (*map(channel_head, inputs), "gain [nats]")
 
 
 def next_point_rows(found: NextPoint | None) -> Iterator[Row]:
-    """Points of the rig's box by the gain of readings there, in nats, the best first."""
+    """Points of the test's box by the gain of readings at each by itself, in nats, the best first."""
     for one in () if found is None else found.ranked:
         point = one.point
         values = (
             _reading(ChannelName.SPEED, point.shaft_speed),
             _reading(ChannelName.P_OUT, point.delivery_pressure),
             _text(point.displacement_ratio),
+            _reading(ChannelName.P_IN, point.inlet_pressure),
             _reading(ChannelName.T_IN, one.inlet_temperature),
             _reading(ChannelName.T_CASE, point.temperature),
             _text(one.gain),

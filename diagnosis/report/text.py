@@ -27,7 +27,7 @@ from diagnosis.report.sizes import finding_sentence
 from diagnosis.study.map_axes import AXES
 from diagnosis.verdict.diagnosis import Diagnosis, VerdictStatus
 from diagnosis.verdict.locate import Location
-from system.effects.effect import Kind
+from system.effects.effect import EffectId, Kind
 from system.inputs.channels import ChannelName
 
 OTHER = 0.05
@@ -74,7 +74,9 @@ def finding(diagnosis: Diagnosis) -> str:
         return "Simulation and recording agree within the scatter of the meters and the tolerances of the pump."
     if diagnosis.kind is Kind.UNKNOWN_PHYSICS:
         parts = listed((f"the {COMPONENTS[one]}" for one in diagnosis.location.tie), "or")
-        place = f" It lies most likely in {parts}." if parts else ""
+        inputs = listed(map(channel_words, diagnosis.location.inputs))
+        goes = f" and changes with {inputs}" if inputs else ""
+        place = f" It lies most likely in {parts}{goes}." if parts else ""
         return f"No effect of the catalogue explains the mismatch.{place}"
     return " ".join(
         f"{finding_sentence(claim, diagnosis)}{_of_which(at, diagnosis)}." for at, claim in enumerate(diagnosis.effects)
@@ -207,13 +209,23 @@ def _class(diagnosis: Diagnosis) -> Iterator[str]:
         return
     for claim in diagnosis.effects:
         if claim.equivalent:
-            others = listed((effect_words([one]) for one in claim.equivalent), "or")
+            others = listed((_member(one, diagnosis) for one in claim.equivalent), "or")
             own = effect_words([claim.effect])
             yield f"{others[0].upper()}{others[1:]} in place of {own} fits this recording as well."
         if claim.pair and claim.elsewhere:
             own = f"{PLACES[claim.pair]} ({chance(1.0 - sum(part for _, part in claim.elsewhere))})"
             others = listed((f"{PLACES[gap]} ({chance(part)})" for gap, part in claim.elsewhere), "or")
             yield f"This recording cannot tell {own} from {others}."
+
+
+def _member(effect: EffectId, diagnosis: Diagnosis) -> str:
+    """An effect of a class in words; unknown physics, which may be likelier than the claim, with its probability."""
+    words = effect_words([effect])
+    if effect is not EffectId.UNKNOWN_PHYSICS:
+        return words
+    return (
+        f"{words} ({chance(sum(one.probability for one in diagnosis.hypotheses if effect in one.hypothesis.effects))})"
+    )
 
 
 def _incomplete(diagnosis: Diagnosis) -> Iterator[str]:

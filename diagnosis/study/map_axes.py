@@ -22,7 +22,7 @@ def axis_values(recording: Recording) -> Mapping[ChannelName, Array]:
     """The axes along which the recording moves at all, each (N,) in SI."""
     order = list(ChannelName)
     columns = {axis: recording.steady.values[:, order.index(axis)] for axis in AXES}
-    return {axis: values for axis, values in columns.items() if _moves(axis, values)}
+    return {axis: values for axis, values in columns.items() if moves(axis, values)}
 
 
 def scaled_axes(recording: Recording) -> Array:
@@ -31,9 +31,14 @@ def scaled_axes(recording: Recording) -> Array:
     scaled = np.zeros((len(recording.steady.values), len(AXES)))
     for at, axis in enumerate(AXES):
         if axis in moving:
-            values = np.log(moving[axis]) if axis is ChannelName.SPEED else moving[axis]
-            scaled[:, at] = 2.0 * (values - values.min()) / np.ptp(values) - 1.0
+            scaled[:, at] = on_axis(axis, moving[axis])
     return scaled
+
+
+def on_axis(axis: ChannelName, values: Array) -> Array:
+    """Values (N,) of an input that moves, scaled to [-1, 1], speed by its logarithm."""
+    along = np.log(values) if axis is ChannelName.SPEED else values
+    return np.asarray(2.0 * (along - along.min()) / np.ptp(along) - 1.0)
 
 
 def smooth_shapes(axes: Array) -> Array:
@@ -66,7 +71,8 @@ def inside(
     return within
 
 
-def _moves(axis: ChannelName, values: Array) -> bool:
+def moves(axis: ChannelName, values: Array) -> bool:
+    """True if an input moves by more than the scatter of one set point, and is known at all points."""
     if not np.all(np.isfinite(values)):
         return False
     least = LEAST_WARMING if axis is ChannelName.T_CASE else LEAST_SPAN * float(np.abs(values).max())

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Protocol, Self
 
 import numpy as np
@@ -116,7 +116,8 @@ class TraceMisfit:
 class Study:
     """All that detecting, locating and naming start from.
 
-    base: linear posterior at the prior mean. components: contribution (N, C) of each to the readings, in SI.
+    base: linear posterior about the prior mean, or about standard numbers by name where `about` has some; candidates
+    and components are those there. components: contribution (N, C) of each to the readings, in SI.
     axes: (N, 4), scaled to [-1, 1]: logarithm of speed, delivery pressure, displacement ratio, case temperature.
     scant: little more than the pump's type plate is known.
     """
@@ -131,6 +132,12 @@ class Study:
     traces: tuple[TraceMisfit, ...] = ()
     events: tuple[PortEvent, ...] = ()
     scant: bool = False
+    about: Mapping[str, float] = field(default_factory=dict)
+
+    @property
+    def place(self) -> Array:
+        """Standard numbers (k,) of the simulator's parameters about which the study is linear."""
+        return place_of(self.simulator, self.about)
 
     @property
     def channels(self) -> tuple[ChannelName, ...]:
@@ -157,22 +164,32 @@ def study_of(
     axes: Array,
     catalogue: Iterable[Entry],
     thresholds: Thresholds,
+    about: Mapping[str, float] | None = None,
 ) -> Study:
     """The study of readings with their simulator.
 
-    All slopes are at the prior mean: a null model fitted to readings that it cannot explain moves its parameters
-    by tens of sigma, where slopes are of no use.
+    All slopes are at the prior mean unless standard numbers are given by name: a null model fitted to readings that it
+    cannot explain moves its parameters by tens of sigma, where slopes are of no use.
     """
-    base = linear_posterior(simulator, observations)
-    centre = values_at(simulator.parameters, np.zeros(base.xi.size))
+    place = place_of(simulator, about or {})
+    base = linear_posterior(simulator, observations, place)
+    centre = values_at(simulator.parameters, place)
     factor = thresholds.name.fault_factor
-    candidates = tuple(one for entry in catalogue for one in entry_candidates(entry, simulator, base, factor))
-    return Study(recording, simulator, observations, base, candidates, simulator.components(centre), axes)
+    candidates = tuple(one for entry in catalogue for one in entry_candidates(entry, simulator, base, factor, place))
+    components = simulator.components(centre)
+    return Study(recording, simulator, observations, base, candidates, components, axes, about=about or {})
 
 
-def entry_candidates(entry: Entry, simulator: PumpSimulator, base: Posterior, factor: float) -> Iterator[Candidate]:
-    """The columns of an entry about a linear posterior at the prior mean; `factor` widens a stated tolerance."""
-    return _of_extensions(entry, simulator, base) if entry.extensions else _of_parameters(entry, base, factor)
+def place_of(simulator: PumpSimulator, about: Mapping[str, float]) -> Array:
+    """Standard numbers (k,) of a simulator's parameters by name, 0 where there is none."""
+    return np.array([about.get(parameter.name, 0.0) for parameter in simulator.parameters])
+
+
+def entry_candidates(
+    entry: Entry, simulator: PumpSimulator, base: Posterior, factor: float, place: Array
+) -> Iterator[Candidate]:
+    """The columns of an entry beside the linear posterior about xi = `place`; `factor` widens a stated tolerance."""
+    return _of_extensions(entry, simulator, base, place) if entry.extensions else _of_parameters(entry, base, factor)
 
 
 def concerned(effect: EffectId, parameters: Iterable[Parameter]) -> tuple[str, ...]:
@@ -188,23 +205,24 @@ def _of_parameters(entry: Entry, base: Posterior, factor: float) -> Iterator[Can
         yield Candidate(entry, None, 0, name, base.slopes[:, base.index(name)], factor, Sign.EITHER)
 
 
-def _of_extensions(entry: Entry, simulator: PumpSimulator, base: Posterior) -> Iterator[Candidate]:
+def _of_extensions(entry: Entry, simulator: PumpSimulator, base: Posterior, place: Array) -> Iterator[Candidate]:
     """Columns of laws that the model lacks: change by one spread of each size.
 
     A difference, not a slope: laws with a threshold have no slope where they are off.
     """
     for extension in entry.extensions:
-        for place, member in enumerate(extension.members):
+        for number, member in enumerate(extension.members):
             extended = simulator.with_extensions((member,))
             names = [parameter.name for parameter in extended.parameters]
             off = np.zeros(len(names))
+            off[: place.size] = place  # parameters of a law are appended
             for parameter in member.parameters:
                 on = off.copy()
                 on[names.index(parameter.name)] = 1.0
                 change = extended.difference(values_at(extended.parameters, off), values_at(extended.parameters, on))
                 column = base.whitening.whiten(change)
                 if np.any(column):
-                    yield Candidate(entry, member, place, parameter.name, column, 1.0, _sign(parameter))
+                    yield Candidate(entry, member, number, parameter.name, column, 1.0, _sign(parameter))
 
 
 def _sign(parameter: Parameter) -> Sign:

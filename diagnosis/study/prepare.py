@@ -15,6 +15,7 @@ from diagnosis.study.inputs import assumed_parameters, bench_points, complete, m
 from diagnosis.study.map_axes import scaled_axes, smooth_shapes
 from diagnosis.study.model import Study, study_of
 from diagnosis.study.noise_correlation import noise_correlation, noise_excess
+from diagnosis.study.null_place import null_place
 from diagnosis.study.readings import observations
 from diagnosis.study.traces.bench import traced_bench
 from diagnosis.study.traces.misfits import port_events, trace_misfits, trace_parameters
@@ -23,7 +24,7 @@ from reynolds.errors import InputError
 from reynolds.numerics.arrays import Array
 from system.bench.components import LEAKAGE
 from system.bench.departures import departures
-from system.bench.outputs import SIMULATED
+from system.bench.outputs import METERED, SIMULATED
 from system.bench.parameters import base_parameters
 from system.bench.sensors import drift_parameter, lag_parameter, sensor_parameters
 from system.bench.simulator import LumpedBench
@@ -34,6 +35,7 @@ from system.effects.extension import Entry
 from system.estimation.parameters import Parameter
 from system.estimation.posterior import values_at
 from system.inputs.channels import INPUTS, OUTPUTS, ChannelName
+from system.inputs.units import TURN
 from system.points.table.film_physics import FilmModel
 
 LEAST_ACROSS = 1e6  # Pa
@@ -59,7 +61,7 @@ def prepare(
     a simulated output, NotConverged where a point cannot be simulated.
     """
     usable = complete(recording)
-    channels, inputs = measured(usable, SIMULATED), measured(usable, INPUTS)
+    channels, inputs = measured(usable, METERED), measured(usable, INPUTS)
     if not channels:
         names = ", ".join(channel.value for channel in SIMULATED)
         raise InputError("recording", "none of the simulated outputs", f"at least one of {names}")
@@ -67,7 +69,7 @@ def prepare(
     unused = tuple(
         DataNote(NoteKind.NOTED, name, (), f"{name.value} is recorded, but the simulation does not give it")
         for name in measured(usable, OUTPUTS)
-        if name not in SIMULATED
+        if name not in METERED
     )
     usable = replace(usable, notes=(*usable.notes, *taken, *unused))
     parameters = (
@@ -84,13 +86,15 @@ def prepare(
         bench = _of_another_make(bench, axes, found.sigma, thresholds.form)
     traces = usable.channel(ChannelName.P_CHAMBER) if usable.traces else None
     bare = study_of(usable, bench, found, axes, (), thresholds)
+    about = null_place(bare, thresholds) if scant else {}
+    bare = study_of(usable, bench, found, axes, (), thresholds, about) if about else bare
     if found.correlation:  # of a series: its noise is an estimate
         excess = noise_excess(bare, thresholds.mismatch)
         found = replace(found, sigma=found.sigma * excess)
         usable = replace(
             usable, notes=(*usable.notes, *_excess_notes(channels, excess, thresholds.mismatch.told_excess))
         )
-        bare = study_of(usable, bench, found, axes, (), thresholds)
+        bare = study_of(usable, bench, found, axes, (), thresholds, about)
     memory = () if found.correlation else noise_correlation(bare, thresholds.mismatch)
     if memory:
         text = f"residuals persist from point to point: noise is assumed correlated by {memory[0]:.2f} in the order"
@@ -98,7 +102,7 @@ def prepare(
         found = replace(found, memory=memory)
     if traces:
         traced = traced_bench(bench, usable.traces, traces)
-        study = study_of(usable, traced, traced.observations(found), axes, catalogue, thresholds)
+        study = study_of(usable, traced, traced.observations(found), axes, catalogue, thresholds, about)
         study = replace(study, traces=trace_misfits(traced, traces, thresholds.mismatch.pull))
     else:
         courses = drift_courses(bare, thresholds)
@@ -106,7 +110,7 @@ def prepare(
         bench = bench.only(felt(bare, thresholds)).with_drifts(shapes, drift_parameters(bare, courses))
         bench = bench.with_departures(course_departures(bare, courses, thresholds.form.drift)) if courses else bench
         usable = replace(usable, notes=(*usable.notes, *_drift_notes(courses, usable)))
-        study = study_of(usable, bench, found, axes, catalogue, thresholds)
+        study = study_of(usable, bench, found, axes, catalogue, thresholds, about)
     return replace(study, events=port_events(pump), scant=scant)
 
 
@@ -138,7 +142,8 @@ def _of_another_make(bench: LumpedBench, axes: Array, sigma: Array, form: FormLi
     """The bench with departures of its leakage and friction from the simulation's laws.
 
     Leakage departs by smooth factors and a power of the pressure. While ports change, chambers leak into the case what
-    delivery does not lack: a share of the drain by itself, and one that the chamber's peaks add.
+    delivery does not lack: a share of the drain by itself, and one that the chamber's peaks add. Ports give back more
+    or less of the energy that oil in the dead volumes holds, which torque alone shows.
     """
     centre = values_at(bench.parameters, np.zeros(len(bench.parameters)))
     across = np.maximum(bench.points.p_out - bench.points.p_case, LEAST_ACROSS)
@@ -146,10 +151,21 @@ def _of_another_make(bench: LumpedBench, axes: Array, sigma: Array, form: FormLi
     shapes = np.column_stack([first, form.bent * second, np.log(across / np.median(across))])
     of_ports = np.column_stack([np.full_like(across, form.of_ports), form.peaks / across])
     parts = bench.components(centre)
-    is_drain = np.array([name is ChannelName.Q_CASE for name in bench.channels])
+    is_drain, is_torque = (
+        np.array([name is one for name in bench.channels]) for one in (ChannelName.Q_CASE, ChannelName.TORQUE)
+    )
     drained = np.sum([parts[part] for part in LEAKAGE], axis=0) * is_drain
-    apart = drained[:, :, None] * of_ports[:, None, :]
+    apart = np.dstack([
+        drained[:, :, None] * of_ports[:, None, :],
+        form.recovered * (_stored(bench) / TURN)[:, None, None] * is_torque[:, None],
+    ])  # fmt: skip
     return bench.with_departures(departures(parts, shapes, sigma, form.other_make, apart))
+
+
+def _stored(bench: LumpedBench) -> Array:
+    """Energy (N,) in J that oil in all dead volumes holds at delivery pressure: z V_d dp^2/(2 K), once a turn."""
+    pump, across = bench.pump, bench.points.p_out - bench.points.p_in
+    return np.asarray(pump.pump.pistons * pump.pump.dead_volume * across**2 / (2.0 * pump.oil.bulk_modulus))
 
 
 def meter_parameters(recording: Recording, channels: tuple[ChannelName, ...]) -> tuple[Parameter, ...]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
+from math import inf
 
 import numpy as np
 from scipy.special import logsumexp
@@ -13,17 +14,18 @@ from diagnosis.detect.mismatch import Detection
 from diagnosis.explain.hypotheses import Hypothesis
 from diagnosis.explain.model_error import class_gap, place_gap, shared_out
 from diagnosis.explain.ranked import Explanation
+from diagnosis.explain.refit import fit_limits
 from diagnosis.study.model import Study
 from diagnosis.thresholds import Thresholds
 from diagnosis.verdict.diagnosis import ClaimedEffect, Estimate, VerdictStatus
 from diagnosis.verdict.doubt import doubted
-from diagnosis.verdict.equivalence import agrees, equivalents
+from diagnosis.verdict.equivalence import NOT_NAMED, agrees, equivalents
 from diagnosis.verdict.multiplier_chance import MultiplierChance, multiplier_chance
 from diagnosis.verdict.residue import residue_notes
 from diagnosis.verdict.row_numbers import table_rows
 from reynolds.numerics.arrays import Array
 from system.description.gap import Gap
-from system.effects.effect import Kind
+from system.effects.effect import EffectId, Kind
 from system.estimation.fit import is_peak
 from system.estimation.posterior import Posterior
 
@@ -57,10 +59,10 @@ def judge(
 
     along: coordinates (N,) by name, with which an effect may grow (`diagnosis.verdict.trend`).
 
-    A mismatch needs an improbable null and a candidate (or a free multiplier) as striking as chance hardly makes
-    one; one of the two alone is a suspicion of the likeliest kind, and claims nothing. A name needs probability,
-    odds to all that claim something else, sizes above zero, and no veto of held-out regions; it is incomplete if
-    a part of the mismatch remains.
+    A mismatch needs an improbable null and a candidate (or a departure) as striking as chance hardly makes one; one
+    of the two alone is a suspicion of the likeliest kind, and claims nothing. A name needs probability, odds to all
+    that claim something else, sizes above zero, and no veto of held-out regions; it is incomplete if a part of the
+    mismatch remains. Unknown physics as likely as a name is in the class of each claim.
     """
     limits = thresholds.mismatch
     null = next(each for each in explanations if each.hypothesis.kind is Kind.NO_MISMATCH)
@@ -71,25 +73,25 @@ def judge(
     free = _free_multiplier(study, null, explanations, thresholds)
     if min(detection.chance, free.chance) >= limits.chance:
         return _suspicion(explanations, (_one_of_two(detection, null),), thresholds)
-    best = _simplest(max((each for each in explanations if each is not null), key=_weight), explanations, thresholds)
-    if best.hypothesis.kind is Kind.UNKNOWN_PHYSICS:
+    best = _likeliest(explanations, thresholds)
+    if best is None:
         return _unknown(study, free, explanations, thresholds)
     members = equivalents(best, explanations, class_gap(explanations, thresholds), place_gap(explanations, thresholds))
     explanations, members = shared_out(explanations, members, thresholds)
-    best = members[0]
-    against = _objections(best, members, explanations, thresholds)
+    beside = _beside(members, explanations, thresholds)
+    against = _objections(study, members, beside, explanations, thresholds)
     if against:
         return _suspicion(explanations, against, thresholds)
-    left = residue_notes(study, null, best, along, thresholds)
+    left = residue_notes(study, null, members[0], along, thresholds)
     if left:
         explanations, members = _less_sure(explanations, members, thresholds.record.incomplete, (Kind.UNKNOWN_PHYSICS,))
     record = _record_of_scant(study, thresholds)
     if record:
         explanations, members = _less_sure(explanations, members, thresholds.record.type_plate, MISMATCHES)
-    claims = _claims(members, explanations, thresholds)
+    claims = _claims(members, beside, explanations, thresholds)
     alike = any(claim.equivalent or claim.elsewhere for claim in claims)
     status = VerdictStatus.INCOMPLETE if left else VerdictStatus.CLASS if alike else VerdictStatus.NAMED
-    return Judgement(best.hypothesis.kind, status, claims, members, (*left, *record), explanations)
+    return Judgement(members[0].hypothesis.kind, status, claims, members, (*left, *record), explanations)
 
 
 def _record_of_scant(study: Study, thresholds: Thresholds) -> tuple[str, ...]:
@@ -108,6 +110,37 @@ def _free_multiplier(
 
 def _weight(each: Explanation) -> float:
     return each.log_weight
+
+
+def _likeliest(explanations: Sequence[Explanation], thresholds: Thresholds) -> Explanation | None:
+    """The likeliest explanation that can be named; None where unknown physics is the name, or nothing named is near."""
+    known = [each for each in explanations if each.hypothesis.kind not in NOT_NAMED]
+    if not known:
+        return None
+    best = max(known, key=_weight)
+    unknown = [each for each in explanations if each.hypothesis.kind is Kind.UNKNOWN_PHYSICS]
+    sure = _probability(explanations, Kind.UNKNOWN_PHYSICS) >= thresholds.name.probability
+    behind = _together(unknown) - best.log_weight
+    if (
+        unknown
+        and max(map(_weight, unknown)) > best.log_weight
+        and (sure or behind > class_gap(explanations, thresholds))
+    ):
+        return None
+    return _simplest(best, explanations, thresholds)
+
+
+def _beside(
+    members: Sequence[Explanation], explanations: Sequence[Explanation], thresholds: Thresholds
+) -> tuple[Explanation, ...]:
+    """Unknown physics, if all of it together is within the gap of a class behind the members; else nothing."""
+    unknown = tuple(each for each in explanations if each.hypothesis.kind is Kind.UNKNOWN_PHYSICS)
+    is_near = unknown and _together(members) - _together(unknown) <= class_gap(explanations, thresholds)
+    return unknown if is_near else ()
+
+
+def _together(explanations: Sequence[Explanation]) -> float:
+    return float(logsumexp([each.log_weight for each in explanations])) if explanations else -inf
 
 
 def _simplest(best: Explanation, explanations: Sequence[Explanation], thresholds: Thresholds) -> Explanation:
@@ -177,14 +210,21 @@ def _unknown(
 
 
 def _objections(
-    best: Explanation, members: Sequence[Explanation], explanations: Sequence[Explanation], thresholds: Thresholds
+    study: Study,
+    members: Sequence[Explanation],
+    beside: Sequence[Explanation],
+    explanations: Sequence[Explanation],
+    thresholds: Thresholds,
 ) -> tuple[str, ...]:
-    """Reasons against naming the class. Its members count together: the gaps of one id share its prior."""
-    limits = thresholds.name
-    probability = sum(each.probability for each in explanations if agrees(each, members))
-    others = [each for each in explanations if each not in members and not agrees(each, members)]
-    rival = max(others, key=_weight)
-    ahead = float(logsumexp([each.log_weight for each in members])) - rival.log_weight
+    """Reasons against naming the class. Its members count together: the gaps of one id share its prior.
+
+    beside: unknown physics, where the class holds it too.
+    """
+    best, limits = members[0], thresholds.name
+    own = [each for each in explanations if each in members or each in beside or agrees(each, members)]
+    probability = sum(each.probability for each in own)
+    rival = max((each for each in explanations if each not in own), key=_weight)
+    ahead = _together([*members, *beside]) - rival.log_weight
     found = []
     if probability < limits.probability:
         found.append(f"a probability of {probability:.2f} only")
@@ -192,7 +232,7 @@ def _objections(
         found.append(f"{rival.hypothesis.text} is only {ahead:.1f} nats behind")
     if best.posterior is None:
         found.append("it could not be refitted")
-    elif not is_peak(best.posterior):
+    elif not is_peak(best.posterior, fit_limits(study, thresholds)):
         found.append("its fit has not reached a peak")
     elif not _sure(best.posterior, best.hypothesis, thresholds):
         found.append("its size is not sure")
@@ -234,9 +274,15 @@ def _sigmas(posterior: Posterior, name: str) -> float:
 
 
 def _claims(
-    members: Sequence[Explanation], explanations: Sequence[Explanation], thresholds: Thresholds
+    members: Sequence[Explanation],
+    beside: Sequence[Explanation],
+    explanations: Sequence[Explanation],
+    thresholds: Thresholds,
 ) -> tuple[ClaimedEffect, ...]:
-    """One claim for each effect of the best member; its probability is the sum over all that claim it."""
+    """One claim for each effect of the best member; its probability is the sum over all that claim it.
+
+    beside: unknown physics that cannot be told from any of them.
+    """
     best = members[0]
     own = best.hypothesis
     rivals = {effect for each in members for effect in each.hypothesis.effects} - set(own.effects)
@@ -245,6 +291,7 @@ def _claims(
     for at, effect in enumerate(own.effects):
         probability = sum(each.probability for each in explanations if effect in each.hypothesis.effects)
         equivalent = () if effect in shared else tuple(sorted(rivals, key=lambda one: one.value))
+        equivalent += (EffectId.UNKNOWN_PHYSICS,) if beside else ()
         claims.append(
             ClaimedEffect(
                 effect,

@@ -12,6 +12,7 @@ from diagnosis.detect.angle_scan import AngleWindow, scan_angles
 from diagnosis.detect.component_evidence import (
     ComponentGroup,
     component_evidences,
+    departing_inputs,
     group_evidences,
     missing_pattern,
     tied,
@@ -35,8 +36,9 @@ _Box = Callable[[ChannelName, Contrasts, Array, Mapping[ChannelName, Array]], Ma
 class Location:
     """Channels of the mismatch, largest share first, and the region of the first (None: everywhere).
 
-    components, groups: ln evidence of each, best first; tie: components that cannot be separated from the best. If
-    no component is ahead of nothing, there are no channels, no region and no tie.
+    components, groups: ln evidence of each, best first; tie: components that cannot be separated from the best;
+    inputs: those with which the best departs. If no component is ahead of nothing, there are no channels, no region,
+    no tie and no inputs.
     """
 
     channels: tuple[ChannelName, ...]
@@ -46,6 +48,7 @@ class Location:
     tie: tuple[Component, ...]
     angle: AngleWindow | None
     time: TimeMark | None
+    inputs: tuple[ChannelName, ...] = ()
 
 
 def locate(study: Study, thresholds: Thresholds) -> Location:
@@ -64,6 +67,7 @@ def locate(study: Study, thresholds: Thresholds) -> Location:
         tie=tie,
         angle=scan_angles(study.traces, study.events, limits, thresholds.seeds.locate),
         time=scan_time(study, thresholds),
+        inputs=departing_inputs(study, tie[0], thresholds) if tie else (),
     )
 
 

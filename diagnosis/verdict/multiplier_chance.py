@@ -1,4 +1,4 @@
-"""Chance of a component's free multiplier, where no candidate resembles the mismatch."""
+"""Chance of a departure of a component's law, where no candidate resembles the mismatch."""
 
 from __future__ import annotations
 
@@ -10,17 +10,18 @@ from scipy.special import logsumexp
 
 from diagnosis.detect.mismatch import holds
 from diagnosis.explain.hypotheses import Hypothesis
+from diagnosis.study.departures import departure_columns, departure_evidence, departure_shapes
 from diagnosis.study.model import Study
-from diagnosis.study.multipliers import multiplier_columns
 from diagnosis.thresholds import Thresholds
 from reynolds.numerics.arrays import Array
+from system.effects.components import Component
 from system.estimation.evidence import multiplier_evidences_without
 from system.estimation.posterior import Posterior, settled
 
 
 @dataclass(frozen=True)
 class MultiplierChance:
-    """Upper bound of the chance of such a multiplier without a mismatch; `point`, from 0, contributes most."""
+    """Upper bound of the chance of such a departure without a mismatch; `point`, from 0, contributes most."""
 
     chance: float
     point: int
@@ -32,8 +33,8 @@ def multiplier_chance(
     """Upper bound of the chance that unknown physics is so far ahead of the null without a mismatch.
 
     A ratio of evidence to the null's has a mean of 1 under the null: K or more has a chance of 1/K at most
-    (Markov). K is the ratio without the point that contributes most: fifteen free columns can follow one reading
-    that is far off, and noise with tails has such. About the prior mean, and about the null's fit where that
+    (Markov). K is the ratio without the point that contributes most: free shapes can follow one reading that is far
+    off, and noise with tails has such. About the prior mean, and about the null's fit where that
     holds: the larger chance counts, as for candidates (`detect.confirmed`).
     """
     if not unknown:
@@ -45,15 +46,25 @@ def multiplier_chance(
 
 
 def _ahead(study: Study, fit: Posterior, unknown: Sequence[Hypothesis], thresholds: Thresholds) -> Array:
-    """ln evidence of unknown physics over nothing, each point left out in turn."""
-    points = fit.whitening.rows[:, 0]
+    """ln evidence of unknown physics over nothing, each point left out in turn.
+
+    Of each component by one family of shapes, the likeliest with all points, with its prior share: an average of many
+    is no less than one of its terms.
+    """
+    points, widths = fit.whitening.rows[:, 0], thresholds.locate.multiplier_widths
+    shapes = departure_shapes(study.recording)
     prior = np.array([each.log_prior for each in unknown])
-    gains = [
-        multiplier_evidences_without(
-            fit, multiplier_columns(study, fit, each.component), points, thresholds.locate.multiplier_widths
-        )
-        for each in unknown
-        if each.component is not None
-    ]
+    gains = []
+    for each in unknown:
+        law = study.components[_component_of(each)]
+        family = departure_evidence(fit, law, shapes, widths).family
+        columns = departure_columns(fit, law, shapes)[:, family.columns]
+        gains.append(family.log_prior + multiplier_evidences_without(fit, columns, points, widths))
     found: Array = logsumexp(np.array(gains) + prior[:, None], axis=0) - logsumexp(prior)
     return found
+
+
+def _component_of(unknown: Hypothesis) -> Component:
+    if unknown.component is None:
+        raise ValueError(f"{unknown.text}: no component departs")
+    return unknown.component

@@ -17,16 +17,15 @@ from scipy.special import logsumexp
 
 from diagnosis.explain.explained import explained_mismatch
 from diagnosis.explain.ranked import Explanation
-from diagnosis.study.map_axes import smooth_shapes
+from diagnosis.study.departures import DepartureEvidence, departure_evidence, departure_shapes
 from diagnosis.study.model import Study
 from diagnosis.thresholds import FormLimits, Thresholds
 from reynolds.errors import NotConverged
 from reynolds.numerics.arrays import Array
 from system.effects.effect import EffectId, Kind
-from system.estimation.evidence import multiplier_evidence
 from system.estimation.posterior import Posterior, settled
 
-Evidence = Callable[[Explanation], float | None]
+Departing = Callable[[Explanation], DepartureEvidence | None]
 
 
 def without_stand_ins(
@@ -34,27 +33,28 @@ def without_stand_ins(
 ) -> tuple[Explanation, ...]:
     """Explanations of one and more effects, without effects that are stand-ins.
 
-    In A + B, where A has a law and a refit, B is a stand-in if A with a free multiplier has the same evidence
+    In A + B, where A has a law and a refit, B is a stand-in if A that departs has the same evidence
     within the odds of a name, and B explains no more than the share `second` of what A explains. Then A remains,
-    of another form, with the lesser evidence of A + B and of A with the multiplier. B is a stand-in too if in each
+    of another form, with the lesser evidence of A + B and of A that departs. B is a stand-in too if in each
     channel it explains less than `slight` of what A explains there: then A has the evidence of both. Unknown
-    physics, a component with a free multiplier, is a stand-in if one law with a multiplier has the same evidence
-    and the law itself gains `own` times as much as its multiplier adds.
+    physics, a component whose law departs, is a stand-in if one law that departs has the same evidence and the
+    departure takes up no more than the share `material` of what both do: an explanation of nine tenths is complete. A
+    law that takes up `own` times as much as its departure stands beside unknown physics.
     """
-    multiplied: Evidence = cache(lambda each: multiplied_evidence(study, each, thresholds))
+    departing: Departing = cache(lambda each: departure_of(study, each, thresholds))
     null = next((each for each in explanations if each.hypothesis.kind is Kind.NO_MISMATCH), None)
     known = [each for each in explanations if each.hypothesis.component is None]
     unknown = [each for each in explanations if each.hypothesis.component is not None]
     if null is None:
         return tuple(explanations)
-    cut = [_cut(study, each, known, null, multiplied, thresholds) for each in known]
-    return (*cut, *_known_after_all(unknown, known, null, multiplied, thresholds))
+    cut = [_cut(study, each, known, null, departing, thresholds) for each in known]
+    return (*cut, *_known_after_all(unknown, known, null, departing, thresholds))
 
 
-def multiplied_evidence(study: Study, explanation: Explanation, thresholds: Thresholds) -> float | None:
-    """ln evidence of an explanation whose addition to the readings is multiplied by 1 + Phi b.
+def departure_of(study: Study, explanation: Explanation, thresholds: Thresholds) -> DepartureEvidence | None:
+    """Departure of what an explanation adds to the readings, linear about its refit.
 
-    b as for unknown physics, linear about the refit. None without a refit, and without a law.
+    None without a refit, and without a law.
     """
     posterior = explanation.posterior
     if posterior is None or not explanation.hypothesis.laws:
@@ -63,10 +63,8 @@ def multiplied_evidence(study: Study, explanation: Explanation, thresholds: Thre
         added = explained_mismatch(study, explanation, thresholds).added
     except NotConverged:
         return None
-    columns = posterior.whitening.whiten(added[:, :, None] * smooth_shapes(study.axes)[:, None, :])
-    return explanation.log_evidence + multiplier_evidence(
-        settled(posterior), columns, thresholds.locate.multiplier_widths
-    )
+    shapes, widths = departure_shapes(study.recording), thresholds.locate.multiplier_widths
+    return departure_evidence(settled(posterior), added, shapes, widths)
 
 
 def _cut(
@@ -74,7 +72,7 @@ def _cut(
     whole: Explanation,
     explanations: Sequence[Explanation],
     null: Explanation,
-    multiplied: Evidence,
+    departing: Departing,
     thresholds: Thresholds,
 ) -> Explanation:
     """An explanation, or its smallest part if the rest are stand-ins."""
@@ -82,9 +80,10 @@ def _cut(
     parts = [each for each in explanations if _is_part(each, whole) and each.log_weight < whole.log_weight - odds]
     remaining: list[tuple[Explanation, float]] = []
     for each in parts:
-        found = multiplied(each)
-        if found is None:
+        departure = departing(each)
+        if departure is None:
             continue
+        found = each.log_evidence + departure.log_evidence
         if _is_slight(study, whole, each, null, thresholds.form):
             remaining.append((each, whole.log_evidence))
         elif found >= whole.log_evidence - odds and not _is_more(whole, each, null, thresholds.form):
@@ -127,27 +126,44 @@ def _known_after_all(
     unknown: Sequence[Explanation],
     known: Sequence[Explanation],
     null: Explanation,
-    multiplied: Evidence,
+    departing: Departing,
     thresholds: Thresholds,
 ) -> tuple[Explanation, ...]:
-    """Unknown physics; components that a law with a multiplier equals are gathered into one explanation by it."""
+    """Unknown physics, and laws that depart beside it; what such a law equals is gathered into one explanation by it.
+
+    It is gathered where the law is complete but for its form, else the law that departs stands beside it.
+    """
     ahead = max((each.log_weight for each in known), default=-inf)
     if max((each.log_weight for each in unknown), default=-inf) < ahead - thresholds.name.odds:
         return tuple(unknown)
     equal: list[tuple[Explanation, float]] = []
+    beside: list[Explanation] = []
     for each in known:
-        gained = each.log_evidence - null.log_evidence
-        single = len(each.hypothesis.effects) == 1 and gained > thresholds.name.odds
-        found = multiplied(each) if single else None
-        if found is not None and thresholds.form.own * (found - each.log_evidence) < gained:
+        single = len(each.hypothesis.effects) == 1 and each.log_evidence - null.log_evidence > thresholds.name.odds
+        departure = departing(each) if single else None
+        if departure is None:
+            continue
+        found, left = each.log_evidence + departure.log_evidence, _share_left(each, null, departure)
+        if left <= thresholds.form.material:
             equal.append((each, found))
+        elif thresholds.form.own * left < 1.0 - left and departure.log_evidence > 0.0:
+            beside.append(_of_other_form(each, found, each.hypothesis.log_prior, ()))
     law, most = max(equal, key=lambda one: one[1] + one[0].hypothesis.log_prior, default=(null, -inf))
     taken = [each for each in unknown if each.log_evidence <= most]
     if not taken:
-        return tuple(unknown)
+        return (*beside, *unknown)
     prior = float(logsumexp([each.hypothesis.log_prior for each in taken]))
     evidence = float(logsumexp([each.log_weight for each in taken])) - prior
-    return (_of_other_form(law, evidence, prior, ()), *(each for each in unknown if each.log_evidence > most))
+    gathered = _of_other_form(law, evidence, prior, ())
+    return (gathered, *beside, *(each for each in unknown if each.log_evidence > most))
+
+
+def _share_left(law: Explanation, null: Explanation, departure: DepartureEvidence) -> float:
+    """Share of a departure in the objective that it takes up together with its law; 1 without refits."""
+    if law.posterior is None or null.posterior is None:
+        return 1.0
+    own = max(0.5 * (null.posterior.objective - law.posterior.objective), 0.0)
+    return departure.taken / (own + departure.taken) if departure.taken > 0.0 else 0.0
 
 
 def _of_other_form(

@@ -7,7 +7,7 @@ import numpy as np
 
 from reynolds.numerics.arrays import Array
 from system.bench.chamber_map import other_gaps
-from system.bench.outputs import SIMULATED, Solved, losses, throttling_torque, truth
+from system.bench.outputs import METERED, SIMULATED, Solved, losses, throttling_torque, truth
 from system.effects.components import Component
 from system.effects.gap_states import bench_state
 from system.effects.state import ideal_flow
@@ -53,7 +53,7 @@ def components(solved: Solved, warmer: Solved, channels: tuple[ChannelName, ...]
         **_absent(solved),
         Component.THERMAL_STATE: truth(warmer) - whole,
     }
-    columns = [SIMULATED.index(channel) for channel in channels]
+    columns = [METERED.index(channel) for channel in channels]
     read = {component: added[:, columns] for component, added in found.items()}
     for channel, component in SENSORS.items():
         read[component] = np.where([channel is own for own in channels], whole[:, columns], 0.0)
@@ -112,6 +112,6 @@ def _absent(solved: Solved) -> dict[Component, Array]:
 
 
 def _one(added: Array, column: int) -> Array:
-    found = np.zeros((len(added), len(SIMULATED)))
+    found = np.zeros((len(added), len(METERED)))
     found[:, column] = added
     return found

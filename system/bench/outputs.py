@@ -8,6 +8,7 @@ import numpy as np
 from reynolds.numerics.arrays import Array
 from system.bench.chamber_map import Courses
 from system.bench.setting import Setting
+from system.description.gap import Gap
 from system.effects.applied import Affected
 from system.effects.friction import rubbed
 from system.effects.outside import outside
@@ -16,10 +17,18 @@ from system.inputs.units import TURN
 from system.pump.bench import NOTHING_OUTSIDE
 from system.pump.laws.friction_pairs import FrictionPairs
 from system.pump.lumped import lumped_pairs
-from system.pump.power import bench_reading, chamber_exchange, metered
+from system.pump.power import bench_reading, chamber_exchange, gap_leakage, metered
 
 SIMULATED = (ChannelName.Q_OUT, ChannelName.Q_IN, ChannelName.Q_CASE, ChannelName.TORQUE)
-"""Outputs that the lumped bench knows, in the order of `truth`."""
+"""Flows and torque of the whole pump, which the lumped bench knows."""
+DRAINS = {
+    Gap.PISTON: ChannelName.Q_PISTON,
+    Gap.SLIPPER: ChannelName.Q_SLIPPER,
+    Gap.VALVE_PLATE: ChannelName.Q_VALVE_PLATE,
+}
+"""Channel of each gap's own drain: its leakage, which is part of the case drain's flow too."""
+METERED = (*SIMULATED, *DRAINS.values(), ChannelName.TORQUE_UNCOUPLED)
+"""All that the lumped bench can read, in the order of `truth`."""
 
 
 @dataclass(frozen=True)
@@ -44,12 +53,19 @@ def losses(solved: Solved) -> FrictionPairs[Array]:
 
 
 def truth(solved: Solved) -> Array:
-    """Delivery, inlet and drain flow in m3/s at their own port's pressure and shaft torque in N m, (N, 4)."""
+    """Flows in m3/s at their own port's pressure and torque in N m, (N, C) in the order of METERED.
+
+    A shaft without a coupling has no torque.
+    """
     at, totals, pistons = solved.setting.problem.chamber, solved.courses.totals, solved.setting.pump.pump.pistons
-    exchange, changed = chamber_exchange(totals, pistons * at.shaft_speed / TURN), solved.affected
+    rate, changed = pistons * at.shaft_speed / TURN, solved.affected
+    exchange = chamber_exchange(totals, rate)
     added = NOTHING_OUTSIDE if changed is None else outside(changed.effects, changed.state)
     found = metered(bench_reading(at, totals, pistons, losses(solved).power, exchange, added), added)
-    return np.column_stack([found.delivery_flow, found.inlet_flow, found.drain_flow, found.shaft_torque])
+    leaks, none = gap_leakage(at, totals, rate, exchange), np.zeros_like(rate)
+    drained = (getattr(leaks, gap.value) + none for gap in DRAINS)
+    flows = found.delivery_flow, found.inlet_flow, found.drain_flow
+    return np.column_stack([*flows, found.shaft_torque, *drained, none])
 
 
 def throttling_torque(setting: Setting, courses: Courses) -> Array:

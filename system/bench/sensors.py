@@ -15,6 +15,8 @@ from system.inputs.units import TURN, Dimension
 
 BIASED_INPUTS = (ChannelName.P_OUT, ChannelName.T_CASE, ChannelName.DISPLACEMENT_RATIO)
 """Inputs whose bias by calibration is a parameter of its own."""
+METER_OF = {ChannelName.TORQUE_UNCOUPLED: ChannelName.TORQUE}
+"""Channels that the meter of another one reads, with its gain, zero and drift."""
 CALIBRATION, TAKEN = "calibration of the channel", "not measured, taken"
 FARTHEST = 4.0  # sigma that what is taken may be off
 FARTHEST_GAIN = 0.3  # relative error of a meter: one that is farther off is another meter or has another unit
@@ -129,9 +131,10 @@ def read(
     found = truth.copy()
     progress = _progress(points)
     for column, channel in enumerate(channels):
-        gain, zero, drift = (values.get(f"{channel.value}.{what}", 0.0) for what in ("gain", "zero", "drift"))
-        found[:, column] = found[:, column] * (1.0 + gain) + zero + drift * drifts.get(channel, progress)
-        lag = values.get(f"{channel.value}.lag", 0.0)
+        meter = METER_OF.get(channel, channel)
+        gain, zero, drift = (values.get(f"{meter.value}.{what}", 0.0) for what in ("gain", "zero", "drift"))
+        found[:, column] = found[:, column] * (1.0 + gain) + zero + drift * drifts.get(meter, progress)
+        lag = values.get(f"{meter.value}.lag", 0.0)
         if lag > 0.0:
             found[:, column] = _lagging(found[:, column], points, lag)
     return found

@@ -15,7 +15,7 @@ from reynolds.numerics.arrays import Array
 from system.bench.chamber_map import Courses, beside, other_gaps, solve_map
 from system.bench.components import WARMER, components
 from system.bench.departures import FORM, departure_parameters
-from system.bench.outputs import SIMULATED, Solved, truth
+from system.bench.outputs import METERED, Solved, truth
 from system.bench.parameters import BASE_NAMES
 from system.bench.points import BenchPoints
 from system.bench.sensors import READING_NAMES, SENSOR_NAMES, TRACE_NAMES, read, read_turns
@@ -58,7 +58,7 @@ INPUT_STEPS = {
 class LumpedBench:
     """The readings of a bench at N points, by the lumped fidelity; a `system.estimation.simulator.Simulator`.
 
-    channels: the C outputs of SIMULATED that are read, inputs: the M measured inputs, both in the order of the
+    channels: the C outputs of METERED that are read, inputs: the M measured inputs, both in the order of the
     observations. Parameters: of `base_parameters`, `sensor_parameters` and those of the extensions in `physics`,
     which join where they are not among them. All else is as the pump states it, its own [physics] too, unless
     `own_laws` stand in its place (those of solved films), which see all parameters by name. Ports are held at their
@@ -82,8 +82,8 @@ class LumpedBench:
         own_laws: tuple[tuple[Law, Values], ...] | None = None,
     ) -> None:
         for channel in channels:
-            if channel not in SIMULATED:
-                names = ", ".join(known.value for known in SIMULATED)
+            if channel not in METERED:
+                names = ", ".join(known.value for known in METERED)
                 raise InputError("bench.channels", channel.value, f"one of {names}")
         if not kinds(pump).alike:
             raise InputError("bench.pump", "single pistons or slippers", "chambers that are alike")
@@ -94,7 +94,7 @@ class LumpedBench:
         joining = [one for law in physics for one in law.free if one.name not in own]
         self._parameters = (*parameters, *joining)
         _hold_known(self._parameters, physics)
-        self._columns = [SIMULATED.index(channel) for channel in channels]
+        self._columns = [METERED.index(channel) for channel in channels]
         setting(pump, points, {}, samples_per_pitch)
         self._kept: dict[bytes, Courses] = {}
         self.own_laws = stated_laws(pump) if own_laws is None else own_laws
@@ -179,6 +179,10 @@ class LumpedBench:
     def elsewhere(self, points: BenchPoints) -> LumpedBench:
         """The same pump with the same parameters and laws at other points."""
         return self._like(points=points, departures=None, drifts=None)
+
+    def reading(self, channels: tuple[ChannelName, ...]) -> LumpedBench:
+        """The same bench with other outputs read."""
+        return self._like(channels=channels, departures=None)
 
     def traces(self, values: Array, points: tuple[int, ...], angles: Array) -> Array:
         """Chamber pressure (len(points), K) in Pa gauge at shaft angles (K,) rad, as `turns` of a finer bench."""

@@ -85,6 +85,22 @@ def multiplier_evidence(posterior: Posterior, columns: Array, widths: Sequence[f
     return _averaged(columns.T @ posterior.residual, columns.T @ project(posterior, columns), widths)
 
 
+def family_evidences(
+    posterior: Posterior, columns: Array, families: Sequence[NDArray[np.int64]], widths: Sequence[float]
+) -> Array:
+    """(F,), `multiplier_evidence` of each family of the columns (n, m), given by its places."""
+    agreement, content = columns.T @ posterior.residual, columns.T @ project(posterior, columns)
+    found = [_by_width(agreement[own], content[np.ix_(own, own)], widths) for own in families]
+    return np.asarray(logsumexp(np.array(found), axis=1)) - log(len(widths))
+
+
+def taken_up(posterior: Posterior, columns: Array, widths: Sequence[float]) -> float:
+    """Nats of the objective that columns (n, m) take up, g^T (1/w^2 + G)^-1 g / 2, at the width of most evidence."""
+    width = max(widths, key=lambda width: multiplier_evidence(posterior, columns, [width]))
+    agreement, content = columns.T @ posterior.residual, columns.T @ project(posterior, columns)
+    return 0.5 * float(agreement @ np.linalg.solve(content + np.eye(len(content)) / width**2, agreement))
+
+
 def multiplier_evidences_without(
     posterior: Posterior, columns: Array, parts: NDArray[np.int64], widths: Sequence[float]
 ) -> Array:
@@ -110,9 +126,13 @@ def multiplier_evidences_without(
 
 def _averaged(agreement: Array, content: Array, widths: Sequence[float]) -> float:
     """ln evidence of columns with g = `agreement` (m,) and G = `content` (m, m), averaged over prior widths."""
+    return float(logsumexp(_by_width(agreement, content, widths))) - log(len(widths))
+
+
+def _by_width(agreement: Array, content: Array, widths: Sequence[float]) -> Array:
+    """The same for each prior width, (W,)."""
     level, axes = np.linalg.eigh(0.5 * (content + content.T))
     level = np.maximum(level, 0.0)
     along = (axes.T @ agreement) ** 2
     width = np.asarray(widths, dtype=float)[:, None]
-    each = 0.5 * (along / (width**-2 + level) - np.log1p(width**2 * level)).sum(axis=1)
-    return float(logsumexp(each)) - log(width.size)
+    return np.asarray(0.5 * (along / (width**-2 + level) - np.log1p(width**2 * level)).sum(axis=1))

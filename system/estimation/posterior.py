@@ -161,21 +161,22 @@ def settled(posterior: Posterior) -> Posterior:
     )
 
 
-def linear_posterior(simulator: Simulator, observations: Observations) -> Posterior:
-    """The posterior of the model made linear about its prior mean (xi = 0): one prediction, one set of slopes.
+def linear_posterior(simulator: Simulator, observations: Observations, about: Array | None = None) -> Posterior:
+    """The posterior of the model made linear about xi = `about` (k,), the prior mean if None: one prediction, one set
+    of slopes.
 
-    Peak H xi = A^T r0, r = r0 - A xi. Bounds do not hold here: a score at the prior mean tests the direction of a
-    parameter, and a wrong model would drag a bounded fit to its corners.
+    Peak H xi = A^T r0, r = r0 - A xi, r0 the linear model's residual at xi = 0. Bounds do not hold here: a score tests
+    the direction of a parameter, and a wrong model would drag a bounded fit to its corners.
     """
     begun = process_time()
     parameters = simulator.parameters
-    start = np.zeros(len(parameters))
+    start = np.zeros(len(parameters)) if about is None else about
     values = values_at(parameters, start)
     predictions = simulator.predict(values)
     whitening = whitener(observations, simulator.input_slopes(values))
     raw = standard_slopes(simulator, start)
     slopes = whitening.whiten(raw)
-    offset = whitening.whiten(observations.values - predictions)
+    offset = whitening.whiten(observations.values - predictions) + slopes @ start
     precision = slopes.T @ slopes + np.eye(start.size)
     xi = cho_solve(cho_factor(precision), slopes.T @ offset)
     residual = offset - slopes @ xi
@@ -189,7 +190,7 @@ def linear_posterior(simulator: Simulator, observations: Observations) -> Poster
         precision=precision,
         objective=objective,
         log_evidence=laplace(objective, precision) + whitening.log_determinant,
-        predictions=predictions + raw @ xi,
+        predictions=predictions + raw @ (xi - start),
         whitening=whitening,
         effort=FitEffort(1, 1, process_time() - begun),
     )

@@ -21,7 +21,11 @@ class ChannelName(Enum):
     Q_OUT = ("Q_out", Dimension.VOLUME_FLOW)
     Q_IN = ("Q_in", Dimension.VOLUME_FLOW)
     Q_CASE = ("Q_case", Dimension.VOLUME_FLOW)
+    Q_PISTON = ("Q_piston", Dimension.VOLUME_FLOW)
+    Q_SLIPPER = ("Q_slipper", Dimension.VOLUME_FLOW)
+    Q_VALVE_PLATE = ("Q_valve_plate", Dimension.VOLUME_FLOW)
     TORQUE = ("torque", Dimension.TORQUE)
+    TORQUE_UNCOUPLED = ("torque_uncoupled", Dimension.TORQUE)
     ELECTRIC_POWER = ("electric_power", Dimension.POWER)
     ANGLE = ("angle", Dimension.ANGLE)
     P_CHAMBER = ("p_chamber", Dimension.PRESSURE)
@@ -57,6 +61,9 @@ OUTPUTS = (
     ChannelName.Q_OUT,
     ChannelName.Q_IN,
     ChannelName.Q_CASE,
+    ChannelName.Q_PISTON,
+    ChannelName.Q_SLIPPER,
+    ChannelName.Q_VALVE_PLATE,
     ChannelName.TORQUE,
     ChannelName.T_OUT,
     ChannelName.ELECTRIC_POWER,

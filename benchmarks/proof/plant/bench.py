@@ -26,7 +26,8 @@ WARM_ROUNDS = 3  # rounds between a film's loss and its warmth
 @dataclass(frozen=True)
 class Truth:
     """Flows at their own port's pressure (m3/s), torque (N m), (N,); angle (M,) and chamber pressure (N, M) Pa
-    absolute, from wide-open suction on; losses of the pairs.
+    absolute, from wide-open suction on; losses of the pairs. drains: (N, 3), what leaves through the gaps of pistons,
+    slippers and plate alone.
     """
 
     Q_out: Array
@@ -36,6 +37,27 @@ class Truth:
     angle: Array
     pressure: Array
     lost: Losses
+    drains: Array | None = None
+
+    @property
+    def Q_piston(self) -> Array:
+        """What the pistons leak, (N,)."""
+        return self._drain(0)
+
+    @property
+    def Q_slipper(self) -> Array:
+        """What the slippers leak, (N,)."""
+        return self._drain(1)
+
+    @property
+    def Q_valve_plate(self) -> Array:
+        """What the valve plate leaks, (N,)."""
+        return self._drain(2)
+
+    def _drain(self, gap: int) -> Array:
+        if self.drains is None:
+            raise ValueError("this plant has one drain for all gaps")
+        return self.drains[:, gap]
 
     @property
     def outputs(self) -> Array:
@@ -57,7 +79,7 @@ def run(machine: Machine, at: Settings, hidden: Hidden = NOTHING, steps: int = S
         pressure, out = _chambers(machine, hidden, at, angle, moves, gaps)
         lost = losses(machine, hidden, at, ends, gaps, pressure)
         warmer = _warmth(machine, hidden, at, gaps, lost, out, pressure)
-    return _read(machine, hidden, at, angle, pressure, out, lost)
+    return _read(machine, hidden, at, angle, pressure, out, lost, gaps)
 
 
 def _drooped(hidden: Hidden, at: Settings) -> Array:
@@ -123,12 +145,9 @@ def _warmth(
     """Kelvin (3, N) by which films are warmer than the case: their loss carried off by the oil through them."""
     if hidden.film_heating == 0.0:
         return np.zeros((3, at.speed.size))
-    turn, above = at.speed / (2.0 * np.pi), np.maximum(pressure - at.p_case[:, None], 0.0)
-    grid = np.linspace(0.0, gaps.top[0], gaps.parts.shape[2])
+    turn = at.speed / (2.0 * np.pi)
     through = [machine.pistons * np.abs(out[:, PISTON]) * turn]
-    for part in range(2):
-        mass = [np.mean(np.interp(above[k], grid, gaps.parts[k, part])) for k in range(len(above))]
-        through.append(machine.pistons * np.array(mass))
+    through += [_through(machine, at, gaps, part, pressure) for part in range(2)]
     inner, outer = machine.slipper_radii
     r1, r4 = machine.plate_radii[0], machine.plate_radii[3]
     swept = (
@@ -143,19 +162,29 @@ def _warmth(
     return np.stack(rises)
 
 
+def _through(machine: Machine, at: Settings, gaps: Films, part: int, pressure: Array) -> Array:
+    """kg/s (N,) through all slippers (part 0) or the plate (1), by the chamber's mean pressure over the turn."""
+    above = np.maximum(pressure - at.p_case[:, None], 0.0)
+    grid = np.linspace(0.0, gaps.top[0], gaps.parts.shape[2])
+    mass = [np.mean(np.interp(above[k], grid, gaps.parts[k, part])) for k in range(len(above))]
+    return machine.pistons * np.array(mass)
+
+
 def _read(
-    machine: Machine, hidden: Hidden, at: Settings, angle: Array, pressure: Array, out: Array, lost: Losses
+    machine: Machine, hidden: Hidden, at: Settings, angle: Array, pressure: Array, out: Array, lost: Losses, gaps: Films
 ) -> Truth:
     oil = _oil(machine, hidden)
     rate = (machine.pistons * at.speed / (2.0 * np.pi))[:, None] * out
     dense = {name: np.array([density(p, oil) for p in getattr(at, name)]) for name in ("p_out", "p_case")}
     delivered, taken = rate[:, DELIVERY] / dense["p_out"], _through_inlet(machine, hidden, at, out)
     leaked = (rate[:, PISTON] + rate[:, PLATE]) / machine.density
+    slippers = _through(machine, at, gaps, 0, pressure) / machine.density
+    pistons, plate = rate[:, PISTON] / machine.density, rate[:, PLATE] / machine.density - slippers
     past = byways(machine, hidden, at, delivered)
     return Truth(
         Q_out=(delivered - past.across - past.delivery_to_case) * meter(hidden, at),
         Q_in=taken - past.across + past.inlet_to_case,
         Q_case=leaked + past.delivery_to_case + past.inlet_to_case,
         torque=(rate[:, 4] + lost.total) / at.speed + past.torque,
-        angle=angle[1:], pressure=pressure, lost=lost,
+        angle=angle[1:], pressure=pressure, lost=lost, drains=np.stack([pistons, slippers, plate], axis=1),
     )  # fmt: skip

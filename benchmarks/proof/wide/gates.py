@@ -7,7 +7,7 @@ from dataclasses import replace
 
 from ..calibration import calibration_error
 from ..gate import Gate, Outcomes, median, number, share
-from ..gates import CLEAR, NULL, UNKNOWN, by_asked, is_failed, left, left_open
+from ..gates import CLEAR, NULL, UNKNOWN, by_asked, is_failed, left, left_open, recognised
 from ..judged import in_set, is_named, is_right, is_sure_and_wrong, rank
 from ..outcome import Outcome
 from ..parts import Part, Plant, plant_of
@@ -30,14 +30,14 @@ def wide_gates(outcomes: Outcomes) -> tuple[Gate, ...]:
         share("top-1 at z >= 8", clear, lambda one: rank(one) == 1, at_least=0.95),
         share("top-1 at z = 5", medium, lambda one: rank(one) == 1, at_least=0.80),
         share("both of two effects, z >= 10 each", pairs, is_right, at_least=0.90),
-        share("unknown physics recognised at z >= 8", unknown, is_right, at_least=0.85),
+        recognised(unknown),
         _worst_grade(_of(outcomes, SINGLE)),
         share("nulls without a claim", nulls, lambda one: not is_named(one), at_least=0.99),
         share("nulls without a suspicion", nulls, lambda one: one.verdict == NULL, at_least=0.95),
         share("wrong and P >= 0.9, flagged or not", outcomes, is_sure_and_wrong, at_most=0.005),
         number("calibration error (ECE)", outcomes, calibration_error, 0.03),
         median("held-out residual over noise, right names at z >= 8", right, left, at_most=1.1),
-        share("open pairs settled by the requested point", left_open(outcomes), by_asked, at_least=0.8),
+        share("open pairs settled by what is asked for", left_open(outcomes), by_asked, at_least=0.8),
         share("no diagnosis", outcomes, is_failed, at_most=0.0),
     )
 

@@ -22,7 +22,7 @@ from system.inputs.channels import INPUTS, ChannelName
 LEAST_STEADY = 0.5  # of a series in steady stretches: below it, all of the series is read as quasi-steady
 MOST_POINTS = 160  # steady stretches: more are repeats of each other, and a fit takes minutes
 MISSTATED = 2.0  # times the scatter, or one over this: a repeatability that the data contradict
-ZERO_OF_BAND = 1.0 / 3.0  # of a dead band: one sigma of the zero of a meter that has one
+ZERO_OF_BAND = 0.1  # of a dead band: a low-flow cut-off is set at some five times the limit of a meter's zero
 SETTLING = 3.0  # lags of a channel left out at the beginning of a stretch
 
 

@@ -10,9 +10,9 @@ from itertools import product
 import numpy as np
 from numpy.typing import NDArray
 
+from diagnosis.next_point.meters import WORDS, meters
 from diagnosis.next_point.operating_box import BenchBox, pump_box
-from diagnosis.planning.meters import meters
-from diagnosis.planning.plan import Asked, spread_order
+from diagnosis.planning.design import Asked, spread_order
 from diagnosis.planning.responses import expected_parameters
 from diagnosis.planning.suspects import COST, suspect_names
 from diagnosis.recording.model import RecordedChannel
@@ -25,7 +25,7 @@ from swashfilm.console.settings import set_values
 from swashfilm.runs.map.command import LEVELS, by_option
 from swashfilm.runs.plan.campaign_file import axis_values, read_campaign
 from swashfilm.runs.plan.limits import AXES, beyond, limited, widened
-from swashfilm.runs.plan.sensors import Bench, bench_of
+from swashfilm.runs.plan.sensors import Bench, bench_of, further_names
 from system.bench.points import BenchPoints
 from system.description.pump import PumpDescription
 from system.description.tolerances import Tolerances, tolerances
@@ -38,8 +38,8 @@ from system.pump_file.operating import check_operating_point
 
 USUAL = {MapInput.SPEED: 3, MapInput.PRESSURE: 3, MapInput.RATIO: 2}
 """Levels of the grid of a test that is not stated."""
-POSSIBLE = (5, 5, 3, 3)
-"""Levels over the box at which points may be added."""
+POSSIBLE = (5, 5, 3, 3, 2)
+"""Levels over the box at which points may be added; the last of the inlet pressure, where it is an axis."""
 ADDED, MOST_ADDED, MOST_POINTS = 24, 200, 1000
 BOX = tuple(AXES.values())
 
@@ -64,6 +64,8 @@ def planned_case(options: argparse.Namespace, plans: Sequence[str]) -> PlanCase:
     axes = _stated_axes(options, faults)
     bench = bench_of(options.sensors, faults)
     most = whole(faults, "--add", options.add, ADDED, (0, MOST_ADDED), "a number of readings")
+    more = whole(faults, "--add-meters", options.add_meters, 1, (0, len(WORDS)), "a number of meters")
+    further = further_names(options.further, bench, faults)
     cost = _percent(options.cost, faults)
     apart = _sigma(options.apart, faults)
     expect(options.pump, "pump", "film")
@@ -84,7 +86,10 @@ def planned_case(options: argparse.Namespace, plans: Sequence[str]) -> PlanCase:
         faults.append(Fault("--limit", "no point that the pump can be driven at", "limits with one at least"))
     if faults:
         raise InputFaults(COMMAND_LINE, faults)
-    asked = Asked(_bench_points(planned, box, order), repeats, possible, bench.channels, most, cost, apart)
+    asked = Asked(
+        _bench_points(planned, box, order), repeats, possible, bench.channels, most, cost, apart,
+        meters=more, further=further,
+    )  # fmt: skip
     return PlanCase(pump, given_text(options.pump, set_keys), own, asked, channels, names, box)
 
 
@@ -213,13 +218,10 @@ def _usual(given: MapInput, box: BenchBox) -> MapAxis:
 
 def _possible(pump: PumpDescription, box: BenchBox) -> BenchPoints:
     """The points of the box at which the pump can be driven, after the planned ones in a mixed order."""
-    levels = [np.unique(np.linspace(*ends, count)) for ends, count in zip(box.ends, POSSIBLE, strict=True)]
+    levels = [np.unique(np.linspace(*ends, count)) for ends, count in zip(box.ends, POSSIBLE, strict=False)]
     found = []
-    for speed, pressure, ratio, temperature in product(*levels):
-        point = operating_point(
-            pump, shaft_speed=float(speed), delivery_pressure=float(pressure), displacement_ratio=float(ratio),
-            temperature=float(temperature),
-        )  # fmt: skip
+    for place in product(*levels):
+        point = operating_point(pump, **{axis.value: float(value) for axis, value in zip(BOX, place, strict=False)})
         if not check_operating_point(pump, point).faults:
             found.append(point)
     return _bench_points(found, box, spread_order(len(found), 7))

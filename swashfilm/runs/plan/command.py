@@ -44,8 +44,13 @@ def add_plan_options(command: argparse.ArgumentParser) -> None:
     )  # fmt: skip
     command.add_argument("--add", metavar="N", help="readings to add, at most (24)")
     command.add_argument(
+        "--further", metavar="NAME,..", help="meters that the bench could add: Q_slipper,torque_uncoupled (all)"
+    )
+    command.add_argument("--add-meters", metavar="N", help="further meters to ask for, at most (1)")
+    command.add_argument(
         "--limit", action="append", default=[], metavar="'NAME <= VALUE'",
-        help="limit of the bench for points to add: 'speed <= 1800 rpm', 'temperature >= 40 degC'; may be repeated",
+        help="limit of the bench for points to add: 'speed <= 1800 rpm', 'temperature >= 40 degC', "
+        "'inlet pressure >= 12 bar'; may be repeated",
     )  # fmt: skip
     command.add_argument("--cost", metavar="PERCENT", help="loss of efficiency that a suspect has to cause (1%%)")
     command.add_argument("--apart", metavar="SIGMA", help="distance from which two are told apart (3.4)")

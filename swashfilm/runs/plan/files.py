@@ -10,16 +10,20 @@ from swashfilm.output.tables import write_csv
 from swashfilm.runs.plan import rows
 
 APART, POINTS, SENSORS, NEVER = "apart.csv", "points.csv", "sensors.csv", "never.csv"
+EQUIPPED = "points_with_meters.csv"
 
 
 def write_tables(folder: Path, summary: Mapping[str, Any]) -> None:
-    """Write apart.csv (suspect x suspect, sigma), points.csv (to drive), sensors.csv (further meters), never.csv."""
+    """Write the tables: suspect x suspect in sigma, points to drive without and with further meters, their worth, pairs
+    never told apart.
+    """
     names = [one["name"] for one in summary["suspects"]]
     distances = (
         [name, *(f"{value:.4g}" for value in own)] for name, own in zip(names, summary["distances"], strict=True)
     )
     write_csv(folder / APART, ["sigma", *names], distances)
     write_csv(folder / POINTS, rows.point_head(), rows.point_rows(summary))
+    write_csv(folder / EQUIPPED, rows.point_head(), rows.equipped_rows(summary))
     further = (
         (one["name"], one["words"], len(one["pairs"]), "; ".join(_pair(names, pair) for pair in one["pairs"]))
         for one in summary["further"]

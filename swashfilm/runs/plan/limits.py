@@ -14,9 +14,11 @@ from system.maps.plan import MapInput
 OPTION = "--limit"
 AXES = {
     "speed": MapInput.SPEED, "pressure": MapInput.PRESSURE, "displacement ratio": MapInput.RATIO,
-    "temperature": MapInput.TEMPERATURE,
+    "temperature": MapInput.TEMPERATURE, "inlet pressure": MapInput.INLET_PRESSURE,
 }  # fmt: skip
 """Axes of a box in their order, by the name that a limit uses."""
+INLET = "inlet pressure"
+"""The axis that is held unless a limit or the planned points vary it."""
 RATED = ("speed", "pressure")
 """Axes whose upper end is a rating of the pump."""
 _LIMIT = re.compile(r"\s*(.+?)\s*(>=|<=)\s*(.+?)\s*")
@@ -25,7 +27,7 @@ EXAMPLE = "a quantity, >= or <=, and a value, such as 'speed <= 1800 rpm'"
 
 def limited(box: BenchBox, texts: Sequence[str], faults: list[Fault]) -> BenchBox:
     """Return the box within the stated limits, which may also lie beyond its ends; add faults to `faults`."""
-    ends = dict(zip(AXES, box.ends, strict=True))
+    ends = dict(zip(AXES, box.ends, strict=False))
     for text in texts:
         match = _LIMIT.fullmatch(text)
         if match is None:
@@ -41,7 +43,7 @@ def limited(box: BenchBox, texts: Sequence[str], faults: list[Fault]) -> BenchBo
         except QuantityError as reason:
             faults.append(Fault(OPTION, f"{text!r}: {reason.found}", reason.expected, reason.nearest))
             continue
-        lower, upper = ends[name]
+        lower, upper = ends.get(name, (box.inlet_pressure, box.inlet_pressure))
         ends[name] = (value, upper) if match[2] == ">=" else (lower, value)
     faults += [
         Fault(OPTION, f"{name} from {AXES[name].text(lower)} to {AXES[name].text(upper)}", "a range that rises")
@@ -54,12 +56,16 @@ def limited(box: BenchBox, texts: Sequence[str], faults: list[Fault]) -> BenchBo
 def widened(box: BenchBox, stated: Sequence[str], points: Sequence[Sequence[float]]) -> BenchBox:
     """Return the box with the planned points in it, along the axes whose ends no limit states.
 
-    points: the values of each axis. Speed and pressure stay below the rating, unless a limit allows more.
+    points: the values of each axis. Speed and pressure stay below the rating, unless a limit allows more. Planned
+    points of several inlet pressures make it an axis.
     """
     named = {match[1].lower().replace("_", " ") for one in stated if (match := _LIMIT.fullmatch(one))}
+    known = dict(zip(AXES, box.ends, strict=False))
+    if INLET not in known and len(set(points[-1])) > 1:
+        known[INLET] = (min(points[-1]), max(points[-1]))
     ends = tuple(
         own if name in named else (min(own[0], *values), own[1] if name in RATED else max(own[1], *values))
-        for name, own, values in zip(AXES, box.ends, points, strict=True)
+        for (name, own), values in zip(known.items(), points, strict=False)
     )
     return replace(box, ends=ends)
 
@@ -67,7 +73,7 @@ def widened(box: BenchBox, stated: Sequence[str], points: Sequence[Sequence[floa
 def beyond(box: BenchBox, points: Sequence[Sequence[float]], what: str) -> list[Fault]:
     """Return a fault for each axis along which planned points lie beyond the bench's limits, with the nearest value."""
     found = []
-    for (name, given), (lower, upper), values in zip(AXES.items(), box.ends, points, strict=True):
+    for (name, given), (lower, upper), values in zip(AXES.items(), box.ends, points, strict=False):
         slack = 1e-9 * max(abs(lower), abs(upper))
         outside = sorted({one for one in values if one < lower - slack or one > upper + slack})
         if outside:

@@ -34,6 +34,8 @@ def write_plan_page(folder: Path) -> Path:
         point_head=rows.point_head(),
         points_picture=inlined(points_plot(summary)),
         points_caption=POINTS,
+        equipped=list(rows.equipped_rows(summary)),
+        equipment=rows.equipment(summary),
         further=list(rows.further_rows(summary)),
         further_head=rows.FURTHER_HEAD,
         never=list(rows.never_rows(summary)),
@@ -49,8 +51,8 @@ def write_plan_page(folder: Path) -> Path:
 
 
 def plan_answer(summary: Mapping[str, Any]) -> Answer:
-    """Return the answer: pairs told apart as planned and with the added points, the best meter, what is never told."""
-    pairs, best = summary["pairs"], _best(summary)
+    """Return the answer: pairs told apart as planned, with the added points, with the meters; what is never told."""
+    pairs, equipped = summary["pairs"], summary["equipped"]
     tiles = [
         Tile(
             f"{summary['told_planned']} of {pairs}",
@@ -62,8 +64,10 @@ def plan_answer(summary: Mapping[str, Any]) -> Answer:
         tiles.append(
             Tile(f"{summary['told']} of {pairs}", "with added points", f"{_readings(summary['added_readings'])} more")
         )
-    if best is not None:
-        tiles.append(Tile(f"+ {len(best['pairs'])}", "pairs by one more meter", best["words"]))
+    if equipped:
+        count = len(equipped["meters"])
+        label = "with one meter more" if count == 1 else f"with {count} meters more"
+        tiles.append(Tile(f"{equipped['told']} of {pairs}", label, rows.equipment(summary)))
     tiles.append(Tile(str(summary["open"]), "pairs still open", "points could tell them"))
     tiles.append(Tile(str(summary["never"]), "pairs never told apart", "by any point of this bench"))
     return Answer(tuple(tiles), " ".join(_sentences(summary)), inlined(apart_plot(summary)), CAPTION)
@@ -79,10 +83,13 @@ def _sentences(summary: Mapping[str, Any]) -> Iterator[str]:
         yield "No further point tells more."
     if summary["spent"]:
         yield f"More readings than {summary['most_added']} would tell more: --add N allows them."
-    best = _best(summary)
-    if best is not None:
-        more = len(best["pairs"])
-        yield f"The most useful further meter is {best['words']}: {more} pair{'s' if more > 1 else ''} more."
+    if summary["equipped"]:
+        equipped = summary["equipped"]
+        readings = _readings(summary["planned_readings"] + equipped["added_readings"])
+        yield (
+            f"With {rows.equipment(summary)} as well, a test of {readings} tells {equipped['told']}; "
+            "points_with_meters.csv lists them."
+        )
     elif summary["further"] and summary["told"] < pairs:
         yield "No further meter tells more."
     yield from _never(summary)
@@ -111,10 +118,6 @@ def _never(summary: Mapping[str, Any]) -> Iterator[str]:
         rest = len(alike) - 3
         more = f", nor {rest} pair{'s' if rest > 1 else ''} more" if rest > 0 else ""
         yield f"No point tells {'; '.join(some)}{more}."
-
-
-def _best(summary: Mapping[str, Any]) -> Mapping[str, Any] | None:
-    return next((one for one in summary["further"] if one["pairs"]), None)
 
 
 def _readings(count: int) -> str:

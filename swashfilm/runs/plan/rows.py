@@ -6,9 +6,8 @@ from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
-from diagnosis.planning.further import DRAINS
 from diagnosis.recording.units import difference, difference_unit
-from diagnosis.report.format import CHANNELS, PLACES, listed
+from diagnosis.report.format import CHANNELS, listed
 from system.inputs.channels import ChannelName
 from system.inputs.shown import shown_in
 
@@ -26,7 +25,7 @@ OPEN_HEAD = ("still open", "apart by", "")
 NAMED = 4
 """Pairs that a cell names."""
 REASONS = {
-    "same_form": "both change the {channel} in the same way over speed, pressure, displacement and temperature",
+    "same_form": "both change the {channel} in the same way over all inputs of the bench",
     "weak": "{weaker} stands out by {seen:.1f} sigma with these points, and by too little with any",
 }
 
@@ -43,7 +42,22 @@ def point_head() -> list[str]:
 
 def point_rows(summary: Summary) -> Iterator[tuple[str, ...]]:
     """Yield a row for each point to drive, in its order."""
-    for one in summary["points"]:
+    yield from _point_rows(summary, summary["points"])
+
+
+def equipped_rows(summary: Summary) -> Iterator[tuple[str, ...]]:
+    """Yield the same of the campaign with the meters that are asked for; nothing without one."""
+    if summary["equipped"]:
+        yield from _point_rows(summary, summary["equipped"]["points"])
+
+
+def equipment(summary: Summary) -> str:
+    """Return the meters that are asked for, in words; empty without one."""
+    return listed(one["words"] for one in summary["equipped"]["meters"]) if summary["equipped"] else ""
+
+
+def _point_rows(summary: Summary, points: Sequence[Summary]) -> Iterator[tuple[str, ...]]:
+    for one in points:
         inputs = (f"{shown_in(unit, name).of(one[key]):.6g}" for key, name, unit in POINT_COLUMNS)
         yield str(one["order"]), *inputs, str(one["repeats"]), purpose(summary, one)
 
@@ -64,8 +78,7 @@ def pair_words(summary: Summary, pair: Sequence[int], joined: str = "from") -> s
 
 def channel_of(name: str) -> str:
     """Return a channel in words."""
-    drain = next((gap for gap, own in DRAINS.items() if own == name), None)
-    return f"drain of {PLACES[drain]}" if drain else CHANNELS.get(ChannelName.named(name), name)
+    return CHANNELS[ChannelName.named(name)]
 
 
 def further_rows(summary: Summary) -> Iterator[tuple[str, ...]]:
@@ -133,6 +146,9 @@ def count_rows(summary: Summary) -> Iterator[tuple[str, str]]:
     readings = summary["planned_readings"]
     yield "pairs of suspects", str(summary["pairs"])
     yield f"told apart by {readings} planned readings", str(summary["told_planned"])
-    yield f"with {summary['added_readings']} readings more", str(summary["told"])
+    added = summary["added_readings"]
+    yield f"with {added} reading{'s' if added != 1 else ''} more", str(summary["told"])
+    if summary["equipped"]:
+        yield f"with {equipment(summary)} as well", str(summary["equipped"]["told"])
     yield "still open", str(summary["open"])
     yield "never told apart by points", str(summary["never"])

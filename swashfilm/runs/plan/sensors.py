@@ -4,16 +4,15 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
-from diagnosis.planning.further import DRAINS
-from diagnosis.planning.meters import ALWAYS, ORDINARY, Stated
+from diagnosis.next_point.meters import ALWAYS, ORDINARY, WORDS, Stated
 from diagnosis.recording.units import difference_unit
-from system.bench.outputs import SIMULATED
+from system.bench.outputs import DRAINS, SIMULATED
 from system.inputs.channels import ChannelName
 from system.inputs.faults import Fault, nearest_choice
 from system.inputs.units import Dimension, QuantityError, parse_quantity
 
-OPTION = "--sensors"
-KNOWN = tuple(one.value for one in (*SIMULATED, ChannelName.T_CASE, *ALWAYS))
+OPTION, FURTHER = "--sensors", "--further"
+KNOWN = tuple(one.value for one in (*SIMULATED, *DRAINS.values(), ChannelName.T_CASE, *ALWAYS))
 """Channels with a sigma of their own; the inputs that set a point are always read."""
 
 
@@ -32,20 +31,35 @@ def bench_of(text: str | None, faults: list[Fault]) -> Bench:
     found = Bench(tuple(one.value for one in ALWAYS))
     for part in text.split(","):
         name, equals, sigma = (one.strip() for one in part.partition("="))
-        choices = (*KNOWN, *DRAINS.values())
-        if name not in choices:
-            expected = f"one of {', '.join(choices)}"
-            faults.append(Fault(OPTION, f"'{name}', no meter of a bench", expected, nearest_choice(name, choices)))
+        if name not in KNOWN:
+            faults.append(_unknown(OPTION, name, KNOWN))
             continue
         found.channels = tuple(dict.fromkeys((*found.channels, name)))
-        if equals and name in DRAINS.values():
-            faults.append(Fault(OPTION, f"'{part.strip()}'", f"{name} alone: it is as good as that of Q_case"))
-        elif equals:
+        if equals:
             _state(found, ChannelName.named(name), sigma, faults)
     if not set(found.channels) & {one.value for one in SIMULATED}:
         outputs = ", ".join(one.value for one in SIMULATED)
         faults.append(Fault(OPTION, "no meter of what the pump does", f"one at least of {outputs}"))
     return found
+
+
+def further_names(text: str | None, bench: Bench, faults: list[Fault]) -> tuple[str, ...] | None:
+    """Return the meters of a text that the bench could add, None for all; add faults to `faults`."""
+    if text is None:
+        return None
+    choices = tuple(one.value for one in WORDS if one.value not in bench.channels)
+    names = tuple(dict.fromkeys(one.strip() for one in text.split(",")))
+    for name in names:
+        if name in bench.channels:
+            faults.append(Fault(FURTHER, f"'{name}', a meter that the bench has", f"one of {', '.join(choices)}"))
+        elif name not in choices:
+            faults.append(_unknown(FURTHER, name, choices))
+    return names
+
+
+def _unknown(option: str, name: str, choices: tuple[str, ...]) -> Fault:
+    expected = f"one of {', '.join(choices)}"
+    return Fault(option, f"'{name}', no meter of a bench", expected, nearest_choice(name, choices))
 
 
 def _state(bench: Bench, channel: ChannelName, text: str, faults: list[Fault]) -> None:

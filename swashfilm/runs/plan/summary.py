@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
-from diagnosis.planning.meters import ALWAYS
+from diagnosis.next_point.meters import ALWAYS
+from diagnosis.planning.design import Equipped, Purpose, driven
 from diagnosis.planning.never import Never
-from diagnosis.planning.plan import Plan, driven
+from diagnosis.planning.plan import Plan
 from swashfilm.formats.versions import headed
 from swashfilm.runs.plan.case import PlanCase
 from swashfilm.runs.plan.limits import AXES
@@ -42,13 +44,14 @@ def plan_summary(case: PlanCase, found: Plan, unseen: tuple[str, ...], seconds: 
         "distances": found.after.tolist(),
         "distances_planned": found.before.tolist(),
         "distances_ever": found.ever.tolist(),
-        "points": list(_points(found)),
-        "box": {name: list(ends) for name, ends in zip(AXES, case.box.ends, strict=True)},
+        "points": list(_points(found, found.counts, found.added)),
+        "box": {name: list(ends) for name, ends in zip(AXES, case.box.ends, strict=False)},
         "sensors": list(_sensors(case, found)),
         "further": [
             {"name": one.name, "words": one.words, "pairs": [list(pair) for pair in one.pairs]}
             for one in found.worths
         ],
+        "equipped": None if found.equipped is None else _equipped(found, found.equipped),
         "never_apart": [_never(one) for one in never],
         "open_pairs": [list(pair) for pair in sorted(found.open, key=lambda pair: found.after[pair])],
         "warnings": [],
@@ -65,21 +68,32 @@ def _suspect(found: Plan, at: int) -> dict[str, Any]:
     }  # fmt: skip
 
 
-def _points(found: Plan) -> Iterator[dict[str, Any]]:
-    """Yield every point to drive, in its order."""
+def _points(found: Plan, counts: NDArray[np.int64], added: Sequence[Purpose]) -> Iterator[dict[str, Any]]:
+    """Yield every point to drive of so many readings at each, in its order."""
     purposes: dict[int, list[list[int]]] = {}
-    for one in found.added:
+    for one in added:
         purposes.setdefault(one.point, []).extend([list(pair) for pair in one.pairs])
     points: BenchPoints = found.points
-    for number, at in enumerate(driven(found), start=1):
+    for number, at in enumerate(driven(counts, points), start=1):
         unique = [list(pair) for pair in dict.fromkeys(tuple(pair) for pair in purposes.get(int(at), []))]
         yield {
             "order": number,
             **{name: float(getattr(points, name)[at]) for name in INPUTS},
-            "repeats": int(found.counts[at]),
+            "repeats": int(counts[at]),
             "planned": int(found.planned[at]),
             "for": unique,
         }
+
+
+def _equipped(found: Plan, own: Equipped) -> dict[str, Any]:
+    """The campaign with the meters that are asked for."""
+    return {
+        "meters": [{"name": one.name, "words": one.words} for one in own.meters],
+        "told": len(own.told),
+        "added_readings": len(own.added),
+        "distances": own.after.tolist(),
+        "points": list(_points(found, own.counts, own.added)),
+    }
 
 
 def _sensors(case: PlanCase, found: Plan) -> Iterator[dict[str, Any]]:

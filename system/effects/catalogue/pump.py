@@ -98,7 +98,8 @@ DRAG_ENTRIES = (
     missing_physics(
         whole(
             E.COMPRESSION_LOSS, drag_laws.compression_loss,
-            size_of(E.COMPRESSION_LOSS, "share", 0.3, 1.0, None, "all of it without relief grooves"),
+            size_of(E.COMPRESSION_LOSS, "share", 1.0, 5.0, None,
+                    "1: dead volumes without relief grooves; V/(z V_d) more: strokes too, filled in a jump"),
         ),
         (Component.COMPRESSION, Component.COMMUTATION), (ChannelName.TORQUE,),
         (E.FRICTION_COEFFICIENT, E.CHARGE_PUMP_DRAG, E.TORQUE_GAIN),

@@ -15,7 +15,7 @@ from made_diagnosis import Q, agreeing, hypothesis, its_answer
 from diagnosis import Diagnosis, NoteKind, statement, write_diagnosis
 from diagnosis.detect.angle_scan import AngleWindow
 from diagnosis.detect.time_scan import TimeKind, TimeMark
-from diagnosis.recording.model import DataNote
+from diagnosis.recording.model import DataNote, RecordedChannel
 from diagnosis.report.evidence import evidence
 from diagnosis.report.format import if_words
 from diagnosis.report.json_file import diagnosis_record, read_diagnosis
@@ -53,22 +53,31 @@ def test_a_named_effect_is_told_with_place_size_and_certainty(named: Diagnosis) 
 
 
 def test_the_next_point_is_told_with_what_it_promises(named: Diagnosis) -> None:
-    """A point that decides, one farther out, a test in place of it; nothing more where nothing else is open."""
+    """A point that decides, one farther out, several, a meter more; nothing more where nothing else is open."""
     found = named.next_point
     assert found is not None
     assert "outside the range recorded" in next_point_text(replace(found, beyond=True))
     poor = replace(found, chance=0.1, gain=0.7, repeats=None)
-    assert next_point_text(poor).endswith("One point alone will hardly decide.")
+    assert "The 3 readings will hardly decide, with a chance of 10 %" in next_point_text(poor)
     assert next_point_text(replace(poor, repeats=6)).endswith("6 readings there decide.")
-    instead = replace(poor, instead="Measure the leak.")
-    assert next_point_text(instead) == "Another steady point will hardly decide. Measure the leak."
+    several = replace(found, others=(replace(found.places[0], inlet_temperature=313.15),))
+    told = next_point_text(several)
+    assert "oil at 70 degC in the inlet and 50 degC in the case; 1000 r/min" in told
+    assert "oil at 40 degC in the inlet and 50 degC in the case: 3 times each. At the first the case drain" in told
+    assert told.endswith("6 readings decide with a chance of 87 %.")
+    drain = RecordedChannel(ChannelName.Q_SLIPPER, "", "", 1e-7, 0.0, 0.0, 0.0, 0.01, 0.0, ())
+    metered = replace(found, meter=drain)
+    assert next_point_text(metered).startswith("Add to the bench: a metered drain of the slippers alone. Record 1000")
     decided = replace(named, next_point=replace(poor, before=8.0))
     assert measure_words(decided) == NOTHING_ELSE
-    record = diagnosis_record(replace(named, next_point=instead))["next_test"]
+    record = diagnosis_record(replace(named, next_point=poor))["next_test"]
     assert (record["settles"], record["chance"], record["readings"]) == (False, 0.1, 3)
     assert record["log_odds"] == {"now": pytest.approx(np.log(15.5)), "predicted": 4.3}
-    assert (record["instead"], record["repeats"]) == ("Measure the leak.", None)
+    assert (record["meter"], record["repeats"], record["points"]) == (None, None, [record["point"]])
     assert record["why"].startswith("there Q_case is 2.4 L/min if the cause is elastic opening")
+    record = diagnosis_record(replace(named, next_point=replace(several, meter=drain)))["next_test"]
+    assert record["meter"] == {"channel": "Q_slipper", "words": "a metered drain of the slippers alone"}
+    assert (len(record["points"]), record["readings"]) == (2, 6)
 
 
 @pytest.mark.parametrize(
@@ -178,6 +187,21 @@ def test_unknown_physics_is_told_with_what_it_is_most_like(named: Diagnosis) -> 
     text = statement(replace(named, kind=Kind.UNKNOWN_PHYSICS, effects=()))
     assert text.startswith("A mismatch without a known cause.")
     assert "It lies most likely in the leakage of the valve plate." in text
+    location = replace(named.location, inputs=(ChannelName.SPEED, ChannelName.P_CASE))
+    text = statement(replace(named, kind=Kind.UNKNOWN_PHYSICS, effects=(), location=location))
+    assert "the leakage of the valve plate and changes with speed and case pressure (p_case)." in text
+
+
+def test_a_cause_outside_the_catalogue_may_be_in_the_class(named: Diagnosis) -> None:
+    claim = replace(named.effects[0], equivalent=(E.UNKNOWN_PHYSICS,))
+    second = replace(named.hypotheses[1], hypothesis=hypothesis(E.UNKNOWN_PHYSICS, kind=Kind.UNKNOWN_PHYSICS))
+    weighed = (named.hypotheses[0], replace(second, probability=0.4))
+    found = replace(named, status=VerdictStatus.CLASS, effects=(claim,), hypotheses=weighed, next_point=None)
+    text = statement(found)
+    assert measure_words(found) == "More points tell a law of the catalogue from a cause outside it."
+    there = replace(found, location=replace(found.location, inputs=(ChannelName.SPEED,)))
+    assert measure_words(there).startswith("More points at other values of speed tell")
+    assert "A cause outside the catalogue (0.4) in place of elastic opening fits this recording as well." in text
 
 
 def test_angles_and_times_are_part_of_where(named: Diagnosis) -> None:

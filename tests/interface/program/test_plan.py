@@ -68,9 +68,26 @@ def test_points_lie_within_the_limits_and_can_be_planned_again(planned: Path, tm
 def test_further_meters(planned: Path) -> None:
     rows = list(csv.DictReader((planned / "sensors.csv").open()))
     names = {row["meter"] for row in rows}
-    assert {"Q_in", "T_case", "leak.slipper", "p_chamber"} <= names
+    assert {"Q_in", "T_case", "Q_slipper", "torque_uncoupled", "p_chamber"} <= names
     counts = [int(row["pairs told apart"]) for row in rows]
     assert counts == sorted(counts, reverse=True)
+
+
+def test_a_meter_is_asked_for_where_no_point_tells(planned: Path) -> None:
+    """The torque meter read uncoupled tells its own zero from a constant drag; points are chosen anew beside it."""
+    summary = json.loads((planned / "summary.json").read_text())
+    equipped = summary["equipped"]
+    assert [one["name"] for one in equipped["meters"]] == ["torque_uncoupled"]
+    assert equipped["told"] > summary["told"]
+    names = [one["name"] for one in summary["suspects"]]
+    pair = names.index("seal_drag"), names.index("torque_offset")
+    assert equipped["distances"][pair[0]][pair[1]] > summary["apart_sigma"] > summary["distances"][pair[0]][pair[1]]
+    rows = list(csv.DictReader((planned / "points_with_meters.csv").open()))
+    assert sum(int(row["repeats [1]"]) for row in rows) == 18 + equipped["added_readings"]
+    assert equipped["added_readings"] <= 4
+    assert "With a reading of the torque meter uncoupled from the pump as well" in (
+        (planned / "report.html").read_text().replace("\u00a0", " ")
+    )
 
 
 def test_page_begins_with_its_answer_and_can_be_written_again(planned: Path) -> None:
@@ -119,7 +136,9 @@ def test_all_faults_come_at_once(tmp_path: Path, capsys: pytest.CaptureFixture[s
         (["--sensors", "p_out"], ("no meter of what the pump does", "Q_out, Q_in, Q_case, torque")),
         (["--sensors", "torque=0.2 bar"], ("torque=0.2 bar", "N m")),
         (["--sensors", "T_case=3 degC"], ("T_case=3 degC", "in K", "sigma above 0")),
-        (["--sensors", "leak.slipper=1L/min,torque"], ("leak.slipper alone",)),
+        (["--further", "Q_slippr"], ("'Q_slippr', no meter of a bench", "Q_slipper")),
+        (["--further", "torque"], ("'torque', a meter that the bench has", "Q_in")),
+        (["--add-meters", "x"], ("--add-meters", "'x'")),
         (["--speeds", "1000,2000rpm", "--limit", "speed <= 1800 rpm"], ("2000 r/min", "1800 r/min")),
         (["--limit", "pressure <= 5 MPa", "--limit", "pressure >= 9 MPa"], ("pressure from 9 MPa to 5 MPa", "rises")),
         (["--campaign", "nowhere.csv"], ("'nowhere.csv', which is no file",)),

@@ -44,10 +44,16 @@ class Gaps:
 
     def flow(self, above: Array, length: Array) -> Array:
         """Leakage (m3/s) of one chamber at pressures above the case (N,), its piston guided over a length (N,)."""
+        piston, slipper, plate = self.ways(above, length)
+        return np.asarray(above * (piston + slipper + plate))
+
+    def ways(self, above: Array, length: Array) -> Array:
+        """The same over the pressure, by gap, (3, N) m3/s/Pa."""
         thick = thinner(self.thicken, above)
-        ways = self.leak * thick * dished(self.opening * np.abs(above))
-        ways[1] = ways[1] / (1.0 + ways[1] * self.choked)
-        return np.asarray(above * (ways[0] / length + ways[1] + ways[2]))
+        found = self.leak * thick * dished(self.opening * np.abs(above))
+        found[0] = found[0] / length
+        found[1] = found[1] / (1.0 + found[1] * self.choked)
+        return np.asarray(found)
 
 
 def gaps(pump: Pump, hidden: Hidden, at: Points) -> Gaps:

@@ -24,7 +24,7 @@ DRAWS = 12  # rounds between an inlet's pressure and its flow
 @dataclass(frozen=True)
 class Readout:
     """Flows at their own port's pressure (m3/s) and torque (N m), (N,); angle (M,) rad and chamber pressure (N, M) Pa
-    absolute.
+    absolute. Q_piston, Q_slipper, Q_valve_plate: what leaves through each gap alone.
     """
 
     Q_out: Array
@@ -33,6 +33,9 @@ class Readout:
     torque: Array
     angle: Array
     pressure: Array
+    Q_piston: Array
+    Q_slipper: Array
+    Q_valve_plate: Array
 
 
 def run(pump: Pump, at: Points, hidden: Hidden = NOTHING) -> Readout:
@@ -48,13 +51,26 @@ def run(pump: Pump, at: Points, hidden: Hidden = NOTHING) -> Readout:
     delivered = rate * turn.delivered / oil.dense(at.p_out)
     taken, leaked = rate * turn.drawn / oil.dense(at.p_in), rate * turn.leaked / pump.oil(0.0).density
     past = aside(pump, hidden, at, move, delivered)
+    drained = leaked * _shares(pump, at, move, films, turn)
     power = rate * turn.work + losses(pump, hidden, at, move, films, turn)
     return Readout(
         Q_out=(delivered - past.across - past.to_case) * past.meter,
         Q_in=taken - past.across + past.from_inlet + films.lifted[0],
         Q_case=leaked + past.to_case + past.from_inlet + films.lifted[0],
         torque=power / at.speed + past.torque + films.lifted[1], angle=turn.angle, pressure=turn.pressure,
+        Q_piston=drained[0], Q_slipper=drained[1], Q_valve_plate=drained[2],
     )  # fmt: skip
+
+
+def _shares(pump: Pump, at: Points, move: Motion, films: Gaps, turn: Turn) -> Array:
+    """(3, N), shares of the gaps in the leakage over a turn, by the pressure at each step."""
+    above = turn.pressure - at.p_case[:, None]
+    length = pump.guide - move.travel - pump.held_out * move.retracted
+    steps = np.stack(
+        [above[:, k] * films.ways(above[:, k], length[:, k]) for k in range(above.shape[1])], axis=-1
+    )  # fmt: skip
+    found = steps @ turn.width
+    return np.asarray(found / found.sum(axis=0))
 
 
 def _behind_its_line(pump: Pump, hidden: Hidden, at: Points, ends: Motion) -> tuple[Points, Gaps, Turn]:

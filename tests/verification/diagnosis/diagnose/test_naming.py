@@ -497,7 +497,8 @@ def test_a_law_of_the_right_power_is_seldom_told_otherwise() -> None:
 def test_unknown_physics_claims_no_more_than_a_law_bent() -> None:
     """Churning that grows with the cube root of pressure, 300 sigma: free components beat it, its law bent too.
 
-    Torque with n p is no law of the toy: unknown, though laws bent take up most of it.
+    Of unknown physics no more is left than the record of incomplete findings says. Torque with n p is no law of the
+    toy: unknown, though laws bent take up most of it.
     """
     n, p, _, _ = _axes()
     zero = np.zeros(POINTS)
@@ -505,7 +506,8 @@ def test_unknown_physics_claims_no_more_than_a_law_bent() -> None:
     assert _told(found) == (Kind.MISSING_PHYSICS, VerdictStatus.INCOMPLETE, (EffectId.CHURNING,))
     plain = next(each for each in found.hypotheses if each.hypothesis.text == "churning")
     assert found.hypotheses[0].log_evidence - plain.log_evidence > 1000.0
-    assert not any(each.hypothesis.component and each.probability > 0.01 for each in found.hypotheses)
+    unknown = sum(each.probability for each in found.hypotheses if each.hypothesis.component)
+    assert unknown == pytest.approx(1.0 - LIMITS.record.incomplete, abs=1e-6)
     found = _diagnosis(_study(1, added=np.stack([zero, zero, 6.0 * n * p], axis=1)))
     assert _told(found) == (Kind.UNKNOWN_PHYSICS, VerdictStatus.NAMED, ())
 
@@ -571,6 +573,25 @@ def test_what_stands_out_of_what_is_left_is_told() -> None:
     found = judge(study, detect(study, LIMITS), sure, _coordinates(), LIMITS)
     assert (found.kind, found.status) == (Kind.MISSING_PHYSICS, VerdictStatus.INCOMPLETE)
     assert any(text.startswith("port_short_circuit stands out of the residual") for text in found.reasons)
+
+
+@pytest.mark.parametrize("ahead", [-9.0, -2.0, 1.0, 9.0])
+def test_unknown_physics_as_likely_as_a_name_is_in_its_class(ahead: float) -> None:
+    """Churning named where unknown physics is far behind, a class with it where it is near, unknown where far ahead."""
+    study = _study(1, laws=((CHURNING, 0.2),))
+    own = next(each for each in hypotheses(study, LIMITS) if each.effects == (EffectId.CHURNING,))
+    free = next(each for each in hypotheses(study, LIMITS) if each.component is Component.CASE_DRAG)
+    null, best = (refit(study, each, LIMITS) for each in (hypotheses(study, LIMITS)[0], own))
+    bend = Explanation(free, best.log_weight - free.log_prior + ahead, True, None, 0.0, 0.0, None)
+    ranked = with_probabilities((null, best, bend), LIMITS.name.temperature)
+    found = judge(study, detect(study, LIMITS), ranked, _coordinates(), LIMITS)
+    if ahead > LIMITS.name.class_gap:
+        assert (found.kind, found.status, found.claims) == (Kind.UNKNOWN_PHYSICS, VerdictStatus.NAMED, ())
+        return
+    near = ahead > -LIMITS.name.class_gap
+    assert found.status is (VerdictStatus.CLASS if near else VerdictStatus.NAMED)
+    assert found.claims[0].equivalent == ((EffectId.UNKNOWN_PHYSICS,) if near else ())
+    assert found.claims[0].probability == pytest.approx(1.0 / (1.0 + np.exp(ahead / LIMITS.name.temperature)), abs=1e-3)
 
 
 def _left_by_churning(study: Study) -> tuple[str, ...]:

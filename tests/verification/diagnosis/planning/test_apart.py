@@ -11,7 +11,7 @@ from diagnosis import load_thresholds
 from diagnosis.explain.hypotheses import Hypothesis
 from diagnosis.next_point.discrimination import added_points, promise
 from diagnosis.planning.apart import Contest, PairCampaign, all_pairs
-from diagnosis.planning.plan import spread_order, wanted_distance
+from diagnosis.planning.design import spread_order, wanted_distance
 from diagnosis.planning.responses import White
 from diagnosis.planning.suspects import Suspect
 from reynolds import Array

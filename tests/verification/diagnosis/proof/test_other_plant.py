@@ -50,6 +50,19 @@ def _points(plant: SimpleNamespace) -> object:
                                323.15 * one)  # fmt: skip
 
 
+def test_drains_of_the_gaps_make_the_case_drain(plant: SimpleNamespace, coarse: None) -> None:
+    """Pistons, slippers and plate leak what the case drains; an opening of the plate shows in its drain alone."""
+    at = _points(plant)
+    sound, opened = (
+        plant.rig.run(plant.pump.Pump(), at, plant.hidden.Hidden(opening_plate=size)) for size in (0.0, 2e-8)
+    )
+    parts = [sound.Q_piston, sound.Q_slipper, sound.Q_valve_plate]
+    assert all(np.all(part > 0.0) for part in parts)
+    assert np.sum(parts, axis=0) == pytest.approx(sound.Q_case, rel=1e-12)
+    assert np.all(opened.Q_valve_plate > 1.05 * sound.Q_valve_plate)
+    assert opened.Q_slipper == pytest.approx(sound.Q_slipper, rel=5e-3)
+
+
 @pytest.mark.parametrize("room", ["other", "rough"])
 def test_a_plant_shares_nothing(room: str) -> None:
     """Neither a package of this project nor another plant: numpy, scipy, the standard library and its own files."""

@@ -9,7 +9,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from diagnosis import BenchBox, Explanation
+from diagnosis import BenchBox, Explanation, RecordedChannel
 from diagnosis.explain.hypotheses import Hypothesis, together
 from system import ChannelName, EffectId, Gap, Kind, entry_of
 
@@ -89,14 +89,31 @@ def test_a_point_is_recorded_where_it_was_asked(proof: SimpleNamespace, made: Si
     place = (150.0, 20e6, 0.8, 326.0)
     rng = np.random.default_rng(4)
     rig = proof.trial._rig(made.case, made.made)
-    points, values = proof.worth._recorded(study, box, place, rig, 3, rng)
+    points, values = proof.worth._recorded(study, box, [place], rig, 3, rng, ())
     assert values.shape == (3, 2)
     assert points.speed == pytest.approx(150.0, abs=0.6)
     assert points.p_out == pytest.approx(20e6, abs=4e5)
     assert points.p_in == pytest.approx(2.4e6, abs=6e4)
     assert np.all(points.displacement_ratio == 0.8)
     sound = replace(rig, faults=())
-    _, without = proof.worth._recorded(study, box, place, sound, 3, np.random.default_rng(4))
+    _, without = proof.worth._recorded(study, box, [place], sound, 3, np.random.default_rng(4), ())
     step = 10.0 ** -proof.sensors.METERS["Q_case"].digits * proof.sensors.METERS["Q_case"].scale
     fault = made.made.faults[0].zero
     assert values[:, 1] - without[:, 1] == pytest.approx(fault, rel=0.05, abs=2.0 * step)
+
+
+def test_a_meter_that_is_asked_for_reads_at_all_its_points(proof: SimpleNamespace, made: SimpleNamespace) -> None:
+    """Two points three times each; one gap drains less than the case, the uncoupled shaft shows no torque."""
+    box = BenchBox(((100.0, 200.0), (5e6, 35e6), (0.3, 1.0), (320.0, 330.0)), 2.4e6, 0.15e6, 3.0, (13.0, 1.0))
+    study = SimpleNamespace(channels=(ChannelName.Q_CASE,))
+    places = [(150.0, 20e6, 0.8, 326.0), (200.0, 30e6, 1.0, 326.0)]
+    rig = replace(proof.trial._rig(made.case, made.made), faults=())
+    for channel in (ChannelName.Q_SLIPPER, ChannelName.TORQUE_UNCOUPLED):
+        meter = RecordedChannel(channel, "", "", 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, ())
+        points, values = proof.worth._recorded(study, box, places, rig, 3, np.random.default_rng(4), (meter,))
+        assert values.shape == (6, 2)
+        assert points.p_out == pytest.approx(np.repeat([20e6, 30e6], 3), abs=4e5)
+        if channel is ChannelName.Q_SLIPPER:
+            assert np.all((values[:, 1] > 0.0) & (values[:, 1] < values[:, 0]))
+        else:
+            assert values[:, 1] == pytest.approx(0.0, abs=2.0)

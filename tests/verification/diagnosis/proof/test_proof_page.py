@@ -152,9 +152,9 @@ def test_a_point_is_worth_what_it_settles(proof: SimpleNamespace, right: object)
     settled = replace(right, worth=proof.outcome.Worth(6.0, 0.0, 0.0, 0.9))
     beyond = replace(right, worth=proof.outcome.Worth(1.0, 0.1, 0.0, 0.02))
     found = {gate.name: gate for gate in proof.gates.gates([left_open, settled, beyond])}
-    by_asked = found["open pairs settled by the requested point, 3 readings"]
+    by_asked = found["open pairs settled by what is asked for"]
     promised = found["open pairs settled where the verdict says so"]
-    by_other = found["open pairs settled by a random point"]
+    by_other = found["open pairs settled by random points"]
     assert (by_asked.passed, by_asked.cases) == (False, 2)
     assert (promised.passed, promised.cases) == (True, 1)
     assert (by_other.passed, by_other.cases) == (True, 2)
@@ -196,6 +196,22 @@ def test_gates_of_kinds(proof: SimpleNamespace, right: object) -> None:
     gates = {gate.name: gate for gate in proof.gates.gates([fault, strange, replace(fault, verdict="none")])}
     assert gates["sensor called physics"].found.startswith("100.0% (2 of 2")
     assert gates["no diagnosis, all cases"].passed is False
+
+
+def test_unknown_physics_is_recognised_in_the_class_of_every_claim(proof: SimpleNamespace, right: object) -> None:
+    """A verdict of its own, a class that holds it, a name without it, one of two names without it."""
+    claimed = proof.outcome.Claimed
+    strange = replace(right, part="unknown", truth="unknown_physics", effects=(), pairs=())
+    told = replace(strange, verdict="unknown_physics", claims=())
+    inside, closed = claimed("churning", None, 0.6, ("unknown_physics",)), claimed("seal_drag", None, 0.6, ())
+    classes = ((inside,), (closed,), (inside, closed))
+    cases = [told, *(replace(strange, status="class", claims=each) for each in classes)]
+    assert [proof.judged.is_right(one) for one in cases] == [True, True, False, False]
+    assert [proof.judged.is_wrong_name(one) for one in cases] == [False, False, True, True]
+    gates = {gate.name: gate for gate in proof.gates.gates(cases)}
+    assert gates["unknown physics recognised at z >= 8"].found.startswith("50.0% (2 of 4")
+    assert gates["unknown physics recognised at z >= 8"].found.endswith("1 of them in the class of a name")
+    assert gates["unknown physics given a name at z >= 8"].found.startswith("50.0% (2 of 4")
 
 
 def test_what_nulls_leave_is_no_ones_to_remove(proof: SimpleNamespace, right: object) -> None:

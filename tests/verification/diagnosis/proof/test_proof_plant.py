@@ -130,6 +130,17 @@ def test_power_balances(plant: SimpleNamespace) -> None:
     assert shaft == pytest.approx(flows + np.array(leaked), rel=1e-3)
 
 
+def test_drains_of_the_gaps_make_the_case_drain(plant: SimpleNamespace) -> None:
+    """Pistons, slippers and plate leak what the case drains; an opening of the slippers shows in their drain alone."""
+    machine, at = plant.ref90(), _points(plant)
+    sound, opened = (plant.run(machine, at, plant.Hidden(opening_slipper=size), steps=360) for size in (0.0, 2e-8))
+    parts = [sound.Q_piston, sound.Q_slipper, sound.Q_valve_plate]
+    assert all(np.all(part > 0.0) for part in parts)
+    assert np.sum(parts, axis=0) == pytest.approx(sound.Q_case, rel=1e-12)
+    assert np.all(opened.Q_slipper > 1.05 * sound.Q_slipper)
+    assert opened.Q_valve_plate == pytest.approx(sound.Q_valve_plate, rel=2e-3)
+
+
 def test_the_step_converges(plant: SimpleNamespace) -> None:
     """Readings at 360 steps are within a tenth of a sigma of 2880; halving the step at least halves the error."""
     machine, at = plant.ref90(), _points(plant)

@@ -25,6 +25,7 @@ from system import (
 )
 from system.bench import simulator
 from system.bench.chamber_map import solve_map
+from system.bench.outputs import DRAINS, METERED
 from system.bench.parameters import pump_with
 from system.bench.sensors import encoder_parameter
 from system.bench.simulator import INPUT_STEPS
@@ -108,6 +109,22 @@ def test_values_are_those_of_a_pump_file_that_states_them(tmp_path):
     expected = _one_by_one(load_pump(path), MAP, 1e-7)
     assert bench.predict(values) == pytest.approx(expected, rel=1e-6, abs=1e-12)
     assert np.max(np.abs(expected - _one_by_one(REF90, MAP, 1e-7)) / _class_a(expected)) > 3.0
+
+
+def test_drains_of_the_gaps_are_parts_of_the_case_drain():
+    """Without a flow past the films the three make the drain's whole; a shaft uncoupled shows the meter's zero."""
+    known = base_parameters(REF90, tolerances(REF90)[0])
+    own = (replace(one, name=f"torque.{what}") for one, what in zip(known, ("zero", "gain"), strict=False))
+    bench = LumpedBench(REF90, MAP, METERED, (*known, *own))
+    found = dict(zip(METERED, bench.predict(_means(bench, **{"torque.zero": 0.7, "torque.gain": 0.5})).T, strict=True))
+    parts = [found[one] for one in DRAINS.values()]
+    assert all(np.all(part > 0.0) for part in parts)
+    np.testing.assert_allclose(np.sum(parts, axis=0), found[ChannelName.Q_CASE], rtol=1e-12)
+    np.testing.assert_array_equal(found[ChannelName.TORQUE_UNCOUPLED], 0.7)
+    wider = dict(zip(METERED, bench.predict(_means(bench, **{"film_thickness.slipper": 40e-6})).T, strict=True))
+    assert np.all(wider[ChannelName.Q_SLIPPER] > found[ChannelName.Q_SLIPPER])
+    few = bench.reading((ChannelName.Q_SLIPPER, ChannelName.TORQUE))
+    np.testing.assert_array_equal(few.predict(_means(few))[:, 0], bench.predict(_means(bench))[:, 5])
 
 
 def test_displacement_is_the_full_stroke():

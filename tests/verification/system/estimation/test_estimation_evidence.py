@@ -13,7 +13,15 @@ from scipy.special import logsumexp
 from reynolds import Array
 from system import Channel, Observations, Parameter, Role, Scale, linear_posterior, maximum_posterior
 from system.estimation.determined import undetermined
-from system.estimation.evidence import Sign, mixture_evidence, multiplier_evidence, multiplier_evidences_without, score
+from system.estimation.evidence import (
+    Sign,
+    family_evidences,
+    mixture_evidence,
+    multiplier_evidence,
+    multiplier_evidences_without,
+    score,
+    taken_up,
+)
 from system.estimation.posterior import log_mass, settled
 
 POINTS = 12
@@ -158,6 +166,25 @@ def test_multiplier(case) -> None:
     assert found == pytest.approx(logsumexp(each) - log(3.0), abs=1e-9)
 
 
+def test_families_of_columns_are_each_by_itself(case) -> None:
+    base, _, readings = case
+    columns, widths = _columns(13, 6), (0.01, 0.1, 1.0)
+    fit, families = _fitted(base, readings), (np.array([0, 2]), np.array([1]), np.arange(6))
+    found = family_evidences(fit, columns, families, widths)
+    assert found == pytest.approx([multiplier_evidence(fit, columns[:, own], widths) for own in families], abs=1e-10)
+
+
+def test_columns_take_up_what_their_fit_does(case) -> None:
+    """The fall of the objective by a fit with these columns, of prior N(0, w^2), at the width of most evidence."""
+    base, _, readings = case
+    columns = _columns(13, 2)
+    fit = _fitted(base, readings)
+    widths = (0.1, 3.0)
+    best = max(widths, key=lambda width: multiplier_evidence(fit, columns, [width]))
+    both = _fitted(np.column_stack((base, best * columns)), readings)
+    assert taken_up(fit, columns, widths) == pytest.approx(0.5 * (fit.objective - both.objective), abs=1e-8)
+
+
 def test_multiplier_without_a_part_is_that_of_the_rest(case) -> None:
     """The fit repeated on what is left, and the columns there."""
     base, _, readings = case
@@ -252,3 +279,14 @@ def test_a_fit_beside_its_peak_is_settled_before_columns_are_weighed() -> None:
     assert abs(multiplier_evidence(ended, column, [1.0]) - exact) > 10.0
     assert multiplier_evidence(settled(ended), column, [1.0]) == pytest.approx(exact, abs=1e-6)
     assert settled(ended).xi == pytest.approx(peak.xi)
+
+
+def test_a_linear_model_is_the_same_about_any_place() -> None:
+    """Peak, residual and evidence of linear readings do not depend on where the slopes are taken."""
+    columns = _columns(11, 3)
+    simulator = Columns(tuple(_parameter(name) for name in "abc"), columns)
+    observed = _observed(columns @ np.array([0.5, -1.0, 0.2]) + np.random.default_rng(12).normal(size=POINTS))
+    at_mean = linear_posterior(simulator, observed)
+    elsewhere = linear_posterior(simulator, observed, np.array([1.0, -2.0, 0.3]))
+    for name in ("xi", "residual", "predictions", "objective", "log_evidence"):
+        assert getattr(elsewhere, name) == pytest.approx(getattr(at_mean, name)), name

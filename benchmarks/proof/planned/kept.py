@@ -1,0 +1,56 @@
+"""Results of the check as files: one of the grid's diagnosis, one of the planned campaigns, made where missing."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator
+from dataclasses import asdict
+from pathlib import Path
+from typing import Any
+
+from ..cases import Concealed
+from .trial import ByGrid, Pair, Told, Trial, by_grid, tried
+
+
+def kept_grid(results: Path, one: Concealed, number: int) -> ByGrid:
+    """The grid's diagnosis of a case."""
+    path = results / f"grid-{number:03d}.json"
+    if not path.exists():
+        _keep(path, by_grid(one, number))
+    return _grid(path)
+
+
+def kept_trial(results: Path, one: Concealed, number: int, grid: ByGrid) -> Trial:
+    """The planned campaigns of a case."""
+    path = results / f"planned-{number:03d}.json"
+    if not path.exists():
+        _keep(path, tried(one, number, grid))
+    return _trial(path)
+
+
+def all_grids(results: Path) -> Iterator[ByGrid]:
+    """Every grid's diagnosis, in the order of the cases."""
+    return map(_grid, sorted(results.glob("grid-*.json")))
+
+
+def all_trials(results: Path) -> Iterator[Trial]:
+    """The planned campaigns of every case whose grid leaves pairs open, in the order of the cases."""
+    return map(_trial, sorted(results.glob("planned-*.json")))
+
+
+def _keep(path: Path, found: ByGrid | Trial) -> None:
+    path.write_text(json.dumps(asdict(found), indent=1), encoding="utf-8")
+
+
+def _grid(path: Path) -> ByGrid:
+    return ByGrid(**json.loads(path.read_text("utf-8")))
+
+
+def _trial(path: Path) -> Trial:
+    data = json.loads(path.read_text("utf-8"))
+    pairs = tuple(_pair(one) for one in data["pairs"])
+    return Trial(**{**data, "pairs": pairs, "said": tuple(data["said"]), "readings": tuple(data["readings"])})
+
+
+def _pair(data: dict[str, Any]) -> Pair:
+    return Pair(**{**data, "points": Told(**data["points"]), "meter": Told(**data["meter"])})

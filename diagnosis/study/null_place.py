@@ -1,0 +1,35 @@
+"""Place of a scaled pump's own fit, about which its study is linear.
+
+Films of a pump known by its type plate may be several spreads from where the scaling puts them. There, slopes at the
+prior mean promise effects that are nothing but the curvature of leakage over a film. About the fit of the model without
+any effect a linear model of the priors, which stay as wide, is right where nothing is concealed.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from diagnosis.study.model import Study
+from diagnosis.thresholds import Thresholds
+from reynolds.errors import NotConverged
+from system.estimation.fit import FitLimits, maximum_posterior
+
+
+def null_place(study: Study, thresholds: Thresholds) -> Mapping[str, float]:
+    """Standard numbers by name at which the model without any effect fits, each within `tolerated`.
+
+    Empty where the fit does not converge, and where it is grossly wrong: such a fit is at no place of the pump's.
+    """
+    limits = thresholds.fit
+    held = tuple(each.held(limits.tolerated) for each in study.simulator.parameters)
+    simulator = study.simulator.with_parameters(held)
+    ends = FitLimits(
+        change=limits.change, patience=limits.patience, gross=limits.gross, stall=2.0 * thresholds.name.odds
+    )
+    try:
+        fit = maximum_posterior(simulator, study.observations, limits=ends)
+    except NotConverged:
+        return {}
+    if fit.objective > limits.gross * fit.residual.size:
+        return {}
+    return {one.name: float(xi) for one, xi in zip(fit.parameters, fit.xi, strict=True)}
