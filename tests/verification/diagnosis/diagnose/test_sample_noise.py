@@ -42,7 +42,10 @@ def test_standard_error_of_a_mean(memory, share, within):
         noise = SIGMA * (
             np.sqrt(1.0 - share) * rng.standard_normal(SAMPLES) + np.sqrt(share) * first_order(memory, rng)
         )
-        errors.append(mean_of(found(noise), np.arange(PART)))
+        single = found(noise)
+        assert single.correlation[0] == pytest.approx(1.0)
+        assert single.sigma == pytest.approx(noise.std(), rel=within)
+        errors.append(mean_of(single, np.arange(PART)))
         scatter.append(np.mean(noise.reshape(-1, PART).mean(axis=1) ** 2))
     assert np.mean(errors) == pytest.approx(np.sqrt(np.mean(scatter)), rel=within)
 
