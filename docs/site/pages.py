@@ -16,7 +16,7 @@ CONTENTS = {
     "Reference": ("files", "conventions", "Files of the examples </examples/README>", "/meshes/README",
                   "cluster", "api/index"),
     "Background": ("theory", "architecture", "validation", "measured", "credibility", "proof", "proof_floating",
-                   "plan_check", "concealed", "hostile",
+                   "plan_check", "concealed", "hostile", "mutations",
                    "Reproduction <reproduction>",
                    "Reproduction with films <reproduction_fixed>",
                    "Reproduction with floating films <reproduction_floating>", "benchmarks"),
