@@ -15,9 +15,9 @@ from diagnosis.recording.model import Recording
 from diagnosis.report.answer import PlainAnswer, plain_answer
 from diagnosis.report.measure import NO_NEXT_POINT
 from diagnosis.study.acceptance import accepted_recording, refuse_too_few, refuse_too_smooth
-from diagnosis.study.levels import levelled
 from diagnosis.study.model import Study
 from diagnosis.study.prepare import prepare
+from diagnosis.study.scaled.levels import levelled
 from diagnosis.thresholds import Thresholds, load_thresholds
 from diagnosis.verdict.diagnosis import Diagnosis, VerdictStatus
 from diagnosis.verdict.row_numbers import by_table_rows

@@ -26,7 +26,7 @@ ASKED = (
     "diagnosis.recording.reader",
     "diagnosis.study.acceptance",
     "diagnosis.study.inputs",
-    "diagnosis.study.levels",
+    "diagnosis.study.scaled.levels",
     "diagnosis.study.prepare",
     "system.pump_file.file",
     "system.description.tolerances",

@@ -15,10 +15,10 @@ from diagnosis.procedure.next_test import with_next_point
 from diagnosis.procedure.recorded import diagnose_recording
 from diagnosis.recording.model import Recording
 from diagnosis.study.acceptance import checked_recording
-from diagnosis.study.levels import levelled
 from diagnosis.study.map_axes import axis_values, inside
 from diagnosis.study.model import Study
 from diagnosis.study.prepare import prepare
+from diagnosis.study.scaled.levels import levelled
 from diagnosis.thresholds import load_thresholds
 from diagnosis.verdict.diagnosis import ClaimedEffect, Diagnosis
 from diagnosis.verdict.locate import Location

@@ -15,8 +15,8 @@ from diagnosis.study.inputs import assumed_parameters, bench_points, complete, m
 from diagnosis.study.map_axes import scaled_axes, smooth_shapes
 from diagnosis.study.model import Study, study_of
 from diagnosis.study.noise_correlation import noise_correlation, noise_excess
-from diagnosis.study.null_place import null_place
 from diagnosis.study.readings import observations
+from diagnosis.study.scaled.null_place import null_place
 from diagnosis.study.traces.bench import traced_bench
 from diagnosis.study.traces.misfits import port_events, trace_misfits, trace_parameters
 from diagnosis.thresholds import FormLimits, Thresholds

@@ -137,7 +137,7 @@ def test_report_is_made_anew_from_the_folder(lumped):
 
 def test_a_folder_that_is_not_whole_is_bad_input(lumped, tmp_path, capsys):
     for name, text, told in (
-        ("summary.json", '{"format": 1, "kind": "pump"}', "files as a run of this version wrote them"),
+        ("summary.json", '{"format": 1, "kind": "pump"}', "what a run of this version writes"),
         ("results.nc", "cut off", "the NetCDF file of a run"),
     ):
         broken = shutil.copytree(lumped, tmp_path / name)

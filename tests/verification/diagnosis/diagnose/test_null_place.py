@@ -16,7 +16,7 @@ from diagnosis import Study
 from diagnosis.detect.mismatch import detect
 from diagnosis.study.map_axes import axis_values, scaled_axes
 from diagnosis.study.model import study_of
-from diagnosis.study.null_place import null_place
+from diagnosis.study.scaled.null_place import null_place
 from reynolds import Array
 from system import Component, EffectId, Extension, Kind, Parameter, Role, Scale
 from system.effects.extension import Entry
