@@ -19,7 +19,7 @@ release = tomllib.loads((ROOT / "pyproject.toml").read_text("utf-8"))["project"]
 extensions = ["myst_nb", "sphinx.ext.autodoc", "sphinx_copybutton", "docstrings", "pages"]
 
 root_doc = "docs/index"
-include_patterns = ["docs/**", "examples/**", "meshes/README.md", "*.md"]
+include_patterns = ["docs/**", "examples/**", "meshes/README.md", "benchmarks/concealed/README.md", "*.md"]
 exclude_patterns = ["docs/site/*", "docs/paper.md", "**/__pycache__"]
 
 myst_heading_anchors = 4
