@@ -45,7 +45,7 @@ class Ranked:
 
 @dataclass(frozen=True)
 class Answer:
-    """What a tool says of a recording; cpu_s: processor time, nan where it is not stated."""
+    """Answer of a tool on a recording; cpu_s: processor time, nan where it is not stated."""
 
     recording: str
     verdict: str

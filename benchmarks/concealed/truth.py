@@ -13,7 +13,7 @@ from proof.outcome import Outcome
 
 @dataclass(frozen=True)
 class Truth:
-    """What is concealed in a recording.
+    """The concealed cause in a recording.
 
     verdict: as an answer has it; ids, gaps: what a right answer names, "" a gap for none; beside: ids of faults
     beside it, which may be named too. score: detectability z; sizes: of what is concealed, SI.

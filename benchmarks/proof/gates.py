@@ -90,7 +90,7 @@ def _places(outcomes: Outcomes) -> tuple[Gate, ...]:
 
 
 def _fits(outcomes: Outcomes) -> tuple[Gate, ...]:
-    """What the repaired simulation foretells, intervals, probabilities, and what the next point is worth."""
+    """Gates of the repaired simulation, of intervals and probabilities, and of the next test."""
     clear = _clear(outcomes)
     right = [one for one in clear if is_right(one)]
     over = median("held-out residual over that of the truth's own fit, z >= 8", clear, _over_oracle, at_most=1.05)

@@ -37,7 +37,7 @@ class Rival:
 
 @dataclass(frozen=True)
 class Worth:
-    """What readings recorded after the diagnosis tell of two explanations, one of them the truth, in nats for it.
+    """Evidence of readings recorded after the diagnosis for two explanations, one of them the truth, in nats for it.
 
     before: by the recording; asked: three more readings at each of the points that were asked for; other: at as many
     points drawn from the same box; foretold: what the test asked for was to bring. promised: the chance of odds of

@@ -150,7 +150,7 @@ def _actual(campaign: Campaign, at: Settings, truth: Truth) -> dict[str, Array]:
 
 
 def calibrated(meter: Meter, rng: np.random.Generator) -> Calibration:
-    """How far a meter of a kind is off."""
+    """Error of a meter of a kind."""
     return Calibration(meter.gain * rng.normal(), meter.zero * rng.normal(), DRIFT * meter.zero * rng.normal())
 
 

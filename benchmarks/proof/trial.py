@@ -167,7 +167,7 @@ def _claimed(one: ClaimedEffect) -> Claimed:
 
 
 def _joint(one: ClaimedEffect) -> str | None:
-    """Where a coefficient of friction acts that is of no gap, which its parameter's name tells."""
+    """Place of a coefficient of friction outside the gaps, by the name of its parameter."""
     return one.parameters[0].name.rpartition(".")[2] if one.effect is EffectId.FRICTION_COEFFICIENT else None
 
 

@@ -1,4 +1,4 @@
-"""What the next test is worth: the rig run as it asks, and at as many points drawn at random, and what the readings say
+"""Value of the next test: the rig run as it asks, and at as many points drawn at random, and what the readings say
 of the two explanations that the test was to separate."""
 
 from __future__ import annotations

@@ -125,7 +125,7 @@ class NextPoint:
 
     @property
     def meter_words(self) -> str:
-        """What the bench is asked to add, in words; empty for nothing."""
+        """The meter that the bench needs in addition, in words; empty for none."""
         return "" if self.meter is None else WORDS[self.meter.name]
 
 

@@ -115,7 +115,7 @@ class Foretold:
 
 @dataclass(frozen=True)
 class Outlook:
-    """What two explanations predict at N points, SI, of all channels of the study and of further meters.
+    """Predictions of two explanations at N points, SI, of all channels of the study and of further meters.
 
     first, second: (N, C) readings; slopes: of each (N, C, k), times a factor of the parameters' covariance;
     input_slopes: (N, C, M). C goes on with the further meters.
@@ -147,7 +147,7 @@ class Outlook:
 def outlook(
     study: Study, first: Contender, second: Contender, points: BenchPoints, further: tuple[RecordedChannel, ...] = ()
 ) -> Outlook:
-    """What the two predict at N points."""
+    """Predictions of the two at N points."""
     there = [_there(one, points, further) for one in (first, second)]
     one, other = (
         bench.predict(own.posterior.values) for bench, own in zip(there, (first, second), strict=True)

@@ -35,7 +35,7 @@ WORDS = {
     ChannelName.TORQUE_UNCOUPLED: "a reading of the torque meter uncoupled from the pump",
     ChannelName.P_CHAMBER: "the chamber pressure over the turn",
 }
-"""What a bench may add, in words."""
+"""Meters that a bench may add, in words."""
 
 
 @dataclass(frozen=True)

@@ -94,7 +94,7 @@ class Equipped:
 
 @dataclass(frozen=True)
 class Desk:
-    """What every design of one plan shares: bench, question, thresholds."""
+    """Common parts of all designs of a plan: bench, question, thresholds."""
 
     foreseen: Foreseen
     asked: Asked

@@ -29,7 +29,7 @@ from system.inputs.channels import ChannelName
 from system.inputs.units import format_quantity
 
 COST = 0.01
-"""Of the overall efficiency: the size at which a suspect is told, unless another is stated."""
+"""Of the overall efficiency: the size of a suspect, unless another is stated."""
 DRAINED = 0.5
 """Of the drain flow: the change that counts as much."""
 MOST = 2.0

@@ -19,7 +19,7 @@ from system.effects.catalogue.bench_words import BENCH_WORDS, PARTS
 from system.effects.effect import EffectId, Kind
 
 SUSPECTS = 2
-"""Likeliest explanations of a suspicion of which is told what to look at."""
+"""Number of explanations of a suspicion for which the page says what to look at."""
 
 
 @dataclass(frozen=True)

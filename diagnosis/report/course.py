@@ -19,7 +19,7 @@ from system.effects.effect import Kind
 from system.inputs.channels import ChannelName
 
 ENDS = 0.15
-"""Of an axis: the parts at its ends of which the difference is told."""
+"""Of an axis: the parts at its ends whose difference is stated."""
 SIDES = {
     ChannelName.Q_OUT: ("The pump delivers more oil than simulated", "The pump delivers less oil than simulated"),
     ChannelName.Q_IN: ("The pump takes in more oil than simulated", "The pump takes in less oil than simulated"),

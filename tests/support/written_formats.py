@@ -23,7 +23,7 @@ def validator(names: Names) -> Draft202012Validator:
 
 
 def folder_faults(folder: Path) -> list[str]:
-    """Where and how the files of a run folder, and of those in it, differ from the schemas of kind and version."""
+    """Differences of the files of a run folder, and of those in it, from the schemas of kind and version."""
     found = []
     for place in sorted(summary.parent for summary in folder.rglob("summary.json")):
         header = folder_header(place)

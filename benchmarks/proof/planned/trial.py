@@ -65,7 +65,7 @@ class ByGrid:
 
 @dataclass(frozen=True)
 class Told:
-    """What a planned campaign tells of a pair: distance that is foreseen in sigma, odds for the truth.
+    """Result of a planned campaign for a pair: distance that is foreseen in sigma, odds for the truth.
 
     told: it is foreseen that its readings tell the two apart.
     """

@@ -41,17 +41,17 @@ class Truth:
 
     @property
     def Q_piston(self) -> Array:
-        """What the pistons leak, (N,)."""
+        """Leakage of the pistons, (N,)."""
         return self._drain(0)
 
     @property
     def Q_slipper(self) -> Array:
-        """What the slippers leak, (N,)."""
+        """Leakage of the slippers, (N,)."""
         return self._drain(1)
 
     @property
     def Q_valve_plate(self) -> Array:
-        """What the valve plate leaks, (N,)."""
+        """Leakage of the valve plate, (N,)."""
         return self._drain(2)
 
     def _drain(self, gap: int) -> Array:

@@ -1,4 +1,4 @@
-"""Where the plant is run, and what the oil does there."""
+"""Operating points of the plant, and the state of the oil there."""
 
 from __future__ import annotations
 

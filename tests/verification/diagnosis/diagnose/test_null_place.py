@@ -28,7 +28,7 @@ OPENING = "elastic_opening.size"
 
 
 def _patterns() -> Mapping[str, Array]:
-    """What films of the assumed thickness leak, and an opening, (N, 3): one film leaks more when hot, one less fast."""
+    """Leakage of films of the assumed thickness, and of an opening, (N, 3); one film leaks more when hot."""
     n, p, heat = axis_values(MAP).values()
     thin, share = np.exp(0.035 * (heat - 333.0)), p / 35e6
     leaks = {"film.one": share * thin, "film.two": share * (1.5 - 0.5 * n / 160.0), OPENING: share**3}
