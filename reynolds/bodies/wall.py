@@ -111,7 +111,30 @@ def body_wall(
 def face_wall(
     body: Body, film: FilmSpace, *, pockets: Mapping[str, str] | None = None, folder: Path | None = None
 ) -> FaceWall:
-    """The wall of `body_wall` by the nodes of the body's face: for films with more unknowns than it has nodes."""
+    """The wall of `body_wall` by the nodes of the body's face: for films with more unknowns than it has nodes.
+
+    Kept for each film too, since finding its points in the face takes as long as reading the body.
+    """
+    filled, inner = dict(pockets or {}), CacheOrigin.CACHE
+
+    def compute() -> dict[str, Array]:
+        nonlocal inner
+        left, right, inner = _met(body, film, filled, folder)
+        size = np.array(right.shape)
+        return {"left": left, "data": right.data, "indices": right.indices, "indptr": right.indptr, "size": size}
+
+    on_film = film.vertices, film.cells, film.dofs, film.degree, film.sphere, film.size
+    seats = [(name, face, *film.edge_dofs.get(name, ())) for name, face in sorted(filled.items())]
+    found = kept(_key("wall", body, *on_film, seats), compute, folder)
+    at = found.arrays
+    right = csr_array((at["data"], at["indices"], at["indptr"]), shape=tuple(at["size"]))
+    return FaceWall(LowRank(at["left"], right), inner if found.origin is CacheOrigin.COMPUTED else found.origin)
+
+
+def _met(
+    body: Body, film: FilmSpace, pockets: Mapping[str, str], folder: Path | None
+) -> tuple[Array, csr_array, CacheOrigin]:
+    """Deformation of a film by the forces at the face's nodes and in pockets, and these by the film's pressure."""
     space = body_space(body.mesh)
     face = space.face(body.face)
     normals = face_normals(body.chart, face.places)
@@ -122,13 +145,13 @@ def face_wall(
     found = kept(_key("compliance", body), compute, folder)
     meeting = transfer(film, face, body.chart)
     left, right = meeting.deformation(found.arrays["compliance"]), meeting.force
-    for name, filled in (pockets or {}).items():
+    for name, filled in pockets.items():
         if name not in film.edge_dofs or len(film.edge_dofs[name]) != 1:
             raise FilmInputError(f"pocket {name}", "no such pocket of the film", "a boundary that is one unknown")
         nodal = _load_case(body, space, face, FacePressure(filled, 1.0), folder)
         alone = csr_array(([1.0], ([0], [film.edge_dofs[name][0]])), shape=(1, film.size))
         left, right = np.column_stack([left, meeting.deformation(nodal)]), csr_array(vstack([right, alone]))
-    return FaceWall(LowRank(left, right), found.origin)
+    return left, right, found.origin
 
 
 def load_deformation(body: Body, film: FilmSpace, load: FacePressure | Spin, *, folder: Path | None = None) -> Array:
