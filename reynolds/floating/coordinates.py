@@ -98,6 +98,10 @@ class ContactForce:
         """Change of the force by changes (size, m) Pa of the film's pressure, (k, m) N."""
         return np.zeros((len(self.force), changed.shape[1]))
 
+    def by_deformation(self, deformed: Array) -> Array:
+        """The same by the deformation (vertices, m) m that these changes cause."""
+        return np.zeros((len(self.force), deformed.shape[1]))
+
 
 def contact_force(
     asperities: Asperities, gap: Array, modes: Modes, within: NDArray[np.bool_] | None = None
@@ -130,7 +134,11 @@ class SoftContact(ContactForce):
 
     def by_pressure(self, changed: Array) -> Array:
         """Change of the force by changes (size, m) Pa of film pressure, which deform the walls, (k, m) N."""
-        return np.asarray(self.lever.T @ self.deformation(changed))
+        return self.by_deformation(self.deformation(changed))
+
+    def by_deformation(self, deformed: Array) -> Array:
+        """The same by the deformation (vertices, m) m that these changes cause."""
+        return np.asarray(self.lever.T @ deformed)
 
     def deformation(self, changed: Array) -> Array:
         """Deformation (vertices, m) m by changes (size, m) Pa of the film's pressure, against contact."""

@@ -59,15 +59,32 @@ class JointState:
 class JointSlopes:
     """Slopes of film and forces at a state, ready for Newton's method; they serve until others are made.
 
-    by_position: changes of the film by the position, growth (cells, points, k) of the gap at constant pressure; stiff
-    (k, k) N/m: d(Q + P - M q'')/dq, the film in balance.
+    by_position: changes of the film by the position, growth (cells, points, k) of the gap at constant pressure;
+    opened (vertices, k): growth of the gap, the film in balance, as contact of the first state lets it; stiff (k, k)
+    N/m: d(Q + P - M q'')/dq, the film in balance.
     """
 
     at: JointState
     film: Linearised
     by_position: FilmSensitivity
     growth: Array
+    contact: ContactForce | None
+    opened: Array
     stiff: Array
+
+
+@dataclass(frozen=True)
+class FilmStep:
+    """The film's Newton step at constant position.
+
+    Changes of pressures (size,) Pa and of film fractions (size,), the walls' deformation (vertices,) m by it, and the
+    change (k,) N of the forces of film and contact.
+    """
+
+    pressure: Array
+    fraction: Array
+    deformed: Array
+    pressed: Array
 
 
 @dataclass(frozen=True)
@@ -111,10 +128,12 @@ class JointStage(FloatingStage):
         instant, slopes, own = self.instant, self.slopes.film, self.by_position
         changed = parted(instant.floating, before, len(self.state.film.oil.pressure))
         film = FilmSensitivity(*slopes.parted(slopes.changes(changed.oil / instant.step)))
-        q = -solved(self.force_slopes, instant.missing_by_before(self.trial, film, changed), instant.floating.name)
+        deformed = self.walls.deformed(self.slopes.contact, film.pressure)
+        pressed = _pressed(instant, self.slopes.contact, film.pressure, deformed)
+        missing = instant.missing_by_before(self.trial, pressed, changed)
+        q = -solved(self.force_slopes, missing, instant.floating.name)
         pressure, fraction = film.pressure + own.pressure @ q, film.film_fraction + own.film_fraction @ q
-        space = instant.shape.space
-        opened = self.walls.opened(self.state.contact, q, pressure)
+        space, opened = instant.shape.space, deformed + self.slopes.opened @ q
         wider = np.ascontiguousarray(space.reference.geometry_value @ opened[space.cells])
         oil = slopes.oil_by_state(pressure, fraction) + slopes.oil_by_thickness(wider, instant.modes.pockets @ q)
         return q, joined(instant.floating, StepStart(oil, q, (q - changed.position) / instant.step))
@@ -178,46 +197,45 @@ class JointSearch:
         missing, size = instant.balance_of(pressure, film_force, contact, outer, rate)
         return JointState(q, rate, pose, film, film_force, contact, outer, missing, size)
 
-    def _linearised(self, at: JointState) -> tuple[JointSlopes, Array]:
-        """Slopes at a state, and the film's Newton step (size, 1) at constant position."""
-        film, growth = self._walls.linearised(at.film, at.pose), self._walls.growth(at.contact)
-        loads = np.column_stack([at.film.fed[0], film.by_thickness(growth, self._instant.modes.pockets)])
-        changes = film.changes(-loads)
-        by = FilmSensitivity(*film.parted(changes[:, 1:]))
-        stiff = self._instant.stiffness(self._pressed(at, by.pressure), at.contact, at.outer)
-        return JointSlopes(at, film, by, growth, stiff), changes[:, :1]
+    def _linearised(self, at: JointState) -> tuple[JointSlopes, FilmStep]:
+        """Slopes at a state, and the film's Newton step there."""
+        walls, instant, contact = self._walls, self._instant, at.contact
+        film, growth = walls.linearised(at.film, at.pose), walls.growth(contact)
+        loads = np.column_stack([at.film.fed[0], film.by_thickness(growth, instant.modes.pockets)])
+        pressure, fraction = film.parted(film.changes(-loads))
+        deformed = walls.deformed(contact, pressure)
+        pressed = _pressed(instant, contact, pressure, deformed)
+        stiff = instant.stiffness(pressed[:, 1:], contact, at.outer)
+        opened, by = walls.grown(contact) + deformed[:, 1:], FilmSensitivity(pressure[:, 1:], fraction[:, 1:])
+        step = FilmStep(pressure[:, 0], fraction[:, 0], deformed[:, 0], pressed[:, 0])
+        return JointSlopes(at, film, by, growth, contact, opened, stiff), step
 
-    def _kept(self, slopes: JointSlopes, at: JointState) -> tuple[JointSlopes, Array]:
+    def _kept(self, slopes: JointSlopes, at: JointState) -> tuple[JointSlopes, FilmStep]:
         """The same by the slopes of the step before, near balance and of the same cavity; else at the state."""
         last, imbalance = slopes.at.film, at.film.imbalance
         if imbalance > min(KEPT, KEPT_GAIN * last.imbalance) or not np.array_equal(at.film.cavity, last.cavity):
             return self._linearised(at)
         kept = replace(slopes, at=at, film=replace(slopes.film, balance=at.film))
-        return kept, kept.film.changes(-at.film.fed[0][:, None])
+        pressure, fraction = kept.film.parted(kept.film.changes(-at.film.fed[0][:, None]))
+        deformed = self._walls.deformed(kept.contact, pressure)
+        pressed = _pressed(self._instant, kept.contact, pressure, deformed)
+        return kept, FilmStep(pressure[:, 0], fraction[:, 0], deformed[:, 0], pressed[:, 0])
 
-    def _pressed(self, at: JointState, pressure: Array) -> Array:
-        """Change of the forces of film and contact, (k, m) N, by that of the film's pressure (size, m) Pa."""
-        found = self._instant.modes.weights.T @ pressure
-        return np.asarray(found if at.contact is None else found + at.contact.by_pressure(pressure))
-
-    def _moved(self, slopes: JointSlopes, film_step: Array) -> JointState | None:
+    def _moved(self, slopes: JointSlopes, film: FilmStep) -> JointState | None:
         """The state one Newton step on, the step of the position cut where it leaves no gap.
 
         The step is halved where a law ends and, to one eighth, until flows are nearer to balance; if they never are,
         the longest one counts: cavities open and close on the way.
         """
-        at = slopes.at
-        pressure, fraction = (part[:, 0] for part in slopes.film.parted(film_step))
-        missing = at.missing + self._pressed(at, pressure[:, None])[:, 0]
-        step = -solved(slopes.stiff, missing, self._instant.floating.name)
-        by = slopes.by_position
-        way = self._walls.opened(at.contact, step[:, None], by.pressure @ step[:, None])[:, 0]
-        step = min(1.0, room_within(self._shape, at.pose, way)) * step
-        pressure, fraction = pressure + by.pressure @ step, fraction + by.film_fraction @ step
+        at, by = slopes.at, slopes.by_position
+        step = -solved(slopes.stiff, at.missing + film.pressed, self._instant.floating.name)
+        step = min(1.0, room_within(self._shape, at.pose, slopes.opened @ step)) * step
+        pressure, fraction = film.pressure + by.pressure @ step, film.fraction + by.film_fraction @ step
+        opened = film.deformed + slopes.opened @ step
         longest: JointState | None = None
         for halvings in range(MOST_HALVINGS):
             share = 0.5**halvings
-            new = self._tried(slopes, share * step, share * pressure, share * fraction)
+            new = self._tried(slopes, share * step, share * pressure, share * fraction, share * opened)
             if new is None:
                 continue
             if new.film.missing <= at.film.missing:
@@ -227,11 +245,13 @@ class JointSearch:
                 break
         return longest
 
-    def _tried(self, slopes: JointSlopes, step: Array, pressure: Array, fraction: Array) -> JointState | None:
-        """The state a step on, changes of position, pressure and filling; None where a law or the gap ends."""
+    def _tried(
+        self, slopes: JointSlopes, step: Array, pressure: Array, fraction: Array, opened: Array
+    ) -> JointState | None:
+        """The state a step on, changes of position, pressure, filling and gap; None where a law or the gap ends."""
         at, near = slopes.at, slopes.at.pose.deformation
         if near is not None:
-            near = near + self._walls.opened(at.contact, step, pressure) - self._instant.modes.at_vertices @ step
+            near = near + opened - self._instant.modes.at_vertices @ step
         try:
             return self._at(at.q + step, *slopes.film.stepped(pressure, fraction), near)
         except (FilmNotConverged, InputError):
@@ -289,3 +309,9 @@ class JointSearch:
             instant.time, trial, instant, films, films - 1, np.zeros_like(at.q), state=at, slopes=slopes,
             walls=self._walls,
         )  # fmt: skip
+
+
+def _pressed(instant: FloatingInstant, contact: ContactForce | None, pressure: Array, deformed: Array) -> Array:
+    """Change of the forces of film and contact, (k, m) N, by that of the film's pressure (size, m) Pa and walls."""
+    found = instant.modes.weights.T @ pressure
+    return np.asarray(found if contact is None else found + contact.by_deformation(deformed))

@@ -72,9 +72,13 @@ class RigidWalls:
         """The slopes of the film's balance."""
         return linearised(film, self.instant.solver.slopes_factor)
 
-    def opened(self, contact: ContactForce | None, q: Array, pressure: Array) -> Array:
-        """Growth of the gap at the vertices (vertices, m) m by changes of position (k, m) m and pressure (size, m)."""
-        return np.asarray(self.instant.modes.at_vertices @ q)
+    def grown(self, contact: ContactForce | None) -> Array:
+        """The same at the vertices, (vertices, k)."""
+        return self.instant.modes.at_vertices
+
+    def deformed(self, contact: ContactForce | None, pressure: Array) -> Array:
+        """Deformation (vertices, m) m by changes (size, m) Pa of the film's pressure: none."""
+        return np.zeros((len(self.instant.shape.space.vertices), pressure.shape[1]))
 
 
 @dataclass(frozen=True)
@@ -125,13 +129,17 @@ class SoftWalls:
         wider = shape.walls.matrix if pose.touch is None else resisted(pose.touch)
         return linearised_soft(film, wider, solver.patterns, solver.near_factor)
 
-    def opened(self, contact: ContactForce | None, q: Array, pressure: Array) -> Array:
-        """Growth of the gap at the vertices (vertices, m) m by changes of position (k, m) m and pressure (size, m)."""
+    def grown(self, contact: ContactForce | None) -> Array:
+        """The same at the vertices, (vertices, k)."""
+        return contact.grown if isinstance(contact, SoftContact) else self.instant.modes.at_vertices
+
+    def deformed(self, contact: ContactForce | None, pressure: Array) -> Array:
+        """Deformation (vertices, m) m by changes (size, m) Pa of the film's pressure, at constant position."""
         if isinstance(contact, SoftContact):
-            return contact.deformation(pressure) + contact.grown @ q
+            return contact.deformation(pressure)
         walls = self.instant.shape.walls
         assert walls is not None
-        return np.asarray(walls.matrix @ pressure + self.instant.modes.at_vertices @ q)
+        return np.asarray(walls.matrix @ pressure)
 
 
 def _settled(meeting: Meeting, given: Array, alone: Array, start: Array) -> tuple[Array, Touch]:

@@ -268,13 +268,17 @@ class FloatingInstant:
     def by_before(self, at: Trial, changed: StepStart) -> tuple[FilmSensitivity, Array]:
         """Change of the film and of `missing` (k, m) with the state before, at constant position."""
         film = response(self.solver, at.solution, changed.oil / self.step, self.exactness)
-        return film, self.missing_by_before(at, film, changed)
-
-    def missing_by_before(self, at: Trial, film: FilmSensitivity, changed: StepStart) -> Array:
-        """Change of `missing` (k, m) with the state before and the film's change by it, at constant position."""
-        missing = self.modes.weights.T @ film.pressure - at.outer.by_rate @ changed.position / self.step
+        pressed = self.film_slopes(film)
         if at.contact is not None:
-            missing += at.contact.by_pressure(film.pressure)
+            pressed = pressed + at.contact.by_pressure(film.pressure)
+        return film, self.missing_by_before(at, pressed, changed)
+
+    def missing_by_before(self, at: Trial, pressed: Array, changed: StepStart) -> Array:
+        """Change of `missing` (k, m) with the state before, at constant position.
+
+        pressed (k, m) N: change of the forces of film and contact by the film's change.
+        """
+        missing = pressed - at.outer.by_rate @ changed.position / self.step
         if self.floating.inertia is not None:
             missing += self.floating.inertia @ (changed.position / self.step + changed.rate) / self.step
         return np.asarray(missing)
