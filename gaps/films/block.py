@@ -222,6 +222,16 @@ class BlockFilm:
         along_x, along_y = by.on_moving
         return -float(np.sum((x * along_y - y * along_x) * space.area * self.is_film(space)))
 
+    def tilted_torque(self, stage: FloatingStage) -> float:
+        """Torque (N m) about the shaft, against its turning, of the pressure on the block's tilted face.
+
+        Pressure of film and kidneys presses along the block's own axis, about which it has no moment: what balances
+        the forces that tip the block then turns it about the shaft's. It has no power on the block.
+        """
+        _, about_x, about_y = np.asarray(self.drive.press(self._angle(stage.time)))
+        rise_x, rise_y = stage.q[1:] / self.geometry.land_radii[3]
+        return float(about_x * rise_x + about_y * rise_y)
+
     def is_film(self, space: FilmSpace) -> Array:
         """One where there is a film, zero in webs over a port, (cells, 1)."""
         return np.where(self.ring.over_port(space), 0.0, 1.0)

@@ -21,7 +21,7 @@ import numpy as np
 from gaps.films.friction import WallShear, wall_shear
 from gaps.films.over_turn import OverTurn
 from gaps.films.physics import FilmLaws, Physics, laws_left
-from gaps.films.piston_deformation import PistonDeformation, piston_deformation
+from gaps.films.piston_deformation import PistonDeformation, piston_deformation, slope_along
 from gaps.shapes.profiles import PLAIN, Profile, Relief
 from gaps.walls.pair import BoreWalls
 from gaps.walls.parts import Pose, closer_at_both
@@ -212,32 +212,43 @@ class PistonFilm:
         walls = self._velocities(stage.time)
         around, along = (part * space.area for part in by.on_moving)
         stresses, velocities = (*by.on_moving, *by.on_fixed), (*walls[0], *walls[1])
-        flank = self._flank_force(stage, by.contact, given)
+        above = self._above(stage, by.contact, given)
+        flank = self._flank_force(stage, above, given)
         sheared = sum(float(np.sum(t * u * space.area)) for t, u in zip(stresses, velocities, strict=True))
         return PistonFriction(
-            force=float(along.sum()) + flank,
+            force=float(along.sum()) + flank + self._tilted_force(stage, above),
             torque=radius * float(around.sum()),
             moment=radius * np.array([np.sum(along * np.sin(angle)), -np.sum(along * np.cos(angle))]),
             power=-sheared - flank * float(walls[0][1].item()),
         )
 
-    def _flank_force(self, stage: FloatingStage, contact: Array, given: PistonDeformation | None) -> float:
+    def _above(self, stage: FloatingStage, contact: Array, given: PistonDeformation | None) -> Array:
+        """Pressure of film and contact above the case's (cells, points) Pa."""
+        found = evaluate(stage.solution, stage.wall_pressure)[0] - self.drive.case_pressure
+        return np.asarray(found + contact if given is None else found)
+
+    def _flank_force(self, stage: FloatingStage, above: Array, given: PistonDeformation | None) -> float:
         """Force (N) out of the block of pressure on the piston's profile and deformation, beside a plain piston's.
 
         -int (p - p_case) d relief/dy dA of film and contact, and the chamber's pressure on the relief at the
         film's edge: a groove under one pressure has no force.
         """
-        solution, drive = stage.solution, self.drive
-        space, (around, along) = solution.problem.space, self._points
-        above = evaluate(solution, stage.wall_pressure)[0] - drive.case_pressure
-        chamber = self._driven(stage.time).chamber_pressure - drive.case_pressure
+        space, (around, along) = stage.solution.problem.space, self._points
+        chamber = self._driven(stage.time).chamber_pressure - self.drive.case_pressure
         taken_off = self._relief(stage.time, *self._vertices).depth
         slope = self._relief(stage.time, around, along).along
-        if given is None:
-            above = above + contact
-        else:
-            taken_off, slope = taken_off + given.piston, slope + given.slope(solution)
+        if given is not None:
+            taken_off, slope = taken_off + given.piston, slope + slope_along(stage.solution, given.piston)
         return -float(np.sum(above * slope * space.area)) - chamber * self._on_chamber_edge(taken_off)
+
+    def _tilted_force(self, stage: FloatingStage, above: Array) -> float:
+        """Force (N) out of the block of pressure on a piston askew in its bore, -int (p - p_case) d(phi q)/dy dA.
+
+        Film presses across the piston's own axis, along which it slides: its share along the bore loads the piston and
+        has no power.
+        """
+        slope = slope_along(stage.solution, self.modes_at(stage.time) @ stage.q)
+        return -float(np.sum(above * slope * stage.solution.problem.space.area))
 
     def _relief(self, time: float, around: Array, along: Array) -> Relief:
         """Relief of the piston at places of the unit mesh; it moves and turns with the piston."""

@@ -33,12 +33,13 @@ class PistonDeformation:
     piston: Array
     chamber_growth: float
 
-    def slope(self, solution: FilmSolution) -> Array:
-        """d piston/dy at the quadrature points of the film, (cells, points)."""
-        space = solution.problem.space
-        nodal = np.zeros(space.size)
-        nodal[space.vertex_dofs] = self.piston
-        return evaluate(solution, nodal)[2]
+
+def slope_along(solution: FilmSolution, height: Array) -> Array:
+    """Slope along the bore of a height (vertices,) m at the quadrature points of the film, (cells, points)."""
+    space = solution.problem.space
+    nodal = np.zeros(space.size)
+    nodal[space.vertex_dofs] = height
+    return evaluate(solution, nodal)[2]
 
 
 def piston_deformation(

@@ -62,9 +62,13 @@ class SlipperReport(GapReport):
 
 @dataclass(frozen=True)
 class BlockReport(GapReport):
-    """Report of the block's film: torque N m against its turning; flows from suction and delivery port, m3/s."""
+    """Report of the block's film: torques N m against its turning; flows from suction and delivery port, m3/s.
+
+    torque: of shear and contact; tilted_torque: see `BlockFilm.tilted_torque`.
+    """
 
     torque: float
+    tilted_torque: float
     suction_draw: float
     delivery_draw: float
 
@@ -117,6 +121,7 @@ def block_report(film: BlockFilm, stage: FloatingStage) -> BlockReport:
         contact_load=by.load(is_film),
         active=_active(stage, film.asperities),
         torque=film.friction_torque(space, by),
+        tilted_torque=film.tilted_torque(stage),
         suction_draw=suction,
         delivery_draw=delivery,
     )

@@ -204,7 +204,8 @@ class _Warming(Generic[Reported]):
 
         Films need not agree better with their viscosity than walls that still change leave it.
         """
-        history, agreed, near = History(), ROUGHLY, None
+        history, near = History(), None
+        agreed = enough.viscosity if self._warm else ROUGHLY  # those of the round before need no nearing
         for _ in range(MOST_WALL_ROUNDS):
             for time in self._times:
                 near = self._warm[time] = self._warmed(time, agreed, self._warm.get(time, near))

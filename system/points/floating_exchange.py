@@ -219,9 +219,9 @@ def _applied(rotor: Rotor, parts: FloatingParts, group: tuple[GroupInstant, ...]
 
 
 def block_torque(block: GapRevolution[BlockReport], samples: int) -> Array:
-    """Torque (samples,) N m of the valve plate's film against the block's turning."""
+    """Torque (samples,) N m of the valve plate's film and of the kidneys against the block's turning."""
     turns = round(TURN / block.angles[-1])
-    return resampled(np.tile(passing(block, lambda report: report.torque), turns), samples)
+    return resampled(np.tile(passing(block, lambda report: report.torque + report.tilted_torque), turns), samples)
 
 
 def with_floating_gaps(losses: FrictionPairs, gaps: FloatingGaps, group: tuple[GroupInstant, ...]) -> FrictionPairs:

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from gaps import Effect, FilmLaws, Physics, PistonDrive, PistonFilm, PistonShape, constant, floating_piston
+from gaps.films.friction import WallShear
 from gaps.films.piston import PistonFriction
 from gaps.films.piston_deformation import PistonDeformation
 from reynolds import (
@@ -24,8 +25,8 @@ PRESSURE, CASE, OUTWARDS, PISTON, BORE = 20e6, 1e6, 2.89, 300.0, 220.0
 RADIUS, AREA = 0.5 * DIAMETER, np.pi * DIAMETER * LENGTH
 
 
-def _piston(cells: tuple[int, int], rough: Asperities | None = None) -> PistonFilm:
-    """A piston that moves out of a bore longer than it is engaged."""
+def _piston(cells: tuple[int, int], rough: Asperities | None = None, sideways: float = 0.0) -> PistonFilm:
+    """A piston that moves out of a bore longer than it is engaged, pressed to one side (N) at either end."""
     drive = PistonDrive(
         shaft_speed=1.0,
         viscosity=VISCOSITY,
@@ -36,7 +37,7 @@ def _piston(cells: tuple[int, int], rough: Asperities | None = None) -> PistonFi
         chamber_pressure=constant(PRESSURE),
         reach=lambda time: np.asarray(LENGTH - OUTWARDS * time),
         velocity=constant(OUTWARDS),
-        outer=constant(0.0, 0.0, 0.0, 0.0),
+        outer=constant(sideways, 0.0, sideways, 0.0),
     )
     shape = PistonShape(DIAMETER, CLEARANCE, 45e-3)
     return PistonFilm(shape, drive, FilmLaws(asperities=rough), Physics().without(Effect.CAVITATION), cells)
@@ -116,6 +117,29 @@ def test_pressure_pushes_a_piston_by_its_dents():
     flows = boundary_flows(stage.solution)
     rigid, soft = (film.chamber_flow(stage, flows, given) for given in (None, PistonDeformation(dents, dents, 0.0)))
     assert soft - rigid == pytest.approx(-OUTWARDS * rim, rel=1e-9)
+
+
+def test_forces_on_both_walls_of_a_piston_askew_are_those_on_its_film():
+    """The chamber's pressure on the ring of oil is all that presses on the film along the bore, however it wedges."""
+    film = _piston((24, 6), sideways=1000.0)
+    floating, step = floating_piston(film), 1e-10
+    askew = CLEARANCE * np.array([0.7, 0.1, -0.6, 0.2])
+    start = started(floating, 0.0, askew)
+    stage = solve_stage(FilmSolver(film.space_at(0.0)), floating, step, start.held, step, start.q, None)
+    by = film.wall_shear(stage)
+    space, ring = stage.solution.problem.space, np.pi * DIAMETER * CLEARANCE
+    found, on_bore = film.friction(stage, by), float(np.sum(by.on_fixed[1] * space.area))
+    assert found.force + on_bore == pytest.approx((PRESSURE - CASE) * ring, rel=1e-6)
+    on_piston = float(np.sum(by.on_moving[1] * space.area))
+    assert found.force - on_piston == pytest.approx(-2000.0 * 1.3 * CLEARANCE / 45e-3, rel=1e-6)  # load times slope
+    spent = -on_piston * OUTWARDS - _turned_power(stage, by)
+    assert found.power == pytest.approx(spent, rel=1e-9)  # along its own axis it slides freely
+
+
+def _turned_power(stage: FloatingStage, by: WallShear) -> float:
+    """Power (W) of the shear around the bore on both parts."""
+    around = PISTON * by.on_moving[0] + BORE * by.on_fixed[0]
+    return RADIUS * float(np.sum(around * stage.solution.problem.space.area))
 
 
 def test_contact_rubs_against_the_sliding(validation):

@@ -264,3 +264,32 @@ def test_carried_load_is_the_separating_force():
     found = told(4, at, PARALLEL)
     assert found.required_load == pytest.approx(50e3)
     assert found.carried_load == pytest.approx(separating(4, at, PARALLEL)[0])
+
+
+def test_a_tilted_block_turns_as_its_plate_is_turned(validation, refine):
+    """Oil of film and kidneys passes all torque on: a plain plate feels shear alone, a tilted block pressure too."""
+
+    def torques(n: int) -> tuple[float, float]:
+        at = running()
+        lift, moments = separating(n, at, TILTED, NO_PORT)
+        balanced = replace(at, drive=replace(at.drive, press=constant(-lift, *-moments)))
+        film, stage = held(n, balanced, TILTED, NO_PORT)
+        space, by = stage.solution.problem.space, film.wall_shear(stage)
+        x, y, _ = space.points_in_space
+        along_x, along_y = by.on_fixed
+        plate = float(np.sum((x * along_y - y * along_x) * space.area * film.is_film(space)))
+        pressed = film.tilted_torque(stage)
+        assert abs(pressed) > 1e-3 * plate
+        return (film.friction_torque(space, by) + pressed - plate) / pressed, plate
+
+    missing, _ = refine(torques, MESHES)
+    validation(
+        case="Valve plate, torque of pressure on a tilted block",
+        source="torque of shear on a plain plate",
+        quantity="torque on block less that on plate, of that of the pressure",
+        unit="-",
+        expected=0.0,
+        obtained=missing.finest,
+        tolerance=missing.tolerance(),
+        order=missing.order,
+    )
