@@ -72,9 +72,9 @@ def wrench_about(places: Array, forces: Array, spline_height: float) -> Array:
 
     S lies on the z axis at `spline_height` (m) over the valve plate: where the shaft holds the block sideways.
     """
-    levers = np.asarray(places) - np.array([0.0, 0.0, spline_height])
-    moment = np.cross(levers, forces).sum(axis=0)
-    return np.array([np.asarray(forces)[:, 2].sum(), moment[0], moment[1]])
+    (x, y, z), (along_x, along_y, along_z) = np.asarray(places).T, np.asarray(forces).T
+    above = z - spline_height
+    return np.array([along_z.sum(), np.sum(y * along_z - above * along_y), np.sum(above * along_x - x * along_z)])
 
 
 def generalised(wrench: Array, radius: float) -> Array:

@@ -77,9 +77,9 @@ def swept_acceleration(place: Array, axis: Array, velocity: float, acceleration:
     s'' a + 2 w s' z x a - w^2 (r - z z . r): along the bore, Coriolis (nothing for a cylindrical block) and
     centripetal, z the shaft's axis. velocity s' m/s, acceleration s'' m/s2, shaft_speed w rad/s, constant.
     """
-    shaft = np.array([0.0, 0.0, 1.0])
-    inward = shaft_speed**2 * (place - (place @ shaft) * shaft)
-    return np.asarray(acceleration * axis + 2.0 * shaft_speed * velocity * np.cross(shaft, axis) - inward)
+    inward = shaft_speed**2 * np.array([place[0], place[1], 0.0])
+    around = np.array([-axis[1], axis[0], 0.0])
+    return np.asarray(acceleration * axis + 2.0 * shaft_speed * velocity * around - inward)
 
 
 def relative_spin(

@@ -27,6 +27,7 @@ MAX_ROUNDS = 100
 MOST_HALVINGS = 12
 THINNEST = 1e-9  # of the viscosity of the oil at rest: less is a law far outside its range
 ROUGHLY = 0.1  # a relative change: near enough to start from
+CORRECTED = 0.1  # of the tolerance, over the range of temperature, may a temperature miss on the way
 MOST_CLOSED = 0.5  # of its thickness, by which warm walls may close the film in one round
 
 LocalLaw = Callable[[Array, Array, Array], Array]
@@ -128,7 +129,7 @@ def agree(
         film, guess = _film(work, guess, film, solved)
         solved = guess
         profile = scaled(dowson(across, guess.share), resting_viscosity(problem, film.pressure))
-        heat = _heat(posed, film, profile, heat)
+        heat = _heat(posed, film, profile, heat, CORRECTED * tolerance)
         image, conditions, fault = _image(work, film, profile, heat, conditions)
         change = float(np.abs(image.point - guess.point).max())
         if fault is None and change < tolerance:
@@ -236,11 +237,15 @@ def _first(work: _Work, start: Coupled[object] | None) -> tuple[_Conditions, _Gu
     return conditions, _Guess(start.share, start.growth / work.given)
 
 
-def _heat(posed: ThermalCase, film: FilmSolution, profile: FlowProfile, last: object) -> FilmTemperature | None:
+def _heat(
+    posed: ThermalCase, film: FilmSolution, profile: FlowProfile, last: object, corrected: float
+) -> FilmTemperature | None:
     if posed.heat is None:
         return None
     warm = last.temperature if isinstance(last, FilmTemperature) else None
-    return solve_energy(film, posed.heat, profile, start=warm, before=posed.before, at_once=posed.at_once)
+    return solve_energy(
+        film, posed.heat, profile, start=warm, before=posed.before, at_once=posed.at_once, corrected=corrected
+    )
 
 
 def _image(

@@ -166,22 +166,27 @@ def solve_energy(
     start: Array | None = None,
     before: Array | None = None,
     at_once: bool = False,
+    corrected: float = CORRECTED,
 ) -> FilmTemperature:
     """The temperature of a solved film, whose viscosities follow `profile`.
 
     `start` (size, m + 2) K is a first guess; `before` (size, m + 2) K is the temperature one time step ago, needed
     where the film problem has a storage, unless the temperature follows `at_once`: without dT/dt, stored oil having the
-    temperature of its place. Afterwards the energy balance closes to 1e-9 of the heat passed (1e-8 where conduction
-    outweighs convection 1e4 times). Raises FilmInputError where oil enters without a temperature, and FilmNotConverged.
+    temperature of its place. The last correction of faces to second order changes the temperature by `corrected` of its
+    range at most, or by CORRECTED where that is larger. Afterwards the energy balance closes to 1e-9 of the heat passed
+    (1e-8 where conduction outweighs convection 1e4 times). Raises FilmInputError where oil enters without a
+    temperature, and FilmNotConverged.
     """
     terms = _terms(solution, heat, profile, before, at_once)
     matrix, right = _equations(solution, heat, profile, terms)
     guess = None if start is None else start - terms.datum
-    rise, least_jump, iterations = _sharpened(terms, matrix, right, guess)
+    rise, least_jump, iterations = _sharpened(terms, matrix, right, guess, max(corrected, CORRECTED))
     return _answer(solution, heat, profile, terms, matrix, rise, least_jump, iterations)
 
 
-def _sharpened(terms: _Terms, matrix: HeatMatrix, right: Array, guess: Array | None) -> tuple[Array, float, int]:
+def _sharpened(
+    terms: _Terms, matrix: HeatMatrix, right: Array, guess: Array | None, corrected: float
+) -> tuple[Array, float, int]:
     """The rise with faces of second order: upwind solves, each with the last field's correction on the right.
 
     Also the jump of temperature below which faces are upwind: it grows where the corrections do not converge.
@@ -200,7 +205,7 @@ def _sharpened(terms: _Terms, matrix: HeatMatrix, right: Array, guess: Array | N
         found, sweeps = solve_heat(matrix, whole, rise, CLOSER)
         iterations += sweeps
         change = float(np.abs(found - rise).max())
-        if change <= CORRECTED * spread:
+        if change <= corrected * spread:
             found, sweeps = solve_heat(matrix, whole, found)
             return found, least, iterations + sweeps
         rise = history.extrapolate(rise, found)

@@ -40,6 +40,7 @@ from system.points.floating_kinds import (
     RoundDrives,
     by_chamber,
     chamber_problems,
+    driven_by,
     drives_of,
     gap_revolutions,
     group_of,
@@ -65,7 +66,9 @@ FRICTION_TOLERANCE = 2e-3
 SPIN_TOLERANCE = 2e-3
 """Largest change of a spin between two rounds, of the shaft's."""
 FIRST_STEP = 0.05
-"""Error that the first round's steps may make, share of the film."""
+"""Error that the first rounds' steps may make, share of the film."""
+FAR = 20.0
+"""Times its tolerance, a change of a spin by a round with steps of FIRST_STEP from which the next has them too."""
 NEARLY = 3.0
 """Times as large as their tolerances may the changes of a round be for gaps and chambers to nearly agree."""
 ROUND_LIMIT = 20
@@ -195,6 +198,8 @@ def _round(
 ) -> _Found:
     """The gaps at the pressure and friction of the round before, then the chambers with these gaps."""
     began, pump, pistons = perf_counter(), asked.rotor.pump, asked.rotor.pump.pump.pistons
+    if beside is not None:
+        beside.start(driven_by(asked, group))
     driven = drives_of(asked, group)
     gaps = gap_revolutions(asked, group, driven, before, beside, report, solved)
     problems = chamber_problems(asked, group, point, piston_motion(pump, point), gaps)
@@ -243,12 +248,12 @@ def _spin_change(one: Rotor, other: Rotor) -> float:
 def _approaching(options: FloatingOptions, rounds: list[Round], *, cold: bool) -> FloatingOptions:
     """Accuracy of a round's gaps: one turn of each until they nearly agree with the chambers.
 
-    The first one of `cold` gaps, which have no start, has wide steps.
+    The first ones of `cold` gaps, which have no start, have wide steps, until the spins are nearly those of the films.
     """
     exact = options.accuracy
-    if not rounds:
-        return replace(options, accuracy=replace(exact, step=max(exact.step, FIRST_STEP * cold), settled=False))
-    settled = rounds[-1].settled or _agree(rounds[-1], NEARLY)
+    if cold and all(taken.spin_change > FAR * SPIN_TOLERANCE for taken in rounds):
+        exact = replace(exact, step=max(exact.step, FIRST_STEP))
+    settled = bool(rounds) and (rounds[-1].settled or _agree(rounds[-1], NEARLY))
     return replace(options, accuracy=replace(exact, settled=settled))
 
 

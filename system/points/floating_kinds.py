@@ -122,7 +122,7 @@ def gap_revolutions(
     report: Report,
     solved: Solved,
 ) -> tuple[FloatingGaps, ...]:
-    """The gaps of each kind over the revolution, on from those before; pistons in their own process, if any.
+    """The gaps of each kind over the revolution, on from those before; pistons in their own process, if it was begun.
 
     Each is kept in `solved` as soon as it is found.
     """
@@ -133,9 +133,7 @@ def gap_revolutions(
     last_of: Sequence[FloatingGaps | None] = [None] * len(driven) if before is None else before
     kinds = _kinds_driven(asked, group, driven)
     each = list(zip(kinds, last_of, strict=True))
-    if beside is not None:
-        beside.start(driven_by(asked, group))
-    else:
+    if beside is None:
         turning = (
             piston_revolution(of.rotor, of.parts, of.drives.piston, options[0], last.piston if last else None, report)
             for of, last in each

@@ -20,7 +20,8 @@ def bore_sides(drive: SwashDrive, shaft_angle: float) -> Array:
     axis = bore_axis(drive, shaft_angle)
     side = np.array([1.0, 0.0, 0.0]) - axis[0] * axis
     side /= np.linalg.norm(side)
-    return np.stack([side, np.cross(axis, side)])
+    (ax, ay, az), (x, y, z) = axis.tolist(), side.tolist()
+    return np.array([[x, y, z], [ay * z - az * y, az * x - ax * z, ax * y - ay * x]])
 
 
 def plate_axes(drive: SwashDrive) -> Array:
