@@ -1,0 +1,78 @@
+"""Time one floating point: `python benchmarks/point.py [--rigid] [--set KEY=VALUE] ..`.
+
+Prints for `ref90` (or what --set makes of it) the rounds of gaps and chambers with their changes, films and processor
+time, by gap the steps and films of a turn and the time of its last round, and the headline numbers. All in one process,
+after a point of few angles that has compiled everything: `swashfilm run` puts the pistons into a process of their own.
+"""
+
+import argparse
+import time
+from dataclasses import replace
+
+from rich.console import Console
+from rich.table import Table
+
+from gaps.revolution.march import GapRevolution
+from system.points.floating import FloatingPoint, floating_point
+from system.points.floating_gaps import usual_options
+from system.pump.operating import operating_point
+from system.pump_file.file import load_pump
+
+PUMP, FEW = "ref90", 36  # angles of the point that compiles
+GAPS = ("piston", "slipper", "block")
+
+
+def timed(changes: dict[str, str], steps: int, *, rigid: bool) -> tuple[FloatingPoint, float]:
+    """The point and the processor time it took, s."""
+    pump = load_pump(PUMP, changes)
+    options = usual_options(pump.pump.pistons)
+    options = replace(options.rigid if rigid else options, steps=steps)
+    began = time.process_time()
+    return floating_point(pump, operating_point(pump), options), time.process_time() - began
+
+
+def rounds_of(found: FloatingPoint) -> Table:
+    """The rounds: changes, films, whether turns close."""
+    table = Table(title="rounds")
+    for head in ("round", "pressure", "friction", "spin", "turns close", "films"):
+        table.add_column(head, justify="right")
+    for number, one in enumerate(found.rounds, 1):
+        changes = (f"{change:.1e}" for change in (one.pressure_change, one.friction_change, one.spin_change))
+        table.add_row(str(number), *changes, "yes" if one.settled else "", str(one.films_solved))
+    return table
+
+
+def gaps_of(found: FloatingPoint) -> Table:
+    """The gaps in the last round."""
+    table, gaps = Table(title="gaps, last round"), found.kinds[0].gaps
+    for head in ("gap", "turns", "steps", "films", "mean film / um", "least film / um"):
+        table.add_column(head, justify="right")
+    for name in GAPS:
+        gap: GapRevolution = getattr(gaps, name)
+        numbers = (gap.closing.turns, len(gap.turn.times), gap.films_solved)
+        films = (f"{1e6 * film:.4f}" for film in (gap.mean_film, gap.least_film.film_thickness_min))
+        table.add_row(name, *map(str, numbers), *films)
+    return table
+
+
+def main() -> None:
+    """Time a point and print it."""
+    parser = argparse.ArgumentParser(description="Time one floating point.")
+    parser.add_argument("--rigid", action="store_true", help="rigid walls, oil that neither pressure nor heat changes")
+    parser.add_argument("--set", action="append", default=[], metavar="KEY=VALUE", help="a key of the pump file")
+    parser.add_argument("--steps", type=int, default=360, help="reported angles a turn")
+    asked, console = parser.parse_args(), Console()
+    changes = dict(one.split("=", 1) for one in asked.set)
+    timed(changes, FEW, rigid=asked.rigid)
+    found, seconds = timed(changes, asked.steps, rigid=asked.rigid)
+    point = found.pump_point
+    leakage = 6e4 * point.leakage_flow.total
+    console.print(rounds_of(found), gaps_of(found))
+    console.print(
+        f"{seconds:.1f} s of one processor; leakage {leakage:.4f} L/min, friction {point.power.friction:.1f} W, "
+        f"energy not balanced {point.checks.energy_balance_error:.1e}"
+    )
+
+
+if __name__ == "__main__":
+    main()
