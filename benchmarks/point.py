@@ -1,6 +1,6 @@
-"""Time one floating point: `python benchmarks/point.py [--rigid] [--set KEY=VALUE] ..`.
+"""Time one floating point: `python benchmarks/point.py [--rigid] [--pressure "5 MPa"] ..`.
 
-Prints for `ref90` (or what --set makes of it) the rounds of gaps and chambers with their changes, films and processor
+Prints for `ref90` the rounds of gaps and chambers with their changes, films and processor
 time, by gap the steps and films of a turn and the time of its last round, and the headline numbers. All in one process,
 after a point of few angles that has compiled everything: `swashfilm run` puts the pistons into a process of their own.
 """
@@ -22,7 +22,7 @@ PUMP, FEW = "ref90", 36  # angles of the point that compiles
 GAPS = ("piston", "slipper", "block")
 
 
-def timed(changes: dict[str, str], steps: int, *, rigid: bool) -> tuple[FloatingPoint, float]:
+def timed(changes: dict[str, object], steps: int, *, rigid: bool) -> tuple[FloatingPoint, float]:
     """The point and the processor time it took, s."""
     pump = load_pump(PUMP, changes)
     options = usual_options(pump.pump.pistons)
@@ -59,10 +59,13 @@ def main() -> None:
     """Time a point and print it."""
     parser = argparse.ArgumentParser(description="Time one floating point.")
     parser.add_argument("--rigid", action="store_true", help="rigid walls, oil that neither pressure nor heat changes")
-    parser.add_argument("--set", action="append", default=[], metavar="KEY=VALUE", help="a key of the pump file")
+    parser.add_argument("--speed", default="2100 rpm")
+    parser.add_argument("--pressure", default="35 MPa")
+    parser.add_argument("--displacement", type=float, default=1.0, help="of the full one")
     parser.add_argument("--steps", type=int, default=360, help="reported angles a turn")
     asked, console = parser.parse_args(), Console()
-    changes = dict(one.split("=", 1) for one in asked.set)
+    given = {"speed": asked.speed, "pressure": asked.pressure, "displacement_ratio": asked.displacement}
+    changes = {f"operating.{key}": value for key, value in given.items()}
     timed(changes, FEW, rigid=asked.rigid)
     found, seconds = timed(changes, asked.steps, rigid=asked.rigid)
     point = found.pump_point
