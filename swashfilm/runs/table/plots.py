@@ -13,7 +13,7 @@ from swashfilm.output.figures import figure_of
 from swashfilm.output.headline import named
 from system.inputs.shown import Shown, shown_in, titled
 from system.inputs.units import Dimension
-from system.points.table.response_table import LARGE_ERROR
+from system.points.table.response_table import LARGE_ERROR, axis_words
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -135,7 +135,7 @@ def _shown(what: str, members: Sequence[tuple[str, int]], record: Mapping[str, A
 
 
 def _axis_words(axis: Axis, row: Mapping[str, Any]) -> str:
-    return titled(axis.name.replace("_", " "), _unit(row).unit)
+    return titled(axis_words(axis.name), _unit(row).unit)
 
 
 def _unit(row: Mapping[str, Any]) -> Shown:

@@ -11,9 +11,9 @@ import numpy as np
 
 from reynolds.numerics.arrays import Array
 from system.description.keys import PumpKey
+from system.pump_file.file import Variant
 from system.variation.measures import Measure
 from system.variation.scatter import Bound
-from system.variation.solving import Variant
 from system.work.tasks import PartStatus
 
 MET = 1e-6

@@ -9,9 +9,10 @@ from pathlib import Path
 import numpy as np
 
 from reynolds.numerics.arrays import Array
+from system.pump_file.file import Variant
 from system.variation.measures import Measure, measured
 from system.variation.optimisation.problem import Design, Problem
-from system.variation.solving import Variant, VariedWork, numbers_in, solved_variants
+from system.variation.solving import VariedWork, numbers_in, solved_variants
 from system.work.kept_results import KeptPoints
 from system.work.progress import Report
 from system.work.tasks import Executor, PartOutcome, PartStatus
