@@ -14,6 +14,7 @@ from reynolds.numerics.files import read_json, replaced
 from reynolds.numerics.npz import read_npz, write_npz
 from system.description.keys import pump_keys, with_values
 from system.description.pump import PumpDescription
+from system.description.tolerance import ToleranceSection
 from system.inputs.faults import Fault, InputFaults, nearest_path
 from system.inputs.units import Dimension
 from system.inputs.versions import version_fault
@@ -29,11 +30,14 @@ KEY_LENGTH = 24
 
 
 def pump_key(pump: PumpDescription) -> str:
-    """Hash of all inputs of a pump's gaps besides the axes: without its name, its lines and laws outside its films."""
+    """Hash of all inputs of a pump's gaps besides the axes.
+
+    Without its name, its tolerances, its lines and laws outside its films.
+    """
     # A clearance that grows with temperature starts from the pump's own, which is then no axis alone.
     own = pump.operating.temperature if pump.physics.thermal_clearance else 0.0
     stated = replace(pump.operating, speed=0.0, pressure=0.0, displacement_ratio=1.0, temperature=own)
-    bare = replace(films_alone(pump), name="", operating=stated)
+    bare = replace(films_alone(pump), name="", operating=stated, tolerance=ToleranceSection())
     made_of = TABLE_FORMAT, resolved_toml(bare), pump.file_contents
     return content_key("pump of a response table", *made_of)[:KEY_LENGTH]
 
