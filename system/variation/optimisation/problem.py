@@ -57,6 +57,10 @@ class Varied:
         return ((self.name, value), *((one.path, one.value + change) for one in self.tied))
 
 
+AT_START = 1e-12
+"""Of the unit cube: distance of a place from the start that is round-off."""
+
+
 @dataclass(frozen=True)
 class Objective:
     """A measure that shall be least, or most."""
@@ -108,7 +112,9 @@ class Problem:
     measures: tuple[Measure, ...]
 
     def variant(self, place: Array) -> Variant:
-        """Return the pump's values at a place (k,) of the unit cube."""
+        """Return the pump's values at a place (k,) of the unit cube; none at the start, which is the pump as stated."""
+        if np.allclose(place, self.start, rtol=0.0, atol=AT_START):
+            return ()
         values = self.low + np.clip(place, 0.0, 1.0) * (self.high - self.low)
         return tuple(pair for one, value in zip(self.space, values, strict=True) for pair in one.at(float(value)))
 
