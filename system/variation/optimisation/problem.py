@@ -112,11 +112,13 @@ class Problem:
     measures: tuple[Measure, ...]
 
     def variant(self, place: Array) -> Variant:
-        """Return the pump's values at a place (k,) of the unit cube; none at the start, which is the pump as stated."""
-        if np.allclose(place, self.start, rtol=0.0, atol=AT_START):
-            return ()
+        """Return the pump's values at a place (k,) of the unit cube."""
         values = self.low + np.clip(place, 0.0, 1.0) * (self.high - self.low)
         return tuple(pair for one, value in zip(self.space, values, strict=True) for pair in one.at(float(value)))
+
+    def changes(self, place: Array) -> Variant:
+        """Return the values of a place that are not the pump's own: none at the start."""
+        return () if np.allclose(place, self.start, rtol=0.0, atol=AT_START) else self.variant(place)
 
     @cached_property
     def low(self) -> Array:

@@ -39,7 +39,7 @@ class Trials:
 
     def tried(self, places: Array) -> list[Design]:
         """Return the designs at places (N, k) of the unit cube; those that are new count as one generation."""
-        variants = [self.problem.variant(place) for place in places]
+        variants = [self.problem.changes(place) for place in places]
         new = {variant: place for variant, place in zip(variants, places, strict=True) if variant not in self._known}
         self.generation += bool(new)
         for (variant, place), outcome in zip(new.items(), self._solved(list(new)), strict=True):
