@@ -296,6 +296,35 @@ def test_pumps_beyond_the_box_of_a_table_are_told_at_once(wide_table, tmp_path):
     assert reason.value.faults[0].nearest.endswith("vary piston.radial_clearance")
 
 
+BY_TABLE = """
+format = 1
+[optimise]
+pump = "ref90"
+fidelity = "table"
+table = "{table}"
+method = "trust_region"
+designs = 12
+[vary]
+"piston.radial_clearance" = "{bounds}"
+[objectives]
+loss = "least"
+"""
+
+
+def test_optimisation_by_a_table_of_dimensions(wide_table, tmp_path):
+    """The clearance of the chosen design loses less than the pump as stated."""
+    asked = tmp_path / "clearance.toml"
+    asked.write_text(BY_TABLE.format(table=wide_table, bounds="8.5..19.5 um"))
+    found = sf.optimise(asked).summary
+    (clearance,) = found["dimensions"]
+    assert 8.5e-6 <= clearance["chosen"] <= 19.5e-6
+    assert clearance["chosen"] != pytest.approx(clearance["start"], rel=0.05)
+    assert found["measures"]["loss"]["chosen"] < found["measures"]["loss"]["start"]
+    asked.write_text(BY_TABLE.format(table=wide_table, bounds="5..18 um"))
+    with pytest.raises(sf.InputFaults, match=r"in the box of the response table, 8 um .. 20 um"):
+        sf.optimise(asked)
+
+
 def test_a_table_of_dimensions_serves_the_pump_with_others_in_its_box(wide_table, tmp_path):
     """The same file takes the pump with another clearance, and refuses one beyond the box or of another dimension."""
     asked = {"fidelity": "table", "table": wide_table}
