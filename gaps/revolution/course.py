@@ -151,7 +151,7 @@ def numbers_of(item: object) -> list[float]:
         return [item]
     if isinstance(item, np.ndarray):
         return cast("list[float]", item.ravel().tolist())
-    if is_dataclass(item):
+    if is_dataclass(item) and not isinstance(item, type):
         return [number for name in _names(type(item)) for number in numbers_of(getattr(item, name))]
     return []
 
@@ -166,7 +166,7 @@ def _rebuilt(item: object, numbers: Iterator[float]) -> object:
         return next(numbers)
     if isinstance(item, np.ndarray):
         return np.array([next(numbers) for _ in range(item.size)]).reshape(item.shape)
-    if is_dataclass(item):
+    if is_dataclass(item) and not isinstance(item, type):
         kind = type(item)
         return kind(*(_rebuilt(getattr(item, name), numbers) for name in _names(kind)))
     return item
