@@ -1,8 +1,8 @@
 """Time one floating point: `python benchmarks/point.py [--rigid] [--pressure "5 MPa"] ..`.
 
-Prints for `ref90` the rounds of gaps and chambers with their changes, films and processor
-time, by gap the steps and films of a turn and the time of its last round, and the headline numbers. All in one process,
-after a point of few angles that has compiled everything: `swashfilm run` puts the pistons into a process of their own.
+Prints for `ref90` the rounds of gaps and chambers with their changes and films, by gap the steps and films of its last
+round, processor time and headline numbers. All in one process: `swashfilm run` puts
+the pistons into one of their own. The first call after a change of the program compiles; the second one counts.
 """
 
 import argparse
@@ -18,7 +18,7 @@ from system.points.floating_gaps import usual_options
 from system.pump.operating import operating_point
 from system.pump_file.file import load_pump
 
-PUMP, FEW = "ref90", 36  # angles of the point that compiles
+PUMP = "ref90"
 GAPS = ("piston", "slipper", "block")
 
 
@@ -66,7 +66,6 @@ def main() -> None:
     asked, console = parser.parse_args(), Console()
     given = {"speed": asked.speed, "pressure": asked.pressure, "displacement_ratio": asked.displacement}
     changes = {f"operating.{key}": value for key, value in given.items()}
-    timed(changes, FEW, rigid=asked.rigid)
     found, seconds = timed(changes, asked.steps, rigid=asked.rigid)
     point = found.pump_point
     leakage = 6e4 * point.leakage_flow.total

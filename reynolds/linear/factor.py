@@ -38,15 +38,6 @@ Solve = Callable[[Array, float], Array]
 """(load, tolerance) -> x with A x = load."""
 
 
-GridSearch = Callable[[], Grid | None]
-"""The rows and columns of the unknowns (`grid_of`), sought when a solve first needs them; None: the mesh is no grid."""
-
-
-def no_grid() -> Grid | None:
-    """No grid."""
-    return None
-
-
 def row_by_row(solve: Solve) -> Solve:
     """The same for a load (n,) and for rows of loads (m, n)."""
 
@@ -61,9 +52,12 @@ def row_by_row(solve: Solve) -> Solve:
 class Factor:
     """The factorised operator of one pattern: `update` with new entries, then `solve` any number of times."""
 
-    def __init__(self, grid: GridSearch = no_grid, quadratic: QuadraticFilm | None = None) -> None:
-        """quadratic: the solver of a quadratic film, None where the film is linear or its nodes are no grid."""
-        self._grid = grid
+    def __init__(self, grid: Grid | None = None, quadratic: QuadraticFilm | None = None) -> None:
+        """`grid`: the rows and columns of the unknowns (`grid_of`), None where the mesh is no grid.
+
+        quadratic: the solver of a quadratic film, None where the film is linear or its nodes are no grid.
+        """
+        self._grid = grid if grid is not None and grid.unknowns.size >= GRID_LEAST else None
         self._on_grid: Multigrid | QuadraticFilm | None = quadratic
         self._direct: tuple[csc_matrix, qdldl.Solver] | None = None
         self._multigrid: tuple[csr_array, Any] | None = None
@@ -84,8 +78,8 @@ class Factor:
     def _taken_on_grid(self, upper: csc_array, linear: Array | None) -> bool:
         if isinstance(self._on_grid, QuadraticFilm):
             return linear is not None and self._on_grid.update(upper, linear)
-        if self._on_grid is None and upper.shape[0] >= GRID_LEAST and (grid := self._grid()) is not None:
-            self._on_grid = Multigrid(grid, upper)
+        if self._on_grid is None and self._grid is not None:
+            self._on_grid = Multigrid(self._grid, upper)
         return self._on_grid is not None and self._on_grid.update(upper.data)
 
     def solve(self, load: Array, tolerance: float = ITERATIVE_TOLERANCE) -> Array:
@@ -112,7 +106,7 @@ class Factor:
         return np.asarray(self._direct[1].solve(load))
 
     def _leave_grid(self) -> None:
-        self._grid, self._on_grid = no_grid, None
+        self._grid = self._on_grid = None
 
     def _off_grid(self, upper: csc_array) -> None:
         if upper.shape[0] > DIRECT_LIMIT and not self._stalled:
@@ -157,8 +151,9 @@ class GeneralFactor:
     Else, and where those fail, an elimination with pivots on the diagonal, and where that fails, with any pivots.
     """
 
-    def __init__(self, grid: GridSearch = no_grid) -> None:
-        self._grid = grid
+    def __init__(self, grid: Grid | None = None) -> None:
+        """`grid`: the rows and columns of the unknowns (`grid_of`), None where the mesh is no grid."""
+        self._grid = grid if grid is not None and grid.unknowns.size >= GRID_LEAST else None
         self._on_grid: CavitatedFilm | None = None
         self._band: BandedFactor | None = None
         self._patterned = self._in_band = False
@@ -181,10 +176,10 @@ class GeneralFactor:
         self._in_band = self._band is not None and self._band.update(upper.data, lower)
         if self._in_band:
             return
-        if cavity is not None and upper.shape[0] >= GRID_LEAST:
-            if self._on_grid is None and (grid := self._grid()) is not None:
-                self._on_grid = CavitatedFilm(grid, upper)
-            if self._on_grid is not None and self._on_grid.update(upper.data, lower, cavity):
+        if self._grid is not None and cavity is not None:
+            if self._on_grid is None:
+                self._on_grid = CavitatedFilm(self._grid, upper)
+            if self._on_grid.update(upper.data, lower, cavity):
                 return
             self._leave_grid()
         self._eliminated()
@@ -222,7 +217,7 @@ class GeneralFactor:
         return columns * answer
 
     def _leave_grid(self) -> None:
-        self._grid, self._on_grid = no_grid, None
+        self._grid = self._on_grid = None
 
     def _eliminated(self) -> None:
         """Afterwards `_lu` is an elimination with pivots on the diagonal."""

@@ -9,7 +9,6 @@ condition is p >= p_c, R >= 0, (p - p_c) R = 0; JFO is p >= p_c, theta <= 1, (p 
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from functools import cache, partial
 
 import numpy as np
 from numpy.typing import NDArray
@@ -57,13 +56,17 @@ class FilmSolver:
     """Solves films on one space, its vertices moved or not; keeps the symbolic factorisation between calls."""
 
     def __init__(self, space: FilmSpace) -> None:
-        grid = self._grid = cache(partial(grid_of, space))
         # For balances of this space that are linearised elsewhere (`floating.joint`).
-        self.slopes_factor, self.near_factor, self.patterns = GeneralFactor(grid), NearFactor(), ElasticPatterns(space)
+        self.slopes_factor, self.near_factor, self.patterns = (
+            GeneralFactor(grid_of(space)),
+            NearFactor(),
+            ElasticPatterns(space),
+        )
         self._pattern, self._placed = space.pattern, space.vertices
+        self._grid = grid_of(space)
         self._companion = companion_of(space) if space.size >= QUADRATIC_LEAST else None
-        self._factor = Factor(grid, None if self._companion is None else film_on_nodes(self._companion))
-        self._general = GeneralFactor(grid)
+        self._factor = Factor(self._grid, None if self._companion is None else film_on_nodes(self._companion))
+        self._general = GeneralFactor(self._grid)
         self._near = NearFactor()
         self._cascade: Cascade | None = None
         self._answers: _Answers | None = None
@@ -159,7 +162,7 @@ class FilmSolver:
         matrix, load = symmetric_step(problem, setting, at, setting.held)
         obstacle = Obstacle(matrix.data, load, setting.held)
         if self._cascade is None:
-            self._cascade = Cascade(matrix, self._grid())
+            self._cascade = Cascade(matrix, self._grid)
         guess, costly = self._cascade.cavity(obstacle), problem.cavitation is Cavitation.JFO
         return active_set(matrix, self._factor, obstacle, guess) if costly or guess.size > FINEST else guess
 

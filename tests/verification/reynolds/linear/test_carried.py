@@ -107,7 +107,7 @@ def test_the_general_factor_takes_it_and_leaves_it_where_it_stalls(tolerance, mo
     space = film_space(rectangle((1.0, 1.0), (31, 24), cell=Cell.QUADRILATERAL))
     cavity = _band(space)
     upper, lower, matrix = carried(space, cavity, (1.0, 0.2))
-    factor = GeneralFactor(lambda: grid_of(space))
+    factor = GeneralFactor(grid_of(space))
     load = np.random.default_rng(3).standard_normal(space.size)
     for _ in range(2):
         factor.update(upper, lower, cavity)

@@ -63,7 +63,7 @@ def test_each_rung_of_the_ladder_hands_over_to_the_next(monkeypatch):
     for limit, tolerance, rung in ((10_000, 1e-11, "_on_grid"), (10, 1e-11, "_on_grid"), (10, 1e-30, "_direct")):
         monkeypatch.setattr(linear, "DIRECT_LIMIT", limit)
         monkeypatch.setattr(linear, "ITERATIVE_TOLERANCE", tolerance)
-        factor = linear.Factor(lambda: grid_of(space))
+        factor = linear.Factor(grid_of(space))
         factor.update(upper)
         np.testing.assert_allclose(whole @ factor.solve(load, tolerance), load, atol=1e-9)
         assert getattr(factor, rung) is not None
@@ -82,11 +82,11 @@ def test_a_pocket_five_hundred_times_deeper_stays_on_the_grid():
     kernels.hold(pattern.indptr, pattern.indices, entries, 1.0, held, np.zeros(space.size), data)
     load = np.where(held, 0.0, np.random.default_rng(1).standard_normal(space.size))
     answers = []
-    for search in (lambda: grid_of(space), linear.no_grid):
-        factor = linear.Factor(search)
+    for grid in (grid_of(space), None):
+        factor = linear.Factor(grid)
         factor.update(space.matrix(data))
         answers.append(factor.solve(load))
-        assert (factor._on_grid is None) == (search is linear.no_grid)
+        assert (factor._on_grid is None) == (grid is None)
     np.testing.assert_allclose(answers[0], answers[1], rtol=0.0, atol=1e-5 * np.abs(answers[1]).max())
 
 
@@ -95,7 +95,7 @@ def test_a_matrix_that_is_not_positive_leaves_the_grid():
     upper = space.matrix(-stiffness(space, isotropic(np.ones((1, 1)))))
     upper = upper - 0.1 * csc_array(np.eye(space.size))
     upper.sort_indices()
-    factor = linear.Factor(lambda: grid_of(space))
+    factor = linear.Factor(grid_of(space))
     factor.update(upper)
     load = np.random.default_rng(1).standard_normal(space.size)
     np.testing.assert_allclose((upper + triu(upper, 1).T) @ factor.solve(load), load, atol=1e-9)
