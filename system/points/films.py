@@ -10,7 +10,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from reynolds.errors import InputError, NotConverged
+from reynolds.errors import InputError, NotConverged, WallsOverlap
 from reynolds.numerics.arrays import Array
 from system.description.pump import PumpDescription
 from system.effects.applied import affected_leaks
@@ -164,9 +164,8 @@ def _of_pump(pump: PumpDescription, reason: InputError) -> InputError | NotConve
 
     Beyond Barus' law, where plain oil would come to 1/a, (1 - exp(-a p))/a of the stiffening oil does at no pressure.
     """
-    part = reason.where.partition(" ")[0]
-    if part in GIVEN_BY and reason.expected == "walls apart":
-        path, with_it = GIVEN_BY[part]
+    if isinstance(reason, WallsOverlap):
+        path, with_it = GIVEN_BY[reason.where.partition(" ")[0]]
         return InputError(path, f"{reason.found} at the given position", f"walls apart: more of it, or less {with_it}")
     stated = pump.physics.viscosity_pressure
     if stated is None or not reason.where.startswith("Barus"):
