@@ -84,7 +84,7 @@ def main(words: list[str]) -> int:
 
 
 def _release(name: str, prints: dict[str, dict[str, str]]) -> int:
-    """State the versions so far under a release; 1 for a release that has some already, or files that are not stated."""
+    """State the versions so far under a release; 1 where it has some already, or schemas are not those stated."""
     if name in prints:
         print(f"{name} is released: its versions never change", file=sys.stderr)
         return 1

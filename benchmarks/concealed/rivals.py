@@ -107,8 +107,8 @@ def _scores(study: Study, rows: Array) -> list[float]:
 def embedded_discrepancy(study: Study) -> Rival:
     """The parameter that would have to vary from point to point (Sargsyan, Najm and Ghanem 2015), if any.
 
-    Each parameter in turn is N(0, s^2) anew at each point, s by the largest likelihood; Schwarz' criterion decides, with
-    the number of parameters that are tried in its penalty (Chen and Chen 2008).
+    Each parameter in turn is N(0, s^2) anew at each point, s by the largest likelihood; Schwarz' criterion decides,
+    with the number of parameters that are tried in its penalty (Chen and Chen 2008).
     """
     base, points = study.base, study.base.whitening.rows[:, 0]
     gains = []

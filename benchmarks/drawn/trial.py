@@ -22,8 +22,8 @@ from .films import film_case
 from .pumps import pump_case
 
 MASS, ENERGY, PUMP_ENERGY = 1e-9, 1e-6, 5e-3
-"""Largest relative errors: of oil, in films and pumps; of power or heat in a film; of a pump's power, by the torque of its
-forces at sampled angles against the sum of all sinks (beyond, a run warns)."""
+"""Largest relative errors: of oil, in films and pumps; of power or heat in a film; of a pump's power, by the torque of
+its forces at sampled angles against the sum of all sinks (beyond, a run warns)."""
 Balances = tuple[float, float, Mapping[str, Any]]
 """Relative errors of mass and energy (NaN where the balance leaves out a work by its theory), and the summary."""
 

@@ -102,6 +102,6 @@ def test_clearances_change_from_the_temperature_of_the_pumps_own_file(here):
 def test_walls_that_overlap_are_told_by_the_keys_of_the_case(here):
     path = here / "plate.toml"
     text = 'format = 1\n[film]\ngap = "valve_plate"\npump = "ref90"\n[position]\nfilm_thickness = "2 um"\n'
-    path.write_text(text, encoding="utf-8")
+    path.write_text(text + '[physics]\nsurfaces = "smooth"\n', encoding="utf-8")
     with pytest.raises(FilmInputError, match=r"position\.film_thickness: a least gap of -.*walls apart: more film"):
         solve_case(load_film(path))
