@@ -69,17 +69,17 @@ def _run(chosen: Iterable[Door], options: argparse.Namespace, place: Path, known
         _load(samples)
     else:
         return
-    with place.open("a", encoding="utf-8") as file:
-        for door in chosen:
-            for number in range(GOOD, min(door.cases, options.cases or door.cases)):
-                if (key := (door.name, door.kind, number)) in known:
-                    continue
-                case = options.results / "cases" / f"{door.name}-{number}".replace("/", "-").replace(" ", "_")
-                known[key] = one = tried(door, number, samples, case)
-                file.write(json.dumps(asdict(one) | {"outcome": one.outcome.value}) + "\n")
-                file.flush()
-                if number == GOOD and one.outcome is not Outcome.ACCEPTED:
-                    raise RuntimeError(f"{door.name}: the good file is no good one: {one.outcome.value}, {one.told}")
+    from reynolds.numerics.files import append_whole
+
+    for door in chosen:
+        for number in range(GOOD, min(door.cases, options.cases or door.cases)):
+            if (key := (door.name, door.kind, number)) in known:
+                continue
+            case = options.results / "cases" / f"{door.name}-{number}".replace("/", "-").replace(" ", "_")
+            known[key] = one = tried(door, number, samples, case)
+            append_whole(place, json.dumps(asdict(one) | {"outcome": one.outcome.value}).encode() + b"\n")
+            if number == GOOD and one.outcome is not Outcome.ACCEPTED:
+                raise RuntimeError(f"{door.name}: the good file is no good one: {one.outcome.value}, {one.told}")
 
 
 def _load(samples: Path) -> None:

@@ -23,6 +23,8 @@ from mutation.page import missed, page_text
 from mutation.sample import sample
 from mutation.trial import Copy, Fate, Trial
 
+from reynolds.numerics.files import replaced
+
 ROOT = Path(__file__).resolve().parents[1]
 KEPT = Path(__file__).parent / "mutation" / "outcomes"
 NEAR = 25
@@ -67,7 +69,8 @@ def _run(options: argparse.Namespace) -> None:
             continue
         tests = nearness.order(edit.file)
         trial = copy.tried(edit, tests if whole else tests[:NEAR], WHOLE_LIMIT if whole else LIMIT)
-        (KEPT / f"{edit.name}.json").write_text(json.dumps(asdict(trial), indent=1) + "\n", encoding="utf-8")
+        with replaced(KEPT / f"{edit.name}.json") as beside:
+            beside.write_text(json.dumps(asdict(trial), indent=1) + "\n", encoding="utf-8")
         print(f"{trial.fate}: {edit.file} {edit.function}, {trial.seconds:.0f} s {trial.noticed_by}", flush=True)
 
 

@@ -60,12 +60,15 @@ def _records(cases: Sequence[Case], films: FilmModel, options: argparse.Namespac
     """The outcomes of some cases of one simulation, those that are not kept made side by side."""
     from proof.floating.trial import try_case
 
+    from reynolds.numerics.files import replaced
+
     options.results.mkdir(parents=True, exist_ok=True)
     kept = {case: options.results / f"{case.name}.json" for case in cases}
     missing = [case for case, place in kept.items() if not place.is_file()]
     with ProcessPoolExecutor(options.workers) as pool:
         for case, outcome in zip(missing, pool.map(try_case, missing, [films] * len(missing)), strict=True):
-            kept[case].write_text(json.dumps(outcome.record()), encoding="utf-8")
+            with replaced(kept[case]) as beside:
+                beside.write_text(json.dumps(outcome.record()), encoding="utf-8")
     for place in kept.values():
         yield json.loads(place.read_text("utf-8"))
 

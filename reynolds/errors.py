@@ -19,6 +19,10 @@ class FilmInputError(InputError):
     """A film problem that cannot be posed."""
 
 
+class WallsOverlap(FilmInputError):
+    """A given position at which a part lies in its wall; `where` begins with the part's name."""
+
+
 class NotConverged(RuntimeError):
     """A solve ended without meeting its stated tolerance.
 

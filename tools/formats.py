@@ -66,9 +66,7 @@ def main(words: list[str]) -> int:
     asked = parser.parse_args(words)
     prints = read_fingerprints()
     if asked.release:
-        prints[asked.release] = prints.pop(UNRELEASED, {})
-        write_fingerprints(prints)
-        return 0
+        return _release(asked.release, prints)
     changed = {names: schema for names, schema in _schemas(asked.folders) if schema_text(schema) != _text(names)}
     refused = [names.key for names in changed if names.key in released(prints)]
     for key in refused:
@@ -83,6 +81,20 @@ def main(words: list[str]) -> int:
     }
     write_fingerprints(prints)
     return 1 if refused else 0
+
+
+def _release(name: str, prints: dict[str, dict[str, str]]) -> int:
+    """State the versions so far under a release; 1 where it has some already, or schemas are not those stated."""
+    if name in prints:
+        print(f"{name} is released: its versions never change", file=sys.stderr)
+        return 1
+    stated = {key: one for own in prints.values() for key, one in own.items()}
+    if stated != {path.stem: fingerprint(path) for path in KEPT.glob("*.json")}:
+        print("schemas are not those of the fingerprints: python tools/formats.py first", file=sys.stderr)
+        return 1
+    prints[name] = prints.pop(UNRELEASED, {})
+    write_fingerprints(prints)
+    return 0
 
 
 def _schemas(folders: list[Path]) -> Iterator[tuple[Names, Schema]]:

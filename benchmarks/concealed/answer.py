@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from reynolds.numerics.files import replaced
 from system.description.gap import Gap
 from system.effects.effect import EffectId, Kind
 from system.inputs.faults import Fault, InputFaults, nearest_choice, stated
@@ -86,7 +87,8 @@ def write_answer(folder: Path, answer: Answer) -> None:
         "cpu_s": answer.cpu_s,
     }  # fmt: skip
     folder.mkdir(parents=True, exist_ok=True)
-    (folder / f"{answer.recording}.json").write_text(json.dumps(rows, indent=1) + "\n", encoding="utf-8")
+    with replaced(folder / f"{answer.recording}.json") as beside:
+        beside.write_text(json.dumps(rows, indent=1) + "\n", encoding="utf-8")
 
 
 def _read(path: Path, recordings: Sequence[str], faults: list[Fault]) -> Answer | None:

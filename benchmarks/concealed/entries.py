@@ -6,15 +6,17 @@ from collections.abc import Iterator, Sequence
 from pathlib import Path
 
 from proof.outcome import Outcome, Rival
-from proof.trial import tried
+from proof.trial import study_of_folder, tried
 
 from system.effects.catalogue.entries import entry_of
 from system.effects.effect import EffectId, Kind
 
 from .answer import IDS, Answer, Name, Ranked, write_answer
 from .made import PUMP
+from .rivals import rivals as statistics
 
-OURS = "swashfilm"
+OURS, LAST = "swashfilm", "embedded-discrepancy"
+"""Entry of this program, and the last that `rivals` writes."""
 SLUGS = {
     "stepwise BIC": "stepwise-bic", "sparse regression": "sparse-regression",
     "Gaussian process": "gaussian-process", "largest residual": "largest-residual",
@@ -23,15 +25,18 @@ SLUGS = {
 
 
 def enter(recordings: Path, answers: Path, names: Sequence[str], *, with_rivals: bool) -> Iterator[str]:
-    """Write the answers to each recording that has none of ours yet; yield a line each.
+    """Write the answers to each recording that has none yet; yield a line for each of ours.
 
-    with_rivals: also those of SLUGS, of recordings with steady points: the rivals know no series.
+    with_rivals: also those of SLUGS and of `rivals`, of recordings with steady points: they know no series.
     """
     for name in names:
-        if (answers / OURS / f"{name}.json").exists():
-            continue
         folder = recordings / name
         rivals = with_rivals and (folder / "steady.csv").is_file()
+        if rivals and not (answers / LAST / f"{name}.json").exists():
+            for slug, found in statistics(study_of_folder(folder, folder / PUMP)).items():
+                write_answer(answers / slug, rival_answer(name, found))
+        if (answers / OURS / f"{name}.json").exists():
+            continue
         blank = Outcome(name=name, part="", campaign="", seed=0, asked=0.0, score=0.0, sizes={}, truth="", effects=(),
                         pairs=(), shares={})  # fmt: skip
         found, _ = tried(folder, blank, folder / PUMP, rivals)

@@ -39,8 +39,11 @@ tell.** [The proof](proof.md) has this diagnosis on some hundreds of recordings 
 - The rivals take the study of this program (readings, priors, slopes) and know steady points alone: they have no
   answer to the series of the rough plant, which count as not detected, and of a null as no alarm. `stepwise-bic` adds
   columns of the catalogue by Schwarz' criterion, `sparse-regression` is LASSO on textbook terms, `gaussian-process` a
-  smooth discrepancy without a name, `largest-residual` the usual suspect of the channel that is off most. They tell no
-  probabilities: a name of theirs counts as sure. Their time is not counted apart.
+  smooth discrepancy without a name, `largest-residual` the usual suspect of the channel that is off most.
+  `kennedy-ohagan` chooses by Schwarz' criterion among the model, one more effect, a smooth discrepancy and both;
+  `localise-and-test` lets one half of the points propose effects and the other test them, with the share of false
+  discoveries bounded; `embedded-discrepancy` seeks the parameter that would have to vary from point to point. They
+  tell no probabilities: a name of theirs counts as sure. Their time is not counted apart.
 """
 CASES = """
 ## Each recording

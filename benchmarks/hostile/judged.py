@@ -17,6 +17,8 @@ RAISED = 70
 MEMORY = 1_500_000_000
 """Bytes beyond which the memory of a command counts as not bounded."""
 _PLACE = re.compile(r"swashfilm: (not converged: .|.+: \d+ faults?\n {2}\S|.+: found .+, expected )", re.DOTALL)
+_LEFT = (".part", ".tmp", ".half")
+"""Endings of files that are being written."""
 _CONTROL = re.compile(r"[\x00-\x08\x0b-\x1f\x7f\x80-\x9f]")
 
 
@@ -109,7 +111,7 @@ class _Elements(HTMLParser):
 
 def _half(folder: Path, code: int) -> str:
     """Return what of the files written is not whole, or not finite; empty where all is well."""
-    if left := [path.name for path in folder.rglob("*") if path.name.endswith((".tmp", ".half"))]:
+    if left := [path.name for path in folder.rglob("*") if path.name.endswith(_LEFT)]:
         return f"left behind: {', '.join(left)}"
     out = folder / "out"
     if code and out.exists():

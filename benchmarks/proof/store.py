@@ -9,6 +9,8 @@ from pathlib import Path
 
 import grimp
 
+from reynolds.numerics.files import replaced
+
 from .cases import Case
 from .other import VERSION as OTHER_VERSION
 from .outcome import Outcome, as_plain, from_plain
@@ -84,10 +86,8 @@ def outcomes(folder: Path) -> list[Outcome]:
 def keep(folder: Path, name: str, outcome: Outcome) -> None:
     """Write an outcome whole or not at all."""
     folder.mkdir(parents=True, exist_ok=True)
-    path = folder / name
-    fresh = path.with_suffix(".tmp")
-    fresh.write_text(json.dumps(as_plain(outcome), indent=1), encoding="utf-8")
-    fresh.replace(path)
+    with replaced(folder / name) as beside:
+        beside.write_text(json.dumps(as_plain(outcome), indent=1), encoding="utf-8")
 
 
 def _digest(places: list[Path]) -> str:

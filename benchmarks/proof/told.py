@@ -6,6 +6,8 @@ import json
 from dataclasses import asdict, dataclass
 from pathlib import Path
 
+from reynolds.numerics.files import replaced
+
 from .store import program
 
 
@@ -21,9 +23,10 @@ class Told:
 
 
 def keep_told(folder: Path, name: str, told: Told) -> None:
-    """Write a section under its name."""
+    """Write a section under its name, whole or not at all."""
     folder.mkdir(parents=True, exist_ok=True)
-    (folder / f"{name}.json").write_text(json.dumps(asdict(told), indent=1), encoding="utf-8")
+    with replaced(folder / f"{name}.json") as beside:
+        beside.write_text(json.dumps(asdict(told), indent=1), encoding="utf-8")
 
 
 def load_told(folder: Path, name: str) -> Told | None:

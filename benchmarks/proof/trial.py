@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import tempfile
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from math import isfinite
 from pathlib import Path
@@ -27,7 +28,7 @@ from system.description.pump import PumpDescription
 from system.description.tolerances import tolerances
 from system.effects.effect import EffectId, Kind
 from system.inputs.faults import InputFaults
-from system.pump_file.file import load_known_pump
+from system.pump_file.file import KnownPump, load_known_pump
 
 from .campaigns import campaigns
 from .cases import Case, Part
@@ -116,6 +117,21 @@ def tried(
 
 def diagnose_folder(folder: Path, pump: str | Path = BENCH, with_rivals: bool = True) -> Diagnosed:
     """Findings of `swashfilm diagnose PUMP FOLDER` and of other methods on the same study."""
+    thresholds = load_thresholds()
+    known, recording, prepared = _posed(folder, pump)
+    study, found = diagnose_recording(known.pump, recording, prepared, thresholds)
+    asked = with_next_point(study, known.pump, found, thresholds)
+    return Diagnosed(asked, rivals(study, thresholds) if with_rivals else {}, study, known.pump)
+
+
+def study_of_folder(folder: Path, pump: str | Path = BENCH) -> Study:
+    """The study of a recording, without a finding."""
+    _, recording, prepared = _posed(folder, pump)
+    return prepared(recording)
+
+
+def _posed(folder: Path, pump: str | Path) -> tuple[KnownPump, Recording, Callable[[Recording], Study]]:
+    """The pump at the level of its recording, the recording, and how its study is made."""
     known, thresholds = load_known_pump(pump), load_thresholds()
     recording, allowed = checked_recording(folder, known), tolerances(known.pump)[0]
     known = levelled(known, recording, allowed)
@@ -123,9 +139,7 @@ def diagnose_folder(folder: Path, pump: str | Path = BENCH, with_rivals: bool = 
     def prepared(usable: Recording) -> Study:
         return prepare(known.pump, usable, allowed, thresholds, scant=known.scant)
 
-    study, found = diagnose_recording(known.pump, recording, prepared, thresholds)
-    asked = with_next_point(study, known.pump, found, thresholds)
-    return Diagnosed(asked, rivals(study, thresholds) if with_rivals else {}, study, known.pump)
+    return known, recording, prepared
 
 
 def _outcome(expected: Outcome, diagnosed: Diagnosed, seconds: float) -> Outcome:

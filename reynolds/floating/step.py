@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 
 from reynolds.compiled.film import is_compiled
-from reynolds.errors import FilmInputError, FilmNotConverged, InputError
+from reynolds.errors import FilmNotConverged, InputError, WallsOverlap
 from reynolds.floating.coordinates import modes_on
 from reynolds.floating.joint import JointSearch
 from reynolds.floating.pose import lowest_gap, posed
@@ -76,12 +76,12 @@ def full_film(floating: Floating, time: float, q: Array, rate: Array | None = No
     """State of a full film at a position (k,) m, as `FloatingStage.holds`: the start of a march.
 
     The film is at the pressures of its boundaries; `rate` (k,) m/s counts where walls have inertia (None: at
-    rest). Raises FilmInputError where walls overlap.
+    rest). Raises WallsOverlap where they do.
     """
     shape = floating.shape_at(time)
     at = posed(shape, modes_on(shape.space, floating.modes_at(time), floating.pockets), q)
     if shape.walls is None and not at.least > lowest_gap(shape):
-        raise FilmInputError(f"{floating.name} at {time:.6g} s", f"a least gap of {at.least:.3g} m", "walls apart")
+        raise WallsOverlap(f"{floating.name} at {time:.6g} s", f"a least gap of {at.least:.3g} m", "walls apart")
     full = replace(shape, film=at.film, asperities=at.asperities, boundary=filled(floating, shape, q))
     return joined(floating, StepStart(oil_held(full), q, np.zeros(len(q)) if rate is None else rate))
 

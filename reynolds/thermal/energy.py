@@ -42,6 +42,7 @@ CORRECTED = 1e-5  # change of the last correction over the range of temperature
 PATIENCE = 40  # corrections, after which larger and larger jumps go upwind too
 CLOSER = 0.1  # of the residual is left by the solve of a correction
 MAX_CORRECTIONS = 100
+ROUND_OFF = 1e-7  # of what the film could conduct over its range of temperature: less heat than this is none
 NO_INFLOW = 1e-9  # of the unknown's flow scale
 
 
@@ -109,7 +110,8 @@ class FilmTemperature:
     (2, size) W/m2 into the fixed and the moving wall; to_fixed, to_moving W; convected_out: by the oil through the
     boundary, against `datum` (K), the lowest given temperature; stored: in the oil that the film holds;
     dissipation, compression: sources. least_jump (K): smaller jumps between unknowns go upwind (first order),
-    2e-5 of the range where the limiter converges soon. energy_balance_error: residual over the heat passed.
+    2e-5 of the range where the limiter converges soon. energy_balance_error: residual over the heat passed, or over
+    the least that counts as heat.
     """
 
     solution: FilmSolution = field(repr=False)
@@ -330,6 +332,7 @@ def _answer(
     pressed = heat.expansion * float((flows.working * (inner + terms.datum) @ weights).sum())
     missing = convected + stored + to_fixed + to_moving - spent - pressed
     scale = abs(convected) + abs(stored) + abs(to_fixed) + abs(to_moving) + spent + abs(pressed)
+    scale = max(scale, ROUND_OFF * float(terms.conductance.sum() * np.abs(rise).max()))
     return FilmTemperature(
         solution=solution,
         profile=profile,

@@ -7,7 +7,7 @@ by the same names and within the same bounds.
 from dataclasses import dataclass, fields
 from typing import Annotated
 
-from system.inputs.sections.fields import Coefficient, Fraction, Limits, NotNegative
+from system.inputs.sections.fields import Fraction, Limits, NotNegative
 from system.inputs.units import Dimension
 
 _WallResistance = Annotated[float, Dimension.THERMAL_RESISTANCE, Limits(least=0.0, most=2e-3)]
@@ -214,7 +214,7 @@ class PortThrottlingSection:
 class CompressionLossSection:
     """[physics.compression_loss]: energy of compressed oil that is lost."""
 
-    share: Coefficient
+    share: Annotated[float, Limits(least=0.0, most=5.0)]
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -90,6 +90,16 @@ def orifice_flow(state: BenchState, area: float, drop: Array) -> Array:
     return np.asarray(np.sign(drop) * state.geometry.ports.flow_coefficient * area * speed)
 
 
+def throttled(state: BenchState, flow: Array, drop: Array) -> Array:
+    """Power (N,) W that a `flow` (m3/s at the higher pressure) loses over a `drop` (Pa): Q K (exp(dp/K) - 1).
+
+    It is the mass flow times the difference of h = K (1 - exp(-p/K)), for the oil expands on its way: Q dp (1 + dp/2K)
+    to second order.
+    """
+    modulus = state.geometry.oil.bulk_modulus
+    return np.asarray(flow * modulus * np.expm1(drop / modulus))
+
+
 def warmed(state: BenchState, rise: Array) -> Array:
     """Viscosity of the oil warmer by `rise` K over its viscosity at the state's temperature, (N, ...) as `rise`.
 

@@ -10,7 +10,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from reynolds.errors import InputError, NotConverged
+from reynolds.errors import InputError, NotConverged, WallsOverlap
 from reynolds.numerics.arrays import Array
 from system.description.pump import PumpDescription
 from system.effects.applied import affected_leaks
@@ -52,6 +52,14 @@ TOLERANCE = 1e-6
 """Largest change of the chamber pressure between two rounds, of delivery minus inlet pressure."""
 ROUND_LIMIT = 40
 """Rigid films of plain oil take two or three; walls that open a film to three times its thickness some twenty."""
+
+
+GIVEN_BY = {
+    "piston": ("piston.radial_clearance", "piston.eccentricity_ratio"),
+    "slipper": ("slipper.film_thickness", "slipper.tilt_radial, tilt_tangential or shape of its face"),
+    "block": ("valve_plate.film_thickness", "valve_plate.tilt_x, tilt_y or waviness"),
+}
+"""Keys that hold the walls of a gap apart at its given position, and what brings them together."""
 
 
 @dataclass(frozen=True)
@@ -133,7 +141,7 @@ def films_point(
                 physics=work.physics, rubbing=work.rubbing(cycles), finer=finer,
             )  # fmt: skip
         except InputError as reason:
-            raise _run_away(pump, reason) from None
+            raise _of_pump(pump, reason) from None
         ported, leaks = _ported(work, gaps, group[0].rotor.point)
         met = met_point(work.point, ported)
         group = tuple(replace(one, rotor=rotor(one.rotor.pump, met)) for one in group)
@@ -151,11 +159,14 @@ def films_point(
     return FilmsPoint(tuple(kinds_found), work.physics, whole, rounds, change, sampled)
 
 
-def _run_away(pump: PumpDescription, reason: InputError) -> InputError | NotConverged:
-    """The reason itself, or in the pump's words that its oil stiffens without bound, beyond Barus' law.
+def _of_pump(pump: PumpDescription, reason: InputError) -> InputError | NotConverged:
+    """The reason in the pump's words: parts that touch, oil that stiffens without bound; else the reason itself.
 
-    Where plain oil would come to 1/a, (1 - exp(-a p))/a of the stiffening oil does at no pressure.
+    Beyond Barus' law, where plain oil would come to 1/a, (1 - exp(-a p))/a of the stiffening oil does at no pressure.
     """
+    if isinstance(reason, WallsOverlap):
+        path, with_it = GIVEN_BY[reason.where.partition(" ")[0]]
+        return InputError(path, f"{reason.found} at the given position", f"walls apart: more of it, or less {with_it}")
     stated = pump.physics.viscosity_pressure
     if stated is None or not reason.where.startswith("Barus"):
         return reason

@@ -9,7 +9,7 @@ from reynolds.numerics.arrays import Array
 from system.description.gap import Gap
 from system.effects.effect import BenchState, Effects, GapCourse
 from system.effects.extension import Values
-from system.effects.state import orifice_flow, pressure_difference, unchanged
+from system.effects.state import orifice_flow, pressure_difference, throttled, unchanged
 from system.inputs.units import TURN
 
 REFERENCE_VISCOSITY = 0.025
@@ -22,7 +22,7 @@ def squeeze_pumping(values: Values, courses: Courses, state: BenchState) -> Effe
     """Slippers that rise and fall by `stroke` m each turn pump oil from the inlet's side into the case."""
     area = np.pi * state.geometry.slipper.land_outer_radius**2
     flow = state.geometry.pump.pistons * area * values["stroke"] * state.speed / TURN
-    lost = flow * (state.inlet_pressure - state.case_pressure)
+    lost = throttled(state, flow, state.inlet_pressure - state.case_pressure)
     return replace(unchanged(courses), drain_from_inlet=flow, carried_off=lost)
 
 
@@ -49,8 +49,9 @@ def control_flow(values: Values, courses: Courses, state: BenchState) -> Effects
     slit = values["laminar"] * state.viscosity / REFERENCE_VISCOSITY
     orifice = 4.0 * (1.0 - values["laminar"]) * np.abs(drop) / rated
     flow = full * 2.0 * drop / rated / np.maximum(slit + np.sqrt(slit**2 + orifice), 1e-12)
-    return replace(unchanged(courses), drain_flow=flow, carried_off=flow * drop)
+    return replace(unchanged(courses), drain_flow=flow, carried_off=throttled(state, flow, drop))
 
 
 def _across(courses: Courses, state: BenchState, flow: Array) -> Effects:
-    return replace(unchanged(courses), cross_flow=flow, carried_off=flow * pressure_difference(state))
+    lost = throttled(state, flow, pressure_difference(state))
+    return replace(unchanged(courses), cross_flow=flow, carried_off=lost)

@@ -11,7 +11,7 @@ from system.effects.effect import BenchState, Effects, GapCourse
 from system.effects.extension import Values
 from system.effects.laws.film import through_orifice
 from system.effects.laws.flow import REFERENCE_VISCOSITY
-from system.effects.state import GAPS, piston_area, pressure_difference, swash_tangent, unchanged
+from system.effects.state import GAPS, piston_area, pressure_difference, swash_tangent, throttled, unchanged
 
 ONSET = 0.2
 """Share of the holding moment over which a part tips smoothly, from that moment on."""
@@ -119,5 +119,5 @@ def block_tipping(values: Values, courses: Courses, state: BenchState) -> Effect
         conductance=conductance,
         viscous=viscous,
         cross_flow=flow,
-        carried_off=flow * pressure_difference(state),
+        carried_off=throttled(state, flow, pressure_difference(state)),
     )

@@ -3,9 +3,11 @@
 import numpy as np
 import pytest
 
+from reynolds.errors import FilmInputError
 from swashfilm.__main__ import main
 from swashfilm.case.gap.instant import GapCase
 from swashfilm.case.study import StudyCase, load_film
+from swashfilm.runs.film.solve.study import solve_case
 from system import InputFaults
 
 GAP = 'format = 1\n[film]\ngap = "piston"\npump = "ref90"\n'
@@ -95,3 +97,11 @@ def test_clearances_change_from_the_temperature_of_the_pumps_own_file(here):
         assert isinstance(case, GapCase)
         films[celsius] = case.rotor.pump.piston.radial_clearance
     assert films[70] == pytest.approx(1.2 * films[50], rel=1e-9)  # ref90 states 50 degC
+
+
+def test_walls_that_overlap_are_told_by_the_keys_of_the_case(here):
+    path = here / "plate.toml"
+    text = 'format = 1\n[film]\ngap = "valve_plate"\npump = "ref90"\n[position]\nfilm_thickness = "2 um"\n'
+    path.write_text(text + '[physics]\nsurfaces = "smooth"\n', encoding="utf-8")
+    with pytest.raises(FilmInputError, match=r"position\.film_thickness: a least gap of -.*walls apart: more film"):
+        solve_case(load_film(path))

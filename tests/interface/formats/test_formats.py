@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 import json
-import shutil
 import zipfile
 from pathlib import Path
 
 import formats
 import h5py
 import pytest
-from formats import FINGERPRINTS, KEPT, fingerprint, input_names, main as write_formats, run_names
+from formats import KEPT, fingerprint, input_names, main as write_formats, run_names
 from written_formats import folder_faults
 
 import swashfilm as sf
@@ -39,6 +38,15 @@ def unpacked(tmp_path):
     return place
 
 
+@pytest.fixture
+def unreleased(tmp_path, monkeypatch):
+    """Fingerprints of all schemas, none of them released, in place of the kept ones."""
+    stated = {key: one for own in formats.read_fingerprints().values() for key, one in own.items()}
+    monkeypatch.setattr(formats, "FINGERPRINTS", tmp_path / "fingerprints.toml")
+    formats.write_fingerprints({formats.UNRELEASED: stated})
+    return formats.FINGERPRINTS
+
+
 def changed(folder: Path, **values: object) -> Path:
     """The folder with other entries in its summary."""
     summary = json.loads((folder / "summary.json").read_text("utf-8"))
@@ -60,15 +68,23 @@ def test_the_schema_of_an_input_is_the_kept_one(kind):
     assert formats.schema_text(schema_of(kind)) == kept, "python tools/formats.py, or a new version of the input"
 
 
-def test_a_released_schema_does_not_change(unpacked, tmp_path, monkeypatch, capsys):
+def test_a_released_schema_does_not_change(unpacked, unreleased, capsys):
     folder = changed(unpacked("duty-1"), no_such_key=1.0)
-    prints, before = tmp_path / "fingerprints.toml", run_names("duty").path.read_text("utf-8")
-    shutil.copy(FINGERPRINTS, prints)
-    monkeypatch.setattr(formats, "FINGERPRINTS", prints)
+    before = run_names("duty").path.read_text("utf-8")
     assert write_formats(["--release", "0.2.0"]) == 0
+    stated = unreleased.read_text("utf-8")
+    assert write_formats(["--release", "0.2.0"]) == 1
+    assert "0.2.0 is released" in capsys.readouterr().err
+    assert unreleased.read_text("utf-8") == stated
     assert write_formats([str(folder)]) == 1
     assert "run.duty-1 is released" in capsys.readouterr().err
     assert run_names("duty").path.read_text("utf-8") == before
+
+
+def test_a_release_is_of_the_schemas_as_they_are(unreleased, capsys):
+    unreleased.write_text(unreleased.read_text("utf-8").replace('duty-1" = "', 'duty-1" = "0'), "utf-8")
+    assert write_formats(["--release", "0.2.0"]) == 1
+    assert "python tools/formats.py first" in capsys.readouterr().err
 
 
 def test_what_a_schema_does_not_state_is_told(unpacked):

@@ -11,7 +11,7 @@ from gaps.films.over_turn import constant
 from gaps.films.slipper import face_force
 from gaps.loads.ball_joint import lateral_force
 from gaps.standing.gap_film import GapFilm, rest_from
-from reynolds.errors import FilmNotConverged
+from reynolds.errors import FilmInputError, FilmNotConverged, WallsOverlap
 from reynolds.floating.stage import FloatingStage
 from reynolds.numerics.arrays import Array
 from swashfilm.case.gap.instant import GapCase
@@ -60,7 +60,7 @@ def solve_gap(case: GapCase) -> GapStudy:
     pressed on walls that do not support it.
     """
     gap = case_gap(case)
-    stage = _at_rest(gap, case) if case.position is None else gap.held_at(case.shaft_angle, case.position)
+    stage = _at_rest(gap, case) if case.position is None else _held(gap, case)
     found = gap.report(stage)
     source = PositionSource.REST if case.position is None else PositionSource.GIVEN
     doubts = unresolved_profiles(case.rotor, case.parts, found.solution) if case.gap is Gap.PISTON else ()
@@ -71,6 +71,18 @@ def case_gap(case: GapCase) -> StandingGap[Any, Any]:
     """Return the gap of a case under its load, ready to be held or to come to rest."""
     drives = _loaded(case, instant_drives(case.rotor, case.parts, case.shaft_angle, case.chamber_pressure))
     return standing_gap(case.gap, case.rotor, case.parts, drives, case.physics, case.finer)
+
+
+def _held(gap: StandingGap[Any, Any], case: GapCase) -> FloatingStage:
+    """Return the part at its position; raise FilmInputError, by the keys of the case, where it lies in its wall."""
+    try:
+        return gap.held_at(case.shaft_angle, case.position)
+    except WallsOverlap as reason:
+        key = "eccentricity" if case.gap is Gap.PISTON else "film_thickness"
+        expected = (
+            "walls apart: nearer to the middle" if case.gap is Gap.PISTON else "walls apart: more film, less slope"
+        )
+        raise FilmInputError(f"position.{key}", f"{reason.found} between the shapes of the faces", expected) from None
 
 
 def _at_rest(gap: StandingGap[Any, Any], case: GapCase) -> FloatingStage:

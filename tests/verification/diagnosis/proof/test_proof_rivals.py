@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import importlib
 from collections.abc import Iterator
 from dataclasses import replace
 from types import SimpleNamespace
@@ -10,7 +11,9 @@ import numpy as np
 import pytest
 
 from diagnosis import Study, check_recording, load_thresholds, prepare, read_recording
+from reynolds import Array
 from system import load_pump, tolerances
+from system.estimation.evidence import project
 
 
 @pytest.fixture(scope="module")
@@ -66,3 +69,35 @@ def test_lasso_keeps_what_carries(proof: SimpleNamespace) -> None:
     found = proof.baselines._lasso(matrix, 20.0 * matrix[:, 3] + rng.normal(size=100))
     assert found[3] == pytest.approx(20.0, abs=5.0)
     assert np.abs(np.delete(found, 3)).max() < 4.0
+
+
+def planted(study: Study, shift: Array) -> Study:
+    """The study with white noise and a whitened shift, what its parameters absorb taken from both."""
+    left = project(study.base, np.random.default_rng(11).normal(size=shift.size) + shift)
+    return replace(study, base=replace(study.base, xi=0.0 * study.base.xi, residual=left))
+
+
+def test_statistics_find_a_planted_column(proof: SimpleNamespace, study: Study) -> None:
+    """Churning's column at z = 20: two methods name it; in white noise none sees anything."""
+    rivals = importlib.import_module("concealed.rivals").rivals
+    column = next(each.column for each in study.candidates if each.entry.id.value == "churning")
+    shift = 20.0 / np.sqrt(column @ project(study.base, column)) * column
+    found = rivals(planted(study, shift))
+    assert found["kennedy-ohagan"].named == ("churning",)
+    assert found["localise-and-test"].named == ("churning",)
+    assert not any(one.alarm for one in rivals(planted(study, 0.0 * shift)).values())
+
+
+def test_statistics_see_what_no_column_is(proof: SimpleNamespace, study: Study) -> None:
+    """A wave over the pressure in the drain is a discrepancy; a film that differs from point to point is embedded."""
+    rivals = importlib.import_module("concealed.rivals")
+    shape = np.zeros(study.observations.values.shape)
+    drain = [channel.name for channel in study.observations.channels].index("Q_case")
+    shape[:, drain] = 8.0 * np.cos(5.0 * study.axes[:, 1]) * study.base.whitening.sigma[:, drain]
+    assert rivals.kennedy_ohagan(planted(study, study.base.whitening.whiten(shape))).alarm
+    at = study.base.index("film_thickness.slipper")
+    points = study.base.whitening.rows[:, 0]
+    own = np.random.default_rng(3).normal(size=points.max() + 1)[points]
+    slope = study.base.slopes[:, at]
+    told = rivals.embedded_discrepancy(planted(study, 6.0 * own * slope / np.abs(slope).max()))
+    assert told.named == ("film_thickness",)

@@ -277,6 +277,15 @@ def test_what_cannot_be_posed():
         solve_thermal(wedge(quadratic, 2.0, Cavitation.NONE), good, constant)
 
 
+def test_no_heat_at_all_is_in_balance():
+    """A film at rest between walls of one temperature, warmer than what might enter: round-off is no error."""
+    space = square(6)
+    still = FilmProblem(space, film(OUTLET, VISCOSITY), dict.fromkeys(SIDES, Held(0.0)))
+    warm = GivenTemperature(INLET + 26.0)
+    found = solve_thermal(still, oil_heat(warm, warm), thinning)
+    assert found.heat.energy_balance_error < 1e-3
+
+
 def test_heat_without_a_way_out():
     """An endless film between adiabatic walls has no steady temperature."""
     space = film_space(rectangle((LENGTH, LENGTH), (3, 3), periodic_x=True))

@@ -24,6 +24,7 @@ from reynolds import (
     Convecting,
     Elastic,
     FilmInputError,
+    FilmNotConverged,
     FilmProblem,
     FilmSolver,
     FilmSpace,
@@ -192,6 +193,34 @@ def test_cold_oil_would_stiffen_without_bound():
         start = solve_thermal(replace(thin, film=film_there), heat, viscosity, tolerance=1e-8, start=start)
     assert found.film.pressure == pytest.approx(start.film.pressure, rel=1e-6)
     assert found.heat.temperature == pytest.approx(start.heat.temperature, rel=1e-7)
+
+
+class _FailsOnce(FilmSolver):
+    """A solver whose second film has no solution; viscosities: the mean of each film that it was given."""
+
+    def __init__(self, space: FilmSpace):
+        super().__init__(space)
+        self.viscosities: list[float] = []
+
+    def solve(self, problem, start=None):
+        self.viscosities.append(float(np.mean(problem.film.viscosity)))
+        if len(self.viscosities) == 2:
+            raise FilmNotConverged("no film", "another one")
+        return super().solve(problem, start)
+
+
+def test_a_film_without_a_solution_is_sought_half_way_to_the_last():
+    def thinning_alone(temperature, pressure):
+        return VISCOSITY * np.exp(-0.03 * (temperature - INLET)) + 0.0 * pressure
+
+    problem, heat = wedge(square(8)), oil_heat(Adiabatic(), Adiabatic())
+    solver = _FailsOnce(problem.space)
+    found = solve_thermal(problem, heat, thinning_alone, tolerance=1e-8, solver=solver)
+    first, failed, sought = solver.viscosities[:3]
+    assert sought == pytest.approx(np.sqrt(first * failed), rel=0.03)  # half way in logarithms
+    assert found.film.pressure == pytest.approx(
+        solve_thermal(problem, heat, thinning_alone, tolerance=1e-8).film.pressure, rel=1e-6
+    )
 
 
 def test_friction_of_contact_is_heat(validation):

@@ -1,13 +1,17 @@
 """The catalogue of effects: complete, neutral when off, each with a prior, a size and words of its own."""
 
+from dataclasses import is_dataclass
+
 import numpy as np
 import pytest
 from bench_pump import BENCH
 
 from reynolds import dynamic_viscosity
 from system import CATALOGUE, EXTENSIONS, BenchState, EffectId, Gap, GapCourse, Kind, entry_of, load_pump
+from system.description.effects import PhysicsSection
 from system.effects.catalogue.solved import SOLVED_ENTRIES
 from system.effects.effect import both, neutral
+from system.inputs.sections.fields import Limits, fields_of
 
 REF90 = load_pump(BENCH)
 POINTS, ANGLES = 3, 6
@@ -88,6 +92,17 @@ def test_at_their_bounds_laws_stay_physical(extension, courses, state):
         assert all((getattr(found, name) > 0).all() for name in ("conductance", "viscous", "coulomb", "ideal"))
         assert ((found.intake > 0) & (found.intake <= 1)).all()
         assert (found.extra_coulomb >= 0).all()
+
+
+@pytest.mark.parametrize("extension", BY_NAME)
+def test_a_fit_keeps_to_the_bounds_of_the_pump_file(extension):
+    for parameter in extension.parameters:
+        section, limits = PhysicsSection, Limits()
+        for key in parameter.name.split("."):
+            field = fields_of(section)[key]
+            section = next((one for one in field.types if is_dataclass(one)), None)
+            limits = next((mark for mark in field.marks if isinstance(mark, Limits)), limits)
+        assert (parameter.lower, parameter.upper) == (limits.least, limits.most), parameter.name
 
 
 def test_two_at_once_are_product_and_sum(courses, state):

@@ -16,6 +16,7 @@ import pytest
 from bench_pump import BENCH
 
 from gaps import GapFilm
+from reynolds.errors import InputError
 from system import (
     FilmsPoint,
     PumpDescription,
@@ -247,6 +248,12 @@ def test_film_angles_must_fit_the_samples():
 
 
 @pytest.mark.slow
+def test_waves_deeper_than_the_given_film_are_named():
+    pump = load_pump("ref90", {"valve_plate.film_thickness": "3 um", "valve_plate.waviness.amplitude": "4 um"})
+    with pytest.raises(InputError, match=r"valve_plate\.film_thickness: a least gap of -.* less valve_plate.*waviness"):
+        films_point(pump, operating_point(pump), positions_per_pitch=2, finer=0.5)
+
+
 def test_twice_the_film_angles(rated, validation):
     fine = films_point(rated.rotor.pump, rated.pump_point.point, positions_per_pitch=8)
     assert_closed(fine)

@@ -113,6 +113,12 @@ def test_oil_is_kept_and_energy_balances(destroked):
     assert destroked.checks.energy_balance_error < 1e-3
 
 
+def test_energy_balances_where_chambers_do_no_work():
+    """Next to no stroke: what the errors are told of is then the power of the oil that passes."""
+    idle = run({"actuator.area": "4 cm2"}, held_at(0.3e6), 0.03, displacement_ratio=0.01)
+    assert idle.checks.energy_balance_error < 1e-4
+
+
 def test_the_actuator_keeps_its_oil(destroked):
     """The volume took the flow of its orifice, by Simpson's rule over the sampled pressures."""
     case, parts = destroked.case, destroked.mechanism
