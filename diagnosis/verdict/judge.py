@@ -194,11 +194,19 @@ def _probability(explanations: Sequence[Explanation], kind: Kind) -> float:
 def _unknown(
     study: Study, free: MultiplierChance, explanations: Sequence[Explanation], thresholds: Thresholds
 ) -> Judgement:
-    """Unknown physics, without an effect, if its hypotheses together are probable and striking."""
-    probability = _probability(explanations, Kind.UNKNOWN_PHYSICS)
+    """Unknown physics, without an effect, if its hypotheses together are probable and striking.
+
+    Nothing is left to name beside it, so the record of the pump's kind counts before: where forms of the known laws are
+    not known, a catalogue that does not serve is no proof of an effect beyond it.
+    """
+    record = _record_of_scant(study, thresholds)
+    told = tuple(explanations)
+    if record:
+        told, _ = _less_sure(told, (), thresholds.record.type_plate, MISMATCHES)
+    probability = _probability(told, Kind.UNKNOWN_PHYSICS)
     against = []
     if probability < thresholds.name.probability:
-        against.append(f"unknown physics at a probability of {probability:.2f} only")
+        against += [f"unknown physics at a probability of {probability:.2f} only", *record]
     if free.chance >= thresholds.mismatch.chance:
         row = table_rows(study.recording)[free.point]
         against.append(
@@ -207,10 +215,7 @@ def _unknown(
         )
     if against:
         return _suspicion(explanations, tuple(against), thresholds)
-    record = _record_of_scant(study, thresholds)
-    if record:
-        explanations, _ = _less_sure(explanations, (), thresholds.record.type_plate, MISMATCHES)
-    return Judgement(Kind.UNKNOWN_PHYSICS, VerdictStatus.NAMED, (), (), record, tuple(explanations))
+    return Judgement(Kind.UNKNOWN_PHYSICS, VerdictStatus.NAMED, (), (), record, told)
 
 
 def _objections(
