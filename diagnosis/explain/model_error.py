@@ -40,7 +40,7 @@ def form_gap(explanations: Sequence[Explanation], thresholds: Thresholds) -> flo
     """Nats by which a law of the catalogue may be behind unknown physics and still be what has been left out.
 
     Unknown physics departs as it likes; a law whose form is that of another make leaves a share of what it explains.
-    Laws of the second plant, each expressed by the catalogue's, leave .003 to .18 of their square, one in ten more
+    Laws of the second plant, each expressed by the catalogue's, leave .002 to .18 of their square, one in seven more
     (two campaigns, sizes of z = 8): a law that lags by less than the share 1/(1 + own) is of another form, not another
     law.
     """

@@ -145,8 +145,8 @@ def _points(section: str, form: RecordingForm, columns: TableColumns, reader: Co
     refuse_breaks(section, form.channels, readings, columns, reader)
     if isinstance(form.points, SteadySection):
         if _is_series(form, form.points, readings):
-            found = f"{len(readings)} rows that hardly differ from one to the next: samples of a series, not points"
-            reader.fault("steady", found, "[series] with its time, or the points' own time or repeats")
+            told = f"{len(readings)} rows that hardly differ from one to the next: samples of a series, not points"
+            reader.fault("steady", told, "[series] with its time, or the points' own time or repeats")
             return None
         return _steady_points(form.points, readings, seconds, columns, reader)
     return None if seconds is None else _series_points(form.points, readings, seconds, form.channels, reader)

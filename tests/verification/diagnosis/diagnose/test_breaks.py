@@ -102,7 +102,8 @@ def test_other_columns_name_no_pump(head):
 
 @pytest.mark.parametrize(("course", "samples"), [
     (np.linspace(40e5, 380e5, 900), True), (np.repeat(np.linspace(40e5, 380e5, 9), 100), True),
-    (np.tile(np.linspace(40e5, 380e5, 9), 100), False), (np.repeat(np.linspace(40e5, 380e5, 45)[np.arange(45) * 7 % 45], 20), False),
+    (np.tile(np.linspace(40e5, 380e5, 9), 100), False),
+    (np.repeat(np.linspace(40e5, 380e5, 45)[np.arange(45) * 7 % 45], 20), False),
     (np.full(900, 200e5), False), (np.linspace(40e5, 380e5, 90), False),
 ], ids=["ramp", "stairs", "map", "repeats", "one pressure", "few"])  # fmt: skip
 def test_samples_of_a_series_are_told_from_points(course, samples):
