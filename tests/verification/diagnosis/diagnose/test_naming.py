@@ -661,6 +661,24 @@ def test_what_stands_in_no_catalogue_is_unknown() -> None:
         assert found.scaling.exponents[name] == pytest.approx(exponent, abs=0.34)
 
 
+def test_on_a_pump_of_which_little_is_known_unknown_physics_is_a_suspicion() -> None:
+    """Sure of a pump in full, it is as sure as the record of findings on pumps whose own laws are not known."""
+    study = _study(1, laws=((CHURNING, 0.2),))
+    nothing, *others = hypotheses(study, LIMITS)
+    free = next(each for each in others if each.component is Component.CASE_DRAG)
+    null = refit(study, nothing, LIMITS)
+    bend = Explanation(free, null.log_evidence + 99.0, True, None, 0.0, 0.0, None)
+    behind = [Explanation(each, null.log_evidence, True, None, 0.0, 0.0, None) for each in others if each is not free]
+    ranked = with_probabilities((null, bend, *behind), LIMITS.name.temperature)
+    known, scant = (
+        judge(replace(study, scant=scant), detect(study, LIMITS), ranked, _coordinates(), LIMITS)
+        for scant in (False, True)
+    )
+    assert (known.kind, known.status) == (Kind.UNKNOWN_PHYSICS, VerdictStatus.NAMED)
+    assert (scant.kind, scant.status) == (Kind.UNKNOWN_PHYSICS, VerdictStatus.SUSPICION)
+    assert any("type plate alone" in text for text in scant.reasons)
+
+
 def test_what_cannot_be_refitted_is_told() -> None:
     """A film that the simulator cannot do as wide as it is: the diagnosis goes on, and does not name another."""
     found = _diagnosis(_study(1, film_thickness__slipper=2.0, pump=ToyPump(widest=1.3)))
