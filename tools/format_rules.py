@@ -10,6 +10,8 @@ FREE = (
     "*/physics_seconds",
     "*/stated",
     "*/held",
+    "summary.json/dimensions",
+    "table.json/dimensions",
     "*measures",
     "summary.json/at_points/*",
     "summary.json/pumps/failed",

@@ -12,7 +12,7 @@ from scipy.special import ndtri
 
 from diagnosis.next_point.discrimination import Added, added_points
 from diagnosis.planning.apart import Apart, Contest, PairCampaign, all_pairs
-from diagnosis.planning.further_meters import FurtherMeter
+from diagnosis.planning.further_meters import FurtherMeter, read_at_points
 from diagnosis.planning.responses import Foreseen
 from diagnosis.planning.suspects import COST
 from diagnosis.thresholds import NextPointLimits, Thresholds
@@ -140,7 +140,7 @@ class Desk:
                 break
             chosen.append(best)
             found = redesigned
-            read = {*self.asked.channels, *(one.name for one in chosen if one.white is not None)}
+            read = {*read_at_points(self.asked.channels), *(one.name for one in chosen if one.white is not None)}
             further = [one.on(self.foreseen, read) for one in further if one is not best]
         if not chosen:
             return None

@@ -16,6 +16,8 @@ from reynolds.numerics.arrays import Array
 from system.inputs.channels import ChannelName
 from system.work.progress import Report, silent
 
+BESIDE = (ChannelName.P_CHAMBER, ChannelName.TORQUE_UNCOUPLED)
+"""Meters that read beside the points of a campaign, not at each of them."""
 TRACED = 4
 """Points of the campaign at which a transducer records the chamber."""
 UNCOUPLED = 2
@@ -75,15 +77,36 @@ def further_meters(
     report: Report = silent,
     known: Collection[str] | None = None,
 ) -> tuple[FurtherMeter, ...]:
-    """The meters that a bench of these channels lacks; of those that are `known` by name, where names are stated.
-
-    A transducer reads the chamber at TRACED points of the campaign; the torque meter UNCOUPLED times without the pump.
-    """
+    """The meters that a bench of these channels lacks; of those that are `known` by name, where names are stated."""
     lacking = (one for one in WORDS if one.value not in channels and (known is None or one.value in known))
-    return tuple(_further(one, foreseen, channels, campaign, thresholds, report) for one in lacking)
+    return tuple(
+        further_meter(one, foreseen, read_at_points(channels), campaign, thresholds, report) for one in lacking
+    )
 
 
-def _further(
+def read_at_points(channels: Collection[str]) -> tuple[str, ...]:
+    """The channels of a bench that are read at each point."""
+    beside = {one.value for one in BESIDE}
+    return tuple(name for name in channels if name not in beside)
+
+
+def with_beside(
+    contest: Contest,
+    foreseen: Foreseen,
+    channels: Collection[str],
+    campaign: NDArray[np.int64],
+    thresholds: Thresholds,
+    report: Report = silent,
+) -> Contest:
+    """The contest with the meters of a bench of these channels that read beside its points."""
+    read = read_at_points(channels)
+    for one in BESIDE:
+        if one.value in channels:
+            contest = further_meter(one, foreseen, read, campaign, thresholds, report).added_to(contest)
+    return contest
+
+
+def further_meter(
     own: ChannelName,
     foreseen: Foreseen,
     channels: Collection[str],
@@ -91,6 +114,10 @@ def _further(
     thresholds: Thresholds,
     report: Report,
 ) -> FurtherMeter:
+    """A meter beside a bench that reads these channels at each point.
+
+    A transducer reads the chamber at TRACED points of the campaign; the torque meter UNCOUPLED times without the pump.
+    """
     if own is ChannelName.P_CHAMBER:
         points = tuple(int(at) for at in traced_points(foreseen.points.p_out, campaign))
         return FurtherMeter(own, beside=foresee_traces(foreseen, channels, points, thresholds, report), points=points)

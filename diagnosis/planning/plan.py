@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from diagnosis.explain.hypotheses import Hypothesis
 from diagnosis.planning.apart import Contest, all_pairs
 from diagnosis.planning.design import MANY, Asked, Desk, Equipped, Purpose
-from diagnosis.planning.further_meters import MeterWorth, further_meters, meter_worths
+from diagnosis.planning.further_meters import MeterWorth, further_meters, meter_worths, read_at_points, with_beside
 from diagnosis.planning.never import Never, never_apart
 from diagnosis.planning.responses import Foreseen
 from diagnosis.planning.suspects import Suspect, signs_of, suspects_of
@@ -76,7 +76,9 @@ def plan_campaign(
     """The plan of a campaign for some hypotheses; `foreseen` holds the points of `asked`, in their order."""
     campaign = np.flatnonzero(asked.counts)
     suspects = suspects_of(foreseen, chosen, campaign, thresholds, asked.cost)
-    contest = contest_of(foreseen, asked.channels, suspects)
+    read = read_at_points(asked.channels)
+    contest = contest_of(foreseen, read, suspects)
+    contest = with_beside(contest, foreseen, asked.channels, campaign, thresholds, report)
     everywhere = np.full(len(asked.counts), MANY)
     ever = contest.apart(everywhere)
     further = further_meters(foreseen, asked.channels, campaign, thresholds, report, asked.further)
@@ -103,12 +105,12 @@ def plan_campaign(
         never=never,
         worths=meter_worths(contest, frozenset(own.told), own.counts, further, desk.wanted, thresholds.form, report),
         equipped=desk.equipped(contest, own, further),
-        shows=_shows(foreseen, contest, asked.channels),
+        shows=_shows(foreseen, contest, read),
     )
 
 
 def contest_of(foreseen: Foreseen, channels: Collection[str], suspects: tuple[Suspect, ...]) -> Contest:
-    """The suspects before a bench with these channels."""
+    """The suspects before a bench that reads these channels at each point."""
     widths = np.array([one.width for one in foreseen.candidates])
     return Contest(foreseen.responses.white(channels), suspects, widths, signs_of(foreseen.candidates))
 

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, fields, is_dataclass, replace
-from functools import cache
+from functools import cache, cached_property
 from typing import Generic, TypeVar, cast
 
 import numpy as np
@@ -73,19 +73,31 @@ class Course(Generic[Value]):
     def at(self, angle: float, since: Passed[Value]) -> GapInstant[Value]:
         """The gap at a shaft angle (rad) of the step; `since`: what has passed since the reported angle before."""
         known = self.stages if self.behind is None else (self.behind, *self.stages)
-        found = weighted_mean(known, self._shares(angle, [one.angle for one in known]))
+        shares = self._shares(angle, [one.angle for one in known])
+        found = with_numbers(known[-1], shares @ self._instants)
         return replace(found, angle=angle, passed=since.mean, pushed=since.mean_pushed)
 
     def oil(self, angle: float) -> Array:
         """State (held,) at a shaft angle (rad)."""
-        return weighted_mean(self.holds, self._shares(angle, [one.angle for one in self.stages]))
+        shares = self._shares(angle, [one.angle for one in self.stages])
+        return np.asarray(sum(share * held for share, held in zip(shares, self.holds, strict=True)))
 
     def passed(self, began: float, ended: float, since: Passed[Value]) -> None:
         """Add what passes from one time (s) of the step to another."""
         middle = 0.5 * self.speed * (began + ended)
         shares = self._shares(middle, [one.angle for one in self.stages])
-        for one, share in zip(self.stages, shares, strict=True):
-            since.add(share * (ended - began), one.report, one.pushed)
+        since.add(ended - began, self.end, shares @ self._flows)
+
+    @cached_property
+    def _instants(self) -> Array:
+        """Numbers of the known instants, the one behind first, (known, n)."""
+        known = self.stages if self.behind is None else (self.behind, *self.stages)
+        return np.array([numbers_of(one) for one in known])
+
+    @cached_property
+    def _flows(self) -> Array:
+        """Numbers of the stages' reports, and last the power on the outer forces, (stages, n + 1)."""
+        return np.array([[*numbers_of(one.report), one.pushed] for one in self.stages])
 
     def _shares(self, angle: float, known: list[float]) -> Array:
         """Lagrange's weights of known angles (rad) at another one; that of the end alone there."""
@@ -130,18 +142,34 @@ def weighted_mean(items: Sequence[Item], weights: Array) -> Item:
     A flow averaged over stages by the weights of their method is what the step has passed, to round-off; weights may
     have either sign.
     """
-    return _mixed(items, (weights / weights.sum()).tolist())
+    return with_numbers(items[-1], weights / weights.sum() @ np.array([numbers_of(one) for one in items]))
 
 
-def _mixed(items: Sequence[Item], shares: list[float]) -> Item:
-    """Sum of shares of reports, by plain sums: of two or three items arrays would cost more than they gain."""
-    last = items[-1]
-    if isinstance(last, float | np.ndarray):
-        return cast(Item, sum(share * cast(float, one) for share, one in zip(shares, items, strict=True)))
-    if is_dataclass(last) and not isinstance(last, type):
-        means = {name: _mixed([getattr(one, name) for one in items], shares) for name in _names(type(last))}
-        return cast(Item, replace(last, **means))
-    return last
+def numbers_of(item: object) -> list[float]:
+    """The numbers of a report in a row: its own, those of its arrays, and those of dataclasses in it."""
+    if isinstance(item, float):
+        return [item]
+    if isinstance(item, np.ndarray):
+        return cast("list[float]", item.ravel().tolist())
+    if is_dataclass(item) and not isinstance(item, type):
+        return [number for name in _names(type(item)) for number in numbers_of(getattr(item, name))]
+    return []
+
+
+def with_numbers(item: Item, numbers: Array) -> Item:
+    """A report with other numbers, in the row of `numbers_of`; anything else is the item's."""
+    return cast(Item, _rebuilt(item, iter(numbers.tolist())))
+
+
+def _rebuilt(item: object, numbers: Iterator[float]) -> object:
+    if isinstance(item, float):
+        return next(numbers)
+    if isinstance(item, np.ndarray):
+        return np.array([next(numbers) for _ in range(item.size)]).reshape(item.shape)
+    if is_dataclass(item) and not isinstance(item, type):
+        kind = type(item)
+        return kind(*(_rebuilt(getattr(item, name), numbers) for name in _names(kind)))
+    return item
 
 
 @cache
@@ -150,26 +178,24 @@ def _names(kind: type) -> tuple[str, ...]:
     return tuple(field.name for field in fields(kind))
 
 
-class Passed(Generic[Item]):
-    """Reports of the stages of some steps, each with its share of time (s)."""
+class Passed(Generic[Value]):
+    """What has passed in parts of steps: the mean over their time (s) of reports, and of the power on outer forces."""
 
     def __init__(self) -> None:
-        self._reports: list[Item] = []
-        self._pushed: list[float] = []
-        self._times: list[float] = []
+        self._time, self._total = 0.0, np.zeros(1)
+        self._last: GapInstant[Value] | None = None
 
-    def add(self, time: float, report: Item, pushed: float) -> None:
-        """One more stage; pushed: power (W) of its film on the outer forces."""
-        self._reports.append(report)
-        self._pushed.append(pushed)
-        self._times.append(time)
+    def add(self, time: float, last: GapInstant[Value], flows: Array) -> None:
+        """One more part; flows: the numbers of its report, then the power (W) of its film on the outer forces."""
+        self._time, self._total, self._last = self._time + time, self._total + time * flows, last
 
     @property
-    def mean(self) -> Item:
+    def mean(self) -> Value:
         """Mean of the reports."""
-        return weighted_mean(self._reports, np.array(self._times))
+        assert self._last is not None
+        return with_numbers(self._last.report, self._total[:-1] / self._time)
 
     @property
     def mean_pushed(self) -> float:
         """Mean of the power (W)."""
-        return weighted_mean(self._pushed, np.array(self._times))
+        return float(self._total[-1] / self._time)

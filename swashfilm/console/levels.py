@@ -94,3 +94,20 @@ def dashed_range(text: str) -> str:
     """Return `5..35MPa` of `5-35MPa`; empty for a text that is no such range."""
     match = _DASHED.fullmatch(text)
     return f"{match[1]}..{match[2]}{match[3]}" if match else ""
+
+
+def range_of(
+    faults: list[Fault], option: str, text: str, dimension: Dimension | None, example: str
+) -> tuple[float, float] | None:
+    """Return MIN..MAX in SI, the unit of MAX also that of a MIN without one; None after a fault."""
+    ends = with_units([text])[0].split("..")
+    try:
+        if len(ends) != 2:
+            raise QuantityError(repr(text), "two ends with .. between them", dashed_range(text))
+        low, high = (_value(end, dimension) for end in ends)
+        if not low < high:
+            raise QuantityError(repr(text), "the lower end first")
+    except QuantityError as reason:
+        faults.append(Fault(option, reason.found, f"{reason.expected}: {example}", reason.nearest))
+        return None
+    return low, high

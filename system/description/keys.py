@@ -81,6 +81,28 @@ def with_values(pump: PumpDescription, values: Mapping[str, float]) -> PumpDescr
     return made
 
 
+def key_value(pump: PumpDescription, path: str) -> float:
+    """Return the value (SI) of one of a pump's `pump_keys`."""
+    item: Any = pump
+    for name in path.split("."):
+        item = item[int(name) - 1] if isinstance(item, tuple) else getattr(item, name)
+    return float(item)
+
+
+def key_dimension(path: str) -> Dimension | None:
+    """Return the kind of the quantity at a path of any pump's `pump_keys`; None for a pure number.
+
+    Raises KeyError for a path that no pump has.
+    """
+    section: Any = PumpDescription
+    *tables, last = path.split(".")
+    for name in tables:
+        if not name.isdecimal():
+            own = fields_of(section)[name]
+            section = own.table or own.tables
+    return fields_of(section)[last].dimension
+
+
 def _with_value(item: Any, path: list[str], value: float) -> Any:
     name, *rest = path
     if isinstance(item, tuple):

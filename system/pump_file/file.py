@@ -6,8 +6,10 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from reynolds.errors import InputError
 from reynolds.numerics.files import read_text
 from system.description.assumptions import Assumption
+from system.description.keys import with_values
 from system.description.pump import FORMAT, SINGLE_PARTS, PumpDescription
 from system.inputs.faults import Fault, InputFaults, key_lines, nearest_choice, nearest_path
 from system.inputs.sections.reader import ABSOLUTE
@@ -19,6 +21,9 @@ from system.pump_file.check import CheckReport, run_checks
 from system.pump_file.parts import single_parts_checked
 from system.pump_file.scaled.completed import completed, is_scant
 from system.pump_file.tables import BUILT_IN, CHECKS, TABLES, pump_of_tables
+
+Variant = tuple[tuple[str, float], ...]
+"""Paths of a pump's dimensions with the values (SI) that stand in place of its own."""
 
 
 @dataclass(frozen=True)
@@ -82,6 +87,23 @@ def load_known_pump(source: str | Path, overrides: Mapping[str, object] | None =
 def check_pump(pump: PumpDescription) -> CheckReport:
     """Return what is impossible and what is doubtful about a description and its own operating point."""
     return single_parts_checked(CHECKS, pump, run_checks(CHECKS, pump))
+
+
+def varied(pump: PumpDescription, variant: Variant) -> PumpDescription:
+    """Return the pump with the values of a variant; raise InputFaults where no pump has them.
+
+    The faults are those of the single value and of the geometry: nothing is cut to a limit.
+    """
+    try:
+        made = with_values(pump, dict(variant))
+        faults = check_pump(made).faults
+    except InputError as reason:
+        faults = (Fault(reason.where, reason.found, reason.expected),)
+    except ValueError as reason:
+        faults = (Fault(", ".join(path for path, _ in variant), str(reason), "a value that a pump can have"),)
+    if faults:
+        raise InputFaults(pump.name, faults)
+    return made
 
 
 def resolved_toml(pump: PumpDescription) -> str:

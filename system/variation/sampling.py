@@ -13,7 +13,7 @@ from system.description.drawn import SIGMAS, Drawing, Drawn, DrawnFit
 from system.description.keys import pump_keys
 from system.description.pump import PumpDescription
 from system.description.tolerance import Shape
-from system.variation.solving import Variant
+from system.pump_file.file import Variant
 
 FILMS = ("piston.radial_clearance", "slipper.film_thickness")
 """Films that leak by their cube, of which a pump has one a piston."""

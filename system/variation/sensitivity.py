@@ -18,9 +18,10 @@ from system.description.keys import PumpKey
 from system.description.pump import PumpDescription
 from system.inputs.faults import InputFaults
 from system.inputs.units import Dimension
+from system.pump_file.file import Variant, varied
 from system.variation.differences import Side, Stencil, Verdict, one_of, stencils, usual_step, verdicts
 from system.variation.measures import Measure, measured
-from system.variation.solving import Variant, VariedWork, numbers_in, solved_variants, varied
+from system.variation.solving import VariedWork, numbers_in, solved_variants
 from system.work.kept_results import KeptPoints
 from system.work.progress import Report
 from system.work.tasks import Executor, PartOutcome, PartStatus

@@ -10,15 +10,14 @@ from pathlib import Path
 
 import numpy as np
 
-from reynolds.errors import InputError
 from reynolds.numerics.arrays import Array
 from reynolds.numerics.cache import content_key
-from system.description.keys import PumpKey, pump_keys, with_values
+from system.description.keys import PumpKey, pump_keys
 from system.description.pump import PumpDescription
 from system.description.tolerance import ToleranceSection
-from system.inputs.faults import Fault, InputFaults
 from system.maps.point import KEY_LENGTH, MapSolver, point_numbers as map_numbers, point_remarks
-from system.pump_file.file import check_pump, resolved_toml
+from system.points.table.response_table import ResponseTable
+from system.pump_file.file import Variant, resolved_toml, varied
 from system.variation.measures import point_numbers
 from system.variation.sites import Sites
 from system.variation.together import TogetherSolver
@@ -35,32 +34,20 @@ _OF_TABLE = (
     "oil.kinematic_viscosity", "ball_guide.radius", "ball_guide.contact_latitude", "friction.ball_guide_retainer",
     "friction.front_bearing", "friction.rear_bearing", "friction.piston_slipper_socket",
 )  # fmt: skip
-"""Dimensions that the films of a response table do not know: they act beside the gaps, or by the table's viscosity."""
-
-Variant = tuple[tuple[str, float], ...]
-"""Paths of a pump's dimensions with the values (SI) that stand in place of its own."""
+"""Dimensions that act beside the films of a response table, or on them by its viscosity."""
 
 
-def varied(pump: PumpDescription, variant: Variant) -> PumpDescription:
-    """Return the pump with the values of a variant; raise InputFaults where no pump has them.
-
-    The faults are those of the single value and of the geometry: nothing is cut to a limit.
-    """
-    try:
-        made = with_values(pump, dict(variant))
-        faults = check_pump(made).faults
-    except InputError as reason:
-        faults = (Fault(reason.where, reason.found, reason.expected),)
-    except ValueError as reason:
-        faults = (Fault(", ".join(path for path, _ in variant), str(reason), "a value that a pump can have"),)
-    if faults:
-        raise InputFaults(pump.name, faults)
-    return made
+def variable_keys(pump: PumpDescription, table: ResponseTable | None = None) -> dict[str, PumpKey]:
+    """Return the dimensions that may vary: all of a pump's; by a response table its axes and those beside films."""
+    keys = pump_keys(pump)
+    if table is None:
+        return keys
+    return {path: one for path, one in keys.items() if path in table.origin.dimensions or beside_films(path)}
 
 
-def variable_keys(pump: PumpDescription, by_table: bool) -> dict[str, PumpKey]:
-    """Return the dimensions that may vary: all of a pump's, of a response table those beside its films."""
-    return {path: one for path, one in pump_keys(pump).items() if not by_table or path.startswith(_OF_TABLE)}
+def beside_films(path: str) -> bool:
+    """True for a dimension that the films of a response table do not know, or by its viscosity alone."""
+    return path.startswith(_OF_TABLE)
 
 
 @dataclass(frozen=True)

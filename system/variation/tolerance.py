@@ -113,8 +113,11 @@ def _scatters(numbers: Array) -> tuple[Scatter, ...]:
 
 
 def _hold_enough(outcomes: Sequence[PartOutcome], needed: int, solved: int) -> None:
-    """Raise InputError with the first reason where too few pumps have a result."""
+    """Raise InputError with the first reason where too few pumps have a result; RuntimeError for the program's own."""
     if solved < needed:
+        for one in outcomes:
+            if one.status is PartStatus.INTERNAL:
+                raise RuntimeError(one.reason)
         reason = next(one.reason for one in outcomes if one.status is not PartStatus.SOLVED)
         raise InputError(
             "series", f"{solved} of {len(outcomes)} pumps with a result; the first without: {reason}",

@@ -28,6 +28,9 @@ class ThinningFilms:
         physics = f"thinning films, {self.exponent}, open by {self.opening}"
         return {"physics": physics, "mesh": "none", "accuracy": "that of lumped"}
 
+    def row(self):
+        return self
+
     def solve(self, pump, point):
         if self.broken and point.delivery_pressure > 35e6:
             raise FilmNotConverged("made to fail", "nothing")

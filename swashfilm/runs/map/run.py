@@ -203,7 +203,7 @@ def kept_table(asked: MapCase) -> ResponseTable:
     plan, pump = asked.plan, at_levels(asked.plan)
     middle = plan.points[len(plan.points) // 2]
     table = own_table(asked.table, pump) if asked.table else find_table(pump, middle)
-    out = [point for point in plan.points if not table.holds(point)]
+    out = [point for point in plan.points if not table.holds(pump, point)]
     if out:
         found = f"{len(out)} of {len(plan.points)} points outside its box, the first: {point_text(out[0])}"
         raise InputFaults("response table", [Fault("--table", found, "a table whose box contains the whole map")])

@@ -6,13 +6,13 @@ from dataclasses import dataclass, field
 
 from diagnosis.next_point.meters import ALWAYS, ORDINARY, WORDS, Stated
 from diagnosis.recording.units import difference_unit
-from system.bench.outputs import DRAINS, SIMULATED
+from system.bench.outputs import SIMULATED
 from system.inputs.channels import ChannelName
 from system.inputs.faults import Fault, nearest_choice
 from system.inputs.units import Dimension, QuantityError, parse_quantity
 
 OPTION, FURTHER = "--sensors", "--further"
-KNOWN = tuple(one.value for one in (*SIMULATED, *DRAINS.values(), ChannelName.T_CASE, *ALWAYS))
+KNOWN = tuple(dict.fromkeys(one.value for one in (*SIMULATED, *WORDS, *ALWAYS)))
 """Channels with a sigma of their own; the inputs that set a point are always read."""
 
 
@@ -40,6 +40,9 @@ def bench_of(text: str | None, faults: list[Fault]) -> Bench:
     if not set(found.channels) & {one.value for one in SIMULATED}:
         outputs = ", ".join(one.value for one in SIMULATED)
         faults.append(Fault(OPTION, "no meter of what the pump does", f"one at least of {outputs}"))
+    if ChannelName.TORQUE_UNCOUPLED.value in found.channels and ChannelName.TORQUE.value not in found.channels:
+        expected = f"{ChannelName.TORQUE.value} beside it: it is this meter that reads without the pump"
+        faults.append(Fault(OPTION, ChannelName.TORQUE_UNCOUPLED.value, expected, ChannelName.TORQUE.value))
     return found
 
 

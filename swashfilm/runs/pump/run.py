@@ -148,7 +148,7 @@ def _by_table(case: PumpCase) -> PumpRun:
     point = found.pump_point
     floats = found.table.origin.source is Source.FLOATING
     of_lands = losses_left_out(pump) if floats else loss_warnings(pump, point)
-    warnings = [*_warnings(pump, point), *of_lands, *table_point_warnings(found)]
+    warnings = [*_warnings(pump, point), *of_lands, *table_point_warnings(pump, found)]
     summary = pump_summary(pump, point, None, warnings) | table_point_summary(pump, found)
     return _run(case, point, summary, joint_forces(pump, point))
 

@@ -52,6 +52,11 @@ def add_table_options(command: argparse.ArgumentParser) -> None:
         command.add_argument(option, metavar=example, help=f"{what}; one value: constant")
     for option, (_, example, what) in HELD.items():
         command.add_argument(option, metavar=example, help=f"{what}; default: that of the pump file")
+    command.add_argument(
+        "--vary", action="append", default=[], metavar="KEY=A..B",
+        help="range of a dimension that the films depend on, such as piston.radial_clearance=12um..16um; KEY alone: "
+        "the range of its tolerance; may be repeated",
+    )  # fmt: skip
     add_set_option(command, "the pump file or the case")
     command.add_argument(
         "--source", metavar="{fixed,floating}", default=_SOURCE, help="fidelity of the solved points (fixed)"
@@ -123,6 +128,7 @@ def _gap_case(options: argparse.Namespace) -> tuple[GapTableCase, int]:
 
     given = {option: option_value(options, option) for option in [*RANGES, *HELD, "--steps", "--finer"]}
     given["--source"] = None if options.source == _SOURCE else options.source
+    given["--vary"] = options.vary[0] if options.vary else None
     stated = "a key of [table] or of the case"
     faults = [Fault(name, "an option beside a gap's case", stated) for name, text in given.items() if text]
     case = load_gap_table(Path(options.pump), switched_keys(options), set_values(options.set, faults))
@@ -135,6 +141,7 @@ def _gap_case(options: argparse.Namespace) -> tuple[GapTableCase, int]:
 def _case(options: argparse.Namespace) -> tuple[TableCase, int]:
     """Return the case of a command line, and the number of workers; raise InputFaults with every fault."""
     from swashfilm.console.floating_options import alike_faults, floating_faults, floating_options
+    from swashfilm.runs.table.dimensions import varied_axes
     from system.points.table import sources as table_sources
     from system.points.table.build import TableCase, table_axes
     from system.points.table.response_table import INPUTS
@@ -142,21 +149,23 @@ def _case(options: argparse.Namespace) -> tuple[TableCase, int]:
 
     faults: list[Fault] = []
     single = {option for option in RANGES if _is_single(option_value(options, option))}
-    counts = _counts(options, faults, max(1, len(RANGES) - len(single)))
+    counts = _counts(options, faults, max(1, len(RANGES) - len(single) + len(options.vary)))
     ranges = _ranges(options, faults, single)
     sources = [source.value for source in Source]
     if options.source not in sources:
         nearest = nearest_choice(options.source, sources)
         faults.append(Fault("--source", repr(options.source), f"one of {', '.join(sources)}", nearest))
-    if len(single) == len(RANGES):
+    if len(single) == len(RANGES) and not options.vary:
         faults.append(Fault(", ".join(RANGES), "single values only", "at least one range"))
     pump = _pump(options, faults, single)
-    if faults := [*floating_faults(options, pump, options.source, "--source"), *alike_faults(pump)]:
+    faults = [*floating_faults(options, pump, options.source, "--source"), *alike_faults(pump)]
+    dimensions = varied_axes(options.vary, pump, faults)
+    if faults:
         raise InputFaults(COMMAND_LINE, faults)
     solver = table_sources.solver_of(Source(options.source), floating_options(options, pump))
     held = [name for name, option in zip(INPUTS, RANGES, strict=True) if option in single]
     speeds, pressures, ratios, temperatures = ranges
-    axes = table_axes(pump, speeds, pressures, ratios, temperatures, held)
+    axes = (*table_axes(pump, speeds, pressures, ratios, temperatures, held), *dimensions)
     return TableCase(pump, solver, axes, *counts[:2]), counts[2]
 
 
@@ -205,37 +214,16 @@ def _pump(options: argparse.Namespace, faults: list[Fault], single: Collection[s
 
 
 def _ranges(options: argparse.Namespace, faults: list[Fault], single: Collection[str]) -> list[Range | None]:
+    from swashfilm.console.levels import range_of
     from system.inputs.units import Dimension
 
     dimensions = (Dimension.ANGULAR_SPEED, Dimension.PRESSURE, None, Dimension.TEMPERATURE)
     return [
-        _range(faults, option, text, dimension, example)
+        range_of(faults, option, text, dimension, example)
         if option not in single and (text := option_value(options, option)) is not None
         else None
         for (option, (_, example, _)), dimension in zip(RANGES.items(), dimensions, strict=True)
     ]
-
-
-def _range(faults: list[Fault], option: str, text: str, dimension: object, example: str) -> Range | None:
-    """Return MIN..MAX in SI, the unit of MAX also that of a MIN without one; None after a fault."""
-    from swashfilm.console.levels import dashed_range, with_units
-    from system.inputs.units import Dimension, QuantityError, parse_quantity
-
-    kind = dimension if isinstance(dimension, Dimension) else None
-    ends = with_units([text])[0].split("..")
-    try:
-        if len(ends) != 2:
-            raise QuantityError(repr(text), "two ends with .. between them", dashed_range(text))
-        low, high = (float(end) if kind is None else parse_quantity(end, kind) for end in ends)
-        if not low < high:
-            raise QuantityError(repr(text), "the lower end first")
-    except QuantityError as reason:
-        faults.append(Fault(option, reason.found, f"{reason.expected}: {example}", reason.nearest))
-    except ValueError:
-        faults.append(Fault(option, repr(text), f"two bare numbers: {example}"))
-    else:
-        return low, high
-    return None
 
 
 COMMAND = Command(

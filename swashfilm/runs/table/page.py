@@ -11,6 +11,7 @@ from swashfilm.output.touch.picture import Picture
 from swashfilm.runs.table.plots import NEGLIGIBLE, table_plots, words_of
 from system.inputs.shown import quantity_text
 from system.inputs.units import Dimension
+from system.points.table.response_table import axis_words
 from system.points.table.store import read_response
 
 KINDS = NUMBERS, OUTPUTS = "numbers", "outputs"
@@ -46,7 +47,7 @@ def held_rows(summary: Mapping[str, Any]) -> Iterator[tuple[str, str]]:
     """Yield (name, value with its unit): origin of the table, its constant inputs, and its box."""
     yield from summary["condensed"].items()
     for axis in summary["axes"]:
-        yield (axis["name"].replace("_", " "), " .. ".join(input_text(axis, axis[end]) for end in ("lower", "upper")))
+        yield (axis_words(axis["name"]), " .. ".join(input_text(axis, axis[end]) for end in ("lower", "upper")))
     points = summary["points"]
     failed = f", {len(summary['failed'])} failed" if summary["failed"] else ""
     yield "points", f"{points['learnt']} learnt, {points['held_out']} held out{failed}"
@@ -63,7 +64,7 @@ def table_answer(summary: Mapping[str, Any], picture: Picture | None = None, cap
         Tile(f"{points['learnt']} + {points['held_out']}", "points", "learnt, and held out to measure the error")
     )
     box = "; ".join(
-        f"{axis['name'].replace('_', ' ')} {input_text(axis, axis['lower'])} to {input_text(axis, axis['upper'])}"
+        f"{axis_words(axis['name'])} {input_text(axis, axis['lower'])} to {input_text(axis, axis['upper'])}"
         for axis in axes
     )
     worst = rows[0]
@@ -132,5 +133,5 @@ def input_text(axis: Mapping[str, Any], value: float) -> str:
 def place_text(axes: Sequence[Mapping[str, Any]], at: Sequence[float]) -> str:
     """Return a point in the box in words."""
     return ", ".join(
-        f"{axis['name'].replace('_', ' ')} {input_text(axis, value)}" for axis, value in zip(axes, at, strict=True)
+        f"{axis_words(axis['name'])} {input_text(axis, value)}" for axis, value in zip(axes, at, strict=True)
     )

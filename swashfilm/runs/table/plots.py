@@ -13,7 +13,7 @@ from swashfilm.output.figures import figure_of
 from swashfilm.output.headline import named
 from system.inputs.shown import Shown, shown_in, titled
 from system.inputs.units import Dimension
-from system.points.table.response_table import LARGE_ERROR
+from system.points.table.response_table import LARGE_ERROR, axis_words
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -25,6 +25,8 @@ COURSE = 80
 """Points of a line."""
 COLUMNS = 5
 """Pictures side by side."""
+FEW_TICKS = 3.0
+"""Ratio of an axis' ends below which a logarithmic scale has too few plain numbers."""
 Groups = Mapping[str, Sequence[tuple[str, int]]]
 """Outputs in one picture: outputs of one kind, each with its gap ("" for a gap alone) and its column."""
 
@@ -117,7 +119,7 @@ def _courses(response: Response, record: Mapping[str, Any]) -> Figure:
             for whose, k in members:
                 axes.plot(places, how.of(by_table[:, k]), color=COLOURS[whose], label=words_of(whose))
                 axes.plot(dots, how.of(response.held_out.values[:, k]), ".", color=COLOURS[whose], alpha=0.35)
-            if axis.spacing is Spacing.LOGARITHMIC:
+            if axis.spacing is Spacing.LOGARITHMIC and axis.upper > FEW_TICKS * axis.lower:
                 _logarithmic(axes)
             axes.grid(visible=True, alpha=0.3)
             axes.tick_params(labelsize=7, which="both")
@@ -135,7 +137,7 @@ def _shown(what: str, members: Sequence[tuple[str, int]], record: Mapping[str, A
 
 
 def _axis_words(axis: Axis, row: Mapping[str, Any]) -> str:
-    return titled(axis.name.replace("_", " "), _unit(row).unit)
+    return titled(axis_words(axis.name), _unit(row).unit)
 
 
 def _unit(row: Mapping[str, Any]) -> Shown:

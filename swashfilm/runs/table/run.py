@@ -18,7 +18,7 @@ from system.inputs.units import Dimension
 from system.points.table.build import TableCase, build_table
 from system.points.table.means import MEANINGS
 from system.points.table.pump_numbers import NUMBERS
-from system.points.table.response_table import LARGE_ERROR, ResponseTable, axis_value
+from system.points.table.response_table import LARGE_ERROR, ResponseTable, axis_value, axis_words
 from system.points.table.store import keep_table, table_record
 from system.pump_file.file import resolved_toml
 from system.work.processes import process_pool
@@ -107,7 +107,7 @@ def region_text(response: Response, region: ErrorRegion, axes: Sequence[Mapping[
     for axis, row, low, high in zip(response.axes, axes, region.lower, region.upper, strict=True):
         if np.ptp(axis.to_unit(np.array([low, high]))) < NARROW:
             shown = dict.fromkeys((input_text(row, low), input_text(row, high)))
-            ends.append(f"{axis.name.replace('_', ' ')} {' .. '.join(shown)}")
+            ends.append(f"{axis_words(axis.name)} {' .. '.join(shown)}")
     return "at " + ", ".join(ends) if ends else "all over the box"
 
 

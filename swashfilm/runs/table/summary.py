@@ -10,7 +10,7 @@ from system.description.pump import PumpDescription
 from system.films.parts import floating_parts
 from system.points.table.means import GAP_PAIRS
 from system.points.table.point import TablePoint, table_point
-from system.points.table.response_table import LARGE_ERROR, axis_value
+from system.points.table.response_table import LARGE_ERROR, axis_value, axis_words
 from system.points.table.store import find_table, own_table
 from system.pump.operating import OperatingPoint
 
@@ -43,7 +43,7 @@ def table_point_summary(pump: PumpDescription, found: TablePoint) -> dict[str, A
     }
 
 
-def table_point_warnings(found: TablePoint) -> Iterator[str]:
+def table_point_warnings(pump: PumpDescription, found: TablePoint) -> Iterator[str]:
     """Yield warnings of outputs with errors above LARGE_ERROR, and of a failed point next to this one."""
     response, point = found.table.response, found.pump_point.point
     largest = response.held_out_error.largest
@@ -55,10 +55,10 @@ def table_point_warnings(found: TablePoint) -> Iterator[str]:
             f"table_error: errors at held-out points exceed {LARGE_ERROR:g}: {', '.join(off)}; solve the "
             f"point by the {found.table.origin.source.value} fidelity to be sure"
         )
-    failed = found.table.beside_failed(point)
+    failed = found.table.beside_failed(pump, point)
     if failed:
         at = zip(response.axes, failed.at, strict=True)
-        place = ", ".join(f"{axis.name.replace('_', ' ')} {axis_value(axis.name, value)}" for axis, value in at)
+        place = ", ".join(f"{axis_words(axis.name)} {axis_value(axis.name, value)}" for axis, value in at)
         yield f"table_guesses: the nearest point of the table has no result ({place}: {failed.reason})"
 
 

@@ -23,6 +23,7 @@ from system.inputs.faults import Fault, InputFaults
 from system.maps.plan import MapAxis, MapInput, MapPlan, map_plan
 from system.maps.point import DirectSolver, LumpedSolver, MapSolver, TableSolver
 from system.points.floating_gaps import FloatingOptions
+from system.points.table.response_table import ResponseTable
 from system.points.table.sources import Source, solver_of
 from system.pump_file.file import load_pump
 from system.variation.sites import Sites, cycle_sites, plan_sites
@@ -57,7 +58,7 @@ class VariedCase:
         return pumps * self.work.solver.cost * len(self.work.sites.points)
 
 
-def no_faults(pump: PumpDescription) -> Sequence[Fault]:
+def no_faults(pump: PumpDescription, table: ResponseTable | None) -> Sequence[Fault]:
     """Return no fault: the command expects nothing else of a pump."""
     return ()
 
@@ -65,12 +66,12 @@ def no_faults(pump: PumpDescription) -> Sequence[Fault]:
 def varied_case(
     options: argparse.Namespace,
     more: Sequence[Fault] = (),
-    of_pump: Callable[[PumpDescription], Sequence[Fault]] = no_faults,
+    of_pump: Callable[[PumpDescription, ResponseTable | None], Sequence[Fault]] = no_faults,
     *,
     together: bool = False,
 ) -> VariedCase:
     """Return the pump to vary; raise InputFaults with every fault, those of the command itself (`more`) and those
-    that it finds in the pump (`of_pump`) too.
+    that it finds in the pump and the response table of this fidelity (`of_pump`) too.
 
     together: lumped points of a pump are solved at once, without its course over the turn.
     """
@@ -83,8 +84,11 @@ def varied_case(
     except InputFaults as reason:
         raise InputFaults(reason.source, [*faults, *reason.faults], reason.lines) from None
     plan = map_plan(pump, axes if options.cycle is None else cycle_axes(pump, axes, options.cycle))
-    faults += [*plan.checked().faults, *alike_faults(pump), *of_pump(pump)]
-    known = variable_keys(pump, options.fidelity == Fidelity.TABLE.value)
+    faults += [*plan.checked().faults, *alike_faults(pump)]
+    by_table = options.fidelity == Fidelity.TABLE.value and not faults
+    table = table_of(plan, options.table) if by_table else None
+    faults += of_pump(pump, table)
+    known = variable_keys(pump, table)
     stated = pump_keys(pump)
     keys = chosen_keys(options, known, stated, faults)
     if needs_keys(options):
@@ -96,7 +100,7 @@ def varied_case(
     fidelity = Fidelity(options.fidelity)
     at_once = together and fidelity is Fidelity.LUMPED and solves_together(pump)
     floating = floating_options(options, pump)
-    solver = TogetherSolver() if at_once else varied_solver(plan, fidelity, floating, options.table)
+    solver = TogetherSolver() if at_once else varied_solver(fidelity, floating, table)
     work = VariedWork(pump, solver, varied_sites(plan, options.cycle))
     fixed = tuple(path for path in stated if path not in known)
     return VariedCase(
@@ -123,10 +127,15 @@ def varied_sites(plan: MapPlan, cycle: Path | None) -> Sites:
     return plan_sites(plan) if cycle is None else cycle_sites(plan, read_cycle(cycle, plan.axes))
 
 
-def varied_solver(plan: MapPlan, fidelity: Fidelity, floating: FloatingOptions, table: Path | None) -> MapSolver:
-    """Return the solver of a fidelity; floating: options of floating gaps; table: file of the fidelity table."""
+def table_of(plan: MapPlan, file: Path | None) -> ResponseTable:
+    """Return the response table of a file, or a stored one; raise InputFaults where it does not contain all points."""
+    return kept_table(MapCase(plan, Fidelity.TABLE, table=file))
+
+
+def varied_solver(fidelity: Fidelity, floating: FloatingOptions, table: ResponseTable | None) -> MapSolver:
+    """Return the solver of a fidelity; floating: options of floating gaps; table: that of the fidelity table."""
+    if table is not None:
+        return TableSolver(table)
     if fidelity is Fidelity.LUMPED:
         return LumpedSolver()
-    if fidelity is Fidelity.TABLE:
-        return TableSolver(kept_table(MapCase(plan, fidelity, table=table)))
     return DirectSolver(solver_of(Source(fidelity.value), floating), POINT_COST[fidelity])

@@ -40,7 +40,7 @@ def add_varied_options(command: argparse.ArgumentParser) -> None:
     command.add_argument(
         "--fidelity", metavar=f"{{{','.join(one.value for one in FIDELITIES)}}}", default=Fidelity.LUMPED.value,
         help="films of given thickness (lumped, default), solved at given positions (fixed), by balance of forces "
-        "(floating), or by a response table (table), whose films do not change with the dimensions",
+        "(floating), or by a response table (table), whose films follow the dimensions that are its axes",
     )  # fmt: skip
     command.add_argument("--table", type=Path, metavar="FILE.json", help="--fidelity table: file of the table")
     add_floating_options(command)
@@ -64,8 +64,9 @@ def chosen_keys(
     for word in (one.strip() for one in options.keys.split(",")):
         own = {path: key for path, key in known.items() if fnmatchcase(path, word)}
         if not own and word in stated:
-            why = "a dimension on which the films of a response table depend"
-            faults.append(Fault("--keys", f"'{word}', {why}", "--fidelity lumped, fixed or floating"))
+            why = "a dimension on which the films depend, but no axis of this response table"
+            remedy = f"a table with it (swashfilm table --vary {word}), or --fidelity lumped, fixed or floating"
+            faults.append(Fault("--keys", f"'{word}', {why}", remedy))
         elif not own:
             faults.append(unknown_key("--keys", word, known))
         found |= own

@@ -12,6 +12,7 @@ from reynolds.errors import InputError
 from reynolds.laws.oil import dynamic_viscosity, temperature_of
 from reynolds.numerics.arrays import Array
 from reynolds.numerics.cache import content_key
+from system.description.keys import key_value
 from system.description.pump import PumpDescription
 from system.inputs.units import Dimension, format_quantity
 from system.points.table.means import MEANINGS, TABLE_FORMAT, mean_ratios, measured_outputs
@@ -31,6 +32,7 @@ from system.points.table.sources import PointSolver, films_alone
 from system.points.table.store import KEY_LENGTH, keep_table, pump_key
 from system.pump.chamber_kinds import kinds
 from system.pump.operating import OperatingPoint, operating_point
+from system.pump_file.file import Variant, varied
 from system.work.processes import HERE
 from system.work.progress import Report, silent
 from system.work.sampled_points import SampledPoint, points_of, samples_of, solved_points, tables_folder
@@ -51,7 +53,8 @@ Range = tuple[float, float]
 class TableCase:
     """A table to build: a pump, the solver of its points, the box, numbers of learnt and held-out points.
 
-    INPUTS without an axis are held at the pump's own operating point. A `SamplingTask`.
+    INPUTS without an axis are held at the pump's own operating point; axes beside INPUTS are dimensions of the pump by
+    their path. A `SamplingTask`.
     """
 
     pump: PumpDescription
@@ -66,21 +69,33 @@ class TableCase:
         varied, point = {axis.name for axis in self.axes}, operating_point(self.pump)
         return {name: getattr(point, name) for name in INPUTS if name not in varied}
 
+    @property
+    def dimensions(self) -> dict[str, float]:
+        """The dimensions with an axis, as the pump states them, SI."""
+        return {axis.name: key_value(self.pump, axis.name) for axis in self.axes if axis.name not in INPUTS}
+
     def key(self, x: Array) -> str:
         """Name of a point's content: the pump, the solver with its inputs, the format, the place."""
         solver, point = self.solver, point_at(self, x)
         place = np.array([getattr(point, name) for name in INPUTS])
-        return content_key(pump_key(self.pump), TABLE_FORMAT, solver.source.value, sorted(solver.stated.items()), place)
+        # The stated pump with the values beside it: a place where no pump is has a name too.
+        made_by = pump_key(self.pump), TABLE_FORMAT, solver.source.value, sorted(solver.stated.items())
+        return content_key(*made_by, place, *_variant(self, x))
 
     def solve(self, x: Array) -> Array:
         """The gaps' means over the turn, by their ratios to the lumped law; after them the pump's numbers.
 
-        Raises as the solver, ValueError where chambers differ.
+        Raises as the solver, InputFaults where no pump has the dimensions, ValueError where chambers differ.
         """
         kinds(self.pump).hold_alike()
-        pump = films_alone(self.pump)
+        pump = films_alone(pump_at(self, x))
         solved = self.solver.solve(pump, point_at(self, x))
         return np.concatenate([mean_ratios(pump, solved), pump_numbers(solved.pump_point)])
+
+
+def dimension_axis(path: str, low: float, high: float) -> Axis:
+    """The axis of a pump's dimension, SI; raises InputError for ends that are no range."""
+    return Axis(path, low, high, Spacing.LOGARITHMIC if low > 0.0 else Spacing.LINEAR)
 
 
 def table_axes(
@@ -129,8 +144,10 @@ def build_table(
     (learnt, _), (held_out, numbers) = (_parted(samples) for samples in samples_of(case, found))
     outputs = measured_outputs(np.concatenate([learnt.values, held_out.values]))
     table = ResponseTable(_origin(case, found), Response(case.axes, outputs, learnt, held_out))
-    pump = films_alone(case.pump)
-    predicted = [pump_numbers(table_point(pump, point_at(case, x), table).pump_point) for x in held_out.points]
+    predicted = [
+        pump_numbers(table_point(films_alone(pump_at(case, x)), point_at(case, x), table).pump_point)
+        for x in held_out.points
+    ]
     table = replace(table, numbers=numbers_error(np.array(predicted), numbers))
     keep_table(table, tables_folder(folder) / f"{table.origin.pump_key}-{case_key(case)}")
     return table
@@ -144,10 +161,21 @@ def _parted(samples: Samples) -> tuple[Samples, Array]:
 
 def point_at(case: TableCase, x: Array) -> OperatingPoint:
     """The operating point of a place (d,) in the box: at the temperature at which the oil has its viscosity."""
-    stated = {axis.name: float(value) for axis, value in zip(case.axes, x, strict=True)}
+    stated = {axis.name: float(value) for axis, value in zip(case.axes, x, strict=True) if axis.name in INPUTS}
     if VISCOSITY in stated:
         stated["temperature"] = temperature_of(case.pump.oil.fluid, stated[VISCOSITY])
     return replace(operating_point(case.pump), **stated)
+
+
+def pump_at(case: TableCase, x: Array) -> PumpDescription:
+    """The pump of a place (d,) in the box; raises InputFaults where no pump has its dimensions."""
+    variant = _variant(case, x)
+    return varied(case.pump, variant) if variant else case.pump
+
+
+def _variant(case: TableCase, x: Array) -> Variant:
+    """The dimensions of a place."""
+    return tuple((axis.name, float(value)) for axis, value in zip(case.axes, x, strict=True) if axis.name not in INPUTS)
 
 
 def case_key(case: TableCase) -> str:
@@ -168,6 +196,7 @@ def _origin(case: TableCase, found: Sequence[SampledPoint]) -> TableOrigin:
         inlet_pressure=case.pump.operating.inlet_pressure,
         case_pressure=case.pump.operating.case_pressure,
         held=case.held,
+        dimensions=case.dimensions,
         failed=tuple(failed),
         seconds=float(np.mean([solved.seconds for solved in found])),
     )

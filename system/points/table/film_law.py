@@ -137,7 +137,7 @@ class _Points:
 
     def tabled(self, table: ResponseTable, off: Mapping[str, float]) -> GapState:
         """The gaps by a table, with some of its outputs moved."""
-        given, means = (self.pump, self.point, self._motion, self.cycle), table.nearest(self.point, off)
+        given, means = (self.pump, self.point, self._motion, self.cycle), table.nearest(self.pump, self.point, off)
         return GapState.of(
             gap_leaks(*given, means), gap_losses(*given, means), port_draws(self.pump, self.point, means)
         )

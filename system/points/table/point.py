@@ -53,9 +53,9 @@ class TablePoint:
 def table_point(pump: PumpDescription, point: OperatingPoint, table: ResponseTable) -> TablePoint:
     """One periodic operating point by the lumped kernel, with leakage and friction of its gaps from the table.
 
-    Raises InputError outside the table's box or at another inlet or case pressure, NotConverged as
-    `ported_cycle` and where an orifice line does not converge, ValueError where chambers differ. Effects of [physics]
-    that the table's films have not solved act by their laws.
+    The pump is the table's own, of any dimensions in the box. Raises InputError outside the box or at another inlet or
+    case pressure, NotConverged as `ported_cycle` and where an orifice line does not converge, ValueError where chambers
+    differ. Effects of [physics] that the table's films have not solved act by their laws.
     """
     kinds(pump).hold_alike()
     own = closed_laws(pump, floating=table.origin.source is Source.FLOATING)
@@ -64,7 +64,7 @@ def table_point(pump: PumpDescription, point: OperatingPoint, table: ResponseTab
     motion, lines, pistons = piston_motion(pump, left), port_lines(pump, left), pump.pump.pistons
     asked = left
     for _ in range(ROUND_LIMIT):
-        means = table.at(asked)
+        means = table.at(pump, asked)
         problem = affected_problem(pump, left, motion, _leaks(pump, asked, motion, means), effects)
         draws = port_draws(pump, asked, means)
         none = GapExchange(Gaps(0.0, 0.0, 0.0), draws.delivery, draws.suction)

@@ -1,17 +1,21 @@
 """Response tables of a pump: its gaps' means over the turn, learnt once from solved points and kept by content.
 
 A table belongs to a pump as it is, its inlet and case pressure included, at any speed, delivery pressure,
-displacement ratio and viscosity in its box. Ports' lines belong to the run: points are solved at held pressures.
+displacement ratio, viscosity and dimension of the pump in its box. Ports' lines belong to the run: points are solved
+at held pressures.
 """
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
 from gaps.response import Measure, Response, unit_places
 from reynolds.errors import InputError
 from reynolds.numerics.arrays import Array
+from system.description.keys import key_dimension, key_value
+from system.description.pump import PumpDescription
 from system.inputs.units import Dimension, format_quantity
 from system.points.table.pump_numbers import NumbersError
 from system.points.table.sources import Source
@@ -23,9 +27,11 @@ HELD_TO = 1e-5
 """Relative: how far an input that a table holds may be off."""
 SPEED, PRESSURE, RATIO, VISCOSITY = "shaft_speed", "delivery_pressure", "displacement_ratio", "viscosity"
 INPUTS = (SPEED, PRESSURE, RATIO, VISCOSITY)
-DIMENSIONS = {
+"""Of the operating point; every other axis is a dimension of the pump by its path."""
+_DIMENSIONS: Mapping[str, Dimension | None] = {
     SPEED: Dimension.ANGULAR_SPEED,
     PRESSURE: Dimension.PRESSURE,
+    RATIO: None,
     VISCOSITY: Dimension.DYNAMIC_VISCOSITY,
     "temperature": Dimension.TEMPERATURE,
     "inlet_pressure": Dimension.PRESSURE,
@@ -46,8 +52,8 @@ class TableOrigin:
     """Origin of a table's numbers.
 
     pump, pump_key: its name and its content; source with its physics, mesh and accuracy; package: the program's
-    version; inlet_pressure, case_pressure Pa gauge; held: INPUTS without an axis, SI; failed: points without a
-    result; seconds of computing per point, mean.
+    version; inlet_pressure, case_pressure Pa gauge; held: INPUTS without an axis, SI; dimensions: those with an axis by
+    path, as the pump states them, SI; failed: points without a result; seconds of computing per point, mean.
     """
 
     pump: str
@@ -58,13 +64,15 @@ class TableOrigin:
     inlet_pressure: float
     case_pressure: float
     held: Mapping[str, float]
+    dimensions: Mapping[str, float]
     failed: tuple[Failed, ...]
     seconds: float
 
 
 @dataclass(frozen=True)
 class ResponseTable:
-    """A pump's response with its origin: axes of INPUTS but for those held, outputs of `table_means.MEANINGS`.
+    """A pump's response with its origin: axes of INPUTS but for those held, and of dimensions of the pump; outputs of
+    `means.MEANINGS`.
 
     numbers: how far runs by the table are off at the held-out points; None before they were run.
     """
@@ -73,25 +81,29 @@ class ResponseTable:
     response: Response
     numbers: NumbersError | None = None
 
-    def at(self, point: OperatingPoint) -> dict[str, float]:
-        """The outputs by name at an operating point; shares of contact are limited to 0 .. 1.
+    def at(self, pump: PumpDescription, point: OperatingPoint) -> dict[str, float]:
+        """The outputs by name of a pump at an operating point; shares of contact are limited to 0 .. 1.
 
-        Raises InputError for a point outside the box or at another value of a held input.
+        The pump: the table's own, of any dimensions in the box. Raises InputError for a place outside the box or at
+        another value of a held input.
         """
         self._check_held(point)
-        found = self._means(np.array([[getattr(point, axis.name) for axis in self.response.axes]]))
+        found = self._means(self._place(pump, point)[None, :])
         return {name: float(values[0]) for name, values in found.items()}
 
-    def nearest(self, point: OperatingPoint[Array], off: Mapping[str, float]) -> dict[str, Array]:
-        """The outputs (N,) by name at N points, given as columns (N, 1) or arrays (N,): outside the box those at its
-        nearest face.
+    def nearest(
+        self, pump: PumpDescription, point: OperatingPoint[Array], off: Mapping[str, float]
+    ) -> dict[str, Array]:
+        """The outputs (N,) by name of a pump at N points, given as columns (N, 1) or arrays (N,).
+
+        Outside the box those at its nearest face.
 
         off: outputs by name that are too large by so much, relative or absolute as their measure is. Held
         inputs, inlet and case pressure act by the lumped law that the outputs are ratios to.
         """
-        at = flat(point)
-        places = [np.clip(getattr(at, axis.name), axis.lower, axis.upper) for axis in self.response.axes]
-        found = self._means(np.stack(places, axis=1))
+        at, axes = flat(point), self.response.axes
+        places = [np.clip(_value(axis.name, pump, at), axis.lower, axis.upper) for axis in axes]
+        found = self._means(np.stack(np.broadcast_arrays(*places), axis=1))
         for output in self.response.outputs:
             if (error := off.get(output.name, 0.0)) != 0.0:
                 relative = output.measure is Measure.RELATIVE
@@ -104,15 +116,16 @@ class ResponseTable:
         shares = {name: np.clip(own, 0.0, 1.0) for name, own in found.items() if name.endswith("contact_share")}
         return found | shares
 
-    def holds(self, point: OperatingPoint) -> bool:
-        """True if a point lies in the box, with the table's values of held inputs."""
+    def holds(self, pump: PumpDescription, point: OperatingPoint) -> bool:
+        """True if a pump at a point lies in the box, with the table's values of held inputs."""
         held = all(_same(value, getattr(point, name)) for name, value in self.origin.held.items())
-        return held and all(axis.lower <= getattr(point, axis.name) <= axis.upper for axis in self.response.axes)
+        ends = zip(self.response.axes, self._place(pump, point), strict=True)
+        return held and all(axis.lower <= value <= axis.upper for axis, value in ends)
 
-    def beside_failed(self, point: OperatingPoint) -> Failed | None:
+    def beside_failed(self, pump: PumpDescription, point: OperatingPoint) -> Failed | None:
         """The point without a result that is nearer than any learnt one, if any: there the table guesses."""
         axes = self.response.axes
-        here = unit_places(axes, np.array([[getattr(point, axis.name) for axis in axes]]))
+        here = unit_places(axes, self._place(pump, point)[None, :])
         distance = [
             np.linalg.norm(unit_places(axes, points) - here, axis=1)
             for points in (np.array([one.at for one in self.origin.failed]), self.response.learnt.points)
@@ -121,6 +134,10 @@ class ResponseTable:
         if not self.origin.failed or distance[0].min() >= distance[1].min():
             return None
         return self.origin.failed[int(distance[0].argmin())]
+
+    def _place(self, pump: PumpDescription, point: OperatingPoint) -> Array:
+        """The place (d,) of a pump at a point, in the order of the axes."""
+        return np.array([_value(axis.name, pump, point) for axis in self.response.axes])
 
     def _check_held(self, point: OperatingPoint) -> None:
         for name, own in self.origin.held.items():
@@ -134,14 +151,30 @@ class ResponseTable:
                 raise InputError(name.replace("_", " "), *shown)
 
 
+def _value(name: str, pump: PumpDescription, point: OperatingPoint[Any]) -> Any:
+    """The value of an axis: an input of the point, or a dimension of the pump."""
+    return getattr(point, name) if name in INPUTS else key_value(pump, name)
+
+
+def axis_dimension(name: str) -> Dimension | None:
+    """Kind of the quantity of an input or a pump's dimension; None for a pure number."""
+    return _DIMENSIONS[name] if name in _DIMENSIONS else key_dimension(name)
+
+
+def axis_words(name: str) -> str:
+    """Name of an axis as people read it: an input in words, a dimension by its path."""
+    return name if "." in name else name.replace("_", " ")
+
+
 def _same(one: float, other: float) -> bool:
     """True if two values of an input are equal up to round-off and the tolerance of a port's pressure."""
     return abs(one - other) <= HELD_TO * abs(one)
 
 
 def axis_value(name: str, value: float) -> str:
-    """A value of an operating point's as people read it."""
-    return format_quantity(value, DIMENSIONS[name], digits=4) if name in DIMENSIONS else f"{value:.4g}"
+    """A value of an operating point or a pump's dimension as people read it."""
+    dimension = axis_dimension(name)
+    return f"{value:.4g}" if dimension is None else format_quantity(value, dimension, digits=4)
 
 
 def box_text(table: ResponseTable) -> str:
@@ -151,9 +184,9 @@ def box_text(table: ResponseTable) -> str:
         for axis in table.response.axes
     }
     held = {name: axis_value(name, value) for name, value in table.origin.held.items()}
-    return ", ".join(f"{name.replace('_', ' ')} {text}" for name, text in (ranges | held).items())
+    return ", ".join(f"{axis_words(name)} {text}" for name, text in (ranges | held).items())
 
 
 def point_text(point: OperatingPoint) -> str:
     """The inputs of a point as people read them."""
-    return ", ".join(f"{name.replace('_', ' ')} {axis_value(name, getattr(point, name))}" for name in INPUTS)
+    return ", ".join(f"{axis_words(name)} {axis_value(name, getattr(point, name))}" for name in INPUTS)

@@ -12,13 +12,15 @@ from gaps.response import Axis, HeldOutError, Measure, Output, Response, Samples
 from reynolds.numerics.cache import content_key
 from reynolds.numerics.files import read_json, replaced
 from reynolds.numerics.npz import read_npz, write_npz
+from system.description.keys import pump_keys, with_values
 from system.description.pump import PumpDescription
+from system.description.tolerance import ToleranceSection
 from system.inputs.faults import Fault, InputFaults, nearest_path
 from system.inputs.units import Dimension
 from system.inputs.versions import version_fault
 from system.points.table.means import MEANINGS, OLDEST_TABLE, TABLE_FORMAT
 from system.points.table.pump_numbers import NUMBERS, NumbersError
-from system.points.table.response_table import DIMENSIONS, Failed, ResponseTable, TableOrigin, box_text, point_text
+from system.points.table.response_table import Failed, ResponseTable, TableOrigin, axis_dimension, box_text, point_text
 from system.points.table.sources import Source, films_alone
 from system.pump.operating import OperatingPoint
 from system.pump_file.file import resolved_toml
@@ -28,11 +30,14 @@ KEY_LENGTH = 24
 
 
 def pump_key(pump: PumpDescription) -> str:
-    """Hash of all inputs of a pump's gaps besides the axes: without its name, its lines and laws outside its films."""
+    """Hash of all inputs of a pump's gaps besides the axes.
+
+    Without its name, its tolerances, its lines and laws outside its films.
+    """
     # A clearance that grows with temperature starts from the pump's own, which is then no axis alone.
     own = pump.operating.temperature if pump.physics.thermal_clearance else 0.0
     stated = replace(pump.operating, speed=0.0, pressure=0.0, displacement_ratio=1.0, temperature=own)
-    bare = replace(films_alone(pump), name="", operating=stated)
+    bare = replace(films_alone(pump), name="", operating=stated, tolerance=ToleranceSection())
     made_of = TABLE_FORMAT, resolved_toml(bare), pump.file_contents
     return content_key("pump of a response table", *made_of)[:KEY_LENGTH]
 
@@ -117,7 +122,7 @@ def find_table(pump: PumpDescription, point: OperatingPoint, folder: Path | None
     Raises InputFaults where there is none, with the boxes of the other tables.
     """
     tables = [read_table(path) for path in sorted(tables_folder(folder).glob(f"{pump_key(pump)}-*.json"))]
-    fit = [table for table in tables if table.holds(point)]
+    fit = [table for table in tables if table.holds(pump, point)]
     if fit:
         sources = list(Source)
         return max(fit, key=lambda t: (sources.index(t.origin.source), len(t.response.learnt.points)))
@@ -135,13 +140,23 @@ def find_table(pump: PumpDescription, point: OperatingPoint, folder: Path | None
 
 
 def own_table(path: Path, pump: PumpDescription) -> ResponseTable:
-    """The table of a file, which must be this pump's; raises InputFaults where it is another's."""
+    """The table of a file, which must be this pump's but for the dimensions of its box.
+
+    Raises InputFaults where it is another's.
+    """
     table = read_table(path)
-    if table.origin.pump_key != pump_key(pump):
+    if table.origin.pump_key != pump_key(as_built(table, pump)):
         found = f"{path}, a table of {table.origin.pump} as it was then"
         fault = Fault("--table", found, "a table of this very pump, inlet and case pressure", "swashfilm table PUMP")
         raise InputFaults("response table", [fault])
     return table
+
+
+def as_built(table: ResponseTable, pump: PumpDescription) -> PumpDescription:
+    """The pump with the dimensions of the table's box as they were when it was built."""
+    known = pump_keys(pump)
+    made = with_values(pump, {path: value for path, value in table.origin.dimensions.items() if path in known})
+    return replace(made, pump=replace(made.pump, displacement=pump.pump.displacement))
 
 
 def table_record(table: ResponseTable) -> dict[str, Any]:
@@ -152,8 +167,8 @@ def table_record(table: ResponseTable) -> dict[str, Any]:
         "table_format": TABLE_FORMAT,
         **{key: value for key, value in asdict(origin).items() if key not in ("source", "failed")},
         "source": origin.source.value,
-        "units": "SI: rad/s, Pa gauge, 1, Pa s; outputs 1",
-        **response_record(table.response, DIMENSIONS),
+        "units": "SI, pressures gauge; outputs 1",
+        **response_record(table.response, {axis.name: axis_dimension(axis.name) for axis in table.response.axes}),
         "numbers": _numbers_record(table),
         "failed": [{"at": list(one.at), "reason": one.reason} for one in origin.failed],
     }
@@ -178,16 +193,13 @@ def _errors(response: Response, error: HeldOutError, k: int) -> dict[str, Any]:
     }
 
 
-def response_record(response: Response, dimensions: Mapping[str, Dimension]) -> dict[str, Any]:
+def response_record(response: Response, dimensions: Mapping[str, Dimension | None]) -> dict[str, Any]:
     """Content of the .json for a response: its box (axes of these dimensions), its outputs and their errors."""
     error = response.held_out_error
     return {
         "axes": [
             asdict(axis)
-            | {
-                "spacing": axis.spacing.value,
-                "dimension": dimensions[axis.name].name if axis.name in dimensions else None,
-            }
+            | {"spacing": axis.spacing.value, "dimension": own.name if (own := dimensions.get(axis.name)) else None}
             for axis in response.axes
         ],
         "outputs": [
@@ -208,6 +220,7 @@ def _origin(record: Mapping[str, Any]) -> TableOrigin:
         inlet_pressure=_number(record["inlet_pressure"]),
         case_pressure=_number(record["case_pressure"]),
         held={name: _number(value) for name, value in record["held"].items()},
+        dimensions={name: _number(value) for name, value in record.get("dimensions", {}).items()},
         failed=tuple(Failed(tuple(map(_number, one["at"])), _text(one["reason"])) for one in record["failed"]),
         seconds=_number(record["seconds"]),
     )

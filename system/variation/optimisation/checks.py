@@ -14,10 +14,10 @@ from system.description.pump import PumpDescription
 from system.inputs.faults import Fault, InputFaults
 from system.inputs.units import parse_quantity
 from system.pump.operating import OperatingPoint
+from system.pump_file.file import Variant, varied
 from system.variation.measures import CAVITY, PEAK, Measure
 from system.variation.optimisation.problem import Constraint, Problem, Varied
 from system.variation.scatter import Bound
-from system.variation.solving import Variant, varied
 
 DRAWN = 64
 """Designs drawn to find one that has a bound's value, where the stated pump has not."""

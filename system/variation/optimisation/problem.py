@@ -11,9 +11,9 @@ import numpy as np
 
 from reynolds.numerics.arrays import Array
 from system.description.keys import PumpKey
+from system.pump_file.file import Variant
 from system.variation.measures import Measure
 from system.variation.scatter import Bound
-from system.variation.solving import Variant
 from system.work.tasks import PartStatus
 
 MET = 1e-6
@@ -55,6 +55,10 @@ class Varied:
         """Return the values of the dimension and of those that are tied to it; of the stated value all stated ones."""
         change = value - self.key.value
         return ((self.name, value), *((one.path, one.value + change) for one in self.tied))
+
+
+AT_START = 1e-12
+"""Of the unit cube: distance of a place from the start that is round-off."""
 
 
 @dataclass(frozen=True)
@@ -111,6 +115,10 @@ class Problem:
         """Return the pump's values at a place (k,) of the unit cube."""
         values = self.low + np.clip(place, 0.0, 1.0) * (self.high - self.low)
         return tuple(pair for one, value in zip(self.space, values, strict=True) for pair in one.at(float(value)))
+
+    def changes(self, place: Array) -> Variant:
+        """Return the values of a place that are not the pump's own: none at the start."""
+        return () if np.allclose(place, self.start, rtol=0.0, atol=AT_START) else self.variant(place)
 
     @cached_property
     def low(self) -> Array:

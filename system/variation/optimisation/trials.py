@@ -9,9 +9,10 @@ from pathlib import Path
 import numpy as np
 
 from reynolds.numerics.arrays import Array
+from system.pump_file.file import Variant
 from system.variation.measures import Measure, measured
 from system.variation.optimisation.problem import Design, Problem
-from system.variation.solving import Variant, VariedWork, numbers_in, solved_variants
+from system.variation.solving import VariedWork, numbers_in, solved_variants
 from system.work.kept_results import KeptPoints
 from system.work.progress import Report
 from system.work.tasks import Executor, PartOutcome, PartStatus
@@ -38,7 +39,7 @@ class Trials:
 
     def tried(self, places: Array) -> list[Design]:
         """Return the designs at places (N, k) of the unit cube; those that are new count as one generation."""
-        variants = [self.problem.variant(place) for place in places]
+        variants = [self.problem.changes(place) for place in places]
         new = {variant: place for variant, place in zip(variants, places, strict=True) if variant not in self._known}
         self.generation += bool(new)
         for (variant, place), outcome in zip(new.items(), self._solved(list(new)), strict=True):

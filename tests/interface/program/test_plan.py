@@ -90,6 +90,19 @@ def test_a_meter_is_asked_for_where_no_point_tells(planned: Path) -> None:
     )
 
 
+def test_a_bench_that_has_a_meter_beside_its_points_plans_with_it(planned: Path, tmp_path: Path) -> None:
+    """The torque meter read uncoupled, of the bench's own: the same points tell the pair, and no page asks for it."""
+    own = ["--sensors", "Q_out,Q_case,torque,torque_uncoupled"]
+    assert main(["plan", "ref90", *WORDS, *own, "--limit", "speed <= 1800 rpm", "-o", str(tmp_path / "run")]) == 0
+    found = json.loads((tmp_path / "run" / "summary.json").read_text())
+    without = json.loads((planned / "summary.json").read_text())
+    names = [one["name"] for one in found["suspects"]]
+    drag, zero = names.index("seal_drag"), names.index("torque_offset")
+    assert without["distances_planned"][drag][zero] < 1.0 < found["distances_planned"][drag][zero]
+    assert found["told"] > without["told"]
+    assert "torque_uncoupled" not in {row["meter"] for row in csv.DictReader((tmp_path / "run/sensors.csv").open())}
+
+
 def test_page_begins_with_its_answer_and_can_be_written_again(planned: Path) -> None:
     page = planned / "report.html"
     text = page.read_text()
@@ -136,6 +149,7 @@ def test_all_faults_come_at_once(tmp_path: Path, capsys: pytest.CaptureFixture[s
         (["--sensors", "p_out"], ("no meter of what the pump does", "Q_out, Q_in, Q_case, torque")),
         (["--sensors", "torque=0.2 bar"], ("torque=0.2 bar", "N m")),
         (["--sensors", "T_case=3 degC"], ("T_case=3 degC", "in K", "sigma above 0")),
+        (["--sensors", "Q_out,torque_uncoupled"], ("torque_uncoupled", "torque beside it")),
         (["--further", "Q_slippr"], ("'Q_slippr', no meter of a bench", "Q_slipper")),
         (["--further", "torque"], ("'torque', a meter that the bench has", "Q_in")),
         (["--add-meters", "x"], ("--add-meters", "'x'")),

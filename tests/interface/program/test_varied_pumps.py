@@ -10,9 +10,12 @@ from stand_in_films import ThinningFilms
 
 import swashfilm as sf
 from swashfilm.__main__ import main
+from swashfilm.runs.variation import case
 from swashfilm.runs.variation.limits import limit_of
 from swashfilm.runs.variation.tolerance.summary import warnings_of
+from system import load_pump, operating_point
 from system.points.table import sources
+from system.pump_file.tables import BUILT_IN
 from system.variation.measures import Needs, measures_of
 from system.variation.scatter import Bound
 
@@ -227,7 +230,7 @@ def test_sensitivity_by_a_response_table(film_table):
     assert rows["oil.kinematic_viscosity_40C"]["film_least.slipper"]["derivative"] > 0.0  # thicker on thicker oil
     assert rows["ports.groove_start"]["loss"]["derivative"] < 0.0
     assert "slipper.film_thickness" in found.summary["held_by_fidelity"]
-    with pytest.raises(sf.InputFaults, match="the films of a response table depend"):
+    with pytest.raises(sf.InputFaults, match="on which the films depend, but no axis of this response table"):
         sf.sensitivity("ref90", keys="slipper.film_thickness", **of_table)
 
 
@@ -236,9 +239,105 @@ def test_tolerance_by_a_response_table(film_table):
     found = sf.tolerance("ref90", keys="oil.kinematic_viscosity_40C", limit="least film, slipper >= 1 um", **of_table)
     shares = found.summary["measures"]["film_least.slipper"]["shares"]
     assert shares[0]["total"]["value"] == pytest.approx(1.0, abs=0.02)
-    with pytest.raises(sf.InputFaults, match=r"slipper.film_thickness.*the films of a response table") as reason:
+    with pytest.raises(sf.InputFaults, match=r"slipper.film_thickness.*no axis of these dimensions") as reason:
         sf.tolerance("ref90", **of_table | {"pumps": 400})
     assert "oil.kinematic_viscosity_40C" in reason.value.faults[0].nearest
+
+
+WIDE = """
+[[tolerance.dimension]]
+key = "piston.radial_clearance"
+shape = "uniform"
+least = "6 um"
+most = "18 um"
+"""
+GAP_KEYS = "piston.radial_clearance,slipper.film_thickness"
+
+
+@pytest.fixture(scope="module")
+def wide_table(tmp_path_factory):
+    """File of a table of a stand-in's films over pressure and two dimensions, one of them by its tolerance."""
+    place = tmp_path_factory.mktemp("wide")
+    with pytest.MonkeyPatch.context() as patched:
+        patched.setenv("SWASHFILM_CACHE", str(place / "cache"))
+        patched.setattr(sources, "solver_of", lambda source, options: ThinningFilms())
+        words = ["--speed", "2100rpm", "--displacement", "1", "--temperature", "50degC", "--pressure", "15MPa..38MPa"]
+        vary = ["--vary", "piston.radial_clearance=8um..20um", "--vary", "slipper.film_thickness"]
+        assert main(["table", "ref90", *words, *vary, "-o", str(place / "run")]) == 0
+    return place / "run" / "table.json"
+
+
+def test_tolerance_by_a_table_of_dimensions_is_that_of_the_films(wide_table, monkeypatch):
+    """The series by the table, against the stand-in's films solved for every pump."""
+    asked = {"keys": GAP_KEYS, "pumps": 100, "seed": 3}
+    by_table = sf.tolerance("ref90", fidelity="table", table=wide_table, **asked).to_pandas()
+    monkeypatch.setattr(case, "solver_of", lambda source, options: ThinningFilms())
+    solved = sf.tolerance("ref90", fidelity="fixed", **asked).to_pandas()
+    for column in ("drain_flow", "loss"):
+        assert by_table[column].to_numpy() == pytest.approx(solved[column].to_numpy(), rel=5e-3)
+        assert by_table[column].std() > 0.0
+
+
+def test_sensitivity_by_a_table_of_dimensions(wide_table):
+    """The slipper's leakage goes as the cube of its film."""
+    found = sf.sensitivity("ref90", keys=GAP_KEYS, fidelity="table", table=wide_table).summary
+    rows = {row["key"]: row["measures"] for row in found["dimensions"]}
+    film = 10e-6
+    slope = rows["slipper.film_thickness"]["leakage.slipper"]
+    middle = found["measures"]["leakage.slipper"]["value"]
+    assert slope["derivative"] * film == pytest.approx(3.0 * middle, rel=0.05)
+
+
+def test_pumps_beyond_the_box_of_a_table_are_told_at_once(wide_table, tmp_path):
+    wide = tmp_path / "wide.toml"
+    wide.write_text((BUILT_IN / "ref90.toml").read_text("utf-8") + WIDE)
+    with pytest.raises(sf.InputFaults, match=r"beyond the table's box, 8 um .. 20 um") as reason:
+        sf.tolerance(wide, keys="piston.radial_clearance", fidelity="table", table=wide_table, pumps=200)
+    assert reason.value.faults[0].nearest.endswith("vary piston.radial_clearance")
+
+
+BY_TABLE = """
+format = 1
+[optimise]
+pump = "ref90"
+fidelity = "table"
+table = "{table}"
+method = "trust_region"
+designs = 12
+[vary]
+"piston.radial_clearance" = "{bounds}"
+[objectives]
+loss = "least"
+"""
+
+
+def test_optimisation_by_a_table_of_dimensions(wide_table, tmp_path):
+    """The clearance of the chosen design loses less than the pump as stated."""
+    asked = tmp_path / "clearance.toml"
+    asked.write_text(BY_TABLE.format(table=wide_table, bounds="8.5..19.5 um"))
+    found = sf.optimise(asked).summary
+    (clearance,) = found["dimensions"]
+    assert 8.5e-6 <= clearance["chosen"] <= 19.5e-6
+    assert clearance["chosen"] != pytest.approx(clearance["start"], rel=0.05)
+    assert found["measures"]["loss"]["chosen"] < found["measures"]["loss"]["start"]
+    asked.write_text(BY_TABLE.format(table=wide_table, bounds="5..18 um"))
+    with pytest.raises(sf.InputFaults, match=r"in the box of the response table, 8 um .. 20 um"):
+        sf.optimise(asked)
+
+
+def test_a_table_of_dimensions_serves_the_pump_with_others_in_its_box(wide_table, tmp_path):
+    """The same file takes the pump with another clearance, and refuses one beyond the box or of another dimension."""
+    asked = {"fidelity": "table", "table": wide_table}
+    for gap in (10, 17):
+        stated = {"piston.radial_clearance": f"{gap} um"}
+        by_table = sf.run("ref90", set=stated, **asked).summary["leakage"]["piston_m3_per_s"]
+        pump = load_pump("ref90", stated)
+        solved = ThinningFilms().solve(pump, operating_point(pump)).pump_point
+        assert by_table == pytest.approx(solved.leakage_flow.piston, rel=5e-3)
+    with pytest.raises(sf.InputFaults, match=r"piston.radial_clearance"):
+        sf.run("ref90", set={"piston.radial_clearance": "25 um"}, **asked)
+    with pytest.raises(sf.InputFaults, match="a table of this very pump"):
+        sf.run("ref90", set={"slipper.orifice_diameter": "1 mm"}, **asked)
 
 
 def test_shares_of_numbers_that_do_not_scatter_are_no_warning():

@@ -151,6 +151,20 @@ def test_ctrl_c_keeps_what_is_solved(stand_in, tmp_path, capsys):
         (["table", "ref90", "--pressure", "1MPa..30MPa"], ["delivery pressure", "2.5 MPa"]),
         (["table", "ref90", "--temperature", "20degC..300degC"], ["degC"]),
         (["table", "ref90", "--sped", "3"], ["--sped", "--speed"]),
+        (["table", "ref90", "--vary", "piston.radial_clearance=16um..12um"], ["--vary", "the lower end first"]),
+        (["table", "ref90", "--vary", "piston.radial_clearance=12..16"], ["--vary", "with its unit", "12 mm"]),
+        (["table", "ref90", "--vary", "piston.radial_clearence"], ["--vary", "try:      piston.radial_clearance"]),
+        (["table", "ref90", "--vary", "ports.groove_area=3mm2..5mm2"], ["beside the films", "without an axis"]),
+        (["table", "ref90", "--vary", "slipper.orifice_diameter"], ["no tolerance", "slipper.orifice_diameter=A..B"]),
+        (
+            ["table", "ref90", "--vary", "slipper.land_outer_radius=14mm..30mm"],
+            ["--vary slipper.land_outer_radius", "neighbouring slippers overlap", "less than 15.03 mm"],
+        ),
+        (
+            ["table", "ref90", *("--vary", "piston.radial_clearance=9um..11um") * 2],
+            ["--vary piston.radial_clearance", "a second time"],
+        ),
+        (["table", "ref90", *("--vary", "bore.nothing") * 7], ["7 dimensions", "at most 6"]),
         (["table"], ["PUMP"]),
         (["run", "ref90", "--fidelity", "table"], ["no table of this pump", "swashfilm table"]),
         (["run", "ref90", "--table", "x.json"], ["--table", "--fidelity table"]),
@@ -170,5 +184,5 @@ def test_help_says_what_a_table_is(capsys):
     with pytest.raises(SystemExit):
         main(["table", "--help"])
     text = capsys.readouterr().out
-    for option in (*RANGES, *HELD, "--source", "--points", "--held-out", "--workers", "--steps", "--finer"):
+    for option in (*RANGES, *HELD, "--vary", "--source", "--points", "--held-out", "--workers", "--steps", "--finer"):
         assert option in text

@@ -16,6 +16,7 @@ from system.inputs.faults import Fault, nearest_choice, stated
 from system.inputs.sections.fields import fields_of
 from system.inputs.toml_table import Table
 from system.inputs.units import QuantityError, parse_quantity, reading_unit
+from system.points.table.response_table import ResponseTable
 from system.variation.measures import MEASURES, Measure
 from system.variation.optimisation.problem import Aim, Constraint, Objective, Varied
 from system.variation.scatter import Bound
@@ -52,6 +53,16 @@ def varied_of(top: Table, pump: PumpDescription, known: Mapping[str, PumpKey]) -
         top.fault("vary", "an empty table", f'dimensions, such as "ports.groove_start" = {RANGE_EXAMPLE}')
     top.faults += _twice(found)
     return tuple(found)
+
+
+def beyond_box(table: ResponseTable | None, one: Varied) -> tuple[str, str] | None:
+    """Return what is found and expected where the bounds of a dimension lie beyond a response table's box."""
+    axes = {} if table is None else {axis.name: axis for axis in table.response.axes}
+    if (axis := axes.get(one.name)) is None or axis.lower <= one.low < one.high <= axis.upper:
+        return None
+    bounds, box = (f"{one.key.shown(low)} .. {one.key.shown(high)}" for low, high in
+                   ((one.low, one.high), (axis.lower, axis.upper)))  # fmt: skip
+    return bounds, f"bounds in the box of the response table, {box}"
 
 
 def objectives_of(top: Table, known: Sequence[Measure], fidelity: Fidelity) -> tuple[Objective, ...]:
@@ -166,8 +177,9 @@ def _no_dimension(
 ) -> Fault:
     """Return the fault of a path that cannot vary: held by a table, left out by the file, or none."""
     if path in stated_keys:
-        found = f"'{path}', on which the films of a response table depend"
-        return Fault(where, found, "another fidelity", 'fidelity = "lumped", "fixed" or "floating"')
+        found = f"'{path}', on which the films depend, but no axis of this response table"
+        expected = f"a table with it (swashfilm table --vary {path}), or another fidelity"
+        return Fault(where, found, expected, 'fidelity = "lumped", "fixed" or "floating"')
     section, _, key = path.partition(".")
     own = fields_of(PumpDescription).get(section)
     if own is not None and own.table is not None and key in fields_of(own.table):

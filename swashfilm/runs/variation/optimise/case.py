@@ -12,8 +12,8 @@ from swashfilm.case.gap.pump import read_case_pump
 from swashfilm.case.settings import read_set
 from swashfilm.console.fidelity import Fidelity
 from swashfilm.console.floating_options import alike_faults, floating_faults, floating_options
-from swashfilm.runs.variation.case import VariedCase, varied_sites, varied_solver
-from swashfilm.runs.variation.optimise.asked import constraints_of, objectives_of, varied_of
+from swashfilm.runs.variation.case import VariedCase, table_of, varied_sites, varied_solver
+from swashfilm.runs.variation.optimise.asked import beyond_box, constraints_of, objectives_of, varied_of
 from swashfilm.runs.variation.optimise.points import points_plan
 from swashfilm.runs.variation.options import costly, known_measures
 from system.description.keys import pump_keys
@@ -115,11 +115,15 @@ def _read(path: Path, text: str, top: Table, options: argparse.Namespace) -> Opt
         for name in TABLES:
             top.get(name)
         return None
-    known = variable_keys(pump.pump, fidelity is Fidelity.TABLE)
+    plan, cycle = points_plan(top, pump.pump, path.parent)
+    beside = None if section.table is None else path.parent / section.table
+    by_table = fidelity is Fidelity.TABLE and not top.faults
+    response = table_of(plan, beside) if by_table and plan is not None else None
+    known = variable_keys(pump.pump, response)
     space = varied_of(top, pump.pump, known)
+    top.faults += [Fault(f"vary.{one.name}", *found) for one in space if (found := beyond_box(response, one))]
     measures = known_measures(fidelity)
     problem = Problem(space, objectives_of(top, measures, fidelity), constraints_of(top, measures, fidelity), measures)
-    plan, cycle = points_plan(top, pump.pump, path.parent)
     top.faults += [*alike_faults(pump.pump), *floating_faults(options, pump.pump, fidelity.value, "fidelity")]
     top.faults += _table_faults(section)
     if top.faults or plan is None:
@@ -128,8 +132,7 @@ def _read(path: Path, text: str, top: Table, options: argparse.Namespace) -> Opt
     top.faults += [*_problem_faults(pump.pump, problem, plan.points), *_search_faults(section, search, problem)]
     if top.faults:
         return None
-    beside = None if section.table is None else path.parent / section.table
-    work = VariedWork(pump.pump, varied_solver(plan, fidelity, floating_options(options, pump.pump), beside),
+    work = VariedWork(pump.pump, varied_solver(fidelity, floating_options(options, pump.pump), response),
                       varied_sites(plan, cycle), whole=True)  # fmt: skip
     fixed = tuple(key for key in pump_keys(pump.pump) if key not in known)
     keys = {one.name: one.key for one in space}

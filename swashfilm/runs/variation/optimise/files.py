@@ -18,10 +18,10 @@ from swashfilm.runs.variation.words import key_unit
 from system.description.pump import PumpDescription
 from system.maps.data import MapData, map_data
 from system.maps.point import columns
+from system.pump_file.file import Variant, varied
 from system.variation.measures import NUMBERS
 from system.variation.optimisation.optimum import Optimisation
 from system.variation.optimisation.problem import Design
-from system.variation.solving import Variant, varied
 from system.work.tasks import PartOutcome, PartStatus
 
 DATA, DESIGNS, PARETO, CHOSEN, BESIDE = "results.nc", "designs.csv", "pareto.csv", "chosen.toml", "compare"

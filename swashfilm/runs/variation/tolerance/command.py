@@ -66,9 +66,8 @@ def tolerance_case(options: argparse.Namespace) -> ToleranceCase:
     limits = [limit_of(text, measures, faults) for text in options.limit]
     pumps = whole(faults, "--pumps", options.pumps, PUMPS, (100, MOST_PUMPS), "a number of pumps")
     seed = whole(faults, "--seed", options.seed, 1, (0, 2**31 - 1))
-    by_table = options.fidelity == Fidelity.TABLE.value
     varied = varied_case(
-        options, faults, lambda pump: drawing_faults(pump, options.keys, pumps, by_table=by_table), together=True
+        options, faults, lambda pump, table: drawing_faults(pump, table, options.keys, pumps, seed), together=True
     )
     kept = tuple(one for one in limits if one is not None)
     return ToleranceCase(varied, chosen_drawing_of(varied.pump, options.keys), pumps, seed, kept, measures)

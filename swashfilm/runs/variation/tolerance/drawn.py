@@ -2,14 +2,19 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Iterator, Mapping
 from fnmatch import fnmatchcase
+
+import numpy as np
 
 from system.description.drawing import drawing_of
 from system.description.drawn import Drawing
-from system.description.keys import pump_keys
+from system.description.keys import PumpKey, pump_keys
 from system.description.pump import PumpDescription
 from system.inputs.faults import Fault, nearest_choice
-from system.variation.sampling import part_of
+from system.points.table.response_table import ResponseTable
+from system.pump_file.file import Variant
+from system.variation.sampling import drawn_series, part_of
 from system.variation.shares import pumps_needed
 from system.variation.solving import variable_keys
 
@@ -20,8 +25,11 @@ def chosen_drawing_of(pump: PumpDescription, keys: str | None) -> Drawing:
     return drawing if keys is None else part_of(drawing, _named(drawing, keys))
 
 
-def drawing_faults(pump: PumpDescription, keys: str | None, pumps: int, *, by_table: bool) -> list[Fault]:
-    """Return the faults of a choice: no tolerance, a dimension that a response table holds, too few pumps."""
+def drawing_faults(
+    pump: PumpDescription, table: ResponseTable | None, keys: str | None, pumps: int, seed: int
+) -> list[Fault]:
+    """Return the faults of a choice: no tolerance, a dimension that a response table holds, pumps beyond its box, too
+    few pumps."""
     drawing, stated = drawing_of(pump), pump_keys(pump)
     if not drawing.names:
         expected = "[[tolerance.dimension]] or a sigma, such as film_thickness = 0.08"
@@ -34,16 +42,36 @@ def drawing_faults(pump: PumpDescription, keys: str | None, pumps: int, *, by_ta
             near = nearest_choice(path, drawing.names)
             faults.append(Fault("--keys", f"'{path}', without a tolerance", "a dimension of [tolerance]", near))
     chosen = chosen_drawing_of(pump, keys)
-    variable = variable_keys(pump, by_table)
+    variable = variable_keys(pump, table)
     held = [one.name for one in chosen.members if not set(one.keys) <= set(variable)]
     if held:
         free = [name for name in drawing.names if name in variable]
-        found = f"{', '.join(held)}: the films of a response table are those of the pump as stated"
-        faults.append(Fault("--table", found, "--fidelity lumped, or dimensions beside the films", _keys_option(free)))
+        found = f"{', '.join(held)}: the films of this response table have no axis of these dimensions"
+        asked = " ".join(f"--vary {name}" for name in held)
+        expected = f"a table with them (swashfilm table {asked}), other dimensions, or --fidelity lumped"
+        faults.append(Fault("--table", found, expected, _keys_option(free)))
+    elif table is not None:
+        faults += _beyond_box(table, drawn_series(chosen, pumps, seed).variants(pump), stated)
     if pumps < (needed := pumps_needed(len(chosen.names))):
         expected = f"{needed} at least for {len(chosen.names)} dimensions: the shares follow from a quadratic surface"
         faults.append(Fault("--pumps", str(pumps), expected))
     return faults
+
+
+def _beyond_box(table: ResponseTable, variants: Iterable[Variant], known: Mapping[str, PumpKey]) -> Iterator[Fault]:
+    """Yield the fault of each dimension of which drawn pumps lie beyond the table's box."""
+    drawn = [dict(variant) for variant in variants]
+    for axis in table.response.axes:
+        if axis.name not in drawn[0]:
+            continue
+        values, shown = np.array([one[axis.name] for one in drawn]), known[axis.name].shown
+        beyond = int(np.sum((values < axis.lower) | (values > axis.upper)))
+        if beyond:
+            found = (
+                f"{beyond} of {len(values)} pumps beyond the table's box, {shown(axis.lower)} .. {shown(axis.upper)}"
+            )
+            expected = f"a table over {shown(values.min())} .. {shown(values.max())}"
+            yield Fault(axis.name, found, expected, f"swashfilm table --vary {axis.name}")
 
 
 def _named(drawing: Drawing, keys: str) -> set[str]:

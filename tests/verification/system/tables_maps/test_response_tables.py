@@ -254,7 +254,7 @@ def test_a_table_comes_back_from_its_files(table, tmp_path):
     assert back.origin == table.origin
     assert table_record(back) == table_record(table)
     point = operating_point(PUMP)
-    assert back.at(point) == table.at(point)
+    assert back.at(PUMP, point) == table.at(PUMP, point)
     assert own_table(tmp_path / "mine.json", PUMP).origin == table.origin
     with pytest.raises(InputFaults, match="this very pump"):
         own_table(tmp_path / "mine.json", load_pump(BENCH, {"piston.mass": "150 g"}))

@@ -10,24 +10,25 @@ from system.maps.duty import Cycle
 from system.maps.plan import MapAxis, MapInput
 from system.maps.point import LumpedSolver
 from system.pump.laws.friction_pairs import Pair
+from system.pump_file.file import varied
 from system.variation.differences import Side, Verdict
 from system.variation.measures import NUMBERS, Needs, measures_of
 from system.variation.sensitivity import Accuracy, sensitivity, unit_change
 from system.variation.sites import cycle_sites, plan_sites
-from system.variation.solving import VariedWork, variable_keys, varied
+from system.variation.solving import VariedWork, variable_keys
 from system.work.kept_results import KeptPoints
 from system.work.processes import ProcessPool
 from system.work.progress import silent
 
 PUMP = load_pump("ref90")
-KEYS = variable_keys(PUMP, by_table=False)
+KEYS = variable_keys(PUMP)
 MEASURES = measures_of(Needs.COURSE)
 FINE = Accuracy(step=0.01, noise=1e-6, rounds=2)
 LEVELS = (MapAxis(MapInput.SPEED, (100.0, 200.0)), MapAxis(MapInput.PRESSURE, (1e7, 2e7, 3e7)))
 
 
 def found_by(folder, paths, sites, pump=PUMP, earlier=None):
-    keys = variable_keys(pump, by_table=False)
+    keys = variable_keys(pump)
     work = VariedWork(pump, LumpedSolver(), sites)
     chosen = {path: keys[path] for path in paths}
     return sensitivity(work, chosen, MEASURES, FINE, folder, ProcessPool(1), silent, earlier)

@@ -1,6 +1,6 @@
 """Searches on problems whose best designs are known: Binh and Korn's (1997) and a parabola under a line."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import partial
 from types import SimpleNamespace
 
@@ -33,10 +33,12 @@ LOSS, DRAIN, TORQUE, PEAK = (MEASURES[name] for name in ("loss", "drain_flow", "
 
 @dataclass(frozen=True)
 class Toy:
-    """Work whose numbers are functions of two dimensions; the start has the numbers of (start, start)."""
+    """Work whose numbers are functions of two dimensions, of the pump's own where nothing else is stated; asked: the
+    variants that were solved."""
 
     functions: tuple
-    start: float = 1.0
+    own: tuple = (KEYS[X].value, KEYS[Y].value)
+    asked: list = field(default_factory=list)
     solver = SimpleNamespace(cost=1e-3)
     pump = None
     sites = SimpleNamespace(points=(None,), weights=np.ones(1))
@@ -45,7 +47,8 @@ class Toy:
         return content_key("toy", repr(variant))
 
     def solve(self, variant):
-        x, y = (dict(variant).get(name, self.start) for name in (X, Y))
+        self.asked.append(variant)
+        x, y = (dict(variant).get(name, own) for name, own in zip((X, Y), self.own, strict=True))
         if x < 0.0:
             raise InputFaults("toy", [Fault(X, f"{x:.3g} kg", "a mass")])
         if y < 0.0:
@@ -175,7 +178,7 @@ def test_most(tmp_path):
 
 def test_gradient_meets_a_line(tmp_path):
     """(x - 2)^2 + (y - 1)^2 under x + y <= 2: the foot (1.5, 0.5) of the line, feasible, in some ten steps."""
-    toy = Toy((("loss", lambda x, y: (x - 2.0) ** 2 + (y - 1.0) ** 2), ("drain_flow", lambda x, y: x + y)), 0.1)
+    toy = Toy((("loss", lambda x, y: (x - 2.0) ** 2 + (y - 1.0) ** 2), ("drain_flow", lambda x, y: x + y)))
     asked = problem((Objective(LOSS, Aim.LEAST),), (Constraint(DRAIN, Bound.MOST, 2.0, "drain_flow <= 2"),))
     assert usual_method(asked, costly=False)[0] is Method.GRADIENT
     found = solved(tmp_path, asked, toy, partial(descend, step=1e-4, iterations=40))
@@ -198,7 +201,7 @@ def test_choice_of_the_search():
 
 def test_limit_by_the_start(tmp_path):
     """A constraint of 1.5 times the start is that of its number."""
-    toy = Toy((("loss", lambda x, y: 2.0 + x), ("drain_flow", lambda x, y: 5.0 - x)))
+    toy = Toy((("loss", lambda x, y: 2.0 + x), ("drain_flow", lambda x, y: 5.0 - x)), (1.0, 1.0))
     limit = Constraint(LOSS, Bound.MOST, 0.0, "loss <= 1.5 start", 1.5)
     found = solved(tmp_path, problem((TWO[1],), (limit,)), toy, evolution(20, 30))
     assert found.problem.constraints[0].value == 4.5
@@ -232,7 +235,7 @@ def test_designs_without_a_result(tmp_path):
 
 def test_start_without_a_result(tmp_path):
     with pytest.raises(NotConverged, match="as stated"):
-        solved(tmp_path, problem(), Toy(BINH_KORN.functions, -1.0), evolution(20, 1))
+        solved(tmp_path, problem(), Toy(BINH_KORN.functions, (-1.0, -1.0)), evolution(20, 1))
 
 
 def test_trust_region_meets_a_kinked_line(tmp_path):
@@ -242,7 +245,7 @@ def test_trust_region_meets_a_kinked_line(tmp_path):
         ("drain_flow", lambda x, y: max(x + y, 2 * x)),
     )
     asked = problem((Objective(LOSS, Aim.LEAST),), (Constraint(DRAIN, Bound.MOST, 2.0, "drain_flow <= 2"),))
-    found = solved(tmp_path, asked, Toy(functions, 0.1), partial(approach, designs=30, last=1e-3))
+    found = solved(tmp_path, asked, Toy(functions), partial(approach, designs=30, last=1e-3))
     (best,) = found.pareto.members
     place = [value for _, value in found.problem.variant(found.designs[best].place)]
     assert place == pytest.approx((1.0, 1.0), abs=0.03)
@@ -251,7 +254,7 @@ def test_trust_region_meets_a_kinked_line(tmp_path):
 
 def test_trust_region_past_designs_without_a_result(tmp_path):
     """The start beside masses below zero: refused designs turn the search back, and it ends where it should."""
-    toy = Toy((("loss", lambda x, y: 1.0 + (x - 1.5) ** 2 + (y - 1.0) ** 2),), 0.2)
+    toy = Toy((("loss", lambda x, y: 1.0 + (x - 1.5) ** 2 + (y - 1.0) ** 2),))
     asked = problem((Objective(LOSS, Aim.LEAST),), (), ((-2.0, 5.0), (-1.0, 3.0)))
     found = solved(tmp_path, asked, toy, partial(approach, designs=60, last=1e-3))
     assert found.count(PartStatus.FAULTY) + found.count(PartStatus.NOT_CONVERGED) > 0
@@ -261,7 +264,17 @@ def test_trust_region_past_designs_without_a_result(tmp_path):
 
 
 def test_trust_region_keeps_its_budget(tmp_path):
-    toy = Toy((("loss", lambda x, y: 1.0 + (x - 4.0) ** 2 + (y - 2.0) ** 4),), 0.1)
+    toy = Toy((("loss", lambda x, y: 1.0 + (x - 4.0) ** 2 + (y - 2.0) ** 4),))
     asked = problem((Objective(LOSS, Aim.LEAST),), ())
     found = solved(tmp_path, asked, toy, partial(approach, designs=8, last=1e-4))
     assert len(found.designs) <= 8
+
+
+@pytest.mark.parametrize("search", [partial(approach, designs=8, last=1e-4), partial(descend, step=1e-4, iterations=4)])
+def test_the_start_is_solved_once(tmp_path, search):
+    """The pump as stated, by which limits are told, is the first design of a search from there."""
+    toy = Toy((("loss", lambda x, y: 1.0 + (x - 4.0) ** 2 + (y - 2.0) ** 2),))
+    found = solved(tmp_path, problem((Objective(LOSS, Aim.LEAST),), ()), toy, search)
+    assert found.designs[0].numbers[0] == found.start.numbers[0]
+    assert toy.asked.count(()) == 1
+    assert tuple(zip((X, Y), toy.own, strict=True)) not in toy.asked
