@@ -76,17 +76,27 @@ def is_wrong_name(outcome: Outcome) -> bool:
 
 
 def is_grave(outcome: Outcome) -> bool:
-    """Wrong, sure and unflagged: the error that must not happen.
-
-    A name, and the members of a class together, have a probability of .9 at least: thresholds.toml.
-    """
-    return is_wrong_name(outcome) and outcome.status not in FLAGGED
+    """Wrong, sure and unflagged: the error that must not happen."""
+    return is_sure_and_wrong(outcome) and outcome.status not in FLAGGED
 
 
 def is_sure_and_wrong(outcome: Outcome) -> bool:
-    """Wrong at a probability of .9 at least, flagged or not: a name that is sure by its status, or by its number."""
-    sure = outcome.status not in FLAGGED or any(one.probability >= SURE for one in outcome.claims)
-    return is_wrong_name(outcome) and sure
+    """Wrong at a stated probability of .9 at least, flagged or not: of a claim with its class, of unknown physics."""
+    if not is_wrong_name(outcome):
+        return False
+    told = [max(one.probability, of_class(outcome, one)) for one in outcome.claims] or [of_unknown(outcome)]
+    return max(told) >= SURE
+
+
+def of_class(outcome: Outcome, claim: Claimed) -> float:
+    """The probability of a claim and of what is in its class, together."""
+    members = {claim.effect, *claim.equivalent}
+    return sum(one.probability for one in outcome.ranked if members & set(one.effects))
+
+
+def of_unknown(outcome: Outcome) -> float:
+    """The probability of unknown physics, of all components together."""
+    return sum(one.probability for one in outcome.ranked if UNKNOWN in one.effects)
 
 
 def groups(outcome: Outcome) -> list[tuple[frozenset[str], float]]:
@@ -137,6 +147,17 @@ def _is_truth(place: Place, outcome: Outcome) -> bool:
 
 
 def confidence(outcome: Outcome) -> tuple[float, bool]:
-    """Probability of the likeliest explanation, and whether it is the truth."""
+    """Probability of the likeliest explanation, and whether it is the truth.
+
+    Of an explanation with more effects than a verdict claims, its claims count, by all explanations that hold them: a
+    verdict claims A where A with B is likelier by less than the odds of a name.
+    """
     listed = groups(outcome)
-    return (listed[0][1], _is_whole_truth(listed[0][0], outcome)) if listed else (1.0, False)
+    if not listed:
+        return 1.0, False
+    likeliest, probability = listed[0]
+    claimed = frozenset(one.effect for one in outcome.claims)
+    if claimed and claimed < likeliest:
+        told = sum(share for ids, share in listed if claimed <= ids)
+        return told, bool(claimed & truth_of(outcome)) and claimed <= truth_of(outcome) | set(outcome.beside)
+    return probability, _is_whole_truth(likeliest, outcome)

@@ -76,7 +76,10 @@ The gates were set before the program was written. A case without a required num
   random points are as many, without a meter.
 - Intervals are those of parameters with the same meaning in plant and simulation, under right names. No recording of
   this kind separates clearance of the piston, eccentricity and sealing length; they are not among them.
-- Probabilities are those of ids, the gaps of one id together.
+- Probabilities are those of ids, the gaps of one id together. Where a verdict claims fewer effects than the likeliest
+  explanation has, its claims are scored as they are told: by all explanations that hold them.
+- Sure is what is stated at a probability of .9 at least, of a claim with its class. The status does not count: a name
+  on a pump known by its type plate is told with the probability of the record of such names.
 """
 
 

@@ -7,8 +7,8 @@ from collections.abc import Sequence
 from itertools import pairwise
 from pathlib import Path
 
-from .judged import is_named, is_wrong_name
-from .outcome import Claimed, Outcome
+from .judged import is_named, is_wrong_name, of_class, of_unknown
+from .outcome import Outcome
 from .parts import Part, Plant, plant_of
 
 EDGES = (0.0, 0.8, 0.9, 0.99, 1.0)
@@ -53,15 +53,10 @@ def _pump(outcome: Outcome) -> str:
 def _stated(outcome: Outcome) -> float:
     """The probability of an answer as stated: of a name that of its least sure class."""
     if outcome.claims:
-        return min(_of_class(outcome, one) for one in outcome.claims)
+        return min(of_class(outcome, one) for one in outcome.claims)
     if is_named(outcome):
-        return sum(one.probability for one in outcome.ranked if "unknown_physics" in one.effects)
+        return of_unknown(outcome)
     return outcome.nothing if outcome.status != "suspicion" else 1.0 - outcome.nothing
-
-
-def _of_class(outcome: Outcome, claim: Claimed) -> float:
-    members = {claim.effect, *claim.equivalent}
-    return sum(one.probability for one in outcome.ranked if members & set(one.effects))
 
 
 def _band(probability: float) -> tuple[float, float]:

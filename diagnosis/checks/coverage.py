@@ -19,14 +19,14 @@ FEWEST = 3  # points, fewer of which are refused for their number
 
 
 def coverage(recording: Recording) -> Iterator[DataNote]:
-    """Yield notes on points that are all alike, inputs that stay and a single output; a fault where no input is
-    recorded, nor a trace, which is a curve by itself.
+    """Yield a warning of points that are all alike, notes on inputs that stay and a single output; a fault where no
+    input is recorded, nor a trace, which is a curve by itself.
     """
     inputs = [channel for channel in recording.channels if channel.name in INPUTS and _is_read(recording, channel)]
     moved = [channel for channel in inputs if _moves(recording, channel)]
     stays = [channel for channel in inputs if channel not in moved]
     if len(recording.steady.values) >= FEWEST and not moved:
-        kind = NoteKind.NOTED if stays or recording.traces else NoteKind.FAULT
+        kind = NoteKind.WARNED if stays or recording.traces else NoteKind.FAULT
         yield DataNote(kind, None, (), _alike(recording, stays))
     elif fixed := [one for one in stays if one.name in (ChannelName.SPEED, ChannelName.P_OUT)]:
         text = f"{_levels(recording, fixed)} at all points: effects that differ only by how they grow with it are alike"

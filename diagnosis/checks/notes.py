@@ -12,7 +12,7 @@ def note_text(note: DataNote) -> str:
     where = [note.channel.value] if note.channel else []
     if note.points:
         where.append(f"point {point_ranges(note.points)}")
-    kind = [] if note.kind in (NoteKind.NOTED, NoteKind.CONTRADICTED) else [note.kind.value]
+    kind = [] if note.kind in (NoteKind.NOTED, NoteKind.WARNED) else [note.kind.value]
     return ": ".join([*kind, *([" ".join(where)] if where else []), note.text])
 
 

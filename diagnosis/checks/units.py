@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 from types import MappingProxyType
 
 import numpy as np
+from numpy.typing import NDArray
 
 from diagnosis.recording.model import Circuit, DataNote, NoteKind, RecordedChannel, Recording
 from diagnosis.recording.units import OTHER_UNITS
@@ -27,6 +28,7 @@ LOWEST_DELIVERY = 2e5  # Pa gauge
 FLOW_RATIO = (0.4, 1.15)  # Q_out over displacement x speed
 INLET_RATIO = (0.4, 1.5)  # Q_in over the same
 APART = 0.15  # share of a flow by which two groups of points differ that are no one pump at one setting
+LIKE = 0.5  # of a flow's step between groups, to which the torque's is alike
 TORQUE_RATIO = (0.85, 2.5)  # torque over displacement x pressure difference
 TRACE_RATIO = (0.5, 2.0)  # upper tenth of a chamber's pressure over p_out
 CHARGED = 5e5  # Pa gauge: beyond it an inlet is charged
@@ -35,7 +37,9 @@ HOTTEST = 383.15  # K: beyond, oil ages within hours
 DRAIN_WARMER = (-1.0, 80.0)  # K, T_case less T_in: what leaks has been throttled
 BULK_MODULUS = 1.6e9  # Pa, good to a fifth for any mineral oil in use
 FLOW_SHARE = 0.005  # of a flow to which meters agree
+SEVERAL = "two pumps or settings in one recording; a recording for each"
 Ratio = Callable[[Recording], float | None]
+Marks = NDArray[np.bool_]
 _RATIO = ChannelName.DISPLACEMENT_RATIO
 _TENFOLD = (("large", 0.1), ("small", 10.0))
 _DIRECTED = (ChannelName.SPEED, ChannelName.Q_OUT, ChannelName.Q_IN, ChannelName.Q_CASE, ChannelName.TORQUE)
@@ -125,9 +129,7 @@ def _ratios(recording: Recording, displacement: float) -> Iterator[DataNote]:
         return lambda given: _median(given.steady.column(name) / _swept(given, displacement))
 
     def torque_of(given: Recording) -> float | None:
-        rise = given.steady.column(ChannelName.P_OUT) - np.nan_to_num(given.steady.column(ChannelName.P_IN))
-        power = _swept(given, displacement) / given.steady.column(ChannelName.SPEED) * rise
-        return _median(given.steady.column(ChannelName.TORQUE) / power)
+        return _median(_torque_ratio(given, displacement))
 
     for name, span in ((ChannelName.Q_OUT, _Span(*FLOW_RATIO)), (ChannelName.Q_IN, _Span(*INLET_RATIO))):
         text = f"{name.value} is {{:.3g}} times displacement x speed at half of the points"
@@ -145,6 +147,14 @@ def _swept(recording: Recording, displacement: float) -> Array:
     ratio = recording.steady.column(ChannelName.DISPLACEMENT_RATIO)
     swept: Array = np.where(np.isfinite(ratio), ratio, 1.0) * recording.steady.column(ChannelName.SPEED)
     return displacement / (2.0 * math.pi) * swept
+
+
+def _torque_ratio(recording: Recording, displacement: float) -> Array:
+    """Torque over displacement x pressure difference over 2 pi, (N,), at the points' displacement ratios."""
+    column = recording.steady.column
+    rise = column(ChannelName.P_OUT) - np.nan_to_num(column(ChannelName.P_IN))
+    ideal = _swept(recording, displacement) / column(ChannelName.SPEED) * rise
+    return np.asarray(column(ChannelName.TORQUE) / ideal)
 
 
 def _ratio_fault(
@@ -268,21 +278,39 @@ def trace_sizes(recording: Recording) -> Iterator[DataNote]:
 
 
 def _groups(recording: Recording, displacement: float) -> Iterator[DataNote]:
-    """Flows in two groups, a tenth of the points or more in each, that one pump at one setting does not give."""
+    """Flows in two groups, a tenth of the points or more in each, that one pump at one setting does not give.
+
+    A fault where the torque steps by as much between the same points: of the flow alone it may be a meter, or a starved
+    inlet.
+    """
     swept = _swept(recording, displacement)
     for name in (ChannelName.Q_IN, ChannelName.Q_OUT):
-        shares = np.sort((flow := recording.steady.column(name) / swept)[np.isfinite(flow)])
+        flow = recording.steady.column(name) / swept
+        shares = np.sort(flow[np.isfinite(flow)])
         tenth = max(2, math.ceil(0.1 * len(shares)))
         steps = np.diff(shares)[tenth - 1 : len(shares) - tenth]
         if not len(steps) or steps.max() < APART * abs(float(np.median(shares))):
             continue
         at = tenth + int(np.argmax(steps))
-        text = (
+        found = (
             f"{name.value} over displacement x speed is {np.median(shares[:at]):.2g} at {at} points and "
-            f"{np.median(shares[at:]):.2g} at {len(shares) - at}: two pumps or settings in one recording?"
+            f"{np.median(shares[at:]):.2g} at {len(shares) - at}"
         )
-        yield DataNote(NoteKind.NOTED, name, (), text)
+        above = flow > 0.5 * (shares[at - 1] + shares[at])
+        step, torque = (_step(each, above) for each in (flow, _torque_ratio(recording, displacement)))
+        if step is not None and torque is not None and abs(torque - step) <= LIKE * step:
+            yield DataNote(NoteKind.FAULT, name, (), f"{found}, torque over displacement x pressure alike: {SEVERAL}")
+        else:
+            yield DataNote(NoteKind.NOTED, name, (), f"{found}: two pumps or settings in one recording?")
         return
+
+
+def _step(ratio: Array, above: Marks) -> float | None:
+    """Step of the logarithm of a ratio (N,) to the points above from the rest; None where one has no positive ratio."""
+    known = np.isfinite(ratio) & (ratio > 0.0)
+    if not (known & above).any() or not (known & ~above).any():
+        return None
+    return math.log(np.median(ratio[known & above]) / np.median(ratio[known & ~above]))
 
 
 def _balance(recording: Recording) -> Iterator[DataNote]:

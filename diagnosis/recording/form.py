@@ -26,6 +26,8 @@ from system.inputs.units import Dimension, unit_scale
 AngleSection, ChamberSection = channel_section(ChannelName.ANGLE), channel_section(ChannelName.P_CHAMBER)
 _MEASURED = tuple(name for name in ChannelName if name not in (ChannelName.ANGLE, ChannelName.P_CHAMBER))
 Words = Annotated[str, Text.WORDS]
+TIME = 'time = { column = "time", unit = "s" }, a column of the table: where it has none, row number over sampling rate'
+"""Way out of a series without its time."""
 Duration = Annotated[float, Dimension.TIME, Positive]
 
 
@@ -168,6 +170,10 @@ def read_form(tables: Mapping[str, Any], reading: Reading, data: Path | None) ->
         if data is None and not getattr(getattr(stated, name), "file", "stated with another fault"):
             expected = "the path of the table, from the folder of the recording"
             reading.fault(f"{name}.file", "missing", expected)
+    absent = ("series.time", "missing")
+    reading.faults[:] = [
+        replace(one, nearest=TIME) if (one.path, one.found) == absent else one for one in reading.faults
+    ]
     own = getattr(stated, "steady", None) or getattr(stated, "series", None)
     if reading.faults or own is None:
         return None

@@ -20,13 +20,13 @@ class Circuit(Enum):
 
 
 class NoteKind(Enum):
-    """Kind of a note on the data; CONTRADICTED: the recording and the pump's file cannot both be right."""
+    """Kind of a note on the data; WARNED: told first, as it limits every answer."""
 
     FAULT = "fault"
     REMOVED = "removed"
     SUSPECT = "suspect"
     NOTED = "noted"
-    CONTRADICTED = "contradicted"
+    WARNED = "warned"
 
 
 @dataclass(frozen=True)

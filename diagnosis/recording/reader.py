@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from diagnosis.recording.breaks.refused import refuse_breaks
+from diagnosis.recording.breaks.sampled_rows import rows_are_samples
 from diagnosis.recording.channel_form import ChannelForm
 from diagnosis.recording.channel_noise import recorded_channel
 from diagnosis.recording.columns import ColumnReader, rising
@@ -143,8 +144,18 @@ def _points(section: str, form: RecordingForm, columns: TableColumns, reader: Co
     seconds = None if timed is None or time is None else timed.factor * time
     refuse_breaks(section, form.channels, readings, columns, reader)
     if isinstance(form.points, SteadySection):
+        if _is_series(form, form.points, readings):
+            told = f"{len(readings)} rows that hardly differ from one to the next: samples of a series, not points"
+            reader.fault("steady", told, "[series] with its time, or the points' own time or repeats")
+            return None
         return _steady_points(form.points, readings, seconds, columns, reader)
     return None if seconds is None else _series_points(form.points, readings, seconds, form.channels, reader)
+
+
+def _is_series(form: RecordingForm, points: SteadySection, readings: Array) -> bool:
+    """True for a table of points, without their time and repeats, whose rows are samples of a series."""
+    names = [channel.name for channel in form.channels]
+    return points.time is None and points.repeats is None and rows_are_samples(readings, names)
 
 
 def _hold_units(channels: Sequence[ChannelForm], columns: TableColumns, reader: ColumnReader) -> None:

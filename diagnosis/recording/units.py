@@ -12,7 +12,7 @@ BENCH_UNITS = {Dimension.TEMPERATURE: "degC", Dimension.VOLUME_FLOW: "L/min"}
 """Reading units of a bench where they are not the usual ones."""
 OTHER_UNITS: Mapping[Dimension, tuple[str, ...]] = {
     Dimension.PRESSURE: ("bar", "MPa", "kPa", "psi", "Pa"),
-    Dimension.ANGULAR_SPEED: ("rpm", "rad/s"),
+    Dimension.ANGULAR_SPEED: ("rpm", "rad/s", "rev/s"),
     Dimension.VOLUME_FLOW: ("L/min", "m3/h", "mL/min", "gallon/min", "L/s", "m3/s"),
     Dimension.TORQUE: ("N m", "kN m", "lbf ft", "lbf inch"),
     Dimension.TEMPERATURE: ("degC", "degF", "K"),

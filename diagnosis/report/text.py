@@ -229,11 +229,13 @@ def _member(effect: EffectId, diagnosis: Diagnosis) -> str:
 
 
 def _incomplete(diagnosis: Diagnosis) -> Iterator[str]:
-    """A sentence on the part that remains, and on the certainty of the names."""
+    """A sentence on the part that remains, and on the certainty of names beside which no unknown cause stands."""
     if diagnosis.status is VerdictStatus.INCOMPLETE:
         several = len(diagnosis.effects) > 1
         they, names = ("they do", "the names are") if several else ("it does", "the name is")
-        yield f"A part of the mismatch remains that {they} not explain: {names} likely, not sure."
+        is_open = any(EffectId.UNKNOWN_PHYSICS in claim.equivalent for claim in diagnosis.effects)
+        sure = "" if is_open else f": {names} likely, not sure"
+        yield f"A part of the mismatch remains that {they} not explain{sure}."
 
 
 def _suspicion(diagnosis: Diagnosis) -> str:

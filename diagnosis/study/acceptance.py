@@ -53,7 +53,7 @@ def contradictions(recording: Recording, known: KnownPump | None) -> Iterator[Da
         return
     if recording.pump not in ("", known.pump.name):
         text = f"the recording is of {recording.pump}; it is compared with {known.pump.name}"
-        yield DataNote(NoteKind.CONTRADICTED, None, (), text)
+        yield DataNote(NoteKind.WARNED, None, (), text)
     grade = _GRADE.search(recording.oil)
     own = 1e6 * known.pump.oil.kinematic_viscosity_40C
     if grade is not None and not 1.0 - GRADE_BAND <= own / float(grade[1]) <= 1.0 + GRADE_BAND:
@@ -61,7 +61,7 @@ def contradictions(recording: Recording, known: KnownPump | None) -> Iterator[Da
             f"the recording was made with {recording.oil}; the pump's file has an oil of {own:.3g} mm2/s at 40 degC. "
             "Leakage and friction go with the viscosity: correct the one that is wrong"
         )
-        yield DataNote(NoteKind.CONTRADICTED, None, (), text)
+        yield DataNote(NoteKind.WARNED, None, (), text)
 
 
 def refuse_too_few(study: Study) -> None:

@@ -12,7 +12,7 @@ from scipy.stats import chi2, norm
 
 from diagnosis.detect.mismatch import Detection
 from diagnosis.explain.hypotheses import Hypothesis
-from diagnosis.explain.model_error import class_gap, place_gap, shared_out
+from diagnosis.explain.model_error import class_gap, form_gap, place_gap, shared_out
 from diagnosis.explain.ranked import Explanation
 from diagnosis.explain.refit import fit_limits
 from diagnosis.study.model import Study
@@ -62,7 +62,8 @@ def judge(
     A mismatch needs an improbable null and a candidate (or a departure) as striking as chance hardly makes one; one
     of the two alone is a suspicion of the likeliest kind, and claims nothing. A name needs probability, odds to all
     that claim something else, sizes above zero, and no veto of held-out regions; it is incomplete if a part of the
-    mismatch remains. Unknown physics as likely as a name is in the class of each claim.
+    mismatch remains. Unknown physics as likely as a name is in the class of each claim; so it is where a law of the
+    catalogue in another form would serve as well (`form_gap`).
     """
     limits = thresholds.mismatch
     null = next(each for each in explanations if each.hypothesis.kind is Kind.NO_MISMATCH)
@@ -76,9 +77,15 @@ def judge(
     best = _likeliest(explanations, thresholds)
     if best is None:
         return _unknown(study, free, explanations, thresholds)
-    members = equivalents(best, explanations, class_gap(explanations, thresholds), place_gap(explanations, thresholds))
-    explanations, members = shared_out(explanations, members, thresholds)
+    gap = class_gap(explanations, thresholds)
+    members = equivalents(best, explanations, gap, place_gap(explanations, thresholds))
     beside = _beside(members, explanations, thresholds)
+    if _together(beside) > _together(members):
+        gap = form_gap(explanations, thresholds)
+        explanations, shared = shared_out(explanations, (*members, *beside), gap, thresholds)
+        members, beside = shared[: len(members)], shared[len(members) :]
+    else:
+        explanations, members = shared_out(explanations, members, gap, thresholds)
     against = _objections(study, members, beside, explanations, thresholds)
     if against:
         return _suspicion(explanations, against, thresholds)
@@ -113,19 +120,16 @@ def _weight(each: Explanation) -> float:
 
 
 def _likeliest(explanations: Sequence[Explanation], thresholds: Thresholds) -> Explanation | None:
-    """The likeliest explanation that can be named; None where unknown physics is the name, or nothing named is near."""
+    """The likeliest explanation that can be named; None where nothing named is near unknown physics.
+
+    Near: no farther behind than a law of another form may be.
+    """
     known = [each for each in explanations if each.hypothesis.kind not in NOT_NAMED]
     if not known:
         return None
     best = max(known, key=_weight)
     unknown = [each for each in explanations if each.hypothesis.kind is Kind.UNKNOWN_PHYSICS]
-    sure = _probability(explanations, Kind.UNKNOWN_PHYSICS) >= thresholds.name.probability
-    behind = _together(unknown) - best.log_weight
-    if (
-        unknown
-        and max(map(_weight, unknown)) > best.log_weight
-        and (sure or behind > class_gap(explanations, thresholds))
-    ):
+    if _together(unknown) - best.log_weight > form_gap(explanations, thresholds):
         return None
     return _simplest(best, explanations, thresholds)
 
@@ -190,11 +194,19 @@ def _probability(explanations: Sequence[Explanation], kind: Kind) -> float:
 def _unknown(
     study: Study, free: MultiplierChance, explanations: Sequence[Explanation], thresholds: Thresholds
 ) -> Judgement:
-    """Unknown physics, without an effect, if its hypotheses together are probable and striking."""
-    probability = _probability(explanations, Kind.UNKNOWN_PHYSICS)
+    """Unknown physics, without an effect, if its hypotheses together are probable and striking.
+
+    Nothing is left to name beside it, so the record of the pump's kind counts before: where forms of the known laws are
+    not known, a catalogue that does not serve is no proof of an effect beyond it.
+    """
+    record = _record_of_scant(study, thresholds)
+    told = tuple(explanations)
+    if record:
+        told, _ = _less_sure(told, (), thresholds.record.type_plate, MISMATCHES)
+    probability = _probability(told, Kind.UNKNOWN_PHYSICS)
     against = []
     if probability < thresholds.name.probability:
-        against.append(f"unknown physics at a probability of {probability:.2f} only")
+        against += [f"unknown physics at a probability of {probability:.2f} only", *record]
     if free.chance >= thresholds.mismatch.chance:
         row = table_rows(study.recording)[free.point]
         against.append(
@@ -203,10 +215,7 @@ def _unknown(
         )
     if against:
         return _suspicion(explanations, tuple(against), thresholds)
-    record = _record_of_scant(study, thresholds)
-    if record:
-        explanations, _ = _less_sure(explanations, (), thresholds.record.type_plate, MISMATCHES)
-    return Judgement(Kind.UNKNOWN_PHYSICS, VerdictStatus.NAMED, (), (), record, tuple(explanations))
+    return Judgement(Kind.UNKNOWN_PHYSICS, VerdictStatus.NAMED, (), (), record, told)
 
 
 def _objections(

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -11,6 +11,7 @@ from diagnosis.recording.breaks.level_step import LEFT, LevelStep, law_of, level
 from diagnosis.recording.channel_form import ChannelForm
 from diagnosis.recording.units import OTHER_UNITS
 from reynolds.numerics.arrays import Array
+from system.inputs.sections.values import PURE_UNITS
 from system.inputs.units import Dimension, unit_scale
 
 AGREES = 1.5  # times what a free step leaves
@@ -50,16 +51,14 @@ def _changes(k: int, readings: Array, channels: Sequence[ChannelForm]) -> Iterat
     """(share of squares that is left, change) of the units that mend a channel."""
     form = channels[k]
     dimension = form.name.dimension
-    if dimension is None or dimension not in OTHER_UNITS:
-        return
     law = law_of(readings, np.flatnonzero(np.arange(len(channels)) != k))
     numbers = (readings[:, k] - form.offset) / form.factor
     step = level_step(_level(form.factor * numbers + _zero(form), dimension), law)
     if step is None or not step.is_certain:
         return
-    for unit in OTHER_UNITS[dimension]:
-        factor, offset = unit_scale(unit, dimension)
-        if (factor, offset) == unit_scale(form.unit, dimension):
+    scales = _scales(dimension)
+    for unit, (factor, offset) in scales.items():
+        if (factor, offset) == scales.get(form.unit):
             continue
         zero = offset if dimension is Dimension.TEMPERATURE else _zero(form)
         for behind in (True, False):
@@ -68,6 +67,13 @@ def _changes(k: int, readings: Array, channels: Sequence[ChannelForm]) -> Iterat
             left = _left(_level(mended, dimension), law, step)
             if left is not None and left <= min(LEFT * step.of_law, AGREES * step.squares):
                 yield left / step.of_law, UnitChange(form, step.row, unit, behind)
+
+
+def _scales(dimension: Dimension | None) -> Mapping[str, tuple[float, float]]:
+    """(factor, offset) of the units of a dimension, of a pure number its own; none of a dimension without others."""
+    if dimension is None:
+        return {unit: (factor, 0.0) for unit, factor in PURE_UNITS.items()}
+    return {unit: unit_scale(unit, dimension) for unit in OTHER_UNITS.get(dimension, ())}
 
 
 def _zero(form: ChannelForm) -> float:

@@ -15,7 +15,10 @@ from reynolds.numerics.arrays import Array
 PAUSE = 5.0  # usual steps without a row from which a pause is reported, and that are left where the clock jumps
 LEAP = 3.0  # times what is recorded: a longer pause is a clock that was set forward
 FALLS, FALL_SHARE = 3, 0.01  # of a clock that was set back; rows in no order fall more often
+FEW = 8  # steps either side of a jump from which the usual one is known
 NAMED = 3  # places of one kind that a note names
+UNITS = (60.0, 1e3, 3600.0)  # of two units of time, one over the other
+SAME = 0.05  # of such a ratio, to which a change of the usual step agrees
 
 
 @dataclass(frozen=True)
@@ -32,7 +35,7 @@ def clocked(time: Array, readings: Array) -> ClockedSeries:
 
     Rows without a stamp are left out, rows of one stamp are averaged. Where the clock is set back, or forward by more
     than `LEAP` times what is recorded, the rows behind follow after `PAUSE` usual steps. Raises TableFault for a column
-    without times, and for times in no order.
+    without times, for times in no order, and for a clock that jumps and then counts in another unit.
     """
     expected = "times that rise from row to row"
     known = np.flatnonzero(np.isfinite(time))
@@ -45,12 +48,27 @@ def clocked(time: Array, readings: Array) -> ClockedSeries:
     if falls.sum() > max(FALLS, FALL_SHARE * len(steps)):
         row = int(known[np.argmax(falls) + 1]) + 1
         raise TableFault(f"time that does not rise at row {row} and at {int(falls.sum()) - 1} more", expected)
+    _refuse_other_unit(steps, known, falls | pauses)
     recorded = float(steps[~falls & ~pauses].sum())
     leaps = pauses & (steps > LEAP * recorded)
     shift = np.cumsum(np.where(falls | leaps, PAUSE * usual - steps, 0.0))
     risen = time[known] + np.concatenate([[0.0], shift])
     notes = tuple(_notes(time[known], known, falls, leaps, pauses & ~leaps, len(time)))
     return ClockedSeries(*_averaged(risen, readings[known]), notes)
+
+
+def _refuse_other_unit(steps: Array, rows: NDArray[np.int64], jumps: Mask) -> None:
+    """Raise TableFault where the usual step behind a jump of the clock is that before it in another unit of time."""
+    for k in np.flatnonzero(jumps):
+        before, behind = (part[part > 0.0] for part in (steps[:k], steps[k + 1 :]))
+        if len(before) < FEW or len(behind) < FEW:
+            continue
+        one, other = float(np.median(before)), float(np.median(behind))
+        ratio = max(one, other) / min(one, other)
+        if any(abs(ratio / unit - 1.0) < SAME for unit in UNITS):
+            row = int(rows[k + 1]) + 1
+            found = f"time steps of {one:.3g} s up to row {row - 1} and of {other:.3g} s from row {row} on"
+            raise TableFault(found, "one unit of time in all rows")
 
 
 def _averaged(time: Array, readings: Array) -> tuple[Array, Array]:

@@ -26,7 +26,7 @@ def show_contradictions(recording: Recording) -> None:
     from diagnosis.recording.model import NoteKind
 
     for note in recording.notes:
-        if note.kind is NoteKind.CONTRADICTED:
+        if note.kind is NoteKind.WARNED:
             show_at_once(f"warning: {note.text}")
 
 

@@ -133,6 +133,8 @@ def test_an_incomplete_name_is_likely_and_not_sure(named: Diagnosis) -> None:
     assert "A part of the mismatch remains that it does not explain: the name is likely, not sure." in statement(one)
     two = replace(one, effects=(*one.effects, ClaimedEffect(E.CHURNING, None, 0.99, (), ())))
     assert "A part of the mismatch remains that they do not explain: the names are likely, not sure." in statement(two)
+    beside = tuple(replace(claim, equivalent=(E.UNKNOWN_PHYSICS,)) for claim in one.effects)
+    assert "A part of the mismatch remains that it does not explain." in statement(replace(one, effects=beside))
 
 
 def test_of_which_pair_a_coefficient_is_is_told(named: Diagnosis) -> None:

@@ -243,7 +243,13 @@ def test_two_pumps_in_one_recording_are_told():
     def smaller(column):
         return np.where(np.arange(len(column)) % 2, 0.6 * column, column)
 
-    assert any("two pumps" in text for _, _, text in _told(_with("Q_in", smaller)))
+    assert any(kind is NoteKind.NOTED and "two pumps" in text for kind, _, text in _told(_with("Q_in", smaller)))
+    recording = _sound()
+    values = recording.steady.values.copy()
+    for name in (ChannelName.Q_IN, ChannelName.Q_OUT, ChannelName.TORQUE):
+        values[:, COLUMNS[name]] = smaller(values[:, COLUMNS[name]])
+    told = _told(replace(recording, steady=replace(recording.steady, values=values)))
+    assert any(kind is NoteKind.FAULT and "two pumps" in text for kind, _, text in told)
 
 
 @pytest.mark.parametrize(
@@ -416,11 +422,14 @@ def _of_channels(*names: str, held: tuple[str, ...] = ()) -> Recording:
     return replace(sound, channels=kept, steady=replace(sound.steady, values=values))
 
 
-def test_points_that_are_all_alike_and_a_single_output_are_noted():
+def test_points_that_are_all_alike_are_warned_of_and_a_single_output_is_noted():
     recording = _of_channels("speed", "p_out", "Q_case", held=("speed", "p_out", "Q_case"))
-    whole = " ".join(note.text for note in check_recording(recording, None, LIMITS).notes)
-    assert "all points are one, speed" in whole
-    assert "Q_case is the only output" in whole
+    kinds = {
+        note.text.partition(",")[0].partition(":")[0]: note.kind
+        for note in check_recording(recording, None, LIMITS).notes
+    }
+    assert kinds["all points are one"] is NoteKind.WARNED
+    assert kinds["Q_case is the only output"] is NoteKind.NOTED
 
 
 def test_an_input_that_stays_is_noted():

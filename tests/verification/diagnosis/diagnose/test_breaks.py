@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from diagnosis.recording.breaks.refused import refuse_breaks
+from diagnosis.recording.breaks.sampled_rows import rows_are_samples
 from diagnosis.recording.breaks.two_pumps import pump_changes, pumps_named
 from diagnosis.recording.breaks.unit_changes import unit_changes
 from diagnosis.recording.channel_form import PressureReference, channel_form, channel_section
@@ -62,7 +63,7 @@ def test_drift_and_a_step_of_a_flow_meter_are_no_break():
 @pytest.mark.parametrize(
     ("channel", "unit"),
     [("p_out", "MPa"), ("p_out", "psi"), ("Q_out", "m3/h"), ("Q_case", "L/s"), ("torque", "lbf ft"),
-     ("T_case", "degF"), ("T_case", "K"), ("speed", "rad/s")],
+     ("T_case", "degF"), ("T_case", "K"), ("speed", "rad/s"), ("speed", "rev/s")],
 )  # fmt: skip
 @pytest.mark.parametrize("behind", [True, False])
 def test_a_unit_that_changes_is_found_with_its_row_and_both_units(channel, unit, behind):
@@ -97,3 +98,17 @@ def test_a_column_that_names_two_pumps_is_a_fault(head):
 @pytest.mark.parametrize("head", ["pump speed", "pump temperature", "test", "sn rpm"])
 def test_other_columns_name_no_pump(head):
     assert list(pumps_named(TableColumns({head: np.arange(9.0) // 3}), ())) == []
+
+
+@pytest.mark.parametrize(("course", "samples"), [
+    (np.linspace(40e5, 380e5, 900), True), (np.repeat(np.linspace(40e5, 380e5, 9), 100), True),
+    (np.tile(np.linspace(40e5, 380e5, 9), 100), False),
+    (np.repeat(np.linspace(40e5, 380e5, 45)[np.arange(45) * 7 % 45], 20), False),
+    (np.full(900, 200e5), False), (np.linspace(40e5, 380e5, 90), False),
+], ids=["ramp", "stairs", "map", "repeats", "one pressure", "few"])  # fmt: skip
+def test_samples_of_a_series_are_told_from_points(course, samples):
+    """Ramps and stairs, with noise; neither a map of many points, nor one of which each is repeated twenty times."""
+    rng = np.random.default_rng(1)
+    readings = np.column_stack([150.0 + 0.01 * rng.standard_normal(len(course)), course])
+    readings[:, 1] += 2e4 * rng.standard_normal(len(course))
+    assert rows_are_samples(readings, [ChannelName.SPEED, ChannelName.P_OUT]) is samples

@@ -575,23 +575,31 @@ def test_what_stands_out_of_what_is_left_is_told() -> None:
     assert any(text.startswith("port_short_circuit stands out of the residual") for text in found.reasons)
 
 
-@pytest.mark.parametrize("ahead", [-9.0, -2.0, 1.0, 9.0])
-def test_unknown_physics_as_likely_as_a_name_is_in_its_class(ahead: float) -> None:
-    """Churning named where unknown physics is far behind, a class with it where it is near, unknown where far ahead."""
+@pytest.mark.parametrize("gaps", [-3.0, -0.6, 0.3, 0.95, 1.05])
+def test_unknown_physics_as_likely_as_a_name_is_in_its_class(gaps: float) -> None:
+    """Churning named where unknown physics is far behind, a class with it where it is near, unknown where far ahead.
+
+    Behind churning by gaps of a class, ahead of it by what a law of another form may lag: a fifth of what is gained.
+    """
     study = _study(1, laws=((CHURNING, 0.2),))
     own = next(each for each in hypotheses(study, LIMITS) if each.effects == (EffectId.CHURNING,))
     free = next(each for each in hypotheses(study, LIMITS) if each.component is Component.CASE_DRAG)
     null, best = (refit(study, each, LIMITS) for each in (hypotheses(study, LIMITS)[0], own))
-    bend = Explanation(free, best.log_weight - free.log_prior + ahead, True, None, 0.0, 0.0, None)
+    even = best.log_weight - free.log_prior
+    lag = gaps / (1.0 + LIMITS.form.own)
+    ahead = gaps * LIMITS.name.class_gap if gaps < 0.0 else lag * (even - null.log_evidence) / (1.0 - lag)
+    assert gaps < 0.5 or ahead > LIMITS.name.class_gap
+    bend = Explanation(free, even + ahead, True, None, 0.0, 0.0, None)
     ranked = with_probabilities((null, best, bend), LIMITS.name.temperature)
     found = judge(study, detect(study, LIMITS), ranked, _coordinates(), LIMITS)
-    if ahead > LIMITS.name.class_gap:
+    if gaps > 1.0:
         assert (found.kind, found.status, found.claims) == (Kind.UNKNOWN_PHYSICS, VerdictStatus.NAMED, ())
         return
-    near = ahead > -LIMITS.name.class_gap
+    near = gaps > -1.0
     assert found.status is (VerdictStatus.CLASS if near else VerdictStatus.NAMED)
     assert found.claims[0].equivalent == ((EffectId.UNKNOWN_PHYSICS,) if near else ())
-    assert found.claims[0].probability == pytest.approx(1.0 / (1.0 + np.exp(ahead / LIMITS.name.temperature)), abs=1e-3)
+    odds = gaps * LIMITS.name.class_gap / LIMITS.name.temperature
+    assert found.claims[0].probability == pytest.approx(1.0 / (1.0 + np.exp(odds)), abs=1e-3)
 
 
 def _left_by_churning(study: Study) -> tuple[str, ...]:
@@ -651,6 +659,24 @@ def test_what_stands_in_no_catalogue_is_unknown() -> None:
     expected = {"speed": 1.0, "pressure": 0.5, "displacement": 0.0, "viscosity": 1.0}
     for name, exponent in expected.items():
         assert found.scaling.exponents[name] == pytest.approx(exponent, abs=0.34)
+
+
+def test_on_a_pump_of_which_little_is_known_unknown_physics_is_a_suspicion() -> None:
+    """Sure of a pump in full, it is as sure as the record of findings on pumps whose own laws are not known."""
+    study = _study(1, laws=((CHURNING, 0.2),))
+    nothing, *others = hypotheses(study, LIMITS)
+    free = next(each for each in others if each.component is Component.CASE_DRAG)
+    null = refit(study, nothing, LIMITS)
+    bend = Explanation(free, null.log_evidence + 99.0, True, None, 0.0, 0.0, None)
+    behind = [Explanation(each, null.log_evidence, True, None, 0.0, 0.0, None) for each in others if each is not free]
+    ranked = with_probabilities((null, bend, *behind), LIMITS.name.temperature)
+    known, scant = (
+        judge(replace(study, scant=scant), detect(study, LIMITS), ranked, _coordinates(), LIMITS)
+        for scant in (False, True)
+    )
+    assert (known.kind, known.status) == (Kind.UNKNOWN_PHYSICS, VerdictStatus.NAMED)
+    assert (scant.kind, scant.status) == (Kind.UNKNOWN_PHYSICS, VerdictStatus.SUSPICION)
+    assert any("type plate alone" in text for text in scant.reasons)
 
 
 def test_what_cannot_be_refitted_is_told() -> None:

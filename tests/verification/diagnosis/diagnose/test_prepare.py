@@ -13,7 +13,7 @@ from diagnosis import Recording, Study, load_thresholds, prepare, read_recording
 from diagnosis.detect.mismatch import detect
 from diagnosis.study.traces.misfits import port_events
 from diagnosis.verdict.locate import locate
-from reynolds import InputError
+from reynolds import Array, InputError
 from system import ChannelName, load_pump, tolerances
 
 LIMITS = load_thresholds()
@@ -70,3 +70,34 @@ def test_ports_tell_their_events_in_order() -> None:
     assert {"outer dead centre", "delivery groove begins to open", "suction kidney is shut"} <= {
         event.text for event in events
     }
+
+
+def test_energy_that_ports_give_back_is_uncertain_where_a_type_plate_is_all_that_is_known() -> None:
+    """Torque may be off by a quarter of z V_d dp^2/(2 K) over a turn within one sigma, and no other channel is by that.
+
+    The strain of this pattern, min |w - R b|^2 + |b|^2 with w and departures R in sigma: one at most where the pattern
+    is among the departures, several without it. A pump in full has no departures.
+    """
+    recording = _every(read_recording(RECORDINGS / "open-01"), 4)
+    column = recording.steady.column
+    across, pump = column(ChannelName.P_OUT) - column(ChannelName.P_IN), PUMP.pump
+    stored = pump.pistons * pump.dead_volume * across**2 / (2.0 * PUMP.oil.bulk_modulus)
+
+    def departures(recovered: float, scant: bool = True) -> tuple[Study, Array]:
+        limits = replace(LIMITS, form=replace(LIMITS.form, recovered=recovered))
+        study = prepare(PUMP, recording, tolerances(PUMP)[0], limits, scant=scant)
+        names = tuple(one.name for one in study.simulator.parameters if one.name.startswith("form."))
+        return study, study.simulator.slopes(study.base.values, names)
+
+    def strain(recovered: float) -> float:
+        study, columns = departures(recovered)
+        wanted, sigma = np.zeros(columns.shape[:2]), study.observations.sigma
+        wanted[:, study.channels.index(ChannelName.TORQUE)] = 0.25 * stored / (2.0 * np.pi)
+        rows = (columns / sigma[..., None]).reshape(-1, columns.shape[-1])
+        white = (wanted / sigma).ravel()
+        sizes = np.linalg.solve(rows.T @ rows + np.eye(rows.shape[1]), rows.T @ white)
+        return float(white @ (white - rows @ sizes))
+
+    assert strain(LIMITS.form.recovered) < 1.05
+    assert strain(0.0) > 3.0
+    assert departures(LIMITS.form.recovered, scant=False)[1].shape[-1] == 0

@@ -114,6 +114,20 @@ def test_a_clock_that_is_set_repeats_or_stops_gives_a_time_that_rises():
     assert np.array_equal(sound.time, TIME)
 
 
+@pytest.mark.parametrize("share", [60.0, 1e-3, 1.0, 7.0])
+def test_a_clock_that_counts_in_another_unit_behind_a_jump_is_refused(share):
+    """Minutes or milliseconds behind seconds; a clock set back, or a slower logger, is none."""
+    steps = np.where(np.arange(100) < 50, 2.0, 2.0 / share)
+    time = np.cumsum(steps) - np.where(np.arange(100) < 50, 0.0, 90.0)
+    if share < 1.0:
+        time += np.where(np.arange(100) < 50, 0.0, 1e5)
+    if share in (60.0, 1e-3):
+        with pytest.raises(TableFault, match=r"up to row 50 and of .* from row 51 on"):
+            clocked(time, np.zeros((100, 1)))
+    else:
+        assert np.all(np.diff(clocked(time, np.zeros((100, 1))).time) > 0.0)
+
+
 @pytest.mark.parametrize(
     ("time", "words"),
     [

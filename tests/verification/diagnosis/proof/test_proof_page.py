@@ -44,7 +44,7 @@ def test_a_right_verdict(proof: SimpleNamespace, right: object) -> None:
 
 
 def test_a_wrong_verdict(proof: SimpleNamespace, right: object) -> None:
-    """Another gap or another id is a wrong name, grave where it is sure and unflagged; a null's name always is."""
+    """Another gap or another id is a wrong name, grave where it is sure and unflagged, its class together."""
     judged, claimed = proof.judged, proof.outcome.Claimed
     one_of = replace(right, claims=(claimed("elastic_opening", "piston", 0.97, (), ("slipper",)),), status="class")
     assert judged.is_right(one_of)
@@ -56,7 +56,10 @@ def test_a_wrong_verdict(proof: SimpleNamespace, right: object) -> None:
     other = replace(right, claims=(claimed("churning", None, 0.97, ()),))
     assert judged.is_grave(other)
     assert not judged.is_grave(replace(other, status="incomplete"))
-    of_a_class = replace(other, claims=(claimed("churning", None, 0.5, ("seal_drag",)),), status="class")
+    ranked = tuple(proof.outcome.Ranked((one,), (None,), "missing_physics", 0.47) for one in ("churning", "seal_drag"))
+    of_a_class = replace(
+        other, claims=(claimed("churning", None, 0.47, ("seal_drag",)),), status="class", ranked=ranked
+    )
     assert judged.is_grave(of_a_class)
     null = replace(other, truth="no_mismatch", effects=(), pairs=())
     assert judged.is_grave(null)
@@ -105,6 +108,21 @@ def test_calibration_of_one_case(proof: SimpleNamespace, right: object) -> None:
     """Told .97 and true: Brier .03^2, error .03."""
     assert proof.calibration.brier([right]) == pytest.approx(0.0009)
     assert proof.calibration.calibration_error([right]) == pytest.approx(0.03)
+
+
+@pytest.mark.parametrize(("effects", "true"), [(("elastic_opening",), True), (("churning",), False)])
+def test_a_claim_is_scored_as_it_is_told(
+    proof: SimpleNamespace, right: object, effects: tuple[str, ...], true: bool
+) -> None:
+    """A claimed where A with B is likelier: all explanations that hold A count, and A has to be concealed."""
+    ranked = tuple(
+        proof.outcome.Ranked(ids, (None,) * len(ids), "missing_physics", share)
+        for ids, share in ((("elastic_opening", "squeeze_pumping"), 0.6), (("elastic_opening",), 0.3), (("air",), 0.1))
+    )
+    told = replace(right, ranked=ranked, effects=effects, pairs=(None,))
+    assert proof.judged.confidence(told) == (pytest.approx(0.9), true)
+    both = replace(told, claims=(*told.claims, proof.outcome.Claimed("squeeze_pumping", None, 0.6, ())))
+    assert proof.judged.confidence(both) == (0.6, False)
 
 
 def test_outcomes_outlast_a_break(proof: SimpleNamespace, right: object, tmp_path: Path) -> None:

@@ -143,6 +143,12 @@ def test_wrong_and_sure_counts_flagged_or_not(proof: SimpleNamespace, right: obj
     assert not sure(replace(flagged, claims=(claimed("seal_drag", None, 0.6, ()),)))
     assert not sure(replace(right, status="suspicion", claims=()))
     assert not sure(right)
+    ranked = tuple(
+        proof.outcome.Ranked(("unknown_physics",), (None,), "unknown_physics", share) for share in (0.5, 0.45)
+    )
+    unknown = replace(right, verdict="unknown_physics", claims=(), ranked=ranked)
+    assert sure(unknown)
+    assert not sure(replace(unknown, ranked=ranked[:1]))  # as of a pump known by its type plate: named, not sure
 
 
 def test_gates_on_three_plants(wide: SimpleNamespace, proof: SimpleNamespace, right: object) -> None:
