@@ -12,11 +12,12 @@ import swashfilm as sf
 from swashfilm.__main__ import main
 from swashfilm.runs.variation import case
 from swashfilm.runs.variation.limits import limit_of
-from swashfilm.runs.variation.tolerance.summary import warnings_of
+from swashfilm.runs.variation.tolerance.summary import table_warnings, warnings_of
 from system import load_pump, operating_point
+from system.maps.point import LumpedSolver, TableSolver
 from system.points.table import sources
 from system.pump_file.tables import BUILT_IN
-from system.variation.measures import Needs, measures_of
+from system.variation.measures import MEASURES, Needs, measures_of
 from system.variation.scatter import Bound
 
 KEYS = "slipper.film_thickness,ports.groove_start,oil.bulk_modulus,bearings.front_share,friction.*"
@@ -242,6 +243,19 @@ def test_tolerance_by_a_response_table(film_table):
     with pytest.raises(sf.InputFaults, match=r"slipper.film_thickness.*no axis of these dimensions") as reason:
         sf.tolerance("ref90", **of_table | {"pumps": 400})
     assert "oil.kinematic_viscosity_40C" in reason.value.faults[0].nearest
+
+
+def test_a_scatter_below_the_error_of_its_table_is_told():
+    """Case drain of 2 +- 0.01 by a table that errs by 1 %; the torque scatters by more than its table errs."""
+    found = SimpleNamespace(
+        measures=(MEASURES["drain_flow"], MEASURES["shaft_torque"], MEASURES["loss"]),
+        scatters=(SimpleNamespace(mean=2.0, deviation=0.01), SimpleNamespace(mean=300.0, deviation=1.0),
+                  SimpleNamespace(mean=5.0, deviation=0.1)),
+    )  # fmt: skip
+    numbers = SimpleNamespace(largest=lambda: {"case_drain": 0.01, "shaft_torque": 0.001})
+    (told,) = table_warnings(TableSolver(SimpleNamespace(numbers=numbers)), found)
+    assert told.startswith("table_error: case drain scatters by")
+    assert not list(table_warnings(LumpedSolver(), found))
 
 
 WIDE = """

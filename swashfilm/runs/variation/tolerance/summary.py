@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import asdict
 from typing import Any
 
@@ -16,8 +16,18 @@ from system.description.drawn import Drawing, Drawn, DrawnFit, pump_sigma
 from system.description.keys import pump_keys
 from system.inputs.shown import ROUND_OFF
 from system.maps.plan import point_words
+from system.maps.point import TableSolver
+from system.points.table.means import GAP_PAIRS
 from system.variation.scatter import CONFIDENCE, QUANTILES, Scatter
 from system.variation.tolerance import Tolerance
+
+OF_TABLE = {
+    "drain_flow": "case_drain",
+    "delivery_flow": "delivery_flow",
+    "shaft_torque": "shaft_torque",
+    **{f"leakage.{gap}": f"{gap}.leakage_flow" for gap in GAP_PAIRS},
+}
+"""Measures by name, and the numbers of a response table whose held-out error is theirs."""
 
 
 def tolerance_summary(case: VariedCase, drawing: Drawing, seed: int, found: Tolerance) -> dict[str, Any]:
@@ -52,7 +62,7 @@ def tolerance_summary(case: VariedCase, drawing: Drawing, seed: int, found: Tole
              "missing": asdict(one.missing), "missing_at_a_point": asdict(one.anywhere)}
             for one in found.limits
         ],
-        "warnings": warnings_of(found),
+        "warnings": [*warnings_of(found), *table_warnings(case.work.solver, found)],
         "internal_error": found.internal,
         "cost": {"processor_s": found.seconds},
     }  # fmt: skip
@@ -88,6 +98,21 @@ def _words(one: Drawn | DrawnFit, shown: Callable[[float], str]) -> str:
         return f"{one.shape.value}, {shown(one.least)} to {shown(one.most)}{several}"
     together = f"; {', '.join(one.keys[1:])} in proportion" if one.keys[1:] else ""
     return f"{one.shape.value} about {shown(one.middle)}{together}{several}"
+
+
+def table_warnings(solver: object, found: Tolerance) -> Iterator[str]:
+    """Yield the numbers that scatter by less than the response table errs at its held-out points."""
+    if not isinstance(solver, TableSolver) or solver.table.numbers is None:
+        return
+    largest = solver.table.numbers.largest()
+    for one, own in zip(found.measures, found.scatters, strict=True):
+        error = largest.get(OF_TABLE.get(one.name, ""), 0.0) * abs(own.mean)
+        if own.deviation > ROUND_OFF * abs(own.mean) and error > own.deviation:
+            scatter, error_text = (one.change(value).lstrip("+") for value in (own.deviation, error))
+            yield (
+                f"table_error: {one.words} scatters by a standard deviation of {scatter}, less than the response table "
+                f"errs by, {error_text} at most at its held-out points; build a table of more points"
+            )
 
 
 def warnings_of(found: Tolerance) -> list[str]:
