@@ -307,7 +307,7 @@ def at_ratios(point, ratios) -> TablePoint:
     class Everywhere:
         origin = SimpleNamespace(source=Source.FIXED)
 
-        def at(self, point):
+        def at(self, pump, point):
             return dict(zip(NAMES, ratios, strict=True))
 
     return table_point(PUMP, point, Everywhere())
