@@ -19,6 +19,7 @@ from gaps.films.reports import (
     slipper_report,
 )
 from gaps.films.slipper import SlipperFilm
+from reynolds.errors import FilmNotConverged
 from reynolds.floating.problem import Floating
 from reynolds.floating.rest import come_to_rest
 from reynolds.floating.stage import FloatingStage
@@ -33,6 +34,7 @@ LOAD_TOLERANCE = 1e-3
 """Share of the required load by which a film at a given position may miss it and still count as holding it."""
 FIRST_STEP = 1e-3  # s, in which parts of a pump answer to their load through films of a micrometre
 SOFTENING = 1e-2  # of it, in which elastic walls deform under their first load
+CONTINUUM = 1e-8  # m, least film that oil fills as a continuum
 STILL = 1e-10  # m, by which a part at rest may still move in a step
 
 
@@ -94,13 +96,20 @@ def rest_from(solver: FilmSolver, floating: Floating, time: float, start: Array)
     """The part at rest under its drive at `time` (s), nearest to a start (k,) m as `come_to_rest` finds it.
 
     Raises FilmNotConverged, with its last move, for a part that finds none: pulled off, or pressed on walls that
-    do not bear.
+    do not bear, or that bear on a film below CONTINUUM.
     """
     begin = started(floating, time, start)
     if floating.shape_at(time).walls is not None:
         begin = pressed(solver, floating, begin, SOFTENING * FIRST_STEP)
-    found = come_to_rest(partial(solve_stage, solver, floating), begin, FIRST_STEP, STILL)
-    return found.stage
+    found = come_to_rest(partial(solve_stage, solver, floating), begin, FIRST_STEP, STILL).stage
+    least = float(found.solution.film.thickness.min())
+    if least < CONTINUUM and not np.any(found.contact_force):
+        raise FilmNotConverged(
+            f"{floating.name} finds no rest: its least film is {1e9 * least:.2g} nm, expected {1e9 * CONTINUUM:g} nm "
+            "at least: thinner oil is no continuum",
+            "less load",
+        )
+    return found
 
 
 def standing_piston_film(film: PistonFilm, stage: FloatingStage) -> GapFilm[PistonReport]:
