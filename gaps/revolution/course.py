@@ -179,7 +179,7 @@ def _names(kind: type) -> tuple[str, ...]:
 
 
 class Passed(Generic[Value]):
-    """What has passed in parts of steps: the mean over their time (s) of reports, and of the power on outer forces."""
+    """Mean over the time (s) of parts of steps, of reports and of the power on outer forces."""
 
     def __init__(self) -> None:
         self._time, self._total = 0.0, np.zeros(1)

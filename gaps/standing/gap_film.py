@@ -25,6 +25,7 @@ from reynolds.floating.rest import come_to_rest
 from reynolds.floating.stage import FloatingStage
 from reynolds.floating.start import pressed, started
 from reynolds.floating.step import solve_stage
+from reynolds.laws.oil import CONTINUUM
 from reynolds.numerics.arrays import Array
 from reynolds.problem import FilmSolution
 from reynolds.solve.loads import Loads, loads
@@ -34,7 +35,6 @@ LOAD_TOLERANCE = 1e-3
 """Share of the required load by which a film at a given position may miss it and still count as holding it."""
 FIRST_STEP = 1e-3  # s, in which parts of a pump answer to their load through films of a micrometre
 SOFTENING = 1e-2  # of it, in which elastic walls deform under their first load
-CONTINUUM = 1e-8  # m, least film that oil fills as a continuum
 STILL = 1e-10  # m, by which a part at rest may still move in a step
 
 

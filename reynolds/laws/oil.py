@@ -8,6 +8,7 @@ from numpy.typing import ArrayLike
 from reynolds.errors import FilmInputError
 from reynolds.laws.law import within
 
+CONTINUUM = 1e-8  # m; a film thinner than some ten molecules is no continuum
 WALTHER_SHIFT = 0.7  # mm2/s; the constant of ASTM D341, good above LOWEST_KINEMATIC_VISCOSITY
 LOWEST_KINEMATIC_VISCOSITY = 2e-6  # m2/s; below this ASTM D341 needs further terms
 LOWEST_TEMPERATURE = 233.15  # K (-40 degC): near the pour point of mineral hydraulic oils

@@ -42,7 +42,7 @@ CORRECTED = 1e-5  # change of the last correction over the range of temperature
 PATIENCE = 40  # corrections, after which larger and larger jumps go upwind too
 CLOSER = 0.1  # of the residual is left by the solve of a correction
 MAX_CORRECTIONS = 100
-ROUND_OFF = 1e-7  # of what the film could conduct over its range of temperature: less heat than this is none
+ROUND_OFF = 1e-7  # of what the film could conduct over its range of temperature: less heat is round-off
 NO_INFLOW = 1e-9  # of the unknown's flow scale
 
 

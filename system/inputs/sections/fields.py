@@ -17,6 +17,7 @@ from pathlib import Path
 from types import NoneType, UnionType
 from typing import Annotated, Any, ClassVar, Literal, Protocol, TypeVar, Union, get_args, get_origin, get_type_hints
 
+from reynolds.laws.oil import CONTINUUM
 from system.inputs.body_file import BodyFile, read_body_file
 from system.inputs.coefficients.flow_files import FlowCoefficients, read_flow_coefficients
 from system.inputs.coefficients.loss_files import LossFactors, read_groove_losses, read_step_losses
@@ -136,7 +137,7 @@ Positive = Limits(above=0.0)
 NotNegative = Limits(least=0.0)
 
 Length = Annotated[float, Dimension.LENGTH, Positive]
-Film = Annotated[float, Dimension.LENGTH, Limits(least=1e-8, why="oil thinner than 10 nm is no continuum")]
+Film = Annotated[float, Dimension.LENGTH, Limits(least=CONTINUUM, why="oil thinner than 10 nm is no continuum")]
 AnyLength = Annotated[float, Dimension.LENGTH]
 Area = Annotated[float, Dimension.AREA, Positive]
 Volume = Annotated[float, Dimension.VOLUME, Positive]

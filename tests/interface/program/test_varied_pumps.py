@@ -211,16 +211,20 @@ def test_limits_as_text(text, name, bound, value):
     assert (found.measure.name, found.bound, found.value) == (name, bound, pytest.approx(value))
 
 
-@pytest.fixture(scope="module")
-def film_table(tmp_path_factory):
-    """File of a response table of REF90 over pressure and viscosity, whose points a stand-in solves."""
-    place = tmp_path_factory.mktemp("table")
+def stand_in_table(place, *words):
+    """File of a response table of REF90 at full stroke and 2100 r/min over pressure, whose points a stand-in solves."""
+    held = ["--speed", "2100rpm", "--displacement", "1", "--pressure", "15MPa..38MPa"]
     with pytest.MonkeyPatch.context() as patched:
         patched.setenv("SWASHFILM_CACHE", str(place / "cache"))
         patched.setattr(sources, "solver_of", lambda source, options: ThinningFilms())
-        held = ["--speed", "2100rpm", "--displacement", "1", "--points", "24", "--held-out", "6"]
-        assert main(["table", "ref90", "--pressure", "15MPa..38MPa", *held, "-o", str(place / "run")]) == 0
+        assert main(["table", "ref90", *held, *words, "-o", str(place / "run")]) == 0
     return place / "run" / "table.json"
+
+
+@pytest.fixture(scope="module")
+def film_table(tmp_path_factory):
+    """Table over pressure and viscosity."""
+    return stand_in_table(tmp_path_factory.mktemp("table"), "--points", "24", "--held-out", "6")
 
 
 def test_sensitivity_by_a_response_table(film_table):
@@ -270,15 +274,9 @@ GAP_KEYS = "piston.radial_clearance,slipper.film_thickness"
 
 @pytest.fixture(scope="module")
 def wide_table(tmp_path_factory):
-    """File of a table of a stand-in's films over pressure and two dimensions, one of them by its tolerance."""
-    place = tmp_path_factory.mktemp("wide")
-    with pytest.MonkeyPatch.context() as patched:
-        patched.setenv("SWASHFILM_CACHE", str(place / "cache"))
-        patched.setattr(sources, "solver_of", lambda source, options: ThinningFilms())
-        words = ["--speed", "2100rpm", "--displacement", "1", "--temperature", "50degC", "--pressure", "15MPa..38MPa"]
-        vary = ["--vary", "piston.radial_clearance=8um..20um", "--vary", "slipper.film_thickness"]
-        assert main(["table", "ref90", *words, *vary, "-o", str(place / "run")]) == 0
-    return place / "run" / "table.json"
+    """Table over pressure and two dimensions, one of them over its tolerance."""
+    vary = ["--vary", "piston.radial_clearance=8um..20um", "--vary", "slipper.film_thickness"]
+    return stand_in_table(tmp_path_factory.mktemp("wide"), "--temperature", "50degC", *vary)
 
 
 def test_tolerance_by_a_table_of_dimensions_is_that_of_the_films(wide_table, monkeypatch):

@@ -116,7 +116,7 @@ def test_a_clock_that_is_set_repeats_or_stops_gives_a_time_that_rises():
 
 @pytest.mark.parametrize("share", [60.0, 1e-3, 1.0, 7.0])
 def test_a_clock_that_counts_in_another_unit_behind_a_jump_is_refused(share):
-    """Minutes or milliseconds behind seconds; a clock set back, or a slower logger, is none."""
+    """Minutes or milliseconds behind seconds; a clock set back or a slower logger changes no unit."""
     steps = np.where(np.arange(100) < 50, 2.0, 2.0 / share)
     time = np.cumsum(steps) - np.where(np.arange(100) < 50, 0.0, 90.0)
     if share < 1.0:

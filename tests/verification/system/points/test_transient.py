@@ -114,7 +114,7 @@ def test_oil_is_kept_and_energy_balances(destroked):
 
 
 def test_energy_balances_where_chambers_do_no_work():
-    """Next to no stroke: what the errors are told of is then the power of the oil that passes."""
+    """Next to no stroke: the errors are then shares of the power of the oil that passes."""
     idle = run({"actuator.area": "4 cm2"}, held_at(0.3e6), 0.03, displacement_ratio=0.01)
     assert idle.checks.energy_balance_error < 1e-4
 

@@ -272,7 +272,7 @@ def test_trust_region_keeps_its_budget(tmp_path):
 
 @pytest.mark.parametrize("search", [partial(approach, designs=8, last=1e-4), partial(descend, step=1e-4, iterations=4)])
 def test_the_start_is_solved_once(tmp_path, search):
-    """The pump as stated, by which limits are told, is the first design of a search from there."""
+    """The pump as stated sets the limits by the start and is the first design of a search from there."""
     toy = Toy((("loss", lambda x, y: 1.0 + (x - 4.0) ** 2 + (y - 2.0) ** 2),))
     found = solved(tmp_path, problem((Objective(LOSS, Aim.LEAST),), ()), toy, search)
     assert found.designs[0].numbers[0] == found.start.numbers[0]
