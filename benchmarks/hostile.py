@@ -107,10 +107,10 @@ def _load(samples: Path) -> None:
 
 def _read(place: Path) -> Iterable[Told]:
     """Yield the outcomes that are kept; of a case that was run twice the last one counts."""
-    if place.is_file():
-        for line in place.read_text("utf-8").splitlines():
-            values = json.loads(line)
-            yield Told(**values | {"outcome": Outcome(values["outcome"])})
+    from reynolds.numerics.files import json_lines
+
+    for values in json_lines(place):
+        yield Told(**values | {"outcome": Outcome(values["outcome"])})
 
 
 def _tell(found: Iterable[Told]) -> None:

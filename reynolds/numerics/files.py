@@ -7,7 +7,7 @@ import json
 import os
 import stat
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from math import isfinite
 from pathlib import Path
 from typing import Any
@@ -142,12 +142,16 @@ def expect_room(folder: Path, size: int) -> None:
 
 
 def append_whole(path: Path, data: bytes) -> None:
-    """Add data to the end of a file: all of it or, where the disk is full, nothing.
+    """Add lines to the end of a file: all of them or, where the disk is full, nothing.
 
-    Raises OSError. Data of several programs at once stand one after the other.
+    They begin on a line of their own. A program that is killed on the way may leave an unfinished last line. Raises
+    OSError. Data of several programs at once stand one after the other.
     """
-    with path.open("ab", buffering=0) as file:
-        before = file.tell()
+    with path.open("ab+", buffering=0) as file:
+        before = file.seek(0, os.SEEK_END)
+        if before:
+            file.seek(-1, os.SEEK_END)
+            data = data if file.read(1) == b"\n" else b"\n" + data
         try:
             written = file.write(data)
             if written != len(data):
@@ -155,6 +159,18 @@ def append_whole(path: Path, data: bytes) -> None:
         except OSError:
             file.truncate(before)
             raise
+
+
+def json_lines(path: Path) -> list[dict[str, Any]]:
+    """Objects of a file of one JSON object a line, none where there is no file.
+
+    A line that a killed program left unfinished is left out: it lacks its closing brace.
+    """
+    found = []
+    for line in path.read_text("utf-8").splitlines() if path.is_file() else ():
+        with suppress(json.JSONDecodeError):
+            found.append(json.loads(line))
+    return found
 
 
 def _linked(beside: Path, path: Path) -> None:

@@ -14,7 +14,7 @@ from pathlib import Path
 
 import pytest
 
-from reynolds.numerics.files import append_whole, replaced
+from reynolds.numerics.files import append_whole, json_lines, replaced
 from swashfilm.output.page import read_summary
 from system.points.table.store import read_table
 from system.work.kept_results import KeptPoints
@@ -78,12 +78,22 @@ def test_rows_are_whole(tmp_path):
     def write(folder: Path, number: int) -> None:
         append_whole(folder / "rows.jsonl", json.dumps({"number": number, "text": "x" * 3000}).encode() + b"\n")
 
+    place = tmp_path / "rows.jsonl"
     for _ in range(8):
         ended = killed_while(write, tmp_path, 0.05)
-        rows = (tmp_path / "rows.jsonl").read_text().splitlines()
-        assert all(json.loads(row)["text"] for row in rows)
+        rows = json_lines(place)
+        assert all(len(row["text"]) == 3000 for row in rows)
         assert len(rows) >= ended
-        (tmp_path / "rows.jsonl").unlink()
+        place.unlink()
+
+
+def test_rows_behind_an_unfinished_one_are_read(tmp_path):
+    """Killed in the middle of a row, whatever its place in it; the next run's row begins on a line of its own."""
+    place, row = tmp_path / "rows.jsonl", b'{"number": 1}'
+    for cut in range(1, len(row)):
+        place.write_bytes(b'{"number": 0}\n' + row[:cut])
+        append_whole(place, b'{"number": 2}\n')
+        assert [one["number"] for one in json_lines(place)] == [0, 2]
 
 
 def starts(command: list[str], kept: Callable[[], set[Path]], most: int) -> Iterator[set[Path]]:
