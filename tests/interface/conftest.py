@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import functools
 import io
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 
 import numpy as np
@@ -16,13 +16,16 @@ from written_formats import REMEDY, folder_faults
 
 from diagnosis import Diagnosis, Study
 from swashfilm.output import run_folder
+from swashfilm.output.scenes.picture3d import Frame, Pictures
+from swashfilm.runs.pump.scene import views
 
 
 @pytest.fixture(scope="session", autouse=True)
 def blank_pictures(pytestconfig: pytest.Config) -> Iterator[None]:
-    """A PNG of a figure has one pixel: matplotlib's layout and rendering take most of the time of a short run.
+    """A picture has one pixel: layout and rendering take most of the time of a short run, 3D of a run with films.
 
-    Tests that ask for `rendered`, and all tests where the long ones are among them, have the true pictures.
+    Tests that ask for `rendered`, and all tests where the long ones are among them, have the true figures; 3D
+    pictures are drawn by test_picture3d and with the long tests.
     """
     if pytestconfig.option.markexpr != "not long":
         yield
@@ -37,8 +40,17 @@ def blank_pictures(pytestconfig: pytest.Config) -> Iterator[None]:
         else:
             save(figure, target, **how)
 
+    def drawn(drawings: Mapping[Path, Sequence[Frame]]) -> Pictures:
+        for path, frames in drawings.items():
+            shown = [file for frame in frames for file in (*frame.films, *(solid.path for solid in frame.solids))]
+            assert shown
+            assert all(file.is_file() for file in shown)
+            path.write_bytes(pixel.getvalue())
+        return Pictures(tuple(drawings), "")
+
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(Figure, "savefig", blank)
+        patch.setattr(views, "draw", drawn)
         yield
 
 

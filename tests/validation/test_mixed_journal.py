@@ -208,8 +208,8 @@ def _measured(digit: float, read: str, effect: float, found: float) -> Measured:
     )
 
 
-@pytest.mark.slow
-@pytest.mark.parametrize("load", [pytest.param(8e3, marks=pytest.mark.long), 4e3])
+@pytest.mark.long
+@pytest.mark.parametrize("load", list(TORQUE))
 def test_sander_rig(load, tmp_path, validation):
     """Torque of the shaft over speed, downward.
 

@@ -219,7 +219,7 @@ def test_largest_pad_temperature(rpm, temperature, authors, validation):
     )
 
 
-@pytest.mark.slow
+@pytest.mark.long
 def test_carry_over_matters_little():
     """The one number that no law gives: 0.6 to 1 of the hot oil moves the largest temperature by less than 4 K."""
     case = bearing(*COARSE, 3000)

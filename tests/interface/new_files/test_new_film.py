@@ -41,7 +41,14 @@ def test_the_study_solves(tmp_path):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("kind", [kind for kind in KINDS if kind.endswith("_turn")])
+@pytest.mark.parametrize(
+    "kind",
+    [
+        pytest.param(kind, marks=() if kind == "slipper_turn" else pytest.mark.long)
+        for kind in KINDS
+        if kind.endswith("_turn")
+    ],
+)
 def test_turns_solve(kind, tmp_path):
     text = sf.new("film", kind, output=tmp_path / "mine.toml").read_text("utf-8")
     coarse = text.replace("steps = 120", "steps = 36").replace("steps = 126", "steps = 36")

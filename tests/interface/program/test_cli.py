@@ -1,5 +1,6 @@
 """The command line: what the commands do, what they answer to bad input, and what they leave behind."""
 
+import functools
 import json
 import os
 import re
@@ -299,9 +300,17 @@ def test_run_writes_a_lumped_point(capsys):
     assert main(["report", "point"]) == 0
 
 
-def run_example(name: str) -> dict:
-    assert main(["film", str(EXAMPLES / f"{name}.toml"), "-o", name]) == 0
-    return summary_of(Path(name))
+@pytest.fixture(scope="module")
+def example_run(tmp_path_factory):
+    """example_run("step_pad"): run folder of an example film, solved once."""
+    place = tmp_path_factory.mktemp("examples")
+
+    @functools.cache
+    def solved(name: str) -> Path:
+        assert main(["film", str(EXAMPLES / f"{name}.toml"), "-o", str(place / name)]) == 0
+        return place / name
+
+    return solved
 
 
 @pytest.mark.parametrize(
@@ -311,8 +320,8 @@ def run_example(name: str) -> dict:
         for path in sorted(EXAMPLES.glob("*.toml"))
     ],
 )
-def test_every_example_film_closes_its_balances(path):
-    summary = run_example(path.stem)
+def test_every_example_film_closes_its_balances(path, example_run):
+    summary = summary_of(example_run(path.stem))
     # Of a turn it is what its flows miss between the reported angles, of a film round-off.
     over_turn = "revolution" in tomllib.loads(path.read_text(encoding="utf-8"))["film"]
     if summary["kind"] != "film_study" and over_turn:
@@ -330,26 +339,26 @@ def test_every_example_film_closes_its_balances(path):
     assert summary["imbalance"] < 1e-9
 
 
-def test_example_linear_slider():
+def test_example_linear_slider(example_run):
     """Second order, so 1/64^2 of an order-one constant; closed forms of the slider of two to one, K = 1."""
-    summary = run_example("linear_slider")
+    summary = summary_of(example_run("linear_slider"))
     scale = 0.03 * 1.0 * 0.01 / 1e-5 * 0.01
     assert summary["load_N"] == pytest.approx(6 * (np.log(2) - 2 / 3) * scale * 1e3, rel=1e-3)
     assert -summary["friction_force_moving_N"][0] == pytest.approx((4 * np.log(2) - 2) * scale, rel=1e-3)
 
 
-def test_example_step_pad_is_exact():
+def test_example_step_pad_is_exact(example_run):
     """Rayleigh: the pressure is piecewise linear, which the elements hold to what the linear solver leaves."""
-    summary = run_example("step_pad")
+    summary = summary_of(example_run("step_pad"))
     h1, h2, b1, b2 = 2e-5, 1e-5, 7e-3, 3e-3
     peak = 6 * 0.03 * (h1 - h2) / (h1**3 / b1 + h2**3 / b2)
     assert summary["pressure_max_Pa"] == pytest.approx(peak, rel=ITERATIVE_TOLERANCE)
     assert summary["load_N"] == pytest.approx(peak * 10e-3 / 2 * 10e-3, rel=ITERATIVE_TOLERANCE)
 
 
-def test_example_rotating_land():
+def test_example_rotating_land(example_run):
     """A ring of 96 straight edges: short of a circle by (2 pi/96)^2/6 = 0.07 % in area, twice that in r^4."""
-    summary = run_example("rotating_land")
+    summary = summary_of(example_run("rotating_land"))
     mu = 25.7768e-3  # ISO VG 46 at 50 degC, Walther, 860 kg/m3
     flow = np.pi * 1e-15 * 20e6 / (6 * mu * np.log(2))
     torque = np.pi * mu * 100 * (10e-3**4 - 5e-3**4) / (2 * 1e-5)
@@ -372,24 +381,24 @@ def journal_numbers(folder: Path) -> np.ndarray:
     return np.array([number, (flow["bottom"] + flow["top"]) / unit, -flow["left"] / unit])
 
 
-def test_example_journal_bearing():
+def test_example_journal_bearing(example_run):
     """L/D = 1, eccentricity ratio 0.6, Reynolds' condition: grid-converged numbers, Raimondi and Boyd 1958 within
     1.5 %. The error is at most the step from a mesh half as fine (Roache 1994: 3/(2^2 - 1) of it).
     """
-    summary = run_example("journal_bearing")
-    assert [warning["name"] for warning in summary["warnings"]] == ["cavity_does_not_conserve_mass"]
+    folder = example_run("journal_bearing")
+    assert [warning["name"] for warning in summary_of(folder)["warnings"]] == ["cavity_does_not_conserve_mass"]
     text = (EXAMPLES / "journal_bearing.toml").read_text("utf-8")
     Path("coarse.toml").write_text(text.replace("[128, 32]", "[64, 16]"), encoding="utf-8")
     assert main(["film", "coarse.toml", "-o", "coarse"]) == 0
-    coarse, fine = journal_numbers(Path("coarse")), journal_numbers(Path("journal_bearing"))
+    coarse, fine = journal_numbers(Path("coarse")), journal_numbers(folder)
     error = np.abs(fine - [1.31598, 2.9483, 4.3287])
     assert (error <= np.abs(fine - coarse) + 5e-5).all(), (fine, coarse)
     assert (np.abs(fine - coarse) < 0.02 * fine).all()
 
 
 @pytest.mark.parametrize("gap", ["slipper", "piston", "valve_plate"])
-def test_examples_of_gaps_tell_their_position_and_its_source(gap):
-    summary = run_example(f"ref90_{gap}")
+def test_examples_of_gaps_tell_their_position_and_its_source(gap, example_run):
+    summary = summary_of(example_run(f"ref90_{gap}"))
     assert summary["position_source"] == "given"
     names = {
         "slipper": {"pocket", "case"},

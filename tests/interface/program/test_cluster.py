@@ -68,7 +68,7 @@ def local_cluster():
         os.environ.pop(name) if value is None else os.environ.update({name: value})
 
 
-@pytest.mark.slow
+@pytest.mark.long
 def test_killed_workers_cost_nothing_but_time(local_cluster, tmp_path):
     solves = tmp_path / "solves"
     solves.mkdir()
@@ -84,7 +84,7 @@ def test_killed_workers_cost_nothing_but_time(local_cluster, tmp_path):
     assert found[5].reason.startswith("ZeroDivisionError: a bug (")
 
 
-@pytest.mark.slow
+@pytest.mark.long
 def test_a_map_by_a_cluster_has_the_same_numbers(local_cluster, tmp_path):
     words = ["map", "ref90", "--fidelity", "lumped", "--speeds", "1500rpm", "--displacements", "1", "--check", "0"]
     assert main([*words, "-o", str(tmp_path / "here")]) == 0
@@ -92,7 +92,7 @@ def test_a_map_by_a_cluster_has_the_same_numbers(local_cluster, tmp_path):
     assert (tmp_path / "here" / "map.csv").read_text() == (tmp_path / "there" / "map.csv").read_text()
 
 
-@pytest.mark.slow
+@pytest.mark.long
 def test_an_optimisation_by_a_cluster_tries_the_same_designs(local_cluster, tmp_path):
     case = tmp_path / "case.toml"
     case.write_text(

@@ -279,6 +279,7 @@ def wide_table(tmp_path_factory):
     return stand_in_table(tmp_path_factory.mktemp("wide"), "--temperature", "50degC", *vary)
 
 
+@pytest.mark.long
 def test_tolerance_by_a_table_of_dimensions_is_that_of_the_films(wide_table, monkeypatch):
     """The series by the table, against the stand-in's films solved for every pump."""
     asked = {"keys": GAP_KEYS, "pumps": 100, "seed": 3}

@@ -25,9 +25,15 @@ def first() -> FloatingPoint:
     return point_at(10e6)
 
 
+@pytest.fixture(scope="module")
+def twice(first: FloatingPoint) -> tuple[FloatingPoint, FloatingPoint]:
+    """A point without a start, and from its neighbour."""
+    return point_at(12e6), point_at(12e6, first)
+
+
 @pytest.mark.slow
-def test_a_neighbour_leads_to_the_same_point(first):
-    cold, near = point_at(12e6), point_at(12e6, first)
+def test_a_neighbour_leads_to_the_same_point(twice):
+    cold, near = twice
     films = [sum(one.films_solved for one in found.rounds) for found in (cold, near)]
     assert films[1] < 0.8 * films[0]
     for name, value in point_numbers(cold).items():
@@ -61,8 +67,9 @@ def test_levels_halve_cells_and_angles_and_quarter_the_steps_error():
 
 
 @pytest.mark.slow
-def test_refinement_tells_order_and_bar_of_each_number(first):
-    levels = iter([point_at(10.02e6, first), point_at(10.025e6, first)])
+def test_refinement_tells_order_and_bar_of_each_number(first, twice):
+    """Any points serve as levels: these differ by their pressure, and then by their start."""
+    levels = iter(twice)
     told = refine_point(first, 3, lambda options, near, report: next(levels), lambda *_: None)
     assert len(told.dofs) == 3
     assert {"shaft_torque_Nm", "overall_efficiency", "film_least_m.slipper", "loss_W.valve_plate"} <= set(told.numbers)
