@@ -119,7 +119,6 @@ def test_a_process_that_dies_costs_its_part_only(solves, tmp_path):
     assert "died twice" in found[3].reason
 
 
-@pytest.mark.slow
 @dataclass(frozen=True)
 class InRows(Squares):
     """Squares done in rows."""
@@ -128,6 +127,7 @@ class InRows(Squares):
         return self
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("workers", [1, 2])
 def test_a_part_of_a_row_is_kept_before_the_row_ends(solves, tmp_path, workers):
     """A row whose fourth part kills its process leaves three; alone, a row tells of each part as it is done."""
