@@ -2,55 +2,27 @@
 
 from __future__ import annotations
 
-import functools
-import io
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator
+from contextlib import nullcontext
 from pathlib import Path
 
-import numpy as np
 import pytest
+from blank_pictures import blank_pictures, rendered_figures
 from made_diagnosis import its_study, named_diagnosis
-from matplotlib.figure import Figure
-from matplotlib.image import imsave
 from written_formats import REMEDY, folder_faults
 
 from diagnosis import Diagnosis, Study
 from swashfilm.output import run_folder
-from swashfilm.output.scenes.picture3d import Frame, Pictures
-from swashfilm.runs.pump.scene import views
 
 
 @pytest.fixture(scope="session", autouse=True)
-def blank_pictures(pytestconfig: pytest.Config) -> Iterator[None]:
-    """A picture has one pixel: layout and rendering take most of the time of a short run, 3D of a run with films.
+def short(pytestconfig: pytest.Config) -> Iterator[None]:
+    """A picture has one pixel.
 
     Tests that ask for `rendered`, and all tests where the long ones are among them, have the true figures; 3D
-    pictures are drawn by test_picture3d and with the long tests.
+    pictures of pumps are drawn beside the long tests alone, others by test_picture3d.
     """
-    if pytestconfig.option.markexpr != "not long":
-        yield
-        return
-    save, pixel = Figure.savefig, io.BytesIO()
-    imsave(pixel, np.ones((1, 1, 3)), format="png")
-
-    @functools.wraps(save)
-    def blank(figure: Figure, target: object, **how: object) -> None:
-        if how.get("format") == "png" and isinstance(target, io.BytesIO):
-            target.write(pixel.getvalue())
-        else:
-            save(figure, target, **how)
-
-    def drawn(drawings: Mapping[Path, Sequence[Frame]]) -> Pictures:
-        for path, frames in drawings.items():
-            shown = [file for frame in frames for file in (*frame.films, *(solid.path for solid in frame.solids))]
-            assert shown
-            assert all(file.is_file() for file in shown)
-            path.write_bytes(pixel.getvalue())
-        return Pictures(tuple(drawings), "")
-
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(Figure, "savefig", blank)
-        patch.setattr(views, "draw", drawn)
+    with blank_pictures() if pytestconfig.option.markexpr == "not long" else nullcontext():
         yield
 
 
@@ -70,9 +42,10 @@ def formats_held() -> Iterator[None]:
 
 
 @pytest.fixture
-def rendered(monkeypatch: pytest.MonkeyPatch) -> None:
+def rendered() -> Iterator[None]:
     """Figures are rendered in full."""
-    monkeypatch.setattr(Figure, "savefig", getattr(Figure.savefig, "__wrapped__", Figure.savefig))
+    with rendered_figures():
+        yield
 
 
 @pytest.fixture(scope="module")

@@ -99,6 +99,7 @@ def hold_figures(figures) -> None:
             assert not re.search(r"<(?!br>|/?b>|/?sub>|/?sup>|extra>)", text), text
 
 
+@pytest.mark.usefixtures("rendered")
 def test_every_text_of_a_page_is_text(tmp_path):
     figure = figure_of(4.0, 3.0)
     axes = figure.add_subplot()

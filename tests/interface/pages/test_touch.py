@@ -11,6 +11,7 @@ from typing import Any
 import meshio
 import numpy as np
 import pytest
+from blank_pictures import rendered_figures
 
 from swashfilm.output.answer import Answer, Tile
 from swashfilm.output.figures import figure_of
@@ -114,7 +115,8 @@ def page(tmp_path_factory: pytest.TempPathFactory) -> Path:
     view = pump_view(folder)
     assert view is not None
     explorers = {"curve": None, "map": map_explorer(map_data()), "film": film_explorer(), "pump": view}
-    pictures = {name: inlined(curve_figure(), explorer) for name, explorer in explorers.items()}
+    with rendered_figures():
+        pictures = {name: inlined(curve_figure(), explorer) for name, explorer in explorers.items()}
     summary = {"solved": 1, "points": 1, "assumptions": []}
     content = {"pictures": pictures, "rows": [], "failed": [], "case": NAME, "summary": summary}
     return write_page(folder, "study", answer=Answer((Tile("1 N", NAME),), NAME), name=NAME, **content)

@@ -69,6 +69,7 @@ def test_half_of_the_loss_is_named():
         (361.0, [replace(DELIVERED, watts=-90.0), FRICTION, TINY]),
     ],
 )
+@pytest.mark.usefixtures("rendered")
 def test_no_text_lies_over_another(shaft, parts):
     figure = flow_diagram(shaft, parts)
     svg_of(figure)
