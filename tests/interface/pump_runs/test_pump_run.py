@@ -3,6 +3,7 @@
 import json
 import re
 import shutil
+from functools import partial
 
 import numpy as np
 import pandas
@@ -11,7 +12,8 @@ import pyvista
 import xarray
 
 from swashfilm.__main__ import main
-from system import load_pump, resolved_toml
+from swashfilm.runs.pump import run as pump_run
+from system import films_point, load_pump, resolved_toml
 
 TURN = 2.0 * np.pi
 
@@ -232,9 +234,12 @@ def test_forces_between_the_parts_are_told(lumped):
 
 @pytest.fixture(scope="module")
 def worn(tmp_path_factory):
+    """On coarse meshes: what is asked here is which films stand where."""
     folder = tmp_path_factory.mktemp("worn") / "run"
     stated = ["--set", "piston.3.radial_clearance=22um"]
-    assert main(["run", "ref90", "--fidelity", "fixed", *stated, "-o", str(folder)]) == 0
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(pump_run, "films_point", partial(films_point, finer=0.25))
+        assert main(["run", "ref90", "--fidelity", "fixed", *stated, "-o", str(folder)]) == 0
     return folder
 
 
