@@ -111,6 +111,7 @@ def svg_of(figure: Figure) -> bytes:
 
 def _write_svg(figure: Figure, file: io.BytesIO) -> None:
     from matplotlib import rc_context
+    from matplotlib.backends.backend_svg import FigureCanvasSVG
     from matplotlib.contour import ContourSet
 
     areas = [cells for axes in figure.axes for cells in axes.collections]
@@ -119,8 +120,9 @@ def _write_svg(figure: Figure, file: io.BytesIO) -> None:
         few = _MANY if isinstance(cells, ContourSet) else _FEW
         cells.set_rasterized(bool(sum(corners) > _MANY and count > few))
     _literal(figure)
-    with rc_context({"svg.fonttype": "none", "svg.hashsalt": "swashfilm", "font.sans-serif": _FONTS}):
-        figure.savefig(file, format="svg", dpi=110, metadata=_PLAIN)
+    texts = {"svg.fonttype": "none", "svg.hashsalt": "swashfilm", "font.sans-serif": _FONTS}
+    with rc_context(texts), _canvas(figure, FigureCanvasSVG, 110) as canvas:
+        canvas.print_svg(file, metadata=_PLAIN)  # lays out and draws at once
 
 
 def _shortened(svg: bytes) -> bytes:
@@ -135,21 +137,10 @@ def compact(figure: Figure) -> bytes:
     if any(kept_field(area) or area.get_rasterized() for area in areas):
         pixels = _drawn(figure, max(_FIELD_DPI, FEWEST_PIXELS / figure.get_figwidth()))
         return _webp(pixels, quality=_FIELD_QUALITY, method=6)
-    _literal(figure)
-    _lay_out_as_svg(figure)
     if (vector := _small_svg(figure)) is not None:
         return vector
+    figure.set_layout_engine("none")  # it is laid out already
     return _webp(_drawn(figure, _LINES_DPI).quantize(_INKS).convert("RGB"), quality=_FIELD_QUALITY, lossless=True)
-
-
-def _lay_out_as_svg(figure: Figure) -> None:
-    """Place axes and texts by the sizes that texts have in an SVG, once for all pictures of the figure."""
-    from matplotlib.backends.backend_svg import FigureCanvasSVG
-
-    if figure.axes and (engine := figure.get_layout_engine()) is not None:
-        with _canvas(figure, FigureCanvasSVG, FigureCanvasSVG.fixed_dpi):
-            engine.execute(figure)
-        figure.set_layout_engine("none")
 
 
 def _small_svg(figure: Figure) -> bytes | None:
@@ -189,7 +180,7 @@ def _drawn(figure: Figure, dpi: float) -> Image:
 
 @contextmanager
 def _canvas(figure: Figure, kind: type[Canvas], dpi: float) -> Iterator[Canvas]:
-    """Put a figure on a canvas of this kind and size, and back on its own one."""
+    """Put a figure on a canvas of this kind, which draws it once and lays it out then, and back on its own one."""
     own, usual = figure.canvas, figure.dpi
     figure.dpi = dpi
     try:
