@@ -120,8 +120,10 @@ def _write_svg(figure: Figure, file: io.BytesIO) -> None:
         few = _MANY if isinstance(cells, ContourSet) else _FEW
         cells.set_rasterized(bool(sum(corners) > _MANY and count > few))
     _literal(figure)
-    texts = {"svg.fonttype": "none", "svg.hashsalt": "swashfilm", "font.sans-serif": _FONTS}
-    with rc_context(texts), _canvas(figure, FigureCanvasSVG, 110) as canvas:
+    with (
+        rc_context({"svg.fonttype": "none", "svg.hashsalt": "swashfilm", "font.sans-serif": _FONTS}),
+        _canvas(figure, FigureCanvasSVG, 110) as canvas,
+    ):
         canvas.print_svg(file, metadata=_PLAIN)  # lays out and draws at once
 
 
