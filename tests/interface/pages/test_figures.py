@@ -9,6 +9,8 @@ from PIL import Image
 from swashfilm.output.figures import FEWEST_PIXELS, LARGE, compact, figure_of, svg_of
 from swashfilm.output.scenes.field_maps import draw_map
 
+pytestmark = pytest.mark.usefixtures("rendered")
+
 
 def lines(points: int):
     figure = figure_of(6.0, 3.0)
