@@ -41,7 +41,7 @@ def test_slopes_are_those_of_the_predictions(overflow: ModuleType) -> None:
         assert slopes[..., at] == pytest.approx(secant, rel=1e-5, abs=1e-6 * np.abs(secant).max())
 
 
-@pytest.mark.slow
+@pytest.mark.long
 def test_what_the_tanks_lack_is_found(overflow: ModuleType, shared: Path, validation) -> None:
     """By evidence with the memory of what is left over; sizes and errors by simulating all of the record."""
     record = overflow.read_record(shared / "recordings" / "cascaded_tanks" / "dataBenchmark.csv")
