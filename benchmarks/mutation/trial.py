@@ -57,7 +57,7 @@ class Copy:
 
     def tried(self, edit: Edit, tests: Sequence[str], limit: float) -> Trial:
         """Run `tests` in order until one fails, for `limit` seconds at most."""
-        begin, unsound = time.monotonic(), []
+        begin, unsound = time.monotonic(), list[str]()
         while True:
             fate, noticed = self._edited(edit, [*tests, *(f"--deselect={test}" for test in unsound)], limit)
             if fate is not Fate.KILLED or self._is_sound(noticed, limit):
