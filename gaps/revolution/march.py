@@ -70,7 +70,7 @@ class GapRevolution(Generic[Value]):
 
     @property
     def bare(self) -> GapRevolution[Value]:
-        """The same without its last film and oil and its warmed films: a march from it starts as a full film."""
+        """The same without its last stage, its oil and its warmed films: a march from it starts with the film left."""
         turn = replace(self.turn, oil=(), last=replace(self.turn.last, stage=None))
         warmth = None if self.warmth is None else replace(self.warmth, films=())
         return replace(self, turn=turn, closing=replace(self.closing, turn=turn), warmth=warmth)
@@ -101,7 +101,7 @@ def run_revolution(
     """The periodic motion of a gap whose drive repeats with the schedule's last angle.
 
     Starts as a full film at rest at `start` (k,) m, from which turns of wide steps lead next to the periodic
-    motion, or goes on from a revolution `before` it, of a full film where that has no last one; `report_of` gives
+    motion, or goes on from a revolution `before` it, of the film `left` where that has no last stage; `report_of` gives
     the report of each angle. The steps of the first turn that stops at all angles are those of all that follow, so
     that the map of a turn is smooth. Afterwards each coordinate is as near to the periodic motion as `closed` says,
     and the oil in the film repeats as well; where `accuracy` is not settled, one turn more has been run. Raises

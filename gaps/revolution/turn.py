@@ -8,16 +8,16 @@ from dataclasses import dataclass, field, replace
 from typing import Generic
 
 import numpy as np
+from numpy.typing import NDArray
 
 from gaps.revolution.course import SAME, Course, GapInstant, Passed, Value, instant_of_stage
 from gaps.revolution.schedule import Accuracy, Schedule
 from gaps.revolution.stopped import TurnStopped
 from reynolds.errors import FilmNotConverged
-from reynolds.fem.space import FilmSpace
 from reynolds.floating.problem import Floating
 from reynolds.floating.stage import FloatingStage
 from reynolds.floating.start import places_of, pressed, restarted, started
-from reynolds.floating.step import solve_stage
+from reynolds.floating.step import FilmLeft, solve_stage
 from reynolds.numerics.arrays import Array
 from reynolds.numerics.dirk import AcceptedStep, State, Tableau, integrate, nodes_only
 from reynolds.problem import FilmSolution
@@ -35,8 +35,9 @@ FARTHEST = 2e-2  # of the film's length, by which a wall may leave its shape: th
 class GapTurn(Generic[Value]):
     """One turn: its start q, its instants, kept films by angle with the deformation that is in their shape, its end.
 
-    oil: (size,) m3 of each unknown at each reported angle; times (s) of its steps; step_error: largest error of a
-    step over what was allowed, jumps left out; accuracy: that allowance, share of the film; allowed, reach, repeats: as
+    oil: (size,) m3 of each unknown at each reported angle; left: film at its end, on the mesh of its start; times (s)
+    of its steps; step_error: largest error of a step over what was allowed, jumps left out; accuracy: that allowance,
+    share of the film; allowed, reach, repeats: as
     `reynolds.numerics.shooting.Turn` has them.
     """
 
@@ -45,6 +46,7 @@ class GapTurn(Generic[Value]):
     films: dict[float, FilmSolution] = field(repr=False)
     oil: tuple[Array, ...] = field(repr=False)
     last: State[FloatingStage] = field(repr=False)
+    left: FilmLeft = field(repr=False)
     times: Array = field(repr=False)
     step_error: float
     accuracy: float
@@ -122,20 +124,30 @@ class Turns(Generic[Value]):
                 state = gathered.join(before)
                 break
         self._choose(gathered)
-        end = gathered.instants[-1]
+        end, places = gathered.instants[-1], self._places(state)
         return GapTurn(
             start=start,
             instants=tuple(gathered.instants),
             films=gathered.films,
             oil=tuple(gathered.oil),
             last=state,
+            left=_left(places, state),
             times=np.array(gathered.times),
             step_error=max(gathered.errors),
             accuracy=self._accuracy.step,
             allowed=max(self._accuracy.closed * end.mean_film, gathered.jumped),
             reach=self._accuracy.reach * self._room(end),
-            repeats=_oil_moved(self._floating.shape_at(0.0).space, begin, state) <= self._accuracy.closed,
+            repeats=_oil_moved(places, begin, state) <= self._accuracy.closed,
         )
+
+    def _places(self, end: State[FloatingStage]) -> NDArray[np.intp]:
+        """The unknown (size,) at the end of a turn that is in the place of each at its start."""
+        assert end.stage is not None
+        return places_of(self._floating.shape_at(0.0).space, end.stage.instant.shape.space).unknowns
+
+    def _left_by(self, last: GapTurn[Value]) -> FilmLeft | None:
+        """The film that a turn of another drive has left; None on another mesh, on which a full film starts."""
+        return last.left if len(last.left.pressure) == self._floating.shape_at(0.0).space.size else None
 
     def _room(self, end: GapInstant[Value]) -> float:
         """Film (m) at the end of a turn that the next start may use up: rough walls bear where they come too near."""
@@ -182,7 +194,7 @@ class Turns(Generic[Value]):
     def _begin(self, start: Array, last: GapTurn[Value] | None) -> State[FloatingStage]:
         """The start of a turn; a cold one, or one of another drive (`opening`), first deforms under this load."""
         if last is None or last.last.stage is None:
-            begin = started(self._floating, 0.0, start)
+            begin = started(self._floating, 0.0, start, None if last is None else self._left_by(last))
         else:
             begin = restarted(self._floating, 0.0, last.last, start)
             if last is not self._opening:
@@ -267,11 +279,16 @@ class _Gathered(Generic[Value]):
         return before.last
 
 
-def _oil_moved(first: FilmSpace, begin: State[FloatingStage], end: State[FloatingStage]) -> float:
-    """Oil that differs in place at the end, over all."""
+def _left(places: NDArray[np.intp], end: State[FloatingStage]) -> FilmLeft:
+    """The film at the end of a turn, each unknown in its place at the start."""
     assert end.stage is not None
-    space = end.stage.instant.shape.space
-    return _moved(end.held[: space.size][places_of(first, space).unknowns], begin.held[: space.size])
+    film = end.stage.balanced
+    return FilmLeft(film.pressure[places], film.film_fraction[places])
+
+
+def _oil_moved(places: NDArray[np.intp], begin: State[FloatingStage], end: State[FloatingStage]) -> float:
+    """Oil that differs in place at the end, over all."""
+    return _moved(end.held[: len(places)][places], begin.held[: len(places)])
 
 
 def _moved(came: Array, went: Array) -> float:

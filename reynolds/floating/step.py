@@ -1,6 +1,6 @@
 """One implicit step of a floating film: the position at which its forces balance, by Newton's method."""
 
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -72,18 +72,30 @@ def films_in_balance(
     return FloatingStage(instant.time, found, instant, search.films, search.steps, *search.rest)
 
 
-def full_film(floating: Floating, time: float, q: Array, rate: Array | None = None) -> Array:
+@dataclass(frozen=True)
+class FilmLeft:
+    """Pressures (size,) Pa and film fractions (size,) of a film, left to one of another drive or shape."""
+
+    pressure: Array
+    fraction: Array
+
+
+def full_film(
+    floating: Floating, time: float, q: Array, rate: Array | None = None, left: FilmLeft | None = None
+) -> Array:
     """State of a full film at a position (k,) m, as `FloatingStage.holds`: the start of a march.
 
-    The film is at the pressures of its boundaries; `rate` (k,) m/s counts where walls have inertia (None: at
-    rest). Raises WallsOverlap where they do.
+    The film is at the pressures of its boundaries, or has those and the film fractions that are `left` by another of as
+    many unknowns: elastic walls are open for its oil then. `rate` (k,) m/s counts where walls have inertia (None: at
+    rest). Raises WallsOverlap where they do, FilmInputError for another number of unknowns.
     """
     shape = floating.shape_at(time)
     at = posed(shape, modes_on(shape.space, floating.modes_at(time), floating.pockets), q)
     if shape.walls is None and not at.least > lowest_gap(shape):
         raise WallsOverlap(f"{floating.name} at {time:.6g} s", f"a least gap of {at.least:.3g} m", "walls apart")
     full = replace(shape, film=at.film, asperities=at.asperities, boundary=filled(floating, shape, q))
-    return joined(floating, StepStart(oil_held(full), q, np.zeros(len(q)) if rate is None else rate))
+    oil = oil_held(full) if left is None else oil_held(full, left.fraction, left.pressure)
+    return joined(floating, StepStart(oil, q, np.zeros(len(q)) if rate is None else rate))
 
 
 class _Search:

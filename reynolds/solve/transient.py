@@ -99,17 +99,23 @@ def march_with(
             yield instant
 
 
-def oil_held(problem: FilmProblem, film_fraction: float | Array = 1.0) -> Array:
-    """Oil of each unknown of a film at given film fractions (size,), m3 at reference density, (size,)."""
+def oil_held(problem: FilmProblem, film_fraction: float | Array = 1.0, pressure: Array | None = None) -> Array:
+    """Oil of each unknown of a film at given film fractions (size,), m3 at reference density, (size,).
+
+    pressure (size,) Pa where no boundary holds it, under which oil is denser and elastic walls open; None: the lowest.
+    """
     setting = spread(problem)
+    if pressure is not None and pressure.shape != (problem.space.size,):
+        raise FilmInputError("pressure", f"an array of shape {pressure.shape}", f"({problem.space.size},)")
+    held = setting.pressure if pressure is None else np.where(setting.held, setting.pressure, pressure)
     fraction = np.asarray(film_fraction, dtype=float)
     if fraction.shape not in ((), (problem.space.size,)):
         raise FilmInputError("film fraction", f"an array of shape {fraction.shape}", f"({problem.space.size},)")
     fraction = np.broadcast_to(fraction, (problem.space.size,))
     if not np.all((fraction >= 0.0) & (fraction <= 1.0)):
         raise FilmInputError("film fraction", f"{fraction.min():g} .. {fraction.max():g}", "0 to 1")
-    state = FilmState(setting.pressure, fraction, deformation(problem, setting.pressure))
-    return operators(problem, state).content * fraction * density(problem, setting.pressure)[0]
+    state = FilmState(held, fraction, deformation(problem, held))
+    return operators(problem, state).content * fraction * density(problem, held)[0]
 
 
 def _stepped(

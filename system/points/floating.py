@@ -119,8 +119,8 @@ def floating_point(
 ) -> FloatingPoint:
     """One periodic operating point with the three gaps floating; side by side: the pistons in a second process.
 
-    near: a point of the same pump with the same options, whose motion, temperatures and spins this one starts from.
-    solved: is filled with rounds and gaps as they are solved, and keeps them where a later one fails.
+    near: a point of the same pump, whose motion, temperatures, spins and chambers this one starts from. solved: is
+    filled with rounds and gaps as they are solved, and keeps them where a later one fails.
     Raises NotConverged where gaps and chamber pressure do not settle within ROUND_LIMIT rounds, FilmNotConverged
     where a film does not, ValueError for steps that do not divide among the pistons, InputError for a film that
     warmth closes.
@@ -133,7 +133,7 @@ def floating_point(
     rounds = solved.rounds
     if near is not None:
         gaps = tuple(_begun(kind.gaps) for kind in near.kinds)
-        asked = _rubbed_as(asked, near)
+        asked = _driven_as(asked, near)
     whole = WholeRun(report, ROUND_LIMIT)
     pistons = [None] * len(group.parts) if gaps is None else [own.piston for own in gaps]
     with piston_beside(group.parts, pistons) if side_by_side else nullcontext() as beside:
@@ -166,15 +166,28 @@ def _begun(gaps: FloatingGaps) -> FloatingGaps:
     return replace(gaps, piston=gaps.piston.bare, slipper=gaps.slipper.bare, block=gaps.block.bare)
 
 
-def _rubbed_as(asked: RoundDrives, near: FloatingPoint) -> RoundDrives:
-    """The drives with friction and spins of another point."""
+def _driven_as(asked: RoundDrives, near: FloatingPoint) -> RoundDrives:
+    """The drives with friction and spins of another point.
+
+    Floating gaps change the lumped pump's pressures there as here, in proportion to the ports' difference.
+    """
+    _, lumped = _beginning(near.pump, near.pump_point.point, near.options)
+    share = _span(asked.rotor.point) / _span(near.pump_point.point)
+    changed = [share * (one.pressure - own) for one, own in zip(near.pump_point.chambers, lumped.pressure, strict=True)]
+    changes = [np.interp(asked.shaft_angle, lumped.shaft_angle, one, period=2.0 * np.pi) for one in changed]
     return replace(
         asked,
+        pressure=tuple(own + change for own, change in zip(asked.pressure, changes, strict=True)),
         rubbing=tuple(rubbing(kind.gaps, asked.shaft_angle.size) for kind in near.kinds),
         spin_torques=tuple(
             replace(spin_torques(kind.gaps, kind.rotor, kind.drives.group), tried=()) for kind in near.kinds
         ),
     )
+
+
+def _span(point: OperatingPoint) -> float:
+    """Difference of the ports' pressures, Pa."""
+    return point.delivery_pressure - point.inlet_pressure
 
 
 @dataclass(frozen=True)

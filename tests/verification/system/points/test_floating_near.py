@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import pytest
 
+from gaps.films.physics import Effect, Physics
 from reynolds import FilmNotConverged
 from swashfilm.runs.pump.refine import point_numbers, refine_point, refined
 from system import RIGID, FloatingOptions, floating_point, load_pump, operating_point
@@ -34,6 +37,22 @@ def test_a_neighbour_leads_to_the_same_point(first):
         if "contact" not in name:  # milliwatts
             loose = 0.03 if "leak" in name or "least" in name else 5e-3
             assert point_numbers(near)[name] == pytest.approx(value, rel=loose, abs=2e-8), name
+
+
+@pytest.mark.slow
+def test_a_neighbour_leads_to_a_finer_mesh_and_more_angles(first):
+    finer = floating_point(PUMP, operating_point(PUMP), replace(COARSE, steps=54, finer=0.375), near=first)
+    assert finer.rounds[0].pressure_change < first.rounds[0].pressure_change
+
+
+@pytest.mark.long
+def test_a_neighbour_with_elastic_walls_leads_to_less_pressure():
+    """Elastic walls that 35 MPa has opened would meet deeply under a full film without pressure."""
+    soft = FloatingOptions(Physics().without(Effect.HEAT), steps=36, finer=0.25)
+    pump = load_pump("ref90", STILL)
+    high = floating_point(pump, operating_point(pump), soft)
+    lower = floating_point(pump, operating_point(pump, delivery_pressure=30e6), soft, near=high)
+    assert lower.rounds[0].pressure_change < high.rounds[0].pressure_change
 
 
 def test_a_row_starts_from_its_neighbour_and_does_without_one_that_leads_nowhere(monkeypatch):
