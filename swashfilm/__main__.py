@@ -1,5 +1,6 @@
 """Entry point of the command: threads, exit codes and error messages. Imports nothing heavy."""
 
+import gc
 import os
 import sys
 from collections.abc import Sequence
@@ -28,6 +29,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         sys.excepthook = _internal_error
     for name in _THREADS:  # films are small: threads cost more than they gain, and several runs share the cores
         os.environ.setdefault(name, "1")
+    gc.set_threshold(20_000, 20, 20)  # a run makes many small objects that live to its end
     from reynolds.errors import InputError, NotConverged
     from reynolds.numerics.files import REFUSED_BY_DISK
     from swashfilm.cli.app import run_command

@@ -52,8 +52,8 @@ class HeatTolerance:
     viscosity: float
 
 
-SETTLED, NEARLY, COLD = HeatTolerance(0.05, 1e-3), HeatTolerance(0.1, 2e-3), HeatTolerance(1.0, ROUGHLY)
-"""Of a motion that settles with its temperatures; of one turn on the way there, and of one without heat."""
+SETTLED, COLD = HeatTolerance(0.05, 1e-3), HeatTolerance(1.0, ROUGHLY)
+"""Of a motion with its temperatures, and of one without heat on the way there."""
 
 
 @dataclass(frozen=True)
@@ -133,8 +133,8 @@ def warm_revolution(
         films += found.films_solved
         if warm.shares is None:  # the motion without heat, which any way to it has
             spent = dict(found.spent)
-        on_the_way = COLD if warm.shares is None else NEARLY
-        warmth = warm.of(found, rounds, SETTLED if accuracy.settled else on_the_way)
+        first = warm.shares is None and not accuracy.settled
+        warmth = warm.of(found, rounds, COLD if first else SETTLED)
         if warmth.change <= CLOSE or not accuracy.settled:
             spent[Leg.HEAT] = perf_counter() - began - sum(spent.values())
             return replace(found, films_solved=films, spent=spent, warmth=warmth)

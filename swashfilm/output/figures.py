@@ -7,7 +7,7 @@ import re
 from collections.abc import Iterator
 from contextlib import contextmanager
 from contextvars import ContextVar
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any, TypeVar
 
 import numpy as np
 
@@ -15,11 +15,17 @@ from swashfilm.output.touch.fields import kept_field
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
+    from matplotlib.backend_bases import FigureCanvasBase
     from matplotlib.figure import Figure
+    from PIL.Image import Image
+    from typing_extensions import Buffer
 
+Canvas = TypeVar("Canvas", bound="FigureCanvasBase")
 _MANY, _FEW = 3000, 100
 LARGE = 16_000
 """Bytes of an SVG that a page holds; what is larger becomes a picture of pixels, mostly a third as large."""
+_LONGEST = 5 * LARGE // 2
+"""Bytes of an SVG that is LARGE even when its numbers are shortened."""
 _INKS = 32
 """Number of colours of a picture of lines."""
 _FIELD_QUALITY, _FIELD_DPI, _LINES_DPI = 50, 64, 90
@@ -98,7 +104,14 @@ def svg_of(figure: Figure) -> bytes:
 
     Areas are pictures inside it where they have many corners; contours stay lines up to that many each.
     """
+    picture = io.BytesIO()
+    _write_svg(figure, picture)
+    return _shortened(picture.getvalue())
+
+
+def _write_svg(figure: Figure, file: io.BytesIO) -> None:
     from matplotlib import rc_context
+    from matplotlib.backends.backend_svg import FigureCanvasSVG
     from matplotlib.contour import ContourSet
 
     areas = [cells for axes in figure.axes for cells in axes.collections]
@@ -107,10 +120,11 @@ def svg_of(figure: Figure) -> bytes:
         few = _MANY if isinstance(cells, ContourSet) else _FEW
         cells.set_rasterized(bool(sum(corners) > _MANY and count > few))
     _literal(figure)
-    picture = io.BytesIO()
-    with rc_context({"svg.fonttype": "none", "svg.hashsalt": "swashfilm", "font.sans-serif": _FONTS}):
-        figure.savefig(picture, format="svg", dpi=110, metadata=_PLAIN)
-    return _shortened(picture.getvalue())
+    with (
+        rc_context({"svg.fonttype": "none", "svg.hashsalt": "swashfilm", "font.sans-serif": _FONTS}),
+        _canvas(figure, FigureCanvasSVG, 110) as canvas,
+    ):
+        canvas.print_svg(file, metadata=_PLAIN)  # lays out and draws at once
 
 
 def _shortened(svg: bytes) -> bytes:
@@ -121,23 +135,67 @@ def _shortened(svg: bytes) -> bytes:
 
 def compact(figure: Figure) -> bytes:
     """Return the figure as SVG where it shows no field and is not LARGE; otherwise as WebP, of lines without loss."""
-    from PIL import Image
-
     areas = [area for axes in figure.axes for area in axes.collections]
-    fields = any(kept_field(area) or area.get_rasterized() for area in areas)
-    if not fields and len(vector := svg_of(figure)) <= LARGE:
+    if any(kept_field(area) or area.get_rasterized() for area in areas):
+        pixels = _drawn(figure, max(_FIELD_DPI, FEWEST_PIXELS / figure.get_figwidth()))
+        return _webp(pixels, quality=_FIELD_QUALITY, method=6)
+    if (vector := _small_svg(figure)) is not None:
         return vector
-    if not fields:
-        figure.set_layout_engine("none")  # it is laid out already
-    drawn, picture = io.BytesIO(), io.BytesIO()
-    dpi = max(_FIELD_DPI, FEWEST_PIXELS / figure.get_figwidth()) if fields else _LINES_DPI
-    figure.savefig(drawn, format="png", dpi=dpi)
-    pixels = Image.open(drawn).convert("RGB")
-    if fields:
-        pixels.save(picture, format="WEBP", quality=_FIELD_QUALITY, method=6)
-    else:
-        few = pixels.quantize(_INKS).convert("RGB")
-        few.save(picture, format="WEBP", lossless=True, quality=_FIELD_QUALITY)
+    figure.set_layout_engine("none")  # it is laid out already
+    return _webp(_drawn(figure, _LINES_DPI).quantize(_INKS).convert("RGB"), quality=_FIELD_QUALITY, lossless=True)
+
+
+def _small_svg(figure: Figure) -> bytes | None:
+    """Return the figure as SVG, None where it is LARGE; a much larger one is not drawn to its end."""
+    file = _Bounded()
+    try:
+        _write_svg(figure, file)
+    except _Exceeded:
+        return None
+    vector = _shortened(file.getvalue())
+    return vector if len(vector) <= LARGE else None
+
+
+class _Exceeded(Exception):
+    """A file gets more bytes than it may have."""
+
+
+class _Bounded(io.BytesIO):
+    """A file of at most _LONGEST bytes; writing more raises _Exceeded."""
+
+    def write(self, more: Buffer, /) -> int:
+        written = super().write(more)
+        if self.tell() > _LONGEST:
+            raise _Exceeded
+        return written
+
+
+def _drawn(figure: Figure, dpi: float) -> Image:
+    """Return the pixels of a figure at so many dots per inch; no file comes between."""
+    from matplotlib.backends.backend_agg import FigureCanvasAgg
+    from PIL.Image import fromarray
+
+    with _canvas(figure, FigureCanvasAgg, dpi) as canvas:
+        canvas.draw()
+        return fromarray(np.asarray(canvas.buffer_rgba())).convert("RGB")
+
+
+@contextmanager
+def _canvas(figure: Figure, kind: type[Canvas], dpi: float) -> Iterator[Canvas]:
+    """Put a figure on a canvas of this kind, which draws it once and lays it out then, and back on its own one."""
+    own, usual = figure.canvas, figure.dpi
+    figure.dpi = dpi
+    try:
+        yield kind(figure)
+    finally:
+        figure.set_canvas(own)
+        figure.dpi = usual
+
+
+def _webp(pixels: Image, **how: Any) -> bytes:
+    """Return a picture as WebP."""
+    picture = io.BytesIO()
+    pixels.save(picture, format="WEBP", **how)
     return picture.getvalue()
 
 
@@ -145,10 +203,8 @@ def smaller(picture: bytes) -> bytes:
     """Return a picture of a folder as WebP for its page."""
     from PIL import Image
 
-    found = io.BytesIO()
     try:
         pixels = Image.open(io.BytesIO(picture)).convert("RGB")
     except Image.DecompressionBombError as reason:
         raise ValueError(str(reason)) from None
-    pixels.save(found, format="WEBP", quality=_FIELD_QUALITY, method=6)
-    return found.getvalue()
+    return _webp(pixels, quality=_FIELD_QUALITY, method=6)

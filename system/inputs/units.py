@@ -1,19 +1,20 @@
 """Quantities at the doors: text with a unit to SI floats and back. SI inside, always.
 
-The unit registry of pint costs some 0.4 s, so it is made at the first quantity, not at import.
+The unit registry of pint costs about a second, so it is made at the first unit that is not among the usual ones.
 """
 
 from __future__ import annotations
 
 import math
 import re
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from enum import Enum
 from fractions import Fraction
 from functools import cache
 from typing import TYPE_CHECKING
 
 from system.inputs.faults import nearest_choice
+from system.inputs.usual_units import USUAL, Unit
 
 if TYPE_CHECKING:
     import pint
@@ -29,16 +30,6 @@ LARGEST = Fraction(10) ** 30  # in SI; with its inverse the range of sizes that 
 
 MOST_DIGITS = 60
 """Characters of a number in a text; more are no number of a machine."""
-
-
-@dataclass(frozen=True)
-class _Unit:
-    """A unit: value in base units (m, kg, s, K, rad) = factor * number + offset, exactly."""
-
-    factor: Fraction
-    offset: Fraction
-    dimensionality: frozenset[tuple[str, object]]
-    counts_angle: bool
 
 
 class Dimension(Enum):
@@ -154,12 +145,11 @@ def parse_quantity(text: object, dimension: Dimension, *, difference: bool = Fal
     number, unit_text = match[1], match[2]
     if not unit_text:
         raise QuantityError(_shown(text), expected, f"'{number} {_example_unit(dimension)}'")
-    unit, meant = _unit(unit_text), _meant(unit_text, dimension)
-    nearest = f"'{number} {meant}'" if meant else ""
-    if unit is None:
-        raise QuantityError(f"{_shown(text)}, a unit that is not known", expected, nearest)
-    if not _measures(unit, dimension):
-        raise QuantityError(f"{_shown(text)}, which is not {dimension.noun}", expected, nearest)
+    unit = _unit(unit_text)
+    if unit is None or not _measures(unit, dimension):
+        meant = _meant(unit_text, dimension)
+        why = "a unit that is not known" if unit is None else f"which is not {dimension.noun}"
+        raise QuantityError(f"{_shown(text)}, {why}", expected, f"'{number} {meant}'" if meant else "")
     value = _in_si(number, replace(unit, offset=Fraction(0)) if difference else unit, dimension)
     if value != 0 and not 1 / LARGEST <= abs(value) <= largest(dimension):
         raise QuantityError(_shown(text), f"{expected}, of at most {float(largest(dimension)):g} {dimension.si_unit}")
@@ -232,8 +222,13 @@ def _registry() -> pint.UnitRegistry:
 
 
 @cache
-def _unit(text: str) -> _Unit | None:
+def _unit(text: str) -> Unit | None:
     """Return what a unit text means, or None when it is not known."""
+    return USUAL.get(text) or by_pint(text)
+
+
+def by_pint(text: str) -> Unit | None:
+    """Return what a unit text means to pint and the additions here, or None when it is not known."""
     import pint
 
     if _UNIT_TEXT.fullmatch(text) is None:
@@ -246,7 +241,7 @@ def _unit(text: str) -> _Unit | None:
     except (pint.PintError, TypeError):  # TypeError: a logarithmic unit, such as dB
         return None
     names = [name for name, _ in registry.Quantity(1, unit).unit_items()]
-    return _Unit(
+    return Unit(
         factor=Fraction(first) - Fraction(origin),
         offset=Fraction(origin),
         dimensionality=frozenset(unit.dimensionality.items()),
@@ -259,13 +254,12 @@ def unit_scale(name: str, dimension: Dimension) -> tuple[float, float]:
 
     Raises QuantityError for a unit that is not known or measures something else.
     """
-    unit, meant = _unit(name), _meant(name, dimension)
-    nearest = f"'{meant}'" if meant else ""
-    expected = f"a unit of {dimension.noun}, such as '{_example_unit(dimension)}'"
-    if unit is None:
-        raise QuantityError(f"{name!r}, a unit that is not known", expected, nearest)
-    if not _measures(unit, dimension):
-        raise QuantityError(f"{name!r}, which is not of {dimension.noun}", expected, nearest)
+    unit = _unit(name)
+    if unit is None or not _measures(unit, dimension):
+        meant = _meant(name, dimension)
+        why = "a unit that is not known" if unit is None else f"which is not of {dimension.noun}"
+        expected = f"a unit of {dimension.noun}, such as '{_example_unit(dimension)}'"
+        raise QuantityError(f"{name!r}, {why}", expected, f"'{meant}'" if meant else "")
     si = _unit_of(dimension.si_unit)
     return float(unit.factor / si.factor), float(unit.offset / si.factor)
 
@@ -282,18 +276,18 @@ def _meant(unit_text: str, dimension: Dimension) -> str:
     return nearest_choice(unit_text, (*dimension.reading_units, _example_unit(dimension)))
 
 
-def _in_si(number: str, unit: _Unit, dimension: Dimension) -> Fraction:
+def _in_si(number: str, unit: Unit, dimension: Dimension) -> Fraction:
     """Return a decimal number of a unit in the SI unit of the dimension, without rounding."""
     return (Fraction(number) * unit.factor + unit.offset) / _unit_of(dimension.si_unit).factor
 
 
-def _measures(unit: _Unit, dimension: Dimension) -> bool:
+def _measures(unit: Unit, dimension: Dimension) -> bool:
     """True when a unit is one of the dimension; angles count, which are one in the SI."""
     si = _unit_of(dimension.si_unit)
     return unit.dimensionality == si.dimensionality and unit.counts_angle == si.counts_angle
 
 
-def _unit_of(text: str) -> _Unit:
+def _unit_of(text: str) -> Unit:
     unit = _unit(text)
     if unit is None:
         raise ValueError(f"{text!r} is no unit")

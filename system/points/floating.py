@@ -69,7 +69,7 @@ FIRST_STEP = 0.05
 """Error that the first rounds' steps may make, share of the film."""
 FAR = 20.0
 """Times its tolerance, a change of a spin by a round with steps of FIRST_STEP from which the next has them too."""
-NEARLY = 3.0
+NEARLY = 6.0
 """Times as large as their tolerances may the changes of a round be for gaps and chambers to nearly agree."""
 ROUND_LIMIT = 20
 

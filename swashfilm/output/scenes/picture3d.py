@@ -8,7 +8,9 @@ import json
 import signal
 import subprocess
 import sys
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
+from concurrent.futures import Executor, Future, ThreadPoolExecutor
+from contextlib import contextmanager
 from dataclasses import asdict, dataclass
 from pathlib import Path
 
@@ -70,34 +72,71 @@ class Pictures:
     reason: str
 
 
-def draw(
-    drawings: Mapping[Path, Sequence[Frame]],
+class Painter:
+    """A process that draws while this one goes on: give it the drawings, and fetch the pictures later."""
+
+    def __init__(self, process: subprocess.Popen[str], beside: Executor, patience: float) -> None:
+        self._process, self._beside, self._patience = process, beside, patience
+        self._wanted: tuple[Path, ...] = ()
+        self._done: Future[tuple[str, str]] | None = None
+
+    def begin(self, drawings: Mapping[Path, Sequence[Frame]]) -> None:
+        """Begin pictures of one frame (PNG) or of several (animated WebP), once; return at once."""
+        jobs = {str(path): [asdict(one) for one in frames] for path, frames in drawings.items()}
+        self._wanted = tuple(drawings)
+        self._done = self._beside.submit(self._process.communicate, json.dumps(jobs, default=str), self._patience)
+
+    def pictures(self) -> Pictures:
+        """Wait for the pictures begun.
+
+        Raises nothing. Afterwards all pictures exist, or none exists and `reason` names the cause: the process died
+        (no graphics libraries), took longer than its patience, or could not read the files.
+        """
+        assert self._done is not None, "no drawing has begun"
+        try:
+            _, told = self._done.result()
+        except subprocess.TimeoutExpired:
+            return self._none(f"drawing took longer than {self._patience:g} s")
+        ended = self._process.returncode
+        if ended == 0 and all(picture.is_file() for picture in self._wanted):
+            return Pictures(self._wanted, "")
+        if ended < 0:
+            return self._none(f"the drawing process died ({signal.Signals(-ended).name})")
+        return self._none((told.strip().splitlines() or ["no message"])[-1])
+
+    def _none(self, why: str) -> Pictures:
+        self._process.kill()
+        for picture in self._wanted:
+            picture.unlink(missing_ok=True)
+        return Pictures((), f"{why}; {REMEDY}")
+
+
+@contextmanager
+def painter(
     field: PictureField | None = None,
     *,
     patience: float = PATIENCE,
     child: Sequence[str] = (sys.executable, "-m", "swashfilm.output.scenes.plotter3d"),
-) -> Pictures:
-    """Draw pictures of one frame (PNG) or of several (animated WebP) with films in the colours of a field (pressure).
+) -> Iterator[Painter]:
+    """Start a process that draws films in the colours of a field (pressure), which ends with the context.
 
-    Raises nothing. Afterwards all pictures exist, or none exists and `reason` names the cause: the child process died
-    (no graphics libraries), took longer than `patience` s, or could not read the files. `child` is the program that
-    draws.
+    patience: s that the pictures may take; child: the program that draws.
     """
-    jobs = json.dumps({str(path): [asdict(one) for one in frames] for path, frames in drawings.items()}, default=str)
     field = field or pressure_field()
     words = [*child, field.head, repr(field.factor), field.title]
-    try:
-        done = subprocess.run(words, input=jobs, capture_output=True, text=True, timeout=patience, check=False)
-    except subprocess.TimeoutExpired:
-        return _none(drawings, f"drawing took longer than {patience:g} s")
-    if done.returncode == 0 and all(picture.is_file() for picture in drawings):
-        return Pictures(tuple(drawings), "")
-    if done.returncode < 0:
-        return _none(drawings, f"the drawing process died ({signal.Signals(-done.returncode).name})")
-    return _none(drawings, (done.stderr.strip().splitlines() or ["no message"])[-1])
+    pipe = subprocess.PIPE
+    with (
+        ThreadPoolExecutor(1) as beside,
+        subprocess.Popen(words, stdin=pipe, stdout=pipe, stderr=pipe, text=True) as process,
+    ):
+        try:
+            yield Painter(process, beside, patience)
+        finally:
+            process.kill()
 
 
-def _none(drawings: Iterable[Path], why: str) -> Pictures:
-    for picture in drawings:
-        picture.unlink(missing_ok=True)
-    return Pictures((), f"{why}; {REMEDY}")
+def draw(drawings: Mapping[Path, Sequence[Frame]], field: PictureField | None = None) -> Pictures:
+    """Draw pictures and wait for them, as a `Painter`."""
+    with painter(field) as one:
+        one.begin(drawings)
+        return one.pictures()

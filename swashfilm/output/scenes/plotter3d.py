@@ -1,4 +1,4 @@
-"""The program that draws 3D pictures: `picture3d.draw` runs it in a process of its own, which VTK may end."""
+"""The program that draws 3D pictures: a `picture3d.painter` runs it in a process of its own, which VTK may end."""
 
 from __future__ import annotations
 
@@ -25,8 +25,11 @@ COLOURS = "viridis"
 
 def main(words: Sequence[str]) -> None:
     """Draw the pictures of the standard input, JSON of frames by path."""
-    head, factor, title = words
     os.environ.setdefault("PYVISTA_OFF_SCREEN", "true")
+    os.environ.setdefault("LP_NUM_THREADS", "0")  # of software rendering: more of them wait for each other
+    import pyvista  # noqa: F401, while the drawings are on their way
+
+    head, factor, title = words
     field = PictureField(head, float(factor), title)
     for path, frames in json.load(sys.stdin).items():
         _save(Path(path), field, [_frame(one) for one in frames])
@@ -59,13 +62,17 @@ def _drawn(field: PictureField, frames: Sequence[Frame], size: tuple[int, int]) 
     plotter: Any = pyvista.Plotter(off_screen=True, window_size=size)
     plotter.background_color = "white"
     limits = _limits(field, frames)
+    actors: dict[Solid, Any] = {}  # a solid of several frames is uploaded once
     for number, frame in enumerate(frames):
         plotter.scalar_bars.clear()
         plotter.clear_actors()
         plotter.suppress_rendering = True  # until the frame is complete
         _add_films(plotter, field, frame, limits, size)
         for solid in _from_behind(frame.solids):
-            plotter.add_mesh(_read(solid.path), color=solid.colour, opacity=solid.opacity)
+            if solid in actors:
+                plotter.add_actor(actors[solid], reset_camera=False, render=False)
+            else:
+                actors[solid] = plotter.add_mesh(_read(solid.path), color=solid.colour, opacity=solid.opacity)
         _add_texts(plotter, frame, size)
         if number == 0:
             _look(plotter, frame)

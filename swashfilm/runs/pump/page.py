@@ -1,12 +1,14 @@
 """Page of an operating point: self-contained report.html from the files of the run folder."""
 
 from collections.abc import Mapping
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from swashfilm.console.fidelity import Fidelity
+from swashfilm.output.answer import Answer
 from swashfilm.output.data.files import read_netcdf
 from swashfilm.output.data.gap_names import TITLES
 from swashfilm.output.figures import smaller
@@ -17,7 +19,7 @@ from swashfilm.output.touch.picture import Picture
 from swashfilm.runs.pump import plots as pump_plots
 from swashfilm.runs.pump.data import GAPS
 from swashfilm.runs.pump.floating import floating_view
-from swashfilm.runs.pump.forces import forces_view
+from swashfilm.runs.pump.forces import ForcesView, forces_view
 from swashfilm.runs.pump.headline.answer import pump_answer
 from swashfilm.runs.pump.headline.powers import power_parts
 from swashfilm.runs.pump.scene.reliefs import gap_explorer
@@ -32,26 +34,63 @@ from system.pump.laws.friction_pairs import Pair
 Rows = list[tuple[str, ...]]
 
 
-def write_pump_page(folder: Path) -> Path:
-    """Write report.html of a pump's run folder from its summary.json, resolved.toml and results.nc.
+@dataclass(frozen=True)
+class PumpFigures:
+    """What a page shows of a run folder without its 3D pictures, which may still be drawn meanwhile.
 
-    The page includes 3D pictures of the folder. Raises InputFaults where one of the three is missing.
+    view: the pump to turn, in the place of its picture; None where the folder has no films.
     """
-    summary = read_summary(folder, ("summary.json", "resolved.toml", "results.nc"), "a pump's run folder")
+
+    answer: Answer
+    pictures: dict[str, Picture]
+    gap_maps: dict[str, Picture]
+    floating: dict[str, Any] | None
+    forces: ForcesView | None
+    view: Explorer | None
+
+
+def pump_figures(folder: Path) -> PumpFigures:
+    """Draw the figures of a pump's run folder; raise InputFaults where summary.json or results.nc is missing."""
+    summary = _summary_of(folder)
     data = read_netcdf(folder / "results.nc")
     floats = Fidelity(summary["fidelity"]) is Fidelity.FLOATING
+    maps = {
+        map_caption(data, gap): inlined(drawn, gap_explorer(data, gap))
+        for gap, drawn in pump_plots.gap_maps(data).items()
+    }
+    return PumpFigures(
+        pump_answer(summary),
+        _pictures(data, summary),
+        maps,
+        floating_view(folder, summary) if floats else None,
+        forces_view(folder, summary),
+        pump_view(folder),
+    )
+
+
+def _summary_of(folder: Path) -> dict[str, Any]:
+    return read_summary(folder, ("summary.json", "resolved.toml", "results.nc"), "a pump's run folder")
+
+
+def write_pump_page(folder: Path, figures: PumpFigures | None = None) -> Path:
+    """Write report.html of a pump's run folder from its summary.json, resolved.toml and results.nc.
+
+    figures: those of the folder, where they are drawn already. The page includes 3D pictures of the folder. Raises
+    InputFaults where one of the three is missing.
+    """
+    summary, drawn = _summary_of(folder), figures or pump_figures(folder)
     return write_page(
         folder,
         "pump",
-        answer=pump_answer(summary),
+        answer=drawn.answer,
         summary=summary,
         headline=headline_rows(summary),
         efficiencies=efficiency_rows(summary),
         bench=bench_rows(summary),
         pairs=pair_rows(summary),
         power=power_rows(summary),
-        gaps=[] if floats else gap_rows(summary),
-        floating=floating_view(folder, summary) if floats else None,
+        gaps=gap_rows(summary) if drawn.floating is None else [],
+        floating=drawn.floating,
         table_rows=list(table_point_rows(summary)) if "table" in summary else [],
         table_head=TABLE_POINT_HEAD,
         refinement=[refinement_head(found), *refinement_rows(found)] if (found := summary.get("refinement")) else [],
@@ -59,14 +98,11 @@ def write_pump_page(folder: Path) -> Path:
         steady=is_steady(summary),
         coefficients=[tuple(one[key] for key in ("key", "file", "source", "range")) for one in summary["coefficients"]],
         checks=check_rows(summary),
-        forces=forces_view(folder, summary),
-        pictures=_pictures(data, summary),
-        gap_maps={
-            map_caption(data, gap): inlined(drawn, gap_explorer(data, gap))
-            for gap, drawn in pump_plots.gap_maps(data).items()
-        },
+        forces=drawn.forces,
+        pictures=drawn.pictures,
+        gap_maps=drawn.gap_maps,
         solid=[(gap.replace("_", " "), png) for gap in GAPS if (png := _kept(folder / f"{gap}.png"))],
-        pump=_kept(folder / PICTURE, pump_view(folder)),
+        pump=_kept(folder / PICTURE, drawn.view),
         turning=TURNING if (folder / TURNING).is_file() else "",
         resolved=kept_text(folder, "resolved.toml"),
     )

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import contextmanager, nullcontext
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, assert_never
@@ -14,16 +14,17 @@ from swashfilm.console.schemas import write_new
 from swashfilm.output.data.files import Column, write_columns, write_netcdf
 from swashfilm.output.refinement import Refinement, refinement_summary, write_refinement
 from swashfilm.output.run_folder import write_json
+from swashfilm.output.scenes.picture3d import Frame, painter
 from swashfilm.runs.pump.coefficients.edge_losses import loss_warnings, losses_left_out
 from swashfilm.runs.pump.coefficients.flow import coefficient_warnings
 from swashfilm.runs.pump.data import films_dataset, point_dataset, write_tables, write_unlike
 from swashfilm.runs.pump.floating import floating_summary, scene_of, write_floating, write_unfinished
 from swashfilm.runs.pump.forces import force_warnings, forces_summary, write_forces
-from swashfilm.runs.pump.page import write_pump_page
+from swashfilm.runs.pump.page import pump_figures, write_pump_page
 from swashfilm.runs.pump.refine import refine_point
 from swashfilm.runs.pump.result import PumpRun
 from swashfilm.runs.pump.scene.given_films import films_scene, write_fields
-from swashfilm.runs.pump.scene.views import draw_pump
+from swashfilm.runs.pump.scene.views import pump_drawings
 from swashfilm.runs.pump.summary import films_warnings, pump_summary
 from swashfilm.runs.table.summary import point_by_table, table_point_summary, table_point_warnings
 from system.description.assumptions import Assumption
@@ -43,6 +44,8 @@ from system.work.progress import Report, silent
 
 if TYPE_CHECKING:
     import xarray
+
+Drawings = Mapping[Path, Sequence[Frame]]
 
 
 @dataclass(frozen=True)
@@ -110,9 +113,9 @@ def _films(case: PumpCase, report: Report) -> PumpRun:
     warnings = _warnings(pump, point) + loss_warnings(pump, point) + films_warnings(films)
     summary = pump_summary(pump, point, films, warnings)
 
-    def fields(folder: Path) -> list[str]:
+    def fields(folder: Path) -> Drawings:
         write_unlike(folder, films)
-        return draw_pump(folder, films_scene(films), write_fields(folder, films))
+        return pump_drawings(folder, films_scene(films), write_fields(folder, films))
 
     return _run(case, point, summary, joint_forces(pump, point), lambda: films_dataset(films), fields)
 
@@ -135,10 +138,10 @@ def floating_run(case: PumpCase, found: FloatingPoint, refinement: Refinement | 
     if refinement is not None:
         summary["refinement"] = refinement_summary(refinement)
 
-    def fields(folder: Path) -> list[str]:
+    def fields(folder: Path) -> Drawings:
         if refinement is not None:
             write_refinement(folder / "refinement.csv", refinement)
-        return draw_pump(folder, scene_of(found), write_floating(folder, found))
+        return pump_drawings(folder, scene_of(found), write_floating(folder, found))
 
     return _run(case, point, summary, floating_joint_forces(found), None, fields)
 
@@ -159,9 +162,12 @@ def _run(
     summary: dict[str, Any],
     joints: JointForces,
     films: Callable[[], xarray.Dataset] | None = None,
-    fields: Callable[[Path], list[str]] | None = None,
+    fields: Callable[[Path], Drawings] | None = None,
 ) -> PumpRun:
-    """Return the run of a solved point: summary with forces, data with those of films, and files."""
+    """Return the run of a solved point: summary with forces, data with those of films, and files.
+
+    fields: writes the files of the films into a folder that has results.nc; returns what is to draw of them.
+    """
     summary["forces"] = forces_summary(joints, point)
     summary["warnings"] += [*force_warnings(joints), *scaled_warning(case.assumptions)]
     places = [str(one) for one in (*joints.group.places.taken, *case.assumptions)]
@@ -173,14 +179,20 @@ def _run(
 
     def write(folder: Path) -> list[str]:
         _write_input(folder, case)
-        arrays = data()
-        write_netcdf(arrays, folder / "results.nc", "pump")
-        write_tables(folder, arrays)
-        write_pair_table(folder / "pairs.csv", point, summary)
-        write_forces(folder, joints)
-        added = fields(folder) if fields else []
+        with painter() if fields else nullcontext() as drawing:
+            arrays = data()
+            write_netcdf(arrays, folder / "results.nc", "pump")
+            if fields and drawing:
+                drawing.begin(fields(folder))
+            write_tables(folder, arrays)
+            write_pair_table(folder / "pairs.csv", point, summary)
+            write_forces(folder, joints)
+            write_json(folder / "summary.json", summary)
+            figures = pump_figures(folder)
+            reason = drawing.pictures().reason if drawing else ""
+        added = [f"no_3d_picture: {reason}"] if reason else []
         write_json(folder / "summary.json", summary | {"warnings": summary["warnings"] + added})
-        write_pump_page(folder)
+        write_pump_page(folder, figures)
         return added
 
     return PumpRun(summary, write, data)

@@ -1,13 +1,16 @@
 """The 3D picture: drawn by a child process, whose death costs the picture and nothing else."""
 
+import os
 import sys
+import time
+from pathlib import Path
 
 import meshio
 import numpy as np
 import pytest
 from PIL import Image
 
-from swashfilm.output.scenes.picture3d import Frame, Solid, draw, thickness_field
+from swashfilm.output.scenes.picture3d import Frame, Pictures, Solid, draw, painter, thickness_field
 
 
 @pytest.fixture
@@ -22,8 +25,10 @@ def film(tmp_path):
     return path
 
 
-def child(program: str) -> list[str]:
-    return [sys.executable, "-c", program]
+def drawn_by(program: str, path: Path, film: Path, patience: float = 60.0) -> Pictures:
+    with painter(child=[sys.executable, "-c", program], patience=patience) as one:
+        one.begin({path: [Frame([film])]})
+        return one.pictures()
 
 
 def test_a_picture_is_drawn_or_missed_for_a_reason_with_its_remedy(film, tmp_path):
@@ -48,7 +53,7 @@ def test_a_child_that_dies_is_told_with_its_signal_and_remedy(film, tmp_path):
         "import json, os, signal, sys; open(list(json.load(sys.stdin))[0], 'wb').write(b'half'); "
         "os.kill(os.getpid(), signal.SIGSEGV)"
     )
-    picture = draw({tmp_path / "film.png": [Frame([film])]}, child=child(half))
+    picture = drawn_by(half, tmp_path / "film.png", film)
     assert picture.paths == ()
     for word in ("SIGSEGV", "libegl1", "libgl1-mesa-dri"):
         assert word in picture.reason
@@ -56,16 +61,42 @@ def test_a_child_that_dies_is_told_with_its_signal_and_remedy(film, tmp_path):
 
 
 def test_a_child_that_hangs_is_ended(film, tmp_path):
-    picture = draw({tmp_path / "film.png": [Frame([film])]}, patience=0.5, child=child("import time; time.sleep(60)"))
+    picture = drawn_by("import time; time.sleep(60)", tmp_path / "film.png", film, patience=0.5)
     assert picture.paths == ()
     assert "longer than 0.5 s" in picture.reason
 
 
 def test_a_child_that_fails_is_quoted(film, tmp_path):
-    picture = draw({tmp_path / "film.png": [Frame([film])]}, child=child("raise SystemExit('no such field')"))
+    picture = drawn_by("raise SystemExit('no such field')", tmp_path / "film.png", film)
     assert picture.paths == ()
     assert "no such field" in picture.reason
 
 
 def test_a_child_that_ends_well_without_a_picture_is_no_success(film, tmp_path):
-    assert draw({tmp_path / "film.png": [Frame([film])]}, child=child("pass")).paths == ()
+    assert drawn_by("pass", tmp_path / "film.png", film).paths == ()
+
+
+def test_a_painter_draws_while_this_process_goes_on(film, tmp_path):
+    program = "import json, sys; [open(path, 'wb').close() for path in json.load(sys.stdin)]; sys.stdin.close()"
+    with painter(child=[sys.executable, "-c", program]) as one:
+        one.begin({tmp_path / "a.png": [Frame([film])], tmp_path / "b.png": [Frame([film])]})
+        assert one.pictures() == Pictures((tmp_path / "a.png", tmp_path / "b.png"), "")
+
+
+@pytest.mark.parametrize("begun", [False, True])
+def test_an_error_meanwhile_ends_the_painter(film, tmp_path, begun):
+    told = tmp_path / "pid"
+    program = f"import os, time; open({str(told)!r}, 'w').write(str(os.getpid())); time.sleep(600)"
+
+    def interrupted() -> None:
+        with painter(child=[sys.executable, "-c", program]) as one:
+            if begun:
+                one.begin({tmp_path / "film.png": [Frame([film])]})
+            while not told.is_file() or not told.read_text():
+                time.sleep(0.01)
+            raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        interrupted()
+    with pytest.raises(ProcessLookupError):
+        os.kill(int(told.read_text()), 0)

@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 
 from swashfilm.output.data.gap_names import FIELDS, vtu_name
-from swashfilm.output.scenes.picture3d import Frame, Solid, draw
+from swashfilm.output.scenes.picture3d import Frame, Solid
 from swashfilm.runs.pump.data import PICTURED_TURN
 from swashfilm.runs.pump.scene.blocks import OIL, Blocks, Scene, nearest
 from swashfilm.runs.pump.scene.surfaces import TURN
@@ -37,22 +37,21 @@ def part_of(name: str) -> str:
     return name.removesuffix(FILM).rstrip("0123456789").strip()
 
 
-def draw_pump(folder: Path, scene: Scene, blocks: Sequence[Blocks]) -> list[str]:
-    """Draw pump.png, pump.webp over the turn, and <gap>.png of the films, those of a kind of chambers in its folder.
+def pump_drawings(folder: Path, scene: Scene, blocks: Sequence[Blocks]) -> dict[Path, Sequence[Frame]]:
+    """Return the drawings pump.png, pump.webp over the turn, and <gap>.png of the films of each kind of chambers.
 
-    blocks: those of the scene's times; a picture has the one next to PICTURED_TURN, a turn all of them. Returns the
-    reason of missing pictures.
+    blocks: those of the scene's times; a picture has the one next to PICTURED_TURN, a turn all of them.
     """
     pictured, degrees = TURN * PICTURED_TURN, np.degrees(scene.times)
     films = {("", "valve_plate"): nearest(scene.block_angles, scene.block_period, pictured)}
     for kind in scene.kinds:
         films[kind.place, "piston"] = nearest(kind.piston_angles, TURN, pictured)
         films[kind.place, "slipper"] = nearest(kind.slipper_angles, TURN, pictured)
-    drawings = {
+    drawings: dict[Path, Sequence[Frame]] = {
         folder / place / f"{gap}.png": [Frame([folder / place / FIELDS / vtu_name(gap, k)])]
         for (place, gap), k in films.items()
     }
     frames = [frame_of(folder, one, float(at)) for one, at in zip(blocks, degrees, strict=True)]
-    pump = {folder / PICTURE: [frames[nearest(scene.times, TURN, pictured)]], folder / TURNING: frames}
-    reason = draw(drawings | pump).reason
-    return [f"no_3d_picture: {reason}"] if reason else []
+    drawings[folder / PICTURE] = [frames[nearest(scene.times, TURN, pictured)]]
+    drawings[folder / TURNING] = frames
+    return drawings
