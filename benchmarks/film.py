@@ -16,6 +16,7 @@ import os
 import platform
 import sys
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 import skfem
@@ -101,13 +102,13 @@ def time_swashfilm(n: int, cavitation: Cavitation, verified: float, repeats: int
 
 
 @skfem.BilinearForm
-def poiseuille(p, f, w):
+def poiseuille(p: Any, f: Any, w: Any) -> Any:
     """int h^3/12 grad p . grad f."""
     return (1.0 + ECCENTRICITY * np.cos(w.x[0])) ** 3 / 12.0 * dot(grad(p), grad(f))
 
 
 @skfem.LinearForm
-def couette(f, w):
+def couette(f: Any, w: Any) -> Any:
     """int h/2 df/dx."""
     return 0.5 * (1.0 + ECCENTRICITY * np.cos(w.x[0])) * grad(f)[0]
 

@@ -9,9 +9,11 @@ first time some more, for the bodies of the parts.
 from __future__ import annotations
 
 import sys
+from collections.abc import Mapping
 from dataclasses import replace
 from pathlib import Path
 from time import perf_counter
+from typing import Any
 
 from system.inputs.sections.reader import section_of
 
@@ -19,15 +21,15 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 
 from system.description.effects import PhysicsSection
 from system.description.gap import Gap
+from system.description.pump import PumpDescription
 from system.effects.friction import OF_GAP
 from system.points.films import films_point
 from system.points.lumped import lumped_point
 from system.pump.assembly import PumpPoint
-from system.pump.operating import operating_point
+from system.pump.operating import OperatingPoint, operating_point
 from system.pump_file.file import load_pump
 
-COARSE = {"positions_per_pitch": 2, "finer": 0.5, "tolerance": 0.05}
-CASES = {
+CASES: Mapping[str, Mapping[str, Any]] = {
     "viscosity_pressure 20 1/GPa": {"viscosity_pressure": {"coefficient": 2e-8}},
     **{
         f"elastic_opening.{gap.value} opening 20 1/GPa": {"elastic_opening": {gap.value: {"opening": 2e-8}}}
@@ -49,17 +51,22 @@ def numbers(point: PumpPoint) -> dict[Gap, tuple[float, float]]:
     }
 
 
+def coarse_films(pump: PumpDescription, at: OperatingPoint[float]) -> PumpPoint:
+    """The point by films on half the usual cells, at two places a pitch."""
+    return films_point(pump, at, positions_per_pitch=2, finer=0.5, tolerance=0.05).pump_point
+
+
 def main() -> None:
     """Print the table, gaps that an effect leaves as they are left out."""
     pump = load_pump("ref90")
     at = operating_point(pump)
-    plain = numbers(lumped_point(pump, at)), numbers(films_point(pump, at, **COARSE).pump_point)
+    plain = numbers(lumped_point(pump, at)), numbers(coarse_films(pump, at))
     print("| effect | gap | leakage, law | films | shear, law | films | films took s |\n" + "|---" * 7 + "|")
     for name, stated in CASES.items():
         extended = replace(pump, physics=section_of(PhysicsSection, stated))
         law = numbers(lumped_point(extended, at))
         began = perf_counter()
-        films = numbers(films_point(extended, at, **COARSE).pump_point)
+        films = numbers(coarse_films(extended, at))
         took = perf_counter() - began
         for gap in Gap:
             told = [

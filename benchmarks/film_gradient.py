@@ -35,6 +35,7 @@ from reynolds import (
     FrictionOutput,
     Held,
     LoadOutput,
+    Output,
     film,
     film_gradients,
     film_space,
@@ -63,7 +64,7 @@ def time_gradients(name: str, problem: FilmProblem, boundary: str) -> Timing:
     """The film solved cold, then one and four gradients after it."""
     solver = FilmSolver(problem.space)
     solution = solver.solve(problem)
-    outputs = [LoadOutput(), DissipationOutput(), FrictionOutput(Axis.X), FlowOutput(boundary)]
+    outputs: list[Output] = [LoadOutput(), DissipationOutput(), FrictionOutput(Axis.X), FlowOutput(boundary)]
 
     def gradients(count: int) -> Callable[[], object]:
         return lambda: film_gradients(solver, solution, outputs[:count])

@@ -82,7 +82,7 @@ CASES = (
 
 
 @njit(error_model="numpy")
-def _triad(a, b, c):
+def _triad(a: Array, b: Array, c: Array) -> None:
     for i in range(a.shape[0]):
         a[i] = b[i] + 3.0 * c[i]
 

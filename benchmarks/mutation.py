@@ -4,9 +4,11 @@
     python benchmarks/mutation.py --part 1/2              the odd ones: a second process may do --part 2/2
     python benchmarks/mutation.py --whole                 all test files for what survived the nearest ones
     python benchmarks/mutation.py --again NAME            one edit anew, after a test was written
+    python benchmarks/mutation.py --again NAME --test F   by one test file; where it survives, the outcome stays
     python benchmarks/mutation.py --count 0               writes the page from what is kept
 
-An edit takes from ten seconds to ten minutes. The edits are made in a copy of the checkout under build/mutation. Each
+An edit takes from ten seconds to ten minutes. The edits are made in a copy of the checkout under build/mutation, made
+anew by each call. Each
 outcome is a file of its own in benchmarks/mutation/outcomes as soon as it is known; Ctrl-C loses the edit in hand.
 """
 
@@ -15,7 +17,7 @@ from __future__ import annotations
 import argparse
 import json
 import sys
-from dataclasses import asdict
+from dataclasses import asdict, replace
 from pathlib import Path
 
 from mutation.nearest import Nearness
@@ -28,8 +30,8 @@ from reynolds.numerics.files import replaced
 ROOT = Path(__file__).resolve().parents[1]
 KEPT = Path(__file__).parent / "mutation" / "outcomes"
 NEAR = 25
-LIMIT = 900.0  # s
-WHOLE_LIMIT = 5400.0  # s
+LIMIT = 900.0  # s of a processor
+WHOLE_LIMIT = 5400.0  # s of a processor
 
 
 def main() -> int:
@@ -53,6 +55,7 @@ def _options() -> argparse.Namespace:
     parser.add_argument("--part", default="1/1", metavar="I/N", help="every Nth of them, beginning with the Ith")
     parser.add_argument("--whole", action="store_true", help="all test files for what survived")
     parser.add_argument("--again", action="append", default=[], metavar="NAME", help="this edit anew")
+    parser.add_argument("--test", action="append", default=[], metavar="FILE", help="with --again: by this file alone")
     parser.add_argument("--page", type=Path, default=ROOT / "docs" / "mutations.md", metavar="FILE")
     return parser.parse_args()
 
@@ -67,8 +70,12 @@ def _run(options: argparse.Namespace) -> None:
         whole = options.whole and before is not None and before.fate is Fate.SURVIVED
         if not (whole or edit.name in options.again or (before is None and not options.again)):
             continue
-        tests = nearness.order(edit.file)
+        tests = options.test or nearness.order(edit.file)
         trial = copy.tried(edit, tests if whole else tests[:NEAR], WHOLE_LIMIT if whole else LIMIT)
+        if options.test and trial.fate is not Fate.KILLED:
+            print(f"not noticed: {edit.file} {edit.function}", flush=True)
+            continue
+        trial = trial if before is None else replace(trial, at_first=before.at_first)
         with replaced(KEPT / f"{edit.name}.json") as beside:
             beside.write_text(json.dumps(asdict(trial), indent=1) + "\n", encoding="utf-8")
         print(f"{trial.fate}: {edit.file} {edit.function}, {trial.seconds:.0f} s {trial.noticed_by}", flush=True)
@@ -76,7 +83,8 @@ def _run(options: argparse.Namespace) -> None:
 
 def _kept() -> list[Trial]:
     texts = [path.read_text("utf-8") for path in sorted(KEPT.glob("*.json"))]
-    return [Trial(**(one | {"fate": Fate(one["fate"])})) for one in map(json.loads, texts)]
+    fates = "fate", "at_first"
+    return [Trial(**(one | {key: Fate(one[key]) for key in fates})) for one in map(json.loads, texts)]
 
 
 if __name__ == "__main__":

@@ -148,7 +148,7 @@ def _ranked(where: str, raw: object) -> Iterator[Fault]:
         return
     for one in raw["ids"]:
         yield from _choice(f"{where}.ids", one, (*IDS, Kind.UNKNOWN_PHYSICS.value), "an id of the list in README.md")
-    if len(raw.get("gaps", raw["ids"])) != len(raw["ids"]):
+    if "gaps" in raw and len(raw["gaps"]) != len(raw["ids"]):
         yield Fault(f"{where}.gaps", f"{len(raw['gaps'])} for {len(raw['ids'])} ids", 'one each, "" for none')
     yield from _probability(f"{where}.probability", raw["probability"])
 

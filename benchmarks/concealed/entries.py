@@ -33,16 +33,16 @@ def enter(recordings: Path, answers: Path, names: Sequence[str], *, with_rivals:
         folder = recordings / name
         rivals = with_rivals and (folder / "steady.csv").is_file()
         if rivals and not (answers / LAST / f"{name}.json").exists():
-            for slug, found in statistics(study_of_folder(folder, folder / PUMP)).items():
-                write_answer(answers / slug, rival_answer(name, found))
+            for slug, rival in statistics(study_of_folder(folder, folder / PUMP)).items():
+                write_answer(answers / slug, rival_answer(name, rival))
         if (answers / OURS / f"{name}.json").exists():
             continue
         blank = Outcome(name=name, part="", campaign="", seed=0, asked=0.0, score=0.0, sizes={}, truth="", effects=(),
                         pairs=(), shares={})  # fmt: skip
         found, _ = tried(folder, blank, folder / PUMP, rivals)
-        for rival, slug in SLUGS.items():
-            if rival in found.rivals:
-                write_answer(answers / slug, rival_answer(name, found.rivals[rival]))
+        for title, slug in SLUGS.items():
+            if title in found.rivals:
+                write_answer(answers / slug, rival_answer(name, found.rivals[title]))
         write_answer(answers / OURS, our_answer(name, found))
         yield f"{name}: {found.verdict}, {found.status} {found.failed}, {found.seconds:.0f} s"
 

@@ -36,19 +36,20 @@ def make_benchmark(folder: Path, recordings: int, seeds: dict[Split, int] | None
     seeds: in place of the public ones, such as a test that its organiser keeps to himself.
     """
     stated = SEEDS | (seeds or {})
-    about = {
-        "format": 1, "benchmark": VERSION, "licence": LICENCE, "recordings": recordings,
-        "plants": {plant.value: version for plant, version in VERSIONS.items()}, "splits": {},
-    }  # fmt: skip
+    splits = {}
     for split in Split:
         place = folder / split.value
         truths = _write_split(place / RECORDINGS, split, stated[split], recordings)
         beside = place / TRUTHS if split is Split.DEVELOPMENT else folder / SEALED / f"{split.value}-{TRUTHS}"
-        about["splits"][split.value] = {
+        splits[split.value] = {
             "seed": stated[split] if stated[split] == SEEDS[split] else "kept by the organiser",
             "truths_sha256": write_truths(beside, truths),
             "recordings_sha256": {one.recording: _hash(place / RECORDINGS / one.recording) for one in truths},
         }
+    about = {
+        "format": 1, "benchmark": VERSION, "licence": LICENCE, "recordings": recordings,
+        "plants": {plant.value: version for plant, version in VERSIONS.items()}, "splits": splits,
+    }  # fmt: skip
     (folder / MANIFEST).write_text(json.dumps(about, indent=1) + "\n", encoding="utf-8")
     return folder / MANIFEST
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from warnings import catch_warnings, simplefilter
 
 import numpy as np
+from numpy.typing import NDArray
 from proof.outcome import Rival
 from scipy.optimize import minimize_scalar
 from scipy.stats import false_discovery_control, norm
@@ -44,7 +45,7 @@ def kennedy_ohagan(study: Study) -> Rival:
     """
     base = study.base
     found = {at: score(base, each.column) for at, each in enumerate(study.candidates)}
-    best, named = _smooth(study, base.residual), ()
+    best, named = _smooth(study, base.residual), tuple[str, ...]()
     alarm = best > 0.0
     for at in sorted(found, key=lambda one: -abs(found[one].z))[:TRIED]:
         own = found[at]
@@ -124,7 +125,7 @@ def embedded_discrepancy(study: Study) -> Rival:
     return Rival(True, tuple(ids[:1]))
 
 
-def _varying(agreement: Array, content: Array) -> float:
+def _varying(agreement: NDArray[np.number], content: NDArray[np.number]) -> float:
     """Largest gain of ln likelihood over s of a parameter that is N(0, s^2) at each point."""
 
     def loss(log_variance: float) -> float:

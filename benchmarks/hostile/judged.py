@@ -16,7 +16,9 @@ RAISED = 70
 """Exit code of a child in which an exception was not caught."""
 MEMORY = 1_500_000_000
 """Bytes beyond which the memory of a command counts as not bounded."""
-_PLACE = re.compile(r"swashfilm: (not converged: .|.+: \d+ faults?\n {2}\S|.+: found .+, expected )", re.DOTALL)
+_PLACE = re.compile(
+    r"swashfilm: (not converged: .|.+: \d+ faults?\n {2}\S|.+: found .+, expected |.+: .+; expected )", re.DOTALL
+)
 _LEFT = (".part", ".tmp", ".half")
 """Endings of files that are being written."""
 _CONTROL = re.compile(r"[\x00-\x08\x0b-\x1f\x7f\x80-\x9f]")

@@ -7,11 +7,13 @@ from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 
+from proof.calibration import wilson
+
 from .judged import Outcome
 from .trial import Told
 
 FIRST = Path(__file__).with_name("first.json")
-"""Outcomes by kind before anything was mended."""
+"""Outcomes by kind of the cases whose first trial was kept, before what it broke was mended."""
 Counts = Mapping[str, Mapping[str, int]]
 ORDER = list(Outcome)
 HEAD = """# Hostile input
@@ -57,11 +59,20 @@ def counted(outcomes: Iterable[Told]) -> dict[str, dict[str, int]]:
 
 def page_text(now: Counts, memory: float, seconds: float) -> str:
     """Return the page of these outcomes, with those of the first trial below."""
-    text = HEAD.format(memory=memory / 1e9, seconds=seconds) + _table(now) + MEANING
-    if FIRST.is_file():
-        text += "\nA part of these cases before the readers were mended (26 November 2026):\n\n"
-        text += _table(json.loads(FIRST.read_text("utf-8")))
-    return text
+    first = json.loads(FIRST.read_text("utf-8"))
+    words = f"\nWhen they were tried first (26 and 27 November 2026), before it was mended, {_broken(first)}:\n\n"
+    head = HEAD.format(memory=memory / 1e9, seconds=seconds)
+    return f"{head}{_broken(now)}.\n\n{_table(now)}{MEANING}{words}{_table(first)}"
+
+
+def _broken(counts: Counts) -> str:
+    """Words for how many cases break the promise."""
+    good = [one.value for one in Outcome if one.good]
+    cases = sum(sum(row.values()) for row in counts.values())
+    broken = cases - sum(row.get(name, 0) for row in counts.values() for name in good)
+    low, high = wilson(broken, cases)
+    interval = f"Wilson's 95 % interval {low:.2%} to {high:.2%}"
+    return f"{broken} of {cases} cases broke the promise ({broken / max(cases, 1):.2%}, {interval})"
 
 
 def _table(counts: Counts) -> str:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import shutil
 import sys
 from collections.abc import Callable
+from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -48,7 +49,7 @@ def make_samples(folder: Path) -> None:
         "film": _film,
         "run": _run,
         "cached": _cached,
-        **{f"recording-{ending}": (lambda place, ending=ending: _recording(place, ending)) for ending in TABLES},
+        **{f"recording-{ending}": partial(_recording, ending=ending) for ending in TABLES},
     }
     for name, make in makers.items():
         if not (folder / name).is_dir():

@@ -100,9 +100,14 @@ def _command(words: tuple[str, ...]) -> int:
     if words[0] == "cached":
         import numpy as np
 
+        from reynolds.errors import InputError
         from reynolds.numerics.cache import kept
 
-        found = kept(words[1], lambda: {"compliance": np.eye(40), "weights": np.ones(40)}, Path())
+        try:
+            found = kept(words[1], lambda: {"compliance": np.eye(40), "weights": np.ones(40)}, Path())
+        except InputError as reason:
+            print(f"swashfilm: {reason}")
+            return 2
         return 0 if {"compliance", "weights"} <= set(found.arrays) else RAISED
     from swashfilm.__main__ import main
 

@@ -53,7 +53,7 @@ def _weights(module: str) -> Mapping[str, float]:
 
 def _lazy_names(stub: Path) -> Mapping[str, str]:
     """Full name of the module of each name that a package exports."""
-    found = {}
+    found: dict[str, str] = {}
     for node in ast.parse(stub.read_text("utf-8")).body:
         if isinstance(node, ast.ImportFrom) and node.module:
             inner = node.module if node.level == 0 else f"{stub.parent.name}.{node.module}"

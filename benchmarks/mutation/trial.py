@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import re
 import shutil
+import signal
 import subprocess
 import sys
 import time
@@ -17,6 +18,7 @@ from .compiled_code import anew
 from .edits import Edit
 
 HANGS = 400.0  # s, in which one test of the default suite ends even on a loaded machine
+SHARED = 8.0  # seconds of the clock for one of a processor, at most
 LEFT_OUT = ".git", ".venv", "build", ".hypothesis", ".mypy_cache", ".import_linter_cache", "runs"
 FAILED = re.compile(r"^(?:FAILED|ERROR) (\S+)", re.MULTILINE)
 
@@ -32,7 +34,10 @@ class Fate(StrEnum):
 
 @dataclass(frozen=True)
 class Trial:
-    """An edit, its fate, the test that noticed it, the number of test files that ran at most, and seconds."""
+    """An edit, its fate, the test that noticed it, the number of test files that ran at most, and seconds.
+
+    at_first: its fate when it was tried for the first time, before a test was written for it.
+    """
 
     name: str
     file: str
@@ -44,27 +49,28 @@ class Trial:
     noticed_by: str
     files: int
     seconds: float
+    at_first: Fate
 
 
 class Copy:
-    """A copy of the checkout with its compiled code; what a mutation changed is undone after each trial."""
+    """A copy of the checkout as it is now, with its compiled code; what a mutation changed is undone after each."""
 
     def __init__(self, root: Path, place: Path):
         self.place = place
         self._sound: dict[str, bool] = {}
-        if not place.exists():
-            shutil.copytree(root, place, ignore=lambda folder, _: LEFT_OUT if Path(folder) == root else ())
+        shutil.rmtree(place, ignore_errors=True)
+        shutil.copytree(root, place, ignore=lambda folder, _: LEFT_OUT if Path(folder) == root else ())
 
     def tried(self, edit: Edit, tests: Sequence[str], limit: float) -> Trial:
-        """Run `tests` in order until one fails, for `limit` seconds at most."""
-        begin, unsound = time.monotonic(), []
+        """Run `tests` in order until one fails, for `limit` seconds of a processor at most."""
+        begin, unsound = time.monotonic(), list[str]()
         while True:
             fate, noticed = self._edited(edit, [*tests, *(f"--deselect={test}" for test in unsound)], limit)
             if fate is not Fate.KILLED or self._is_sound(noticed, limit):
                 break
             unsound.append(noticed)
         told = edit.name, edit.file, edit.function, edit.kind, edit.before, edit.after
-        return Trial(*told, fate, noticed, len(tests), time.monotonic() - begin)
+        return Trial(*told, fate, noticed, len(tests), time.monotonic() - begin, fate)
 
     def _edited(self, edit: Edit, tests: Sequence[str], limit: float) -> tuple[Fate, str]:
         path = self.place / edit.file
@@ -88,7 +94,7 @@ class Copy:
         ends = ["-o", f"faulthandler_timeout={HANGS}", "-o", "faulthandler_exit_on_timeout=true"]
         command = [sys.executable, "-m", "pytest", "-x", "-q", "-rfE", "--tb=no", *ends, *tests]
         run = subprocess.Popen(
-            command,
+            ["sh", "-c", f'ulimit -t {limit:.0f}; exec "$@"', "sh", *command],
             cwd=self.place,
             env=environment,
             stdout=subprocess.PIPE,
@@ -97,10 +103,12 @@ class Copy:
             start_new_session=True,
         )
         try:
-            told, _ = run.communicate(timeout=limit)
+            told, _ = run.communicate(timeout=SHARED * limit)
         except subprocess.TimeoutExpired:
-            os.killpg(run.pid, 9)
+            os.killpg(run.pid, signal.SIGKILL)
             run.communicate()
+            return Fate.UNDECIDED, ""
+        if run.returncode in (-signal.SIGXCPU, -signal.SIGKILL):
             return Fate.UNDECIDED, ""
         failed = FAILED.search(told)
         if failed is None and "Timeout (" in told:

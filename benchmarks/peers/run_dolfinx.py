@@ -17,7 +17,7 @@ from mpi4py import MPI
 from peer import asked, least, report
 from petsc4py import PETSc
 
-METHODS = {
+METHODS: dict[str, dict[str, str | float]] = {
     "direct": {"ksp_type": "preonly", "pc_type": "cholesky"},
     "multigrid": {"ksp_type": "cg", "ksp_rtol": 1e-8, "pc_type": "gamg"},
 }

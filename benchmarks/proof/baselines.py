@@ -35,7 +35,7 @@ def gaussian_process(study: Study, residual: Array) -> Rival:
 
 def sparse_regression(study: Study, residual: Array) -> Rival:
     """LASSO (Tibshirani 1996) of each channel's residual on textbook terms, penalty by Schwarz' criterion."""
-    strongest, named = 0.0, ()
+    strongest, named = 0.0, tuple[str, ...]()
     for at, name in enumerate(study.channels):
         rows = study.observations.measured[:, at]
         terms = _terms(study, name.value)

@@ -56,8 +56,8 @@ def bins(outcomes: Sequence[Outcome]) -> list[Bin]:
     for each in np.unique(place):
         own = place == each
         share = weight[own].sum()
-        means = (float(weight[own] @ values[own] / share) for values in (told, true))
-        found.append(Bin(*means, float(share), int(own.sum())))
+        mean_told, mean_true = (float(weight[own] @ values[own] / share) for values in (told, true))
+        found.append(Bin(mean_told, mean_true, float(share), int(own.sum())))
     return found
 
 

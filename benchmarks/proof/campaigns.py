@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, fields, replace
 from functools import cache
 from itertools import product
@@ -51,7 +51,13 @@ def campaigns() -> dict[str, Campaign]:
 def held(campaign: Campaign, rng: np.random.Generator) -> Settings:
     """The points as they were in truth: near the set points, as near as a bench holds them."""
     points, count = campaign.points, campaign.points.speed.size
-    spread = {"speed": 1.0 * RPM, "p_out": 0.7 * BAR, "p_in": 0.004 * points.p_in, "p_case": 0.015 * BAR, "T_in": 0.7}
+    spread: Mapping[str, float | Array] = {
+        "speed": 1.0 * RPM,
+        "p_out": 0.7 * BAR,
+        "p_in": 0.004 * points.p_in,
+        "p_case": 0.015 * BAR,
+        "T_in": 0.7,
+    }
     moved = {name: getattr(points, name) + sigma * rng.normal(size=count) for name, sigma in spread.items()}
     warmer = points.T_case - points.T_in
     return replace(points, **moved, T_case=moved["T_in"] + warmer + 0.4 * rng.normal(size=count))

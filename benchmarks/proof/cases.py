@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from itertools import product
 
@@ -204,7 +204,7 @@ def _case(part: Part, one: Concealed, score: float, at: int, seed: int) -> Case:
     return Case(part, able[at % len(able)], seed, (one,), score)
 
 
-_MAKERS = {
+_MAKERS: Mapping[Part, Callable[[int], Iterator[Case | WideCase]]] = {
     Part.NULL: _nulls, Part.GRADED: _graded, Part.PAIR: _pairs, Part.PARAMETER: _parameters,
     Part.SENSOR: _sensors, Part.UNKNOWN: _unknowns, Part.TRACE: _traces, **OTHER_MAKERS, **ROUGH_MAKERS,
 }  # fmt: skip

@@ -101,13 +101,12 @@ def solved(plant: FilmPlant, row: Array) -> tuple[float, float, float, float]:
     point = replace(
         operating_point(pump), shaft_speed=rpm * RPM, displacement_ratio=stroke, delivery_pressure=1e6 * pressure,
         inlet_pressure=INLET, case_pressure=CASE, temperature=kelvin,
-        viscosity=walther(kelvin, pump.oil.fluid) * pump.oil.density,
+        viscosity=float(walther(kelvin, pump.oil.fluid) * pump.oil.density),
     )  # fmt: skip
     bench = films_point(
         pump, point, physics=plant.physics, positions_per_pitch=POSITIONS, finer=plant.finer, tolerance=ONE_ROUND
     ).pump_point.bench
-    flows = (bench.delivery_flow, bench.inlet_flow, bench.drain_flow)
-    return *(6e4 * flow for flow in flows), bench.shaft_torque
+    return 6e4 * bench.delivery_flow, 6e4 * bench.inlet_flow, 6e4 * bench.drain_flow, bench.shaft_torque
 
 
 def made(plant: FilmPlant) -> Iterator[tuple[float, ...]]:

@@ -15,6 +15,8 @@ from types import ModuleType
 
 import numpy as np
 
+from system.estimation.fit import Posterior
+
 from .film_plant import cases
 from .film_trial import HEAD, diagnosed
 from .told import Told, told
@@ -156,7 +158,7 @@ def films() -> Told:
     return told(TITLES["films"], FILMS_TEXT, HEAD, tuple(diagnosed(plant) for plant in cases()))
 
 
-def _names(fit: object) -> list[str]:
+def _names(fit: Posterior) -> list[str]:
     return [parameter.name for parameter in fit.parameters]
 
 

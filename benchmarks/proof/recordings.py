@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from functools import partial
 
 import numpy as np
 
 from .campaigns import campaigns, held
 from .cases import Case, Concealed
+from .other.plant.rig import Readout
 from .plant.bench import Truth, run
 from .plant.hidden import NOTHING, Hidden
 from .plant.machine import Array, Machine, drawn, ref90
@@ -70,7 +72,7 @@ def make(case: Case) -> Made:
     )
 
 
-def moved_turn(truth: Truth, sound: Truth, points: tuple[int, ...]) -> tuple[float, float] | None:
+def moved_turn(truth: Truth | Readout, sound: Truth | Readout, points: tuple[int, ...]) -> tuple[float, float] | None:
     """The narrowest window of shaft angle, rad, that holds BULK of the square by which pressures differ.
 
     Of the trace that is moved the most; None where none is moved by a sensor's noise.
@@ -95,7 +97,7 @@ def sized(case: Case) -> tuple[list[float], list[float]]:
 
     if case.score == 0.0:
         return [1.0 for _ in case.concealed], [score(one, 1.0) for one in case.concealed]
-    found = [size_for(case.score, lambda f, one=one: score(one, f), _start(one), one.most) for one in case.concealed]
+    found = [size_for(case.score, partial(score, one), _start(one), one.most) for one in case.concealed]
     return [factor for factor, _ in found], [reached for _, reached in found]
 
 

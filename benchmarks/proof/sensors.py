@@ -5,8 +5,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from .campaigns import Campaign
+from .other.plant.rig import Readout
 from .plant.bench import Truth
 from .plant.machine import CELSIUS, Array
 from .plant.settings import RPM, Settings
@@ -86,7 +88,7 @@ class Readings:
 
 
 def read(
-    campaign: Campaign, at: Settings, truth: Truth, faults: tuple[Fault, ...], rng: np.random.Generator
+    campaign: Campaign, at: Settings, truth: Truth | Readout, faults: tuple[Fault, ...], rng: np.random.Generator
 ) -> Readings:
     """Readings of the truth by the campaign's sensors."""
     along = np.linspace(0.0, 1.0, at.speed.size)
@@ -108,7 +110,7 @@ def read(
 def read_after(
     campaign: Campaign,
     at: Settings,
-    truth: Truth,
+    truth: Truth | Readout,
     faults: tuple[Fault, ...],
     known: dict[str, Calibration],
     rng: np.random.Generator,
@@ -143,7 +145,7 @@ def _of(faults: tuple[Fault, ...], channel: str) -> Fault:
     return next((one for one in faults if one.channel == channel), Fault(channel))
 
 
-def _actual(campaign: Campaign, at: Settings, truth: Truth) -> dict[str, Array]:
+def _actual(campaign: Campaign, at: Settings, truth: Truth | Readout) -> dict[str, Array]:
     """True values, SI, of all that has a sensor."""
     inputs = {name: getattr(at, name) for name in campaign.inputs}
     return inputs | {name: getattr(truth, name) for name in campaign.outputs}
@@ -174,7 +176,9 @@ def _noise(count: int, rng: np.random.Generator) -> Array:
     return np.where(rng.uniform(size=count) < TAIL, rng.standard_t(FREEDOM, size=count), found)
 
 
-def _trace(truth: Truth, point: int, order: Array, shift: float, rng: np.random.Generator) -> tuple[Array, Array]:
+def _trace(
+    truth: Truth | Readout, point: int, order: NDArray[np.int64], shift: float, rng: np.random.Generator
+) -> tuple[Array, Array]:
     angle = np.arange(0.0, 360.0, 0.5)
     true = np.interp(np.radians(angle) - shift, truth.angle[order] % (2.0 * np.pi), truth.pressure[point][order],
                      period=2.0 * np.pi)  # fmt: skip

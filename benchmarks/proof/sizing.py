@@ -94,7 +94,7 @@ def _whitening(name: str) -> tuple[Array, Array]:
         rows = slice(k * channels, (k + 1) * channels)
         local = weights[rows, None] * own[k]
         covariance[rows, rows] += local @ local.T
-    return weights, np.linalg.cholesky(covariance)
+    return weights, np.asarray(np.linalg.cholesky(covariance), dtype=float)
 
 
 def _nuisances(campaign: Campaign) -> Array:

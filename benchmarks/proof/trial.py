@@ -27,6 +27,7 @@ from reynolds.errors import InputError, NotConverged
 from system.description.pump import PumpDescription
 from system.description.tolerances import tolerances
 from system.effects.effect import EffectId, Kind
+from system.estimation.fit import Posterior
 from system.inputs.faults import InputFaults
 from system.pump_file.file import KnownPump, load_known_pump
 
@@ -142,6 +143,10 @@ def _posed(folder: Path, pump: str | Path) -> tuple[KnownPump, Recording, Callab
     return known, recording, prepared
 
 
+def _per_reading(fit: Posterior) -> float:
+    return float(fit.objective / fit.residual.size)
+
+
 def _outcome(expected: Outcome, diagnosed: Diagnosed, seconds: float) -> Outcome:
     found = diagnosed.found
     ranked = sorted(found.hypotheses, key=lambda each: -each.probability)
@@ -157,7 +162,7 @@ def _outcome(expected: Outcome, diagnosed: Diagnosed, seconds: float) -> Outcome
         region=_region(diagnosed.study, found.location),
         turn=(found.location.angle.start, found.location.angle.end) if found.location.angle else None,
         heldout={name.value: (before[name], after[name], noise[name]) for name in before},
-        chi2=tuple(float(fit.objective / fit.residual.size) for fit in (found.before, found.after)),
+        chi2=(_per_reading(found.before), _per_reading(found.after)),
         chance=found.detection.chance,
         reasons=found.notes,
         rivals=diagnosed.rivals,

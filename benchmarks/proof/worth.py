@@ -59,7 +59,7 @@ def worth(
     there = [_place(one.point, box) for one in asked.places]
     further = () if asked.meter is None else (asked.meter,)
     anywhere = [tuple(float(rng.uniform(*ends)) for ends in box.ends) for _ in there]
-    foretold = outlook(study, *explained, _points(box, there), further).foretold(further)
+    foretold = outlook(study, explained[0], explained[1], _points(box, there), further).foretold(further)
     brought, _ = foretold.together(np.arange(len(there))).odds(asked.limits.readings)
     before = log(true.probability / false.probability)
     meter = "" if asked.meter is None else asked.meter.name.value

@@ -78,8 +78,8 @@ def kept(key: str, compute: Callable[[], Mapping[str, Array]], folder: Path | No
         place.parent.mkdir(parents=True, exist_ok=True)
         write_npz(place, {**arrays, SEAL: _seal(arrays)})
     except OSError as fault:
-        expected = "a folder to write in (SWASHFILM_CACHE names another)"
-        raise FilmInputError("cache of bodies", f"{place.parent}: {fault.strerror}", expected) from fault
+        expected = "a file that can be written there (SWASHFILM_CACHE names another folder)"
+        raise FilmInputError("cache of bodies", f"{place}: {fault.strerror}", expected) from fault
     return CachedArrays(arrays, origin)
 
 

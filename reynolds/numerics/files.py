@@ -111,6 +111,12 @@ def replaced(path: Path) -> Iterator[Path]:
         raise
 
 
+def write_whole(path: Path, data: bytes) -> None:
+    """Write a file as `replaced` does: a pipe, a device or a link of that name is replaced, never written to."""
+    with replaced(path) as beside:
+        beside.write_bytes(data)
+
+
 @contextmanager
 def created(path: Path) -> Iterator[Path]:
     """Yield a name beside `path` to write to; afterwards the file is at `path`.

@@ -19,6 +19,7 @@ from reynolds.numerics.files import (
     read_json,
     read_text,
     replaced,
+    write_whole,
 )
 from swashfilm.formats.versions import expect_known
 from swashfilm.output.answer import Answer
@@ -191,11 +192,11 @@ def keep_pictures(
     for number, (caption, figure) in enumerate(pictures.items(), start=1):
         content = compact(figure)
         path = folder / PLOTS / f"{stem}-{number}.{_kind(content).partition('+')[0]}"
-        path.write_bytes(content)
+        write_whole(path, content)
         captions[path.name] = caption
         if touch := _touch(figure, (explorers or {}).get(caption)):
-            path.with_suffix(TOUCH).write_text(touch, encoding="ascii")
-    (folder / PLOTS / f"{stem}.json").write_text(json.dumps(captions, indent=2) + "\n", encoding="utf-8")
+            write_whole(path.with_suffix(TOUCH), touch.encode("ascii"))
+    write_whole(folder / PLOTS / f"{stem}.json", f"{json.dumps(captions, indent=2)}\n".encode())
     return kept_pictures(folder, stem)
 
 

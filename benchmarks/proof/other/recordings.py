@@ -41,7 +41,7 @@ def make(case: WideCase) -> WideMade:
     rig = Rig(case.campaign, case.seed, partial(_run, pump, hidden), float(there.ratio[0] - at.ratio[0]), faults,
               readings.calibrations)  # fmt: skip
     told = replace(told, true_turn=turn, shift=dict(zip(campaign.outputs, map(_rounded, moved.T), strict=True)))
-    return WideMade(told, partial(_write, case, readings), BENCH, rig)
+    return WideMade(told, partial(_write, case, readings), str(BENCH), rig)
 
 
 def _run(pump: Pump, hidden: Hidden, at: Settings) -> Readout:

@@ -4,6 +4,8 @@ Alexander's SDIRK2 (1977), L-stable and stiffly accurate, so that a chamber wide
 step; mass that leaves by each way is summed with the state's own weights, so that the turn closes to rounding.
 """
 
+# mypy: allow-untyped-defs, allow-incomplete-defs, no-check-untyped-defs
+
 from __future__ import annotations
 
 import numpy as np

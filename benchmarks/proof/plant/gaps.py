@@ -43,20 +43,21 @@ def films(machine: Machine, hidden: Hidden, at: Settings, warmer: Array) -> Film
     warmth = (hidden.thermal_piston, hidden.thermal_slipper, hidden.thermal_plate)
     change = at.T_case - WARM
     late = change / (1.0 + np.abs(change) / 80.0)
-    film = [h * (1.0 + rate * late) for h, rate in zip(stated, warmth, strict=True)]
-    film[0] = film[0] * (1.0 + hidden.spin_leak * (at.speed / RATED_SPEED) ** 2)
-    viscosity = tuple(viscosity_at(machine, at.T_case + rise) for rise in warmer)
+    first, second, third = (h * (1.0 + rate * late) for h, rate in zip(stated, warmth, strict=True))
+    film = (first * (1.0 + hidden.spin_leak * (at.speed / RATED_SPEED) ** 2), second, third)
+    own = [viscosity_at(machine, at.T_case + rise) for rise in warmer]
+    viscosity = (own[0], own[1], own[2])
     slope = [_slope(machine, hidden, mu, pressure, c) for mu, c in zip(viscosity, openings, strict=True)]
     carried = [_integral(each[0], pressure) for each in slope]
     drag = np.stack([_mean(each[1], pressure) for each in slope], axis=1)
-    bore = np.stack([_bore(machine, film[0], own) for own in machine.clearance], axis=1)
+    bore = np.stack([_bore(machine, film[0], clearance) for clearance in machine.clearance], axis=1)
     piston = bore[:, :, None] * carried[0][:, None, :]
     slipper = _slipper(machine, film[1], viscosity[1], carried[1], pressure)
     plate = _plate(machine, film[2])[:, None] * carried[2]
     shared = np.broadcast_to((slipper + plate)[:, None, :], piston.shape)
     flow = np.ascontiguousarray(np.stack([piston, shared], axis=2))
     parts = np.stack([slipper, plate], axis=1)
-    return Films(np.full(at.speed.size, top), tuple(film), viscosity, flow, parts, drag)
+    return Films(np.full(at.speed.size, top), film, viscosity, flow, parts, drag)
 
 
 def roelands(hidden: Hidden, viscosity: Array, pressure: Array) -> Array:

@@ -10,6 +10,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ..wide.case import Secret, What, WideCase
 from ..wide.scoring import Whitening, sizes, whitening
@@ -48,7 +49,7 @@ class Bench:
         return np.stack([np.bincount(place, getattr(found, name)) / count for name in self.outputs], axis=1)
 
     @property
-    def places(self) -> tuple[Array, Array]:
+    def places(self) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
         """Number (T,) of the mean to which a sample belongs, and samples (N,) of each."""
         state, time = self.course.state, np.arange(self.course.rate.size)
         low, high = state.pressure.min(), state.pressure.max()

@@ -44,7 +44,7 @@ def whitening(sigma: Array, shared: Array, own: Array | None = None) -> Whitenin
         blocks = np.einsum("mnc,mnd->ncd", local, local)
         rows = np.arange(count)
         covariance.reshape(count, channels, count, channels)[rows, :, rows, :] += blocks
-    return Whitening(weights, np.linalg.cholesky(covariance))
+    return Whitening(weights, np.asarray(np.linalg.cholesky(covariance), dtype=float))
 
 
 def apart(columns: Sequence[Array]) -> list[float]:

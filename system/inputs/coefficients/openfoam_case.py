@@ -6,13 +6,14 @@ Incompressible cases have a kinematic pressure p/rho in m2/s2; the `dimensions` 
 from __future__ import annotations
 
 import re
+import sys
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 
-from reynolds.numerics.files import LARGEST_DATA, is_file, read_bounded
+from reynolds.numerics.files import LARGEST_DATA, expect_regular, is_file, read_bounded
 from system.inputs.coefficients.openfoam_patches import read_patches
 from system.inputs.faults import Fault, InputFaults, nearest_choice, nearest_path
 
@@ -55,6 +56,7 @@ def read_case_flow(case: Path, inlet: str, outlet: str, density: float) -> CaseF
     if not is_file(control):
         fault = Fault("case", f"no {control}", "the folder of an OpenFOAM case", nearest_path(control))
         raise InputFaults(str(case), [fault])
+    _expect_files(case)
     read = read_patches(case, inlet, outlet)
     faults = [
         Fault("patch", f"'{name}'", f"one of {', '.join(read.names)}", nearest_choice(name, read.names))
@@ -68,6 +70,19 @@ def read_case_flow(case: Path, inlet: str, outlet: str, density: float) -> CaseF
     (inflow, before), (outflow, behind) = read.through
     found = CaseFlow(read.time, -inflow, scale * (before - behind), (outflow + inflow) / max(abs(inflow), 1e-300))
     return _held(case, found)
+
+
+def _expect_files(case: Path) -> None:
+    """Raise InputFaults for a mesh or a field that is no file: its reader would wait for it, or read on for ever."""
+    faults = []
+    for place in sorted([*case.glob("constant/polyMesh/*"), *case.glob("[0-9]*/*")]):
+        try:
+            if not place.is_dir():
+                expect_regular(place, sys.maxsize)
+        except OSError as reason:
+            faults.append(Fault(str(place.relative_to(case)), str(reason.strerror), "a file of a solved case"))
+    if faults:
+        raise InputFaults(str(case), faults)
 
 
 def _field_faults(case: Path, fields: Sequence[str]) -> list[Fault]:

@@ -9,8 +9,10 @@ import pytest
 
 from diagnosis.recording.tables.read import read_columns
 from diagnosis.recording.tables.table import TableFault, TableSource
+from reynolds.errors import FilmInputError
 from reynolds.numerics.cache import CacheOrigin, kept
 from reynolds.numerics.files import UnfitFile, inside, read_json, read_text
+from reynolds.numerics.hdf5 import expect_contained
 from reynolds.numerics.npz import read_npz
 from swashfilm.__main__ import main
 from swashfilm.output.data.files import read_netcdf
@@ -106,6 +108,29 @@ def test_broken_arrays_are_computed_anew_and_run_nothing(tmp_path, monkeypatch, 
     assert found.origin is CacheOrigin.RECOMPUTED
     assert kept("a", lambda: {}, tmp_path).arrays["x"].tolist() == [1.0, 1.0]
     assert [path.name for path in tmp_path.iterdir()] == ["a.npz"]
+
+
+def test_a_cache_that_cannot_be_written_is_told_with_its_place(tmp_path):
+    (tmp_path / "a.npz").mkdir()
+    with pytest.raises(FilmInputError, match=r"a\.npz: .*directory; expected a file"):
+        kept("a", lambda: {"x": np.ones(2)}, tmp_path)
+
+
+@pytest.mark.parametrize(("at", "size"), [(16, 16), (16, 200), (24, 0)])
+def test_a_broken_heap_of_texts_ends(tmp_path, at, size):
+    with h5py.File(tmp_path / "a.nc", "w") as file:
+        file["x"] = np.array(["speed", "torque"], dtype=h5py.string_dtype())
+        file["y"] = np.ones(3)
+    data = bytearray((tmp_path / "a.nc").read_bytes())
+    begin = data.index(b"GCOL") + at
+    data[begin : begin + max(size, 8)] = bytes(size) if size else b"\xf0" + b"\xff" * 7
+    expect_contained(tmp_path / "a.nc")
+    (tmp_path / "a.nc").write_bytes(data)
+    (tmp_path / "a.mat").write_bytes(data)
+    with pytest.raises(InputFaults, match=r"a broken heap"):
+        read_netcdf(tmp_path / "a.nc")
+    with pytest.raises(TableFault, match=r"a broken heap"):
+        read_columns(TableSource(tmp_path / "a.mat"))
 
 
 def test_hdf5_reaches_no_other_file(tmp_path):

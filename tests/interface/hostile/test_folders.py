@@ -17,7 +17,7 @@ from reynolds.numerics.files import append_whole, created, replaced
 from swashfilm.__main__ import main
 from swashfilm.console.schemas import write_new
 from swashfilm.output.answer import Answer
-from swashfilm.output.page import expect_files, kept_pictures, kept_text, read_summary, write_page
+from swashfilm.output.page import expect_files, keep_pictures, kept_pictures, kept_text, read_summary, write_page
 from swashfilm.output.run_folder import run_folder, write_json
 from system import InputFaults
 from system.work.kept_results import KeptPoints
@@ -164,6 +164,27 @@ def test_a_page_follows_no_link(tmp_path):
     write_page(run, "page", answer=Answer((), "text", None, ""))
     assert victim.read_text() == "precious"
     assert not (run / "report.html").is_symlink()
+
+
+def test_pictures_that_are_drawn_again_wait_for_no_pipe_and_follow_no_link(tmp_path):
+    from matplotlib.figure import Figure
+
+    run, victim = finished(tmp_path / "run"), tmp_path / "victim.txt"
+    victim.write_text("precious")
+    figure = Figure()
+    figure.subplots().plot([0.0, 1.0], [0.0, 1.0])
+    [drawn] = {path.name for path in _drawn(run, figure)} - {"losses.json", "losses-1.touch"}
+    for name in ("losses.json", drawn):
+        (run / "plots" / name).unlink()
+    os.mkfifo(run / "plots" / "losses.json")
+    (run / "plots" / drawn).symlink_to(victim)
+    assert all(path.is_file() and not path.is_symlink() for path in _drawn(run, figure))
+    assert victim.read_text() == "precious"
+
+
+def _drawn(run, figure):
+    assert list(keep_pictures(run, "losses", {"a line": figure})) == ["a line"]
+    return list((run / "plots").iterdir())
 
 
 def test_links_out_of_a_run_are_refused(tmp_path, capsys):

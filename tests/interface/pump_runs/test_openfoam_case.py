@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import os
+
 import numpy as np
 import pytest
 from openfoam_case import DENSITY, DROP, FLOW, HEIGHT, write_case
@@ -98,6 +100,20 @@ def test_what_is_wrong_with_a_case_is_told(tmp_path):
     odd = write_case(tmp_path / "odd", dimensions="0 0 0 1 0 0 0")
     with pytest.raises(InputFaults, match="kinematic"):
         read_case_flow(odd, "inlet", "outlet", DENSITY)
+
+
+def test_pipes_and_devices_in_a_case_are_all_told_and_none_is_waited_for(tmp_path):
+    case = write_case(tmp_path / "case")
+    for name in ("constant/polyMesh/faces", "100/p"):
+        (case / name).unlink()
+    os.mkfifo(case / "constant/polyMesh/faces")
+    (case / "100/p").symlink_to("/dev/zero")
+    with pytest.raises(InputFaults) as told:
+        read_case_flow(case, "inlet", "outlet", DENSITY)
+    assert [(one.path, one.found) for one in told.value.faults] == [
+        ("100/p", "a device, not a file"),
+        ("constant/polyMesh/faces", "a pipe, not a file"),
+    ]
 
 
 def test_sizes_without_units_are_all_told(tmp_path):

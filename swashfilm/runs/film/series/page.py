@@ -4,6 +4,7 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
+from reynolds.numerics.files import write_whole
 from swashfilm.case.axis import place_words
 from swashfilm.case.study import Study, StudyCase
 from swashfilm.output.answer import Answer
@@ -51,7 +52,7 @@ def write_study_page(folder: Path) -> Path:
     figures = study_plots(data) | course_plots(data)
     (folder / PLOTS).mkdir(exist_ok=True)
     for key, figure in figures.items():
-        (folder / PLOTS / f"{key}.png").write_bytes(png_of(figure))
+        write_whole(folder / PLOTS / f"{key}.png", png_of(figure))
     first = first_picture(summary, figures)
     picture = inlined(figures[first]) if first else None
     return write_page(

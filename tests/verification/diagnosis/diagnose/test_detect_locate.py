@@ -12,7 +12,7 @@ import pytest
 from toy_maps import LIMITS, SIGMA, ToySimulator, toy_observations, toy_recording
 
 from diagnosis import Recording, Study
-from diagnosis.detect.component_evidence import ComponentGroup
+from diagnosis.detect.component_evidence import ComponentGroup, group_evidences
 from diagnosis.detect.contrasts import contrasts, misfit
 from diagnosis.detect.mismatch import Detection, detect
 from diagnosis.detect.multiplicity import family_chance, holm, log_chances
@@ -141,6 +141,18 @@ def _sized(effect: EffectId, z: float) -> Array:
     found = detect(_study(), LIMITS)
     sigma = next(score.sigma for candidate, score in found.strongest if candidate.entry.id is effect)
     return z * sigma * _effect(effect)
+
+
+def test_evidence_of_a_group_is_the_mean_over_its_members() -> None:
+    """Evidences 1 and 3 of two leakages: ln 2; a group of one keeps its own, and one without members is left out."""
+    ranking = (
+        (Component.PISTON_LEAKAGE, np.log(3.0)),
+        (Component.COMMUTATION, np.log(2.5)),
+        (Component.PLATE_LEAKAGE, 0.0),
+    )
+    found = group_evidences(ranking)
+    assert [group for group, _ in found] == [ComponentGroup.COMMUTATION, ComponentGroup.FILM_LEAKAGE]
+    assert [evidence for _, evidence in found] == pytest.approx([np.log(2.5), np.log(2.0)])
 
 
 @pytest.fixture(scope="module")

@@ -129,6 +129,17 @@ def test_balance_knows_the_sphere():
     assert balanced.pressed_at(20e6, 0.0, 0.0) == pytest.approx(lever / np.hypot(1.0, lever / RADIUS), rel=1e-9)
 
 
+def test_force_that_presses_within_a_distance_turns_the_block_about_its_spline():
+    """A pressure acts along the line through the sphere's centre: its moment by the cross product."""
+    height, distance, force = 0.4 * RADIUS, 0.2 * RADIUS, 300.0
+    normal = np.array([distance / RADIUS, 0.0, np.sqrt(1.0 - (distance / RADIUS) ** 2)])
+    arm = np.array([0.0, 0.0, -RADIUS]) + RADIUS * normal - np.array([0.0, 0.0, height])
+    moment = float(np.linalg.norm(np.cross(arm, force / normal[2] * normal)))
+    balance = BlockBalance(RADII, 9, 4e-4, 45e-3, SPHERE, height)
+    assert balance.force_within(distance, moment) == pytest.approx(force, rel=1e-12)
+    assert balance.pressed_by(force, moment) == pytest.approx(distance, rel=1e-12)
+
+
 def test_kidneys_turn_the_block_about_the_middle():
     """The area integral of p n x r over one kidney, at no angle in particular."""
     above = np.zeros(9)

@@ -153,6 +153,14 @@ def test_whitening_makes_the_covariance_one(memory: tuple[float, ...]) -> None:
     assert whitening.log_determinant == pytest.approx(0.5 * (sizes - np.linalg.slogdet(covariance)[1]), abs=1e-9)
 
 
+def test_change_of_the_noise_is_relative() -> None:
+    still = whitener(_readings(np.zeros((POINTS, 2))), _bench().input_slopes(np.zeros(3)))
+    louder = replace(still, factors=still.factors / 1.25)
+    assert still.change(still) == pytest.approx(0.0, abs=1e-12)
+    assert still.change(louder) == pytest.approx(0.25)
+    assert louder.change(still) == pytest.approx(0.2)
+
+
 def test_known_correlation_is_whitened() -> None:
     """W C W^T = 1 for readings whose own noise correlates between points, and ln det with it; inputs known exactly."""
     bench, distance = _bench(), np.abs(np.subtract.outer(np.arange(POINTS), np.arange(POINTS)))

@@ -28,6 +28,7 @@ from gaps.films.reports import PistonReport
 from gaps.revolution.film_heat import GapHeat, Sink
 from gaps.revolution.warmth import ViscosityRatios
 from reynolds import Elastic, FilmNotConverged, FilmSolver, InputError
+from reynolds.floating.stage import FloatingStage
 from system.films.heat import rod, slab, tube
 
 DIAMETER, CLEARANCE, LENGTH, VISCOSITY = 22e-3, 15e-6, 40e-3, 0.03
@@ -157,6 +158,25 @@ def test_oil_that_stays_cold_moves_as_without_heat():
     assert heated.warmth is not None
     assert heated.warmth.rounds == 1
     assert without.warmth is None
+
+
+def test_heat_of_rubbing_goes_into_both_walls():
+    """In the middle of its bore: half into either, which the resistance of a wall turns into its temperature."""
+    film, heat, rubbing = piston(spin=100.0), oil(0.0, 1e-4), 40.0
+
+    def look(stage: FloatingStage) -> PistonReport:
+        report = piston_report(film, stage)
+        return replace(report, heat=replace(report.heat, rubbing=rubbing))
+
+    solver, start = FilmSolver(film.space_at(0.0)), np.zeros(4)
+    found = warm_revolution(solver, floating_piston(film), SCHEDULE, start, look, heat, accuracy=ROUGHLY).warmth
+    assert found is not None
+    flows = found.flows
+    assert flows.rubbing == pytest.approx(rubbing)
+    assert flows.to_fixed == pytest.approx(flows.to_moving, rel=1e-3)
+    assert flows.balance_error < 1e-6
+    passed = np.array([flows.to_fixed, flows.to_moving]) / AREA
+    assert found.walls - INLET == pytest.approx(1e-4 * passed, abs=0.05)
 
 
 def test_warm_oil_rubs_less_and_leaks_more():
