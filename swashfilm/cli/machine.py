@@ -87,20 +87,25 @@ def _memory() -> Finding:
 
 
 def _kernels() -> list[Finding]:
-    """Return findings on numba's folders of compiled kernels: number of kernels, and write access."""
+    """Return findings on numba's folders of compiled kernels, beside each module or in NUMBA_CACHE_DIR."""
+    import gaps
     import reynolds
     import system
 
-    found = []
-    for package in (reynolds, system):
-        home = Path(os.environ.get("NUMBA_CACHE_DIR") or Path(str(package.__file__)).parent / "__pycache__")
-        kept = len(list(home.rglob("*.nbi")))
-        state = f"{kept} kept in {home}" if kept else f"none yet in {home}: the first run compiles, some 20 s"
-        nearest = next(folder for folder in (home, *home.parents) if folder.exists())
-        writable = os.access(nearest, os.W_OK)
-        remedy = "" if writable else "set NUMBA_CACHE_DIR to a writable folder; without it every run compiles again"
-        found.append(Finding(f"compiled kernels, {package.__name__}", state, remedy))
-    return found
+    if own := os.environ.get("NUMBA_CACHE_DIR"):
+        return [_kept_kernels("compiled kernels", Path(own))]
+    packages = (reynolds, gaps, system)
+    return [_kept_kernels(f"compiled kernels, {one.__name__}", Path(str(one.__file__)).parent) for one in packages]
+
+
+def _kept_kernels(what: str, home: Path) -> Finding:
+    """Return number of kernels in a folder, and write access."""
+    kept = len(list(home.rglob("*.nbi")))
+    state = f"{kept} kept in {home}" if kept else f"none yet in {home}: the first floating run compiles, some 80 s"
+    nearest = next(folder for folder in (home, *home.parents) if folder.exists())
+    writable = os.access(nearest, os.W_OK)
+    remedy = "" if writable else "set NUMBA_CACHE_DIR to a writable folder; without it every run compiles again"
+    return Finding(what, state, remedy)
 
 
 def _compiler() -> Finding:

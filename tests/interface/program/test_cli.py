@@ -288,6 +288,16 @@ def test_doctor_tells_packages_caches_and_graphics(capsys):
         assert word in out
 
 
+def test_doctor_counts_compiled_kernels_in_the_folder_that_numba_uses(capsys, monkeypatch):
+    for place in ("pump_1/one.nbi", "pump_1/two.nbi", "film_2/three.nbi"):
+        Path("kept", place).parent.mkdir(parents=True, exist_ok=True)
+        Path("kept", place).touch()
+    for folder, told in (("kept", "3 kept in kept"), ("none", "none yet in none")):
+        monkeypatch.setenv("NUMBA_CACHE_DIR", folder)
+        assert main(["doctor"]) == 0
+        assert told in " ".join(capsys.readouterr().out.split())
+
+
 @pytest.mark.usefixtures("rendered")
 def test_run_writes_a_lumped_point(capsys):
     assert main(["run", "ref90", "--fidelity", "lumped", "--pressure", "20MPa", "-o", "point"]) == 0
