@@ -6,6 +6,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import TextIO
 
+from swashfilm.console.compiling import Compiling, compilation
 from system.work.progress import Report
 
 LINE_EVERY = 5.0  # s between two lines in a log
@@ -16,11 +17,13 @@ def progress(total: int, label: str, stream: TextIO | None = None) -> Iterator[R
     """Yield a callback that shows the progress of `label`, by default on the standard error.
 
     The computation may correct the total, and return to a lower step (a new round). The remaining time is
-    extrapolated from the steps of the present round; it is not shown before the first step.
+    extrapolated from the steps of the present round; it is not shown before the first step. Compilation of the solvers
+    is told; in lines it does not count in the remaining time.
     """
     out = sys.stderr if stream is None else stream
     if not out.isatty():
-        yield _lines(label, out)
+        with compilation(lambda told: _line(out, f"{label}: {told}")) as compiling:
+            yield _lines(label, out, compiling)
         return
     from rich.console import Console
     from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
@@ -28,7 +31,11 @@ def progress(total: int, label: str, stream: TextIO | None = None) -> Iterator[R
     time_left = TimeRemainingColumn(elapsed_when_finished=True)
     words = (TextColumn("{task.description}"), TextColumn("{task.fields[what]}"))
     columns = (words[0], BarColumn(), MofNCompleteColumn(), time_left, words[1])
-    with Progress(*columns, console=Console(file=out), transient=True) as bar:
+    console = Console(file=out)
+    with (
+        compilation(lambda told: console.print(f"{label}: {told}", markup=False)),
+        Progress(*columns, console=console, transient=True) as bar,
+    ):
         task = bar.add_task(label, total=total, what="")
 
         def show(done: int, steps: int, what: str) -> None:
@@ -39,23 +46,29 @@ def progress(total: int, label: str, stream: TextIO | None = None) -> Iterator[R
         yield show
 
 
-def _lines(label: str, out: TextIO) -> Report:
+def _line(out: TextIO, text: str) -> None:
+    out.write(f"{text}\n")
+    out.flush()
+
+
+def _lines(label: str, out: TextIO, compiling: Compiling) -> Report:
     """Return a callback that writes lines: the first step, the last, and one every few seconds between."""
     began = round_began = time.monotonic()
+    compiled = 0.0
     shown = began - LINE_EVERY
     last = 0
 
     def show(done: int, steps: int, what: str) -> None:
-        nonlocal shown, last, round_began
+        nonlocal shown, last, round_began, compiled
         now = time.monotonic()
         if done < last:
-            round_began = now
+            round_began, compiled = now, compiling.seconds
         last = done
         if now - shown < LINE_EVERY and done < steps:
             return
         shown = now
-        ahead = f", {(now - round_began) / done * (steps - done):.0f} s to go" if 0 < done < steps else ""
-        out.write(f"{label}: {done}/{steps} {what} ({now - began:.1f} s{ahead})\n")
-        out.flush()
+        spent = now - round_began - (compiling.seconds - compiled)
+        ahead = f", {spent / done * (steps - done):.0f} s to go" if 0 < done < steps else ""
+        _line(out, f"{label}: {done}/{steps} {what} ({now - began:.1f} s{ahead})")
 
     return show

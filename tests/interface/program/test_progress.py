@@ -5,6 +5,7 @@ import itertools
 import re
 
 import pytest
+from numba.core import event
 
 from swashfilm.console import progress as module
 from swashfilm.console.progress import progress
@@ -35,6 +36,33 @@ def test_a_new_round_is_timed_from_its_own_beginning(clock):
         for done in (1, 9, 10, 1, 2, 3, 4):
             step(done, 10, "films")
     assert log.getvalue().splitlines()[-1] == "work: 3/10 films (12.0 s, 9 s to go)"
+
+
+def test_compilation_is_told_and_does_not_count_in_the_remaining_time(monkeypatch):
+    """Ten seconds of kernels, one within another, in a round whose two steps take two."""
+    now = [100.0]
+    monkeypatch.setattr(module.time, "monotonic", lambda: now[0])
+    log, kernel = io.StringIO(), {"dispatcher": None}
+    with progress(4, "work", log) as step:
+        with event.trigger_event("numba:compile", kernel):
+            now[0] += 4.0
+            with event.trigger_event("numba:compile", kernel):
+                now[0] += 6.0
+        now[0] += 2.0
+        step(2, 4, "films")
+    assert log.getvalue().splitlines() == [
+        "work: compiling the solvers for this machine, once; later runs do without",
+        "work: 2/4 films (12.0 s, 2 s to go)",
+        "work: compiled in 10 s",
+    ]
+
+
+def test_a_short_compilation_is_not_told(monkeypatch):
+    monkeypatch.setattr(module.time, "monotonic", lambda: 100.0)
+    log = io.StringIO()
+    with progress(4, "work", log), event.trigger_event("numba:compile", {}):
+        pass
+    assert log.getvalue() == ""
 
 
 def test_a_terminal_gets_a_bar():
