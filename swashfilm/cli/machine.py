@@ -101,7 +101,7 @@ def _kernels() -> list[Finding]:
 def _kept_kernels(what: str, home: Path) -> Finding:
     """Return number of kernels in a folder, and write access."""
     kept = len(list(home.rglob("*.nbi")))
-    state = f"{kept} kept in {home}" if kept else f"none yet in {home}: the first floating run compiles, some 80 s"
+    state = f"{kept} kept in {home}" if kept else f"none yet in {home}: the first run compiles, about a minute"
     nearest = next(folder for folder in (home, *home.parents) if folder.exists())
     writable = os.access(nearest, os.W_OK)
     remedy = "" if writable else "set NUMBA_CACHE_DIR to a writable folder; without it every run compiles again"
