@@ -70,7 +70,7 @@ class GapRevolution(Generic[Value]):
 
     @property
     def bare(self) -> GapRevolution[Value]:
-        """The same without its last stage, its oil and its warmed films: a march from it starts with the film left."""
+        """The same without its last stage, its oil and its warmed films: a march from it starts with its final film."""
         turn = replace(self.turn, oil=(), last=replace(self.turn.last, stage=None))
         warmth = None if self.warmth is None else replace(self.warmth, films=())
         return replace(self, turn=turn, closing=replace(self.closing, turn=turn), warmth=warmth)
@@ -101,9 +101,9 @@ def run_revolution(
     """The periodic motion of a gap whose drive repeats with the schedule's last angle.
 
     Starts as a full film at rest at `start` (k,) m, from which turns of wide steps lead next to the periodic
-    motion, or goes on from a revolution `before` it, of the film `left` where that has no last stage; `report_of` gives
-    the report of each angle. The steps of the first turn that stops at all angles are those of all that follow, so
-    that the map of a turn is smooth. Afterwards each coordinate is as near to the periodic motion as `closed` says,
+    motion, or goes on from a revolution `before` it, from its `final` film where it has no last stage. `report_of`
+    gives the report of each angle. The steps of the first turn that stops at all angles are those of all that follow,
+    so that the map of a turn is smooth. Afterwards each coordinate is as near to the periodic motion as `closed` says,
     and the oil in the film repeats as well; where `accuracy` is not settled, one turn more has been run. Raises
     FilmInputError for a schedule that does not rise from 0, FilmNotConverged with part and time where a step or the
     turn does not settle.

@@ -17,7 +17,7 @@ from reynolds.errors import FilmNotConverged
 from reynolds.floating.problem import Floating
 from reynolds.floating.stage import FloatingStage
 from reynolds.floating.start import places_of, pressed, restarted, started
-from reynolds.floating.step import FilmLeft, solve_stage
+from reynolds.floating.step import InitialFilm, solve_stage
 from reynolds.numerics.arrays import Array
 from reynolds.numerics.dirk import AcceptedStep, State, Tableau, integrate, nodes_only
 from reynolds.problem import FilmSolution
@@ -35,10 +35,9 @@ FARTHEST = 2e-2  # of the film's length, by which a wall may leave its shape: th
 class GapTurn(Generic[Value]):
     """One turn: its start q, its instants, kept films by angle with the deformation that is in their shape, its end.
 
-    oil: (size,) m3 of each unknown at each reported angle; left: film at its end, on the mesh of its start; times (s)
+    oil: (size,) m3 of each unknown at each reported angle; final: film at its end, on the mesh of its start; times (s)
     of its steps; step_error: largest error of a step over what was allowed, jumps left out; accuracy: that allowance,
-    share of the film; allowed, reach, repeats: as
-    `reynolds.numerics.shooting.Turn` has them.
+    share of the film; allowed, reach, repeats: as `reynolds.numerics.shooting.Turn` has them.
     """
 
     start: Array
@@ -46,7 +45,7 @@ class GapTurn(Generic[Value]):
     films: dict[float, FilmSolution] = field(repr=False)
     oil: tuple[Array, ...] = field(repr=False)
     last: State[FloatingStage] = field(repr=False)
-    left: FilmLeft = field(repr=False)
+    final: InitialFilm = field(repr=False)
     times: Array = field(repr=False)
     step_error: float
     accuracy: float
@@ -131,7 +130,7 @@ class Turns(Generic[Value]):
             films=gathered.films,
             oil=tuple(gathered.oil),
             last=state,
-            left=_left(places, state),
+            final=_film_at_end(places, state),
             times=np.array(gathered.times),
             step_error=max(gathered.errors),
             accuracy=self._accuracy.step,
@@ -145,9 +144,9 @@ class Turns(Generic[Value]):
         assert end.stage is not None
         return places_of(self._floating.shape_at(0.0).space, end.stage.instant.shape.space).unknowns
 
-    def _left_by(self, last: GapTurn[Value]) -> FilmLeft | None:
-        """The film that a turn of another drive has left; None on another mesh, on which a full film starts."""
-        return last.left if len(last.left.pressure) == self._floating.shape_at(0.0).space.size else None
+    def _initial(self, last: GapTurn[Value]) -> InitialFilm | None:
+        """The final film of a turn of another drive; None on another mesh, on which a full film starts."""
+        return last.final if len(last.final.pressure) == self._floating.shape_at(0.0).space.size else None
 
     def _room(self, end: GapInstant[Value]) -> float:
         """Film (m) at the end of a turn that the next start may use up: rough walls bear where they come too near."""
@@ -194,7 +193,7 @@ class Turns(Generic[Value]):
     def _begin(self, start: Array, last: GapTurn[Value] | None) -> State[FloatingStage]:
         """The start of a turn; a cold one, or one of another drive (`opening`), first deforms under this load."""
         if last is None or last.last.stage is None:
-            begin = started(self._floating, 0.0, start, None if last is None else self._left_by(last))
+            begin = started(self._floating, 0.0, start, None if last is None else self._initial(last))
         else:
             begin = restarted(self._floating, 0.0, last.last, start)
             if last is not self._opening:
@@ -279,11 +278,11 @@ class _Gathered(Generic[Value]):
         return before.last
 
 
-def _left(places: NDArray[np.intp], end: State[FloatingStage]) -> FilmLeft:
+def _film_at_end(places: NDArray[np.intp], end: State[FloatingStage]) -> InitialFilm:
     """The film at the end of a turn, each unknown in its place at the start."""
     assert end.stage is not None
     film = end.stage.balanced
-    return FilmLeft(film.pressure[places], film.film_fraction[places])
+    return InitialFilm(film.pressure[places], film.film_fraction[places])
 
 
 def _oil_moved(places: NDArray[np.intp], begin: State[FloatingStage], end: State[FloatingStage]) -> float:

@@ -14,7 +14,7 @@ from reynolds.floating.pockets import pockets_grown
 from reynolds.floating.problem import Floating
 from reynolds.floating.sensitivity import FilmSensitivity, oil_slopes
 from reynolds.floating.stage import FloatingStage
-from reynolds.floating.step import FilmLeft, full_film, solve_stage
+from reynolds.floating.step import InitialFilm, full_film, solve_stage
 from reynolds.numerics.arrays import Array
 from reynolds.numerics.dirk import State, StateTangent
 from reynolds.solve.solver import FilmSolver
@@ -24,18 +24,18 @@ NUDGE = 1e-9  # m: of the position, for the slope of what a film holds, which is
 NEAR = 1e-9  # of the mesh: round-off of a place
 
 
-def started(floating: Floating, time: float, q: Array, left: FilmLeft | None = None) -> State[FloatingStage]:
-    """A film at rest at a position (k,) m, full or as `left` (`full_film`), with the tangent of its position.
+def started(floating: Floating, time: float, q: Array, initial: InitialFilm | None = None) -> State[FloatingStage]:
+    """A film at rest at a position (k,) m, full or `initial` (`full_film`), with the tangent of its position.
 
     Raises FilmInputError where walls overlap, as `full_film` does.
     """
     q = np.asarray(q, dtype=float)
     columns = []
     for nudge in NUDGE * np.eye(len(q)):
-        ahead, behind = (full_film(floating, time, q + sign * nudge, left=left) for sign in (1.0, -1.0))
+        ahead, behind = (full_film(floating, time, q + sign * nudge, initial=initial) for sign in (1.0, -1.0))
         columns.append((ahead - behind) / (2.0 * NUDGE))
     tangent = StateTangent(np.eye(len(q)), np.column_stack(columns))
-    return State(time, q, full_film(floating, time, q, left=left), np.zeros(len(q)), tangent=tangent)
+    return State(time, q, full_film(floating, time, q, initial=initial), np.zeros(len(q)), tangent=tangent)
 
 
 def pressed(solver: FilmSolver, floating: Floating, start: State[FloatingStage], step: float) -> State[FloatingStage]:

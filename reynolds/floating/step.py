@@ -73,28 +73,28 @@ def films_in_balance(
 
 
 @dataclass(frozen=True)
-class FilmLeft:
-    """Pressures (size,) Pa and film fractions (size,) of a film, left to one of another drive or shape."""
+class InitialFilm:
+    """Film from which a march starts: pressures (size,) Pa and film fractions (size,)."""
 
     pressure: Array
     fraction: Array
 
 
 def full_film(
-    floating: Floating, time: float, q: Array, rate: Array | None = None, left: FilmLeft | None = None
+    floating: Floating, time: float, q: Array, rate: Array | None = None, initial: InitialFilm | None = None
 ) -> Array:
-    """State of a full film at a position (k,) m, as `FloatingStage.holds`: the start of a march.
+    """State at the start of a march, as `FloatingStage.holds`: a full or an `initial` film at a position (k,) m.
 
-    The film is at the pressures of its boundaries, or has those and the film fractions that are `left` by another of as
-    many unknowns: elastic walls are open for its oil then. `rate` (k,) m/s counts where walls have inertia (None: at
-    rest). Raises WallsOverlap where they do, FilmInputError for another number of unknowns.
+    A full film has the lowest pressure between its boundaries. The pressures of an `initial` film open elastic walls
+    before the first step. `rate` (k,) m/s counts where walls have inertia (None: at rest). Raises WallsOverlap where
+    walls overlap, FilmInputError for an initial film of another number of unknowns.
     """
     shape = floating.shape_at(time)
     at = posed(shape, modes_on(shape.space, floating.modes_at(time), floating.pockets), q)
     if shape.walls is None and not at.least > lowest_gap(shape):
         raise WallsOverlap(f"{floating.name} at {time:.6g} s", f"a least gap of {at.least:.3g} m", "walls apart")
     full = replace(shape, film=at.film, asperities=at.asperities, boundary=filled(floating, shape, q))
-    oil = oil_held(full) if left is None else oil_held(full, left.fraction, left.pressure)
+    oil = oil_held(full) if initial is None else oil_held(full, initial.fraction, initial.pressure)
     return joined(floating, StepStart(oil, q, np.zeros(len(q)) if rate is None else rate))
 
 

@@ -1,4 +1,4 @@
-"""Compilation of the solvers: told while it is under way, and left out of the remaining time.
+"""Report of the compilation of the solvers, which is no part of the remaining time.
 
 numba compiles a kernel at its first call on a machine and keeps it on disk.
 """
@@ -11,43 +11,43 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from typing import Any
 
-WORTH_TELLING = 2.0
-"""Compilation (s) from which it is told."""
+REPORTED_FROM = 2.0
+"""Shortest compilation that is reported, s."""
 
 
 class Compiling:
-    """Time spent in compilation so far, by this process; `tell` gets a line once that is worth it."""
+    """Compilation by this process: its time so far, s; `report` gets a line once it exceeds REPORTED_FROM."""
 
-    def __init__(self, tell: Callable[[str], None]) -> None:
-        self._tell, self._depth, self._began, self._told = tell, 0, 0.0, False
+    def __init__(self, report: Callable[[str], None]) -> None:
+        self._report, self._depth, self._began, self._reported = report, 0, 0.0, False
         self.seconds = 0.0
 
     def begin(self) -> None:
-        """Count from now on; compilations within one count once."""
+        """Start the clock; a compilation within another is part of it."""
         self._depth += 1
         if self._depth == 1:
             self._began = time.monotonic()
 
     def end(self) -> None:
-        """Count no longer."""
+        """Stop the clock."""
         self._depth -= 1
         if self._depth:
             return
         self.seconds += time.monotonic() - self._began
-        if self.seconds > WORTH_TELLING and not self._told:
-            self._told = True
-            self._tell("compiling the solvers for this machine, once; later runs do without")
+        if self.seconds > REPORTED_FROM and not self._reported:
+            self._reported = True
+            self._report("compiling the solvers for this machine, once; later runs do without")
 
     def finish(self) -> None:
-        """Tell the whole time, if compilation was told."""
-        if self._told:
-            self._tell(f"compiled in {self.seconds:.0f} s")
+        """Report the whole time of a compilation that was reported."""
+        if self._reported:
+            self._report(f"compiled in {self.seconds:.0f} s")
 
 
 @contextmanager
-def compilation(tell: Callable[[str], None]) -> Iterator[Compiling]:
-    """Yield the compilation within the context, told by `tell`; none where numba is not loaded."""
-    found = Compiling(tell)
+def compilation(report: Callable[[str], None]) -> Iterator[Compiling]:
+    """Yield the compilation within the context, with a `report` of it; none where numba is not loaded."""
+    found = Compiling(report)
     if "numba" not in sys.modules:
         yield found
         return

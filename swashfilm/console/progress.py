@@ -17,12 +17,12 @@ def progress(total: int, label: str, stream: TextIO | None = None) -> Iterator[R
     """Yield a callback that shows the progress of `label`, by default on the standard error.
 
     The computation may correct the total, and return to a lower step (a new round). The remaining time is
-    extrapolated from the steps of the present round; it is not shown before the first step. Compilation of the solvers
-    is told; in lines it does not count in the remaining time.
+    extrapolated from the steps of the present round; it is not shown before the first step. A line reports
+    compilation of the solvers, which is no part of the remaining time in a log.
     """
     out = sys.stderr if stream is None else stream
     if not out.isatty():
-        with compilation(lambda told: _line(out, f"{label}: {told}")) as compiling:
+        with compilation(lambda text: _line(out, f"{label}: {text}")) as compiling:
             yield _lines(label, out, compiling)
         return
     from rich.console import Console
@@ -33,7 +33,7 @@ def progress(total: int, label: str, stream: TextIO | None = None) -> Iterator[R
     columns = (words[0], BarColumn(), MofNCompleteColumn(), time_left, words[1])
     console = Console(file=out)
     with (
-        compilation(lambda told: console.print(f"{label}: {told}", markup=False)),
+        compilation(lambda text: console.print(f"{label}: {text}", markup=False)),
         Progress(*columns, console=console, transient=True) as bar,
     ):
         task = bar.add_task(label, total=total, what="")

@@ -157,13 +157,14 @@ def _small_svg(figure: Figure) -> bytes | None:
 
 
 class _Exceeded(Exception):
-    """A file gets more bytes than it may have."""
+    """A file exceeds its limit."""
 
 
 class _Bounded(io.BytesIO):
     """A file of at most _LONGEST bytes; writing more raises _Exceeded."""
 
     def write(self, more: Buffer, /) -> int:
+        """Write more bytes; return their number."""
         written = super().write(more)
         if self.tell() > _LONGEST:
             raise _Exceeded

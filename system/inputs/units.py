@@ -1,20 +1,19 @@
 """Quantities at the doors: text with a unit to SI floats and back. SI inside, always.
 
-The unit registry of pint costs about a second, so it is made at the first unit that is not among the usual ones.
+The unit registry of pint costs some 0.4 s, so it is made at the first quantity, not at import.
 """
 
 from __future__ import annotations
 
 import math
 import re
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from enum import Enum
 from fractions import Fraction
 from functools import cache
 from typing import TYPE_CHECKING
 
 from system.inputs.faults import nearest_choice
-from system.inputs.usual_units import USUAL, Unit
 
 if TYPE_CHECKING:
     import pint
@@ -30,6 +29,16 @@ LARGEST = Fraction(10) ** 30  # in SI; with its inverse the range of sizes that 
 
 MOST_DIGITS = 60
 """Characters of a number in a text; more are no number of a machine."""
+
+
+@dataclass(frozen=True)
+class _Unit:
+    """A unit: value in base units (m, kg, s, K, rad) = factor * number + offset, exactly."""
+
+    factor: Fraction
+    offset: Fraction
+    dimensionality: frozenset[tuple[str, object]]
+    counts_angle: bool
 
 
 class Dimension(Enum):
@@ -222,13 +231,8 @@ def _registry() -> pint.UnitRegistry:
 
 
 @cache
-def _unit(text: str) -> Unit | None:
+def _unit(text: str) -> _Unit | None:
     """Return what a unit text means, or None when it is not known."""
-    return USUAL.get(text) or by_pint(text)
-
-
-def by_pint(text: str) -> Unit | None:
-    """Return what a unit text means to pint and the additions here, or None when it is not known."""
     import pint
 
     if _UNIT_TEXT.fullmatch(text) is None:
@@ -241,7 +245,7 @@ def by_pint(text: str) -> Unit | None:
     except (pint.PintError, TypeError):  # TypeError: a logarithmic unit, such as dB
         return None
     names = [name for name, _ in registry.Quantity(1, unit).unit_items()]
-    return Unit(
+    return _Unit(
         factor=Fraction(first) - Fraction(origin),
         offset=Fraction(origin),
         dimensionality=frozenset(unit.dimensionality.items()),
@@ -276,18 +280,18 @@ def _meant(unit_text: str, dimension: Dimension) -> str:
     return nearest_choice(unit_text, (*dimension.reading_units, _example_unit(dimension)))
 
 
-def _in_si(number: str, unit: Unit, dimension: Dimension) -> Fraction:
+def _in_si(number: str, unit: _Unit, dimension: Dimension) -> Fraction:
     """Return a decimal number of a unit in the SI unit of the dimension, without rounding."""
     return (Fraction(number) * unit.factor + unit.offset) / _unit_of(dimension.si_unit).factor
 
 
-def _measures(unit: Unit, dimension: Dimension) -> bool:
+def _measures(unit: _Unit, dimension: Dimension) -> bool:
     """True when a unit is one of the dimension; angles count, which are one in the SI."""
     si = _unit_of(dimension.si_unit)
     return unit.dimensionality == si.dimensionality and unit.counts_angle == si.counts_angle
 
 
-def _unit_of(text: str) -> Unit:
+def _unit_of(text: str) -> _Unit:
     unit = _unit(text)
     if unit is None:
         raise ValueError(f"{text!r} is no unit")

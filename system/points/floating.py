@@ -51,6 +51,7 @@ from system.points.lumped import point_and_effects
 from system.points.piston_process import PistonBeside, piston_beside
 from system.pump.assembly import PumpPoint, met_point, put_together
 from system.pump.chamber.port_coupling import PortedCycle, ported_cycle
+from system.pump.chamber.problem import pressure_span
 from system.pump.chamber.turn import Gaps
 from system.pump.film_thickness import at_temperature, unpressed
 from system.pump.laws.friction_pairs import over_chambers
@@ -167,12 +168,15 @@ def _begun(gaps: FloatingGaps) -> FloatingGaps:
 
 
 def _driven_as(asked: RoundDrives, near: FloatingPoint) -> RoundDrives:
-    """The drives with friction and spins of another point.
+    """The drives with friction, spins and chamber pressures of another point.
 
-    Floating gaps change the lumped pump's pressures there as here, in proportion to the ports' difference.
+    The difference of floating from lumped chamber pressures goes with the pressure difference of the ports.
     """
     _, lumped = _beginning(near.pump, near.pump_point.point, near.options)
-    share = _span(asked.rotor.point) / _span(near.pump_point.point)
+    here, there = (
+        pressure_span(at.delivery_pressure, at.inlet_pressure) for at in (asked.rotor.point, near.pump_point.point)
+    )
+    share = here / there
     changed = [share * (one.pressure - own) for one, own in zip(near.pump_point.chambers, lumped.pressure, strict=True)]
     changes = [np.interp(asked.shaft_angle, lumped.shaft_angle, one, period=2.0 * np.pi) for one in changed]
     return replace(
@@ -183,11 +187,6 @@ def _driven_as(asked: RoundDrives, near: FloatingPoint) -> RoundDrives:
             replace(spin_torques(kind.gaps, kind.rotor, kind.drives.group), tried=()) for kind in near.kinds
         ),
     )
-
-
-def _span(point: OperatingPoint) -> float:
-    """Difference of the ports' pressures, Pa."""
-    return point.delivery_pressure - point.inlet_pressure
 
 
 @dataclass(frozen=True)

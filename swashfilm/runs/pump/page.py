@@ -36,7 +36,7 @@ Rows = list[tuple[str, ...]]
 
 @dataclass(frozen=True)
 class PumpFigures:
-    """What a page shows of a run folder without its 3D pictures, which may still be drawn meanwhile.
+    """Figures and answer of a run folder's page, apart from 3D pictures, which a process may still draw.
 
     view: the pump to turn, in the place of its picture; None where the folder has no films.
     """

@@ -10,6 +10,11 @@ from system.pump.laws.kinematics import Number, SwashDrive
 from system.pump.ports.areas import PortOpening
 
 
+def pressure_span(delivery_pressure: Number, inlet_pressure: Number) -> Number:
+    """Pressure difference of the ports and 1 bar, Pa: a size that stays above zero."""
+    return abs(delivery_pressure - inlet_pressure) + 1e5
+
+
 @dataclass(frozen=True)
 class LeakTable:
     """Leakage of the piston, slipper and valve-plate gap of one chamber (rows 0, 1, 2) over one turn: (3, N).
@@ -79,8 +84,8 @@ class Chamber(Generic[Number]):
 
     @property
     def pressure_span(self) -> Number:
-        """Pressure difference of the ports and 1 bar, Pa: the size by which pressures are judged."""
-        return abs(self.delivery_pressure - self.inlet_pressure) + 1e5
+        """Size by which pressures are judged, Pa."""
+        return pressure_span(self.delivery_pressure, self.inlet_pressure)
 
 
 @dataclass(frozen=True)

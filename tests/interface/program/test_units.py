@@ -7,8 +7,7 @@ import pytest
 from hypothesis import given, settings, strategies as st
 
 from system import Dimension
-from system.inputs.units import QuantityError, by_pint, format_quantity, largest, parse_quantity, unit_scale
-from system.inputs.usual_units import USUAL
+from system.inputs.units import QuantityError, format_quantity, largest, parse_quantity, unit_scale
 
 SIZES = st.one_of(st.just(0.0), st.floats(1e-29, 1e29), st.floats(-1e29, -1e-29))
 
@@ -118,8 +117,3 @@ def test_what_benches_write_is_understood_as_a_hint(text, dimension, meant):
     with pytest.raises(QuantityError) as caught:
         unit_scale(text.split()[1], dimension)
     assert caught.value.nearest == f"'{meant.split()[1]}"
-
-
-@pytest.mark.parametrize("text", USUAL)
-def test_a_usual_unit_is_what_pint_makes_of_it(text):
-    assert USUAL[text] == by_pint(text)

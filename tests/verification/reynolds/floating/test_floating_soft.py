@@ -41,7 +41,7 @@ from reynolds import (
 from reynolds.bodies.compliance import ElasticWalls
 from reynolds.equation.rough_overlap import as_shaped, vertex_thickness
 from reynolds.errors import FilmInputError
-from reynolds.floating.step import FilmLeft
+from reynolds.floating.step import InitialFilm
 
 LENGTH, WIDE, VISCOSITY, STIFFNESS = 10e-3, 2.5e-3, 0.03, 1e13
 HIGH, LOW = 30e6, 5e6
@@ -80,21 +80,21 @@ def at_rest(floating: Floating, space: FilmSpace, start: float, step: float = 1.
     return stage
 
 
-def test_a_film_left_under_pressure_holds_the_oil_of_its_open_walls():
-    """On springs k, V = theta (h0 + p/k) A: half filled where the film before was, under the pressure that it left."""
+def test_an_initial_film_under_pressure_holds_the_oil_of_its_open_walls():
+    """On springs k, V = theta (h0 + p/k) A: half filled, under the pressure of the initial film."""
     space = channel(8)
     floating = plate(space, winkler(space, STIFFNESS), (HIGH, LOW), lambda t: 0.0)
     inner = np.ones(space.size, dtype=bool)
     inner[[*space.edge_dofs["left"], *space.edge_dofs["right"]]] = False
-    left = FilmLeft(np.where(inner, 8e6, 0.0), np.where(inner, 0.5, 1.0))
-    oil = full_film(floating, 0.0, np.array([3e-6]), left=left)[: space.size]
+    initial = InitialFilm(np.where(inner, 8e6, 0.0), np.where(inner, 0.5, 1.0))
+    oil = full_film(floating, 0.0, np.array([3e-6]), initial=initial)[: space.size]
     area = space.lumped(np.ones((1, 1)))
     along = np.array([space.place(unknown)[0] for unknown in range(space.size)])
     far = np.abs(along - 0.5 * LENGTH) < 0.3 * LENGTH  # of no edge's cells
     assert far.sum() > 4
     assert oil[far] == pytest.approx(0.5 * (3e-6 + 8e6 / STIFFNESS) * area[far], rel=1e-12)
     with pytest.raises(FilmInputError, match="pressure"):
-        full_film(floating, 0.0, np.array([3e-6]), left=FilmLeft(np.zeros(3), np.ones(space.size)))
+        full_film(floating, 0.0, np.array([3e-6]), initial=InitialFilm(np.zeros(3), np.ones(space.size)))
 
 
 @pytest.mark.parametrize("dense", [False, True])

@@ -52,6 +52,12 @@ def test_a_neighbour_leads_to_a_finer_mesh_and_more_angles(first):
 
 
 @pytest.mark.long
+def test_a_neighbour_without_pressure_difference_of_its_ports_leads_on():
+    idle = point_at(PUMP.operating.inlet_pressure)
+    assert point_at(4e6, idle).rounds[-1].settled
+
+
+@pytest.mark.long
 def test_a_neighbour_with_elastic_walls_leads_to_less_pressure():
     """Elastic walls that 35 MPa has opened would meet deeply under a full film without pressure."""
     soft = FloatingOptions(Physics().without(Effect.HEAT), steps=36, finer=0.25)
