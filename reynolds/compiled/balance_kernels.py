@@ -16,6 +16,7 @@ from reynolds.equation.balance import NO_FLOW, NOTHING
 from reynolds.equation.deformation_kernels import slopes_by_deformation
 from reynolds.equation.thickness_kernels import integrate, mixed_more, thicken
 from reynolds.fem import kernels
+from reynolds.numerics.array_kernels import all_equal, largest
 
 _FAST = {"cache": True, "fastmath": {"contract"}, "error_model": "numpy"}
 
@@ -190,13 +191,13 @@ def newton_matrix(mesh, c, oil, balance, cavity, fixed, gain):
             p_lower[k] += balance.stiffness[k] + balance.lower[k] * oil.fraction[i] * oil.ratio_slope[i]
         for i in range(size):
             p_gain[i] = gain[i] + balance.rate[i] * oil.fraction[i] * oil.ratio_slope[i]
-    unit, largest = np.abs(balance.stiffness).max(), np.abs(f_upper).max()
+    unit, most = largest(balance.stiffness), largest(f_upper)
     unit = unit if unit > 0.0 else 1.0
     for i in range(size):
         f_gain[i] = max(balance.rate[i], 0.0) * oil.ratio[i]
-        largest = max(largest, f_gain[i])
-    scale = unit / largest if largest > 0.0 else 1.0
-    least = NOTHING * (largest if largest > 0.0 else unit)
+        most = max(most, f_gain[i])
+    scale = unit / most if most > 0.0 else 1.0
+    least = NOTHING * (most if most > 0.0 else unit)
     for i in range(size):
         if f_upper[mesh.indptr[i + 1] - 1] + f_gain[i] < least:
             f_gain[i] += least
@@ -262,7 +263,7 @@ def by_thickness(mesh, c, oil, given, balance, modes, pockets):
         mesh.dofs, mesh.shape, mesh.value, mesh.steep, mesh.gradient, mesh.signs, mesh.area, driven_x, driven_y, mode,
         dragged_x, dragged_y, c.content_slope / given.step, filling, modes, mesh.basis, mesh.points, out,
     )  # fmt: skip
-    if given.conserving and oil.fraction.min() != 1.0:
+    if given.conserving and not all_equal(oil.fraction, 1.0):
         mixed_more(
             mesh.dofs, mesh.slots, mesh.shape, mesh.value, mesh.gradient, c.flux_x_slope, c.flux_y_slope, modes,
             mesh.basis, mesh.points, mesh.indptr, mesh.indices, balance.upper, balance.lower, balance.leaves,

@@ -80,9 +80,11 @@ def eliminate(band):
                     put_lanes(a, at + c, lanes(a, at + c) - share * lanes(a, own + c))
     wide = np.zeros(size + 2 * half)
     for hub in range(len(band.across)):
-        wide[half : half + size] = band.across[hub]
+        for j in range(size):
+            wide[half + j] = band.across[hub, j]
         substitute(band, wide)
-        band.across[hub] = wide[half : half + size]
+        for j in range(size):
+            band.across[hub, j] = wide[half + j]
     for hub in range(len(band.across)):
         for other in range(len(band.across)):
             taken = 0.0
@@ -137,7 +139,7 @@ def substitute_rows(band, x):
 def answers(band, inverse, order, loads, found):
     """Rows of found (m, n) := A^-1 rows of loads; `inverse` of the corner, `order` the new number of each unknown."""
     size, hubs = len(band.reach), len(band.across)
-    wide, rest = np.zeros(size * WIDTH), np.zeros((hubs, WIDTH))
+    wide, rest, hub_answers = np.zeros(size * WIDTH), np.zeros((hubs, WIDTH)), np.empty((hubs, WIDTH))
     for first in range(0, loads.shape[0], WIDTH):
         some = min(WIDTH, loads.shape[0] - first)
         for i in range(loads.shape[1]):
@@ -153,7 +155,11 @@ def answers(band, inverse, order, loads, found):
                 if down != 0.0:
                     for m in range(some):
                         rest[hub, m] -= down * wide[j * WIDTH + m]
-        hub_answers = inverse @ rest
+        for hub in range(hubs):  # a matrix product would take seconds to compile
+            for m in range(WIDTH):
+                hub_answers[hub, m] = 0.0
+                for other in range(hubs):
+                    hub_answers[hub, m] += inverse[hub, other] * rest[other, m]
         for hub in range(hubs):
             for j in range(size):
                 across = band.across[hub, j]
@@ -194,11 +200,13 @@ def solve(band, inverse, order, pattern, entries, loads, tolerance, rounds, foun
             if left <= tolerance * size:
                 break
             answers(band, inverse, order, rest, more)
-            more[0] += found[m]
+            for i in range(loads.shape[1]):
+                more[0, i] += found[m, i]
             less, size = residual(pattern[0], pattern[1], entries, loads[m], more[0], rest[0])
             if not less < left:
                 break
             left = less
-            found[m] = more[0]
+            for i in range(loads.shape[1]):
+                found[m, i] = more[0, i]
         worst = max(worst, left / max(size, 1e-300)) if left == left else np.inf
     return worst

@@ -56,6 +56,18 @@ def norm(vector):
 
 
 @njit(**_FAST)
+def largest(values):
+    """Largest magnitude of an array (n,), 0 of none; NaN if one is."""
+    found = 0.0
+    for k in range(values.shape[0]):
+        size = abs(values[k])
+        if np.isnan(size):
+            return size
+        found = max(found, size)
+    return found
+
+
+@njit(**_FAST)
 def largest_share(rest, size, weak, held):
     """Largest |rest| of those not held, (n,), over their size and `weak` times the largest size; NaN if one is."""
     largest, found = 0.0, 0.0

@@ -146,13 +146,6 @@ def sharpen(start, neighbour, edge, sign, flow, entering, inflow, field, least, 
 
 
 @njit(**_FAST)
-def invert(block):
-    """Replace each block by its inverse; a singular block becomes not finite."""
-    for i in range(block.shape[0]):
-        block[i] = np.linalg.inv(block[i])
-
-
-@njit(**_FAST)
 def sweep(start, neighbour, edge, sign, flow, inverse, order, right, field):
     """Block Gauss-Seidel from a field of zeros: down the order of the flow and back up."""
     m = flow.shape[1]

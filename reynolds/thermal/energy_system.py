@@ -48,8 +48,7 @@ class HeatMatrix:
             neighbours.start, neighbours.edge, neighbours.sign, flows.flow, flows.up, gain, conduction,
             across.derivative, across.second, rows, self._block,
         )  # fmt: skip
-        self._inverse = self._block.copy()
-        energy_kernels.invert(self._inverse)
+        self._inverse = np.linalg.inv(self._block)
         self._order = _order(flows)
 
     @property

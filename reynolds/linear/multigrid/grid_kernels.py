@@ -11,7 +11,9 @@ from numba import njit
 
 _FAST = {"cache": True, "error_model": "numpy"}
 
-EAST, NORTH, WEST, SOUTH = 0, 1, 2, 3
+# numpy's integers: numba would compile a function anew for each constant of Python
+EAST, NORTH, WEST, SOUTH = np.int64(0), np.int64(1), np.int64(2), np.int64(3)
+FIRST, SOUTH_WEST, ONWARD = np.int64(0), np.int64(0), np.int64(1)
 
 
 @njit(**_FAST)
@@ -92,7 +94,7 @@ def walk(cells, size):
     """
     first, owner = _owners(cells, size)
     nothing = np.empty((0, 0, 4), np.int32)
-    cell, p, s, _, around_x = _to_the_end(cells, first, owner, 0, 0, 1, WEST)
+    cell, p, s, _, around_x = _to_the_end(cells, first, owner, FIRST, SOUTH_WEST, ONWARD, WEST)
     cell, p, s, _, around_y = _to_the_end(cells, first, owner, cell, p, s, SOUTH)
     _, _, _, columns, _ = _to_the_end(cells, first, owner, cell, p, s, EAST)
     _, _, _, rows, _ = _to_the_end(cells, first, owner, cell, p, s, NORTH)
