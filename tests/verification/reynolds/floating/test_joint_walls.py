@@ -37,7 +37,7 @@ def test_walls_settle_as_in_the_general_solver(soft: float, deep: float) -> None
     assert found == pytest.approx(expected, abs=1e-11 * np.abs(given).max())
     reference = meeting.at(given + expected)
     assert np.array_equal(touch.felt, reference.felt)
-    assert deep > 0.0 or touch.felt.size > 10
+    assert deep > 0.0 or touch.felt.size > 2
     # The table of contact is accurate to 1e-8 of its largest pressure.
     assert touch.bears.value == pytest.approx(reference.bears.value, abs=1e-6 * max(reference.bears.value.max(), 1.0))
 
