@@ -116,6 +116,9 @@ class FormLimits:
     second: float
     slack: float
     own: float
+    lagging: float
+    lag: float
+    unmet: float
     material: float
     flat: float
     least_range: float

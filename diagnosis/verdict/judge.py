@@ -12,7 +12,7 @@ from scipy.stats import chi2, norm
 
 from diagnosis.detect.mismatch import Detection
 from diagnosis.explain.hypotheses import Hypothesis
-from diagnosis.explain.model_error import class_gap, form_gap, place_gap, shared_out
+from diagnosis.explain.model_error import by_chance, chance_of_form, class_gap, place_gap, shared_out
 from diagnosis.explain.ranked import Explanation
 from diagnosis.explain.refit import fit_limits
 from diagnosis.study.model import Study
@@ -63,7 +63,7 @@ def judge(
     of the two alone is a suspicion of the likeliest kind, and claims nothing. A name needs probability, odds to all
     that claim something else, sizes above zero, and no veto of held-out regions; it is incomplete if a part of the
     mismatch remains. Unknown physics as likely as a name is in the class of each claim; so it is where a law of the
-    catalogue in another form would serve as well (`form_gap`).
+    catalogue in another form may be what was left out (`chance_of_form`).
     """
     limits = thresholds.mismatch
     null = next(each for each in explanations if each.hypothesis.kind is Kind.NO_MISMATCH)
@@ -81,8 +81,8 @@ def judge(
     members = equivalents(best, explanations, gap, place_gap(explanations, thresholds))
     beside = _beside(members, explanations, thresholds)
     if _together(beside) > _together(members):
-        gap = form_gap(explanations, thresholds)
-        explanations, shared = shared_out(explanations, (*members, *beside), gap, thresholds)
+        chance = chance_of_form(best, explanations, thresholds)
+        explanations, shared = by_chance(explanations, members, beside, chance, thresholds)
         members, beside = shared[: len(members)], shared[len(members) :]
     else:
         explanations, members = shared_out(explanations, members, gap, thresholds)
@@ -120,16 +120,12 @@ def _weight(each: Explanation) -> float:
 
 
 def _likeliest(explanations: Sequence[Explanation], thresholds: Thresholds) -> Explanation | None:
-    """The likeliest explanation that can be named; None where nothing named is near unknown physics.
-
-    Near: no farther behind than a law of another form may be.
-    """
+    """The likeliest explanation that can be named; None where unknown physics is sure beside it (`chance_of_form`)."""
     known = [each for each in explanations if each.hypothesis.kind not in NOT_NAMED]
     if not known:
         return None
     best = max(known, key=_weight)
-    unknown = [each for each in explanations if each.hypothesis.kind is Kind.UNKNOWN_PHYSICS]
-    if _together(unknown) - best.log_weight > form_gap(explanations, thresholds):
+    if 1.0 - chance_of_form(best, explanations, thresholds) >= thresholds.name.probability:
         return None
     return _simplest(best, explanations, thresholds)
 

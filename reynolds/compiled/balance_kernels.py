@@ -51,7 +51,7 @@ class FlowBalance(NamedTuple):
 @njit(**_FAST)
 def _without_inflow(mesh, flux_x, flux_y, given):
     """Unknowns of held edges over which the walls bring no oil in, (size,): `equation.balance.without_inflow`."""
-    held, sends = np.zeros(len(given.held), dtype=np.bool_), given.tied.copy()
+    held, sends = np.zeros(len(given.held), dtype=np.bool_), np.zeros(len(given.held), dtype=np.bool_)
     for f in range(len(mesh.rim_cells)):
         if not given.rim_held[f]:
             continue
@@ -65,7 +65,9 @@ def _without_inflow(mesh, flux_x, flux_y, given):
             held[mesh.rim_unknowns[k, f]] = True
             if out < -NO_FLOW * size or size == 0.0:
                 sends[mesh.rim_unknowns[k, f]] = True
-    return held & ~sends
+    for i in range(len(held)):
+        held[i] = held[i] and not sends[i] and not given.tied[i]
+    return held
 
 
 @njit(**_FAST)
@@ -222,11 +224,32 @@ def _dragged(dofs, value, filling, slope_x, slope_y, basis, points, x, y):
 
 
 @njit(**_FAST)
+def _filling(oil):
+    """Film fraction times the density ratio, (size,)."""
+    out = np.empty(len(oil.fraction))
+    for i in range(len(out)):
+        out[i] = oil.fraction[i] * oil.ratio[i]
+    return out
+
+
+@njit(**_FAST)
+def _over(values, step):
+    """Values (cells, points) over a step."""
+    out = np.empty(values.shape)
+    for e in range(values.shape[0]):
+        for q in range(values.shape[1]):
+            out[e, q] = values[e, q] / step
+    return out
+
+
+@njit(**_FAST)
 def _flow_slopes(mesh, c, oil, filling):
     """Slopes by the gap at the points (cells, points): flow by pressure x, y, that of the hourglass mode, drag x, y."""
     driven_x, driven_y = _gradient(mesh, oil.pressure)
-    driven_x *= c.conductance_slope
-    driven_y *= c.conductance_slope
+    for e in range(driven_x.shape[0]):
+        for q in range(driven_x.shape[1]):
+            driven_x[e, q] *= c.conductance_slope[e, q]
+            driven_y[e, q] *= c.conductance_slope[e, q]
     mode = _hourglass(mesh, c.conductance, c.conductance_slope, oil.pressure)
     dragged_x, dragged_y = np.empty(mesh.area.shape), np.empty(mesh.area.shape)
     _dragged(
@@ -241,12 +264,11 @@ def by_deformation(mesh, c, oil, given, rows, slots, entries):
 
     slots and entries as `equation.deformation_sparsity` has them.
     """
-    filling, data = oil.fraction * oil.ratio, np.empty(entries)
+    filling, stored, data = _filling(oil), _over(c.content_slope, given.step), np.empty(entries)
     driven_x, driven_y, mode, dragged_x, dragged_y = _flow_slopes(mesh, c, oil, filling)
     slopes_by_deformation(
         mesh.dofs, slots, mesh.shape, mesh.value, mesh.steep, mesh.gradient, mesh.corner, mesh.signs, mesh.area,
-        driven_x, driven_y, mode, dragged_x, dragged_y, c.content_slope / given.step, filling, rows, mesh.basis,
-        mesh.points, data,
+        driven_x, driven_y, mode, dragged_x, dragged_y, stored, filling, rows, mesh.basis, mesh.points, data,
     )  # fmt: skip
     return data
 
@@ -257,11 +279,15 @@ def by_thickness(mesh, c, oil, given, balance, modes, pockets):
 
     modes (cells, points, k): growth of the gap; pockets (size, k) m2: of the pockets' volumes.
     """
-    out, filling = np.empty((len(oil.pressure), modes.shape[2])), oil.fraction * oil.ratio
+    out, filling, stored = (
+        np.empty((len(oil.pressure), modes.shape[2])),
+        _filling(oil),
+        _over(c.content_slope, given.step),
+    )
     driven_x, driven_y, mode, dragged_x, dragged_y = _flow_slopes(mesh, c, oil, filling)
     thicken(
         mesh.dofs, mesh.shape, mesh.value, mesh.steep, mesh.gradient, mesh.signs, mesh.area, driven_x, driven_y, mode,
-        dragged_x, dragged_y, c.content_slope / given.step, filling, modes, mesh.basis, mesh.points, out,
+        dragged_x, dragged_y, stored, filling, modes, mesh.basis, mesh.points, out,
     )  # fmt: skip
     if given.conserving and not all_equal(oil.fraction, 1.0):
         mixed_more(

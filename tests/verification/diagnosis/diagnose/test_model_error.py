@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
 from diagnosis import Explanation, load_thresholds
-from diagnosis.explain.model_error import class_gap, form_gap, place_gap, shared_out
+from diagnosis.explain.model_error import by_chance, chance_of_form, class_gap, place_gap, shared_out
 from diagnosis.explain.ranked import with_probabilities
 from system import EffectId, Kind
 
@@ -68,10 +69,39 @@ def test_places_of_one_law_are_told_apart_by_its_form_alone(gained: float, warmt
     assert sum(each.probability for each in found) == pytest.approx(1.0)
 
 
-def test_a_law_of_another_form_lags_by_a_fifth_of_what_is_gained() -> None:
-    """In square a fifth, which is a quarter of what the law itself takes up; by noise alone where little is gained."""
-    assert form_gap(_weighed(10.0, behind=1.0), LIMITS) == LIMITS.name.class_gap
-    assert form_gap(_weighed(100.0, behind=1.0), LIMITS) == pytest.approx(20.0)
+def _behind(share: float, kind: Kind = Kind.MISSING_PHYSICS) -> tuple[Explanation, ...]:
+    """Nothing, unknown physics that gains 100 nats, and an explanation that lags by a share of them."""
+    listed = {each.hypothesis.effects: each for each in _weighed(100.0, behind=100.0 * share)}
+    unknown = SimpleNamespace(kind=Kind.UNKNOWN_PHYSICS, effects=(EffectId.UNKNOWN_PHYSICS,), log_prior=-1.0)
+    known = SimpleNamespace(kind=kind, effects=CHURNING, log_prior=-1.0)
+    return listed[()], replace(listed[OPENING], hypothesis=unknown), replace(listed[CHURNING], hypothesis=known)  # type: ignore[arg-type]
+
+
+def test_a_law_far_behind_unknown_physics_is_not_that_law_in_another_form() -> None:
+    """Sure of the law where it is not behind, less sure with every nat, sure of unknown physics where it gains half."""
+    chances = [chance_of_form(one[2], one, LIMITS) for one in map(_behind, (-0.01, 0.05, 0.2, 0.4, 0.6, 1.0))]
+    assert chances == sorted(chances, reverse=True)
+    assert chances[0] == 1.0
+    assert chances[1] > 0.5 > chances[3] > 1.0 - LIMITS.name.probability > chances[4]
+    form, prior = LIMITS.form, LIMITS.prior
+    odds = prior.missing_physics * form.lagging / form.lag * np.exp(-0.2 / form.lag)
+    odds /= prior.unknown_physics * form.unmet
+    assert chances[2] == pytest.approx(odds / (1.0 + odds))
+
+
+@pytest.mark.parametrize("kind", [Kind.WRONG_PARAMETER, Kind.SENSOR_FAULT])
+def test_what_has_no_form_is_behind_by_noise_at_most(kind: Kind) -> None:
+    near, far = _behind(0.01, kind), _behind(0.1, kind)
+    assert chance_of_form(near[2], near, LIMITS) == 1.0
+    assert chance_of_form(far[2], far, LIMITS) == 0.0
+
+
+def test_probability_by_the_chance_of_another_form() -> None:
+    listed = _behind(0.2)
+    found, members = by_chance(listed, listed[2:], listed[1:2], 0.4, LIMITS)
+    both = listed[1].probability + listed[2].probability
+    assert [each.probability for each in members] == pytest.approx([0.4 * both, 0.6 * both])
+    assert found == (listed[0], members[1], members[0])
 
 
 def test_components_of_unknown_physics_are_no_places() -> None:

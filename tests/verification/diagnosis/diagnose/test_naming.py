@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cache
 
@@ -15,6 +15,7 @@ from diagnosis.checks.outliers import scaled_places
 from diagnosis.detect.mismatch import confirmed, detect
 from diagnosis.explain.held_out import beyond_chance, has_veto, held_out, regions
 from diagnosis.explain.hypotheses import hypotheses, simulator_of, together
+from diagnosis.explain.model_error import chance_of_form
 from diagnosis.explain.ranked import with_probabilities
 from diagnosis.explain.refit import refit, within_tolerance
 from diagnosis.explain.scaling import scaling
@@ -25,7 +26,7 @@ from diagnosis.study.map_axes import AXES, scaled_axes
 from diagnosis.study.model import Candidate, study_of
 from diagnosis.verdict.diagnosis import VerdictStatus
 from diagnosis.verdict.doubt import doubted
-from diagnosis.verdict.judge import judge
+from diagnosis.verdict.judge import Judgement, judge
 from diagnosis.verdict.residue import residue_notes
 from diagnosis.verdict.suspects import unexplained
 from diagnosis.verdict.trend import power_errors
@@ -575,31 +576,42 @@ def test_what_stands_out_of_what_is_left_is_told() -> None:
     assert any(text.startswith("port_short_circuit stands out of the residual") for text in found.reasons)
 
 
-@pytest.mark.parametrize("gaps", [-3.0, -0.6, 0.3, 0.95, 1.05])
-def test_unknown_physics_as_likely_as_a_name_is_in_its_class(gaps: float) -> None:
-    """Churning named where unknown physics is far behind, a class with it where it is near, unknown where far ahead.
-
-    Behind churning by gaps of a class, ahead of it by what a law of another form may lag: a fifth of what is gained.
-    """
+def _beside_unknown(ahead: Callable[[float], float]) -> tuple[Judgement, tuple[Explanation, ...]]:
+    """Churning with unknown physics ahead of it by so many nats of those that an equal one gains; all explanations."""
     study = _study(1, laws=((CHURNING, 0.2),))
     own = next(each for each in hypotheses(study, LIMITS) if each.effects == (EffectId.CHURNING,))
     free = next(each for each in hypotheses(study, LIMITS) if each.component is Component.CASE_DRAG)
     null, best = (refit(study, each, LIMITS) for each in (hypotheses(study, LIMITS)[0], own))
     even = best.log_weight - free.log_prior
-    lag = gaps / (1.0 + LIMITS.form.own)
-    ahead = gaps * LIMITS.name.class_gap if gaps < 0.0 else lag * (even - null.log_evidence) / (1.0 - lag)
-    assert gaps < 0.5 or ahead > LIMITS.name.class_gap
-    bend = Explanation(free, even + ahead, True, None, 0.0, 0.0, None)
+    bend = Explanation(free, even + ahead(even - null.log_evidence), True, None, 0.0, 0.0, None)
     ranked = with_probabilities((null, best, bend), LIMITS.name.temperature)
-    found = judge(study, detect(study, LIMITS), ranked, _coordinates(), LIMITS)
-    if gaps > 1.0:
-        assert (found.kind, found.status, found.claims) == (Kind.UNKNOWN_PHYSICS, VerdictStatus.NAMED, ())
-        return
-    near = gaps > -1.0
+    return judge(study, detect(study, LIMITS), ranked, _coordinates(), LIMITS), ranked
+
+
+@pytest.mark.parametrize("gaps", [3.0, 0.6])
+def test_unknown_physics_as_likely_as_a_name_is_in_its_class(gaps: float) -> None:
+    """Churning is named where unknown physics is far behind, in gaps of a class; a class with it where it is near."""
+    found, _ = _beside_unknown(lambda _: -gaps * LIMITS.name.class_gap)
+    near = gaps < 1.0
     assert found.status is (VerdictStatus.CLASS if near else VerdictStatus.NAMED)
     assert found.claims[0].equivalent == ((EffectId.UNKNOWN_PHYSICS,) if near else ())
     odds = gaps * LIMITS.name.class_gap / LIMITS.name.temperature
-    assert found.claims[0].probability == pytest.approx(1.0 / (1.0 + np.exp(odds)), abs=1e-3)
+    assert found.claims[0].probability == pytest.approx(1.0 / (1.0 + np.exp(-odds)), abs=1e-3)
+
+
+@pytest.mark.parametrize("share", [0.1, 0.3, 0.6])
+def test_a_law_that_lags_may_be_of_another_form(share: float) -> None:
+    """Churning that lags by a share of what is gained: a class with unknown physics, by their chances; then unknown."""
+    found, ranked = _beside_unknown(lambda gained: share / (1.0 - share) * gained)
+    best = next(each for each in ranked if each.hypothesis.kind is Kind.MISSING_PHYSICS)
+    chance = chance_of_form(best, ranked, LIMITS)
+    if chance < 1.0 - LIMITS.name.probability:
+        assert (found.kind, found.status, found.claims) == (Kind.UNKNOWN_PHYSICS, VerdictStatus.NAMED, ())
+        assert share > 0.4
+        return
+    assert found.status is VerdictStatus.CLASS
+    assert found.claims[0].equivalent == (EffectId.UNKNOWN_PHYSICS,)
+    assert found.claims[0].probability == pytest.approx(chance, abs=1e-3)
 
 
 def _left_by_churning(study: Study) -> tuple[str, ...]:
