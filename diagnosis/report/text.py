@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from math import inf
 
 from diagnosis.detect.regions import MapRegion
 from diagnosis.detect.time_scan import TimeKind
@@ -211,11 +212,21 @@ def _class(diagnosis: Diagnosis) -> Iterator[str]:
         if claim.equivalent:
             others = listed((_member(one, diagnosis) for one in claim.equivalent), "or")
             own = effect_words([claim.effect])
-            yield f"{others[0].upper()}{others[1:]} in place of {own} fits this recording as well."
+            if claim.equivalent == (EffectId.UNKNOWN_PHYSICS,) and _is_behind_unknown(diagnosis):
+                as_well = f"fits this recording better. It may be {own} by another law"
+            else:
+                as_well = f"in place of {own} fits this recording as well"
+            yield f"{others[0].upper()}{others[1:]} {as_well}."
         if claim.pair and claim.elsewhere:
             own = f"{PLACES[claim.pair]} ({chance(1.0 - sum(part for _, part in claim.elsewhere))})"
             others = listed((f"{PLACES[gap]} ({chance(part)})" for gap, part in claim.elsewhere), "or")
             yield f"This recording cannot tell {own} from {others}."
+
+
+def _is_behind_unknown(diagnosis: Diagnosis) -> bool:
+    """True if unknown physics has more evidence than what is claimed."""
+    unknown = [one.log_weight for one in diagnosis.hypotheses if one.hypothesis.kind is Kind.UNKNOWN_PHYSICS]
+    return max(unknown, default=-inf) > diagnosis.hypotheses[0].log_weight
 
 
 def _member(effect: EffectId, diagnosis: Diagnosis) -> str:

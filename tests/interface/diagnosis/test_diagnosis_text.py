@@ -204,6 +204,12 @@ def test_a_cause_outside_the_catalogue_may_be_in_the_class(named: Diagnosis) -> 
     there = replace(found, location=replace(found.location, inputs=(ChannelName.SPEED,)))
     assert measure_words(there).startswith("More points at other values of speed tell")
     assert "A cause outside the catalogue (0.4) in place of elastic opening fits this recording as well." in text
+    ahead = replace(weighed[1], log_evidence=weighed[0].log_evidence + 5.0, hypothesis=second.hypothesis)
+    better = statement(replace(found, hypotheses=(weighed[0], ahead)))
+    expected = (
+        "A cause outside the catalogue (0.4) fits this recording better. It may be elastic opening by another law."
+    )
+    assert expected in better
 
 
 def test_angles_and_times_are_part_of_where(named: Diagnosis) -> None:
