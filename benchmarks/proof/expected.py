@@ -1,4 +1,4 @@
-"""Outcomes before anything is told: the truth of a case, or of a recording that is given with its answer."""
+"""Outcomes before any diagnosis: the truth of a case, or of a recording that is given with its answer."""
 
 from __future__ import annotations
 

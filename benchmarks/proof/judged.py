@@ -24,7 +24,7 @@ def _is_whole_truth(ids: frozenset[str], outcome: Outcome) -> bool:
 def is_right(outcome: Outcome) -> bool:
     """Whether the verdict is the truth, by its effects or the classes they are in; no gap told is not wrong.
 
-    A fault beside the truth may be named too. Unknown physics is told as a verdict, or in the class of every claim.
+    A fault beside the truth may be named too. Unknown physics counts as a verdict, or in the class of every claim.
     """
     if not outcome.effects:
         told = outcome.verdict == outcome.truth or is_open(outcome)
@@ -45,7 +45,7 @@ def is_right(outcome: Outcome) -> bool:
 
 
 def is_open(outcome: Outcome) -> bool:
-    """Whether the truth is unknown physics and no claim is told without it."""
+    """Whether the truth is unknown physics and no claim stands without it."""
     of_claims = [UNKNOWN in one.equivalent for one in outcome.claims]
     return outcome.truth == UNKNOWN and bool(of_claims) and all(of_claims)
 

@@ -10,14 +10,14 @@ from .outcome import Outcome
 
 HALF = 0.5  # of the largest shift: what moves less does not belong to a region
 TURN = 2.0 * pi
-WIDEST = pi / 3.0  # rad, of a window that is told: thresholds.toml
+WIDEST = pi / 3.0  # rad, of a stated window: thresholds.toml
 
 
 def region_overlap(outcome: Outcome) -> float:
-    """Points that are in both regions over points that are in one: told, and true in the channel told first.
+    """Points that are in both regions over points that are in one: stated, and true in the first stated channel.
 
     True are points at which that channel is moved by at least HALF of what it is moved at most. nan where nothing
-    is told, or the channel is not moved at all.
+    is stated, or the channel is not moved at all.
     """
     moved = np.abs(outcome.shift.get(outcome.channels[0], ())) if outcome.channels else np.zeros(0)
     if outcome.region is None or moved.size == 0 or moved.max() == 0.0:

@@ -199,7 +199,7 @@ WAYS = {
 
 
 def _sees(one: Outcome) -> bool:
-    """Whether a mismatch is told at all, be it as a suspicion."""
+    """Whether a mismatch is reported at all, be it as a suspicion."""
     return one.verdict not in ("no_mismatch", "none")
 
 
@@ -212,7 +212,7 @@ def _of(hits: int, among: Sequence[object]) -> str:
 
 
 def _section(each: Told) -> str:
-    """A table of other recordings; one that another state of the program made is told as such."""
+    """A table of other recordings; one that another state of the program made is marked as such."""
     stale = "" if each.program == program() else f"\n\nMade by another state of the program ({each.program})."
     return f"\n## {each.title}\n\n{each.text}{stale}\n\n" + table(each.head, each.rows)
 

@@ -18,7 +18,7 @@ from .sizing import repeatability, shift, size_for, typical, z_of
 
 STEPS = 360  # of a turn: .004 L/min, .02 N m from 720, a tenth of the noise
 TURN = 2.0 * np.pi
-BULK = 0.8  # of a square, by which a window is told
+BULK = 0.8  # of a square, by which a window is stated
 
 
 @dataclass(frozen=True)

@@ -63,7 +63,7 @@ def counted() -> frozenset[str]:
 
 @cache
 def program() -> str:
-    """Of all on which an outcome depends, thresholds and pump with it: one made by another program is told as such."""
+    """Of all on which an outcome depends, thresholds and pump with it; an outcome of another program is marked."""
     root = HERE.parents[1]
     modules = [root.joinpath(*name.split(".")).with_suffix(".py") for name in sorted(counted())]
     data = [path for name in PACKAGES for path in sorted((root / name).rglob("*.toml"))]
@@ -78,7 +78,7 @@ def load(folder: Path, name: str) -> Outcome | None:
 
 
 def outcomes(folder: Path) -> list[Outcome]:
-    """All outcomes of a folder, in the order of their names; the page's other sections are there too, and are none."""
+    """All outcomes of a folder, in the order of their names; the page's other sections there are no outcomes."""
     read = (json.loads(path.read_text("utf-8")) for path in sorted(folder.glob("*.json")))
     return [from_plain(data) for data in read if "truth" in data]
 

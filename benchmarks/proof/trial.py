@@ -172,7 +172,7 @@ def _outcome(expected: Outcome, diagnosed: Diagnosed, seconds: float) -> Outcome
 
 
 def _region(study: Study, location: Location) -> tuple[int, ...] | None:
-    """The points of the region that is told, all of them where the mismatch is told to be everywhere."""
+    """The points of the stated region; all of them where the mismatch is everywhere."""
     if not location.channels:
         return None
     lower, upper = (location.region.lower, location.region.upper) if location.region else ({}, {})

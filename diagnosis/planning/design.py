@@ -32,8 +32,8 @@ class Asked:
 
     planned: points as they are to be driven, with their readings `repeats`; possible: points that may be added;
     channels: those of the bench; most: readings to add at most; cost: of efficiency, the size of every suspect; apart:
-    sigma from which on a pair is told, None: `wanted_distance`; aim: sigma up to which a pair draws readings, if more;
-    meters: further meters to ask for, at most; further: names of those that the bench could add, None: all.
+    sigma from which on a pair is distinguished, None: `wanted_distance`; aim: sigma up to which a pair draws readings,
+    if more; meters: further meters to ask for, at most; further: names of those that the bench could add, None: all.
     """
 
     planned: BenchPoints
@@ -103,11 +103,11 @@ class Desk:
 
     @property
     def wanted(self) -> float:
-        """Sigma from which on a pair is told."""
+        """Sigma from which on a pair is distinguished."""
         return wanted_distance(self.thresholds.next_point) if self.asked.apart is None else self.asked.apart
 
     def told(self, contest: Contest, apart: Apart) -> tuple[tuple[int, int], ...]:
-        """The pairs that are told apart."""
+        """The pairs that are distinguished."""
         found = contest.told(apart, self.wanted, self.thresholds.form)
         return tuple(pair for pair in all_pairs(len(found)) if found[pair])
 

@@ -13,7 +13,7 @@ from system.effects.catalogue.bench_words import BENCH_WORDS
 from system.effects.catalogue.entries import entry_of
 
 PER_PRESSURE = 1e7
-"""Pa: coefficients of pressure are told as shares per 100 bar."""
+"""Pa: coefficients of pressure are stated as shares per 100 bar."""
 
 
 @dataclass(frozen=True)

@@ -100,7 +100,7 @@ class Sensitivity:
 
 
 def unit_change(key: PumpKey) -> float:
-    """Return the change (SI) of a dimension that its cost is told by: 1 um, 1 deg, or 1 % of it."""
+    """Return the change (SI) of a dimension by which its cost is stated: 1 um, 1 deg, or 1 % of it."""
     return {Dimension.LENGTH: 1e-6, Dimension.ANGLE: float(np.radians(1.0))}.get(
         key.dimension or Dimension.TIME, PERCENT * one_of(key)
     )

@@ -23,7 +23,7 @@ CHANNEL_HEAD = (
 AGREED_HEAD = ("difference at points not used in the fit, rms", "simulation", "scatter of the meter")
 BASE = Role.BASE.value
 MOVED, BACK = 3.0, 0.5
-"""Pull without the finding above which a stated value is told to have moved, and the part of it that may stay."""
+"""Pull without the finding above which a stated value counts as moved, and the part of it that may stay."""
 
 
 def words_of(name: str) -> str:

@@ -38,7 +38,7 @@ def _levels_words(case: VariedCase) -> str:
 
 
 def change_text(key: PumpKey) -> str:
-    """Return the change that a cost is told by: "1 um", "1 deg", "1 %" with its size."""
+    """Return the change by which a cost is stated: "1 um", "1 deg", "1 %" with its size."""
     if key.dimension is Dimension.LENGTH:
         return "1 um"
     if key.dimension is Dimension.ANGLE:

@@ -11,7 +11,7 @@ from system.effects.effect import EffectId
 
 @dataclass(frozen=True)
 class BenchWords:
-    """An effect as a bench engineer is told of it.
+    """An effect in the words of a bench engineer.
 
     name: a noun that follows "the cause is" and may be followed by "at the pistons". finding: a sentence without its
     end. Its fields are {place} (a gap in words), {part} (a friction pair or bearing), {stated} (a stated value),

@@ -11,7 +11,7 @@ from system.inputs.sections.fields import Points
 from system.inputs.units import QuantityError
 
 SHOWN = 10
-"""Faults of one file that are told; the rest are counted."""
+"""Faults of one file that are reported; the rest are counted."""
 
 
 @dataclass(frozen=True)

@@ -24,7 +24,7 @@ Search = Callable[[Trials], None]
 
 @dataclass(frozen=True)
 class Optimisation:
-    """Result of a search; problem: with the values of constraints that are told by the start.
+    """Result of a search; problem: with the values of constraints that the start gives.
 
     start: the pump as stated; designs: all that were tried, in their order. obstacles: None where no design has a
     result; internal: the reason of an error of the program at a design, else ""; seconds of processor time.

@@ -104,7 +104,7 @@ class Constraint:
 
 @dataclass(frozen=True)
 class Problem:
-    """Dimensions, objectives and constraints of an optimisation, and all measures that its designs are told by."""
+    """Dimensions, objectives and constraints of an optimisation, and all measures of its designs."""
 
     space: tuple[Varied, ...]
     objectives: tuple[Objective, ...]
