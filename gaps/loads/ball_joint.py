@@ -21,6 +21,7 @@ LEAST_FACING = 0.1  # cosine between bore and plate normal: a plate steeper than
 CREEP = 0.01  # of the shaft's speed: spin at which the joint's friction has reached 1/sqrt 2 of its size
 MOST_STEPS = 60
 SETTLED = 1e-10  # of the shaft's speed
+ROUNDING = 1e-14  # of its parts: error of the sum that is least
 
 
 @dataclass(frozen=True)
@@ -152,9 +153,9 @@ def free_spins(
     still = np.array([relative_spin(axis, plate_normal, shaft_speed, found[0], found[1]) for axis in bore_axis])
     drag, torque = np.diag(np.array([piston_drag, slipper_drag])[free]), np.array(driven)[free]
 
-    def spent(spins: Array) -> float:
-        by_films = 0.5 * spins @ drag @ spins - torque @ spins
-        return float(np.mean(friction * _width(still + turns @ spins, shaft_speed)) + by_films)
+    def spent(spins: Array) -> Array:
+        rubbed = float(np.mean(friction * _width(still + turns @ spins, shaft_speed)))
+        return np.array([rubbed, 0.5 * spins @ drag @ spins, -torque @ spins])
 
     spins = np.zeros(int(free.sum()))
     for _ in range(MOST_STEPS):
@@ -168,7 +169,9 @@ def free_spins(
         if np.max(np.abs(step), initial=0.0) < SETTLED * shaft_speed:
             found[free] = spins
             return Spins(float(found[0]), float(found[1]))
-        while spent(spins + step) > spent(spins) + 1e-4 * float(slope @ step) + 1e-15 * abs(spent(spins)):
+        parts = spent(spins)
+        most = parts.sum() + ROUNDING * np.abs(parts).sum()
+        while spent(spins + step).sum() > most + 1e-4 * float(slope @ step):
             step = 0.5 * step
         spins = spins + step
     raise FilmNotConverged(f"spins of piston and slipper not settled after {MOST_STEPS} steps", "given spin ratios")
