@@ -44,6 +44,11 @@ class Record:
     banded: bool
 
     @property
+    def trust(self) -> float:
+        """Probability that the next such answer is right, by Laplace's rule of succession: few trials prove little."""
+        return (self.right + 1) / (self.cases + 2)
+
+    @property
     def interval(self) -> tuple[float, float]:
         """The 95 % interval of the share of right ones (Wilson 1927)."""
         found = binomtest(self.right, self.cases).proportion_ci(0.95, method="wilson")
@@ -85,12 +90,12 @@ def certainty(diagnosis: Diagnosis, scant: bool) -> str:
 
 
 def sure_words(diagnosis: Diagnosis, scant: bool) -> str:
-    """Certainty in a word or two, by the lesser of the stated probability and the share of right answers on record."""
+    """Certainty in a word or two, by the lesser of the stated probability and the trust in such answers on record."""
     if diagnosis.status is VerdictStatus.SUSPICION:
         return "not sure"
     probability = stated_probability(diagnosis)
     record = record_of(_kind(diagnosis), scant, probability)
-    trust = min(probability, record.right / record.cases) if record else probability
+    trust = min(probability, record.trust) if record else probability
     return next((words for least, words in GRADES if trust >= least), "not sure")
 
 
