@@ -12,7 +12,7 @@ from scipy.stats import chi2, norm
 
 from diagnosis.detect.mismatch import Detection
 from diagnosis.explain.hypotheses import Hypothesis
-from diagnosis.explain.model_error import by_chance, chance_of_form, class_gap, place_gap, shared_out
+from diagnosis.explain.model_error import behind_unknown, by_chance, chance_of_form, class_gap, place_gap, shared_out
 from diagnosis.explain.ranked import Explanation
 from diagnosis.explain.refit import fit_limits
 from diagnosis.study.model import Study
@@ -120,12 +120,16 @@ def _weight(each: Explanation) -> float:
 
 
 def _likeliest(explanations: Sequence[Explanation], thresholds: Thresholds) -> Explanation | None:
-    """The likeliest explanation that can be named; None where unknown physics is sure beside it (`chance_of_form`)."""
+    """The likeliest explanation that can be named; None where unknown physics is sure beside it.
+
+    Sure: ahead by more than the gap of a class, and by the chance of the known law in another form.
+    """
     known = [each for each in explanations if each.hypothesis.kind not in NOT_NAMED]
     if not known:
         return None
     best = max(known, key=_weight)
-    if 1.0 - chance_of_form(best, explanations, thresholds) >= thresholds.name.probability:
+    behind = behind_unknown(best, explanations) > class_gap(explanations, thresholds)
+    if behind and 1.0 - chance_of_form(best, explanations, thresholds) >= thresholds.name.probability:
         return None
     return _simplest(best, explanations, thresholds)
 

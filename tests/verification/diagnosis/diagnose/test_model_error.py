@@ -69,9 +69,9 @@ def test_places_of_one_law_are_told_apart_by_its_form_alone(gained: float, warmt
     assert sum(each.probability for each in found) == pytest.approx(1.0)
 
 
-def _behind(share: float, kind: Kind = Kind.MISSING_PHYSICS) -> tuple[Explanation, ...]:
-    """Nothing, unknown physics that gains 100 nats, and an explanation that lags by a share of them."""
-    listed = {each.hypothesis.effects: each for each in _weighed(100.0, behind=100.0 * share)}
+def _behind(share: float, kind: Kind = Kind.MISSING_PHYSICS, gained: float = 100.0) -> tuple[Explanation, ...]:
+    """Nothing, unknown physics that gains so many nats, and an explanation that lags by a share of them."""
+    listed = {each.hypothesis.effects: each for each in _weighed(gained, behind=gained * share)}
     unknown = SimpleNamespace(kind=Kind.UNKNOWN_PHYSICS, effects=(EffectId.UNKNOWN_PHYSICS,), log_prior=-1.0)
     known = SimpleNamespace(kind=kind, effects=CHURNING, log_prior=-1.0)
     return listed[()], replace(listed[OPENING], hypothesis=unknown), replace(listed[CHURNING], hypothesis=known)  # type: ignore[arg-type]
@@ -90,10 +90,14 @@ def test_a_law_far_behind_unknown_physics_is_not_that_law_in_another_form() -> N
 
 
 @pytest.mark.parametrize("kind", [Kind.WRONG_PARAMETER, Kind.SENSOR_FAULT])
-def test_what_has_no_form_is_behind_by_noise_at_most(kind: Kind) -> None:
+def test_what_has_no_form_goes_by_the_evidence(kind: Kind) -> None:
+    """One nat behind, odds of e^(1/.7); ten nats behind, none. So does a law where little is gained."""
     near, far = _behind(0.01, kind), _behind(0.1, kind)
-    assert chance_of_form(near[2], near, LIMITS) == 1.0
-    assert chance_of_form(far[2], far, LIMITS) == 0.0
+    assert chance_of_form(near[2], near, LIMITS) == pytest.approx(1.0 / (1.0 + np.exp(1.0 / LIMITS.name.temperature)))
+    assert chance_of_form(far[2], far, LIMITS) < 1e-5
+    slight = _behind(0.5, gained=1.0)
+    even = 1.0 / (1.0 + np.exp(0.5 / LIMITS.name.temperature))
+    assert chance_of_form(slight[2], slight, LIMITS) == pytest.approx(even)
 
 
 def test_probability_by_the_chance_of_another_form() -> None:
