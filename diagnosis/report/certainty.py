@@ -45,7 +45,7 @@ class Record:
 
     @property
     def trust(self) -> float:
-        """Probability that the next such answer is right, by Laplace's rule of succession: few trials prove little."""
+        """Probability that the next such answer is right, (right + 1)/(cases + 2) (Laplace's rule of succession)."""
         return (self.right + 1) / (self.cases + 2)
 
     @property

@@ -213,10 +213,10 @@ def _class(diagnosis: Diagnosis) -> Iterator[str]:
             others = listed((_member(one, diagnosis) for one in claim.equivalent), "or")
             own = effect_words([claim.effect])
             if claim.equivalent == (EffectId.UNKNOWN_PHYSICS,) and _is_behind_unknown(diagnosis):
-                as_well = f"fits this recording better. It may be {own} by another law"
+                comparison = f"fits this recording better. It may be {own} by another law"
             else:
-                as_well = f"in place of {own} fits this recording as well"
-            yield f"{others[0].upper()}{others[1:]} {as_well}."
+                comparison = f"in place of {own} fits this recording as well"
+            yield f"{others[0].upper()}{others[1:]} {comparison}."
         if claim.pair and claim.elsewhere:
             own = f"{PLACES[claim.pair]} ({chance(1.0 - sum(part for _, part in claim.elsewhere))})"
             others = listed((f"{PLACES[gap]} ({chance(part)})" for gap, part in claim.elsewhere), "or")

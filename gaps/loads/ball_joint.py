@@ -21,7 +21,7 @@ LEAST_FACING = 0.1  # cosine between bore and plate normal: a plate steeper than
 CREEP = 0.01  # of the shaft's speed: spin at which the joint's friction has reached 1/sqrt 2 of its size
 MOST_STEPS = 60
 SETTLED = 1e-10  # of the shaft's speed
-ROUNDING = 1e-14  # of its parts: error of the sum that is least
+ROUNDING = 1e-14  # of the parts of the minimised sum: its round-off
 
 
 @dataclass(frozen=True)

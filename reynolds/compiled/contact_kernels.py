@@ -1,6 +1,6 @@
 """Deformation of rough elastic walls against their contact, by the table of the gap, compiled once by numba.
 
-Plain loops: numba takes some ten times as long to compile the same by matrices.
+Plain loops: numba compiles matrix products and slices several times as long.
 """
 
 # mypy: allow-untyped-defs, allow-incomplete-defs, no-check-untyped-defs
