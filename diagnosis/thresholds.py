@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import tomllib
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, fields, replace
 from functools import cache
 from hashlib import sha256
 from math import log, radians
@@ -12,6 +12,7 @@ from pathlib import Path
 from typing import Any
 
 from reynolds.errors import InputError
+from system.estimation.trial import FitLimits
 
 FILE = Path(__file__).with_name("thresholds.toml")
 
@@ -82,6 +83,8 @@ class RefitLimits:
     beside: tuple[float, ...]
     way: tuple[float, ...]
     change: float
+    scant_change: float
+    scant_stuck: int
     patience: int
     gross_patience: int
     at_bound: float
@@ -220,6 +223,16 @@ class Thresholds:
     prior: PriorMasses
     seeds: Seeds
     digest: str
+
+    def fit_limits(self, scant: bool) -> FitLimits:
+        """Ends of a fit. scant: of a pump known by its type plate.
+
+        There the last nats are open: below the odds of a name nothing hangs on them, and the evidence is that of the
+        peak that the slopes promise.
+        """
+        own, odds = self.fit, self.name.odds
+        limits = FitLimits(change=own.change, patience=own.patience, gross=own.gross)
+        return replace(limits, change=own.scant_change, stall=2.0 * odds, stuck=own.scant_stuck) if scant else limits
 
 
 @cache

@@ -19,11 +19,7 @@ from .estimation.additions import (
     held_out as held_out,
     ladder as ladder,
 )
-from .estimation.fit import (
-    FitLimits as FitLimits,
-    best_posterior as best_posterior,
-    maximum_posterior as maximum_posterior,
-)
+from .estimation.fit import best_posterior as best_posterior, maximum_posterior as maximum_posterior
 from .estimation.function_simulator import FunctionSimulator as FunctionSimulator
 from .estimation.observations import (
     Channel as Channel,
@@ -33,6 +29,7 @@ from .estimation.observations import (
 from .estimation.parameters import Parameter as Parameter, Role as Role, Scale as Scale
 from .estimation.posterior import Posterior as Posterior, linear_posterior as linear_posterior
 from .estimation.simulator import Simulator as Simulator
+from .estimation.trial import FitLimits as FitLimits
 from .films.cycle import SMOOTH as SMOOTH
 from .films.drives import Drives as Drives, drives as drives, no_rubbing as no_rubbing
 from .films.parts import FloatingParts as FloatingParts, floating_parts as floating_parts

@@ -20,7 +20,7 @@ from diagnosis.thresholds import Thresholds
 from reynolds.errors import NotConverged
 from reynolds.numerics.arrays import Array
 from system.estimation.bounded_step import Bounds
-from system.estimation.fit import FitLimits, maximum_posterior
+from system.estimation.fit import maximum_posterior
 from system.estimation.parameters import Parameter
 from system.estimation.posterior import Posterior, settled, values_at
 from system.work.processes import ProcessPool
@@ -70,7 +70,7 @@ def within_tolerance(study: Study, null: Explanation, thresholds: Thresholds) ->
     simulator = simulator.with_parameters(tuple(each.held(pull) for each in simulator.parameters))
     start = Bounds.of(simulator.parameters).within(fit.xi)
     try:
-        held = maximum_posterior(simulator, study.observations, start, fit_limits(study, thresholds))
+        held = maximum_posterior(simulator, study.observations, start, thresholds.fit_limits(study.scant))
     except NotConverged:
         return fit
     return _of_free(held, np.abs(held.xi) < thresholds.fit.at_bound * pull)
@@ -119,7 +119,7 @@ def _refitted(study: Study, begun: _Begun, thresholds: Thresholds, hopeless: flo
     Members of a grid that are not refitted count as 0, so that their average is never too high. A member that stays
     hopelessly behind one that is fitted already stops early.
     """
-    limits = replace(fit_limits(study, thresholds), hopeless=hopeless)
+    limits = replace(thresholds.fit_limits(study.scant), hopeless=hopeless)
     if _gross(begun.about, thresholds):
         limits = replace(limits, patience=thresholds.fit.gross_patience)
     failed = list(begun.failed)
@@ -139,15 +139,6 @@ def _refitted(study: Study, begun: _Begun, thresholds: Thresholds, hopeless: flo
     best, posterior = max(found, key=lambda each: each[1].log_evidence)
     evidence = float(logsumexp([each.log_evidence for _, each in found])) - log(len(begun.hypothesis.members))
     return Explanation(best, evidence, False, posterior, _size_over_sigma(posterior, best), 0.0, None)
-
-
-def fit_limits(study: Study, thresholds: Thresholds) -> FitLimits:
-    """Ends of a fit. Of a pump known by its type plate the last nats are open: below the odds of a name nothing hangs
-    on them, and the evidence is that of the peak that the slopes promise.
-    """
-    own, odds = thresholds.fit, thresholds.name.odds
-    limits = FitLimits(change=own.change, patience=own.patience, gross=own.gross)
-    return replace(limits, stall=2.0 * odds) if study.scant else limits
 
 
 def _trials(thresholds: Thresholds, sizes: tuple[float, ...]) -> Trials:

@@ -110,6 +110,8 @@ def prepare(
         bench = bench.only(felt(bare, thresholds)).with_drifts(shapes, drift_parameters(bare, courses))
         bench = bench.with_departures(course_departures(bare, courses, thresholds.form.drift)) if courses else bench
         usable = replace(usable, notes=(*usable.notes, *_drift_notes(courses, usable)))
+        if about:  # parameters that were left out were at values of their own
+            about = null_place(study_of(usable, bench, found, axes, (), thresholds, about), thresholds)
         study = study_of(usable, bench, found, axes, catalogue, thresholds, about)
     return replace(study, events=port_events(pump), scant=scant)
 

@@ -14,7 +14,6 @@ from diagnosis.detect.mismatch import Detection
 from diagnosis.explain.hypotheses import Hypothesis
 from diagnosis.explain.model_error import behind_unknown, by_chance, chance_of_form, class_gap, place_gap, shared_out
 from diagnosis.explain.ranked import Explanation
-from diagnosis.explain.refit import fit_limits
 from diagnosis.study.model import Study
 from diagnosis.thresholds import Thresholds
 from diagnosis.verdict.diagnosis import ClaimedEffect, Estimate, VerdictStatus
@@ -241,7 +240,7 @@ def _objections(
         found.append(f"{rival.hypothesis.text} is only {ahead:.1f} nats behind")
     if best.posterior is None:
         found.append("it could not be refitted")
-    elif not is_peak(best.posterior, fit_limits(study, thresholds)):
+    elif not is_peak(best.posterior, thresholds.fit_limits(study.scant)):
         found.append("its fit has not reached a peak")
     elif not _sure(best.posterior, best.hypothesis, thresholds):
         found.append("its size is not sure")

@@ -24,8 +24,15 @@ def map_axis(option: str, text: str, given: MapInput, example: str) -> MapAxis |
         items = level_texts(text) if given.dimension else [_item(item.strip()) for item in text.split(",")]
         values = sorted({value for item in items for value in item.levels(given.dimension)})
     except QuantityError as reason:
-        return Fault(option, reason.found, f"{reason.expected}: {example}", reason.nearest)
+        nearest = "" if _has_no_unit(reason.nearest, given.dimension) else reason.nearest
+        return Fault(option, reason.found, f"{reason.expected}: {example}", nearest)
     return MapAxis(given, tuple(values))
+
+
+def _has_no_unit(text: str, dimension: Dimension | None) -> bool:
+    """Return whether a range without a unit is proposed where one is needed."""
+    _, dots, high = text.partition(":")[0].partition("..")
+    return dimension is not None and bool(dots) and _NUMBER.fullmatch(high) is not None
 
 
 @dataclass(frozen=True)

@@ -9,12 +9,13 @@ import numpy as np
 
 from reynolds.errors import InputError, NotConverged
 from reynolds.numerics.arrays import Array
-from system.estimation.fit import LIMITS, FitLimits, best_posterior, maximum_posterior
+from system.estimation.fit import best_posterior, maximum_posterior
 from system.estimation.folds import left_out
 from system.estimation.observations import Observations
 from system.estimation.parameters import Parameter
 from system.estimation.posterior import Posterior
 from system.estimation.simulator import Simulator
+from system.estimation.trial import LIMITS, FitLimits
 
 WORTH = 3.0  # nats, odds of 20 to 1, that an addition of a ladder has to gain
 STARTS = (0.1, -0.5, 1.0)  # sizes of an addition, in spreads, at which fits start

@@ -32,7 +32,7 @@ from reynolds.numerics.arrays import Array
 from system.inputs.channels import INPUTS, ChannelName
 from system.inputs.units import Dimension
 
-POINTS = 120
+POINTS = 64
 FEWEST = 8  # samples of a point
 RATE_SAMPLES = 9  # of the local line of which a rate is the slope
 STEEP = 0.03  # of the range a second: faster is a jump, not a ramp

@@ -8,28 +8,28 @@ any effect a linear model of the priors, which stay as wide, is right where noth
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import replace
 
 from diagnosis.study.model import Study
 from diagnosis.thresholds import Thresholds
 from reynolds.errors import NotConverged
-from system.estimation.fit import FitLimits, maximum_posterior
+from system.estimation.fit import maximum_posterior
 
 
 def null_place(study: Study, thresholds: Thresholds) -> Mapping[str, float]:
-    """Standard numbers by name at which the model without any effect fits, each within `tolerated`.
+    """Standard numbers by name at which the model without any effect fits from the study's own, within `tolerated`.
 
     Empty where the fit does not converge, and where it is grossly wrong: such a fit is at no place of the pump's.
     """
     limits = thresholds.fit
     held = tuple(each.held(limits.tolerated) for each in study.simulator.parameters)
     simulator = study.simulator.with_parameters(held)
-    ends = FitLimits(
-        change=limits.change, patience=limits.patience, gross=limits.gross, stall=2.0 * thresholds.name.odds
-    )
+    wrong = limits.gross * study.base.residual.size
+    ends = replace(thresholds.fit_limits(scant=True), hopeless=wrong, patience=limits.gross_patience)
     try:
-        fit = maximum_posterior(simulator, study.observations, limits=ends)
+        fit = maximum_posterior(simulator, study.observations, study.place, ends)
     except NotConverged:
         return {}
-    if fit.objective > limits.gross * fit.residual.size:
+    if fit.objective > wrong:
         return {}
     return {one.name: float(xi) for one, xi in zip(fit.parameters, fit.xi, strict=True)}

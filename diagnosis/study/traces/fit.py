@@ -11,8 +11,9 @@ from reynolds.errors import NotConverged
 from reynolds.numerics.arrays import Array
 from system.bench.parameters import GROOVE_NAMES
 from system.bench.sensors import TRACE_NAMES
-from system.estimation.fit import FitLimits, maximum_posterior
+from system.estimation.fit import maximum_posterior
 from system.estimation.parameters import Parameter
+from system.estimation.trial import FitLimits
 
 MOVING = frozenset({
     "bulk_modulus", "dead_volume", "flow_coefficient", "stand_out_share", "p_out.zero", "film_thickness.piston",

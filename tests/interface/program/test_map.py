@@ -64,6 +64,7 @@ def test_levels_are_read(text, given, levels):
     [
         ("5-35MPa", MapInput.PRESSURE, "5..35MPa:7"),
         ("5..35MPa", MapInput.PRESSURE, "5MPa..35MPa:7"),
+        ("5..35", MapInput.PRESSURE, ""),
         ("80%", MapInput.RATIO, "0.8"),
     ],
 )

@@ -276,6 +276,21 @@ def test_a_starved_cycle_keeps_its_oil():
         assert abs(out.total) < 1e-7 * out.delivery
 
 
+def test_slopes_by_friction_solve_no_chamber(monkeypatch):
+    """Chambers that do not change are those that are solved already."""
+    bench = _bench(points=_points([1500.0], 1.0, 20e6))
+    values, friction = _means(bench), tuple(one.name for one in bench.parameters if one.name.startswith("friction"))
+    bench.predict(values)
+
+    def none(*given):
+        raise AssertionError(given)
+
+    for name in ("solve_map", "beside", "other_gaps"):
+        monkeypatch.setattr(simulator, name, none)
+    slopes = bench.slopes(values, friction)
+    assert np.all(slopes[0, bench.channels.index(ChannelName.TORQUE)] != 0.0)
+
+
 @pytest.mark.parametrize(("table", "maps"), [("notch_erosion.advance", 1), ("elastic_opening.slipper.opening", 2)])
 def test_a_map_without_effects_is_solved_where_a_law_asks_for_it(table, maps, monkeypatch):
     """Ports that wear ask for no gap; a film that opens asks for the pressure in it."""

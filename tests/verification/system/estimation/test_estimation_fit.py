@@ -165,6 +165,28 @@ def test_films_that_change_places() -> None:
     assert swapped.effort.predictions < 60
 
 
+def _leaks(xi: Array) -> Array:
+    """Leakage of two films and a groove through oil of one viscosity: products, a sum of which is known to 1e-4."""
+    one, two, viscosity, groove = xi
+    leaks = np.exp(0.45 * one) + PRESSURE * np.exp(0.45 * two) + 0.5 * PRESSURE**2 * np.exp(0.3 * groove)
+    return 3000.0 * leaks * np.exp(-0.3 * viscosity)
+
+
+@pytest.mark.parametrize("wave", [0.0, 2.0], ids=["right law", "another law"])
+def test_the_floor_of_a_curved_valley_is_followed(wave: float) -> None:
+    """Steps of whole spreads, each corrected down to the floor: the peak of scipy's least squares in some predictions.
+
+    wave: what the law cannot meet, in sigma.
+    """
+    parameters = tuple(_parameter(name, 0.0, 1.0, OPEN, Scale.NORMAL) for name in ("one", "two", "viscosity", "groove"))
+    values = _leaks(np.array([1.5, -1.0, 2.0, 0.5])) + wave * np.sin(25.0 * PRESSURE)
+    found = maximum_posterior(Law(parameters, _leaks), _readings(values, 1.0))
+    best = least_squares(lambda xi: np.concatenate((values - _leaks(xi), xi)), np.zeros(4), xtol=1e-12, ftol=1e-12)
+    assert found.objective == pytest.approx(2.0 * best.cost, abs=5 * FitLimits().change)
+    assert found.effort.predictions < 20
+    assert found.effort.slopes < 5
+
+
 def test_intervals_of_curved_models_hold_the_truth() -> None:
     """Two films drawn from their priors, 150 fits: 90 % intervals hold 84 to 96 % (sampling alone: 90 +- 1.7)."""
     rng = np.random.default_rng(41)
