@@ -230,7 +230,8 @@ def test_a_single_point_is_a_line_of_csv_and_no_table(tmp_path, capsys):
 
 def test_holes_are_a_warning_in_python(holed):
     with pytest.warns(UserWarning, match="2 of 48 points without a result.*written as nan"):
-        sf.export(holed, "csv")
+        written = sf.export(holed, "csv")
+    assert [path.is_file() for path in written] == [True]
 
 
 def test_a_map_is_exported_from_python(whole, tmp_path):

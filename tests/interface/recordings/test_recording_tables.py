@@ -20,9 +20,9 @@ def _read(path, **form):
     return read_columns(TableSource(path, **form))
 
 
-def _same(columns, names=("speed", "torque")):
-    assert np.array_equal(columns.values[names[0]], SPEED)
-    assert np.array_equal(columns.values[names[1]], TORQUE, equal_nan=True)
+def _are_same(columns, names=("speed", "torque")):
+    speed, torque = (columns.values[name] for name in names)
+    return np.array_equal(speed, SPEED) and np.array_equal(torque, TORQUE, equal_nan=True)
 
 
 @pytest.mark.parametrize(
@@ -33,7 +33,7 @@ def test_text_tells_its_own_form(tmp_path, separator, decimal):
     rows = [separator.join(cell.replace(".", decimal) for cell in row) for row in cells]
     path = tmp_path / "steady.csv"
     path.write_text("\n".join(rows), encoding="utf-8-sig")
-    _same(_read(path))
+    assert _are_same(_read(path))
 
 
 def test_loggers_put_lines_above_and_units_below_the_head(tmp_path):
@@ -129,7 +129,7 @@ def test_any_text_is_read_or_refused(tmp_path_factory, text):
 def test_matlab_vectors_and_structs(tmp_path, struct):
     data = {"speed": SPEED, "torque": TORQUE[:, None]}
     savemat(tmp_path / "a.mat", {"run": data, "note": "x"} if struct else {**data, "k": 3.0})
-    _same(_read(tmp_path / "a.mat", variable="run" if struct else ""))
+    assert _are_same(_read(tmp_path / "a.mat", variable="run" if struct else ""))
     if struct:
         with pytest.raises(TableFault, match="no vector") as plain:
             _read(tmp_path / "a.mat")
@@ -140,7 +140,7 @@ def test_matlab_vectors_and_structs(tmp_path, struct):
 
 def test_matlab_matrix_columns_are_numbered(tmp_path):
     savemat(tmp_path / "a.mat", {"M": np.stack([SPEED, TORQUE], axis=1)})
-    _same(_read(tmp_path / "a.mat", variable="M"), ("M:1", "M:2"))
+    assert _are_same(_read(tmp_path / "a.mat", variable="M"), ("M:1", "M:2"))
 
 
 def test_matlab_v73(tmp_path):
@@ -149,7 +149,7 @@ def test_matlab_v73(tmp_path):
         run["speed"], run["torque"] = SPEED[None, :], TORQUE[None, :]  # as MATLAB stores columns
     with (tmp_path / "a.mat").open("r+b") as file:
         file.write(b"MATLAB 7.3 MAT-file, Platform: GLNXA64".ljust(128))
-    _same(_read(tmp_path / "a.mat", variable="run"))
+    assert _are_same(_read(tmp_path / "a.mat", variable="run"))
 
 
 def test_matlab_objects_are_refused_with_the_way_out(tmp_path):
@@ -169,10 +169,10 @@ def test_workbook(tmp_path):
     for speed, torque in zip(SPEED, TORQUE, strict=True):
         sheet.append([float(speed), None if np.isnan(torque) else float(torque)])
     book.save(tmp_path / "a.xlsx")
-    _same(_read(tmp_path / "a.xlsx"))
+    assert _are_same(_read(tmp_path / "a.xlsx"))
     book.create_sheet("notes")
     book.save(tmp_path / "a.xlsx")
-    _same(_read(tmp_path / "a.xlsx", sheet="points"))
+    assert _are_same(_read(tmp_path / "a.xlsx", sheet="points"))
     with pytest.raises(TableFault, match="points, notes"):
         _read(tmp_path / "a.xlsx")
 
@@ -185,7 +185,7 @@ def test_parquet(tmp_path):
     table = pyarrow.table({"speed": SPEED, "torque": TORQUE, "name": list("abcde"), "when": when})
     parquet.write_table(table, tmp_path / "a.parquet")
     columns = _read(tmp_path / "a.parquet")
-    _same(columns)
+    assert _are_same(columns)
     assert np.array_equal(columns.values["when"], np.arange(5.0))
     assert "'name' holds no numbers" in " ".join(columns.notes)
 
@@ -200,7 +200,7 @@ def _tdms(path, properties):
 def test_tdms(tmp_path):
     _tdms(tmp_path / "a.tdms", {"wf_start_offset": 0.0, "wf_samples": 5})
     columns = _read(tmp_path / "a.tdms")
-    _same(columns)
+    assert _are_same(columns)
     assert np.array_equal(columns.values["time"], 0.5 * np.arange(5))
 
 
@@ -219,5 +219,5 @@ def test_mdf(tmp_path):
         file.append(signals)
         file.save(tmp_path / "a.mf4")
     columns = _read(tmp_path / "a.mf4")
-    _same(columns)
+    assert _are_same(columns)
     assert np.allclose(columns.values["time"], time)

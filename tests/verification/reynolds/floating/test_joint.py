@@ -132,6 +132,8 @@ def test_film_and_position_together(case):
 def test_pad_with_a_pocket():
     space, floating = pad()
     _, stage, before = marched(space, floating, np.array([20e-6, 0.0, 0.0]), STEPS)
+    assert stage.solution.held.any()
+    assert not stage.solution.cavity.any()
     same(floating, stage, before)
 
 
