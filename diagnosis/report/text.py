@@ -57,13 +57,15 @@ def headline(diagnosis: Diagnosis) -> str:
     if diagnosis.kind is Kind.UNKNOWN_PHYSICS:
         return "A mismatch without a known cause."
     left = "; a part of the mismatch remains" if diagnosis.status is VerdictStatus.INCOMPLETE else ""
-    alike = max((1 + len(claim.equivalent) + len(claim.elsewhere) for claim in diagnosis.effects), default=1)
-    if alike > 1:
-        return f"Narrowed down to {_count(alike)} causes{left}."
-    sure = not left and stated_probability(diagnosis) >= diagnosis.thresholds.name.probability
     causes = len(diagnosis.effects)
+    alike = [len(claim.equivalent) + len(claim.elsewhere) for claim in diagnosis.effects]
+    if causes == 1 and alike[0]:
+        return f"Narrowed down to {_count(1 + alike[0])} causes{left}."
+    sure = not left and stated_probability(diagnosis) >= diagnosis.thresholds.name.probability
     found = "cause found" if causes < 2 else f"{_count(causes)} causes found"
     words = found if sure else f"likely {found}"
+    if any(alike):
+        words += f", {_count(sum(map(bool, alike)))} of which cannot be told from others"
     return f"{words[0].upper()}{words[1:]}{left}."
 
 

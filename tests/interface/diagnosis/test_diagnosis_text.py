@@ -16,6 +16,7 @@ from diagnosis import Diagnosis, NoteKind, statement, write_diagnosis
 from diagnosis.detect.angle_scan import AngleWindow
 from diagnosis.detect.time_scan import TimeKind, TimeMark
 from diagnosis.recording.model import DataNote, RecordedChannel
+from diagnosis.report.certainty import certainty
 from diagnosis.report.evidence import evidence
 from diagnosis.report.format import if_words
 from diagnosis.report.json_file import diagnosis_record, read_diagnosis
@@ -183,6 +184,16 @@ def test_a_gap_that_cannot_be_told_is_told_with_its_rivals(named: Diagnosis) -> 
     assert "Narrowed down to two causes." in text
     assert "This recording cannot tell the valve plate (0.78) from the slippers (0.22)." in text
     assert diagnosis_record(found)["effects"][0]["other_pairs"] == {"slipper": 0.22}
+
+
+def test_two_causes_together_are_not_told_as_one_of_two(named: Diagnosis) -> None:
+    """Both act; what is open is which of two the first is."""
+    first = replace(named.effects[0], equivalent=(E.FILM_HEATING,))
+    found = replace(named, status=VerdictStatus.CLASS, effects=(first, ClaimedEffect(E.CHURNING, None, 0.99, (), ())))
+    text = statement(found)
+    assert "wo causes found, one of which cannot be told from others." in text
+    assert "that it is these, or what cannot be told from them" in certainty(found, scant=False)
+    assert "Narrowed down" not in text
 
 
 def test_unknown_physics_is_told_with_what_it_is_most_like(named: Diagnosis) -> None:
