@@ -133,8 +133,8 @@ def _read(source: str | Path) -> tuple[str, str]:
 
 def _not_there(path: Path) -> Fault:
     """Return the fault of a name that is neither a built-in pump nor a file, with what comes nearest."""
-    builtin = builtin_pumps()
-    nearest = nearest_choice(str(path), builtin) or nearest_path(path)
+    builtin, beside = builtin_pumps(), nearest_path(path)
+    nearest = nearest_choice(str(path), builtin) or (beside if Path(beside).suffix in ("", ".toml") else "")
     return Fault(
         "pump",
         f"'{path}', which is no built-in pump and no file",

@@ -17,7 +17,7 @@ from reynolds import FilmNotConverged
 from reynolds.linear.factor import ITERATIVE_TOLERANCE
 from swashfilm.__main__ import main
 from swashfilm.runs.film import run as film_run
-from system import assumptions, load_pump, resolved_toml
+from system import InputFaults, assumptions, load_pump, resolved_toml
 
 ROOT = Path(__file__).resolve().parents[3]
 EXAMPLES = ROOT / "examples" / "films"
@@ -426,3 +426,14 @@ def test_a_pump_file_is_no_film_case(tmp_path, capsys):
     told = capsys.readouterr().err
     assert "1 fault" in told
     assert f"swashfilm run {pump}" in told
+
+
+@pytest.mark.parametrize(("there", "remedy"), [("note.md", ""), ("nose.toml", "nose.toml"), ("NOPE.toml", "NOPE.toml")])
+def test_a_pump_that_is_not_there_is_no_file_of_another_kind(tmp_path, monkeypatch, there, remedy):
+    folder = tmp_path / "alone"
+    folder.mkdir()
+    (folder / there).write_text("")
+    monkeypatch.chdir(folder)
+    with pytest.raises(InputFaults) as found:
+        load_pump("nope.toml")
+    assert found.value.faults[0].nearest == remedy
