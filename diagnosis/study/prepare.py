@@ -32,6 +32,7 @@ from system.description.pump import PumpDescription
 from system.description.tolerances import Tolerances
 from system.effects.catalogue.entries import CATALOGUE
 from system.effects.extension import Entry
+from system.estimation.observations import Observations
 from system.estimation.parameters import Parameter
 from system.estimation.posterior import values_at
 from system.inputs.channels import INPUTS, OUTPUTS, ChannelName
@@ -66,12 +67,7 @@ def prepare(
         names = ", ".join(channel.value for channel in SIMULATED)
         raise InputError("recording", "none of the simulated outputs", f"at least one of {names}")
     points, taken = bench_points(usable, pump)
-    unused = tuple(
-        DataNote(NoteKind.NOTED, name, (), f"{name.value} is recorded, but the simulation does not give it")
-        for name in measured(usable, OUTPUTS)
-        if name not in METERED
-    )
-    usable = replace(usable, notes=(*usable.notes, *taken, *unused))
+    usable = replace(usable, notes=(*usable.notes, *taken, *_unused_notes(usable)))
     parameters = (
         *uncertain_parameters(pump, tolerances, films), *meter_parameters(usable, channels),
         *assumed_parameters(usable, pump), *trace_parameters(usable),
@@ -105,15 +101,23 @@ def prepare(
         study = study_of(usable, traced, traced.observations(found), axes, catalogue, thresholds, about)
         study = replace(study, traces=trace_misfits(traced, traces, thresholds.mismatch.pull))
     else:
-        courses = drift_courses(bare, thresholds)
-        shapes = {channel: course / np.abs(course).max() for channel, course in courses.items()}
-        bench = bench.only(felt(bare, thresholds)).with_drifts(shapes, drift_parameters(bare, courses))
-        bench = bench.with_departures(course_departures(bare, courses, thresholds.form.drift)) if courses else bench
-        usable = replace(usable, notes=(*usable.notes, *_drift_notes(courses, usable)))
-        if about:  # parameters that were left out were at values of their own
-            about = null_place(study_of(usable, bench, found, axes, (), thresholds, about), thresholds)
-        study = study_of(usable, bench, found, axes, catalogue, thresholds, about)
+        study = _of_points(replace(bare, recording=usable), bench, found, catalogue, thresholds)
     return replace(study, events=port_events(pump), scant=scant)
+
+
+def _of_points(
+    bare: Study, bench: LumpedBench, found: Observations, catalogue: tuple[Entry, ...], thresholds: Thresholds
+) -> Study:
+    """The study of a recording without traces: drifts with courses of their own, and the parameters that are felt."""
+    courses = drift_courses(bare, thresholds)
+    shapes = {channel: course / np.abs(course).max() for channel, course in courses.items()}
+    bench = bench.only(felt(bare, thresholds)).with_drifts(shapes, drift_parameters(bare, courses))
+    bench = bench.with_departures(course_departures(bare, courses, thresholds.form.drift)) if courses else bench
+    usable, about = bare.recording, bare.about
+    usable = replace(usable, notes=(*usable.notes, *_drift_notes(courses, usable)))
+    if about:  # parameters that are left out had values of their own
+        about = null_place(study_of(usable, bench, found, bare.axes, (), thresholds, about), thresholds)
+    return study_of(usable, bench, found, bare.axes, catalogue, thresholds, about)
 
 
 def uncertain_parameters(
@@ -122,6 +126,14 @@ def uncertain_parameters(
     """The pump's uncertain parameters; of films that balance forces, those that are no results."""
     found = base_parameters(pump, tolerances)
     return found if films is None else tuple(one for one in found if one.name not in BALANCED_NAMES)
+
+
+def _unused_notes(recording: Recording) -> Iterator[DataNote]:
+    """A note on each output that is recorded and not simulated."""
+    for name in measured(recording, OUTPUTS):
+        if name not in METERED:
+            text = f"{name.value} is recorded, but the simulation does not give it"
+            yield DataNote(NoteKind.NOTED, name, (), text)
 
 
 def _excess_notes(channels: tuple[ChannelName, ...], excess: Array, least: float) -> Iterator[DataNote]:

@@ -6,7 +6,6 @@ where a step achieves little of its predicted reduction.
 
 from collections.abc import Sequence
 from dataclasses import replace
-from math import inf
 from time import process_time
 
 import numpy as np
@@ -134,9 +133,9 @@ def _descend(fit: Fit, walk: Walk, whitening: Whitening) -> tuple[Iterate, Array
 
 
 def _ended(fit: Fit, walk: Walk, whitening: Whitening) -> tuple[Walk, bool]:
-    """The end of `_steps` with slopes as they were taken: failed trials beside a kink turn theirs over."""
+    """The end of `_steps`, with the simulator's slopes: failed trials at a kink reverse the corrected ones."""
     walk, given_up = _steps(fit, walk, whitening)
-    return (walk if given_up else replace(fit.walk(walk.place, whitening), damping=walk.damping)), given_up
+    return (walk if given_up else fit.walk(walk.place, whitening)), given_up
 
 
 def _steps(fit: Fit, walk: Walk, whitening: Whitening) -> tuple[Walk, bool]:
@@ -145,20 +144,20 @@ def _steps(fit: Fit, walk: Walk, whitening: Whitening) -> tuple[Walk, bool]:
     Beyond MOST_DAMPING no step by these slopes gains.
     """
     objectives: list[float] = []
-    gains: list[float] = []
+    accepted: list[float] = []
     for step in range(fit.limits.steps):
         promised = fit.promised(walk)
         objectives.append(walk.place.objective)
-        gains += [walk.place.objective] if walk.failed == 0 else []
+        accepted += [walk.place.objective] if walk.failed == 0 else []
         if step >= fit.limits.patience and walk.place.objective - promised > fit.limits.hopeless:
             return walk, True
         if fit.is_level(objectives):
             return walk, True
         least = _stall(walk.place, fit.limits) if fit.exact else fit.limits.change * excess(walk.place)
-        is_stuck = fit.is_stuck(gains, walk.place)
+        is_stuck = fit.is_stuck(accepted, walk.place)
         if promised < least or walk.damping > MOST_DAMPING or is_stuck:
             if walk.moved <= NEAR:
-                return (replace(walk, damping=inf) if is_stuck else walk), False
+                return walk, False
             walk = fit.walk(walk.place, whitening)
         else:
             walk = tried(fit, walk, whitening)

@@ -1,7 +1,7 @@
 """A fit in progress: its places, and trials of steps that its slopes propose.
 
 Damped Gauss-Newton steps (Levenberg 1944, Marquardt 1963) between bounds; a prediction decides each. Each step corrects
-the slopes (Broyden 1965). A step that leaves the floor of a curved valley is led back to it.
+the slopes (Broyden 1965). A step that leaves the floor of a curved valley is corrected back to it.
 """
 
 from collections.abc import Sequence
@@ -41,8 +41,8 @@ class FitLimits:
     models with kinks predict more than they achieve. hopeless: an objective above which a fit is of no use. After
     `patience` trials a fit whose predicted objective is not lower ends, with the evidence of the predicted peak.
     gross: objective per reading of a model that is wrong; its fit ends where `level` trials gain less than the share
-    `coarse` of the objective. stuck: trials after which a fit that gained less than `change` goes no farther by its
-    slopes.
+    `coarse` of the objective. stuck: steps that together gain less than `change`, after which slopes lead no
+    farther.
     """
 
     steps: int = 100
@@ -177,22 +177,25 @@ class Fit:
         return objectives[-1 - limits.level] < (1.0 + limits.coarse) * objectives[-1]
 
     def is_stuck(self, objectives: Sequence[float], place: Iterate) -> bool:
-        """True if the last `stuck` trials together brought less than a change that counts."""
+        """True if the last `stuck` steps together brought less than a change that counts."""
         back = self.limits.stuck
         gained = objectives[-1 - back] - objectives[-1] if len(objectives) > back else inf
         return gained < self.limits.change * excess(place)
 
     def promised(self, walk: Walk) -> float:
         """By how much the objective would fall to the peak that the slopes promise."""
+        model, step = self.to_peak(walk)
+        return model.fall(step)
+
+    def to_peak(self, walk: Walk) -> tuple[Quadratic, Array]:
+        """The model by the slopes of a walk, and the step (k,) to its peak."""
         model = Quadratic.of(walk.place.xi, walk.place.residual, walk.slopes)
-        return model.fall(bounded_step(model, self.bounds.about(model.xi), 0.0, np.inf))
+        return model, bounded_step(model, self.bounds.about(model.xi), 0.0, np.inf)
 
 
 def are_right(fit: Fit, walk: Walk, whitening: Whitening) -> bool:
-    """True if the objective falls towards the promised peak about as steeply as the slopes say, by two predictions."""
-    place = walk.place
-    model = Quadratic.of(place.xi, place.residual, walk.slopes)
-    step = bounded_step(model, fit.bounds.about(place.xi), 0.0, np.inf)
+    """True if the objective falls towards the promised peak as steeply as the slopes say, to GOOD; two predictions."""
+    place, (model, step) = walk.place, fit.to_peak(walk)
     step *= PROBE / float(np.abs(step).max())
     before, after = (fit.trial(fit.bounds.reached(place.xi, sign * step), whitening) for sign in (-1.0, 1.0))
     if before is None or after is None:
@@ -230,11 +233,12 @@ def tried(fit: Fit, walk: Walk, whitening: Whitening) -> Walk:
 
 
 def _on_the_floor(fit: Fit, walk: Walk, trial: Iterate, promised: float, whitening: Whitening) -> tuple[Iterate, Array]:
-    """A trial corrected along a curved valley, down to the floor that the slopes promise at its step; slopes there.
+    """A trial that is corrected down to the floor of a curved valley, and the slopes there.
 
-    The first correction is half the second derivative of the readings along the step, solved with the slopes (geodesic
-    acceleration; Transtrum and Sethna 2012). Each further one corrects what the last one left, by the slopes that this
-    has corrected, while it brings enough. None has a component longer than the step.
+    The floor is the residual that the slopes promise at the trial's step. The first correction is half the second
+    derivative of the readings along the step, solved with the slopes (geodesic acceleration; Transtrum and Sethna
+    2012). Further corrections follow, each with slopes corrected by the last one, while each leaves less than LEFT of
+    the fall that is missing. No component of a correction is longer than the step.
     """
     step = fit.bounds.step_to(walk.place.xi, trial.xi)
     floor, longest = walk.place.residual - walk.slopes @ step, float(np.abs(step).max())
@@ -256,7 +260,7 @@ def _on_the_floor(fit: Fit, walk: Walk, trial: Iterate, promised: float, whiteni
 
 
 def _by_secant(slopes: Array, change: Array, went: Array) -> Array:
-    """The slopes (n, k) with the change (n,) of the readings over a step (k,); else unchanged (Broyden 1965)."""
+    """Slopes (n, k) that give the change (n,) of the readings over a step (k,) and else stay (Broyden 1965)."""
     if np.abs(went).max() <= SHORT:
         return slopes
     return slopes + np.outer(change - slopes @ went, went) / (went @ went)
@@ -268,7 +272,7 @@ def _apart(one: Array, other: Array) -> float:
 
 
 def _harder(walk: Walk) -> float:
-    """The damping after a trial that failed, of several in a row by ever larger factors."""
+    """The damping after a trial that failed; its factor grows with the failures in a row."""
     return max(walk.damping * HARDER * GROWTH**walk.failed, FIRST_DAMPING)
 
 
