@@ -184,11 +184,12 @@ def refit_all(
     """The refits of some hypotheses in their order, by a crew, and the failures as text.
 
     The first, which should be the likeliest, is refitted before the others and shows what is hopeless. part: a refitted
-    explanation; hypotheses that it is a part of start from its peak.
+    explanation, which shows it already; hypotheses that it is a part of start from its peak.
     """
     found: dict[int, tuple[Explanation, str | None]] = {}
     numbered = list(enumerate(listed))
-    for wave in (numbered[:1], numbered[1:]):
+    first = 1 if part is None else 2
+    for wave in (numbered[:first], numbered[first:]):
         task = partial(_numbered, study, thresholds, hopeless, part)
         if wave:
             names = ", ".join(each.hypothesis.text for _, each in wave[: executor.workers])

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -22,6 +23,7 @@ from system.pump.chamber.turn import TurnTotals, turn_totals
 from system.pump.lumped import port_openings
 from system.pump.ports.areas import as_array
 from system.pump.ports.wear import PortWear
+from system.work.threads import side_by_side
 
 
 @dataclass(frozen=True)
@@ -59,6 +61,8 @@ def _kind(pump: PumpDescription, shift: float, *wear: float, samples: int) -> tu
     return as_array(suction), as_array(delivery), turn_nodes(suction, delivery, ends)[0]
 
 
+FEWEST = 8
+"""Points of a map for a thread: fewer cost less than handing them over."""
 OF_GAPS = ("case_pressure", "kinematic_viscosity")
 """Constants of a chamber that act by its gaps alone; ports turn from laminar to turbulent at a few kPa."""
 
@@ -75,6 +79,10 @@ class Steps:
     held: Array
     trail: Array
     begins: NDArray[np.int64]
+
+    def of(self, some: slice) -> NDArray[np.int64]:
+        """Where the steps of some of the points begin in the trail, and where the last ones end."""
+        return self.begins[some.start : some.stop + 1]
 
 
 @dataclass(frozen=True)
@@ -102,7 +110,7 @@ class MapProblem:
     leaks: LeakTable
     wear: PortWear[Array]
 
-    @property
+    @cached_property
     def records(self) -> np.ndarray:
         """The chambers (N,) as compiled code reads them, ports not yet filled in."""
         return chamber_records(self.chamber)
@@ -112,16 +120,20 @@ class MapProblem:
         """Angle (N,) rad by which the ports lie later."""
         return np.zeros_like(self.chamber.shaft_speed) + self.chamber.drive.dead_centre_shift
 
-    @property
+    @cached_property
     def ports(self) -> Array:
         """Quantities by which the ports of points differ, one a row, (4, N)."""
         return np.stack([self.shift, *vars(self.wear).values()])
 
-    @property
-    def key(self) -> bytes:
-        """Bytes of all that the courses depend on."""
-        arrays = (self.records, self.leaks.conductance, self.leaks.drag_flow, self.ports)
-        return b"".join(array.tobytes() for array in arrays)
+    def is_that_of(self, other: MapProblem) -> bool:
+        """True if all is equal that the courses depend on."""
+        own, others = self.leaks, other.leaks
+        return (
+            np.array_equal(self.records, other.records)
+            and np.array_equal(own.conductance, others.conductance)
+            and np.array_equal(own.drag_flow, others.drag_flow)
+            and self.has_ports_of(other)
+        )
 
     def differs_in_gaps_alone(self, other: MapProblem) -> bool:
         """True if the other's chambers differ by nothing but the leakage of their gaps."""
@@ -140,9 +152,12 @@ def solve_map(pump: PumpDescription, problem: MapProblem, tolerance: float) -> C
     Periodic to a tenth of the tolerance (PERIODICITY at least), both of the ports' pressure difference. Raises
     NotConverged with the first point that does not become periodic.
     """
-    given, filled = _run(pump, problem, tolerance)
-    trail, begins = chamber_map(*given, *filled)
-    return replace(_courses(problem, filled), steps=Steps(given[0], given[1], given[2], trail, begins))
+    run = _run(pump, problem, tolerance)
+    found = side_by_side(lambda some: chamber_map(*run.given(some), *run.filled(some)), len(run.records), FEWEST)
+    counts = [np.diff(begins) for _, begins in found]
+    begins = np.concatenate([[0], np.cumsum(np.concatenate(counts))])
+    trail = np.concatenate([own for own, _ in found])
+    return replace(_courses(problem, run), steps=Steps(run.records, run.gaps, run.held, trail, begins))
 
 
 def beside(pump: PumpDescription, courses: Courses, problem: MapProblem, tolerance: float) -> Courses:
@@ -152,16 +167,42 @@ def beside(pump: PumpDescription, courses: Courses, problem: MapProblem, toleran
     of the cost. Points that do not converge on these steps are solved by themselves. Raises ValueError for courses
     that were not solved by themselves.
     """
-    steps = _steps(courses)
-    given, filled = _run(pump, problem, tolerance)
-    beside_map(*given, steps.trail, steps.begins, *filled)
-    return _courses(problem, filled)
+    steps, run = _steps(courses), _run(pump, problem, tolerance)
+
+    def along(some: slice) -> None:
+        beside_map(*run.given(some), steps.trail, steps.of(some), *run.filled(some))
+
+    side_by_side(along, len(run.records), FEWEST)
+    return _courses(problem, run)
 
 
-def _run(pump: PumpDescription, problem: MapProblem, tolerance: float) -> tuple[tuple[Any, ...], tuple[Array, ...]]:
-    """Arguments of the compiled maps, and the arrays that they fill: pressures, totals, statuses."""
+@dataclass(frozen=True)
+class _Run:
+    """What the compiled maps take, and the arrays over the points that they fill."""
+
+    records: np.ndarray
+    gaps: Array
+    held: Array
+    nodes: Array
+    firsts: NDArray[np.int64]
+    control: tuple[float, float, int]
+    pressures: Array
+    totals: Array
+    statuses: NDArray[np.int64]
+
+    def given(self, some: slice) -> tuple[Any, ...]:
+        """Arguments for some of the points."""
+        firsts = self.firsts[some.start : some.stop + 1]
+        return self.records[some], self.gaps[some], self.held[some], self.nodes, firsts, self.control
+
+    def filled(self, some: slice) -> tuple[Array, Array, NDArray[np.int64]]:
+        """What is to be filled of some of the points."""
+        return self.pressures[some], self.totals[some], self.statuses[some]
+
+
+def _run(pump: PumpDescription, problem: MapProblem, tolerance: float) -> _Run:
     points, _, samples = problem.leaks.conductance.shape
-    ports, records = map_ports(pump, problem.shift, problem.wear, samples), problem.records
+    ports, records = map_ports(pump, problem.shift, problem.wear, samples), problem.records.copy()
     for name, rows in zip(PORT_NAMES, (ports.delivery, ports.suction), strict=True):
         records[name] = rows
     held = np.zeros((points, 1, 2, 4))
@@ -169,17 +210,16 @@ def _run(pump: PumpDescription, problem: MapProblem, tolerance: float) -> tuple[
     control = tolerance, max(PERIODICITY, 0.1 * tolerance), REVOLUTION_LIMIT
     given = records, gap_cubics(problem.leaks), held, ports.nodes, ports.firsts, control
     totals = np.empty((points, 2 * INTEGRALS))
-    return given, (np.empty((points, samples)), totals, np.empty(points, dtype=np.int64))
+    return _Run(*given, np.empty((points, samples)), totals, np.empty(points, dtype=np.int64))
 
 
-def _courses(problem: MapProblem, filled: tuple[Array, ...]) -> Courses:
+def _courses(problem: MapProblem, run: _Run) -> Courses:
     """The courses that were filled. Raises NotConverged with the first point that is not periodic."""
-    pressure, totals, statuses = filled
-    if np.any(statuses != kernel.OK):
-        first = int(np.argmax(statuses != kernel.OK))
+    if np.any(run.statuses != kernel.OK):
+        first = int(np.argmax(run.statuses != kernel.OK))
         at = float(problem.chamber.delivery_pressure[first]), float(problem.chamber.shaft_speed[first])
         raise unsolved("no periodic revolution", *at)
-    return Courses(pressure, totals[:, :INTEGRALS])
+    return Courses(run.pressures, run.totals[:, :INTEGRALS])
 
 
 def other_gaps(courses: Courses, other: MapProblem) -> Courses:
@@ -190,11 +230,15 @@ def other_gaps(courses: Courses, other: MapProblem) -> Courses:
     of the solved courses. Raises ValueError for courses that were not solved by themselves.
     """
     steps = _steps(courses)
-    records, changes = other.records, np.empty_like(courses.integrals)
+    records, changes = other.records.copy(), np.empty_like(courses.integrals)
     for name in PORT_NAMES:
         records[name] = steps.records[name]
     given = steps.records, steps.gaps, steps.held, records, gap_cubics(other.leaks)
-    gaps_map(*given, steps.trail, steps.begins, changes)
+
+    def change(some: slice) -> None:
+        gaps_map(*(one[some] for one in given), steps.trail, steps.of(some), changes[some])
+
+    side_by_side(change, len(records), FEWEST)
     return Courses(courses.pressure, courses.integrals + changes)
 
 

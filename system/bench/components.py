@@ -7,7 +7,7 @@ import numpy as np
 
 from reynolds.numerics.arrays import Array
 from system.bench.chamber_map import other_gaps
-from system.bench.outputs import METERED, SIMULATED, Solved, losses, throttling_torque, truth
+from system.bench.outputs import METERED, SIMULATED, Solved, losses, throttling_torque
 from system.effects.components import Component
 from system.effects.gap_states import bench_state
 from system.effects.state import ideal_flow
@@ -45,13 +45,13 @@ def components(solved: Solved, warmer: Solved, channels: tuple[ChannelName, ...]
     flow (delivery to case) with the root of the pressure difference, drag in the case with the square of speed; the
     thermal state is the change by the viscosity of case oil warmer by WARMER, the map `warmer`.
     """
-    whole = truth(solved)
+    whole = solved.truth
     found = {
         **_leakage(solved, whole),
         **_friction(solved),
         **_volume(solved, whole),
         **_absent(solved),
-        Component.THERMAL_STATE: truth(warmer) - whole,
+        Component.THERMAL_STATE: warmer.truth - whole,
     }
     columns = [METERED.index(channel) for channel in channels]
     read = {component: added[:, columns] for component, added in found.items()}
@@ -67,7 +67,7 @@ def _leakage(solved: Solved, whole: Array) -> dict[Component, Array]:
         left = np.arange(len(LEAKAGE))[:, None] != row
         tight = LeakTable(problem.leaks.conductance * left, problem.leaks.drag_flow * left)
         courses = other_gaps(solved.courses, replace(problem, leaks=tight))
-        found[component] = whole - truth(replace(solved, courses=courses))
+        found[component] = whole - replace(solved, courses=courses).truth
     return found
 
 

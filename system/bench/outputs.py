@@ -2,6 +2,7 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
@@ -28,7 +29,7 @@ DRAINS = {
 }
 """Channel of each gap's own drain: its leakage, which is part of the case drain's flow too."""
 METERED = (*SIMULATED, *DRAINS.values(), ChannelName.TORQUE_UNCOUPLED)
-"""All that the lumped bench can read, in the order of `truth`."""
+"""All that the lumped bench can read, in the order of `Solved.truth`."""
 
 
 @dataclass(frozen=True)
@@ -44,28 +45,28 @@ class Solved:
     courses: Courses
     affected: Affected | None
 
+    @cached_property
+    def truth(self) -> Array:
+        """Flows in m3/s at their own port's pressure and torque in N m, (N, C) in the order of METERED.
+
+        A shaft without a coupling has no torque.
+        """
+        at, totals, pistons = self.setting.problem.chamber, self.courses.totals, self.setting.pump.pump.pistons
+        rate, changed = pistons * at.shaft_speed / TURN, self.affected
+        exchange = chamber_exchange(totals, rate)
+        added = NOTHING_OUTSIDE if changed is None else outside(changed.effects, changed.state)
+        found = metered(bench_reading(at, totals, pistons, losses(self).power, exchange, added), added)
+        leaks, none = gap_leakage(at, totals, rate, exchange), np.zeros_like(rate)
+        drained = (getattr(leaks, gap.value) + none for gap in DRAINS)
+        flows = found.delivery_flow, found.inlet_flow, found.drain_flow
+        return np.column_stack([*flows, found.shaft_torque, *drained, none])
+
 
 def losses(solved: Solved) -> FrictionPairs[Array]:
     """Losses of the seven pairs, (N, M) W, with what laws change of them."""
     at = solved.setting
     found = lumped_pairs(at.pump, at.point, at.motion, solved.courses)
     return found if solved.affected is None else rubbed(found, solved.affected.effects)
-
-
-def truth(solved: Solved) -> Array:
-    """Flows in m3/s at their own port's pressure and torque in N m, (N, C) in the order of METERED.
-
-    A shaft without a coupling has no torque.
-    """
-    at, totals, pistons = solved.setting.problem.chamber, solved.courses.totals, solved.setting.pump.pump.pistons
-    rate, changed = pistons * at.shaft_speed / TURN, solved.affected
-    exchange = chamber_exchange(totals, rate)
-    added = NOTHING_OUTSIDE if changed is None else outside(changed.effects, changed.state)
-    found = metered(bench_reading(at, totals, pistons, losses(solved).power, exchange, added), added)
-    leaks, none = gap_leakage(at, totals, rate, exchange), np.zeros_like(rate)
-    drained = (getattr(leaks, gap.value) + none for gap in DRAINS)
-    flows = found.delivery_flow, found.inlet_flow, found.drain_flow
-    return np.column_stack([*flows, found.shaft_torque, *drained, none])
 
 
 def throttling_torque(setting: Setting, courses: Courses) -> Array:

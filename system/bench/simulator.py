@@ -2,20 +2,20 @@
 
 from __future__ import annotations
 
+from collections import deque
 from collections.abc import Callable, Mapping
 from dataclasses import replace
 from functools import cache
-from hashlib import blake2b
 from typing import Any
 
 import numpy as np
 
 from reynolds.errors import InputError, NotConverged
 from reynolds.numerics.arrays import Array
-from system.bench.chamber_map import Courses, beside, other_gaps, solve_map
+from system.bench.chamber_map import Courses, MapProblem, beside, other_gaps, solve_map
 from system.bench.components import WARMER, components
 from system.bench.departures import FORM, departure_parameters
-from system.bench.outputs import METERED, Solved, truth
+from system.bench.outputs import METERED, Solved
 from system.bench.parameters import BASE_NAMES
 from system.bench.points import BenchPoints
 from system.bench.sensors import READING_NAMES, SENSOR_NAMES, TRACE_NAMES, read, read_turns
@@ -96,12 +96,12 @@ class LumpedBench:
         _hold_known(self._parameters, physics)
         self._columns = [METERED.index(channel) for channel in channels]
         setting(pump, points, {}, samples_per_pitch)
-        self._kept: dict[bytes, Courses] = {}
+        self._kept: deque[tuple[MapProblem, Courses]] = deque(maxlen=KEPT)
         self.own_laws = stated_laws(pump) if own_laws is None else own_laws
 
     def __getstate__(self) -> dict[str, object]:
         """State for another process: all but the courses that are remembered."""
-        return {**vars(self), "_kept": {}}
+        return {**vars(self), "_kept": deque(maxlen=KEPT)}
 
     @property
     def parameters(self) -> tuple[Parameter, ...]:
@@ -230,12 +230,12 @@ class LumpedBench:
 
     def _solve(self, at: Setting) -> Courses:
         """The courses of a setting, remembered by all on which they depend."""
-        key = blake2b(at.problem.key).digest()
-        if key not in self._kept:
-            self._kept[key] = solve_map(self.pump, at.problem, self.tolerance)
-            for oldest in list(self._kept)[:-KEPT]:
-                del self._kept[oldest]
-        return self._kept[key]
+        for problem, courses in self._kept:
+            if problem.is_that_of(at.problem):
+                return courses
+        found = solve_map(self.pump, at.problem, self.tolerance)
+        self._kept.append((at.problem, found))
+        return found
 
     def _near(self, solved: Solved, values: Array, points: BenchPoints) -> Solved:
         """A map beside a solved one: its chambers along the steps of that, or at its pressures."""
@@ -247,7 +247,7 @@ class LumpedBench:
 
     def _moved(self, before: Setting, courses: Courses, after: Setting) -> Courses:
         """Courses of a setting beside a solved one, those of that where the chambers are the same."""
-        if before.problem.key == after.problem.key:
+        if before.problem.is_that_of(after.problem):
             return courses
         if before.problem.differs_in_gaps_alone(after.problem):
             return other_gaps(courses, after.problem)
@@ -271,7 +271,7 @@ class LumpedBench:
         return Solved(plain, courses, changed, solve(changed), found)
 
     def _read(self, solved: Solved, values: Array, points: BenchPoints) -> Array:
-        found, named = truth(solved)[:, self._columns], self._named(values)
+        found, named = solved.truth[:, self._columns], self._named(values)
         if self.departures is not None:
             found = found + self.departures @ [
                 named.get(f"{FORM}{k + 1}", 0.0) for k in range(self.departures.shape[-1])

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from itertools import islice
 
 import numpy as np
+from numpy.lib.stride_tricks import sliding_window_view
 from numpy.typing import NDArray
 
 from reynolds.numerics.arrays import Array
@@ -16,6 +17,8 @@ PARTS = 10
 LEAST_PARTS = 4  # one more than the shapes that are fitted to their means
 ROUNDING = 1e-12
 MOST_MEMORY = 0.9  # that a tenth of a window can show
+BLOCK = 1_000_000
+"""Samples of the windows that are judged at once."""
 
 
 @dataclass(frozen=True)
@@ -40,53 +43,71 @@ def steady_stretches(inputs: Array, sigma: Array, rule: SteadyRule) -> tuple[sli
     if length < 8 or len(inputs) < length:
         return ()
     step = max(1, length // 10)
-    starts = range(0, len(inputs) - length + 1, step)
-    steady = [start for start in starts if is_steady(inputs[start : start + length], sigma, rule)]
-    runs = _joined(_runs(steady, step, length), inputs, sigma, rule)
+    windows = sliding_window_view(inputs, length, axis=0)[::step]
+    block = max(1, BLOCK // length)
+    steady = np.concatenate([are_steady(windows[k : k + block], sigma, rule) for k in range(0, len(windows), block)])
+    runs = _joined(_runs((step * np.flatnonzero(steady)).tolist(), step, length), inputs, sigma, rule)
     return tuple(part for run in runs for part in _pieces(run, inputs, sigma, rule))
 
 
 def is_steady(window: Array, sigma: Array, rule: SteadyRule) -> bool:
-    """True where no column (T, M) of a window without gaps moves significantly (`SteadyRule`).
+    """True where no column of one window (T, M) moves significantly (`are_steady`)."""
+    return bool(are_steady(window.T[None], sigma, rule)[0])
+
+
+def are_steady(windows: Array, sigma: Array, rule: SteadyRule) -> NDArray[np.bool_]:
+    """Which windows (W, M, T) have no gap and no column that moves significantly (`SteadyRule`), (W,).
 
     From the means of ten parts: slope and bow are the coefficients of the Legendre polynomials P1 and P2, by least
     squares; the noise is that within the parts, without movement between them.
     """
-    if not np.all(np.isfinite(window)):
-        return False
-    borders = np.linspace(0, len(window), min(PARTS, max(LEAST_PARTS, len(window) // 4)) + 1).astype(np.int64)
-    middle = (borders[1:] + borders[:-1]) / len(window) - 1.0
+    steady = np.all(np.isfinite(windows), axis=(1, 2))
+    samples = windows.shape[-1]
+    borders = np.linspace(0, samples, min(PARTS, max(LEAST_PARTS, samples // 4)) + 1).astype(np.int64)
+    middle = (borders[1:] + borders[:-1]) / samples - 1.0
     shapes = np.stack([np.ones_like(middle), middle, 1.5 * middle**2 - 0.5], axis=1)
-    rounded = np.maximum(sigma, ROUNDING * np.max(np.abs(window), axis=0))  # a commanded value has no noise at all
-    for column, harmless in zip(window.T, rounded, strict=True):
-        means, error = _parts(column, borders)
-        size, *_ = np.linalg.lstsq(shapes, means, rcond=None)
-        errors = error * np.sqrt(np.diag(np.linalg.inv(shapes.T @ shapes)))
-        for change, amplitude, one in zip((2.0, 1.5), size[1:], errors[1:], strict=True):
-            if abs(change * amplitude) > harmless and abs(amplitude) > rule.limit * one:
-                return False
-        if np.max(np.abs(means - np.median(means))) > max(harmless, (rule.limit + 1.0) * error):
-            return False
-    return True
+    by_means, widths = np.linalg.pinv(shapes), np.sqrt(np.diag(np.linalg.inv(shapes.T @ shapes)))
+    for at, harmless in enumerate(sigma):
+        left = np.flatnonzero(steady)
+        steady[left] = ~_moves(windows[left, at], borders, (by_means, widths), float(harmless), rule.limit)
+    return steady
 
 
-def _parts(column: Array, borders: NDArray[np.int64]) -> tuple[Array, float]:
-    """Means of the parts between borders, and their standard error from the scatter within, noise being AR(1)."""
+def _moves(
+    columns: Array, borders: NDArray[np.int64], line: tuple[Array, Array], sigma: float, limit: float
+) -> NDArray[np.bool_]:
+    """Which windows (W, T) of one input move significantly; line: slope and bow from means, and their errors by one."""
+    means, error = _parts(columns, borders)
+    rounded = ROUNDING * np.max(np.abs(columns), axis=1, initial=0.0)  # a commanded value has no noise at all
+    harmless = np.maximum(sigma, rounded)
+    size = np.abs(means @ line[0].T)
+    moves = np.zeros(len(columns), dtype=bool)
+    for at, change in ((1, 2.0), (2, 1.5)):
+        moves |= (change * size[:, at] > harmless) & (size[:, at] > limit * error * line[1][at])
+    farthest = np.max(np.abs(means - np.median(means, axis=1, keepdims=True)), axis=1, initial=0.0)
+    return np.asarray(moves | (farthest > np.maximum(harmless, (limit + 1.0) * error)))
+
+
+def _parts(columns: Array, borders: NDArray[np.int64]) -> tuple[Array, Array]:
+    """Means (W, P) of the parts of windows (W, T); their standard errors (W,) by the scatter within, noise AR(1)."""
     counts = np.diff(borders)
-    means = np.add.reduceat(column, borders[:-1]) / counts
-    inner = column - np.repeat(means, counts)
-    powers = np.add.reduceat(inner**2, borders[:-1])
-    follows = np.append(inner[1:] * inner[:-1], 0.0)
-    follows[borders[1:] - 1] = 0.0
+    means = np.add.reduceat(columns, borders[:-1], axis=1) / counts
+    inner = columns - np.repeat(means, counts, axis=1)
+    powers = np.add.reduceat(inner**2, borders[:-1], axis=1)
+    follows = np.zeros_like(inner)
+    follows[:, :-1] = inner[:, 1:] * inner[:, :-1]
+    follows[:, borders[1:] - 1] = 0.0
     size = float(np.mean(counts))
-    known = powers > 0.0
-    if not known.any():
-        return means, 0.0
-    measured = float(np.median(np.add.reduceat(follows, borders[:-1])[known] / powers[known]))
-    memory = min(max((measured * size + 1.0) / (size - 3.0), 0.0), MOST_MEMORY) if size > 4.0 else max(measured, 0.0)
+    shares = np.divide(
+        np.add.reduceat(follows, borders[:-1], axis=1), powers, out=np.full_like(powers, np.nan), where=powers > 0.0
+    )
+    scatters = np.any(powers > 0.0, axis=1)
+    measured = np.zeros(len(columns))
+    measured[scatters] = np.nanmedian(shares[scatters], axis=1)
+    memory = np.clip((measured * size + 1.0) / (size - 3.0), 0.0, MOST_MEMORY) if size > 4.0 else measured.clip(0.0)
     spread = (1.0 + memory) / (1.0 - memory) / size  # variance of a part's mean over that of a sample
-    variance = float(np.median(powers)) / (size - 1.0) / max(1.0 - spread, 0.3)
-    return means, float(np.sqrt(variance * spread))
+    variance = np.median(powers, axis=1) / (size - 1.0) / np.maximum(1.0 - spread, 0.3)
+    return means, np.where(scatters, np.sqrt(variance * spread), 0.0)
 
 
 def effective_number(noise: Array) -> float:

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from reynolds.errors import InputError
 from reynolds.numerics.arrays import Array
-from system.bench.outputs import losses, truth
+from system.bench.outputs import losses
 from system.bench.points import BenchPoints
 from system.bench.setting import Setting
 from system.bench.simulator import LumpedBench
@@ -108,7 +108,7 @@ class EqTwentyOne:
 def eq_twenty_one(bench: LumpedBench, values: Array, parameters: tuple[Parameter, ...]) -> EqTwentyOne:
     """Eq. (21) of a bench, all but the coefficients of `parameters` held at `values` (of the bench's own)."""
     solved = bench.solved(values)
-    simulated = truth(solved)
+    simulated = solved.truth
     at, found = solved.setting, losses(solved)
     friction = at.pump.friction
     columns = []

@@ -25,7 +25,7 @@ MEAN[col.PORT_ENERGY :] = 0.0
 """Weight of a step's beginning in the mean of each integral's rate: none where the ports' stiff flows are in it."""
 
 
-@numba.njit(cache=True, error_model="numpy")
+@numba.njit(cache=True, error_model="numpy", nogil=True)
 def gaps_map(constants, tables, ports, others, other_tables, trail, begins, changes):
     """Fill changes (P, INTEGRALS): integrals of a turn of the other chambers less those of the solved ones.
 

@@ -14,7 +14,7 @@ ROOM = 256
 """Steps of a turn that are kept at first; more are made room for."""
 
 
-@numba.njit(cache=True, error_model="numpy")
+@numba.njit(cache=True, error_model="numpy", nogil=True)
 def chamber_map(constants, tables, ports, nodes, firsts, control, pressures, totals, statuses):
     """The periodic revolution of the chamber at each of P points: `cycle.solve_cycle`'s without its checks.
 
@@ -45,7 +45,7 @@ def room(count, totals):
     return np.empty(count), np.empty((count, PATHS)), np.empty((count, PATHS)), totals
 
 
-@numba.njit(cache=True, error_model="numpy")
+@numba.njit(cache=True, error_model="numpy", nogil=True)
 def beside_map(constants, tables, ports, nodes, firsts, control, trail, begins, pressures, totals, statuses):
     """`chamber_map` of chambers that differ little from those whose `trail` and `begins` it has returned.
 

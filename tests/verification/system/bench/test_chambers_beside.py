@@ -5,11 +5,13 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from reynolds.errors import NotConverged
 from system import BenchPoints, load_pump
 from system.bench.chamber_map import Courses, MapProblem, beside, other_gaps, solve_map
 from system.bench.setting import setting
 from system.pump.chamber import layout as col
 from system.pump.chamber.layout import PATHS
+from system.work.threads import side_by_side
 
 PUMP = load_pump("ref90")
 TOLERANCE = 1e-5
@@ -78,6 +80,37 @@ def test_chambers_too_unlike_are_solved_for_themselves():
     assert np.any(solved)
     assert np.all(led.pressure[solved] == alone.pressure[solved])
     assert _shown(led) == pytest.approx(_shown(alone), rel=1e-4)
+
+
+@pytest.mark.parametrize("share", [1, 3])
+def test_threads_change_no_digit(monkeypatch, share):
+    """Points of a map are shared out in slices; their steps are put end to end as one thread lays them."""
+    problem, other = _problem(), _problem(bulk_modulus=1.01 * PUMP.oil.bulk_modulus)
+    thinner = _problem(viscosity=0.99)
+    found = []
+    for threads in (1, 4):
+        monkeypatch.setattr("system.work.threads.cores", lambda threads=threads: threads)
+        monkeypatch.setattr("system.bench.chamber_map.FEWEST", share)
+        courses = solve_map(PUMP, problem, TOLERANCE)
+        found.append((courses, beside(PUMP, courses, other, TOLERANCE), other_gaps(courses, thinner)))
+    for one, many in zip(*found, strict=True):
+        assert np.array_equal(one.pressure, many.pressure)
+        assert np.array_equal(one.integrals, many.integrals)
+    assert np.array_equal(found[0][0].steps.trail, found[1][0].steps.trail)
+    assert np.array_equal(found[0][0].steps.begins, found[1][0].steps.begins)
+
+
+def test_a_task_s_fault_is_raised_and_results_keep_their_order(monkeypatch):
+    monkeypatch.setattr("system.work.threads.cores", lambda: 3)
+    assert np.concatenate(side_by_side(lambda some: np.arange(some.start, some.stop), 20)).tolist() == list(range(20))
+    assert side_by_side(lambda some: (some.start, some.stop), 0) == [(0, 0)]
+
+    def faulty(some: slice) -> None:
+        if some.stop == 20:
+            raise NotConverged("the last one")
+
+    with pytest.raises(NotConverged, match="the last one"):
+        side_by_side(faulty, 20)
 
 
 def test_worn_ports_are_not_gone_along():
