@@ -40,6 +40,7 @@ class PointWarning(Enum):
     ENERGY_NOT_BALANCED = "energy_not_balanced"
     NO_DELIVERY = "no_delivery"
     PORT_PRESSURE_FOLLOWS_LINE = "port_pressure_follows_line"
+    START_REFUSED = "start_refused"
 
 
 @dataclass(frozen=True)

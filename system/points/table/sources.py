@@ -16,11 +16,13 @@ from reynolds.errors import NotConverged
 from reynolds.laws.oil import temperature_of
 from system.description.lines import LineSection
 from system.description.pump import PumpDescription
+from system.inputs.units import RPM
 from system.points.film_effects import film_laws
 from system.points.films import POSITIONS_PER_PITCH, TOLERANCE, films_point
 from system.points.floating import PRESSURE_TOLERANCE, FloatingPoint, floating_point
 from system.points.floating_gaps import FloatingOptions
 from system.points.table.means import SolvedPoint
+from system.pump.assembly import PointWarning, Remark
 from system.pump.chamber.turn import Gaps
 from system.pump.operating import OperatingPoint
 
@@ -136,19 +138,31 @@ class FloatingRow:
         return solved_means(self.floating(pump, point))
 
     def floating(self, pump: PumpDescription, point: OperatingPoint) -> FloatingPoint:
-        """The point itself; where the neighbour's motion leads nowhere, without a start."""
+        """The point itself; where the neighbour's motion leads nowhere, without a start, which a warning says."""
         near, self.last = self.last, None
         try:
             self.last = floating_point(pump, point, self.solver.options, near=near)
-        except NotConverged:
+        except NotConverged as reason:
             if near is None:
                 raise
-            self.last = floating_point(pump, point, self.solver.options)
+            self.last = _refused(near, reason, floating_point(pump, point, self.solver.options))
         return self.last
 
     def row(self) -> FloatingRow:
         """One of its own."""
         return FloatingRow(self.solver)
+
+
+def _refused(near: FloatingPoint, reason: NotConverged, found: FloatingPoint) -> FloatingPoint:
+    """A point that was solved without the start from `near`, with a warning."""
+    at = near.pump_point.point
+    text = (
+        f"the films of the point before, {at.delivery_pressure / 1e6:.3g} MPa, {at.shaft_speed / RPM:.0f} r/min and "
+        f"{at.displacement_ratio:.0%} stroke, led to no motion here ({reason}): solved from films of its own, which "
+        "takes longer and changes no number; points nearer to each other"
+    )
+    told = replace(found.pump_point, warnings=(*found.pump_point.warnings, Remark(PointWarning.START_REFUSED, text)))
+    return replace(found, pump_point=told)
 
 
 def solved_means(found: FloatingPoint) -> SolvedPoint:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 import pytest
 
@@ -13,6 +13,8 @@ from system import RIGID, FloatingOptions, floating_point, load_pump, operating_
 from system.points.floating import FloatingPoint
 from system.points.table import sources
 from system.points.table.sources import FloatingSolver
+from system.pump.assembly import PointWarning, Remark
+from system.pump.operating import OperatingPoint
 
 COARSE = FloatingOptions(RIGID, steps=36, finer=0.25)
 STILL = {f"{part}.spin_ratio": 0.0 for part in ("piston", "slipper")}  # free spins take more rounds
@@ -67,21 +69,50 @@ def test_a_neighbour_with_elastic_walls_leads_to_less_pressure():
     assert lower.rounds[0].pressure_change < high.rounds[0].pressure_change
 
 
-def test_a_row_starts_from_its_neighbour_and_does_without_one_that_leads_nowhere(monkeypatch):
+@dataclass(frozen=True)
+class Means:
+    """What a row changes of a solved point."""
+
+    point: OperatingPoint
+    warnings: tuple[Remark, ...] = ()
+
+
+@dataclass(frozen=True)
+class Solved:
+    """A stand-in for a floating point."""
+
+    pump_point: Means
+
+
+def test_a_row_starts_from_its_neighbour_and_says_where_one_leads_nowhere(monkeypatch):
     asked: list[object] = []
+    points = [operating_point(PUMP, delivery_pressure=pressure) for pressure in (10e6, 12e6, 35e6)]
 
     def solved(pump, point, options, near=None):
-        asked.append(near)
-        if near is not None and point == 3:
+        asked.append(near and near.pump_point.point)
+        if near is not None and point is points[2]:
             raise FilmNotConverged("no motion", "another start")
-        return f"point {point}"
+        return Solved(Means(point))
 
     monkeypatch.setattr(sources, "floating_point", solved)
-    monkeypatch.setattr(sources, "solved_means", lambda found: found)
     row = FloatingSolver(COARSE).row()
-    assert [row.solve(PUMP, at) for at in (1, 2, 3)] == ["point 1", "point 2", "point 3"]
-    assert asked == [None, "point 1", "point 2", None]
+    found = [row.floating(PUMP, at).pump_point for at in points]
+    assert [one.point for one in found] == points
+    assert asked == [None, points[0], points[1], None]
+    assert [len(one.warnings) for one in found] == [0, 0, 1]
+    (told,) = found[2].warnings
+    assert told.warning is PointWarning.START_REFUSED
+    assert "12 MPa, 2100 r/min and 100% stroke, led to no motion here (no motion. Try: another start)" in told.text
     assert row.row().last is None
+
+
+def test_a_point_that_is_the_first_of_its_row_fails_by_itself(monkeypatch):
+    def unsolved(*_, near=None):
+        raise FilmNotConverged("no motion", "another start")
+
+    monkeypatch.setattr(sources, "floating_point", unsolved)
+    with pytest.raises(FilmNotConverged, match="no motion"):
+        FloatingSolver(COARSE).row().floating(PUMP, operating_point(PUMP))
 
 
 def test_levels_halve_cells_and_angles_and_quarter_the_steps_error():
