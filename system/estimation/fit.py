@@ -31,6 +31,8 @@ from system.estimation.trial import (
 )
 from system.estimation.whitening import Whitening
 
+SOON = 4  # trials
+MET, MUCH = 0.1, 10.0
 SAME_NOISE = 1e-2  # relative change of the whitening below which it is not renewed
 
 
@@ -149,7 +151,7 @@ def _steps(fit: Fit, walk: Walk, whitening: Whitening) -> tuple[Walk, bool]:
         promised = fit.promised(walk)
         objectives.append(walk.place.objective)
         accepted += [walk.place.objective] if walk.failed == 0 else []
-        if step >= fit.limits.patience and walk.place.objective - promised > fit.limits.hopeless:
+        if _is_hopeless(step, walk.place.objective, promised, fit.limits):
             return walk, True
         if fit.is_level(objectives):
             return walk, True
@@ -162,6 +164,19 @@ def _steps(fit: Fit, walk: Walk, whitening: Whitening) -> tuple[Walk, bool]:
         else:
             walk = tried(fit, walk, whitening)
     return walk, False
+
+
+def _is_hopeless(trials: int, objective: float, promised: float, limits: FitLimits) -> bool:
+    """True where the peak that the slopes promise lies above `hopeless`, after trials from which that counts.
+
+    Any promise does after `patience` trials; after SOON one that is met but for the share MET of the fall to
+    `hopeless`, so that the slopes are right, and one that is MUCH times as high: fresh slopes change it by less.
+    """
+    peak = objective - promised
+    if peak <= limits.hopeless:
+        return False
+    is_met = promised <= MET * (objective - limits.hopeless)
+    return trials >= (min(SOON, limits.patience) if is_met or peak > MUCH * limits.hopeless else limits.patience)
 
 
 def _posterior(fit: Fit, place: Iterate, slopes: Array, whitening: Whitening, effort: FitEffort) -> Posterior:

@@ -39,7 +39,8 @@ class FitLimits:
     stall: predicted fall of the objective below which a point that no step improves counts as a peak; like the
     change it is in units of the objective per reading where that is above one. Half a nat suits smooth models;
     models with kinks predict more than they achieve. hopeless: an objective above which a fit is of no use. After
-    `patience` trials a fit whose predicted objective is not lower ends, with the evidence of the predicted peak.
+    `patience` trials, or fewer where slopes are right, a fit whose predicted objective is not lower ends, with the
+    evidence of the predicted peak.
     gross: objective per reading of a model that is wrong; its fit ends where `level` trials gain less than the share
     `coarse` of the objective. stuck: steps that together gain less than `change`, after which slopes lead no
     farther.

@@ -311,6 +311,28 @@ def test_a_fit_that_cannot_come_low_enough_ends_early() -> None:
     assert left.log_evidence == pytest.approx(whole.log_evidence, rel=1e-3)  # that of the peak promised
 
 
+@pytest.mark.parametrize(
+    ("away", "hopeless", "trials"),
+    [
+        pytest.param(30.0, 1e8, 4, id="slopes promise a fall of 9e6, 3e8 are missing"),
+        pytest.param(300.0, 1e7, 4, id="promised is forty times what is of use"),
+        pytest.param(300.0, 1e8, 6, id="promised is four times as much, and a fall of 9e8"),
+        pytest.param(300.0, 5e8, None, id="promised is of use"),
+    ],
+)
+def test_patience_ends_sooner_where_slopes_are_right(away: float, hopeless: float, trials: int | None) -> None:
+    """A parameter far off, steps of a tenth at first, beside a reading that nothing explains: an objective of 4e8."""
+    far = (_parameter("a", 0.0, 1.0, OPEN, Scale.NORMAL),)
+    law = Law(far, lambda values: np.array([values[0], 0.0]))
+    limits = FitLimits(hopeless=hopeless, patience=6, level=80, largest_step=0.1)
+    found = maximum_posterior(law, _readings(np.array([away, 200.0]), 0.01), limits=limits)
+    if trials is None:
+        assert found.values[0] == pytest.approx(away, abs=0.1)
+    else:
+        assert found.effort.predictions == 1 + trials
+        assert found.values[0] == pytest.approx(0.1 * (2**trials - 1))  # steps that keep their promise double
+
+
 def test_steps_grow_while_they_keep_their_promise() -> None:
     """A thousand spreads away: steps of two, four, eight; 500 trials of two each otherwise."""
     far = (_parameter("a", 0.0, 1.0, OPEN, Scale.NORMAL),)
