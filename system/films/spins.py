@@ -17,6 +17,7 @@ from system.pump.lumped import piston_area, piston_stand_out
 from system.pump.operating import OperatingPoint
 
 FLATTEST = 0.1  # of the estimated drag: the least change of a film's torque with spin
+STEEPEST = 3.0  # of the drag of the line through rest: the most
 NEAREST = 0.5  # of a spin: less is left only where the line through rest says so
 REMEMBERED = 5  # rounds, whose films set the next spins
 ESTIMATED = 36  # shaft angles at which the joint's axes swing before films are solved
@@ -139,13 +140,16 @@ def _drag(spins: list[float], torques: list[float], least: float, through_rest: 
 
     The slope between the last two spins, at least FLATTEST of the estimated drag `least` and at most that of the line
     through rest. A film that warms and lifts drags less as it turns faster; spins then move farther each round, until
-    they pass the balance. Once the balance lies between two tried spins, the slope is at least that to either of them.
+    they pass the balance. Once the balance lies between two tried spins, the slope is at least that to either of them,
+    but no more than STEEPEST times that through rest: the torques of two spins that are nearly equal differ by what
+    changed between their rounds besides, and a line as steep as that holds spins where they do not balance.
     """
     last, torque = spins[-1], torques[-1]
     if spins[-2] == last:
         return through_rest
     slopes = [_slope(spin, other, last, torque) for spin, other in zip(spins[:-1], torques[:-1], strict=True)]
-    return max(min(through_rest, slopes[-1]), FLATTEST * least, *(slopes[k] for k in _around(spins)))
+    between = [min(slopes[k], STEEPEST * through_rest) for k in _around(spins)]
+    return max(min(through_rest, slopes[-1]), FLATTEST * least, *between)
 
 
 def _slope(spin: float, torque: float, last: float, last_torque: float) -> float:

@@ -7,6 +7,7 @@ ball joint rubs by its forces and spins; the other pairs are the lumped fidelity
 them (`film_effects`); its other effects act by their laws, at the pump's chambers without any.
 """
 
+from collections.abc import Sequence
 from contextlib import nullcontext
 from dataclasses import dataclass, replace
 from time import perf_counter
@@ -236,7 +237,7 @@ def _round(
         float(np.max(np.abs(np.array(following.pressure) - asked.pressure))) / problems[0].pressure_span,
         max(map(_rubbing_change, asked.rubbing, following.rubbing))
         / max(at.forces.lift for one in driven for at in one.group),
-        max(map(_spin_change, turning, group.rotors(following))),
+        _spins_change(turning, group, following),
         asked.options.accuracy.settled,
         sum(gap.films_solved for gap in turned),
         perf_counter() - began,
@@ -248,6 +249,16 @@ def _round(
 def _rubbing_change(one: Rubbing, other: Rubbing) -> float:
     """Largest change of a film's friction, N."""
     return float(max(np.abs(one.piston - other.piston).max(), np.abs(one.slipper - other.slipper).max()))
+
+
+def _spins_change(turning: Sequence[Rotor], group: Group, following: RoundDrives) -> float:
+    """Largest change of a spin to the next round, of the shaft's, by the torques' lines and by those through rest.
+
+    Lines of two spins may be so steep that they hold any spin.
+    """
+    through_rest = tuple(own and (own.careful or own) for own in following.spin_torques)
+    ways = group.rotors(following), group.rotors(replace(following, spin_torques=through_rest))
+    return max(_spin_change(one, after) for way in ways for one, after in zip(turning, way, strict=True))
 
 
 def _spin_change(one: Rotor, other: Rotor) -> float:

@@ -181,7 +181,7 @@ def turned(load: float, asperities: Asperities | None) -> tuple[FilmSpace, list[
 
 @pytest.mark.parametrize(
     ("load", "asperities"),
-    [(19e6, None), pytest.param(19e6, replace(ROUGH, summit_height=7e-6), marks=pytest.mark.slow)],
+    [(19e6, None), pytest.param(19e6, replace(ROUGH, summit_height=7e-6), marks=pytest.mark.long)],
 )
 def test_springs_give_back_what_they_took(load, asperities):
     """Over a closed turn the work of all pressure on the walls' deformation vanishes, contact's included.

@@ -47,7 +47,7 @@ def test_a_neighbour_leads_to_the_same_point(twice):
             assert point_numbers(near)[name] == pytest.approx(value, rel=loose, abs=2e-8), name
 
 
-@pytest.mark.slow
+@pytest.mark.long
 def test_a_neighbour_leads_to_a_finer_mesh_and_more_angles(first):
     finer = floating_point(PUMP, operating_point(PUMP), replace(COARSE, steps=54, finer=0.375), near=first)
     assert finer.rounds[0].pressure_change < first.rounds[0].pressure_change

@@ -1,14 +1,17 @@
 """Spins of ref90's pistons and slippers, stated and free."""
 
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 import pytest
 from bench_pump import BENCH
 
 from gaps.loads.ball_joint import Spins
-from system import drives, floating_parts, load_pump, no_rubbing, operating_point, resolved_toml, rotor
+from system import FloatingOptions, drives, floating_parts, load_pump, no_rubbing, operating_point, resolved_toml, rotor
 from system.films.spins import SpinTorques, SpunFilms, spins, torques_of_films
+from system.points.floating import _spins_change
+from system.points.floating_kinds import RoundDrives
+from system.pump.operating import OperatingPoint
 
 
 @pytest.fixture
@@ -94,6 +97,42 @@ def test_a_peak_of_torque_over_spin_is_no_trap():
     assert seen[-1] < 0.4
     assert drag(spin) + joint(spin) == pytest.approx(0.0, abs=2e-3)
     assert -20.0 < spin < 0.0
+
+
+def test_nearly_equal_spins_show_no_steep_film():
+    """Torques of six rounds of a piston whose chambers still settle: spins by them would stand still off their balance.
+
+    The line of the last two spins is 80 times as steep as that through rest, by what else changed between the rounds.
+    """
+    estimated, friction = SpinTorques(np.array([0.1]), (1.25e-3, 1e-4)), np.array([0.2])
+    rounds = ((-57.6, 95.2e-3), (-43.3, 77.9e-3), (-36.16, 69.1e-3), (-36.80, 74.3e-3), (-36.29, 74.2e-3))
+    tried = tuple(_films(spin, 20.0, torque, -4e-3) for spin, torque in rounds)
+    found = torques_of_films(estimated, friction, _films(-36.19, 20.0, 74.1e-3, -4e-3), tried)
+    through_rest = 74.1e-3 / 36.19
+    assert found.drags[0] == pytest.approx(3.0 * through_rest)
+    assert found.careful.drags[0] == pytest.approx(through_rest)
+
+
+def test_spins_are_settled_by_lines_through_rest_too():
+    """A round changes a spin by no less than the line through rest says, however steep that of two spins is."""
+
+    @dataclass(frozen=True)
+    class At:
+        spins: Spins
+        point: OperatingPoint
+
+    class Kinds:
+        def rotors(self, asked):
+            return tuple(At(Spins(-own.driven[0] / own.drags[0], 20.0), point) for own in asked.spin_torques)
+
+    point = operating_point(load_pump("ref90"))
+    careful = SpinTorques(np.array([0.1]), (2e-3, 1e-4), (0.08, 0.0))
+    steep = SpinTorques(np.array([0.1]), (0.2, 1e-4), (7.9, 0.0), careful=careful)
+    following = RoundDrives(None, np.zeros(1), (), (), (steep,), FloatingOptions())
+    before = (At(Spins(-39.6, 20.0), point),)
+    assert _spins_change(before, Kinds(), following) == pytest.approx((40.0 - 39.6) / point.shaft_speed)
+    alone = replace(following, spin_torques=(replace(steep, careful=None),))
+    assert _spins_change(before, Kinds(), alone) == pytest.approx((39.6 - 39.5) / point.shaft_speed)
 
 
 def test_spins_do_not_leap_past_rest(free):
