@@ -1,4 +1,6 @@
-"""Cost of a diagnosis: time and fits of recordings of REF90, one after the other.
+"""Cost of a diagnosis from files to its page: time and fits of recordings, one after the other.
+
+The pump is the recording's own pump.toml, else that of the bench.
 
 python benchmarks/diagnose.py [--workers N] examples/recordings/open-01 examples/recordings/open-06
 """
@@ -9,10 +11,12 @@ import argparse
 import os
 import sys
 from pathlib import Path
+from tempfile import TemporaryDirectory
 from time import perf_counter
 
 from diagnosis.finding import diagnose
 from diagnosis.study.acceptance import checked_recording
+from swashfilm.runs.diagnose.run import write_finding
 from system.pump_file.file import load_known_pump
 
 BENCH = Path(__file__).parents[1] / "examples" / "recordings" / "bench_pump.toml"
@@ -24,13 +28,16 @@ def main() -> None:
     parser.add_argument("recordings", nargs="+", type=Path)
     parser.add_argument("--workers", type=int, default=1)
     options = parser.parse_args()
-    known = load_known_pump(BENCH)
     sys.stdout.write(f"load {os.getloadavg()[0]:.1f}, {options.workers} workers\n")
     sys.stdout.write("recording, points, verdict, status, wall / s, process / s, of it fits / s, predictions, slopes\n")
     for path in options.recordings:
+        begun, used, own = perf_counter(), _used(), path / "pump.toml"
+        known = load_known_pump(own if own.is_file() else BENCH)
         recording = checked_recording(path, known)
-        begun, used = perf_counter(), _used()
-        found = diagnose(known, recording, workers=options.workers).diagnosis
+        result = diagnose(known, recording, workers=options.workers)
+        with TemporaryDirectory() as folder:
+            write_finding(Path(folder), result)
+        found = result.diagnosis
         wall, spent = perf_counter() - begun, _used() - used
         row = (
             path.name, len(recording.steady.values), found.kind.value, found.status.value, f"{wall:.1f}",
