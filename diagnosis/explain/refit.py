@@ -26,6 +26,9 @@ from system.estimation.posterior import Posterior, settled, values_at
 from system.work.processes import ProcessPool
 from system.work.progress import Report
 
+PAIR = 2
+"""Refits side by side; whatever the number of processes, so that the answer does not depend on it."""
+
 
 def refit(
     study: Study, hypothesis: Hypothesis, thresholds: Thresholds, hopeless: float = inf, part: Explanation | None = None
@@ -184,11 +187,12 @@ def refit_all(
     """The refits of some hypotheses in their order, by a crew, and the failures as text.
 
     The first, which should be the likeliest, is refitted before the others and shows what is hopeless. part: a refitted
-    explanation, which shows it already; hypotheses that it is a part of start from its peak.
+    explanation, from whose peak those start that it is a part of. It shows what is hopeless beside it, so that the
+    first PAIR are refitted at once.
     """
     found: dict[int, tuple[Explanation, str | None]] = {}
     numbered = list(enumerate(listed))
-    first = 1 if part is None else 2
+    first = 1 if part is None else PAIR
     for wave in (numbered[:first], numbered[first:]):
         task = partial(_numbered, study, thresholds, hopeless, part)
         if wave:

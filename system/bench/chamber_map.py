@@ -81,7 +81,7 @@ class Steps:
     begins: NDArray[np.int64]
 
     def of(self, some: slice) -> NDArray[np.int64]:
-        """Where the steps of some of the points begin in the trail, and where the last ones end."""
+        """Rows of the trail at which the steps of some of the points begin, and the row after the last one."""
         return self.begins[some.start : some.stop + 1]
 
 
@@ -178,7 +178,7 @@ def beside(pump: PumpDescription, courses: Courses, problem: MapProblem, toleran
 
 @dataclass(frozen=True)
 class _Run:
-    """What the compiled maps take, and the arrays over the points that they fill."""
+    """Arguments of the compiled maps, and the arrays over the points that they fill."""
 
     records: np.ndarray
     gaps: Array
@@ -196,7 +196,7 @@ class _Run:
         return self.records[some], self.gaps[some], self.held[some], self.nodes, firsts, self.control
 
     def filled(self, some: slice) -> tuple[Array, Array, NDArray[np.int64]]:
-        """What is to be filled of some of the points."""
+        """Arrays to be filled for some of the points: pressures, totals, statuses."""
         return self.pressures[some], self.totals[some], self.statuses[some]
 
 

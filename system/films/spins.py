@@ -141,8 +141,8 @@ def _drag(spins: list[float], torques: list[float], least: float, through_rest: 
     The slope between the last two spins, at least FLATTEST of the estimated drag `least` and at most that of the line
     through rest. A film that warms and lifts drags less as it turns faster; spins then move farther each round, until
     they pass the balance. Once the balance lies between two tried spins, the slope is at least that to either of them,
-    but no more than STEEPEST times that through rest: the torques of two spins that are nearly equal differ by what
-    changed between their rounds besides, and a line as steep as that holds spins where they do not balance.
+    and at most STEEPEST times that through rest. Between two spins that are nearly equal, pressures and friction have
+    changed the torque as well; a slope from these alone would hold a spin off its balance.
     """
     last, torque = spins[-1], torques[-1]
     if spins[-2] == last:

@@ -56,7 +56,7 @@ def is_steady(window: Array, sigma: Array, rule: SteadyRule) -> bool:
 
 
 def are_steady(windows: Array, sigma: Array, rule: SteadyRule) -> NDArray[np.bool_]:
-    """Which windows (W, M, T) have no gap and no column that moves significantly (`SteadyRule`), (W,).
+    """True (W,) for each window of (W, M, T) without gaps in which no input moves significantly (`SteadyRule`).
 
     From the means of ten parts: slope and bow are the coefficients of the Legendre polynomials P1 and P2, by least
     squares; the noise is that within the parts, without movement between them.
@@ -76,7 +76,10 @@ def are_steady(windows: Array, sigma: Array, rule: SteadyRule) -> NDArray[np.boo
 def _moves(
     columns: Array, borders: NDArray[np.int64], line: tuple[Array, Array], sigma: float, limit: float
 ) -> NDArray[np.bool_]:
-    """Which windows (W, T) of one input move significantly; line: slope and bow from means, and their errors by one."""
+    """True (W,) for each window of (W, T) in which one input moves significantly.
+
+    line: slope and bow by the means of the parts (3, P), and their standard errors by that of a mean (3,).
+    """
     means, error = _parts(columns, borders)
     rounded = ROUNDING * np.max(np.abs(columns), axis=1, initial=0.0)  # a commanded value has no noise at all
     harmless = np.maximum(sigma, rounded)

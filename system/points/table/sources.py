@@ -138,7 +138,7 @@ class FloatingRow:
         return solved_means(self.floating(pump, point))
 
     def floating(self, pump: PumpDescription, point: OperatingPoint) -> FloatingPoint:
-        """The point itself; where the neighbour's motion leads nowhere, without a start, which a warning says."""
+        """The point itself; without a start, and with a warning, where the neighbour's motion leads to none."""
         near, self.last = self.last, None
         try:
             self.last = floating_point(pump, point, self.solver.options, near=near)
@@ -159,7 +159,7 @@ def _refused(near: FloatingPoint, reason: NotConverged, found: FloatingPoint) ->
     text = (
         f"the films of the point before, {at.delivery_pressure / 1e6:.3g} MPa, {at.shaft_speed / RPM:.0f} r/min and "
         f"{at.displacement_ratio:.0%} stroke, led to no motion here ({reason}): solved from films of its own, which "
-        "takes longer and changes no number; points nearer to each other"
+        "takes longer; points nearer to each other save the time"
     )
     told = replace(found.pump_point, warnings=(*found.pump_point.warnings, Remark(PointWarning.START_REFUSED, text)))
     return replace(found, pump_point=told)
