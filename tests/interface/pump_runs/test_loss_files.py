@@ -89,6 +89,14 @@ def test_a_bore_has_a_file_or_a_coefficient(tmp_path):
         load_pump("ref90", {"slipper.orifice_file": str(bore), "slipper.orifice_flow_coefficient": 0.7})
 
 
+@pytest.mark.parametrize("openings", [(0.5,), (0.1, 100.0)], ids=["any opening", "openings on both sides"])
+def test_a_bore_that_its_file_covers_is_not_warned_of(tmp_path, openings):
+    rows = [f"{a}, {re}, {c}" for a in openings for re, c in ((1, 0.2), (50, 0.5))]
+    bore = file_of(tmp_path, "opening [mm2], reynolds [1], flow_coefficient [1]", rows)
+    pump = load_pump("ref90", {"slipper.orifice_file": str(bore)})
+    assert not [warning for warning in check_pump(pump).warnings if warning.path == "slipper.orifice_file"]
+
+
 def test_files_that_do_not_hold_are_warned_of(tmp_path):
     shallow = steps_of(tmp_path, ratio=2.0)
     rows = [f"{a}, {re}, {c}" for a in (0.1, 0.2) for re, c in ((1, 0.2), (50, 0.5))]

@@ -96,6 +96,16 @@ def test_few_cycles_tell_their_covariance_better_when_shrunk():
     assert shrunk < 0.8 * plain
 
 
+def test_many_cycles_tell_their_own_covariance():
+    """Of 2,000 cycles next to nothing is noise: their correlations stay as they are."""
+    random = np.random.default_rng(55)
+    true = 0.6 ** np.abs(np.subtract.outer(np.arange(24), np.arange(24)))
+    cycles = np.linalg.cholesky(true) @ random.standard_normal((24, 2000))
+    factor = (cycles - cycles.mean(axis=1, keepdims=True)) / np.sqrt(2000 * 1999)
+    found, plain = shrunk_covariance(factor, np.zeros(24)), factor @ factor.T
+    assert np.linalg.norm(found - plain) < 0.02 * np.linalg.norm(plain)
+
+
 def test_a_transducer_reads_late_by_its_lag():
     """Of one harmonic: amplitude 1/sqrt(1 + (k w tau)^2), phase -atan(k w tau); then gain and zero."""
     lag, speed, order = 1e-3, 200.0, 3

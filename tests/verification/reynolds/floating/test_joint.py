@@ -32,6 +32,7 @@ from reynolds import (
     ring,
     steady,
 )
+from reynolds.compiled.film import compiled_film
 from reynolds.compiled.gap_table import gap_table
 from reynolds.compiled.gap_table_kernels import Motion, coefficients
 from reynolds.equation.rough_overlap import film_at
@@ -127,6 +128,22 @@ def test_film_and_position_together(case):
     assert stage.solution.cavity.any() == (case.cavitation is Cavitation.JFO)
     assert (np.abs(stage.contact_force).max() > 1.0) == (case.asperities is not None)
     same(floating, stage, before)
+
+
+def test_imbalance_of_a_pocket_is_its_residual_over_the_flows_that_meet_there():
+    """Far from balance: |film's flow - feed| over the film's flows and the feed."""
+    space, floating = pad()
+    size = space.size
+    shape = compiled_film(floating.shape_at(0.0), np.zeros(size), 1.0, np.zeros(size))
+    pressure = np.where(shape.setting.held, 0.0, 5e6)
+    gap = space.everywhere(np.full((1, 1), 20e-6))
+    balance = shape.at(gap, pressure, np.ones(size), np.zeros(size, dtype=bool))
+    ((node, pocket),) = shape.setting.pockets
+    fed, net = pocket.feed(pressure[node])[0], balance.flow.net
+    assert abs(fed) > 0.1 * abs(net[node] - fed)
+    shares = np.abs(net) / balance.flow.scale
+    shares[node] = abs(net[node] - fed) / (balance.flow.scale[node] + abs(fed))
+    assert balance.imbalance == pytest.approx(shares[~shape.setting.held].max(), rel=1e-5)
 
 
 def test_pad_with_a_pocket():
