@@ -751,6 +751,9 @@ def test_a_null_that_is_pulled_is_no_rival_of_a_wrong_value() -> None:
     plain = held_out(study, null.posterior, found.posterior, LIMITS)
     assert all(against.gains[name] > gain for name, gain in plain.gains.items())
     assert against.before == plain.before
+    told = _diagnosis(study)
+    assert told.hypotheses[0].hypothesis.widened == own.widened
+    assert told.fit.gains == pytest.approx(against.gains)
     sound = refit(_study(1), hypotheses(_study(1), LIMITS)[0], LIMITS)
     assert within_tolerance(_study(1), sound, LIMITS) is sound.posterior
 
