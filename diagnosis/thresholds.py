@@ -128,6 +128,7 @@ class FormLimits:
     other_make: float
     bent: float
     of_ports: float
+    sheared: float
     peaks: float
     recovered: float
     drift: float

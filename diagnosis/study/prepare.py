@@ -24,7 +24,7 @@ from reynolds.errors import InputError
 from reynolds.numerics.arrays import Array
 from system.bench.components import LEAKAGE
 from system.bench.departures import departures
-from system.bench.outputs import METERED, SIMULATED
+from system.bench.outputs import METERED, SIMULATED, shear_torques
 from system.bench.parameters import base_parameters
 from system.bench.sensors import drift_parameter, lag_parameter, sensor_parameters
 from system.bench.simulator import LumpedBench
@@ -157,7 +157,8 @@ def _of_another_make(bench: LumpedBench, axes: Array, sigma: Array, form: FormLi
 
     Leakage departs by smooth factors and a power of the pressure. While ports change, chambers leak into the case what
     delivery does not lack: a share of the drain by itself, and one that the chamber's peaks add. Ports give back more
-    or less of the energy that oil in the dead volumes holds, which torque alone shows.
+    or less of the energy that oil in the dead volumes holds, which torque alone shows; so do the sheared areas of the
+    films, of which leakage tells nothing.
     """
     centre = values_at(bench.parameters, np.zeros(len(bench.parameters)))
     across = np.maximum(bench.points.p_out - bench.points.p_case, LEAST_ACROSS)
@@ -169,10 +170,10 @@ def _of_another_make(bench: LumpedBench, axes: Array, sigma: Array, form: FormLi
         np.array([name is one for name in bench.channels]) for one in (ChannelName.Q_CASE, ChannelName.TORQUE)
     )
     drained = np.sum([parts[part] for part in LEAKAGE], axis=0) * is_drain
-    apart = np.dstack([
-        drained[:, :, None] * of_ports[:, None, :],
-        form.recovered * (_stored(bench) / TURN)[:, None, None] * is_torque[:, None],
-    ])  # fmt: skip
+    of_torque = np.column_stack(
+        [form.recovered * _stored(bench) / TURN, form.sheared * shear_torques(bench.solved(centre))]
+    )
+    apart = np.dstack([drained[:, :, None] * of_ports[:, None, :], of_torque[:, None, :] * is_torque[:, None]])
     return bench.with_departures(departures(parts, shapes, sigma, form.other_make, apart))
 
 

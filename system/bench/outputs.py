@@ -16,7 +16,7 @@ from system.effects.outside import outside
 from system.inputs.channels import ChannelName
 from system.inputs.units import TURN
 from system.pump.bench import NOTHING_OUTSIDE
-from system.pump.laws.friction_pairs import FrictionPairs
+from system.pump.laws.friction_pairs import FrictionPairs, Pair
 from system.pump.lumped import lumped_pairs
 from system.pump.power import bench_reading, chamber_exchange, gap_leakage, metered
 
@@ -67,6 +67,13 @@ def losses(solved: Solved) -> FrictionPairs[Array]:
     at = solved.setting
     found = lumped_pairs(at.pump, at.point, at.motion, solved.courses)
     return found if solved.affected is None else rubbed(found, solved.affected.effects)
+
+
+def shear_torques(solved: Solved) -> Array:
+    """Torque (N, P) N m that the shear of the films takes, a column for each pair that has a film."""
+    pairs, speed = losses(solved), solved.setting.problem.chamber.shaft_speed
+    sheared = np.stack([pairs.loss(pair).mean_viscous / speed for pair in Pair], axis=1)
+    return sheared[:, sheared.any(axis=0)]
 
 
 def throttling_torque(setting: Setting, courses: Courses) -> Array:
