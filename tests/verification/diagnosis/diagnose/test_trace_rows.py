@@ -163,6 +163,20 @@ def test_grooves_that_begin_sooner_are_found_in_traces():
         assert fit.sigma(name) ** 2 < 0.5 * fit.parameters[fit.index(name)].spread ** 2
 
 
+def test_a_misfit_is_as_uncertain_as_the_readings_and_a_flank_by_the_step_of_its_angle():
+    """sigma^2 = (reading^2 + quantum^2/12)/cycles + (p_(k+1) - p_(k-1))^2/(4 * 12)."""
+    traced = _traced()
+    values = _values(traced)
+    (turn,) = traced.traces(values, (1,), ANGLE)
+    rows = (replace(traced.rows[0], block=replace(traced.rows[0].block, mean=turn, cycles=4)),)
+    channel = replace(CHANNEL, sigma=3e4, sigma_relative=0.0, quantum=6e4)
+    (found,) = trace_misfits(replace(traced, rows=rows), channel, 0.01)
+    steep = 0.5 * (np.roll(turn, -1) - np.roll(turn, 1))
+    expected = np.sqrt((3e4**2 + 6e4**2 / 12.0) / 4.0 + steep**2 / 12.0)
+    assert found.sigma == pytest.approx(expected, rel=0.02)
+    assert found.residual == pytest.approx(np.zeros(len(turn)), abs=0.02 * np.ptp(turn))
+
+
 def test_what_tolerance_moves_is_no_window_though_a_flank_is_not_linear():
     """Encoder and flow coefficient 2 spreads off: windows stand out about the prior mean, none about the fit."""
     traced = _traced()

@@ -253,3 +253,16 @@ def test_errors():
         transfer(film, face, Plane((0.0, 0.0, -1.0), origin=(0.0, 0.0, 3e-3)))  # the film within the body
     with pytest.raises(FilmInputError, match="unit vectors at right angles"):
         Plane((0.0, 1.0, 1.0))
+
+
+def test_a_film_just_beyond_the_edge_takes_the_edges_displacement():
+    """A film 0.2 mm longer than the face, less than BEYOND of its cells, on either side: no displacement outside it."""
+    face = body_space(block((10e-3, 8e-3, 3e-3), (4, 3, 1))).face("top")
+    film = film_space(rectangle((10.4e-3, 8e-3), (6, 5)))
+    chart = Plane((0.0, 0.0, 1.0), (-0.2e-3, 0.0, 3e-3), (1.0, 0.0, 0.0), (0.0, 1.0, 0.0))
+    meeting = transfer(film, face, chart)
+    met = meeting.share @ face.places
+    x = chart.places(meeting.rule.points)[:, 0]
+    assert x.min() < -1e-4
+    assert x.max() > 10.1e-3
+    assert met[:, 0] == pytest.approx(np.clip(x, 0.0, 10e-3), abs=1e-12)

@@ -88,6 +88,14 @@ def test_a_displacement_below_the_cross_angles_own_is_refused():
         load_pump(BENCH, stated)
 
 
+def test_a_cone_on_which_no_plate_turns_is_a_fault_beside_a_cross_angle():
+    """tan(cone) hypot(tan swash, tan cross) from one to two: pistons of such a cone have no stroke to compare with."""
+    with pytest.raises(InputFaults) as told:
+        load_pump(BENCH, {"pump.bore_cone_angle": "78 deg", "pump.cross_angle": "3 deg"})
+    assert "pump.bore_cone_angle" in {fault.path for fault in told.value.faults}
+    assert "operating.displacement_ratio" not in {fault.path for fault in told.value.faults}
+
+
 def test_mass_and_energy_close_with_a_cross_angle():
     pump = load_pump(BENCH, {"pump.cross_angle": "2 deg", "operating.displacement_ratio": 0.5})
     found = lumped_point(pump, operating_point(pump))
