@@ -20,7 +20,7 @@ from .edits import Edit
 HANGS = 400.0  # s, in which one test of the default suite ends even on a loaded machine
 SHARED = 8.0  # seconds of the clock for one of a processor, at most
 LEFT_OUT = ".git", ".venv", "build", ".hypothesis", ".mypy_cache", ".import_linter_cache", "runs"
-FAILED = re.compile(r"^(?:FAILED|ERROR) (\S+)", re.MULTILINE)
+FAILED = re.compile(r"^(?:FAILED|ERROR) (.+?)(?: - .*)?$", re.MULTILINE)
 
 
 class Fate(StrEnum):

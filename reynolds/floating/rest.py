@@ -49,13 +49,12 @@ def come_to_rest(solve: StageSolver[S], start: State[S], step: float, allowed: f
     if not (np.isfinite(step) and step > 0.0 and allowed > 0.0):
         raise FilmInputError("rest", f"a step of {step:g} s and {allowed:g} m allowed", "both above zero")
     state, shortest, still, moved = replace(start, tangent=None), SHORTEST * step, 0, np.inf
-    refused, since = np.inf, 0
+    wait = 0  # steps of this size before a longer one is tried
     for _ in range(MOST_STEPS):
         try:
             taken = advance(BACKWARD_EULER, lambda time, *rest: solve(start.time, *rest), state, step)
         except FilmNotConverged as reason:
-            refused, since = step, 0
-            step, still = step / GROWTH, 0
+            step, still, wait = step / GROWTH, 0, PATIENCE
             if step < shortest:
                 raise FilmNotConverged(f"no rest, last move {moved:.2g} m: {reason.what}", reason.remedy) from None
             continue
@@ -65,9 +64,9 @@ def come_to_rest(solve: StageSolver[S], start: State[S], step: float, allowed: f
             return taken
         # The next guess is the place itself: a rate is no guide over a step four times as long.
         state = replace(taken.state, rate=np.zeros_like(state.rate), acceleration=0.0)
-        since += 1
-        if GROWTH * step < refused or since >= PATIENCE:
-            step, refused = GROWTH * step, np.inf
+        wait -= 1
+        if wait <= 0:
+            step *= GROWTH
         else:
             still = 0
     raise FilmNotConverged(f"no rest after {MOST_STEPS} steps, last move {moved:.2g} m", "a smaller force, rough walls")

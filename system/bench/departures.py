@@ -22,9 +22,9 @@ from system.estimation.parameters import Parameter, Role, Scale
 
 FORM = "form."
 """Names of the parameters begin with it."""
-LEAST = 0.5
+LEAST = 1.0
 """Norm of a principal column in sigma of the readings, below which it is left out."""
-MOST = 12
+MOST = 20
 FARTHEST = 5.0
 
 
