@@ -3,8 +3,8 @@
 A law a(x) becomes a(x) (1 + Phi b), b ~ N(0, w^2). Phi are the shapes of one family: a polynomial of second order in
 one to four of the inputs, or any course over one of them. Families of as many inputs share a mass, and so do the
 courses. A departure by one input costs little evidence, one by many costs more: which inputs matter is found, not
-assumed (Occam's factor; MacKay 1992, doi:10.1162/neco.1992.4.3.415). A factor that is the same everywhere is none: it
-is a wrong value, a meter's gain, or a law of the catalogue, which are hypotheses of their own.
+assumed (Occam's factor; MacKay 1992, doi:10.1162/neco.1992.4.3.415). A factor that is the same everywhere does not
+count: it is a wrong value, a meter's gain, or a law of the catalogue, which are hypotheses of their own.
 """
 
 from __future__ import annotations
