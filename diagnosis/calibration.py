@@ -94,7 +94,7 @@ class Calibration:
 
 def calibrate(
     pump: PumpDescription | KnownPump,
-    recording: Recording | Path,
+    recording: Recording | Path | str,
     report: Report = silent,
     models: Sequence[LossModelName] = tuple(LossModelName),
     with_hersey: bool = True,

@@ -55,7 +55,7 @@ class DiagnosisResult:
 
 def diagnose(
     pump: PumpDescription | KnownPump,
-    recording: Recording | Path,
+    recording: Recording | Path | str,
     report: Report = silent,
     workers: int = 1,
     catalogue: tuple[Entry, ...] = CATALOGUE,

@@ -32,13 +32,14 @@ from system.inputs.units import QuantityError, unit_scale
 FILE = "recording.toml"
 
 
-def read_recording(path: Path) -> Recording:
+def read_recording(path: Path | str) -> Recording:
     """Return a recording as understood, in SI with gauge pressures: from its folder, its `recording.toml`, or a
     table that has a `recording.toml` beside it (then the table's file need not be stated, and is that one).
 
     Raises InputFaults with everything that is wrong with the file, its tables and their columns. Readings are
     checked by `checks.check.check_recording`.
     """
+    path = Path(path)
     if not path.exists():
         expected = f"a recording's folder, its {FILE}, or a table beside one"
         raise InputFaults(str(path), [Fault("file", "no such file", expected, nearest_path(path))])
@@ -209,8 +210,10 @@ def _channels(forms: Sequence[ChannelForm], points: _Points, reader: ColumnReade
         found = repeatability(points.readings[:, k], followed, points.numbers)
         if found is None and points.errors is not None:
             found = float(np.sqrt(np.nanmean(points.errors[:, k] ** 2)))
-        held = replace(form, sigma=None, sigma_relative=None) if points.quasi else form
+        held = replace(form, sigma=None, sigma_relative=None, quantum=0.0) if points.quasi else form
         channel = recorded_channel(held, points.readings[:, k], found)
+        if channel is not None and points.quasi:  # standard errors of the means are known
+            channel = replace(channel, assumed=tuple(one for one in channel.assumed if one != "sigma"))
         if channel is None:
             reader.fault(
                 f"channel.{form.name.value}.sigma",

@@ -21,12 +21,12 @@ GRADE_BAND = 0.101
 _GRADE = re.compile(r"\bVG\s*(\d+)", re.IGNORECASE)
 
 
-def accepted_recording(source: Recording | Path, known: KnownPump) -> Recording:
+def accepted_recording(source: Recording | Path | str, known: KnownPump) -> Recording:
     """The recording itself, which `checked_recording` has returned, or the checked recording of a path."""
     return source if isinstance(source, Recording) else checked_recording(source, known)
 
 
-def checked_recording(path: Path, known: KnownPump | None = None) -> Recording:
+def checked_recording(path: Path | str, known: KnownPump | None = None) -> Recording:
     """The recording of a path, checked against its pump: the given pump, or the built-in pump that it names.
 
     Raises InputFaults with every fault of the files and of the readings.

@@ -138,7 +138,7 @@ def test_a_series_without_rest_gives_quasi_steady_points(tmp_path):
     flow = 60.0 - 0.01 * pressure + 0.05 * np.random.default_rng(4).standard_normal(time.size)
     rows = [f"{t:.0f},1500,{p:.2f},50,{q:.4f}" for t, p, q in zip(time, pressure, flow, strict=True)]
     form = HEAD.replace("absolute", "gauge") + '[series]\nfile = "steady.csv"\ntime = { column = "t", unit = "s" }\n'
-    recording = read_recording(_written(tmp_path, form + CHANNELS, "t,n,p,T,Q\n" + "\n".join(rows)))
+    recording = read_recording(str(_written(tmp_path, form + CHANNELS, "t,n,p,T,Q\n" + "\n".join(rows))))
     found, stated = recording.steady.column(ChannelName.Q_OUT), recording.steady.column(ChannelName.P_OUT)
     error = point_sigma(recording, recording.channel(ChannelName.Q_OUT))
     assert len(found) > 50
@@ -147,6 +147,8 @@ def test_a_series_without_rest_gives_quasi_steady_points(tmp_path):
     assert "quasi-steady points" in texts
     scatter = re.search(r"Q_out: its samples scatter by ([\d.]+) L/min", texts)
     assert float(scatter[1]) == pytest.approx(0.05, rel=0.05)
+    assert "repeatability" not in texts  # of means: their standard errors, which no statement and no step replaces
+    assert all(channel.quantum == 0.0 for channel in recording.channels)
 
 
 def test_series_gives_its_plateaus(tmp_path):
