@@ -27,8 +27,8 @@ No plant shares code with another one or with the program; campaigns and sensors
 The score z of a rough recording is that of the plant's own model, fitted to its own quasi-steady means. Everything
 that a type plate leaves open is uncertain there. An effect that would need an impossible size keeps the score that it
 has. Of two or three effects each has the score beside the others. A sensor's fault beside physics may be named too; it
-need not be. Meters are as good there as the plant draws them, to 0.3 %: a class B that a recording states is wider, and a
-fault of z = 8 may lie within it.
+need not be. Meters are as good there as the plant draws them, to 0.3 %: a class B that a recording states is wider,
+and a fault of z = 8 may lie within it.
 
 """
 WORDS = {True: "", False: " **missed**", None: ""}

@@ -77,9 +77,9 @@ def test_ports_tell_their_events_in_order() -> None:
 def test_torque_that_no_type_plate_tells_is_uncertain_where_that_is_all_that_is_known(limit: str) -> None:
     """Torque may be off by what ports give back or films shear, and no other channel is by that.
 
-    Within one sigma: a quarter of z V_d dp^2/(2 K) over a turn, half of what the film that shears most takes. The strain of
-    such a pattern, min |w - R b|^2 + |b|^2 with w and departures R in sigma: one at most where the pattern is among the
-    departures, several without it. A pump in full has no departures.
+    Within one sigma: a quarter of z V_d dp^2/(2 K) over a turn, half of what the film that shears most takes. The
+    strain of such a pattern, min |w - R b|^2 + |b|^2 with w and departures R in sigma: one at most where the pattern is
+    among the departures, several without it. A pump in full has no departures.
     """
     recording = _every(read_recording(RECORDINGS / "open-01"), 4)
 
