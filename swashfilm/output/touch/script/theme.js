@@ -7,6 +7,7 @@ function toTheme({ data, layout }) {
   const [text, line, ground] = ["--text", "--line", "--ground"].map((name) => style.getPropertyValue(name).trim());
   layout.font = { color: text, family: "system-ui, sans-serif", size: 12 };
   layout.paper_bgcolor = layout.plot_bgcolor = "rgba(0,0,0,0)";
+  layout.modebar = { bgcolor: ground, color: line, activecolor: text }; // by default half black on no ground
   layout.hoverlabel = { bgcolor: ground, bordercolor: line, font: { color: text } };
   const axes = Object.keys(layout).filter((name) => /^[xy]axis/.test(name)).map((name) => layout[name]);
   if (layout.scene) axes.push(...["xaxis", "yaxis", "zaxis"].map((name) => layout.scene[name] ??= {}));
