@@ -78,7 +78,7 @@ def test_torque_that_no_type_plate_tells_is_uncertain_where_that_is_all_that_is_
     """Torque may be off by what ports give back or films shear, and no other channel is by that.
 
     Within one sigma: a quarter of z V_d dp^2/(2 K) over a turn, half of what the film that shears most takes. The
-    strain of such a pattern, min |w - R b|^2 + |b|^2 with w and departures R in sigma: one at most where the pattern is
+    strain of such a pattern, min |w - R b|^2 + |b|^2 with w and departures R in sigma: nearly one where the pattern is
     among the departures, several without it. A pump in full has no departures.
     """
     recording = _every(read_recording(RECORDINGS / "open-01"), 4)
@@ -108,6 +108,6 @@ def test_torque_that_no_type_plate_tells_is_uncertain_where_that_is_all_that_is_
         return float(white @ (white - rows @ sizes))
 
     usual = getattr(LIMITS.form, limit)
-    assert strain(usual) < 1.05
+    assert 0.6 < strain(usual) < 1.05
     assert strain(0.0) > 3.0
     assert departures(usual, scant=False)[1].shape[-1] == 0
