@@ -89,6 +89,10 @@ def test_shapes_join_without_a_jump():
             lambda: DepthPoints((0.0, 0.0), (1e-6, 0.0)),
             r"profile, places: \[0\.0, 0\.0\]; expected two or more that rise",
         ),
+        (
+            lambda: DepthPoints((0.0, 2e-3, 1e-3), (1e-6, 0.0, 0.0)),
+            r"profile, places: \[0\.0, 0\.002, 0\.001\]; expected two or more that rise",
+        ),
         (lambda: DepthPoints((0.0, 1e-3), (1e-6,)), r"profile, depths: an array of shape \(1,\)"),
         (lambda: DepthPoints((0.0, 1e-3), (1e-6, np.nan)), "profile, depths"),
         (lambda: PointsAround((0.0, 1.0), (0.0, 6.5), ((0.0, 0.0), (0.0, 0.0))), "profile, angles: 372"),

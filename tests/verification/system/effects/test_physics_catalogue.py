@@ -94,15 +94,26 @@ def test_at_their_bounds_laws_stay_physical(extension, courses, state):
         assert (found.extra_coulomb >= 0).all()
 
 
+def _limits(name: str) -> Limits:
+    """What the pump file allows a key of [physics]."""
+    section, limits = PhysicsSection, Limits()
+    for key in name.split("."):
+        field = fields_of(section)[key]
+        section = next((one for one in field.types if is_dataclass(one)), None)
+        limits = next((mark for mark in field.marks if isinstance(mark, Limits)), limits)
+    return limits
+
+
 @pytest.mark.parametrize("extension", BY_NAME)
 def test_a_fit_keeps_to_the_bounds_of_the_pump_file(extension):
     for parameter in extension.parameters:
-        section, limits = PhysicsSection, Limits()
-        for key in parameter.name.split("."):
-            field = fields_of(section)[key]
-            section = next((one for one in field.types if is_dataclass(one)), None)
-            limits = next((mark for mark in field.marks if isinstance(mark, Limits)), limits)
+        limits = _limits(parameter.name)
         assert (parameter.lower, parameter.upper) == (limits.least, limits.most), parameter.name
+    for scale in extension.scales:
+        limits = _limits(scale.name)
+        assert scale.lower < scale.upper
+        assert limits.least is None or limits.least <= scale.lower, scale.name
+        assert limits.most is None or scale.upper <= limits.most, scale.name
 
 
 def test_two_at_once_are_product_and_sum(courses, state):
