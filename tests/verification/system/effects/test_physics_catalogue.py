@@ -109,7 +109,7 @@ def test_a_fit_keeps_to_the_bounds_of_the_pump_file(extension):
     for parameter in extension.parameters:
         limits = _limits(parameter.name)
         assert (parameter.lower, parameter.upper) == (limits.least, limits.most), parameter.name
-    for scale in extension.scales:
+    for scale in (scale for member in extension.members for scale in member.scales):
         limits = _limits(scale.name)
         assert scale.lower < scale.upper
         assert limits.least is None or limits.least <= scale.lower, scale.name
