@@ -157,8 +157,8 @@ def _of_another_make(bench: LumpedBench, axes: Array, sigma: Array, form: FormLi
 
     Leakage departs by smooth factors and a power of the pressure. While ports change, chambers leak into the case what
     delivery does not lack: a share of the drain by itself, and one that the chamber's peaks add. Ports give back more
-    or less of the energy that oil in the dead volumes holds, which torque alone shows; so do the sheared areas of the
-    films, of which leakage tells nothing.
+    or less of the energy that oil in the dead volumes holds, and films shear over areas that leakage does not
+    determine: both change torque alone.
     """
     centre = values_at(bench.parameters, np.zeros(len(bench.parameters)))
     across = np.maximum(bench.points.p_out - bench.points.p_case, LEAST_ACROSS)

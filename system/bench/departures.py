@@ -25,7 +25,9 @@ FORM = "form."
 LEAST = 1.0
 """Norm of a principal column in sigma of the readings, below which it is left out."""
 MOST = 20
+"""Principal columns."""
 FARTHEST = 5.0
+"""Bound of a size, in units of its prior."""
 
 
 def departures(

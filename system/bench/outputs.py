@@ -70,7 +70,7 @@ def losses(solved: Solved) -> FrictionPairs[Array]:
 
 
 def shear_torques(solved: Solved) -> Array:
-    """Torque (N, P) N m that the shear of the films takes, a column for each pair that has a film."""
+    """Shear torque (N, P) of the films, N m: viscous loss over speed, a column for each pair that has one."""
     pairs, speed = losses(solved), solved.setting.problem.chamber.shaft_speed
     sheared = np.stack([pairs.loss(pair).mean_viscous / speed for pair in Pair], axis=1)
     return sheared[:, sheared.any(axis=0)]
