@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import ast
 import json
+import tomllib
+from collections.abc import Callable, Mapping
 from functools import cache
 from hashlib import sha256
 from pathlib import Path
@@ -57,7 +60,7 @@ def name_of_folder(folder: Path) -> str:
 @cache
 def counted() -> frozenset[str]:
     """The modules on which a verdict depends."""
-    graph = grimp.build_graph(*PACKAGES)
+    graph = grimp.build_graph(*PACKAGES, cache_dir=None)
     return frozenset(ASKED).union(*(graph.find_upstream_modules(name) for name in ASKED)) - set(PACKAGES)
 
 
@@ -94,6 +97,30 @@ def _digest(places: list[Path]) -> str:
     found = sha256()
     for place in places:
         for path in sorted([place] if place.is_file() else place.rglob("*.*")):
-            if path.suffix in (".py", ".toml"):
-                found.update(path.name.encode() + path.read_bytes())
+            if path.suffix in MEANING:
+                found.update(path.name.encode() + MEANING[path.suffix](path.read_text("utf-8")).encode())
     return found.hexdigest()
+
+
+def _code(text: str) -> str:
+    """A module without comments, docstrings and layout."""
+    tree = ast.parse(text)
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Module | ast.ClassDef | ast.FunctionDef):
+            node.body = [each for each in node.body if not _is_words(each)] or [ast.Pass()]
+    return ast.unparse(tree)
+
+
+def _is_words(statement: ast.stmt) -> bool:
+    """True for a string that stands alone: a docstring of a module, class, function or name."""
+    found = statement.value if isinstance(statement, ast.Expr) else None
+    return isinstance(found, ast.Constant) and isinstance(found.value, str)
+
+
+def _values(text: str) -> str:
+    """A table without comments and layout."""
+    return json.dumps(tomllib.loads(text), sort_keys=True, default=str)
+
+
+MEANING: Mapping[str, Callable[[str], str]] = {".py": _code, ".toml": _values}
+"""What counts of a file, by its suffix: words about it do not."""

@@ -41,6 +41,26 @@ def test_an_outcome_is_of_another_program_once_anything_that_made_it_changes(pro
     } <= counted
 
 
+def test_words_about_a_program_make_no_other_program(proof: SimpleNamespace, tmp_path: Path) -> None:
+    """Comments, docstrings, layout and the order of a table's keys leave the digest; a value changes it."""
+    module, table = tmp_path / "law.py", tmp_path / "limits.toml"
+
+    def digest(code: str, values: str) -> str:
+        module.write_text(code, encoding="utf-8")
+        table.write_text(values, encoding="utf-8")
+        return str(proof.store._digest([module, table]))
+
+    plain = digest("def double(x):\n    return 2 * x\n\nLEAST = 1", "a = 1\nb = 2")
+    told = digest(
+        '"""A law."""\ndef double(x):\n    """Twice x."""\n    return 2 * x  # why\n\nLEAST = 1\n"""Why."""\n',
+        "b = 2  # why\na = 1",
+    )
+    assert told == plain
+    assert digest("def double(x):\n    return 3 * x\n\nLEAST = 1", "a = 1\nb = 2") != plain
+    assert digest("def double(x):\n    return 2 * x\n\nLEAST = 2", "a = 1\nb = 2") != plain
+    assert digest("def double(x):\n    return 2 * x\n\nLEAST = 1", "a = 1\nb = 3") != plain
+
+
 def test_every_part_has_its_cases(proof: SimpleNamespace) -> None:
     """At least 200 nulls, 12 effects at five scores, pairs, parameters, sensors and what is in no catalogue."""
     cases: ModuleType = proof.cases
