@@ -9,6 +9,7 @@ from diagnosis.report.certainty import SURE, certainty, record_words, sure_words
 from diagnosis.report.course import course_words
 from diagnosis.report.evidence import evidence
 from diagnosis.report.format import PLACES, effect_words, listed
+from diagnosis.report.hidden import hidden_effects, hidden_examples
 from diagnosis.report.measure import hidden_words, measure_words
 from diagnosis.report.sizes import size_words
 from diagnosis.report.text import doubt, finding, fit_words, headline, rivals_words, suspected, where_words
@@ -87,7 +88,9 @@ def _measure(study: Study, diagnosis: Diagnosis) -> str:
     """The next measurement; where nothing is found and that is not sure, the one that would show more."""
     found = diagnosis.kind is not Kind.NO_MISMATCH or diagnosis.status is VerdictStatus.SUSPICION
     sure = found or sure_words(diagnosis, study.scant) in SURE
-    return measure_words(diagnosis) if sure else hidden_words(study)
+    if sure:
+        return measure_words(diagnosis)
+    return hidden_words(study, hidden_examples(study, hidden_effects(study, diagnosis)))
 
 
 def _looks(diagnosis: Diagnosis) -> Iterator[Look]:

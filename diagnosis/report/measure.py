@@ -47,15 +47,18 @@ def measure_words(diagnosis: Diagnosis) -> str:
     return NOTHING_ELSE if stated_probability(diagnosis) >= diagnosis.thresholds.name.probability else NO_POINT_TELLS
 
 
-def hidden_words(study: Study) -> str:
-    """Meters, axes and dimensions that would show more, where nothing is found and such answers have a poor record."""
+def hidden_words(study: Study, examples: str) -> str:
+    """Effects that may hide, and meters, axes and dimensions that would show more, where nothing is found and such
+    answers have a poor record. examples: the effects, in words.
+    """
     moving = axis_values(study.recording)
     meters = [CHANNELS[one] for one in METERS if one not in study.channels]
     axes = [f"other {CHANNELS[axis]}s" for axis in MAP_AXES if axis not in moving]
     parts = [f"{listed(meters)} measured" if meters else "", f"{listed(axes)} recorded" if axes else ""]
     parts += [f"the pump's own dimensions ({DIMENSIONS}) in the pump file" if study.scant else ""]
     known = [part for part in parts if part]
-    return f"A small effect may hide here. It would show sooner with {listed(known)}." if known else NOTHING_MORE
+    hides = f"A small effect may hide here{': ' if examples else ''}{examples}."
+    return f"{hides} It would show sooner with {listed(known)}." if known else NOTHING_MORE
 
 
 def next_point_text(found: NextPoint) -> str:

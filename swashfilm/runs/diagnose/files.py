@@ -11,6 +11,7 @@ from diagnosis.procedure.compared import NO_COMPARISON, WITH, WITHOUT, FilmCompa
 from diagnosis.recording.model import NoteKind
 from diagnosis.recording.units import channel_unit, reading
 from diagnosis.report.answer import PlainAnswer
+from diagnosis.report.hidden import HEAD, hidden_rows
 from diagnosis.report.json_file import write_diagnosis
 from diagnosis.report.tables import (
     hypothesis_rows,
@@ -35,6 +36,8 @@ FILM_HEAD = ("quantity", "unit", *(f"{kind}_{name}" for kind in ("lumped", "film
 """Columns of a table without rows."""
 TRACES = "trace_residuals.csv"
 """Table of the traces in the run folder of a recording, as residuals.csv is of the steady readings."""
+HIDDEN = "hidden.csv"
+"""Table of the effects that are not claimed, at the largest size that the recording allows."""
 
 
 def write_diagnosis_files(
@@ -45,7 +48,7 @@ def write_diagnosis_files(
     assumptions: Sequence[str] = (),
     comparison: PumpComparison = NO_COMPARISON,
 ) -> None:
-    """Write diagnosis.json, summary.json, and seven tables (of traces an eighth) into a run folder.
+    """Write diagnosis.json, summary.json, and eight tables (of traces a ninth) into a run folder.
 
     answer: the diagnosis in plain words; assumptions: of the pump; comparison: the pump without and with the finding.
     """
@@ -55,6 +58,7 @@ def write_diagnosis_files(
         write_rows(folder / TRACES, with_stated(study, trace_residual_rows(study, diagnosis)))
     write_rows(folder / "hypotheses.csv", hypothesis_rows(diagnosis))
     write_rows(folder / "parameters.csv", parameter_rows(diagnosis))
+    write_rows(folder / HIDDEN, hidden_rows(study, diagnosis), HEAD)
     write_rows(folder / "next_points.csv", next_point_rows(diagnosis.next_point), next_point_head())
     write_rows(folder / "changes.csv", change_rows(comparison), CHANGE_HEAD)
     write_rows(folder / "films.csv", film_rows(comparison.films), FILM_HEAD)

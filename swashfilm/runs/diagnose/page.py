@@ -18,7 +18,7 @@ from swashfilm.output.tables import parted
 from swashfilm.output.touch.picture import Picture
 from swashfilm.runs.diagnose import plots as diagnose_plots
 from swashfilm.runs.diagnose.fields import film_pictures
-from swashfilm.runs.diagnose.files import TRACES, head_of, read_rows
+from swashfilm.runs.diagnose.files import HIDDEN, TRACES, head_of, read_rows
 from swashfilm.runs.diagnose.rows import (
     AGREED_HEAD,
     AGREED_PARAMETER_HEAD,
@@ -31,6 +31,8 @@ from swashfilm.runs.diagnose.rows import (
     claim_rows,
     film_kinds,
     film_rows,
+    hidden_head,
+    hidden_rows,
     measured_words,
     misfit_rows,
     moved_words,
@@ -38,6 +40,7 @@ from swashfilm.runs.diagnose.rows import (
     place_rows,
     shaft_power,
     tiles,
+    unlimited_words,
 )
 from swashfilm.runs.diagnose.trace_plots import trace_residuals
 from system.inputs.channels import ChannelName
@@ -77,8 +80,10 @@ def write_diagnose_page(folder: Path) -> Path:
     summary = read_summary(folder, FILES, "a diagnosis's run folder")
     found = read_diagnosis(folder / "diagnosis.json")
     tables = {name: read_rows(folder / f"{name}.csv") for name in TABLES}
-    if (folder / TRACES).is_file():
-        tables["traces"] = read_rows(folder / TRACES)
+    for name, file in (("traces", TRACES), ("hidden", HIDDEN)):
+        if (folder / file).is_file():
+            tables[name] = read_rows(folder / file)
+    hidden = tables.get("hidden", [])
     kinds, claimed = film_kinds(tables["films"]), bool(found["effects"])
     pictures = {name: inlined(figure) for name, figure in _pictures(found, tables).items()}
     answer, below = _answer(found, summary, tables, pictures)
@@ -99,6 +104,9 @@ def write_diagnose_page(folder: Path) -> Path:
         parameter_head=PARAMETER_HEAD if claimed else AGREED_PARAMETER_HEAD,
         next_points=[tuple(row.values()) for row in tables["next_points"][:MOST_POINTS]],
         next_head=tuple(next(iter(tables["next_points"]), {})),
+        hidden=list(hidden_rows(hidden)),
+        hidden_head=hidden_head(hidden),
+        unlimited=unlimited_words(hidden),
         changes=list(change_rows(tables["changes"])),
         films=list(film_rows(tables["films"])),
         film_head=("all gaps of a kind", *(f"{FILM_HEADS[kind]}, without -> with" for kind in kinds)),

@@ -10,9 +10,9 @@ from diagnosis.report.json_file import read_diagnosis
 from swashfilm.output.result import Result, plotted, read_table
 from swashfilm.output.tables import Table
 from swashfilm.runs.diagnose import plots
-from swashfilm.runs.diagnose.files import read_rows
+from swashfilm.runs.diagnose.files import HIDDEN, read_rows
 from swashfilm.runs.diagnose.page import FILES, remarks, strongest_courses
-from swashfilm.runs.diagnose.rows import AGREED_HEAD, CHANNEL_HEAD, channel_rows
+from swashfilm.runs.diagnose.rows import AGREED_HEAD, CHANNEL_HEAD, channel_rows, hidden_head, hidden_rows
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -27,7 +27,7 @@ class DiagnosisRun(Result):
     kinds: ClassVar[tuple[str, ...]] = ("diagnosis",)
     files: ClassVar[tuple[str, ...]] = FILES
     record: Mapping[str, Any]
-    _rows: Mapping[str, list[dict[str, str]]]
+    _rows: dict[str, list[dict[str, str]]]
 
     @classmethod
     def opened(cls, folder: Path) -> DiagnosisRun:
@@ -35,6 +35,8 @@ class DiagnosisRun(Result):
         found = super().opened(folder)
         found.record = read_diagnosis(folder / "diagnosis.json")
         found._rows = {name: read_rows(folder / f"{name}.csv") for name in ("residuals", "hypotheses", "parameters")}
+        if (folder / HIDDEN).is_file():  # runs of earlier programs have none
+            found._rows["hidden"] = read_rows(folder / HIDDEN)
         return found
 
     @staticmethod
@@ -69,9 +71,12 @@ class DiagnosisRun(Result):
         return remarks(self.record, self.summary)
 
     def tables(self) -> list[Table]:
-        """The channels with their residuals."""
+        """The channels with their residuals, and effects that are not claimed at the largest size allowed."""
         head = CHANNEL_HEAD if self.effects else AGREED_HEAD
-        return [("Channels", [head, *channel_rows(self.record)])]
+        found: list[Table] = [("Channels", [head, *channel_rows(self.record)])]
+        hidden = self._rows.get("hidden", [])
+        limited = list(hidden_rows(hidden))
+        return [*found, ("Effects that may hide", [hidden_head(hidden), *limited])] if limited else found
 
     def __repr__(self) -> str:
         return "\n".join([*self.paragraphs, super().__repr__()])

@@ -8,8 +8,10 @@ from typing import Any
 from diagnosis.procedure.compared import WITH, WITHOUT
 from diagnosis.procedure.cost import is_material
 from diagnosis.procedure.pump_comparison import SHAFT
-from diagnosis.report.format import CHANNELS, chance, channel_words, effect_words
+from diagnosis.report.format import CHANNELS, chance, channel_words, effect_words, listed
 from swashfilm.output.answer import Tile
+from system.bench.departures import FORM
+from system.description.gap import Gap
 from system.effects.effect import EffectId
 from system.estimation.parameters import Role
 from system.inputs.channels import ChannelName
@@ -106,7 +108,8 @@ def parameter_rows(rows: Sequence[Row], claimed: bool) -> Iterator[tuple[str, ..
 
 def moved_words(rows: Sequence[Row]) -> str:
     """The stated value of the pump that the fit moves most without the finding, and hardly with it; empty without."""
-    known = [row for row in rows if row["role"] == BASE and row["pull_before"] and row["pull_after"]]
+    own = [row for row in rows if row["role"] == BASE and not row["name"].startswith(FORM)]
+    known = [row for row in own if row["pull_before"] and row["pull_after"]]
     freed = [
         row
         for row in known
@@ -120,6 +123,38 @@ def moved_words(rows: Sequence[Row]) -> str:
     stated = _quantity(unit, float(row["prior"]), float(row["prior_sigma"]))
     without, with_it = (_quantity(unit, float(f"{float(row[key]):.3g}")) for key in ("before", "after"))
     return f"Without the finding the fit needs {name} at {without} (stated: {stated}); with it, {with_it}."
+
+
+def hidden_head(rows: Sequence[Row]) -> tuple[str, ...]:
+    """Columns of `hidden_rows`: effect, size, and the channels in words."""
+    return ("effect", "no larger than", *(CHANNELS[name] for name in _channels(rows)))
+
+
+def hidden_rows(rows: Sequence[Row]) -> Iterator[tuple[str, ...]]:
+    """(effect at its place, largest size, change of each channel by it alone) of the effects that are limited."""
+    limited = [row for row in rows if row["limited"] == "yes"]
+    for place in dict.fromkeys((row["effect"], row["pair"]) for row in limited):
+        own = {row["channel"]: row for row in limited if (row["effect"], row["pair"]) == place}
+        shown = (f"{_signed(float(row['change']))} {row['change_unit']}" for row in own.values())
+        yield _hidden_words(*place), next(iter(own.values()))["size"], *shown
+
+
+def unlimited_words(rows: Sequence[Row]) -> str:
+    """The effects that the recording does not limit, as a list; empty where there is none."""
+    places = dict.fromkeys((row["effect"], row["pair"]) for row in rows if row["limited"] == "no")
+    return listed(_hidden_words(*place) for place in places)
+
+
+def _channels(rows: Sequence[Row]) -> Iterator[ChannelName]:
+    yield from dict.fromkeys(ChannelName.named(row["channel"]) for row in rows)
+
+
+def _hidden_words(effect: str, pair: str) -> str:
+    return effect_words([EffectId(effect)], Gap(pair) if pair else None)
+
+
+def _signed(value: float) -> str:
+    return f"{value:+.2g}" if value else "0"
 
 
 def change_rows(rows: Sequence[Mapping[str, str]]) -> Iterator[tuple[str, ...]]:

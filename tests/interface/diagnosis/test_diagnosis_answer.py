@@ -138,7 +138,7 @@ def test_agreement_that_is_not_sure_asks_for_what_would_show_more(named: Diagnos
     assert certainty(found, False).startswith("Fairly sure that nothing is wrong")
     assert plain_answer(study, found, "").measure == NOTHING_MORE
     told = plain_answer(replace(study, scant=True), found, "").measure
-    assert told.startswith("A small effect may hide here.")
+    assert told.startswith("A small effect may hide here")
     assert "delivery flow and inlet flow measured" in told
     assert "shaft torque" not in told
     assert "the pump's own dimensions" in told

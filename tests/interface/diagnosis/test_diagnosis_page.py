@@ -16,11 +16,13 @@ from diagnosis.detect.time_scan import TimeKind, TimeMark
 from diagnosis.explain.ranked import HeldOut
 from diagnosis.procedure.compared import NO_COMPARISON, Change, FilmChange, FilmComparison, PumpComparison
 from diagnosis.procedure.pump_comparison import compare_pumps
+from diagnosis.report.hidden import HEAD
 from diagnosis.report.json_file import diagnosis_record
 from diagnosis.report.tables import pull_sums
 from diagnosis.verdict.diagnosis import ClaimedEffect
+from swashfilm import open as open_run
 from swashfilm.__main__ import main
-from swashfilm.runs.diagnose.files import head_of, read_rows, write_diagnosis_files
+from swashfilm.runs.diagnose.files import head_of, read_rows, write_diagnosis_files, write_rows
 from swashfilm.runs.diagnose.page import AXES, strongest_courses, write_diagnose_page
 from swashfilm.runs.diagnose.plots import effect_courses, residual_maps
 from swashfilm.runs.diagnose.rows import claim_rows, moved_words, place_rows, tiles
@@ -133,6 +135,34 @@ def test_numbers_are_told_in_the_units_people_read(study: Study, named: Diagnosi
     write_diagnosis_files(tmp_path, study, named, its_answer(named))
     write_diagnose_page(tmp_path)
     assert "opening 22 +- 2 1/GPa</td>" in _page(tmp_path)
+
+
+HIDDEN_ROWS = [
+    dict(zip(HEAD, row, strict=True))
+    for row in (
+        ("control_flow", "", "0.06 mm2", "control_flow.area", "0.06", "mm2", "yes", "Q_out", "-0.48", "L/min"),
+        ("control_flow", "", "0.06 mm2", "control_flow.area", "0.06", "mm2", "yes", "torque", "0", "N m"),
+        ("mixed_friction", "piston", "share 2", "mixed_friction.share", "2", "1", "no", "Q_out", "0", "L/min"),
+        ("mixed_friction", "piston", "share 2", "mixed_friction.share", "2", "1", "no", "torque", "4", "N m"),
+    )
+]
+
+
+def test_the_page_lists_effects_that_may_hide(study: Study, named: Diagnosis, tmp_path: Path) -> None:
+    """Those that the recording limits in a table, the others by name; without the file, as earlier, no such section."""
+    write_diagnosis_files(tmp_path, study, named, its_answer(named))
+    write_rows(tmp_path / "hidden.csv", HIDDEN_ROWS)
+    write_diagnose_page(tmp_path)
+    page = _page(tmp_path).replace(' class="number"', "")
+    assert "What may still hide" in page
+    assert "<td>oil drawn by the control</td><td>0.06 mm2</td><td>-0.48 L/min</td><td>0 N m</td>" in page
+    assert "Not limited by this recording: mixed friction at the pistons." in page
+    found = open_run(tmp_path)
+    assert [title for title, _ in found.tables()] == ["Channels", "Effects that may hide"]
+    (tmp_path / "hidden.csv").unlink()
+    write_diagnose_page(tmp_path)
+    assert "What may still hide" not in _page(tmp_path)
+    assert [title for title, _ in open_run(tmp_path).tables()] == ["Channels"]
 
 
 def test_a_right_name_lets_the_pulls_fall(named: Diagnosis) -> None:
@@ -253,6 +283,7 @@ def test_a_value_that_need_not_move_is_told() -> None:
     told = "Without the finding the fit needs dead volume at 4.6 cm3 (stated: 6 +- 0.12 cm3); with it, 5.9 cm3."
     assert moved_words(rows) == told
     assert moved_words([row | {"pull_after": row["pull_before"]} for row in rows]) == ""
+    assert moved_words([row | {"name": "form.3"} for row in rows]) == ""
 
 
 def test_the_terminal_has_few_short_lines(named: Diagnosis) -> None:

@@ -22,9 +22,10 @@ from diagnosis.explain.scaling import scaling
 from diagnosis.explain.screen import joint_evidence, screen
 from diagnosis.procedure.recorded import diagnose_recording
 from diagnosis.recording.model import DataNote
+from diagnosis.report.hidden import hidden_effects, largest_size
 from diagnosis.study.map_axes import AXES, scaled_axes
 from diagnosis.study.model import Candidate, study_of
-from diagnosis.verdict.diagnosis import VerdictStatus
+from diagnosis.verdict.diagnosis import ClaimedEffect, VerdictStatus
 from diagnosis.verdict.doubt import doubted
 from diagnosis.verdict.judge import Judgement, judge
 from diagnosis.verdict.residue import residue_notes
@@ -33,7 +34,7 @@ from diagnosis.verdict.trend import power_errors
 from reynolds import Array, NotConverged
 from system import ChannelName, Component, EffectId, Extension, Gap, Kind, Parameter, Role, Scale, load_pump
 from system.effects.extension import Entry
-from system.estimation.evidence import mixture_evidence, score
+from system.estimation.evidence import Sign, mixture_evidence, score
 
 POINTS = 96
 
@@ -233,6 +234,57 @@ def test_a_law_left_out_is_named_with_its_place_and_size(number: int) -> None:
     assert found.hypotheses[0].hypothesis.effects == (law.id,)
     for channel, noise in found.fit.noise.items():
         assert found.fit.after[channel] < 1.2 * noise  # 4 sigma of the mean square of 96 readings
+
+
+def test_hidden_effects_are_no_larger_than_the_recording_allows() -> None:
+    """Of a size below detection 60 draws: no smaller than told in 95 % of them, and told within six times its size."""
+    nothing, size = _diagnosis(_study(0)), 0.02
+    largest = []
+    for seed in range(60):
+        study = _study(seed, laws=((CONTROL, size),))
+        found = hidden_effects(study, replace(nothing, after=study.base))
+        (one,) = (each for each in found if each.effect is CONTROL.id)
+        assert one.limited
+        largest.append(one.size.value)
+    assert sum(each >= size for each in largest) >= 54  # of 60 at 95 %: fewer once in 50 times
+    assert np.median(largest) < 6.0 * size
+
+
+def test_a_hidden_effect_has_its_place_and_what_it_changes() -> None:
+    """Flows of the toy at the largest size: a control takes size sqrt(p) from delivery into the case. Claimed effects
+    do not hide, and what cannot be seen is not told.
+    """
+    study, nothing = _study(0), _diagnosis(_study(0))
+    found = {(each.effect, each.pair): each for each in hidden_effects(study, nothing)}
+    assert {(EffectId.ELASTIC_OPENING, gap) for gap in OPENING} < found.keys()
+    bleed = found[CONTROL.id, None]
+    assert bleed.changes == pytest.approx(
+        bleed.size.value * np.sqrt(_axes()[1].max()) * np.array([-1.0, 1.0, 0.0]), rel=1e-3
+    )
+    assert bleed.relative == pytest.approx(
+        abs(bleed.changes[1]) / np.median(np.abs(study.observations.values[:, 1])), rel=1e-12
+    )
+    claimed = replace(nothing, effects=(ClaimedEffect(CONTROL.id, None, 0.9, (), ()),))
+    assert CONTROL.id not in {each.effect for each in hidden_effects(study, claimed)}
+    assert all(each.relative > 0.002 for each in found.values())
+
+
+@pytest.mark.parametrize(
+    ("mean", "sigma", "sign", "size"),
+    [
+        (0.0, 1.0, Sign.EITHER, 1.95996),
+        (0.0, 2.0, Sign.POSITIVE, 3.91993),
+        (0.0, 1.0, Sign.NEGATIVE, -1.95996),
+        (50.0, 1.0, Sign.POSITIVE, 51.64485),
+        (-50.0, 1.0, Sign.NEGATIVE, -51.64485),
+        (-50.0, 1.0, Sign.EITHER, -51.64485),
+    ],
+)
+def test_the_largest_size_is_the_quantile_of_a_normal_cut_to_its_sign(
+    mean: float, sigma: float, sign: Sign, size: float
+) -> None:
+    """Half-normal: 1.96 sigma. Far from the cut: the mean and 1.645 sigma."""
+    assert largest_size(mean, sigma, sign) == pytest.approx(size, rel=1e-5)
 
 
 def test_on_a_pump_of_which_little_is_known_a_name_is_as_sure_as_its_record() -> None:
