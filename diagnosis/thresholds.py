@@ -23,6 +23,7 @@ class MismatchLimits:
 
     chance: float
     null_probability: float
+    agreed: float
     suspicion: float
     draws: int
     smooth: float

@@ -11,7 +11,6 @@ from scipy.special import logsumexp
 from scipy.stats import chi2, norm
 
 from diagnosis.detect.mismatch import Detection
-from diagnosis.explain.hypotheses import Hypothesis
 from diagnosis.explain.model_error import behind_unknown, by_chance, chance_of_form, class_gap, place_gap, shared_out
 from diagnosis.explain.ranked import Explanation
 from diagnosis.study.model import Study
@@ -25,6 +24,7 @@ from diagnosis.verdict.row_numbers import table_rows
 from reynolds.numerics.arrays import Array
 from system.description.gap import Gap
 from system.effects.effect import EffectId, Kind
+from system.effects.extension import Extension
 from system.estimation.fit import is_peak
 from system.estimation.posterior import Posterior
 
@@ -59,15 +59,16 @@ def judge(
     along: coordinates (N,) by name, with which an effect may grow (`diagnosis.verdict.trend`).
 
     A mismatch needs an improbable null and a candidate (or a departure) as striking as chance hardly makes one; one
-    of the two alone is a suspicion of the likeliest kind, and claims nothing. A name needs probability, odds to all
-    that claim something else, sizes above zero, and no veto of held-out regions; it is incomplete if a part of the
-    mismatch remains. Unknown physics as likely as a name is in the class of each claim; so it is where a law of the
-    catalogue in another form may be what was left out (`chance_of_form`).
+    of the two alone is a suspicion of the likeliest kind, and claims nothing. So is a null that is less likely than
+    not, however ordinary the candidates. A name needs probability, odds to all that claim something else, sizes above
+    zero, and no veto of held-out regions; it is incomplete if a part of the mismatch remains. Unknown physics as likely
+    as a name is in the class of each claim; so it is where a law of the catalogue in another form may be what was left
+    out (`chance_of_form`).
     """
     limits = thresholds.mismatch
     null = next(each for each in explanations if each.hypothesis.kind is Kind.NO_MISMATCH)
     if null.probability >= limits.null_probability:
-        if detection.chance >= limits.suspicion:
+        if detection.chance >= limits.suspicion and null.probability >= limits.agreed:
             return Judgement(Kind.NO_MISMATCH, VerdictStatus.NAMED, (), (), (), tuple(explanations))
         return _suspicion(explanations, (_one_of_two(detection, null),), thresholds)
     free = _free_multiplier(study, null, explanations, thresholds)
@@ -242,7 +243,7 @@ def _objections(
         found.append("it could not be refitted")
     elif not is_peak(best.posterior, thresholds.fit_limits(study.scant)):
         found.append("its fit has not reached a peak")
-    elif not _sure(best.posterior, best.hypothesis, thresholds):
+    elif not _sure(best, explanations, thresholds):
         found.append("its size is not sure")
     if best.heldout is not None and best.heldout.vetoed:
         gains = ", ".join(
@@ -254,14 +255,14 @@ def _objections(
     return tuple(found)
 
 
-def _sure(posterior: Posterior, hypothesis: Hypothesis, thresholds: Thresholds) -> bool:
-    """Each law with sizes more than some sigma from nothing; each wrong parameter beyond its stated tolerance.
-
-    Several sizes of one law together: none may be sure alone if the readings determine their sum.
-    """
-    for law in hypothesis.laws:
-        if _chance_of(posterior, [one.name for one in law.parameters]) > 2.0 * norm.sf(thresholds.name.sure):
-            return False
+def _sure(best: Explanation, explanations: Sequence[Explanation], thresholds: Thresholds) -> bool:
+    """Each law with sizes more than some sigma from nothing; each wrong parameter beyond its stated tolerance."""
+    posterior, hypothesis = best.posterior, best.hypothesis
+    if posterior is None:
+        return False
+    least = 2.0 * norm.sf(thresholds.name.sure)
+    if any(_chance_of_none(best, law, explanations) > least for law in hypothesis.laws):
+        return False
     for name in hypothesis.widened:
         beyond = abs(posterior.xi[posterior.index(name)]) * thresholds.name.fault_factor * hypothesis.reach
         if beyond <= thresholds.mismatch.pull or _sigmas(posterior, name) <= thresholds.name.sure:
@@ -269,8 +270,22 @@ def _sure(posterior: Posterior, hypothesis: Hypothesis, thresholds: Thresholds) 
     return True
 
 
-def _chance_of(posterior: Posterior, names: Sequence[str]) -> float:
-    """The chance that all of these are nothing: of xi^T C^-1 xi, chi2 of as many degrees of freedom."""
+def _chance_of_none(best: Explanation, law: Extension, explanations: Sequence[Explanation]) -> float:
+    """The chance that all sizes of a law are nothing: of what the fit without it leaves more, chi2 (Wilks 1938).
+
+    Several sizes of one law together: none may be sure alone if the readings determine their sum. A law that levels off
+    (oil that heats itself thins and heats less) has a wide covariance at its peak, and yet its absence fits far worse.
+    Where no fit without the law is there, xi^T C^-1 xi about the peak, the same for linear readings.
+    """
+    names = {one.name for one in law.parameters}
+    rest = set(best.hypothesis.open_names) - names
+    known = (each for each in explanations if each.posterior is not None and each.hypothesis.component is None)
+    without = next((each.posterior for each in known if set(each.hypothesis.open_names) == rest), None)
+    posterior = best.posterior
+    if posterior is None:
+        return 1.0
+    if without is not None:
+        return float(chi2.sf(without.objective - posterior.objective, len(names)))
     at = [posterior.index(name) for name in names]
     xi = posterior.xi[at]
     return float(chi2.sf(xi @ np.linalg.solve(posterior.covariance[np.ix_(at, at)], xi), len(at)))
