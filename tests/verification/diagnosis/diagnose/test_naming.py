@@ -585,6 +585,35 @@ def test_what_no_candidate_resembles_is_a_mismatch_all_the_same(shape: str, stat
     assert (found.kind, found.status) == (Kind.UNKNOWN_PHYSICS, status)
 
 
+@pytest.mark.parametrize(("nothing", "status"), [(0.51, VerdictStatus.NAMED), (0.49, VerdictStatus.SUSPICION)])
+def test_agreement_is_told_where_it_is_likelier_than_not(nothing: float, status: VerdictStatus) -> None:
+    """No candidate is striking; yet unknown physics is likelier than nothing: a suspicion."""
+    study = _study(1)
+    null = refit(study, hypotheses(study, LIMITS)[0], LIMITS)
+    free = next(each for each in hypotheses(study, LIMITS) if each.component is Component.CASE_DRAG)
+    bend = Explanation(free, null.log_evidence, True, None, 0.0, 1.0 - nothing, None)
+    blind = replace(detect(study, LIMITS), chance=0.5)
+    found = judge(study, blind, (replace(null, probability=nothing), bend), _coordinates(), LIMITS)
+    assert found.status is status
+    assert found.kind is (Kind.NO_MISMATCH if status is VerdictStatus.NAMED else Kind.UNKNOWN_PHYSICS)
+    assert not found.claims
+
+
+@pytest.mark.parametrize("worse", [99.0, 1.0])
+def test_a_size_is_sure_where_its_absence_fits_far_worse(worse: float) -> None:
+    """However wide its covariance is at the peak, as of a law that levels off; 1 in the objective comes by chance."""
+    study = _study(1, laws=((CHURNING, 0.2),))
+    own = next(each for each in hypotheses(study, LIMITS) if each.effects == (CHURNING.id,))
+    null, best = refit(study, hypotheses(study, LIMITS)[0], LIMITS), refit(study, own, LIMITS)
+    assert null.posterior is not None
+    assert best.posterior is not None
+    flat = replace(best.posterior, precision=1e-6 * best.posterior.precision)
+    without = replace(null.posterior, objective=best.posterior.objective + worse)
+    sure = replace(best, posterior=flat, probability=1.0), replace(null, posterior=without, probability=0.0)
+    found = judge(study, detect(study, LIMITS), sure, _coordinates(), LIMITS)
+    assert ("its size is not sure" in found.reasons) is (worse < 4.0)
+
+
 def test_what_no_hypothesis_questions_stays_near_its_tolerance() -> None:
     """Parameters that none sets free are held; those that one may widen are not, and by it they are wide."""
     study = _study(1)
