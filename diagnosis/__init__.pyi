@@ -15,6 +15,7 @@ from .recording.model import (
 )
 from .recording.reader import read_recording as read_recording
 from .report.answer import Look as Look, PlainAnswer as PlainAnswer, plain_answer as plain_answer
+from .report.hidden import HiddenEffect as HiddenEffect, hidden_effects as hidden_effects
 from .report.json_file import write_diagnosis as write_diagnosis
 from .report.text import statement as statement
 from .study.acceptance import checked_recording as checked_recording

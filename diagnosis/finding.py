@@ -13,6 +13,7 @@ from diagnosis.procedure.pump_comparison import claimed_pump, compare_pumps
 from diagnosis.procedure.recorded import diagnose_recording
 from diagnosis.recording.model import Recording
 from diagnosis.report.answer import PlainAnswer, plain_answer
+from diagnosis.report.hidden import HiddenEffect, hidden_effects
 from diagnosis.report.measure import NO_NEXT_POINT
 from diagnosis.study.acceptance import accepted_recording, refuse_too_few, refuse_too_smooth
 from diagnosis.study.model import Study
@@ -51,6 +52,11 @@ class DiagnosisResult:
     def answer(self) -> PlainAnswer:
         """The diagnosis in plain words."""
         return plain_answer(self.study, self.diagnosis, cost_words(self.comparison))
+
+    @cached_property
+    def hidden(self) -> tuple[HiddenEffect, ...]:
+        """Effects that are not claimed, each at the largest size that the recording allows."""
+        return hidden_effects(self.study, self.diagnosis)
 
 
 def diagnose(

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from toy_maps import LIMITS, SIGMA, ToySimulator, toy_observations, toy_recording
 
-from diagnosis import Diagnosis, Explanation, NoteKind, Recording, Study, diagnose_study
+from diagnosis import Diagnosis, Explanation, NoteKind, Recording, Study, diagnose_study, hidden_effects
 from diagnosis.checks.outliers import scaled_places
 from diagnosis.detect.mismatch import confirmed, detect
 from diagnosis.explain.held_out import beyond_chance, has_veto, held_out, regions
@@ -22,7 +22,7 @@ from diagnosis.explain.scaling import scaling
 from diagnosis.explain.screen import joint_evidence, screen
 from diagnosis.procedure.recorded import diagnose_recording
 from diagnosis.recording.model import DataNote
-from diagnosis.report.hidden import hidden_effects, largest_size
+from diagnosis.report.hidden import largest_size
 from diagnosis.study.map_axes import AXES, scaled_axes
 from diagnosis.study.model import Candidate, study_of
 from diagnosis.verdict.diagnosis import ClaimedEffect, VerdictStatus
