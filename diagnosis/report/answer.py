@@ -85,10 +85,11 @@ def plain_answer(study: Study, diagnosis: Diagnosis, cost: str) -> PlainAnswer:
 
 
 def _measure(study: Study, diagnosis: Diagnosis) -> str:
-    """The next measurement; where nothing is found and that is not sure, the one that would show more."""
+    """The next measurement; where nothing is found, and that is not sure or little is known of the pump, what may hide
+    and what would show more.
+    """
     found = diagnosis.kind is not Kind.NO_MISMATCH or diagnosis.status is VerdictStatus.SUSPICION
-    sure = found or sure_words(diagnosis, study.scant) in SURE
-    if sure:
+    if found or (sure_words(diagnosis, study.scant) in SURE and not study.scant):
         return measure_words(diagnosis)
     return hidden_words(study, hidden_examples(study, hidden_effects(study, diagnosis)))
 
