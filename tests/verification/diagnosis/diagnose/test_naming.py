@@ -246,7 +246,7 @@ def test_hidden_effects_are_no_larger_than_the_recording_allows() -> None:
         (one,) = (each for each in found if each.effect is CONTROL.id)
         assert one.limited
         largest.append(one.size.value)
-    assert sum(each >= size for each in largest) >= 54  # of 60 at 95 %: fewer once in 50 times
+    assert sum(each >= size for each in largest) >= 54  # of 60 at 95 %: fewer once in 30 times
     assert np.median(largest) < 6.0 * size
 
 
