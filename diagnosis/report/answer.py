@@ -85,8 +85,8 @@ def plain_answer(study: Study, diagnosis: Diagnosis, cost: str) -> PlainAnswer:
 
 
 def _measure(study: Study, diagnosis: Diagnosis) -> str:
-    """The next measurement; where nothing is found, and that is not sure or little is known of the pump, what may hide
-    and what would show more.
+    """The next measurement. Without a mismatch, where that is not sure or a type plate is all that is known of the pump:
+    effects that may hide, and what would show them.
     """
     found = diagnosis.kind is not Kind.NO_MISMATCH or diagnosis.status is VerdictStatus.SUSPICION
     if found or (sure_words(diagnosis, study.scant) in SURE and not study.scant):
