@@ -85,7 +85,7 @@ def plain_answer(study: Study, diagnosis: Diagnosis, cost: str) -> PlainAnswer:
 
 
 def _measure(study: Study, diagnosis: Diagnosis) -> str:
-    """The next measurement. Without a mismatch, where that is not sure or a type plate is all that is known of the pump:
+    """The next measurement. Without a mismatch, where that is not sure or only a type plate is known of the pump:
     effects that may hide, and what would show them.
     """
     found = diagnosis.kind is not Kind.NO_MISMATCH or diagnosis.status is VerdictStatus.SUSPICION
