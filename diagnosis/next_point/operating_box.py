@@ -53,6 +53,7 @@ class BenchBox:
             T_in=temperature - self.warmer,
             hours=np.full(speed.size, hours),
             order=np.full(speed.size, order),
+            warming=np.zeros(speed.size),
         )
 
 

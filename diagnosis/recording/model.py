@@ -73,7 +73,8 @@ class SteadyTable:
     repeats: (N,), points of one number repeat one set point; hours: (N,), h from the first point, nan = not known;
     errors: (N, len(ChannelName)), one sigma in SI of points that are means over a moving series; nan where a point has
     the repeatability of its channel. directions: (N, len(ChannelName), K), the errors of two such points have the
-    scalar product of theirs as correlation; None where all points are independent.
+    scalar product of theirs as correlation; None where all points are independent. warming: (N,), K/s by which T_case
+    rises at points of a moving series; None at rest.
     """
 
     values: Array
@@ -81,11 +82,14 @@ class SteadyTable:
     hours: Array
     errors: Array
     directions: Array | None = None
+    warming: Array | None = None
 
     def at(self, rows: NDArray[np.int64] | NDArray[np.bool_] | slice) -> SteadyTable:
         """The table of some of its points."""
-        directions = None if self.directions is None else self.directions[rows]
-        return SteadyTable(self.values[rows], self.repeats[rows], self.hours[rows], self.errors[rows], directions)
+        directions, warming = (None if of is None else of[rows] for of in (self.directions, self.warming))
+        return SteadyTable(
+            self.values[rows], self.repeats[rows], self.hours[rows], self.errors[rows], directions, warming
+        )
 
     def correlation(self, name: ChannelName) -> Array | None:
         """Correlation (N, N) of the errors of a channel's points; None where they are independent."""

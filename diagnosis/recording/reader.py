@@ -19,7 +19,7 @@ from diagnosis.recording.columns import ColumnReader, rising
 from diagnosis.recording.form import RecordingForm, SeriesSection, SteadySection, read_form
 from diagnosis.recording.model import RecordedChannel, Recording, SteadyTable
 from diagnosis.recording.replicates import repeatability, set_points
-from diagnosis.recording.series.points import series_points
+from diagnosis.recording.series.points import SeriesPoints, series_points
 from diagnosis.recording.tables.table import TableColumns, TableFault
 from diagnosis.recording.traces import ReadTraces, read_traces
 from reynolds.numerics.arrays import Array
@@ -80,9 +80,8 @@ def _places(path: Path) -> tuple[Path, Path | None]:
 @dataclass(frozen=True)
 class _Points:
     """Readings (N, C) by channel of the form; set points, hours, standard errors (N, C) of means, and the table's
-    own columns where its rows are the points. zeros: (C,), one sigma of a zero that the readings show at least, SI.
-    quasi: means of a series without rest, whose standard errors hold in
-    place of a stated repeatability.
+    own columns where its rows are the points. series: means over a time series and what it tells of its meters; where
+    they are quasi-steady, their standard errors hold in place of a stated repeatability.
     """
 
     readings: Array
@@ -90,9 +89,11 @@ class _Points:
     hours: Array
     errors: Array | None
     columns: Mapping[str, Array]
-    zeros: Array | None = None
-    quasi: bool = False
-    directions: Array | None = None
+    series: SeriesPoints | None = None
+
+    @property
+    def quasi(self) -> bool:
+        return self.series is not None and self.series.quasi
 
 
 def columns_of(channels: Sequence[ChannelForm]) -> list[int]:
@@ -119,11 +120,12 @@ def _recording(form: RecordingForm, reader: ColumnReader) -> Recording | None:
     errors = np.full_like(values, np.nan)
     if points.quasi and points.errors is not None:
         errors[:, columns_of(form.channels)] = points.errors
-    directions = None
-    if points.directions is not None:
-        directions = np.zeros((*values.shape, points.directions.shape[2]))
-        directions[:, columns_of(form.channels)] = points.directions
-    steady = SteadyTable(values, points.numbers, points.hours, errors, directions)
+    series, directions = points.series, None
+    if series is not None and series.directions is not None:
+        directions = np.zeros((*values.shape, series.directions.shape[2]))
+        directions[:, columns_of(form.channels)] = series.directions
+    warming = None if series is None else series.warming
+    steady = SteadyTable(values, points.numbers, points.hours, errors, directions, warming)
     channels += traces.channels
     for channel in channels:
         if channel.assumed:
@@ -196,9 +198,7 @@ def _series_points(
     for note in series.notes:
         reader.note(note)
     numbers = np.arange(len(series.means), dtype=np.int64)
-    return _Points(
-        series.means, numbers, series.hours, series.errors, {}, series.zeros, series.quasi, series.directions
-    )
+    return _Points(series.means, numbers, series.hours, series.errors, {}, series)
 
 
 def _channels(forms: Sequence[ChannelForm], points: _Points, reader: ColumnReader) -> tuple[RecordedChannel, ...]:
@@ -221,7 +221,7 @@ def _channels(forms: Sequence[ChannelForm], points: _Points, reader: ColumnReade
                 "sigma or sigma_relative (one sigma of repeatability), or a repeats column with 5 or more repeats",
             )
         else:
-            channels.append(_with_zero(channel, 0.0 if points.zeros is None else float(points.zeros[k])))
+            channels.append(_with_zero(channel, 0.0 if points.series is None else float(points.series.zeros[k])))
     return tuple(channels)
 
 

@@ -94,7 +94,9 @@ def bench_points(recording: Recording, pump: PumpDescription) -> tuple[BenchPoin
         value = one.value
         column = recording.steady.column(value) if isinstance(value, ChannelName) else np.full(count, value)
         columns[one.channel.value] = column
-    points = BenchPoints(**columns, hours=recording.steady.hours, order=np.arange(count, dtype=float))
+    steady, order = recording.steady, np.arange(count, dtype=float)
+    warming = np.zeros(count) if steady.warming is None else steady.warming
+    points = BenchPoints(**columns, hours=steady.hours, order=order, warming=warming)
     return points, tuple(DataNote(NoteKind.NOTED, one.channel, (), one.text) for one in assumed)
 
 

@@ -8,6 +8,7 @@ from dataclasses import replace
 import numpy as np
 
 from diagnosis.recording.model import DataNote, NoteKind, Recording
+from diagnosis.recording.series.quasi_steady import THERMOMETER
 from diagnosis.study.drift_course import course_departures, drift_courses, drift_parameters
 from diagnosis.study.felt import felt
 from diagnosis.study.films.noise import BALANCED_NAMES, table_noise
@@ -26,7 +27,7 @@ from system.bench.components import LEAKAGE
 from system.bench.departures import departures
 from system.bench.outputs import METERED, SIMULATED, shear_torques
 from system.bench.parameters import base_parameters
-from system.bench.sensors import drift_parameter, lag_parameter, sensor_parameters
+from system.bench.sensors import drift_parameter, lag_parameter, sensor_parameters, thermometer_parameter
 from system.bench.simulator import LumpedBench
 from system.description.pump import PumpDescription
 from system.description.tolerances import Tolerances
@@ -41,6 +42,7 @@ from system.points.table.film_physics import FilmModel
 
 LEAST_ACROSS = 1e6  # Pa
 LAG = 1.0  # s, one sigma of a flow meter's lag where none is stated
+UNTOLD, TOLD = 20.0, 0.3  # one sigma of the thermometer's lag where none is stated (s), and over one that is
 
 
 def prepare(
@@ -184,7 +186,8 @@ def _stored(bench: LumpedBench) -> Array:
 
 
 def meter_parameters(recording: Recording, channels: tuple[ChannelName, ...]) -> tuple[Parameter, ...]:
-    """Calibrations of outputs and inputs; the drain meter may drift by its zero's sigma, flow meters lag."""
+    """Calibrations of outputs and inputs; the drain meter may drift by its zero's sigma, flow meters and the case's
+    thermometer lag."""
     known = [channel for channel in recording.channels if channel.name in (*channels, *INPUTS)]
     found = list(sensor_parameters(known))
     drain = recording.channel(ChannelName.Q_CASE)
@@ -194,4 +197,7 @@ def meter_parameters(recording: Recording, channels: tuple[ChannelName, ...]) ->
     in_time = np.all(np.isfinite(steady.hours)) and np.isnan(steady.errors).all()  # lag is out of quasi-steady points
     if delivery is not None and delivery.name in channels and in_time:
         found.append(lag_parameter(delivery.name, delivery.lag or LAG))
+    case = recording.channel(ChannelName.T_CASE)
+    if case is not None and steady.warming is not None:
+        found.append(thermometer_parameter(case.lag or THERMOMETER, TOLD * case.lag or UNTOLD))
     return tuple(found)

@@ -11,7 +11,8 @@ from system.pump.operating import OperatingPoint, operating_point
 class BenchPoints:
     """N steady points: speed in rad/s, pressures in Pa gauge, temperatures in K, hours run in h; arrays (N,).
 
-    `order` is the place of a point in the sequence in which the points were taken, from 0.
+    `order` is the place of a point in the sequence in which the points were taken, from 0. `warming` in K/s: rate by
+    which T_case as read rises, 0 at rest.
     """
 
     speed: Array
@@ -23,6 +24,7 @@ class BenchPoints:
     T_in: Array
     hours: Array
     order: Array
+    warming: Array
 
 
 def operating_at(pump: PumpDescription, points: BenchPoints, at: int) -> OperatingPoint:

@@ -1,4 +1,4 @@
-"""Errors of sensors: gain, zero, drift and lag of outputs, zeros of inputs."""
+"""Errors of sensors: gain, zero, drift and lag of outputs, zeros of inputs, lag of the case's thermometer."""
 
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
@@ -26,7 +26,10 @@ TRACE_NAMES = frozenset({ENCODER_OFFSET, CHAMBER_GAIN, CHAMBER_ZERO, CHAMBER_LAG
 """Names of the parameters that change what traces read, and no steady reading."""
 READING_NAMES = frozenset(f"{channel.value}.{what}" for channel in OUTPUTS for what in ("gain", "zero", "drift", "lag"))
 """Names of the parameters that change what is read, not what is there."""
-SENSOR_NAMES = frozenset({*TRACE_NAMES, *READING_NAMES, *(f"{channel.value}.zero" for channel in INPUTS)})
+THERMOMETER_LAG = f"{ChannelName.T_CASE.value}.lag"
+SENSOR_NAMES = frozenset(
+    {*TRACE_NAMES, *READING_NAMES, THERMOMETER_LAG, *(f"{channel.value}.zero" for channel in INPUTS)}
+)
 """Names of all parameters of sensors."""
 
 
@@ -71,6 +74,13 @@ def lag_parameter(channel: ChannelName, sigma: float) -> Parameter:
     return Parameter(f"{channel.value}.lag", Role.SENSOR, Scale.HALF, 0.0, sigma, 0.0, inf, Dimension.TIME, CALIBRATION)
 
 
+def thermometer_parameter(lag: float, sigma: float) -> Parameter:
+    """T_case.lag in s: time constant with which the thermometer of the case follows the oil."""
+    return Parameter(
+        THERMOMETER_LAG, Role.SENSOR, Scale.NORMAL, lag, sigma, 0.0, inf, Dimension.TIME, CALIBRATION, linear=False
+    )
+
+
 def encoder_parameter(sigma: float) -> Parameter:
     """encoder_offset in rad: what the encoder of traces reads too much."""
     return Parameter(ENCODER_OFFSET, Role.SENSOR, Scale.NORMAL, 0.0, sigma, -0.2, 0.2, Dimension.ANGLE, CALIBRATION)
@@ -108,12 +118,16 @@ def read_turns(pressure: Array, speed: Array, angles: Array, values: Mapping[str
 
 
 def actual(points: BenchPoints, values: Mapping[str, float]) -> BenchPoints:
-    """The points as they were, by their readings less the inputs' zeros."""
+    """The points as they were: readings less the inputs' zeros, and T + tau dT/dt of a thermometer with a lag tau."""
     changed = {}
     for channel in INPUTS:
         zero = values.get(f"{channel.value}.zero", 0.0)
         if zero != 0.0:
             changed[channel.value] = getattr(points, channel.value) - zero
+    lag = values.get(THERMOMETER_LAG, 0.0)
+    if lag != 0.0:
+        warm = ChannelName.T_CASE.value
+        changed[warm] = changed.get(warm, points.T_case) + lag * points.warming
     return replace(points, **changed)
 
 

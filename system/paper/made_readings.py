@@ -53,6 +53,7 @@ def _bench_points(rows: Sequence[PaperPoint], source: PaperPoints) -> BenchPoint
         T_in=held,
         hours=np.zeros(count),
         order=np.arange(count, dtype=float),
+        warming=np.zeros(count),
     )
 
 

@@ -121,7 +121,14 @@ def _grid_points() -> BenchPoints:
     gauge = {name: getattr(at, name) - STANDARD_ATMOSPHERE for name in GAUGE}
     none = np.full(at.speed.size, np.nan)
     return BenchPoints(
-        speed=at.speed, displacement_ratio=at.ratio, **gauge, T_case=at.T_case, T_in=at.T_in, hours=none, order=none
+        speed=at.speed,
+        displacement_ratio=at.ratio,
+        **gauge,
+        T_case=at.T_case,
+        T_in=at.T_in,
+        hours=none,
+        order=none,
+        warming=np.zeros(at.speed.size),
     )
 
 

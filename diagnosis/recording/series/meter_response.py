@@ -5,8 +5,14 @@ hold back in proportion to the pressure's rate:
 
     y(t) = g(u_tau(t), t) - s dp/dt + e(t),   tau du_tau/dt = u - u_tau
 
-g: a smooth function of the moving inputs u and, slowly, of time; e: noise with memory. Least squares with Huber's
-(1964) weights at the lag that fits best. The steady reading is y + g(u, t) - g(u_tau, t) + s dp/dt.
+g: a smooth function of the moving inputs u and, slowly, of time; e: noise with memory; s >= 0, of delivery alone.
+Least squares with Huber's (1964) weights at the lag that fits best. The steady reading is y + g(u, t) - g(u_tau, t)
++ s dp/dt.
+
+A lag and a storage of -tau dg/dp do the same to first order. Both together change a swing of frequency w by tau^2 w^2,
+which looks like physics: the one that fits better is taken. Law, lag and storage are estimates, so that the noise of a
+mean of steady readings is that of (a + a M B) e: a are its shares of the samples, B e what the noise e makes of the
+estimates, M what they make of the steady readings.
 """
 
 from __future__ import annotations
@@ -24,6 +30,7 @@ from reynolds.numerics.arrays import Array
 
 Mask = NDArray[np.bool_]
 ROUNDS = 6
+REFINED = 3
 HUBER = 1.5
 NORMAL = 1.4826  # standard deviation of a normal distribution per median magnitude
 LAGS = (0.5, 1.0, 2.0, 4.0, 8.0, 16.0, 32.0, 64.0, 128.0)  # samples
@@ -38,7 +45,7 @@ CLEAR = 2.0  # sigma above the dead band from which a reading counts
 class MeterResponse:
     """Response of a channel. steady: (T,), readings of steady state, SI, nan within the dead band; band: SI, nan where
     there is none; lag: s; storage: s of the equation, SI; noise: of single samples; law: coefficients of
-    `smooth_columns`, SI.
+    `smooth_columns`, SI; moves: (T, m), M of the noise of means; by: (m, T), its B.
     """
 
     steady: Array
@@ -47,34 +54,67 @@ class MeterResponse:
     storage: float
     noise: SampleNoise
     law: Array
+    moves: Array
+    by: Array
+
+    def of_means(self, shares: Array) -> Array:
+        """Covariance (N, N) of means of steady readings with shares (N, T) of the samples."""
+        return self.noise.of_means(shares + shares @ self.moves @ self.by)
 
 
 def meter_response(
-    values: Array, time: Array, moving: Array, rate: Array, usable: Mask, may_be_dead: bool
+    values: Array, time: Array, moving: Array, rate: Array | None, usable: Mask, may_be_dead: bool
 ) -> MeterResponse:
     """Response of readings (T,) in SI at even times (T,) s to inputs (T, m) scaled to [-1, 1] and the pressure's
-    rate (T,) in Pa/s; `usable` (T,): samples that count. may_be_dead: a flow meter, which may have a dead band.
+    rate (T,) in Pa/s, None where nothing is stored before the meter; `usable` (T,): samples that count. may_be_dead: a
+    flow meter, which may have a dead band.
     """
-    rates = rate[usable, None] if np.any(rate) else np.empty((int(usable.sum()), 0))
     known, past = values[usable], past_share(time)
 
     def columns(lag: float) -> Array:
-        return np.column_stack([smooth_columns(lagged(moving, lag), past)[usable], rates])
+        return smooth_columns(lagged(moving, lag), past)[usable]
 
     at_once = columns(0.0)
     follows = follows_down(known, at_once, dead_band(known, at_once)) if may_be_dead else np.ones(len(known), bool)
     lag = best_lag(lambda samples: misfit(columns(samples)[follows], known[follows]))
-    followed = columns(lag)
+    held = np.zeros(len(known)) if rate is None else -rate[usable]
+    storage = _storage(known[follows], at_once[follows], held[follows], misfit(columns(lag)[follows], known[follows]))
+    lag = 0.0 if storage > 0.0 else _refined(lag, lambda samples: columns(samples)[follows], known[follows])
+    followed, known = columns(lag), known - storage * held
     band = dead_band(known, followed) if may_be_dead else np.nan
     follows = follows_down(known, followed, band)
-    size, residual = robust(followed[follows], known[follows])
-    smooth = at_once.shape[1] - rates.shape[1]
-    at_rest = (at_once - followed)[:, :smooth] @ size[:smooth] - rates @ size[smooth:]
-    steady = np.full(len(values), np.nan)
-    steady[usable] = np.where(follows, known + at_rest, np.nan)
-    noise = sample_noise(residual, followed[follows], np.flatnonzero(usable)[follows], len(values))
-    storage = -float(size[-1]) if rates.size else 0.0
-    return MeterResponse(steady, band, lag * float(np.median(np.diff(time))), storage, noise, size[:smooth])
+    law, residual = robust(followed[follows], known[follows])
+    changes = held if storage > 0.0 else (columns(lag + 1.0) - followed) @ law
+    steady, counts = np.full(len(values), np.nan), np.flatnonzero(usable)[follows]
+    steady[usable] = np.where(follows, known + (at_once - followed) @ law, np.nan)
+    moves, by = np.zeros((len(values), len(law) + 1)), np.zeros((len(law) + 1, len(values)))
+    moves[usable] = np.column_stack([at_once - followed, -changes])
+    by[:, counts] = _by_each_reading(np.column_stack([followed, changes])[follows])
+    noise = sample_noise(residual, followed[follows], counts, len(values))
+    return MeterResponse(steady, band, lag * float(np.median(np.diff(time))), storage, noise, law, moves, by)
+
+
+def _refined(lag: float, columns: Callable[[float], Array], values: Array) -> float:
+    """Lag nearer to that of least squares, by Gauss-Newton steps; columns: of a law by the lag. One of 0 stays."""
+    for _ in range(REFINED if lag > 0.0 else 0):
+        followed = columns(lag)
+        changes = (columns(lag + 1.0) - followed) @ robust(followed, values)[0]
+        lag = max(lag + float(robust(np.column_stack([followed, changes]), values)[0][-1]), 0.5 * lag)
+    return lag
+
+
+def _storage(values: Array, columns: Array, held: Array, least: float) -> float:
+    """Storage by its column `held` (n,) beside a law's (n, m); 0 where values (n,) are met to `least` without it."""
+    if not np.any(held):
+        return 0.0
+    both = np.column_stack([columns, held])
+    return max(float(robust(both, values)[0][-1]), 0.0) if misfit(both, values) < least else 0.0
+
+
+def _by_each_reading(columns: Array) -> Array:
+    """Coefficients (m, n) of columns (n, m) by least squares of a unit of each reading."""
+    scale = np.maximum(np.abs(columns).max(axis=0), 1e-300)
+    return np.asarray(np.linalg.pinv(columns / scale, rcond=1e-9) / scale[:, None])
 
 
 def best_lag(score: Callable[[float], float], tried: Sequence[float] = LAGS) -> float:

@@ -12,7 +12,7 @@ from diagnosis.recording.form import SeriesSection, SteadinessSection
 from diagnosis.recording.series.clock import clocked
 from diagnosis.recording.series.holds import without_holds
 from diagnosis.recording.series.meter_response import MeterResponse
-from diagnosis.recording.series.quasi_steady import FEWEST, quasi_steady
+from diagnosis.recording.series.quasi_steady import FEWEST, THERMOMETER, quasi_steady
 from diagnosis.recording.series.standstill import without_standstill
 from diagnosis.recording.series.steadiness import SteadyRule, effective_number, steady_stretches
 from diagnosis.recording.tables.table import TableFault
@@ -32,7 +32,8 @@ class SeriesPoints:
 
     directions: (N, C, K), of quasi-steady points, whose errors correlate by the products of theirs; hours: (N,), middle
     of the samples, h from the first; zeros: (C,), one sigma of a zero that the series shows at least, SI; quasi:
-    quasi-steady points, whose noise is `errors`; notes: the procedure as text.
+    quasi-steady points, whose noise is `errors`; warming: (N,), K/s of T_case, None of steady points; notes: the
+    procedure as text.
     """
 
     means: Array
@@ -41,6 +42,7 @@ class SeriesPoints:
     hours: Array
     zeros: Array
     quasi: bool
+    warming: Array | None
     notes: tuple[str, ...]
 
 
@@ -69,7 +71,7 @@ def series_points(form: SeriesSection, time: Array, readings: Array, channels: S
         f"which slope and bow of every input stay below {form.steady.slope:g} standard errors or its repeatability"
     )
     hours = (middle - middle[0]) / 3600.0
-    return SeriesPoints(means, errors, None, hours, np.zeros(len(channels)), False, (*notes, rule))
+    return SeriesPoints(means, errors, None, hours, np.zeros(len(channels)), False, None, (*notes, rule))
 
 
 def without_what_is_no_reading(
@@ -102,20 +104,20 @@ def _steady_stretches(
 def _quasi_steady_points(time: Array, readings: Array, channels: Sequence[ChannelForm]) -> SeriesPoints:
     """Quasi-steady means of a series without rest, and notes on storage, samples put aside, misstated noise."""
     try:
-        found = quasi_steady(time, readings, [channel.name for channel in channels])
+        stated = next((one.lag for one in channels if one.name is ChannelName.T_CASE and one.lag), THERMOMETER)
+        found = quasi_steady(time, readings, [channel.name for channel in channels], stated)
     except ValueError as reason:
         raise TableFault(str(reason), f"at least {FEWEST} samples of a series") from reason
     notes = (
         f"{len(found.means)} quasi-steady points from {1.0 - found.left:.0%} of the series: samples of like inputs and "
         "time are one point; lag of the meters and storage of line and chambers are estimated and taken out",
-        *(f"T_case: lags the oil of the gaps by {lag:.0f} s, taken out" for lag in [found.thermometer_lag] if lag),
         *(_meter_note(channels[k], meter) for k, meter in found.meters.items()),
     )
     zeros = np.zeros(len(channels))
     for k, meter in found.meters.items():
         zeros[k] = ZERO_OF_BAND * np.nan_to_num(meter.band)
     hours = (found.time - found.time[0]) / 3600.0
-    return SeriesPoints(found.means, found.errors, found.directions, hours, zeros, True, notes)
+    return SeriesPoints(found.means, found.errors, found.directions, hours, zeros, True, found.warming, notes)
 
 
 def _meter_note(channel: ChannelForm, meter: MeterResponse) -> str:

@@ -1,14 +1,15 @@
 """Quasi-steady points of a series that never rests: ramps, stairs, sweeps, warm-up.
 
-Each meter's response is estimated and taken out (`meter_response`). Samples near each other in inputs and time are one
-point; its standard error follows from the noise of single samples and its correlation (`sample_noise`).
+Each output's response is estimated and taken out (`meter_response`). Samples near each other in inputs and time are one
+point; its standard error follows from the noise of single samples and its correlation (`sample_noise`). Inputs stay
+as read. The case's thermometer lags the oil: outputs follow T + tau dT/dt. A smooth law of all inputs fits as well with
+any tau, for pressure warms the oil; so tau is assumed here, and fitted with the pump.
 """
 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from functools import partial
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,12 +20,7 @@ from diagnosis.recording.series.meter_response import (
     NORMAL,
     Mask,
     MeterResponse,
-    best_lag,
-    dead_band,
-    follows_down,
-    lagged,
     meter_response,
-    misfit,
     past_share,
     smooth_columns,
 )
@@ -37,8 +33,7 @@ FEWEST = 8  # samples of a point
 RATE_SAMPLES = 9  # of the local line of which a rate is the slope
 STEEP = 0.03  # of the range a second: faster is a jump, not a ramp
 MOVES = 12.0  # an input moves whose range exceeds this multiple of its scatter; that of noise alone exceeds five
-METERS = (1.0, 2.0, 4.0, 8.0, 16.0)  # samples, lags of outputs beside which a thermometer's is sought
-THERMOMETERS = (5.0, 10.0, 20.0, 40.0, 80.0, 160.0)  # samples
+THERMOMETER = 25.0  # s, lag of the case's: seconds of a bare one in the stream, a minute in its well
 HELD = 0.9  # of a point's samples: fewer readings of a channel make no mean
 ROUNDING = 1e-9
 SEED = 20
@@ -50,7 +45,7 @@ class QuasiSteady:
 
     means, errors: (N, C), SI, of steady state, and their standard errors; nan where a channel does not follow;
     directions: (N, C, N), errors of two points correlate by the product of theirs; time: (N,), s; meters: response of
-    each output by its column; thermometer_lag: of the case, s, taken out; left: share of samples put aside.
+    each output by its column; warming: (N,), K/s by which T_case as read rises; left: share of samples put aside.
     """
 
     means: Array
@@ -58,14 +53,17 @@ class QuasiSteady:
     directions: Array
     time: Array
     meters: dict[int, MeterResponse]
-    thermometer_lag: float
+    warming: Array
     left: float
 
 
-def quasi_steady(time: Array, readings: Array, names: Sequence[ChannelName]) -> QuasiSteady:
+def quasi_steady(
+    time: Array, readings: Array, names: Sequence[ChannelName], thermometer: float = THERMOMETER
+) -> QuasiSteady:
     """Points of readings (T, C) in SI of the channels `names` at even times (T,) in s.
 
-    Raises ValueError for fewer than `FEWEST` samples without gaps and jumps of the inputs.
+    thermometer: lag of the case's, s. Raises ValueError for fewer than `FEWEST` samples without gaps and jumps of
+    the inputs.
     """
     if len(time) < FEWEST:
         raise ValueError(f"{len(time)} samples")
@@ -75,32 +73,32 @@ def quasi_steady(time: Array, readings: Array, names: Sequence[ChannelName]) -> 
     usable &= np.all(np.isfinite(readings[:, inputs]), axis=1)
     if usable.sum() < FEWEST:
         raise ValueError(f"{usable.sum()} samples without gaps and jumps")
-    lag = 0.0
+    warming, found = np.zeros(len(time)), readings[usable]
     if ChannelName.T_CASE in names:
-        case = names.index(ChannelName.T_CASE)
-        lag = thermometer_lag(time, readings, case, inputs, outputs, usable)
-        readings[:, case] = ahead_of(readings[:, case], lag)
-        lag *= float(np.median(np.diff(time)))
+        case, step = names.index(ChannelName.T_CASE), float(np.median(np.diff(time)))
+        warming = _rate(readings[:, case], step)
+        readings[:, case] = ahead_of(readings[:, case], thermometer / step)
     moving, past = _moving(readings[:, inputs]), past_share(time)
+    known = usable[:, None] & np.isfinite(readings)
+    storing = {k: rate if names[k] is ChannelName.Q_OUT else None for k in outputs}
     meters = {
-        k: meter_response(readings[:, k], time, moving, rate, usable & np.isfinite(readings[:, k]), _is_flow(names[k]))
-        for k in outputs
+        k: meter_response(readings[:, k], time, moving, storing[k], known[:, k], _is_flow(names[k])) for k in outputs
     }
     cell = _cells(np.column_stack([moving, 2.0 * past - 1.0])[usable])
     centre = _means(np.column_stack([moving, past])[usable], cell)[0]
     shapes = smooth_columns(moving, past)[usable]
     of_centre = smooth_columns(centre[:, :-1], centre[:, -1])[cell]
-    steady = readings[usable]
     for k, meter in meters.items():
-        steady[:, k] = meter.steady[usable] + (of_centre - shapes) @ meter.law  # a law that bends within a cell
+        found[:, k] = meter.steady[usable] + (of_centre - shapes) @ meter.law  # a law that bends within a cell
     kept = np.bincount(cell) >= FEWEST
     order = np.flatnonzero(kept)[np.argsort(centre[kept, -1])]
-    means = _means(steady, cell)[0][order]
+    means = _means(found, cell)[0][order]
+    rising = _means(warming[usable, None], cell)[0][order, 0]
     belongs = np.zeros((len(order), len(time)), dtype=bool)
     belongs[:, usable] = order[:, None] == cell
     errors, directions = _errors(meters, means, belongs)
     middle = time[0] + centre[order, -1] * float(time[-1] - time[0])
-    return QuasiSteady(means, errors, directions, middle, meters, lag, 1.0 - float(usable.mean()))
+    return QuasiSteady(means, errors, directions, middle, meters, rising, 1.0 - float(usable.mean()))
 
 
 def _errors(meters: Mapping[int, MeterResponse], means: Array, belongs: Mask) -> tuple[Array, Array]:
@@ -115,42 +113,12 @@ def _errors(meters: Mapping[int, MeterResponse], means: Array, belongs: Mask) ->
 
 def _shared(meter: MeterResponse, there: Array) -> tuple[Array, Array]:
     """Standard errors (n,) of means over samples (n, T), and directions (n, n) whose products are correlations."""
-    covariance = meter.noise.of_means(there / there.sum(axis=1, keepdims=True))
+    covariance = meter.of_means(there / there.sum(axis=1, keepdims=True))
     errors = np.sqrt(np.diag(covariance))
     scale = np.where(errors > 0.0, errors, 1.0)
     correlation = covariance / np.outer(scale, scale)
     np.fill_diagonal(correlation, 1.0 + ROUNDING)
     return errors, np.linalg.cholesky(correlation)
-
-
-def thermometer_lag(
-    time: Array, readings: Array, case: int, inputs: Sequence[int], outputs: Sequence[int], usable: Mask
-) -> float:
-    """Lag in samples of the thermometer in column `case` behind the oil of the gaps, 0 where none shows.
-
-    The one with which smooth laws of the inputs (columns of readings (T, C)) follow the outputs best: flows and torque
-    follow the oil itself. Each output has the lag that it has beside the temperature as read.
-    """
-    past, known = past_share(time), np.isfinite(readings) & usable[:, None]
-    at_once = smooth_columns(_moving(readings[:, list(inputs)]), past)
-    for k in outputs:
-        there, values = known[:, k], readings[known[:, k], k]
-        if there.any():
-            known[there, k] = follows_down(values, at_once[there], dead_band(values, at_once[there]))
-    others = _moving(readings[:, [k for k in inputs if k != case]])
-
-    def left(output: int, lag: float, behind: float) -> float:
-        own = known[:, output]
-        moving = np.column_stack([others, _moving(ahead_of(readings[:, case], lag)[:, None])])
-        return misfit(smooth_columns(lagged(moving, behind), past)[own], readings[own, output])
-
-    behind = {k: best_lag(partial(left, k, 0.0), METERS) for k in outputs if known[:, k].sum() >= FEWEST}
-    least = {k: max(left(k, 0.0, own), 1e-300) for k, own in behind.items()}
-
-    def score(lag: float) -> float:
-        return float(np.exp(np.mean([np.log(max(left(k, lag, own), 1e-300) / least[k]) for k, own in behind.items()])))
-
-    return best_lag(score, THERMOMETERS) if behind else 0.0
 
 
 def ahead_of(values: Array, lag: float) -> Array:

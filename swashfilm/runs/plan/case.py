@@ -81,7 +81,7 @@ def planned_case(options: argparse.Namespace, plans: Sequence[str]) -> PlanCase:
     planned, repeats, order = _planned(options, pump, box, axes, faults)
     box = widened(box, options.limit, axis_values(planned, BOX)) if planned else box
     faults += beyond(box, axis_values(planned, BOX), "--campaign" if options.campaign else "planned points")
-    possible = _possible(pump, box) if not faults else BenchPoints(*(np.zeros(0) for _ in range(9)))
+    possible = _possible(pump, box) if not faults else BenchPoints(*(np.zeros(0) for _ in range(10)))
     if not faults and most and not len(possible.speed):
         faults.append(Fault("--limit", "no point that the pump can be driven at", "limits with one at least"))
     if faults:
@@ -237,5 +237,5 @@ def _bench_points(points: Sequence[OperatingPoint], box: BenchBox, order: Array)
     return BenchPoints(
         speed=column("shaft_speed"), displacement_ratio=column("displacement_ratio"), p_out=column("delivery_pressure"),
         p_in=column("inlet_pressure"), p_case=column("case_pressure"), T_case=warm, T_in=warm - box.warmer,
-        hours=np.full(len(points), np.nan), order=order,
+        hours=np.full(len(points), np.nan), order=order, warming=np.zeros(len(points)),
     )  # fmt: skip

@@ -48,6 +48,7 @@ def _made(folder: Path, law: Extension | None = None) -> Path:
         T_in=np.full(count, 323.15),
         hours=np.full(count, np.nan),
         order=np.arange(count, dtype=float),
+        warming=np.zeros(count),
     )
     bench = LumpedBench(PUMP, points, SIMULATED, paper_priors(PUMP)[0])
     bench = bench if law is None else bench.with_extensions((law,))

@@ -49,6 +49,7 @@ def _points() -> BenchPoints:
     return BenchPoints(
         speed=speed * np.pi / 30.0, displacement_ratio=ratio, p_out=pressure, p_in=2.5e6 * same,
         p_case=1.5e5 * same, T_case=case, T_in=case - 5.0, hours=np.nan * same, order=np.arange(float(len(grid))),
+        warming=0.0 * same,
     )  # fmt: skip
 
 

@@ -88,7 +88,8 @@ def _points() -> BenchPoints:
     pressure = np.linspace(5 * MPA, 20 * MPA, 24)
     speed = SPEED * (pressure / PRESSURE + 0.06 * np.sin(7 * np.arange(24)))
     same, order = np.ones(24), np.arange(24.0)
-    return BenchPoints(speed, same, pressure, 1 * MPA * same, 0.1 * MPA * same, 323 * same, 323 * same, order, order)
+    held = (1 * MPA * same, 0.1 * MPA * same, 323 * same, 323 * same)
+    return BenchPoints(speed, same, pressure, *held, order, order, 0 * same)
 
 
 def _recording(points: BenchPoints, flow: Array) -> Recording:
@@ -142,7 +143,7 @@ def _asked(test: NextPoint) -> BenchPoints:
         at = place.point
         rows.append((
             at.shaft_speed, at.displacement_ratio, at.delivery_pressure, at.inlet_pressure, at.case_pressure,
-            at.temperature, at.temperature, 0.0, 24.0,
+            at.temperature, at.temperature, 0.0, 24.0, 0.0,
         ))  # fmt: skip
     return BenchPoints(*np.array(rows).T)
 
@@ -307,7 +308,7 @@ def test_a_bench_elsewhere_is_the_bench_of_those_points() -> None:
 
 
 def _one_point(speed: float) -> BenchPoints:
-    numbers = (speed, 1.0, 20 * MPA, 2.5 * MPA, 0.15 * MPA, 323.15, 323.15, 0.0, 0.0)
+    numbers = (speed, 1.0, 20 * MPA, 2.5 * MPA, 0.15 * MPA, 323.15, 323.15, 0.0, 0.0, 0.0)
     return BenchPoints(*(np.array([number]) for number in numbers))
 
 

@@ -13,7 +13,7 @@ REF90 = load_pump("ref90")
 ONE = np.ones(1)
 POINTS = BenchPoints(
     speed=220 * ONE, displacement_ratio=ONE, p_out=30e6 * ONE, p_in=2.5e6 * ONE, p_case=0.15e6 * ONE,
-    T_case=323.15 * ONE, T_in=323.15 * ONE, hours=0 * ONE, order=0 * ONE,
+    T_case=323.15 * ONE, T_in=323.15 * ONE, hours=0 * ONE, order=0 * ONE, warming=0 * ONE,
 )  # fmt: skip
 
 

@@ -38,6 +38,7 @@ SIGMA = np.array([2e-6, 5e-7, 0.3])
 POINTS = BenchPoints(
     np.array([1000.0, 2000.0, 1500.0]) * RPM, np.array([1.0, 0.5, 1.0]), np.array([1e7, 3e7, 2e7]),
     np.full(3, 2.5e6), np.full(3, 1e5), np.full(3, 323.15), np.full(3, 320.15), np.zeros(3), np.arange(3.0),
+    np.zeros(3),
 )  # fmt: skip
 
 

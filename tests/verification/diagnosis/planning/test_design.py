@@ -37,7 +37,7 @@ def _white(*channels: Array) -> White:
 
 def _points(count: int) -> BenchPoints:
     column = np.arange(count, dtype=float)
-    return BenchPoints(*(column for _ in range(9)))
+    return BenchPoints(*(column for _ in range(10)))
 
 
 def _desk(meters: int) -> Desk:
@@ -86,7 +86,7 @@ def test_no_meter_is_asked_for_that_tells_nothing(contest: Contest) -> None:
 
 def test_readings_of_one_point_are_spread_over_the_order() -> None:
     """Three readings of the second point stand a third of the campaign apart, from its own place on."""
-    counts, points = np.array([1, 3, 0, 1]), BenchPoints(*(np.array([0.1, 0.2, 0.3, 0.7]) for _ in range(9)))
+    counts, points = np.array([1, 3, 0, 1]), BenchPoints(*(np.array([0.1, 0.2, 0.3, 0.7]) for _ in range(10)))
     found = reading_order(counts, points)
     assert sorted(found) == [0, 1, 1, 1, 3]
     assert found.tolist() == [0, 1, 1, 3, 1]

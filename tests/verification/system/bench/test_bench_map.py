@@ -42,7 +42,8 @@ def _points(speed, ratio, delivery, inlet=2.5e6, case=0.15e6, celsius=50.0):
     rows = np.array(np.broadcast_arrays(speed, ratio, delivery, inlet, case, celsius), dtype=float)
     speed, ratio, delivery, inlet, case, celsius = rows
     kelvin, order = celsius + 273.15, np.arange(len(speed), dtype=float)
-    return BenchPoints(speed * RPM, ratio, delivery, inlet, case, kelvin, kelvin - 3.0, order / 60.0, order)
+    inlets = (delivery, inlet, case, kelvin, kelvin - 3.0)
+    return BenchPoints(speed * RPM, ratio, *inlets, order / 60.0, order, 0.0 * order)
 
 
 MAP = _points(

@@ -22,7 +22,7 @@ TRUTH = np.array([[1e-5, 100.0], [2e-5, 300.0], [4e-5, 200.0]])
 LEVEL = np.ones(3)
 HOURS = np.array([0.0, 0.5, 2.0])
 POINTS = BenchPoints(200.0 * LEVEL, LEVEL, 2e7 * LEVEL, 2e6 * LEVEL, 1e5 * LEVEL, 323.15 * LEVEL, 320.0 * LEVEL,
-                     HOURS, np.arange(3.0))  # fmt: skip
+                     HOURS, np.arange(3.0), np.array([0.0, 0.01, -0.02]))  # fmt: skip
 
 
 @dataclass(frozen=True)
@@ -66,6 +66,12 @@ def test_true_inputs_are_readings_less_their_zero():
     assert np.all(found.p_out == POINTS.p_out - 1e5)
     assert np.all(found.T_case == POINTS.T_case + 2.0)
     assert found.speed is POINTS.speed
+
+
+def test_the_case_is_as_warm_as_read_and_what_it_rose_in_the_lag_of_its_thermometer():
+    found = actual(POINTS, {"T_case.lag": 30.0, "T_case.zero": -2.0})
+    assert found.T_case == pytest.approx(POINTS.T_case + 2.0 + [0.0, 0.3, -0.6])
+    assert found.T_in is POINTS.T_in
 
 
 def test_sensors_have_a_parameter_for_what_is_uncertain():

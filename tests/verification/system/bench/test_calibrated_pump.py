@@ -32,7 +32,7 @@ from system.bench.calibration.hersey_curve import PAIRS, hersey_curves
 
 PUMP = load_pump(BENCH)
 GRID = np.array(list(product((1000.0, 2100.0), (10e6, 30e6), (0.5, 1.0))))
-HELD = {"p_in": 2.5e6, "p_case": 1.5e5, "T_in": 323.0, "T_case": 326.0, "hours": np.nan}
+HELD = {"p_in": 2.5e6, "p_case": 1.5e5, "T_in": 323.0, "T_case": 326.0, "hours": np.nan, "warming": 0.0}
 POINTS = BenchPoints(
     speed=GRID[:, 0] * np.pi / 30,
     p_out=GRID[:, 1],

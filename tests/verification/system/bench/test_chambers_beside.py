@@ -23,7 +23,7 @@ def _problem(**changed) -> MapProblem:
     points = BenchPoints(
         speed + changed.get("speed", 0.0), np.array([1.0, 0.4, 0.7, 0.28]),
         np.array([5e6, 35e6, 20e6, 30e6]) + changed.get("p_out", 0.0),
-        2.5e6 * whole, 0.15e6 * whole, 323.0 * whole, 320.0 * whole, np.arange(4.0), np.arange(4.0),
+        2.5e6 * whole, 0.15e6 * whole, 323.0 * whole, 320.0 * whole, np.arange(4.0), np.arange(4.0), 0.0 * whole,
     )  # fmt: skip
     values = {name: value for name, value in changed.items() if name not in ("speed", "p_out")}
     return setting(PUMP, points, values, 10).problem

@@ -150,7 +150,7 @@ def test_a_pump_that_states_its_compliance_runs_to_the_maps_readings(tmp_path, m
     point = operating_point(REF90)
     here = [np.array([value]) for value in (point.shaft_speed, 1.0, point.delivery_pressure)]
     around = [np.array([value]) for value in (point.inlet_pressure, point.case_pressure, point.temperature)]
-    points = BenchPoints(*here, *around, around[2], np.zeros(1), np.zeros(1))
+    points = BenchPoints(*here, *around, around[2], *np.zeros((3, 1)))
     bench = LumpedBench(REF90, points, SIMULATED, (), (law,), samples_per_pitch=SAMPLES_PER_PITCH)
     value = {"elastic_opening.slipper.compliance": 0.8}
     read = bench.predict(np.array(list(value.values())))[0]

@@ -11,7 +11,7 @@ from system.bench.setting import setting
 PUMP = load_pump("ref90")
 ONE = np.ones(1)
 POINTS = BenchPoints(
-    200.0 * ONE, ONE, 2e7 * ONE, 2e6 * ONE, 1e5 * ONE, 330.0 * ONE, 320.0 * ONE, np.zeros(1), np.zeros(1)
+    200.0 * ONE, ONE, 2e7 * ONE, 2e6 * ONE, 1e5 * ONE, 330.0 * ONE, 320.0 * ONE, np.zeros(1), np.zeros(1), np.zeros(1)
 )
 
 

@@ -24,7 +24,7 @@ GRID = np.array(list(product((1000, 1300, 1700, 2100), (5e6, 12e6, 18e6, 25e6, 3
 def _points() -> BenchPoints:
     """Levels of speed, pressure and displacement; the case warmer from point to point, so that viscosity moves."""
     count = len(GRID)
-    held = {"p_in": 2e6, "p_case": 1e5, "T_in": 320.0}
+    held = {"p_in": 2e6, "p_case": 1e5, "T_in": 320.0, "warming": 0.0}
     return BenchPoints(
         speed=GRID[:, 0] * np.pi / 30,
         p_out=GRID[:, 1],

@@ -19,7 +19,7 @@ RPM = np.pi / 30
 
 def _points() -> BenchPoints:
     count = len(GRID)
-    held = {"p_in": 2.5e6, "p_case": 1.5e5, "T_in": 323.0, "T_case": 326.0}
+    held = {"p_in": 2.5e6, "p_case": 1.5e5, "T_in": 323.0, "T_case": 326.0, "warming": 0.0}
     return BenchPoints(
         speed=GRID[:, 0] * RPM,
         p_out=GRID[:, 1],

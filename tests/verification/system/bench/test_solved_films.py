@@ -49,6 +49,7 @@ def bench(places, law) -> LumpedBench:
         speed=column("shaft_speed"), displacement_ratio=column("displacement_ratio"),
         p_out=column("delivery_pressure"), p_in=column("inlet_pressure"), p_case=column("case_pressure"),
         T_in=warm, T_case=warm, hours=np.zeros(len(points)), order=np.arange(len(points), dtype=float),
+        warming=np.zeros(len(points)),
     )  # fmt: skip
     return LumpedBench(films_alone(PUMP), map_points, SIMULATED, (), samples_per_pitch=40, own_laws=((law, {}),))
 

@@ -42,6 +42,7 @@ POINTS = BenchPoints(
     T_in=np.array([318.15, 318.15]),
     hours=np.zeros(2),
     order=np.arange(2.0),
+    warming=np.zeros(2),
 )
 CLOSED = 1e-4
 """Largest error of the power balance with an effect on, of the shaft power."""

@@ -109,6 +109,7 @@ def test_agrees_with_the_slopes_of_the_bench(tmp_path):
         speed=column["shaft_speed"], displacement_ratio=column["displacement_ratio"],
         p_out=column["delivery_pressure"], p_in=column["inlet_pressure"], p_case=column["case_pressure"],
         T_case=column["temperature"], T_in=column["temperature"], hours=none, order=none,
+        warming=none,
     )  # fmt: skip
     bench = LumpedBench(PUMP, points, SIMULATED, parameters, samples_per_pitch=40, tolerance=1e-9)
     places = [NUMBERS.index(name) for name in ("delivery_flow", "inlet_flow", "drain_flow", "shaft_torque")]
