@@ -136,12 +136,16 @@ def test_a_series_without_rest_gives_quasi_steady_points(tmp_path):
     time = np.arange(4000.0)
     pressure = 20.0 + 200.0 * np.abs((time / 100.0) % 2.0 - 1.0)
     flow = 60.0 - 0.01 * pressure + 0.05 * np.random.default_rng(4).standard_normal(time.size)
-    rows = [f"{t:.0f},1500,{p:.2f},50,{q:.4f}" for t, p, q in zip(time, pressure, flow, strict=True)]
+    rows = [
+        f"{t:.0f},1500,{p:.2f},{40.0 + 0.005 * t:.3f},{q:.4f}" for t, p, q in zip(time, pressure, flow, strict=True)
+    ]
     form = HEAD.replace("absolute", "gauge") + '[series]\nfile = "steady.csv"\ntime = { column = "t", unit = "s" }\n'
     recording = read_recording(str(_written(tmp_path, form + CHANNELS, "t,n,p,T,Q\n" + "\n".join(rows))))
     found, stated = recording.steady.column(ChannelName.Q_OUT), recording.steady.column(ChannelName.P_OUT)
     error = point_sigma(recording, recording.channel(ChannelName.Q_OUT))
     assert len(found) > 50
+    assert recording.steady.warming == pytest.approx(np.full(len(found), 0.005), rel=0.01)
+    assert recording.steady.at(slice(3)).warming == pytest.approx(recording.steady.warming[:3])
     assert np.std((found * 60e3 - 60.0 + 0.01 * stated / 1e5) / (60e3 * error)) == pytest.approx(1.0, abs=0.4)
     texts = " ".join(note.text for note in recording.notes)
     assert "quasi-steady points" in texts

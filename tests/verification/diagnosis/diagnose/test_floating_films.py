@@ -104,9 +104,9 @@ def test_nothing_is_named_where_the_simulation_lacks_nothing(films: FilmModel) -
 @pytest.mark.parametrize(
     ("plant", "concealed"),
     [
-        pytest.param(ThinningFilms(0.0, False, OPEN), {E.ELASTIC_OPENING}, marks=pytest.mark.long),
+        (ThinningFilms(0.0, False, OPEN), {E.ELASTIC_OPENING}),
         pytest.param(ThinningFilms(WARM), {E.FILM_HEATING}, marks=pytest.mark.long),
-        (ThinningFilms(WARM, False, OPEN), {E.ELASTIC_OPENING, E.FILM_HEATING}),
+        pytest.param(ThinningFilms(WARM, False, OPEN), {E.ELASTIC_OPENING, E.FILM_HEATING}, marks=pytest.mark.long),
     ],
 )
 def test_film_physics_left_out_is_named_with_its_size(films: FilmModel, plant: ThinningFilms, concealed: set) -> None:

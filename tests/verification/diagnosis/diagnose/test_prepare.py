@@ -11,6 +11,7 @@ from bench_pump import BENCH
 
 from diagnosis import Recording, Study, load_thresholds, prepare, read_recording
 from diagnosis.detect.mismatch import detect
+from diagnosis.study.prepare import meter_parameters
 from diagnosis.study.traces.misfits import port_events
 from diagnosis.verdict.locate import locate
 from reynolds import Array, InputError
@@ -62,6 +63,20 @@ def test_a_recording_without_simulated_outputs_is_refused() -> None:
     bare = replace(recording, channels=tuple(one for one in recording.channels if one.name is ChannelName.SPEED))
     with pytest.raises(InputError, match="Q_case"):
         prepare(PUMP, bare, tolerances(PUMP)[0], LIMITS)
+
+
+@pytest.mark.parametrize(("stated", "lag", "sigma"), [(0.0, 25.0, 20.0), (10.0, 10.0, 3.0)])
+def test_the_cases_thermometer_lags_where_its_oil_warms(stated: float, lag: float, sigma: float) -> None:
+    """By the prior where no lag is stated; points at rest have no such parameter."""
+    still = read_recording(RECORDINGS / "open-01")
+    steady = replace(still.steady, warming=np.full(len(still.steady.values), 0.01))
+    channels = tuple(replace(one, lag=stated) if one.name is ChannelName.T_CASE else one for one in still.channels)
+    at_rest, warming = (
+        {one.name: one for one in meter_parameters(each, (ChannelName.Q_CASE,))}
+        for each in (still, replace(still, steady=steady, channels=channels))
+    )
+    assert set(warming) - set(at_rest) == {"T_case.lag"}
+    assert (warming["T_case.lag"].centre, warming["T_case.lag"].spread) == pytest.approx((lag, sigma))
 
 
 def test_ports_tell_their_events_in_order() -> None:
