@@ -5,7 +5,8 @@ free within their tolerances, the readings leave its prior variance as it is,
 
     var(xi_k | y) = (A^T A + 1)^-1_kk > redundant,   A: slopes of the readings by xi, in sigma
 
-Eccentricity and clearance of the pistons are such a pair. Parameters that a hypothesis may find wrong stay.
+Eccentricity and clearance of the pistons are such a pair. Parameters that a hypothesis may find wrong stay. So does the
+lag of the case's thermometer: a bench without it would have none, instead of that of its prior.
 """
 
 from __future__ import annotations
@@ -16,6 +17,7 @@ from numpy.typing import NDArray
 from diagnosis.study.model import SUBJECTS, Study, concerned
 from diagnosis.thresholds import Thresholds
 from reynolds.numerics.arrays import Array
+from system.bench.sensors import THERMOMETER_LAG
 from system.estimation.parameters import Parameter
 
 
@@ -23,8 +25,9 @@ def felt(study: Study, thresholds: Thresholds) -> tuple[Parameter, ...]:
     """Parameters of a study that its readings feel and that no others replace, in their order."""
     parameters, slopes = study.base.parameters, study.base.slopes
     questioned = {name for effect in SUBJECTS for name in concerned(effect, parameters)}
-    kept = np.linalg.norm(slopes, axis=0) >= thresholds.fit.felt
-    removable = np.array([one.name not in questioned for one in parameters])
+    stays = np.array([one.name == THERMOMETER_LAG for one in parameters], dtype=bool)
+    kept = stays | (np.linalg.norm(slopes, axis=0) >= thresholds.fit.felt)
+    removable = ~stays & np.array([one.name not in questioned for one in parameters], dtype=bool)
     while (least := _most_open(slopes, kept, removable, thresholds.fit.redundant)) is not None:
         kept[least] = False
     return tuple(one for one, own in zip(parameters, kept, strict=True) if own)

@@ -79,6 +79,15 @@ def test_the_cases_thermometer_lags_where_its_oil_warms(stated: float, lag: floa
     assert (warming["T_case.lag"].centre, warming["T_case.lag"].spread) == pytest.approx((lag, sigma))
 
 
+def test_a_lag_that_no_reading_feels_keeps_that_of_its_prior() -> None:
+    """Without the parameter the bench would have a thermometer without lag."""
+    recording = _every(read_recording(RECORDINGS / "open-01"), 6)
+    steady = replace(recording.steady, warming=np.full(len(recording.steady.values), 1e-7))
+    study = prepare(PUMP, replace(recording, steady=steady), tolerances(PUMP)[0], LIMITS)
+    values = dict(zip((one.name for one in study.simulator.parameters), study.base.values, strict=True))
+    assert values["T_case.lag"] == pytest.approx(25.0, abs=0.1)
+
+
 def test_ports_tell_their_events_in_order() -> None:
     events = port_events(PUMP)
     angles = [event.angle for event in events]
