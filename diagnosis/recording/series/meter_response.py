@@ -11,8 +11,8 @@ Least squares with Huber's (1964) weights at the lag that fits best. The steady 
 
 A lag and a storage of -tau dg/dp do the same to first order. Both together change a swing of frequency w by tau^2 w^2,
 which looks like physics: the one that fits better is taken. Law, lag and storage are estimates, so that the noise of a
-mean of steady readings is that of (a + a M B) e: a are its shares of the samples, B e what the noise e makes of the
-estimates, M what they make of the steady readings.
+mean of steady readings is (a + a M B) e: a are its shares of the samples, B e is the error of the estimates by the noise
+e, and M B e the error of the steady readings by that of the estimates.
 """
 
 from __future__ import annotations
@@ -30,7 +30,7 @@ from reynolds.numerics.arrays import Array
 
 Mask = NDArray[np.bool_]
 ROUNDS = 6
-REFINED = 3
+REFINED = 3  # Gauss-Newton steps of a lag, which a search by misfit leaves off by more than its sigma
 HUBER = 1.5
 NORMAL = 1.4826  # standard deviation of a normal distribution per median magnitude
 LAGS = (0.5, 1.0, 2.0, 4.0, 8.0, 16.0, 32.0, 64.0, 128.0)  # samples
