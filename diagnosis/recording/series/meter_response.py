@@ -11,8 +11,8 @@ Least squares with Huber's (1964) weights at the lag that fits best. The steady 
 
 A lag and a storage of -tau dg/dp do the same to first order. Both together change a swing of frequency w by tau^2 w^2,
 which looks like physics: the one that fits better is taken. Law, lag and storage are estimates, so that the noise of a
-mean of steady readings is (a + a M B) e: a are its shares of the samples, B e is the error of the estimates by the noise
-e, and M B e the error of the steady readings by that of the estimates.
+mean of steady readings is (a + a M B) e. Here a are its shares of the samples, B e is the error of the estimates by the
+noise e, and M B e the error that this makes in the steady readings.
 """
 
 from __future__ import annotations
