@@ -90,9 +90,10 @@ def certainty(diagnosis: Diagnosis, scant: bool) -> str:
 
 
 def sure_words(diagnosis: Diagnosis, scant: bool) -> str:
-    """Certainty in a word or two, by the lesser of the stated probability and the trust in such answers on record."""
-    if diagnosis.status is VerdictStatus.SUSPICION:
-        return "not sure"
+    """Certainty in a word or two, by the lesser of the stated probability and the trust in such answers on record.
+
+    Of a suspicion that there is a cause at all.
+    """
     probability = stated_probability(diagnosis)
     record = record_of(_kind(diagnosis), scant, probability)
     trust = min(probability, record.trust) if record else probability

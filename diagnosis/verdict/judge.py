@@ -70,13 +70,13 @@ def judge(
     if null.probability >= limits.null_probability:
         if detection.chance >= limits.suspicion and null.probability >= limits.agreed:
             return Judgement(Kind.NO_MISMATCH, VerdictStatus.NAMED, (), (), (), tuple(explanations))
-        return _suspicion(explanations, (_one_of_two(detection, null),), thresholds)
+        return _suspicion(explanations, (_one_of_two(detection, null),), frozenset(Kind), thresholds)
     free = _free_multiplier(study, null, explanations, thresholds)
     if min(detection.chance, free.chance) >= limits.chance:
-        return _suspicion(explanations, (_one_of_two(detection, null),), thresholds)
+        return _suspicion(explanations, (_one_of_two(detection, null),), frozenset(Kind), thresholds)
     best = _likeliest(explanations, thresholds)
     if best is None:
-        return _unknown(study, free, explanations, thresholds)
+        return _unknown(study, free, null, explanations, thresholds)
     gap = class_gap(explanations, thresholds)
     members = equivalents(best, explanations, gap, place_gap(explanations, thresholds))
     beside = _beside(members, explanations, thresholds)
@@ -88,7 +88,7 @@ def judge(
         explanations, members = shared_out(explanations, members, gap, thresholds)
     against = _objections(study, members, beside, explanations, thresholds)
     if against:
-        return _suspicion(explanations, against, thresholds)
+        return _suspicion(explanations, against, _left_open(null, explanations, thresholds), thresholds)
     left = residue_notes(study, null, members[0], along, thresholds)
     if left:
         explanations, members = _less_sure(explanations, members, thresholds.record.incomplete, (Kind.UNKNOWN_PHYSICS,))
@@ -167,11 +167,26 @@ def _one_of_two(detection: Detection, null: Explanation) -> str:
     )
 
 
-def _suspicion(explanations: Sequence[Explanation], reasons: tuple[str, ...], thresholds: Thresholds) -> Judgement:
-    """A suspicion of the likeliest kind of mismatch, its probabilities by the record of suspicions."""
+def _left_open(null: Explanation, explanations: Sequence[Explanation], thresholds: Thresholds) -> Collection[Kind]:
+    """Kinds that may be true where both tests tell a mismatch and no name stands.
+
+    "Nothing" is one of them only within the odds of a name behind the likeliest: the record of suspicions is that of
+    their names, and where the mismatch is sure it casts no doubt on that.
+    """
+    ahead = max(map(_weight, explanations)) - null.log_weight
+    return MISMATCHES if ahead >= thresholds.name.odds else frozenset(Kind)
+
+
+def _suspicion(
+    explanations: Sequence[Explanation], reasons: tuple[str, ...], rest: Collection[Kind], thresholds: Thresholds
+) -> Judgement:
+    """A suspicion of the likeliest kind of mismatch, its probabilities by the record of suspicions.
+
+    rest: the kinds among which it is open (`doubted`).
+    """
     kinds = {each.hypothesis.kind for each in explanations} - {Kind.NO_MISMATCH}
     likeliest = max(kinds, key=lambda kind: _probability(explanations, kind))
-    ranked = sorted(doubted(explanations, thresholds.record.suspicion, Kind), key=lambda each: -each.probability)
+    ranked = sorted(doubted(explanations, thresholds.record.suspicion, rest), key=lambda each: -each.probability)
     return Judgement(likeliest, VerdictStatus.SUSPICION, (), (), reasons, tuple(ranked))
 
 
@@ -192,7 +207,7 @@ def _probability(explanations: Sequence[Explanation], kind: Kind) -> float:
 
 
 def _unknown(
-    study: Study, free: MultiplierChance, explanations: Sequence[Explanation], thresholds: Thresholds
+    study: Study, free: MultiplierChance, null: Explanation, explanations: Sequence[Explanation], thresholds: Thresholds
 ) -> Judgement:
     """Unknown physics, without an effect, if its hypotheses together are probable and striking.
 
@@ -204,7 +219,7 @@ def _unknown(
     if record:
         told, _ = _less_sure(told, (), thresholds.record.type_plate, MISMATCHES)
     probability = _probability(told, Kind.UNKNOWN_PHYSICS)
-    against = []
+    against, rest = [], _left_open(null, explanations, thresholds)
     if probability < thresholds.name.probability:
         against += [f"unknown physics at a probability of {probability:.2f} only", *record]
     if free.chance >= thresholds.mismatch.chance:
@@ -213,8 +228,9 @@ def _unknown(
             f"without point {row}, on which it rests most, unknown physics as far ahead of nothing has a chance "
             f"of {free.chance:.2g} where nothing is there: read that point again"
         )
+        rest = frozenset(Kind)
     if against:
-        return _suspicion(explanations, tuple(against), thresholds)
+        return _suspicion(explanations, tuple(against), rest, thresholds)
     return Judgement(Kind.UNKNOWN_PHYSICS, VerdictStatus.NAMED, (), (), record, told)
 
 

@@ -77,7 +77,7 @@ def lag_parameter(channel: ChannelName, sigma: float) -> Parameter:
 def thermometer_parameter(lag: float, sigma: float) -> Parameter:
     """T_case.lag in s: time constant with which the thermometer of the case follows the oil."""
     return Parameter(
-        THERMOMETER_LAG, Role.SENSOR, Scale.NORMAL, lag, sigma, 0.0, inf, Dimension.TIME, CALIBRATION, linear=False
+        THERMOMETER_LAG, Role.SENSOR, Scale.NORMAL, lag, sigma, 0.0, inf, Dimension.TIME, CALIBRATION
     )
 
 

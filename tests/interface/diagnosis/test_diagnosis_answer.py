@@ -157,7 +157,17 @@ def test_words_of_certainty_go_by_the_record_too(
     unknown = replace(first, hypothesis=hypothesis(E.UNKNOWN_PHYSICS, kind=Kind.UNKNOWN_PHYSICS), probability=0.995)
     found = replace(named, kind=Kind.UNKNOWN_PHYSICS, effects=(), hypotheses=(unknown, *others))
     assert sure_words(found, False) == words
-    assert sure_words(replace(named, status=VerdictStatus.SUSPICION), False) == "not sure"
+
+
+@pytest.mark.parametrize(("nothing", "words"), [(0.05, "very sure"), (0.2, "fairly sure"), (0.4, "likely")])
+def test_a_suspicion_is_sure_of_a_cause_as_far_as_nothing_is_ruled_out(
+    named: Diagnosis, monkeypatch: pytest.MonkeyPatch, nothing: float, words: str
+) -> None:
+    row = {"answer": "suspicion", "pump": "stated", "from": 0.0, "to": 1.0, "right": 40, "cases": 41}
+    monkeypatch.setattr("diagnosis.report.certainty._rows", lambda: (row,))
+    none = replace(named.hypotheses[0], hypothesis=hypothesis(kind=Kind.NO_MISMATCH), probability=nothing)
+    found = replace(named, status=VerdictStatus.SUSPICION, effects=(), hypotheses=(none, *named.hypotheses[1:]))
+    assert certainty(found, False).startswith(f"{words[0].upper()}{words[1:]} that there is a cause (stated prob")
 
 
 @pytest.mark.parametrize("kind", AnswerKind)

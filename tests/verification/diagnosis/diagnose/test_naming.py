@@ -643,6 +643,12 @@ def test_unknown_physics_does_not_hang_on_one_point() -> None:
     found = judge(study, detect(study, LIMITS), (bend, replace(null, probability=0.0)), _coordinates(), LIMITS)
     assert (found.kind, found.status) == (Kind.UNKNOWN_PHYSICS, VerdictStatus.SUSPICION)
     assert any(text.startswith(f"without point {at + 1}, on which it rests most") for text in found.reasons)
+    assert _of_nothing(found) > 0.2
+
+
+def _of_nothing(found: Judgement) -> float:
+    """Probability that nothing is there."""
+    return next(each.probability for each in found.ranked if each.hypothesis.kind is Kind.NO_MISMATCH)
 
 
 def test_what_stands_out_of_what_is_left_is_told() -> None:
@@ -755,7 +761,11 @@ def test_what_stands_in_no_catalogue_is_unknown() -> None:
 
 
 def test_on_a_pump_of_which_little_is_known_unknown_physics_is_a_suspicion() -> None:
-    """Sure of a pump in full, it is as sure as the record of findings on pumps whose own laws are not known."""
+    """Sure of a pump in full, it is as sure as the record of findings on pumps whose own laws are not known.
+
+    That there is a mismatch is as sure as before.
+    """
+    limits = replace(LIMITS, record=replace(LIMITS.record, type_plate=0.7))
     study = _study(1, laws=((CHURNING, 0.2),))
     nothing, *others = hypotheses(study, LIMITS)
     free = next(each for each in others if each.component is Component.CASE_DRAG)
@@ -764,12 +774,27 @@ def test_on_a_pump_of_which_little_is_known_unknown_physics_is_a_suspicion() -> 
     behind = [Explanation(each, null.log_evidence, True, None, 0.0, 0.0, None) for each in others if each is not free]
     ranked = with_probabilities((null, bend, *behind), LIMITS.name.temperature)
     known, scant = (
-        judge(replace(study, scant=scant), detect(study, LIMITS), ranked, _coordinates(), LIMITS)
+        judge(replace(study, scant=scant), detect(study, limits), ranked, _coordinates(), limits)
         for scant in (False, True)
     )
     assert (known.kind, known.status) == (Kind.UNKNOWN_PHYSICS, VerdictStatus.NAMED)
     assert (scant.kind, scant.status) == (Kind.UNKNOWN_PHYSICS, VerdictStatus.SUSPICION)
     assert any("type plate alone" in text for text in scant.reasons)
+    assert _of_nothing(scant) < 1e-9
+
+
+def test_a_mismatch_within_the_odds_of_a_name_of_nothing_may_be_nothing() -> None:
+    """The doubt of a suspicion is shared with "nothing" where that is near, and with no other kind alone."""
+    study = _study(1, laws=((CHURNING, 0.2),))
+    nothing, *others = hypotheses(study, LIMITS)
+    null = refit(study, nothing, LIMITS)
+    for ahead, low, high in ((LIMITS.name.odds - 0.1, 0.2, 0.5), (LIMITS.name.odds + 0.1, 0.0, 0.05)):
+        weight = null.log_weight + ahead
+        rivals = [Explanation(each, weight - each.log_prior, True, None, 0.0, 0.0, None) for each in others]
+        ranked = with_probabilities((null, *rivals), LIMITS.name.temperature)
+        found = judge(study, detect(study, LIMITS), ranked, _coordinates(), LIMITS)
+        assert found.status is VerdictStatus.SUSPICION
+        assert low < _of_nothing(found) < high
 
 
 def test_what_cannot_be_refitted_is_told() -> None:

@@ -42,6 +42,17 @@ def test_walls_settle_as_in_the_general_solver(soft: float, deep: float) -> None
     assert touch.bears.value == pytest.approx(reference.bears.value, abs=1e-6 * max(reference.bears.value.max(), 1.0))
 
 
+@pytest.mark.parametrize("soft", [1e-14, 1e-13])
+def test_walls_settle_from_far_in_each_other(soft: float) -> None:
+    """Forty standard deviations of the summits: contact begins where it bears, and in the end the walls balance it."""
+    meeting = _meeting(soft)
+    given = np.full(VERTICES, SUMMITS.summit_height - 40.0 * SUMMITS.height)
+    found, touch = _settled(meeting, given, np.zeros(VERTICES), np.zeros(VERTICES))
+    bears = np.where(meeting.oil, 0.0, touch.bears.value)
+    pressed = np.bincount(meeting.seats, meeting.shares * bears, UNKNOWNS)
+    assert found == pytest.approx(meeting.compliance @ pressed, abs=1e-6 * found.max())
+
+
 def test_walls_that_do_not_settle_end_with_an_error() -> None:
     meeting = _meeting(1e-14)
     given = np.full(VERTICES, SUMMITS.summit_height)

@@ -22,6 +22,13 @@ def test_levels_are_found_again(places, scatter):
     assert np.array_equal(levels(values), truth)
 
 
+@pytest.mark.parametrize("unit", [1e-6, 1e7])
+def test_levels_are_those_in_any_unit(unit):
+    truth = RNG.permutation(np.repeat(np.arange(4), 7))
+    values = np.array([0.28, 0.51, 0.77, 1.0])[truth] + 1e-3 * RNG.standard_normal(truth.size)
+    assert np.array_equal(levels(unit * values), truth)
+
+
 def test_values_without_levels_are_one():
     assert set(levels(np.full(12, 3.0))) == {0}
     whole = sum(len(set(levels(RNG.uniform(size=112)))) == 1 for _ in range(100))
