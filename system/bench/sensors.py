@@ -76,9 +76,7 @@ def lag_parameter(channel: ChannelName, sigma: float) -> Parameter:
 
 def thermometer_parameter(lag: float, sigma: float) -> Parameter:
     """T_case.lag in s: time constant with which the thermometer of the case follows the oil."""
-    return Parameter(
-        THERMOMETER_LAG, Role.SENSOR, Scale.NORMAL, lag, sigma, 0.0, inf, Dimension.TIME, CALIBRATION
-    )
+    return Parameter(THERMOMETER_LAG, Role.SENSOR, Scale.NORMAL, lag, sigma, 0.0, inf, Dimension.TIME, CALIBRATION)
 
 
 def encoder_parameter(sigma: float) -> Parameter:
