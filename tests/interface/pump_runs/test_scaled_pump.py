@@ -90,6 +90,12 @@ def test_what_is_scaled_is_wide_and_what_is_stated_is_not(tmp_path):
     assert wide.bearing_friction > usual.bearing_friction
 
 
+def test_a_tolerance_is_twice_its_value_at_most(tmp_path):
+    with pytest.raises(InputFaults, match="at most 2") as refused:
+        _load(tmp_path, SCANT.format("60 cm3", 9) + "[tolerance]\nfriction = 2.0\nbearing_friction = 2.1\n")
+    assert {fault.path for fault in refused.value.faults} == {"tolerance.bearing_friction"}
+
+
 def test_complete_pumps_are_as_they_are():
     known = load_known_pump("ref90")
     assert known.pump == load_pump("ref90")

@@ -3,7 +3,10 @@
 import numpy as np
 import pytest
 
+from diagnosis.recording.channel_form import ChannelForm
+from diagnosis.recording.form import SeriesSection, TimeColumnSection
 from diagnosis.recording.series.meter_response import meter_response, robust
+from diagnosis.recording.series.points import series_points
 from diagnosis.recording.series.quasi_steady import quasi_steady
 from system import ChannelName
 
@@ -131,3 +134,19 @@ def test_a_robust_fit_keeps_off_outliers():
     values[::20] += 50.0
     size, _ = robust(np.column_stack([np.ones(200), x]), values)
     assert size == pytest.approx([2.0, 3.0], abs=0.05)
+
+
+@pytest.mark.parametrize(("rest", "steady"), [(280, True), (60, False)])
+def test_stairs_are_steady_points_where_they_rest_for_half_of_the_series(rest, steady):
+    """Five pressures for `rest` s each, with ramps of 100 s between them."""
+    places = np.concatenate([[(rest + 100) * k, (rest + 100) * k + rest] for k in range(5)])
+    time = np.arange(float(places[-1]))
+    level = np.interp(time, places, np.repeat([50e5, 150e5, 250e5, 100e5, 200e5], 2))
+    noise = np.random.default_rng(5).standard_normal((2, len(time)))
+    readings = np.column_stack([level + 1e4 * noise[0], 1e-12 * level + 1e-7 * noise[1]])
+    forms = [ChannelForm(name, name.value, "", 1.0, 0.0, *[None] * 7) for name in (NAMES[P], NAMES[FLOW])]
+    found = series_points(SeriesSection(time=TimeColumnSection(column="t", unit="s")), time, readings, forms)
+    if steady:
+        assert " steady points from 7" in found.notes[-1]
+    else:
+        assert any("quasi-steady points from" in note for note in found.notes)

@@ -53,6 +53,14 @@ def test_a_meter_that_hangs_is_put_aside_with_time_and_mover(channel):
     assert "to 1399 s while" in note
 
 
+@pytest.mark.parametrize(("at", "samples", "found"), [(1410, 12, True), (210, 8, False)])
+def test_a_hang_is_told_where_the_meter_would_have_moved_clearly(at, samples, found):
+    """The flow moves by its noise with each sample as the case is warm, by half of that as it is cold."""
+    readings = series()
+    readings[at : at + samples, Q] = readings[at, Q]
+    assert bool(without_holds(TIME, readings, NAMES)[1]) is found
+
+
 def test_a_lost_signal_and_an_end_of_range_are_put_aside():
     readings = series()
     readings[500:700, Q] = 0.0
