@@ -247,6 +247,32 @@ def test_a_trace_that_ends_before_the_land(folder):
     assert fault[:2] == ("places from 0 mm to 40 mm", "places from 0 mm or less to 45 mm or more")
 
 
+NET = [(f"{place} mm", f"{angle} deg", "1 um") for place in (0, 45) for angle in (0, 90)]
+WIDE = [(f"{place} mm", f"{angle} deg", "1 um") for place in (0, 45) for angle in (0, 360)]
+
+
+@pytest.mark.parametrize(
+    ("rows", "found"),
+    [
+        ([("0 mm", "1 um"), ("45 mm", "1 um"), ("30 mm", "1 um")], "30 mm after 45 mm in row 3"),
+        (NET[:-1], "0 rows at 45 mm, 90 deg"),
+        ([*NET, NET[0]], "2 rows at 0 mm, 0 deg"),
+        ([row for row in NET if row[1] == "0 deg"], "2 places, 1 angles"),
+        (WIDE, "angles from 0 deg to 360 deg"),
+    ],
+)
+def test_rows_of_a_profile_grow_or_make_a_net(rows, found):
+    with pytest.raises(InputFaults) as raised:
+        load_pump(BENCH, {"piston.profile": [list(row) for row in rows]})
+    assert [(one.path, one.found) for one in raised.value.faults] == [("piston.profile", found)]
+
+
+def test_a_profile_with_angles_is_taken_in_any_order():
+    pump = load_pump(BENCH, {"piston.profile": [list(row) for row in NET[::-1]]})
+    assert pump.piston.profile is not None
+    assert len(pump.piston.profile) == len(NET)
+
+
 def test_a_block_with_angles(folder):
     rows = [[f"{place} mm", f"{angle} deg", "1 um"] for place in (26, 47) for angle in (0, 90)]
     with pytest.raises(InputFaults) as raised:
