@@ -911,3 +911,12 @@ def test_exponents_of_a_power_law(sign: float) -> None:
     for name, exponent in (("speed", -1.0), ("pressure", 2.5)):
         assert abs(found.exponents[name] - exponent) < 4.0 * found.sigma[name]
         assert found.sigma[name] < 0.05
+
+
+@pytest.mark.parametrize("seed", [17, 18, 20, 25])
+def test_noise_without_a_power_law_does_not_overflow(seed: int) -> None:
+    """Steps of the exponents are limited: eight readings of noise lead far off."""
+    rng = np.random.default_rng(seed)
+    speed, pressure = np.exp(rng.normal(size=(8, 2))).T
+    with np.errstate(over="raise"):
+        scaling(ChannelName.Q_CASE, rng.normal(size=8), np.ones(8), {"speed": speed, "pressure": pressure}, 1.2)
