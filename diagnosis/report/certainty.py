@@ -101,7 +101,7 @@ def sure_words(diagnosis: Diagnosis, scant: bool) -> str:
 
 
 def record_words(diagnosis: Diagnosis, scant: bool) -> str:
-    """The record of such answers in a few words: "29 of 31 such answers right"; empty where there is none."""
+    """The record of such answers in a few words: "32 of 33 such answers right"; empty where there is none."""
     record = record_of(_kind(diagnosis), scant, stated_probability(diagnosis))
     return f"{record.right} of {record.cases} such answers right" if record else ""
 
