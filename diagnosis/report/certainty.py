@@ -92,7 +92,7 @@ def certainty(diagnosis: Diagnosis, scant: bool) -> str:
 def sure_words(diagnosis: Diagnosis, scant: bool) -> str:
     """Certainty in a word or two, by the lesser of the stated probability and the trust in such answers on record.
 
-    Of a suspicion that there is a cause at all.
+    For a suspicion it is the certainty that there is a cause.
     """
     probability = stated_probability(diagnosis)
     record = record_of(_kind(diagnosis), scant, probability)

@@ -168,10 +168,10 @@ def _one_of_two(detection: Detection, null: Explanation) -> str:
 
 
 def _left_open(null: Explanation, explanations: Sequence[Explanation], thresholds: Thresholds) -> Collection[Kind]:
-    """Kinds that may be true where both tests tell a mismatch and no name stands.
+    """Kinds among which a suspicion is open where both tests tell a mismatch.
 
-    "Nothing" is one of them only within the odds of a name behind the likeliest: the record of suspicions is that of
-    their names, and where the mismatch is sure it casts no doubt on that.
+    They include "nothing" only if it is less than the odds of a name behind the likeliest explanation. Beyond that the
+    mismatch is sure, and the doubt concerns its cause alone.
     """
     ahead = max(map(_weight, explanations)) - null.log_weight
     return MISMATCHES if ahead >= thresholds.name.odds else frozenset(Kind)
