@@ -14,7 +14,7 @@ from .plant.bench import Truth, run
 from .plant.hidden import NOTHING, Hidden
 from .plant.machine import Array, Machine, drawn, ref90
 from .sensors import TRACE_NOISE, Fault, Readings, read, set_in_truth
-from .sizing import repeatability, shift, size_for, typical, z_of
+from .sizing import repeatability, shift, size_for, typical, white
 
 STEPS = 360  # of a turn: .004 L/min, .02 N m from 720, a tenth of the noise
 TURN = 2.0 * np.pi
@@ -92,13 +92,18 @@ def sized(case: Case) -> tuple[list[float], list[float]]:
     """Factors by which each concealed thing has the score asked for (0: its own size), and scores reached."""
 
     def score(one: Concealed, factor: float) -> float:
-        hidden, faults = _together((one,), [factor])
-        return z_of(case.campaign, shift(case.campaign, hidden, faults, _worn(typical(), (one,), [factor])))
+        return float(np.linalg.norm(white_shift(case.campaign, one, factor)))
 
     if case.score == 0.0:
         return [1.0 for _ in case.concealed], [score(one, 1.0) for one in case.concealed]
     found = [size_for(case.score, partial(score, one), _start(one), one.most) for one in case.concealed]
     return [factor for factor, _ in found], [reached for _, reached in found]
+
+
+def white_shift(campaign: str, one: Concealed, factor: float) -> Array:
+    """By how much one concealed thing moves the readings of a campaign, in units of all that is uncertain, (N C,)."""
+    hidden, faults = _together((one,), [factor])
+    return white(campaign, shift(campaign, hidden, faults, _worn(typical(), (one,), [factor])))
 
 
 def _start(one: Concealed) -> float:

@@ -45,9 +45,13 @@ def shift(name: str, hidden: Hidden, faults: tuple[Fault, ...], machine: Machine
 
 def z_of(name: str, moved: Array) -> float:
     """sqrt(d^T (S + A A^T)^-1 d) of a shift d: its length in sigma once all that is uncertain has had its part."""
+    return float(np.linalg.norm(white(name, moved)))
+
+
+def white(name: str, moved: Array) -> Array:
+    """A shift (N, C) in units of all that is uncertain, (N C,)."""
     weights, whitened = _whitening(name)
-    found = np.linalg.solve(whitened, weights * moved.ravel())
-    return float(np.linalg.norm(found))
+    return np.asarray(np.linalg.solve(whitened, weights * moved.ravel()))
 
 
 def size_for(z: float, score: Callable[[float], float], start: float, most: float) -> tuple[float, float]:

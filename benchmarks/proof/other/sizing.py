@@ -41,9 +41,14 @@ def sized(case: WideCase) -> tuple[list[float], list[float]]:
     """Factors by which each secret, beside the others, has the score asked for (0: its own size); scores reached."""
 
     def white(k: int, factor: float) -> Array:
-        return _whitening(case.campaign).white(shift(case.campaign, (case.secrets[k],), (factor,)))
+        return white_shift(case.campaign, case.secrets[k], factor)
 
     return sizes(case.score, white, [min(one.most, MOST_FAULT) for one in case.secrets])
+
+
+def white_shift(campaign: str, one: Secret, factor: float) -> Array:
+    """By how much one secret moves the readings of a campaign, in units of all that is uncertain, (N C,)."""
+    return _whitening(campaign).white(shift(campaign, (one,), (factor,)))
 
 
 def shift(name: str, secrets: Sequence[Secret], factors: Sequence[float]) -> Array:

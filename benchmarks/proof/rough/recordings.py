@@ -42,14 +42,19 @@ def make(case: WideCase) -> WideMade:
 def recorded(case: WideCase) -> tuple[RoughRecording, Outcome]:
     """The recording, and the outcome that is expected of it."""
     rng = np.random.default_rng(case.seed)
+    bench, commas = drawn_bench(case, rng)
+    factors, scores, strength = sized(case, bench)
+    hidden, meters = concealed(bench, case.secrets, factors)
+    columns = read(meters, bench.course, flows(bench.pump, bench.course.state, hidden), rng)
+    return RoughRecording(bench.pump, meters, columns, commas), expected(case, factors, scores, strength)
+
+
+def drawn_bench(case: WideCase, rng: np.random.Generator) -> tuple[Bench, bool]:
+    """Pump, course and meters of a case; whether the recording has decimal commas."""
     pump = drawn(rng)
     run = course(pump, case.campaign, rng)
     with_torque, commas = bool(rng.uniform() < TORQUE) or needs_torque(case), bool(rng.uniform() < COMMAS)
-    bench = Bench(pump, run, drawn_meters(pump, run, flows(pump, run.state), with_torque, rng))
-    factors, scores, strength = sized(case, bench)
-    hidden, meters = concealed(bench, case.secrets, factors)
-    columns = read(meters, run, flows(pump, run.state, hidden), rng)
-    return RoughRecording(pump, meters, columns, commas), expected(case, factors, scores, strength)
+    return Bench(pump, run, drawn_meters(pump, run, flows(pump, run.state), with_torque, rng)), commas
 
 
 def _write(title: str, found: RoughRecording, folder: Path) -> None:

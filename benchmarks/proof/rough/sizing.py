@@ -79,16 +79,21 @@ def concealed(bench: Bench, secrets: Sequence[Secret], factors: Sequence[float])
 
 def sized(case: WideCase, bench: Bench) -> tuple[list[float], list[float], dict[str, float]]:
     """Factors of the score asked for beside the others, scores reached, each channel's square of the shift in sigma."""
-    sigma = _sigma(bench)
-    white = _whitening(bench, sigma)
+    sigma = noise(bench)
+    white = whitening_of(bench, sigma)
 
     def shifted(k: int, factor: float) -> Array:
-        return white.white(_shift(bench, (case.secrets[k],), (factor,)))
+        return white_shift(bench, white, case.secrets[k], factor)
 
     factors, scores = sizes(case.score, shifted, [one.most for one in case.secrets])
     moved = _shift(bench, case.secrets, factors) / sigma
     strength = dict(zip(bench.outputs, (moved**2).sum(axis=0), strict=True))
     return factors, scores, {name: float(one) for name, one in strength.items()}
+
+
+def white_shift(bench: Bench, white: Whitening, one: Secret, factor: float) -> Array:
+    """By how much one secret moves the means, in units of all that is uncertain, (N C,)."""
+    return white.white(_shift(bench, (one,), (factor,)))
 
 
 def _shift(bench: Bench, secrets: Sequence[Secret], factors: Sequence[float]) -> Array:
@@ -107,7 +112,7 @@ def _shift(bench: Bench, secrets: Sequence[Secret], factors: Sequence[float]) ->
     return np.asarray(found - nominal)
 
 
-def _sigma(bench: Bench) -> Array:
+def noise(bench: Bench) -> Array:
     """Noise (N, C) of the means; that of readings in a dead band is without bound."""
     _, count = bench.places
     nominal = bench.means(bench.pump, bench.course.state)
@@ -117,13 +122,14 @@ def _sigma(bench: Bench) -> Array:
         left = np.exp(-1.0 / meter.memory)
         worth = np.maximum(count * (1.0 - left) / (1.0 + left), 1.0)
         slow = max(bench.course.rate.size / PARTS / (2.0 * max(meter.slow, 1.0)), 1.0)
-        noise = meter.noise * np.sqrt(1.0 / worth + WANDER**2 / slow)
+        own = meter.noise * np.sqrt(1.0 / worth + WANDER**2 / slow)
         unread = nominal[:, k] < meter.band + 2.0 * meter.noise
-        columns.append(noise * np.where(unread, UNREAD, 1.0))
+        columns.append(own * np.where(unread, UNREAD, 1.0))
     return np.stack(columns, axis=1)
 
 
-def _whitening(bench: Bench, sigma: Array) -> Whitening:
+def whitening_of(bench: Bench, sigma: Array) -> Whitening:
+    """Of means with noise sigma (N, C), beside all that is uncertain of pump and meters."""
     pump, state = bench.pump, bench.course.state
     base = bench.means(pump, state)
     near = [replace(pump, **{name: getattr(pump, name) * (1.0 + 0.01 * s)}) for name, s in UNCERTAIN.items()]

@@ -12,6 +12,7 @@ import pytest
 
 import diagnosis.procedure.next_test as ask
 from diagnosis import Circuit, RecordedChannel, Recording, SteadyTable, load_thresholds
+from diagnosis.next_point.meters import meters
 from diagnosis.next_point.operating_box import ordinary_box, rig_box
 from reynolds import Array, NotConverged
 from system import ChannelName, load_pump
@@ -32,6 +33,14 @@ def _recording(ratio: Array) -> Recording:
     channels = tuple(RecordedChannel(name, "", "", 1e-3, 0.0, 0.0, 0.0, 0.0, 0.0, ()) for name in columns)
     steady = SteadyTable(values, np.arange(8), np.full(8, np.nan), np.full_like(values, np.nan))
     return Recording("toy", "ref90", "", Circuit.CLOSED, channels, steady, (), ())
+
+
+def test_meters_of_an_ordinary_bench_are_of_class_a() -> None:
+    """ISO 4409, class A: 0.5 % of flow and torque as limits, anywhere between them as likely."""
+    within = np.random.default_rng(4).uniform(-0.005, 0.005, 100_000)
+    gains = {one.name: one.gain_sigma for one in meters(load_pump("ref90"), {})}
+    for name in (ChannelName.Q_OUT, ChannelName.Q_IN, ChannelName.Q_CASE, ChannelName.TORQUE):
+        assert gains[name] == pytest.approx(np.std(within), rel=0.01)
 
 
 def test_an_ordinary_bench_goes_to_the_rating_and_warms_the_oil() -> None:

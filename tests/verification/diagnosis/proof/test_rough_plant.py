@@ -126,7 +126,7 @@ def test_a_size_reaches_its_score(rough: SimpleNamespace) -> None:
     assert scores == pytest.approx([8.0], rel=0.02)
     assert 0.0 < factors[0] <= case.secrets[0].most
     assert max(strength, key=lambda name: strength[name]) == "Q_case"
-    white = sizing._whitening(bench, sizing._sigma(bench))
+    white = sizing.whitening_of(bench, sizing.noise(bench))
     leaky = replace(bench.pump, leak=1.01 * bench.pump.leak)
     moved = bench.means(leaky, bench.course.state) - bench.means(bench.pump, bench.course.state)
     assert white.z(moved) < 0.01 / 0.7 * 1.001

@@ -79,6 +79,16 @@ def test_forces_add_up(drive, angle, validation):
     )
 
 
+def test_the_slipper_alone_is_in_balance():
+    """m A = B + G - lift n, also under a force and an acceleration along the plate's normal."""
+    axis, normal = bore_axis(DRIVE, 0.7), plate_axes(DRIVE)[2]
+    piston, slipper = _bodies(DRIVE, 0.7)
+    pressed = DrivenBody(slipper.mass, slipper.acceleration + 40.0 * normal, slipper.force - 250.0 * normal)
+    found = ball_forces(axis, normal, piston, pressed)
+    rest = found.ball + pressed.force - found.lift * normal - pressed.mass * pressed.acceleration
+    assert np.abs(rest).max() < 1e-12 * found.lift
+
+
 @pytest.mark.parametrize("angle", ANGLES)
 def test_moments_on_the_piston(angle, validation):
     """Its film as two forces at the guide's ends: all moments about the ball across the bore vanish."""

@@ -100,6 +100,18 @@ def test_forces_by_position(name):
     assert _apart(slopes, _differences(missing, 2, NUDGE * CLEARANCE)) <= (1e-6 if CASES[name].fluid is None else 3e-6)
 
 
+@pytest.mark.parametrize("name", ["full", "contact"])
+def test_forces_follow_a_shift_of_one_coordinate(name):
+    """A stage that its film is not solved for anew: forces along its slopes, to the square of the shift."""
+    _, _, stage, _ = _marched(CASES[name])
+    shift = np.array([1e-4 * CLEARANCE, 0.0])
+    here = replace(stage, trial=stage.instant.tried(stage.q, stage.solution), shift=np.zeros(2), known=None)
+    shifted, there = replace(here, shift=shift), stage.instant.tried(stage.q + shift, stage.solution)
+    moved = there.film_force - here.film_force
+    assert np.abs(moved).max() > 1e-6 * np.abs(here.film_force).max()
+    assert _apart(shifted.film_force - here.film_force, moved) <= 1e-2
+
+
 def test_soft_walls_of_a_cavity():
     """Left out there: that a cavity's upwinding changes as the pressure beside it opens the film."""
     _, _, stage, _ = _marched(replace(CASES["cavity"], walls=partial(springs, softness=2e-12)))
