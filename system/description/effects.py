@@ -7,7 +7,7 @@ by the same names and within the same bounds.
 from dataclasses import dataclass, fields
 from typing import Annotated
 
-from system.inputs.sections.fields import Fraction, Limits, NotNegative
+from system.inputs.sections.fields import Fraction, Limits, Micrometres, NotNegative
 from system.inputs.units import Dimension
 
 _WallResistance = Annotated[float, Dimension.THERMAL_RESISTANCE, Limits(least=0.0, most=2e-3)]
@@ -123,7 +123,7 @@ class ThermalClearanceSection:
 class SqueezePumpingSection:
     """[physics.squeeze_pumping]: slippers that pump into the case."""
 
-    stroke: Annotated[float, Dimension.LENGTH, Limits(least=0.0, most=30e-6)]
+    stroke: Annotated[float, Dimension.LENGTH, Limits(least=0.0, most=30e-6), Micrometres]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -133,7 +133,7 @@ class SlipperLiftSection:
     With `wedge_exponent` they ride on a hydrodynamic wedge instead.
     """
 
-    ride_height: Annotated[float, Dimension.LENGTH, Limits(least=0.0, most=100e-6)]
+    ride_height: Annotated[float, Dimension.LENGTH, Limits(least=0.0, most=100e-6), Micrometres]
     retainer_force: Annotated[float, Dimension.FORCE, NotNegative]  # on each
     sharpness: Annotated[float, Limits(least=2.0, most=30.0)] | None = None
     wedge_exponent: Annotated[float, Limits(least=0.3, most=1.2)] | None = None
@@ -148,7 +148,7 @@ class SlipperLiftSection:
 class BlockTippingSection:
     """[physics.block_tipping]: a block that tips on the valve plate."""
 
-    wedge: Annotated[float, Dimension.LENGTH, Limits(least=0.0, most=20e-6)]
+    wedge: Annotated[float, Dimension.LENGTH, Limits(least=0.0, most=20e-6), Micrometres]
 
 
 @dataclass(frozen=True, kw_only=True)

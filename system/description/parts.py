@@ -22,6 +22,7 @@ from system.inputs.sections.fields import (
     Expansion,
     FaceName,
     FaceNames,
+    Height,
     Inertia,
     Length,
     Limits,
@@ -37,7 +38,7 @@ class ReliefSection:
     """An edge taken back: by `depth` at the edge, falling to nothing at `width` from it as a parabola."""
 
     width: Length  # from the edge inwards
-    depth: Length  # taken off at the edge
+    depth: Height  # taken off at the edge
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -45,7 +46,7 @@ class WavinessSection:
     """[valve_plate.waviness]: the plate's face rises and falls by `amplitude` around the shaft."""
 
     waves: Annotated[int, Limits(least=1, most=99)]  # around the shaft
-    amplitude: Length  # half of crest to trough
+    amplitude: Height  # half of crest to trough
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -154,7 +155,7 @@ class RetainerSection:
     """[retainer]: the plate that keeps the slippers on the swash plate."""
 
     kind: RetainerKind | None = None
-    clearance: Length | None = None  # film at which the retainer is reached
+    clearance: Height | None = None  # film at which the retainer is reached
     stiffness: Stiffness | None = None  # beyond it, a slipper
 
 
@@ -187,9 +188,9 @@ class SurfaceSection:
     them.
     """
 
-    composite_roughness: Length | None = None
+    composite_roughness: Height | None = None
     asperity_density: ArealDensity | None = None
-    asperity_radius: Length | None = None
+    asperity_radius: Height | None = None
     friction_coefficient: Coefficient | None = None  # of the boundary layer
 
 

@@ -48,11 +48,13 @@ from system.inputs.sections.fields import (
     Fraction,
     GrooveFile,
     Grooves,
+    Height,
     KinematicViscosity,
     Leakage,
     Length,
     Limits,
     Mass,
+    Micrometres,
     Modulus,
     NotNegative,
     Positive,
@@ -100,7 +102,7 @@ class PistonSection:
     guide_length: Length | None = None  # of the land in the bore, from the case edge inwards
     centre_of_mass: Length | None = None  # from the ball centre into the bore
     profile: Profile | None = None  # from the chamber's end
-    barrel: Length | None = None  # fall of a crowned piston from its middle to its ends
+    barrel: Height | None = None  # fall of a crowned piston from its middle to its ends
     edge_relief: ReliefSection | None = None  # at the chamber's end
     grooves: Grooves | None = None  # rings; places from the chamber's end
     bore_diameter: Annotated[float, Dimension.LENGTH, NotNegative] | None = None  # of a hollow piston
@@ -128,7 +130,7 @@ class SlipperSection:
     pocket_file: StepFile | None = None  # losses of steps, at the edges of pocket, lands and rim
     groove_file: GrooveFile | None = None  # losses of grooves, of those in the land
     profile: Profile | None = None  # over the radius
-    crown: AnyLength | None = None  # of the face over its outer radius; negative: dished
+    crown: Annotated[AnyLength, Micrometres] | None = None  # of the face over its outer radius; negative: dished
     rim_relief: ReliefSection | None = None  # at the outer radius
     grooves: SlipperGrooves | None = None  # closed rings in the land
     vented_grooves: SlipperGrooves | None = None  # rings open to the case

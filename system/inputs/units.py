@@ -133,7 +133,7 @@ _PRODUCT = rf"{_FACTOR}(?:\s*[*·. ]\s*{_FACTOR})*"
 _UNIT_TEXT = re.compile(rf"(?:1(?=\s*/)|{_PRODUCT})(?:\s*/\s*(?:{_FACTOR}|\(\s*{_PRODUCT}\s*\)))*")
 
 
-def parse_quantity(text: object, dimension: Dimension, *, difference: bool = False) -> float:
+def parse_quantity(text: object, dimension: Dimension, *, difference: bool = False, example: str = "") -> float:
     """Return the SI value of a text such as "22 mm", rounded once: "15 um" is 1.5e-05 to the last bit.
 
     rpm, r/min, cm3, cm^3, cc/rev, mL/r, lpm, um, degC, cSt, mPa s and what pint knows are understood.
@@ -141,9 +141,11 @@ def parse_quantity(text: object, dimension: Dimension, *, difference: bool = Fal
     measures something else; a turn or an angle is never left to be guessed ("90 cm3" is no displacement
     per revolution and "35 Hz" no rotational speed). A size below 1e-30 or, by its kind,
     above that of any machine is refused.
-    Of a `difference` the unit's zero does not count: "0.3 degC" is 0.3 K.
+    Of a `difference` the unit's zero does not count: "0.3 degC" is 0.3 K. `example`: a usual value, whose unit a
+    bare number may mean; left out: that of the dimension.
     """
-    expected = f"{dimension.noun} with its unit, such as '{dimension.example}'"
+    example = example or dimension.example
+    expected = f"{dimension.noun} with its unit, such as '{example}'"
     if isinstance(text, bool) or not isinstance(text, (str, int, float)):
         raise QuantityError(_shown(text), expected)
     match = _QUANTITY.fullmatch(str(text))
@@ -153,7 +155,7 @@ def parse_quantity(text: object, dimension: Dimension, *, difference: bool = Fal
         raise QuantityError(_shown(text), expected)
     number, unit_text = match[1], match[2]
     if not unit_text:
-        raise QuantityError(_shown(text), expected, f"'{number} {_example_unit(dimension)}'")
+        raise QuantityError(_shown(text), expected, f"'{number.removesuffix('.0')} {unit_in(example)}'")
     unit = _unit(unit_text)
     if unit is None or not _measures(unit, dimension):
         meant = _meant(unit_text, dimension)
@@ -262,7 +264,7 @@ def unit_scale(name: str, dimension: Dimension) -> tuple[float, float]:
     if unit is None or not _measures(unit, dimension):
         meant = _meant(name, dimension)
         why = "a unit that is not known" if unit is None else f"which is not of {dimension.noun}"
-        expected = f"a unit of {dimension.noun}, such as '{_example_unit(dimension)}'"
+        expected = f"a unit of {dimension.noun}, such as '{unit_in(dimension.example)}'"
         raise QuantityError(f"{name!r}, {why}", expected, f"'{meant}'" if meant else "")
     si = _unit_of(dimension.si_unit)
     return float(unit.factor / si.factor), float(unit.offset / si.factor)
@@ -277,7 +279,7 @@ def _meant(unit_text: str, dimension: Dimension) -> str:
     unit = None if lowered == unit_text else _unit(lowered)
     if unit is not None and _measures(unit, dimension):
         return lowered
-    return nearest_choice(unit_text, (*dimension.reading_units, _example_unit(dimension)))
+    return nearest_choice(unit_text, (*dimension.reading_units, unit_in(dimension.example)))
 
 
 def _in_si(number: str, unit: _Unit, dimension: Dimension) -> Fraction:
@@ -317,8 +319,9 @@ def _rounded(number: float, digits: int) -> str:
     return repr(float(f"{number:.{digits}g}")).removesuffix(".0")
 
 
-def _example_unit(dimension: Dimension) -> str:
-    return dimension.example.split(" ", 1)[1]
+def unit_in(example: str) -> str:
+    """Return the unit of an example: "um" of "14 um"."""
+    return example.split(" ", 1)[1]
 
 
 def _shown(value: object) -> str:

@@ -13,10 +13,10 @@ from system.description.gap import Gap
 from system.films.parts import FloatingParts
 from system.films.positions import eccentric, instant_drives
 from system.films.rotor import Rotor, travel
-from system.inputs.sections.fields import Angle, AnyLength, Length, Several, field_type
+from system.inputs.sections.fields import Angle, AnyLength, Height, Micrometres, Several, field_type
 from system.inputs.units import Dimension
 
-Lengths = Annotated[tuple[float, float], Several(2), Dimension.LENGTH]
+Eccentricity = Annotated[tuple[float, float], Several(2), Dimension.LENGTH, Micrometres]
 Moment = Annotated[float, Dimension.TORQUE]
 
 
@@ -31,15 +31,15 @@ class RatioSection:
 class EndsSection:
     """[position]: piston by both ends of its guide."""
 
-    eccentricity_inner: Lengths  # along x and y, at the guide's inner end
-    eccentricity_case: Lengths  # along x and y, at the bore's case edge
+    eccentricity_inner: Eccentricity  # along x and y, at the guide's inner end
+    eccentricity_case: Eccentricity  # along x and y, at the bore's case edge
 
 
 @dataclass(frozen=True, kw_only=True)
 class TiltSection:
     """[position]: slipper or cylinder block."""
 
-    film_thickness: Length  # at the origin
+    film_thickness: Height  # at the origin
     slope_x: Angle = 0.0
     slope_y: Angle = 0.0
 

@@ -14,8 +14,9 @@ from system.inputs.sections.fields import (
     ArealDensity,
     Coefficient,
     Elasticity,
-    Length,
+    Height,
     Limits,
+    Micrometres,
     NotNegative,
     Positive,
     Several,
@@ -24,7 +25,7 @@ from system.inputs.sections.reader import table_section
 from system.inputs.toml_table import Table
 from system.inputs.units import Dimension
 
-Height = Annotated[float, Dimension.LENGTH, NotNegative]
+WallHeight = Annotated[float, Dimension.LENGTH, NotNegative, Micrometres]
 Peklenik = Annotated[float, Limits(least=LOWEST_PEKLENIK * (1.0 - 1e-9), most=HIGHEST_PEKLENIK * (1.0 + 1e-9))]
 
 
@@ -32,9 +33,9 @@ Peklenik = Annotated[float, Limits(least=LOWEST_PEKLENIK * (1.0 - 1e-9), most=HI
 class RoughnessSection:
     """[roughness]: standard deviation of heights, of both walls together or of each."""
 
-    composite: Length | None = None  # in place of moving and fixed
-    moving: Height | None = None  # left out: smooth
-    fixed: Height | None = None  # left out: smooth
+    composite: Height | None = None  # in place of moving and fixed
+    moving: WallHeight | None = None  # left out: smooth
+    fixed: WallHeight | None = None  # left out: smooth
     peklenik: Peklenik | None = None  # of both walls, left out: 1
     peklenik_moving: Peklenik | None = None
     peklenik_fixed: Peklenik | None = None
@@ -71,12 +72,12 @@ class ContactSection:
     """[contact]: asperities of the walls."""
 
     asperity_density: ArealDensity
-    asperity_radius: Length
-    asperity_height: Length | None = None  # standard deviation of summits; left out: the walls' composite
+    asperity_radius: Height
+    asperity_height: Height | None = None  # standard deviation of summits; left out: the walls' composite
     composite_modulus: Elasticity | None = None  # E' of both walls, in place of the two keys below
     youngs_modulus: Annotated[tuple[float, float], Several(2), Dimension.ELASTICITY, Positive] | None = None  # by wall
     poissons_ratio: Annotated[tuple[float, float], Several(2), Limits(above=-1.0, below=0.5)] | None = None  # by wall
-    summit_height: AnyLength = 0.0
+    summit_height: Annotated[AnyLength, Micrometres] = 0.0
     friction_coefficient: Coefficient
 
     def __post_init__(self) -> None:

@@ -74,7 +74,7 @@ def transient_schema() -> Schema:
     """Return the JSON Schema of a transient case."""
     table = section_schema(TransientSection)
     rows = table["properties"]["control_pressure"]
-    table["properties"]["control_pressure"] = {"anyOf": [quantity_schema(Dimension.PRESSURE), rows]}
+    table["properties"]["control_pressure"] = {"anyOf": [quantity_schema(Dimension.PRESSURE.example), rows]}
     properties = {"format": {"const": FORMAT}, "transient": table, **pump_tables_schema()}
     return tables_schema("Swashfilm transient", properties, ("format", "transient"))
 

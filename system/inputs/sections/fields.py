@@ -82,6 +82,13 @@ class Span(Enum):
 
 
 @dataclass(frozen=True)
+class Example:
+    """Marks a quantity whose usual values have another unit than the example of its dimension: "14 um"."""
+
+    text: str
+
+
+@dataclass(frozen=True)
 class Several:
     """Marks a field that is a tuple of values, each within the limits: a list of `count`; of 0 any list, or one."""
 
@@ -135,9 +142,13 @@ class FromTable:
 
 Positive = Limits(above=0.0)
 NotNegative = Limits(least=0.0)
+Micrometres = Example("14 um")
 
 Length = Annotated[float, Dimension.LENGTH, Positive]
-Film = Annotated[float, Dimension.LENGTH, Limits(least=CONTINUUM, why="oil thinner than 10 nm is no continuum")]
+Film = Annotated[
+    float, Dimension.LENGTH, Limits(least=CONTINUUM, why="oil thinner than 10 nm is no continuum"), Micrometres
+]
+Height = Annotated[float, Dimension.LENGTH, Positive, Micrometres]  # of roughness, relief and the like
 AnyLength = Annotated[float, Dimension.LENGTH]
 Area = Annotated[float, Dimension.AREA, Positive]
 Volume = Annotated[float, Dimension.VOLUME, Positive]
@@ -214,6 +225,12 @@ class FieldType:
     def dimension(self) -> Dimension | None:
         """Dimension of the field's quantity; None for another field."""
         return self._mark(Dimension)
+
+    @property
+    def example(self) -> str:
+        """A usual value of the field's quantity with its unit; empty for another field."""
+        own = self._mark(Example)
+        return own.text if own else self.dimension.example if self.dimension else ""
 
     @property
     def layouts(self) -> tuple[Points, ...]:

@@ -9,7 +9,6 @@ from typing import Any
 from system.inputs.sections.fields import FieldType, Points, Text, fields_of
 from system.inputs.sections.reader import ABSOLUTE
 from system.inputs.sections.values import PURE_UNITS
-from system.inputs.units import Dimension
 
 DRAFT = "https://json-schema.org/draft/2020-12/schema"
 QUANTITY = r"^\s*[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d{1,3})?\s*(1/|[^\s\d.,]).*$"
@@ -76,9 +75,9 @@ def field_schema(own: FieldType, *, complete: bool = True) -> Schema:
     return value | ({"description": words} if (words := _words(own)) else {})
 
 
-def quantity_schema(dimension: Dimension) -> Schema:
+def quantity_schema(example: str) -> Schema:
     """Return the schema of a quantity with its unit."""
-    return {"type": "string", "pattern": QUANTITY, "examples": [dimension.example]}
+    return {"type": "string", "pattern": QUANTITY, "examples": [example]}
 
 
 def _value_schema(own: FieldType, complete: bool) -> Schema:
@@ -89,7 +88,7 @@ def _value_schema(own: FieldType, complete: bool) -> Schema:
     if own.formula is not None:
         return {"type": "string", "minLength": 1} if own.formula.dimension else {"type": ["number", "string"]}
     if own.dimension is not None:
-        return quantity_schema(own.dimension)
+        return quantity_schema(own.example)
     if own.layouts:
         rows = [_rows_schema(layout, own.limits.fewest) for layout in own.layouts]
         table = [section_schema(own.from_table.section, complete=complete)] if own.from_table else []
@@ -120,7 +119,7 @@ def _value_schema(own: FieldType, complete: bool) -> Schema:
 def _rows_schema(layout: Points, fewest: int) -> Schema:
     row = {
         "type": "array",
-        "prefixItems": [quantity_schema(column) for column in layout.columns],
+        "prefixItems": [quantity_schema(example) for example in layout.example],
         "minItems": len(layout.columns),
         "items": False,
     }

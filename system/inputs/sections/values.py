@@ -16,7 +16,15 @@ from system.inputs.faults import nearest_choice, nearest_path, printable
 from system.inputs.sections.fields import FieldType, Points, Section, Text, fields_of
 from system.inputs.sections.point_files import read_rows, wanted_file
 from system.inputs.toml_table import quoted
-from system.inputs.units import Dimension, QuantityError, format_quantity, parse_quantity, unit_scale, with_point
+from system.inputs.units import (
+    Dimension,
+    QuantityError,
+    format_quantity,
+    parse_quantity,
+    unit_in,
+    unit_scale,
+    with_point,
+)
 from system.inputs.versions import LATER
 
 PURE_UNITS = {"1": 1.0, "%": 0.01}
@@ -34,7 +42,7 @@ def read_value(field: FieldType, raw: object, folder: Path = HERE) -> object:
     if field.forms and not isinstance(raw, str):
         raise QuantityError(repr(raw), wanted(field))
     if field.dimension is not None:
-        return parse_quantity(raw, field.dimension, difference=field.difference)
+        return parse_quantity(raw, field.dimension, difference=field.difference, example=field.example)
     if field.unit is not None:
         return _unit(raw, field.unit.dimension)
     if field.layouts:
@@ -95,7 +103,7 @@ def wanted(field: FieldType) -> str:
 
 def _wanted_one(field: FieldType) -> str:
     if field.dimension is not None:
-        return f"{field.dimension.noun} with its unit, such as '{field.dimension.example}'"
+        return f"{field.dimension.noun} with its unit, such as '{field.example}'"
     if field.layouts:
         table = f"; or {_wanted_form(field.from_table.section)}" if field.from_table else ""
         return f"{_wanted_rows(field.layouts)}; or {wanted_file(field.layouts)}{table}"
@@ -137,9 +145,8 @@ def broken_limit(field: FieldType, value: object) -> str:
 
 def units_shown(field: FieldType) -> str:
     """Return the example units of a key's columns, such as "mm" or "mm, um"; "-" for what has none."""
-    dimension = field.dimension
-    examples = field.layouts[0].example if field.layouts else (dimension.example,) if dimension else ()
-    return ", ".join(example.split(" ", 1)[1] for example in examples) or "-"
+    examples = field.layouts[0].example if field.layouts else (field.example,) if field.dimension else ()
+    return ", ".join(map(unit_in, examples)) or "-"
 
 
 def written_entries(field: FieldType, values: Mapping[str, Any]) -> Iterator[str]:
@@ -182,9 +189,9 @@ def _row(number: int, row: list[object], points: Points) -> tuple[float, ...]:
     if len(row) != len(points.columns):
         raise QuantityError(f"{len(row)} values in row {number}, {row!r}", _wanted_rows((points,)))
     found = []
-    for cell, dimension, head in zip(row, points.columns, points.heads, strict=True):
+    for cell, dimension, head, example in zip(row, points.columns, points.heads, points.example, strict=True):
         try:
-            found.append(parse_quantity(cell, dimension))
+            found.append(parse_quantity(cell, dimension, example=example))
         except QuantityError as reason:
             where = f"{reason.found} as {head} of row {number}"
             raise QuantityError(where, reason.expected, reason.nearest) from None
@@ -203,7 +210,7 @@ def _unit(raw: object, dimension: Dimension | None) -> str:
 def _wanted_unit(dimension: Dimension | None) -> str:
     if dimension is None:
         return " or ".join(map(repr, PURE_UNITS))
-    return f"a unit of {dimension.noun}, such as '{dimension.example.split(' ', 1)[1]}'"
+    return f"a unit of {dimension.noun}, such as '{unit_in(dimension.example)}'"
 
 
 def _choice(raw: object, field: FieldType) -> Enum:

@@ -147,8 +147,22 @@ def test_every_missing_key_is_told_alone(faults_of, tmp_path, section, key):
 def test_every_key_refuses_what_it_does_not_measure(faults_of, section, key):
     faults, _ = faults_of(**{f"{section}__{key}": f'{key} = "22 lux"'})
     assert list(faults) == [f"{section}.{key}"]
-    dimension = fields_of(dict(section_models())[section])[key].dimension
-    assert (dimension.example if dimension else "number") in faults[f"{section}.{key}"].expected
+    example = fields_of(dict(section_models())[section])[key].example
+    assert (example or "number") in faults[f"{section}.{key}"].expected
+
+
+@pytest.mark.parametrize(
+    ("path", "number", "meant"),
+    [
+        ("piston.radial_clearance", "14", "'14 um'"),
+        ("valve_plate.film_thickness", "8.0", "'8 um'"),
+        ("slipper.film_thickness", '"10"', "'10 um'"),
+        ("piston.engaged_length", "45", "'45 mm'"),
+    ],
+)
+def test_a_bare_number_has_the_unit_in_which_its_key_is_written(faults_of, path, number, meant):
+    faults, _ = faults_of(**{path.replace(".", "__"): f"{path.partition('.')[2]} = {number}"})
+    assert faults[path].nearest == meant
 
 
 @pytest.mark.parametrize(

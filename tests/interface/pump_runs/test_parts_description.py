@@ -160,6 +160,8 @@ def test_units_shown_of_columns():
     models = dict(section_models())
     assert units_shown(fields_of(models["piston"])["profile"]) == "mm, um"
     assert units_shown(fields_of(models["piston"])["mass"]) == "g"
+    assert units_shown(fields_of(models["piston"])["radial_clearance"]) == "um"
+    assert units_shown(fields_of(models["surfaces.slipper_swash_plate"])["composite_roughness"]) == "um"
     assert units_shown(fields_of(models["retainer"])["kind"]) == "-"
 
 
