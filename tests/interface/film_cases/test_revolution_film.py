@@ -77,6 +77,7 @@ def test_a_turn_leaves_tables_fields_pictures_and_a_page(capsys):
         "slipper.pvd", "report.html", "animation.gif", "refinement.csv",
     }  # fmt: skip
     summary = json.loads(Path("out/summary.json").read_text("utf-8"))
+    assert "boundary_lubrication" not in {told["name"] for told in summary["warnings"]}
     turn = table("out/slipper.csv")
     least = turn["film_thickness_min [um]"].astype(float)
     assert len(least) == 24
@@ -169,6 +170,16 @@ def test_a_film_that_may_not_cavitate_warns():
     stated = SLIPPER.replace('chamber_pressure = "5 MPa"', 'chamber_pressure = "1 bar"')
     study = solve_revolution(case_of(stated + fallen))
     assert "pressure_below_cavitation" in {told["name"] for told in revolution_summary(study)["warnings"]}
+
+
+def test_a_film_as_thin_as_its_walls_are_rough_warns_of_contact_with_its_share_of_friction():
+    """Eight micrometres bear the slipper on smooth lands; summits of ten touch."""
+    rough = '[pump.surfaces.slipper_swash_plate]\ncomposite_roughness = "10 um"\n'
+    summary = revolution_summary(solve_revolution(case_of(SLIPPER + rough)))
+    (told,) = (one["text"] for one in summary["warnings"] if one["name"] == "boundary_lubrication")
+    assert f"{summary['rubbing_power_W'] / summary['friction_power_W']:.0%} (limit 10%)" in told
+    assert f"{summary['contact_load_max_N']:.3g} N" in told
+    assert f"composite roughness at {summary['film_thickness_min_at_deg']:.0f} deg" in told
 
 
 @pytest.mark.slow

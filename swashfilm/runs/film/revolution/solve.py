@@ -125,6 +125,7 @@ def revolution_summary(study: RevolutionStudy) -> dict[str, Any]:
     balance = mass_balance_error(study.revolution)
     physics = study.case.options.physics
     tilts, friction = tilt(study), np.array([friction_power(study, one) for one in reports])
+    power = float(np.mean([friction_power(study, one) for one in passed]))
     return {
         **headed("film_revolution"),
         "name": study.case.name,
@@ -137,7 +138,7 @@ def revolution_summary(study: RevolutionStudy) -> dict[str, Any]:
         "tilt_max_rad": float(tilts.max()),
         "leakage_flow_m3_per_s": float(np.mean([one.leakage for one in passed])),
         "leakage_flow_max_m3_per_s": max(one.leakage for one in reports),
-        "friction_power_W": float(np.mean([friction_power(study, one) for one in passed])),
+        "friction_power_W": power,
         "friction_power_max_W": float(friction.max()),
         "rubbing_power_W": float(np.mean([one.heat.rubbing for one in passed])),
         "contact_load_max_N": float(contact.max()),
@@ -159,7 +160,7 @@ def revolution_summary(study: RevolutionStudy) -> dict[str, Any]:
         "physics_seconds": {leg.value: time for leg, time in study.revolution.spent.items()},
         **_warmth(study.revolution.warmth),
         "assumptions": [*study.left_out, *map(str, all_taken(study.case.rotor, study.parts, physics))],
-        "warnings": revolution_warnings(study.case, study.parts, study.revolution, balance),
+        "warnings": revolution_warnings(study.case, study.parts, study.revolution, balance, power),
     }
 
 

@@ -20,22 +20,28 @@ from system.pump_file.check import run_checks
 from system.pump_file.floating import block_tips, slipper_has_a_wedge
 
 LARGEST_OVERLAP = 3.0  # standard deviations of the summits; beyond, asperities flatten completely
+LARGEST_RUBBING = 0.1  # of a gap's friction; contact rubs some ten times as hard as oil: it bears about 1 % of the load
 LARGEST_STEP_ERROR = 2.0  # relative to the tolerance of a step
 LARGEST_BALANCE_ERROR = 0.01
 LONGEST_WHIRL = 100.0  # turns once round; slower ones lead straight away
+_SHAPES = {
+    Gap.PISTON: "an edge_relief, barrel or run-in profile of piston or bore, or another radial_clearance",
+    Gap.SLIPPER: "a crown, rim_relief or run-in profile of the slipper",
+    Gap.VALVE_PLATE: "a waviness, run-in profile or pads of the valve plate",
+}
 _CHECKS = {Gap.SLIPPER: (slipper_has_a_wedge,), Gap.VALVE_PLATE: (block_tips,), Gap.PISTON: ()}
 
 
 def revolution_warnings(
-    case: GapOverTurn, parts: FloatingParts, found: GapRevolution[Any], balance: float
+    case: GapOverTurn, parts: FloatingParts, found: GapRevolution[Any], balance: float, friction: float
 ) -> list[dict[str, str]]:
-    """Return name and text of each warning; `balance` is the turn's mass balance error."""
+    """Return name and text of each warning; `balance`: mass balance error of the turn, `friction`: its power (W)."""
     warnings = [
         (check.name, str(warning))
         for check in _CHECKS[case.gap]
         for warning in run_checks((check,), case.rotor.pump).warnings
     ]
-    warnings += [*_contact(case, parts, found), *_pressures(case, found), *_motion(case, found, balance)]
+    warnings += [*_contact(case, parts, found, friction), *_pressures(case, found), *_motion(case, found, balance)]
     if case.gap is Gap.SLIPPER:
         warnings += pulled_together(case, parts, found)
     if case.gap is Gap.PISTON:
@@ -43,14 +49,17 @@ def revolution_warnings(
     return [{"name": name, "text": text} for name, text in warnings]
 
 
-def _contact(case: GapOverTurn, parts: FloatingParts, found: GapRevolution[Any]) -> Iterator[tuple[str, str]]:
-    """Yield a warning of mean planes that overlap by more than roughness can be compressed."""
+def _contact(
+    case: GapOverTurn, parts: FloatingParts, found: GapRevolution[Any], friction: float
+) -> Iterator[tuple[str, str]]:
+    """Yield warnings of a film that contact replaces, and of mean planes that overlap beyond the roughness."""
     laws = {
         Gap.PISTON: parts.piston.laws, Gap.SLIPPER: parts.slipper.laws, Gap.VALVE_PLATE: parts.block.laws,
     }[case.gap]  # fmt: skip
-    least = min(instant.least_gap for instant in found.turn.instants)
     if laws.asperities is None or Effect.ROUGHNESS in case.options.physics.left_out:
         return
+    yield from _rubbing(case.gap, found, laws.asperities.height, friction)
+    least = min(instant.least_gap for instant in found.turn.instants)
     limit = LARGEST_OVERLAP * laws.asperities.height
     if least < -limit:
         yield (
@@ -59,6 +68,23 @@ def _contact(case: GapOverTurn, parts: FloatingParts, found: GapRevolution[Any])
             f"{LARGEST_OVERLAP:g} times the composite roughness): such contact wears or deforms the parts; "
             "use elastic walls, or a run-in shape",
         )
+
+
+def _rubbing(gap: Gap, found: GapRevolution[Any], roughness: float, friction: float) -> Iterator[tuple[str, str]]:
+    """Yield a warning where contact makes a notable part of the gap's friction power (W) over the turn."""
+    rubbing = float(np.mean([instant.passed.heat.rubbing for instant in found.turn.instants]))
+    if rubbing <= LARGEST_RUBBING * abs(friction):
+        return
+    hardest, thinnest = max(found.turn.instants, key=lambda at: at.report.contact_load), found.least_film
+    yield (
+        "boundary_lubrication",
+        f"contact makes {rubbing:.3g} W of {friction:.3g} W of the friction over the turn, "
+        f"{rubbing / abs(friction):.0%} (limit {LARGEST_RUBBING:.0%}); it bears up to "
+        f"{hardest.report.contact_load:.3g} N at {np.degrees(hardest.angle):.0f} deg, and the least film is "
+        f"{thinnest.film_thickness_min / roughness:.2g} of the composite roughness at "
+        f"{np.degrees(thinnest.angle):.0f} deg: friction follows the contact's coefficient, and the parts wear; "
+        f"use {_SHAPES[gap]}, smoother surfaces, or an oil of higher viscosity",
+    )
 
 
 def pulled_together(case: GapOverTurn, parts: FloatingParts, found: GapRevolution[Any]) -> Iterator[tuple[str, str]]:
