@@ -10,6 +10,7 @@ from gaps.standing.gap_film import GapFilm
 from swashfilm.console.fidelity import Fidelity
 from swashfilm.formats.versions import headed
 from swashfilm.output.data.gap_names import LARGEST_RIGID_PRESSURE, kind_folder
+from swashfilm.runs.film.solve.gap import borne, imbalance
 from swashfilm.runs.pump.coefficients.edge_losses import loss_records
 from swashfilm.runs.pump.coefficients.flow import coefficient_records
 from swashfilm.runs.pump.data import GAPS, PARTS, named_films
@@ -121,11 +122,15 @@ def gap_report(series: Sequence[GapFilm]) -> dict[str, Any]:
 
 def gap_statement(series: Sequence[GapFilm]) -> str:
     """Return a sentence on the share of the load that the film supports at the described position."""
-    worst = max(series, key=lambda film: abs(film.required_load - film.carried_load))
     return (
-        f"position given by the description at {len(series)} angles; the film supports, at the worst angle, "
-        f"{worst.carried_fraction:.1%} of {worst.required_load:.0f} N"
+        f"position given by the description at {len(series)} angles; the film bears, at the worst angle, "
+        f"{borne(worst_film(series))}"
     )
+
+
+def worst_film(series: Sequence[GapFilm]) -> GapFilm:
+    """Return the film whose load differs most from the required one."""
+    return max(series, key=lambda film: abs(film.required_load - film.carried_load))
 
 
 def _efficiency(found: Efficiency | None) -> dict[str, float | None]:
@@ -222,8 +227,8 @@ def films_warnings(films: FilmsPoint) -> list[str]:
 def unsupported_loads(films: FilmsPoint) -> list[str]:
     """Return a warning for each gap whose film, at some angle, does not support its load at the given position."""
     return [
-        f"load_not_carried: {name}: {gap_statement(series)}; contact, squeeze or another "
-        "position supplies the difference: --fidelity floating computes it"
+        f"load_not_carried: {name}: {gap_statement(series)}: {imbalance(worst_film(series))}; "
+        "--fidelity floating finds the position"
         for name, _, series in named_films(films)
         if not all(film.holds_its_load for film in series)
     ]

@@ -8,6 +8,7 @@ import pytest
 from gaps import Effect, PistonDrive, PistonFilm, PistonShape, constant, standing_piston
 from gaps.standing.gap_film import standing_piston_film
 from reynolds import FilmSolver, held_at
+from swashfilm.runs.film.solve.gap import GapStudy, PositionSource, gap_warnings
 from swashfilm.runs.pump.summary import few_angles, impossible_pressures, unsupported_loads
 from system import SMOOTH
 from system.films.cycle import PLAIN, GapPhysics
@@ -31,11 +32,34 @@ def films(piston, other, physics=PLAIN):
     return SimpleNamespace(kinds=(SimpleNamespace(chambers=(0,), gaps=gaps),), physics=physics)
 
 
-@pytest.mark.parametrize(("share", "count"), [(0.5, 1), (1.0, 0), (2.0, 1)])
-def test_a_load_that_is_not_the_films_is_told_whether_larger_or_smaller(share, count):
+@pytest.mark.parametrize(
+    ("share", "words"),
+    [
+        (0.5, ("2 times the load", "push the part away")),
+        (0.8, ("125.0% of the load", "push the part away")),
+        (2.0, ("50.0% of the load", "a thinner film bears the rest")),
+    ],
+)
+def test_a_load_that_is_not_the_films_is_told_whether_larger_or_smaller(share, words):
     held = film(100e6, 1.0).carried_load
     told = unsupported_loads(films(film(100e6, share * held), film(100e6)))
-    assert len(told) == count
+    assert len(told) == 1
+    assert all(word in told[0] for word in words)
+
+
+def test_a_load_that_is_the_films_is_not_told():
+    held = film(100e6, 1.0).carried_load
+    assert unsupported_loads(films(film(100e6, held), film(100e6))) == []
+
+
+@pytest.mark.parametrize(
+    ("share", "follows"), [(0.02, "50 times the load"), (2.0, "50.0% of the load"), (2.0, "bears the rest")]
+)
+def test_a_single_film_at_a_given_position_says_the_same(share, follows):
+    held = film(100e6, 1.0).carried_load
+    (told,) = gap_warnings(GapStudy(film(100e6, share * held), PositionSource.GIVEN, ()))
+    assert follows in told["text"]
+    assert told["text"].endswith("leave [position] out, and the part comes to rest")
 
 
 def test_pressures_that_no_wall_would_stand_are_told():

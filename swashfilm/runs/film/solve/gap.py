@@ -22,6 +22,8 @@ from system.films.drives import Drives
 from system.films.places import place_of
 from system.films.positions import NO_RUBBING, instant_drives
 from system.films.standing import StandingGap, standing_gap
+from system.inputs.shown import quantity_text
+from system.inputs.units import Dimension
 from system.points.floating_gaps import BLOCK_START, SLIPPER_START
 
 START = {
@@ -31,6 +33,9 @@ START = {
 }
 THIN = np.array([1e-7, 0.0, 0.0])
 """m. Between flat faces a parallel film as thin as this supports the limit load of the hydrostatic balance."""
+
+SEVERAL = 2.0
+"""Ratio of carried to required load from which it is told as a number of times."""
 
 
 class PositionSource(Enum):
@@ -144,5 +149,23 @@ def gap_warnings(study: GapStudy) -> list[dict[str, str]]:
     film, found = study.film, [{"name": name, "text": text} for name, text in study.doubts]
     if study.source is PositionSource.REST or film.holds_its_load:
         return found
-    text = f"the film supports {film.carried_load:.0f} N of {film.required_load:.0f} N at the given position"
+    remedy = "leave [position] out, and the part comes to rest"
+    text = f"at the given position the film bears {borne(film)}: {imbalance(film)}; {remedy}"
     return [*found, {"name": "load_not_carried", "text": text}]
+
+
+def borne(film: GapFilm) -> str:
+    """Return the load that a film carries beside that which is required, in words."""
+    share = film.carried_fraction
+    times = f"{share:.2g} times" if share >= SEVERAL else f"{share:.1%} of"
+    carried, required = (
+        quantity_text(load, Dimension.FORCE, digits=3) for load in (film.carried_load, film.required_load)
+    )
+    return f"{carried}, {times} the load of {required}"
+
+
+def imbalance(film: GapFilm) -> str:
+    """Return what follows for a part whose film carries another load than is required."""
+    if film.carried_load > film.required_load:
+        return "the film would push the part away, to a thicker film"
+    return "contact, squeeze or a thinner film bears the rest"
