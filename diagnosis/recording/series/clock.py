@@ -18,6 +18,7 @@ FALLS, FALL_SHARE = 3, 0.01  # of a clock that was set back; rows in no order fa
 FEW = 8  # steps either side of a jump from which the usual one is known
 NAMED = 3  # places of one kind that a note names
 UNITS = (60.0, 1e3, 3600.0)  # of two units of time, one over the other
+SERIAL, SHORT = (3e4, 6e4), 1e-2  # of days since 1900: those of 1982 to 2064; steps of a quarter of an hour, as days
 SAME = 0.05  # of such a ratio, to which a change of the usual step agrees
 
 
@@ -37,13 +38,16 @@ def clocked(time: Array, readings: Array) -> ClockedSeries:
     than `LEAP` times what is recorded, the rows behind follow after `PAUSE` usual steps. Raises TableFault for a column
     without times, for times in no order, and for a clock that jumps and then counts in another unit.
     """
-    expected = "times that rise from row to row"
+    expected = "times that rise from row to row: numbers, or stamps such as '2024-05-02 08:15:30' and '08:15:30'"
     known = np.flatnonzero(np.isfinite(time))
     steps = np.diff(time[known])
     if not np.any(steps > 0.0):
         found = "no time that rises" if len(known) else "no number in the column of time"
         raise TableFault(found, expected)
     usual = float(np.median(steps[steps > 0.0]))
+    if usual < SHORT and SERIAL[0] < time[known[0]] < SERIAL[1]:
+        raise TableFault(f"times from {time[known[0]]:.6g} s in steps of {usual:.3g} s, as days of a spreadsheet have",
+                         expected, "time.unit = 'd'")  # fmt: skip
     falls, pauses = steps < 0.0, steps > PAUSE * usual
     if falls.sum() > max(FALLS, FALL_SHARE * len(steps)):
         row = int(known[np.argmax(falls) + 1]) + 1

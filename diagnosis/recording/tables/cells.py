@@ -10,6 +10,7 @@ from datetime import datetime
 
 import numpy as np
 
+from diagnosis.recording.tables.stamps import seconds_of
 from diagnosis.recording.tables.table import TableColumns, TableFault
 from reynolds.numerics.arrays import Array
 
@@ -21,9 +22,9 @@ SUMMARIES = frozenset({
     "promedio",
 })  # fmt: skip
 """Names of the rows below a table that sum it up and are no readings, in small letters."""
-_POINT = re.compile(r"\s*[+-]?(\d+\.?\d*|\.\d+)(e[+-]?\d+)?\s*", re.IGNORECASE)
+_POINT = re.compile(r"\s*[+-]?(\d+\.?\d*|\.\d+|\d{1,3}(,\d{3})+\.\d*)(e[+-]?\d+)?\s*", re.IGNORECASE)
 _IN_BRACKETS = re.compile(r"[\[(]([^\])]+)[\])]\s*$")
-_COMMA = re.compile(r"\s*[+-]?(\d+,?\d*|,\d+)(e[+-]?\d+)?\s*", re.IGNORECASE)
+_COMMA = re.compile(r"\s*[+-]?(\d+,?\d*|,\d+|\d{1,3}(\.\d{3})+,\d*)(e[+-]?\d+)?\s*", re.IGNORECASE)
 
 
 def columns_of(rows: Iterable[Sequence[object]], decimal: str) -> TableColumns:
@@ -31,8 +32,8 @@ def columns_of(rows: Iterable[Sequence[object]], decimal: str) -> TableColumns:
 
     The head is the first row of the most frequent length that is text throughout. Rows above it are left out, and
     a row below it without any number (units, as loggers write them), and rows at the end that begin with the name
-    of a summary (`SUMMARIES`), where no row above does. A cell that is no number is nan; a column of times (ISO
-    8601) becomes seconds from its first. Raises TableFault for no head or a name that occurs in it twice.
+    of a summary (`SUMMARIES`), where no row above does. A cell that is no number is nan; a column of dates
+    or times of day becomes seconds from its first. Raises TableFault for no head or a name that occurs in it twice.
     """
     table = [[_bare(cell) for cell in row] for row in rows]
     table = [row for row in table if any(cell != "" for cell in row)]
@@ -78,7 +79,7 @@ def _summaries(body: Sequence[Sequence[object]]) -> int:
 
 
 def is_number(cell: str, decimal: str) -> bool:
-    """True for the text of a number with this decimal sign."""
+    """True for the text of a number with this decimal sign; the other one may part its thousands: 1.499,8."""
     return (_COMMA if decimal == "," else _POINT).fullmatch(cell) is not None
 
 
@@ -101,28 +102,18 @@ def _number(cell: object, decimal: str) -> float | None:
     if isinstance(cell, (int, float)):
         return float(cell)
     text = str(cell)
-    return float(text.replace(",", ".")) if is_number(text, decimal) else None
+    if not is_number(text, decimal):
+        return None
+    return float(text.replace(".", "").replace(",", ".") if decimal == "," else text.replace(",", ""))
 
 
 def _column(cells: Sequence[object], decimal: str) -> tuple[Array, str]:
     """A column's numbers, and notes on it."""
     numbers = [_number(cell, decimal) for cell in cells]
-    if cells and not any(number is not None for number in numbers):
-        times = [_time(cell) for cell in cells]
-        first = next((time for time in times if time is not None), None)
-        if first is not None:
-            seconds = [math.nan if time is None else (time - first).total_seconds() for time in times]
-            return np.array(seconds), "times, taken as seconds from the first"
+    has_number = any(number is not None for number in numbers)
+    if not has_number and (told := seconds_of(cells)) is not None:
+        return told[0], f"{told[1]}, taken as seconds from the first"
     odd = sorted({str(c) for c, n in zip(cells, numbers, strict=True) if n is None and str(c).lower() not in GAPS})
     count = sum(n is None and str(c).lower() not in GAPS for c, n in zip(cells, numbers, strict=True))
     words = f"{count} cells that are no number taken as gaps ({', '.join(odd[:3])})" if odd else ""
     return np.array([math.nan if number is None else number for number in numbers], dtype=float), words
-
-
-def _time(cell: object) -> datetime | None:
-    if isinstance(cell, datetime):
-        return cell
-    try:
-        return datetime.fromisoformat(str(cell))
-    except ValueError:
-        return None

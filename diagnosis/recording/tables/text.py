@@ -3,7 +3,10 @@
 from __future__ import annotations
 
 import csv
+import re
+from codecs import BOM_UTF16_BE, BOM_UTF16_LE
 from collections import Counter
+from contextlib import suppress
 from dataclasses import replace
 
 from diagnosis.recording.tables.cells import columns_of, is_number
@@ -12,6 +15,7 @@ from reynolds.numerics.files import LARGEST_DATA, read_bounded
 
 SEPARATORS = {";": "semicolon", "\t": "tab", ",": "comma", "|": "bar"}
 _SIGNS = {".": "point", ",": "comma"}
+_BEYOND_ASCII = re.compile(rb"[\x80-\xff]+")
 LOOKED_AT = 200  # lines from which the form is found
 
 
@@ -45,14 +49,27 @@ def read_text(source: TableSource) -> TableColumns:
 
 
 def _decoded(source: TableSource) -> tuple[str, str]:
-    """The text of a file, and its encoding."""
+    """The text of a file, and its encoding: by its mark, as UTF-8, else by its bytes beyond ASCII.
+
+    In GBK these are pairs; in Latin-1 no four follow each other.
+    """
     raw = read_bounded(source.path, LARGEST_DATA)
+    if raw.startswith((BOM_UTF16_LE, BOM_UTF16_BE)):
+        try:
+            return raw.decode("utf-16"), "utf-16"
+        except UnicodeDecodeError:
+            raise TableFault(f"'{source.path.name}', cut-off UTF-16", "a text table in UTF-8") from None
     if b"\0" in raw[:4096]:
         raise TableFault(f"'{source.path.name}', which is no text", "a text table in UTF-8")
     try:
         return raw.decode("utf-8-sig"), "utf-8-sig"
     except UnicodeDecodeError:
-        return raw.decode("latin-1"), "latin-1"
+        pass
+    runs = [len(run) for run in _BEYOND_ASCII.findall(raw)]
+    if max(runs) >= 4 and not any(run % 2 for run in runs):
+        with suppress(UnicodeDecodeError):
+            return raw.decode("gb18030"), "gb18030"
+    return raw.decode("latin-1"), "latin-1"
 
 
 def _separator(lines: list[str]) -> str:

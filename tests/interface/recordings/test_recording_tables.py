@@ -67,6 +67,54 @@ def test_times_become_seconds(tmp_path):
 
 
 @pytest.mark.parametrize(
+    ("stamps", "seconds"),
+    [
+        (("02.05.2024 23:59:59,500", "03.05.2024 00:00:01,000"), 1.5),
+        (("2.5.2024 8:15:30", "2.5.2024 8:15:32"), 2.0),
+        (("2024/05/02 08:15:30", "2024/05/03 08:15:30"), 86400.0),
+        (("05/02/2024 11:59:59 PM", "05/03/2024 12:00:01 AM"), 2.0),  # of two orders that in which a day passes
+        (("13/02/2024 08:15", "13/02/2024 08:16"), 60.0),
+        (("02-May-2024 08:15:30", "02-May-2024 08:15:31"), 1.0),
+        (("23:59:59", "00:00:01"), 2.0),
+        (("08:15:30,5", "08:15:31,0"), 0.5),
+    ],
+)
+def test_stamps_of_loggers_become_seconds(tmp_path, stamps, seconds):
+    path = tmp_path / "run.csv"
+    path.write_text("when;speed\n" + "".join(f"{stamp};1500,5\n" for stamp in stamps), "utf-8")
+    columns = _read(path)
+    assert np.array_equal(columns.values["when"], [0.0, seconds])
+    assert any("seconds from the first" in told for told in columns.notes)
+
+
+def test_words_are_no_stamps(tmp_path):
+    path = tmp_path / "run.csv"
+    path.write_text("mode;speed\nMay;1\nauto 2;2\n", "utf-8")
+    assert np.isnan(_read(path).values["mode"]).all()
+
+
+@pytest.mark.parametrize("encoding", ["gb18030", "utf-16", "utf-8-sig"])
+def test_chinese_heads_are_read_as_they_are_written(tmp_path, encoding):
+    path = tmp_path / "run.csv"
+    path.write_bytes("时间(s),转速(r/min),进口油温(℃)\n0,1500,25\n1,1501,26\n".encode(encoding))
+    assert list(_read(path).values) == ["时间(s)", "转速(r/min)", "进口油温(℃)"]
+
+
+def test_western_heads_in_latin_1_stay_what_they_are(tmp_path):
+    path = tmp_path / "run.csv"
+    path.write_bytes("Größe;Öltemp. [°C];Durchfluß\n1,5;40,2;3,5\n".encode("latin-1"))
+    assert list(_read(path).values) == ["Größe", "Öltemp. [°C]", "Durchfluß"]
+
+
+def test_thousands_may_be_parted(tmp_path):
+    path = tmp_path / "run.csv"
+    path.write_text("speed;torque\n1.499,8;40,6\n998,2;40,7\n", "utf-8")
+    assert np.array_equal(_read(path).values["speed"], [1499.8, 998.2])
+    path.write_text('speed;torque\n"1,499.8";40.6\n998.2;40.7\n', "utf-8")
+    assert np.array_equal(_read(path).values["speed"], [1499.8, 998.2])
+
+
+@pytest.mark.parametrize(
     ("text", "found"),
     [
         ("", "empty"),
