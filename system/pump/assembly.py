@@ -1,14 +1,14 @@
 """From one chamber's cycle and the pair losses to the pump: flows, torque, powers. The same for every fidelity."""
 
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, fields, replace
 from enum import Enum
 
 import numpy as np
 
 from reynolds.numerics.arrays import Array
 from system.inputs.shown import pressure_text
-from system.inputs.units import STANDARD_ATMOSPHERE, TURN
+from system.inputs.units import LPM, STANDARD_ATMOSPHERE, TURN
 from system.pump.bench import NOTHING_OUTSIDE, BenchReading, Efficiency, Outside, iso_efficiency, paper_efficiency
 from system.pump.chamber.cycle import ChamberCycle
 from system.pump.chamber.layout import CAVITY_PRESSURE
@@ -174,6 +174,7 @@ def put_together(
     power = power_balance(ported, reading, rate, pairs.power, leakage, past)
     torque = torque + outside.torque
     energy = abs(point.shaft_speed * float(np.mean(torque)) - power.accounted) / abs(power.shaft)
+    leaks = gap_leakage(problem, cycle, rate, exchange)
     quadrature = sum(pairs.loss(pair).quadrature_error for pair in Pair)
     return PumpPoint(
         point=point,
@@ -187,7 +188,7 @@ def put_together(
         delivery=ported.delivery,
         suction=ported.suction,
         shaft_torque=torque,
-        leakage_flow=gap_leakage(problem, cycle, rate, exchange),
+        leakage_flow=leaks,
         leaks=mean_of([own.leaks for own in ported.problems]),
         pairs=pairs,
         exchange=exchange,
@@ -201,7 +202,7 @@ def put_together(
             work_balance_error=abs(power.shaft - power.accounted) / abs(power.shaft),
             quadrature_error=quadrature / pairs.power,
         ),
-        warnings=(*_remarks(asked, ported, reading), *_unbalanced(energy)),
+        warnings=(*_remarks(asked, ported, reading, leaks), *_unbalanced(energy)),
     )
 
 
@@ -216,15 +217,10 @@ def pumps(reading: BenchReading) -> bool:
     return reading.shaft_power > 0.0 and reading.inlet_flow > 0.0 and reading.delivery_flow > 0.0
 
 
-def _remarks(asked: OperatingPoint, ported: PortedCycle, reading: BenchReading) -> Iterator[Remark]:
+def _remarks(asked: OperatingPoint, ported: PortedCycle, reading: BenchReading, leaks: Gaps[float]) -> Iterator[Remark]:
     yield from _ports_off(asked, ported)
     if not pumps(reading):
-        yield Remark(
-            PointWarning.NO_DELIVERY,
-            f"delivery flow {reading.delivery_flow * 6e4:.3g} L/min, inlet flow {reading.inlet_flow * 6e4:.3g} "
-            f"L/min, shaft power {reading.shaft_power:.3g} W (limit: all above 0): leakage takes more than the "
-            "pistons move, efficiencies are void; raise speed or displacement, lower pressure or temperature",
-        )
+        yield _no_delivery(reading, leaks)
     degrees = np.degrees(ported.cycles[0].shaft_angle)
     cycle, name = _chamber_by(ported, lambda one: -float(one.pressure.min()))
     if cycle.cavitates:
@@ -246,6 +242,19 @@ def _remarks(asked: OperatingPoint, ported: PortedCycle, reading: BenchReading) 
             f"{pressure_text(limit)}, {OVERPRESSURE - 1.0:.0%} over the port): both ports shut while the piston "
             "moves in; let the port shut later, or the relief groove of the next begin earlier",
         )
+
+
+def _no_delivery(reading: BenchReading, leaks: Gaps[float]) -> Remark:
+    """The remark of a machine that does not pump, with the gap that leaks most."""
+    widest = max(fields(leaks), key=lambda gap: float(getattr(leaks, gap.name))).name
+    return Remark(
+        PointWarning.NO_DELIVERY,
+        f"delivery flow {reading.delivery_flow * LPM:.3g} L/min, inlet flow {reading.inlet_flow * LPM:.3g} L/min, "
+        f"shaft power {reading.shaft_power:.3g} W (limit: all above 0): leakage takes more than the pistons move, "
+        f"{getattr(leaks, widest) * LPM:.3g} of {leaks.total * LPM:.3g} L/min through the "
+        f"{widest.replace('_', ' ')} gap, efficiencies are void; a tighter gap there, more speed or displacement, less "
+        "pressure or temperature",
+    )
 
 
 def _unbalanced(energy: float) -> Iterator[Remark]:

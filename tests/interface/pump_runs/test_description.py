@@ -352,6 +352,7 @@ def test_a_check_waits_for_values_it_can_trust(faults_of):
     ("override", "path"),
     [
         ({"piston.radial_clearance": "1 mm"}, "piston.radial_clearance"),
+        ({"piston.radial_clearance": "0.07 mm"}, "piston.radial_clearance"),
         ({"slipper.film_thickness": "0.1 mm"}, "slipper.film_thickness"),
         ({"valve_plate.film_thickness": "0.1 mm"}, "valve_plate.film_thickness"),
         ({"operating.inlet_pressure": "-0.3 bar"}, "operating.inlet_pressure"),

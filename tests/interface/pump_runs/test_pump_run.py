@@ -156,7 +156,10 @@ def test_a_pump_that_delivers_nothing_has_no_efficiency(tmp_path, capsys):
     found = summary(folder)
     assert found["flow"]["delivery_m3_per_s"] < 0.0
     assert all(value is None for norm in found["efficiency"].values() for value in norm.values())
-    assert any(warning.startswith("no_delivery") for warning in found["warnings"])
+    (told,) = (warning for warning in found["warnings"] if warning.startswith("no_delivery"))
+    widest = max(found["leakage"], key=found["leakage"].get).removesuffix("_m3_per_s")
+    assert f"through the {widest.replace('_', ' ')} gap" in told
+    assert f"{found['leakage'][f'{widest}_m3_per_s'] * 6e4:.3g} of " in told
     assert "overall efficiency          none" in capsys.readouterr().out
 
 
