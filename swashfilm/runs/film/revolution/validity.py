@@ -15,7 +15,8 @@ from swashfilm.runs.film.validity import LARGEST_OIL_PRESSURE, beyond_oil
 from system.description.gap import Gap
 from system.films.drives import slipper_retainer
 from system.films.parts import FloatingParts
-from system.inputs.shown import pressure_text
+from system.inputs.shown import pressure_text, quantity_text
+from system.inputs.units import Dimension
 from system.pump_file.check import run_checks
 from system.pump_file.floating import block_tips, slipper_has_a_wedge
 
@@ -76,11 +77,12 @@ def _rubbing(gap: Gap, found: GapRevolution[Any], roughness: float, friction: fl
     if rubbing <= LARGEST_RUBBING * abs(friction):
         return
     hardest, thinnest = max(found.turn.instants, key=lambda at: at.report.contact_load), found.least_film
+    borne = quantity_text(hardest.report.contact_load, Dimension.FORCE, digits=3)
     yield (
         "boundary_lubrication",
         f"contact makes {rubbing:.3g} W of {friction:.3g} W of the friction over the turn, "
         f"{rubbing / abs(friction):.0%} (limit {LARGEST_RUBBING:.0%}); it bears up to "
-        f"{hardest.report.contact_load:.3g} N at {np.degrees(hardest.angle):.0f} deg, and the least film is "
+        f"{borne} at {np.degrees(hardest.angle):.0f} deg, and the least film is "
         f"{thinnest.film_thickness_min / roughness:.2g} of the composite roughness at "
         f"{np.degrees(thinnest.angle):.0f} deg: friction follows the contact's coefficient, and the parts wear; "
         f"use {_SHAPES[gap]}, smoother surfaces, or an oil of higher viscosity",
