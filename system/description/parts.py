@@ -27,6 +27,8 @@ from system.inputs.sections.fields import (
     Length,
     Limits,
     MeshFile,
+    Micrometres,
+    NotNegative,
     Stiffness,
     Torque,
 )
@@ -38,7 +40,7 @@ class ReliefSection:
     """An edge taken back: by `depth` at the edge, falling to nothing at `width` from it as a parabola."""
 
     width: Length  # from the edge inwards
-    depth: Height  # taken off at the edge
+    depth: Annotated[float, Dimension.LENGTH, NotNegative, Micrometres]  # taken off at the edge; 0: sharp
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -46,7 +46,8 @@ def block_tips(pump: PumpDescription) -> Iterator[Finding]:
 def slipper_has_a_wedge(pump: PumpDescription) -> Iterator[Finding]:
     """A flat slipper held at its middle draws no oil under it: without hydrostatic lift it sinks."""
     part = pump.slipper
-    if part.profile is None and part.crown is None and part.rim_relief is None:
+    relieved = part.rim_relief is not None and part.rim_relief.depth > 0.0
+    if part.profile is None and part.crown is None and not relieved:
         yield CheckWarning(
             "slipper.profile",
             "a flat face",

@@ -43,3 +43,7 @@ def test_a_flat_slipper_has_no_wedge(shape):
     assert "slipper.profile: a flat face" in told(BENCH)
     stated: object = "2 um" if shape == "crown" else {"width": "3 mm", "depth": "2 um"}
     assert "flat face" not in told(BENCH, {f"slipper.{shape}": stated})
+
+
+def test_a_rim_relief_of_no_depth_is_a_flat_face():
+    assert "slipper.profile: a flat face" in told("ref90", {"slipper.rim_relief.depth": "0 um"})
