@@ -14,7 +14,7 @@ from diagnosis.recording.model import Circuit, DataNote, NoteKind, RecordedChann
 from diagnosis.recording.units import OTHER_UNITS
 from reynolds.numerics.arrays import Array
 from system.inputs.channels import ChannelName
-from system.inputs.units import STANDARD_ATMOSPHERE, Dimension, unit_scale
+from system.inputs.units import STANDARD_ATMOSPHERE, Dimension, format_quantity, unit_scale
 
 LIKELY = {
     Dimension.ANGULAR_SPEED: (1.0, 2000.0),
@@ -131,15 +131,28 @@ def _ratios(recording: Recording, displacement: float) -> Iterator[DataNote]:
     def torque_of(given: Recording) -> float | None:
         return _median(_torque_ratio(given, displacement))
 
+    plate = _other_displacement(flow_of(ChannelName.Q_OUT)(recording), torque_of(recording), displacement)
     for name, span in ((ChannelName.Q_OUT, _Span(*FLOW_RATIO)), (ChannelName.Q_IN, _Span(*INLET_RATIO))):
         text = f"{name.value} is {{:.3g}} times displacement x speed at half of the points"
-        yield from _ratio_fault(recording, flow_of(name), text, (name, ChannelName.SPEED), span)
+        yield from _ratio_fault(recording, flow_of(name), text, (name, ChannelName.SPEED), span, plate)
     text = "torque is {:.3g} times displacement x pressure difference / 2 pi at half of the points"
     names = (ChannelName.TORQUE, ChannelName.P_OUT, ChannelName.P_IN)
     torque = recording.channel(ChannelName.TORQUE)
     own = 1.0 if torque is None else unit_scale(torque.unit, Dimension.TORQUE)[0]
     power = {"torque is the shaft's power in kW": 1e3 / own / recording.steady.column(ChannelName.SPEED)}
-    yield from _ratio_fault(recording, torque_of, text, names, _Span(*TORQUE_RATIO), power)
+    yield from _ratio_fault(recording, torque_of, text, names, _Span(*TORQUE_RATIO), plate | power)
+
+
+def _other_displacement(flow: float | None, torque: float | None, displacement: float) -> dict[str, Array]:
+    """The displacement (in words) with which flow and torque both go, and by what it takes either; none where it
+    does not.
+
+    flow, torque: over what the pump file's displacement gives.
+    """
+    if flow is None or torque is None or flow <= 0.0 or not _Span(*TORQUE_RATIO).holds(torque / flow):
+        return {}
+    meant = format_quantity(displacement * flow, Dimension.DISPLACEMENT, digits=2)
+    return {f"pump.displacement of the pump file about {meant}": np.array(1.0 / flow)}
 
 
 def _swept(recording: Recording, displacement: float) -> Array:
@@ -177,7 +190,7 @@ def _ratio_fault(
         mended = ratio(_scaled(recording, name, factor))
         return mended is not None and span.holds(mended)
 
-    ways = []
+    ways = [words for words, by in also.items() if mends(names[0], by)]
     for name in names:
         channel = recording.channel(name)
         if channel is None or name.dimension is None:
@@ -192,7 +205,6 @@ def _ratio_fault(
     if recording.channel(_RATIO) is not None:
         shares = (("1", 100.0), ("%", 0.01))
         ways += [f"displacement_ratio in '{unit}'" for unit, by in shares if mends(_RATIO, by)]
-    ways += [words for words, by in also.items() if mends(names[0], by)]
     hint = f"; {' or '.join(ways)}?" if ways else ""
     yield DataNote(NoteKind.FAULT, names[0], (), text.format(found) + hint)
 

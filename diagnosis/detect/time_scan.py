@@ -14,6 +14,7 @@ from diagnosis.study.model import Study
 from diagnosis.thresholds import Thresholds
 from reynolds.numerics.arrays import Array
 from system.estimation.evidence import multiplier_evidence
+from system.estimation.posterior import Posterior
 from system.inputs.channels import ChannelName
 
 
@@ -58,6 +59,15 @@ def scan_time(study: Study, thresholds: Thresholds) -> TimeMark | None:
     place = int(np.abs(z).argmax())
     kind = TimeKind.DRIFT if place == 0 else TimeKind.ONSET
     return TimeMark(kind, channel, 0 if place == 0 else place - 1 + limits.ends, p_value, wandering(study, thresholds))
+
+
+def remains(mark: TimeMark, study: Study, fit: Posterior, thresholds: Thresholds) -> bool:
+    """True if a drift or an onset is still there in what an explanation leaves: what that explains is not of time."""
+    at = study.channels.index(mark.channel)
+    own = contrasts(fit, at)
+    place = 0 if mark.kind is TimeKind.DRIFT else mark.at - thresholds.locate.ends + 1
+    pattern = _patterns(len(study.observations.values), thresholds.locate.ends)[:, [place]]
+    return bool(2.0 * norm.sf(abs(float(own.z(pattern)[0])) / own.scatter) <= thresholds.locate.p_value)
 
 
 def wandering(study: Study, thresholds: Thresholds) -> str | None:

@@ -10,6 +10,7 @@ import numpy as np
 
 from diagnosis.checks.notes import note_text
 from diagnosis.detect.mismatch import Detection, confirmed, detect, holds
+from diagnosis.detect.time_scan import remains
 from diagnosis.explain.combinations import combine
 from diagnosis.explain.explained import explained_mismatch
 from diagnosis.explain.held_out import held_out
@@ -243,6 +244,8 @@ def _finding(
         location = of_explanation(study, location, explained_mismatch(study, claimed, thresholds).added, thresholds)
         if ChannelName.P_CHAMBER in location.channels:
             location = without_explanation(study, location, claimed, thresholds)
+        if location.time is not None and not remains(location.time, study, after, thresholds):
+            location = replace(location, time=None)
     return Diagnosis(
         kind=verdict.kind,
         status=verdict.status,

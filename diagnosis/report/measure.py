@@ -21,6 +21,8 @@ NO_POINT_TELLS = (
     "No further operating point would tell more: nothing else that could be fitted comes near. The pump's own "
     f"dimensions would: {DIMENSIONS}."
 )
+EVEN = 0.5
+"""Chance of a decision below which readings hardly decide."""
 METERS = (ChannelName.Q_OUT, ChannelName.Q_IN, ChannelName.Q_CASE, ChannelName.TORQUE)
 """Of a bench that shows every effect on flows and torque."""
 MAP_AXES = (ChannelName.SPEED, ChannelName.P_OUT, ChannelName.DISPLACEMENT_RATIO)
@@ -78,7 +80,7 @@ def next_point_text(found: NextPoint) -> str:
 
 def _sure(found: NextPoint) -> str:
     """The chance that the readings decide, or how many would."""
-    if found.settles:
+    if found.settles or found.chance >= EVEN:
         return f"{found.readings} readings decide with a chance of {100.0 * min(found.chance, 0.99):.0f} %."
     if found.repeats:
         each = " of each" if found.others else " there"

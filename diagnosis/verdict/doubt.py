@@ -4,12 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Collection, Sequence
 from dataclasses import replace
+from math import e, log
 
 import numpy as np
 
 from diagnosis.explain.ranked import Explanation
 from reynolds.numerics.arrays import Array
 from system.effects.effect import Kind
+
+TINY = 1e-300  # of a factor: less is nothing
 
 
 def doubted(explanations: Sequence[Explanation], share: float, rest: Collection[Kind]) -> tuple[Explanation, ...]:
@@ -25,6 +28,35 @@ def doubted(explanations: Sequence[Explanation], share: float, rest: Collection[
         replace(each, probability=share * each.probability + (1.0 - share) * float(own))
         for each, own in zip(explanations, prior, strict=True)
     )
+
+
+def no_surer(explanations: Sequence[Explanation], chance: float) -> tuple[Explanation, ...]:
+    """The explanations with P(nothing) at least what a mismatch of this chance (0 to 1) leaves of its prior; all others
+    in their proportions.
+
+    Evidences are of laws that differ from those of the pump: they may speak against nothing more than the readings do.
+    """
+    null = next(each for each in explanations if each.hypothesis.kind is Kind.NO_MISMATCH)
+    before = float(_prior(explanations, frozenset(Kind))[[each is null for each in explanations]].sum())
+    least = before / (before + (1.0 - before) / max(sellke_bayarri_berger(chance), TINY))
+    if null.probability >= least:
+        return tuple(explanations)
+    factor = (1.0 - least) / (1.0 - null.probability)
+    return tuple(
+        replace(each, probability=least if each is null else factor * each.probability) for each in explanations
+    )
+
+
+def sellke_bayarri_berger(chance: float) -> float:
+    """Least factor by which a p-value changes the odds of the null: -e p ln p for p < 1/e, 1 above.
+
+    Source: Sellke, Bayarri, Berger 2001 (doi:10.1198/000313001300339950), eq. 2; for alternatives whose p-values are
+    beta-distributed.
+
+    >>> round(sellke_bayarri_berger(0.05), 3), round(sellke_bayarri_berger(0.01), 3)
+    (0.407, 0.125)
+    """
+    return -e * chance * log(chance) if 0.0 < chance < 1.0 / e else float(chance > 0.0)
 
 
 def _prior(explanations: Sequence[Explanation], rest: Collection[Kind]) -> Array:

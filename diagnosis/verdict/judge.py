@@ -16,7 +16,7 @@ from diagnosis.explain.ranked import Explanation
 from diagnosis.study.model import Study
 from diagnosis.thresholds import Thresholds
 from diagnosis.verdict.diagnosis import ClaimedEffect, Estimate, VerdictStatus
-from diagnosis.verdict.doubt import doubted
+from diagnosis.verdict.doubt import doubted, no_surer
 from diagnosis.verdict.equivalence import NOT_NAMED, agrees, equivalents
 from diagnosis.verdict.multiplier_chance import MultiplierChance, multiplier_chance
 from diagnosis.verdict.residue import residue_notes
@@ -70,13 +70,13 @@ def judge(
     if null.probability >= limits.null_probability:
         if detection.chance >= limits.suspicion and null.probability >= limits.agreed:
             return Judgement(Kind.NO_MISMATCH, VerdictStatus.NAMED, (), (), (), tuple(explanations))
-        return _suspicion(explanations, (_one_of_two(detection, null),), frozenset(Kind), thresholds)
+        return _suspicion(explanations, (_one_of_two(detection, null),), frozenset(Kind), detection, thresholds)
     free = _free_multiplier(study, null, explanations, thresholds)
     if min(detection.chance, free.chance) >= limits.chance:
-        return _suspicion(explanations, (_one_of_two(detection, null),), frozenset(Kind), thresholds)
+        return _suspicion(explanations, (_one_of_two(detection, null),), frozenset(Kind), detection, thresholds)
     best = _likeliest(explanations, thresholds)
     if best is None:
-        return _unknown(study, free, null, explanations, thresholds)
+        return _unknown(study, free, null, explanations, detection, thresholds)
     gap = class_gap(explanations, thresholds)
     members = equivalents(best, explanations, gap, place_gap(explanations, thresholds))
     beside = _beside(members, explanations, thresholds)
@@ -88,7 +88,7 @@ def judge(
         explanations, members = shared_out(explanations, members, gap, thresholds)
     against = _objections(study, members, beside, explanations, thresholds)
     if against:
-        return _suspicion(explanations, against, _left_open(null, explanations, thresholds), thresholds)
+        return _suspicion(explanations, against, _left_open(null, explanations, thresholds), detection, thresholds)
     left = residue_notes(study, null, members[0], along, thresholds)
     if left:
         explanations, members = _less_sure(explanations, members, thresholds.record.incomplete, (Kind.UNKNOWN_PHYSICS,))
@@ -178,15 +178,21 @@ def _left_open(null: Explanation, explanations: Sequence[Explanation], threshold
 
 
 def _suspicion(
-    explanations: Sequence[Explanation], reasons: tuple[str, ...], rest: Collection[Kind], thresholds: Thresholds
+    explanations: Sequence[Explanation],
+    reasons: tuple[str, ...],
+    rest: Collection[Kind],
+    detection: Detection,
+    thresholds: Thresholds,
 ) -> Judgement:
     """A suspicion of the likeliest kind of mismatch, its probabilities by the record of suspicions.
 
-    rest: the kinds among which it is open (`doubted`).
+    rest: the kinds among which it is open (`doubted`). That there is a mismatch is no surer than the readings tell.
     """
     kinds = {each.hypothesis.kind for each in explanations} - {Kind.NO_MISMATCH}
     likeliest = max(kinds, key=lambda kind: _probability(explanations, kind))
-    ranked = sorted(doubted(explanations, thresholds.record.suspicion, rest), key=lambda each: -each.probability)
+    chance = min(detection.p_value, detection.chance)
+    told = no_surer(doubted(explanations, thresholds.record.suspicion, rest), chance)
+    ranked = sorted(told, key=lambda each: -each.probability)
     return Judgement(likeliest, VerdictStatus.SUSPICION, (), (), reasons, tuple(ranked))
 
 
@@ -207,7 +213,12 @@ def _probability(explanations: Sequence[Explanation], kind: Kind) -> float:
 
 
 def _unknown(
-    study: Study, free: MultiplierChance, null: Explanation, explanations: Sequence[Explanation], thresholds: Thresholds
+    study: Study,
+    free: MultiplierChance,
+    null: Explanation,
+    explanations: Sequence[Explanation],
+    detection: Detection,
+    thresholds: Thresholds,
 ) -> Judgement:
     """Unknown physics, without an effect, if its hypotheses together are probable and striking.
 
@@ -230,7 +241,7 @@ def _unknown(
         )
         rest = frozenset(Kind)
     if against:
-        return _suspicion(explanations, tuple(against), rest, thresholds)
+        return _suspicion(explanations, tuple(against), rest, detection, thresholds)
     return Judgement(Kind.UNKNOWN_PHYSICS, VerdictStatus.NAMED, (), (), record, told)
 
 

@@ -1,4 +1,4 @@
-"""Heads of columns, English and German: the quantity, its place on the pump, its unit."""
+"""Heads of columns, English, German, French and Chinese: the quantity, its place on the pump, its unit."""
 
 from __future__ import annotations
 
@@ -12,16 +12,18 @@ from system.inputs.units import Dimension
 
 
 class Quantity(Enum):
-    """Quantity of a column by the words of its head: whole words, and parts of words of four letters or more."""
+    """Quantity of a column by the words of its head: whole words, and parts of words of four letters or more; of
+    Chinese ones any part.
+    """
 
-    TIME = (Dimension.TIME, "time zeit t s timestamp uhrzeit zeitstempel")
-    SPEED = (Dimension.ANGULAR_SPEED, "speed n rpm drehzahl rotation")
-    TORQUE = (Dimension.TORQUE, "torque m md trq moment drehmoment")
-    TEMPERATURE = (Dimension.TEMPERATURE, "temperature temp temperatur t")
-    FLOW = (Dimension.VOLUME_FLOW, "flow q strom durchfluss leakage leckage drain")
-    POWER = (Dimension.POWER, "power leistung pel")
-    PRESSURE = (Dimension.PRESSURE, "pressure press druck p hd nd hp lp")
-    RATIO = (None, "displacement ratio schwenk swash alpha verstell beta foerdervolumen vg")
+    TIME = (Dimension.TIME, "time zeit t timestamp uhrzeit zeitstempel temps 时间")
+    SPEED = (Dimension.ANGULAR_SPEED, "speed n rpm drehzahl rotation vitesse 转速")
+    TORQUE = (Dimension.TORQUE, "torque m md trq moment drehmoment couple 扭矩 转矩")
+    TEMPERATURE = (Dimension.TEMPERATURE, "temperature temp temperatur t 温度 油温")
+    FLOW = (Dimension.VOLUME_FLOW, "flow q strom durchfluss leakage leckage drain debit fuite 流量")
+    POWER = (Dimension.POWER, "power leistung pel puissance 功率")
+    PRESSURE = (Dimension.PRESSURE, "pressure press druck p hd nd hp lp pression 压力 油压")
+    RATIO = (None, "displacement ratio schwenk swash alpha verstell beta foerdervolumen vg cylindree 排量")
 
     dimension: Dimension | None
     words: tuple[str, ...]
@@ -37,9 +39,15 @@ class Quantity(Enum):
 class Place(Enum):
     """Place of a column's measurement on the pump, by the words of its head."""
 
-    CASE = "case drain leck leak leckage leakage gehaeuse housing casing l"
-    IN = "inlet intake suction saug eingang eintritt zulauf feed charge speise niederdruck low boost tank in nd lp"
-    OUT = "outlet delivery ausgang austritt hochdruck high discharge ablauf foerder out hd hp"
+    CASE = "case drain leck leak leckage leakage gehaeuse housing casing carter fuite l 壳体 泄漏 泄油"
+    IN = (
+        "inlet intake suction saug eingang eintritt zulauf feed charge speise niederdruck low boost tank entree "
+        "aspiration in nd lp s 进口 入口 进油 吸油 补油"
+    )
+    OUT = (
+        "outlet delivery ausgang austritt hochdruck high discharge ablauf foerder sortie refoulement out hd hp d 出口 "
+        "出油 高压"
+    )
 
 
 @dataclass(frozen=True)
@@ -62,7 +70,9 @@ _BRACKETS = re.compile(r"[\[(<{].*$")
 _REFERENCE_BEHIND = re.compile(r"(bar|psi|mpa|kpa|pa)\s*\((abs|a|gauge|g|rel)\)[\])]?$", re.IGNORECASE)
 _NUMBERED = re.compile(r".*:\d+")  # a column of a matrix
 _UMLAUTS = str.maketrans({"ä": "ae", "ö": "oe", "ü": "ue", "ß": "ss"})
-_SPLIT = re.compile(r"[A-Z]?[a-z]+|[A-Z]+(?![a-z])|\d+")
+_ACCENTS = str.maketrans("éèêàâîôûç", "eeeaaiouc")
+_SPLIT = re.compile(r"(?<![A-Za-z])[pPTQ](?=[A-Za-z](?![A-Za-z]))|[A-Z]?[a-z]+|[A-Z]+(?![a-z])|[^\x00-\u2e7f]+|\d+")
+"""Words; a symbol and its index of one letter, as in QL and ps, are two."""
 _ELECTRIC = ("elec", "elek", "netz", "mains")
 _PART = 4  # letters from which a word counts inside of another
 
@@ -78,7 +88,7 @@ def read_head(column: str, in_table: str = "") -> Head:
         column_unit, bare = ending, column[: told.start()].strip(" _[(")
     else:
         column_unit, bare = None, _BRACKETS.sub("", column).strip()
-    words = [word.lower() for word in _SPLIT.findall(bare.translate(_UMLAUTS))]
+    words = [word.lower() for word in _SPLIT.findall(bare.translate(_UMLAUTS).translate(_ACCENTS))]
     unit = column_unit or (read_unit(in_table) if in_table else None)
     spoken = _quantity(bare, words, unit)
     if unit is None:
@@ -93,7 +103,7 @@ def _quantity(bare: str, words: list[str], unit: ReadUnit | None) -> Quantity | 
     able = [one for one in Quantity if unit is None or one.dimension is unit.dimension]
     if unit is not None and unit.dimension is not None:
         return able[0] if able else None
-    if unit is None and (bare == "t" or re.match(r"t[_ ]*s?$", bare)):
+    if unit is None and (bare in ("t", "s") or re.match(r"t[_ ]*s?$", bare)):
         return Quantity.TIME
     symbols = [one for one in able if one is not Quantity.TIME or "time" in words or "zeit" in words]
     named = [one for one in (symbols if "t" in words else able) if _among(one.words, words)]
@@ -115,5 +125,6 @@ def _with_ending(bare: str, words: list[str], spoken: Quantity | None) -> tuple[
 
 
 def _among(known: list[str] | tuple[str, ...], words: list[str]) -> bool:
-    """True if one of the known words is among the words, or a longer one a part of one of them."""
-    return any(one in words or (len(one) >= _PART and any(one in word for word in words)) for one in known)
+    """True if one of the known words is among the words, or a longer or Chinese one a part of one of them."""
+    parts = [one for one in known if len(one) >= _PART or not one.isascii()]
+    return any(one in words for one in known) or any(one in word for one in parts for word in words)

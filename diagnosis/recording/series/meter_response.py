@@ -131,12 +131,13 @@ def best_lag(score: Callable[[float], float], tried: Sequence[float] = LAGS) -> 
 
 
 def dead_band(values: Array, columns: Array) -> float:
-    """Reading (SI) that a meter shows for all that is less, nan where it follows down to its least reading.
+    """Reading (SI) up to which a meter does not follow, nan where it follows down to its least reading.
 
     Largest level L at the lower end such that readings are L where a smooth law, fitted to those above L alone, is
-    lower by more than one and a half times `CLEAR` sigma.
+    lower by more than one and a half times `CLEAR` sigma. Else, of a meter that shows 0 below its cut-off, the least
+    other reading.
     """
-    top, found = float(np.max(values)), np.nan
+    top, found = float(np.max(values)), _cut_off(values)
     for level in np.unique(np.quantile(values, np.geomspace(LEAST_PILE, 0.5 * LOW, 10))):
         above = values > level
         if not 0.0 < level < MOST_BAND * top or above.mean() > 1.0 - LEAST_PILE:
@@ -147,6 +148,12 @@ def dead_band(values: Array, columns: Array) -> float:
         if below.mean() >= LEAST_PILE and abs(float(np.median(values[below])) - level) < CLEAR * sigma:
             found = float(level)
     return found
+
+
+def _cut_off(values: Array) -> float:
+    """Least reading (SI) of a flow meter beside those of 0, nan where few are 0."""
+    shown = values != 0.0
+    return float(values[shown].min()) if 0.0 < shown.mean() <= 1.0 - LEAST_PILE and values.min() == 0.0 else np.nan
 
 
 def robust(columns: Array, values: Array) -> tuple[Array, Array]:

@@ -72,6 +72,7 @@ def run_diagnose_command(options: argparse.Namespace) -> int:
         finding = diagnose(known, recording, report, workers, catalogue, films)
         write_finding(folder, finding)
         found = DiagnosisRun.opened(folder)
+    show_contradictions(finding.study.recording, recording)
     for line in answer_lines(found.record["answer"], MOST_LINES - (apply is not None)):
         show(line)
     if apply is not None and finding.extended_pump is not None:

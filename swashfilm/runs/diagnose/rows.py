@@ -89,12 +89,12 @@ def _other_gaps(claim: Mapping[str, Any]) -> Iterator[str]:
         yield f"at the {gap.replace('_', ' ')} ({share:.2f})"
 
 
-PARAMETER_HEAD = ("parameter", "stated", "without the finding", "with it", "pull")
-AGREED_PARAMETER_HEAD = ("parameter", "stated", "fitted", "pull")
+PARAMETER_HEAD = ("parameter", "before the fit", "without the finding", "with it", "pull")
+AGREED_PARAMETER_HEAD = ("parameter", "before the fit", "fitted", "pull")
 
 
 def parameter_rows(rows: Sequence[Row], claimed: bool) -> Iterator[tuple[str, ...]]:
-    """(parameter, stated, without the finding, with it, pulls), the largest pulls first; without a claim one fit."""
+    """Cells of PARAMETER_HEAD, the largest pulls first; without a claim of AGREED_PARAMETER_HEAD, of one fit."""
     for row in sorted(rows, key=lambda row: -abs(float(row["pull_after"] or "inf"))):
         unit, pull = row["unit"], f"{float(row['pull_after']):.2f}" if row["pull_after"] else "free"
         stated = _quantity(unit, float(row["prior"]), float(row["prior_sigma"]))
@@ -107,7 +107,7 @@ def parameter_rows(rows: Sequence[Row], claimed: bool) -> Iterator[tuple[str, ..
 
 
 def moved_words(rows: Sequence[Row]) -> str:
-    """The stated value of the pump that the fit moves most without the finding, and hardly with it; empty without."""
+    """The value of the pump that the fit moves most without the finding, and hardly with it; empty without."""
     own = [row for row in rows if row["role"] == BASE and not row["name"].startswith(FORM)]
     known = [row for row in own if row["pull_before"] and row["pull_after"]]
     freed = [
@@ -120,9 +120,9 @@ def moved_words(rows: Sequence[Row]) -> str:
         return ""
     row = max(freed, key=lambda row: abs(float(row["pull_before"])))
     unit, name = row["unit"], row["name"].replace("_", " ").replace(".", ", ")
-    stated = _quantity(unit, float(row["prior"]), float(row["prior_sigma"]))
+    prior = _quantity(unit, float(row["prior"]), float(row["prior_sigma"]))
     without, with_it = (_quantity(unit, float(f"{float(row[key]):.3g}")) for key in ("before", "after"))
-    return f"Without the finding the fit needs {name} at {without} (stated: {stated}); with it, {with_it}."
+    return f"Without the finding the fit moves {name} from {prior} to {without}; with it, to {with_it}."
 
 
 def hidden_head(rows: Sequence[Row]) -> tuple[str, ...]:

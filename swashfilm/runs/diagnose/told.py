@@ -21,12 +21,12 @@ MORE = " .."
 _END = re.compile(r"(?<=\.) (?=[A-Z])")
 
 
-def show_contradictions(recording: Recording) -> None:
-    """Print where recording and pump file contradict each other."""
+def show_contradictions(recording: Recording, told: Recording | None = None) -> None:
+    """Print where recording and pump file contradict each other; not again what `told` had."""
     from diagnosis.recording.model import NoteKind
 
     for note in recording.notes:
-        if note.kind is NoteKind.WARNED:
+        if note.kind is NoteKind.WARNED and (told is None or note not in told.notes):
             show_at_once(f"warning: {note.text}")
 
 

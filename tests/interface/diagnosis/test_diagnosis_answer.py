@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from made_diagnosis import PRESSURE, agreeing, hypothesis, its_answer, its_study
 
-from diagnosis import Diagnosis, Study
+from diagnosis import Diagnosis, NoteKind, Study
 from diagnosis.explain.explained import ExplainedMismatch
 from diagnosis.procedure.compared import NO_COMPARISON, WITH, Change, PumpComparison
 from diagnosis.procedure.cost import cost_words
@@ -27,8 +27,11 @@ from diagnosis.report.certainty import (
 from diagnosis.report.measure import NOTHING_MORE
 from diagnosis.report.sizes import FORMS, finding_sentence
 from diagnosis.study.acceptance import contradictions
+from diagnosis.study.scaled.far import far_levels
 from diagnosis.verdict.diagnosis import ClaimedEffect, Estimate, VerdictStatus
 from system import Dimension, EffectId, Gap, Kind, load_pump
+from system.bench.parameters import base_parameters, pump_with
+from system.description.tolerances import tolerances
 from system.effects.catalogue.bench_words import BENCH_WORDS, PARTS
 from system.effects.catalogue.entries import CATALOGUE, entry_of
 from system.pump_file.file import load_known_pump
@@ -209,6 +212,22 @@ def test_what_is_missing_is_told_at_both_ends(study: Study, named: Diagnosis, mo
         "The case drains more oil than simulated: 5 L/min more at 50 bar, 35 L/min more at 350 bar, at any speed and "
         "stroke alike."
     )
+
+
+def test_levels_far_from_those_of_the_type_plate_are_told() -> None:
+    """Displacement beyond its rounding, films and friction beyond two sigma of pumps of one size; else nothing."""
+    pump = load_pump("ref90")
+    allowed, _ = tolerances(pump)
+    own = {one.name: one.centre for one in base_parameters(pump, allowed)}
+    assert list(far_levels(pump, pump_with(pump, own | {"displacement": 1.02}), allowed)) == []
+    friction = {name: 5.0 * value for name, value in own.items() if name.startswith("friction.")}
+    thin = {"film_thickness.valve_plate": own["film_thickness.valve_plate"] / 8.0}
+    told = list(far_levels(pump, pump_with(pump, own | {"displacement": 0.9} | friction | thin), allowed))
+    assert all(note.kind is NoteKind.WARNED for note in told)
+    plate, film, torque = (note.text for note in told)
+    assert "the pump file states 89.9 cm3/rev, the recording is of 80.9 cm3/rev" in plate
+    assert "at the valve plate, 1/8 of that of a pump of this size" in film
+    assert "asks for 5 times the friction" in torque
 
 
 def test_another_pump_and_another_oil_are_told(study: Study) -> None:

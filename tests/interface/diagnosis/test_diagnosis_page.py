@@ -280,7 +280,7 @@ def test_a_value_that_need_not_move_is_told() -> None:
         {"name": "Q_case.gain", "unit": "1", "role": "sensor", "prior": "0", "prior_sigma": "0.004", "before": "-0.02",
          "after": "0", "pull_before": "-20", "pull_after": "0"},
     ]  # fmt: skip
-    told = "Without the finding the fit needs dead volume at 4.6 cm3 (stated: 6 +- 0.12 cm3); with it, 5.9 cm3."
+    told = "Without the finding the fit moves dead volume from 6 +- 0.12 cm3 to 4.6 cm3; with it, to 5.9 cm3."
     assert moved_words(rows) == told
     assert moved_words([row | {"pull_after": row["pull_before"]} for row in rows]) == ""
     assert moved_words([row | {"name": "form.3"} for row in rows]) == ""

@@ -61,6 +61,9 @@ def test_the_next_point_is_told_with_what_it_promises(named: Diagnosis) -> None:
     poor = replace(found, chance=0.1, gain=0.7, repeats=None)
     assert "The 3 readings will hardly decide, with a chance of 10 %" in next_point_text(poor)
     assert next_point_text(replace(poor, repeats=6)).endswith("6 readings there decide.")
+    likely = replace(found, chance=0.77, repeats=2)
+    assert not likely.settles
+    assert next_point_text(likely).endswith("3 readings decide with a chance of 77 %.")
     several = replace(found, others=(replace(found.places[0], inlet_temperature=313.15),))
     told = next_point_text(several)
     assert "oil at 70 degC in the inlet and 50 degC in the case; 1000 r/min" in told

@@ -108,6 +108,15 @@ def test_a_time_series_is_taken_as_one(tmp_path):
         ("Moment", "torque", "N m"),
         ("Saugdruck [mbar]", "p_in", "mbar"),
         ("Durchfluss Druckseite [l/min]", "Q_out", "l/min"),
+        ("ps [bar]", "p_in", "bar"),
+        ("TL [°C]", "T_case", "degC"),
+        ("QL [l/min]", "Q_case", "l/min"),
+        ("Débit de fuite [l/min]", "Q_case", "l/min"),
+        ("Pression refoulement [bar]", "p_out", "bar"),
+        ("壳体压力 [MPa]", "p_case", "MPa"),
+        ("进口油温 [°C]", "T_in", "degC"),
+        ("泄漏流量 [L/min]", "Q_case", "L/min"),
+        ("转速 [rpm]", "speed", "rpm"),
     ],
 )  # fmt: skip
 def test_heads_as_benches_write_them(head, channel, unit):

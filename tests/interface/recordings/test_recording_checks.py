@@ -16,7 +16,8 @@ from diagnosis import (
     load_thresholds,
 )
 from diagnosis.checks.check import too_few
-from system import INPUTS, OUTPUTS, ChannelName
+from system import INPUTS, OUTPUTS, ChannelName, Dimension
+from system.inputs.units import parse_quantity
 
 DISPLACEMENT = 90e-6  # m3/rev
 LIMITS = load_thresholds().data
@@ -94,6 +95,19 @@ def test_sound_readings_tell_nothing(seed):
 def test_units_off_by_a_factor_are_faults_with_the_unit_that_mends_them(name, factor, hint):
     notes = _told(_with(name, lambda x: factor * x))
     assert hint in " ".join(text for kind, _, text in notes if kind is NoteKind.FAULT)
+
+
+@pytest.mark.parametrize("wrong", [0.1, 10.0])
+def test_flow_and_torque_that_are_off_alike_are_those_of_another_displacement(wrong):
+    """The pump file is in doubt before the meters are; a flow alone says nothing of it."""
+    notes = check_recording(_sound(), wrong * DISPLACEMENT, LIMITS).notes
+    faults = [note.text for note in notes if note.kind is NoteKind.FAULT]
+    hints = [text.partition("; pump.displacement of the pump file about ")[2] for text in faults]
+    assert len([hint for hint in hints if hint]) >= 2
+    for size, unit in (hint.split()[:2] for hint in hints if hint):
+        assert parse_quantity(f"{size} {unit}", Dimension.DISPLACEMENT) == pytest.approx(DISPLACEMENT, rel=0.2)
+    flow = check_recording(_with("Q_out", lambda x: 10.0 * x), DISPLACEMENT, LIMITS).notes
+    assert not any("pump.displacement" in note.text for note in flow)
 
 
 def test_the_shaft_s_power_in_place_of_its_torque_is_told():

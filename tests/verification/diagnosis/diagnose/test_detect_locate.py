@@ -17,7 +17,7 @@ from diagnosis.detect.contrasts import contrasts, misfit
 from diagnosis.detect.mismatch import Detection, detect
 from diagnosis.detect.multiplicity import family_chance, holm, log_chances
 from diagnosis.detect.regions import strongest_region
-from diagnosis.detect.time_scan import TimeKind
+from diagnosis.detect.time_scan import TimeKind, remains
 from diagnosis.study.map_axes import axis_values, inside, scaled_axes
 from diagnosis.study.model import concerned, study_of
 from diagnosis.study.noise_correlation import noise_correlation, noise_excess
@@ -345,6 +345,18 @@ def test_a_drift_and_an_onset_are_told() -> None:
     assert (set_in.kind, set_in.channel) == (TimeKind.ONSET, ChannelName.Q_CASE)
     assert abs(set_in.at - 50) <= 1
     assert set_in.parameter == "Q_case.zero"
+
+
+def test_an_onset_that_an_explanation_takes_up_is_none_of_time() -> None:
+    """A step that the fit follows is gone behind it; one that the fit does not follow is still there."""
+    order = np.arange(POINTS)
+    onset = np.zeros((POINTS, 3))
+    onset[order >= 50, 1] = 3 * SIGMA[1]
+    study, sound = _study(onset, seed=5), _study(seed=5)
+    mark = locate(study, LIMITS).time
+    assert mark is not None
+    assert remains(mark, study, study.base, LIMITS)
+    assert not remains(mark, study, sound.base, LIMITS)
 
 
 def test_an_effect_of_pressure_is_no_drift_when_pressure_rises_with_time() -> None:

@@ -26,8 +26,8 @@ from diagnosis.report.hidden import largest_size
 from diagnosis.study.map_axes import AXES, scaled_axes
 from diagnosis.study.model import Candidate, study_of
 from diagnosis.verdict.diagnosis import ClaimedEffect, VerdictStatus
-from diagnosis.verdict.doubt import doubted
-from diagnosis.verdict.judge import Judgement, judge
+from diagnosis.verdict.doubt import doubted, no_surer
+from diagnosis.verdict.judge import MISMATCHES, Judgement, judge
 from diagnosis.verdict.residue import residue_notes
 from diagnosis.verdict.suspects import unexplained
 from diagnosis.verdict.trend import power_errors
@@ -795,6 +795,24 @@ def test_a_mismatch_within_the_odds_of_a_name_of_nothing_may_be_nothing() -> Non
         found = judge(study, detect(study, LIMITS), ranked, _coordinates(), LIMITS)
         assert found.status is VerdictStatus.SUSPICION
         assert low < _of_nothing(found) < high
+
+
+@pytest.mark.parametrize(("chance", "factor"), [(0.01, 0.1252), (0.05, 0.4072), (0.5, 1.0), (1e-90, 0.0)])
+def test_a_suspicion_is_no_surer_of_a_mismatch_than_the_readings(chance: float, factor: float) -> None:
+    """However far evidences put nothing behind, a p-value changes its odds by no more than its factor."""
+    study = _study(1, laws=((CHURNING, 0.2),))
+    nothing, *others = hypotheses(study, LIMITS)
+    null = refit(study, nothing, LIMITS)
+    weight = null.log_weight + 30.0
+    rivals = [Explanation(each, weight - each.log_prior, True, None, 0.0, 0.0, None) for each in others]
+    ranked = with_probabilities((null, *rivals), LIMITS.name.temperature)
+    found = no_surer(doubted(ranked, LIMITS.record.suspicion, MISMATCHES), chance)
+    total = sum(each.probability for each in found)
+    own = sum(each.probability for each in found if each.hypothesis.kind is Kind.NO_MISMATCH)
+    prior = sum(np.exp(each.log_prior) for each in others)
+    odds = np.exp(nothing.log_prior) / prior
+    assert own / (1.0 - own) == pytest.approx(factor * odds, rel=1e-3, abs=1e-9)
+    assert total == pytest.approx(1.0)
 
 
 def test_what_cannot_be_refitted_is_told() -> None:

@@ -37,8 +37,10 @@ def series(lag=5.0, thermal=40.0, band=0.0, storage=0.0, seed=3):
     return time, np.column_stack([pressure, lagging(gap, thermal) if thermal else gap, read + noise]), steady
 
 
-def response(**made):
+def response(cut_off=0.0, **made):
+    """Response to a series, of a meter that shows 0 below its cut-off; and the steady leakage."""
     time, readings, steady = series(thermal=0.0, **made)
+    readings[:, FLOW] = np.where(readings[:, FLOW] < cut_off, 0.0, readings[:, FLOW])
     scaled = 2.0 * (readings[:, :2] - readings[:, :2].min(axis=0)) / np.ptp(readings[:, :2], axis=0) - 1.0
     rate = np.gradient(readings[:, P], STEP)
     return meter_response(readings[:, FLOW], time, scaled, rate, np.ones(SAMPLES, bool), True), steady
@@ -60,6 +62,15 @@ def test_dead_band_is_found_and_its_readings_are_put_aside():
     assert np.isnan(found.steady[steady < 0.1]).mean() > 0.95
     assert np.isfinite(found.steady[steady > 0.18]).all()
     assert np.isnan(response(lag=0.0, band=0.0)[0].band)
+
+
+def test_a_meter_that_shows_0_below_its_cut_off_is_followed_down_to_it():
+    found, steady = response(lag=0.0, cut_off=0.12)
+    assert found.band == pytest.approx(0.12, abs=SIGMA)
+    assert np.isnan(found.steady[steady < 0.1]).mean() > 0.95
+    assert np.isfinite(found.steady[steady > 0.18]).all()
+    followed = np.isfinite(found.steady)
+    assert np.std(found.steady[followed] - steady[followed]) < 1.1 * SIGMA
 
 
 def test_storage_is_taken_out():
