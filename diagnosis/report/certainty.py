@@ -134,7 +134,8 @@ def _sentences(diagnosis: Diagnosis, scant: bool) -> Iterator[str]:
     words = sure_words(diagnosis, scant)
     alike = any(claim.equivalent or claim.elsewhere for claim in diagnosis.effects)
     which = "one of these" if len(diagnosis.effects) == 1 else "these, or what cannot be told from them"
-    of = f" that it is {which}" if alike else _OF.get(kind, "")
+    whole = " that this is the whole cause" if scant and diagnosis.effects else ""
+    of = f" that it is {which}" if alike else _OF.get(kind, whole)
     yield f"{words[0].upper()}{words[1:]}{of} (stated probability {chance(probability)})."
     record = record_of(kind, scant, probability)
     if record is not None:

@@ -103,8 +103,10 @@ def judge(
 
 def _record_of_scant(study: Study, thresholds: Thresholds) -> tuple[str, ...]:
     """Share of right findings on pumps of which little is known, as text; nothing for another pump."""
+    if not study.scant:
+        return ()
     share = f"{thresholds.record.type_plate:.0%}"
-    return (f"of findings on pumps known by their type plate alone {share} were right",) if study.scant else ()
+    return (f"of findings on pumps known by their type plate alone {share} told every cause and no other",)
 
 
 def _free_multiplier(

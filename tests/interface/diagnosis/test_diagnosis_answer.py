@@ -173,6 +173,12 @@ def test_a_suspicion_is_sure_of_a_cause_as_far_as_nothing_is_ruled_out(
     assert certainty(found, False).startswith(f"{words[0].upper()}{words[1:]} that there is a cause (stated prob")
 
 
+def test_of_a_pump_known_by_its_type_plate_the_certainty_is_that_of_the_whole_cause(named: Diagnosis) -> None:
+    """The record beside it counts names, which are right more often."""
+    assert " that this is the whole cause (stated probability" in certainty(named, True)
+    assert "whole cause" not in certainty(named, False)
+
+
 @pytest.mark.parametrize("kind", AnswerKind)
 @pytest.mark.parametrize("scant", [False, True])
 def test_every_kind_of_answer_has_a_record(kind: AnswerKind, scant: bool) -> None:
