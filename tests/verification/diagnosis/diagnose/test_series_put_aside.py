@@ -136,6 +136,14 @@ def test_a_clock_that_counts_in_another_unit_behind_a_jump_is_refused(share):
         assert np.all(np.diff(clocked(time, np.zeros((100, 1))).time) > 0.0)
 
 
+@pytest.mark.parametrize("few", [slice(47, None), slice(0, 53)])
+def test_a_few_steps_beside_a_jump_tell_no_unit(few):
+    """Three steps of two minutes and then of two seconds: a slow start or end of a logger."""
+    steps = np.where(np.arange(100) < 50, 120.0, 2.0)
+    time = (np.cumsum(steps) + np.where(np.arange(100) < 50, 0.0, 1e5))[few]
+    assert np.all(np.diff(clocked(time, np.zeros((len(time), 1))).time) > 0.0)
+
+
 @pytest.mark.parametrize(
     ("time", "words"),
     [

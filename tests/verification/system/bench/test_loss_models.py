@@ -95,6 +95,24 @@ def test_wilson_by_hand() -> None:
     assert bench.predict(values)[7] == pytest.approx([flow, torque], rel=1e-12)
 
 
+def test_schlosser_by_hand() -> None:
+    """One point: C_st V^(2/3) sqrt(2 dp/rho) of slip and C_h rho w^2 V^(5/3) of drag beside Wilson's."""
+    from system.bench.loss_models.points import loss_points
+
+    bench, at = _bench(LOSS_MODELS[LossModelName.SCHLOSSER]), loss_points(PUMP, POINTS)
+    names = [parameter.name for parameter in bench.parameters]
+    assert [name.rpartition(".")[2] for name in names] == ["C_s", "C_st", "C_d", "C_f", "C_h", "T_c"]
+    values = np.array([2e-9, 1e-4, 3e4, 0.02, 40.0, 1.5])
+    one = {name: getattr(at, name)[7] for name in ("speed", "pressure_difference", "ratio", "viscosity")}
+    d = at.displacement / (2 * np.pi)
+    slip = 2e-9 * d * one["pressure_difference"] / one["viscosity"]
+    slip += 1e-4 * at.displacement ** (2 / 3) * np.sqrt(2 * one["pressure_difference"] / at.density)
+    drag = 3e4 * d * one["viscosity"] * one["speed"] + 0.02 * d * one["pressure_difference"] + 1.5
+    drag += 40.0 * at.density * one["speed"] ** 2 * at.displacement ** (5 / 3)
+    expected = [one["ratio"] * d * one["speed"] - slip, one["ratio"] * d * one["pressure_difference"] + drag]
+    assert bench.predict(values)[7] == pytest.approx(expected, rel=1e-12)
+
+
 def test_slip_and_friction_are_not_negative() -> None:
     """Readings that ask for a negative slip get none; plain least squares would give it."""
     bench = _bench(LOSS_MODELS[LossModelName.WILSON])

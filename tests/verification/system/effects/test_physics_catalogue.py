@@ -126,3 +126,11 @@ def test_two_at_once_are_product_and_sum(courses, state):
     np.testing.assert_array_equal(found.torque, churned.torque)
     np.testing.assert_allclose(both(thick, thick).conductance, thick.conductance**2)
     np.testing.assert_allclose(both(churned, churned).carried_off, 2 * churned.torque * state.speed)
+
+
+@pytest.mark.parametrize("extension", BY_NAME)
+def test_a_prior_lies_within_the_bounds_of_its_size(extension):
+    """Two sigma of it at least: a prior as wide as what a size may be would say nothing of it."""
+    for one in extension.parameters:
+        assert one.highest >= 2.0
+        assert one.lowest == 0.0 or one.lowest <= -2.0

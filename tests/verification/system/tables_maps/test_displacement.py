@@ -30,6 +30,13 @@ def test_toet_is_exact_where_leakage_does_not_hang_on_speed():
     assert (found.speeds, found.differences, found.notes) == (5, 5, ())
 
 
+def test_toet_takes_each_pressure_for_itself():
+    """Other speeds at each pressure: slopes over several pressures would hold what leakage gains with them."""
+    chosen = [(0, 0), (2, 0), (1, 1), (3, 1), (2, 2), (4, 2), (0, 3), (4, 3), (1, 4), (4, 4)]
+    speed, difference = np.array([(SPEEDS[i], DIFFERENCES[j]) for i, j in chosen]).T
+    assert toet_displacement(speed, difference, _flow(speed, difference, 3e-14)).value == pytest.approx(V, rel=1e-12)
+
+
 def test_toet_leaves_compression_in_proportion_to_speed_out():
     """V(dp) falls along a line, and is read at no pressure."""
     assert toet_displacement(*MAP.T, _flow(*MAP.T, 3e-14)).value == pytest.approx(V, rel=1e-12)
