@@ -11,6 +11,7 @@ from diagnosis.report.format import PLACES, last_word, listed, parameter_unit
 from diagnosis.verdict.diagnosis import ClaimedEffect, Diagnosis, Estimate
 from system.effects.catalogue.bench_words import BENCH_WORDS
 from system.effects.catalogue.entries import entry_of
+from system.inputs.units import Dimension
 
 PER_PRESSURE = 1e7
 """Pa: coefficients of pressure are stated as shares per 100 bar."""
@@ -50,7 +51,7 @@ def size_words(claim: ClaimedEffect) -> str:
     for name, form in asked:
         one = first if name == "size" else known.get(name)
         if one is not None:
-            return f"{FORMS[form or ''](one)}{' per 100 bar' if form == 'per_100_bar' else ''}"
+            return f"{FORMS[form or ''](one)}{' per 100 bar' if form and form.endswith('per_100_bar') else ''}"
     return quantity(first) if asked and first is not None else ""
 
 
@@ -116,6 +117,9 @@ FORMS: Mapping[str, Callable[[Estimate], str]] = {
     "": quantity,
     "percent": _percent,
     "per_100_bar": lambda one: _percent(one, 100.0 * PER_PRESSURE),
+    "angle_per_100_bar": lambda one: quantity(
+        Estimate(one.name, PER_PRESSURE * one.value, PER_PRESSURE * one.sigma, Dimension.ANGLE)
+    ),
     "times": lambda one: f"{_rounded(one.value, one.sigma)} times",
     "hole": _hole,
     "off": _off,

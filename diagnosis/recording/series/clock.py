@@ -42,8 +42,9 @@ def clocked(time: Array, readings: Array) -> ClockedSeries:
     known = np.flatnonzero(np.isfinite(time))
     steps = np.diff(time[known])
     if not np.any(steps > 0.0):
+        falls_alone = bool(np.any(steps < 0.0))
         found = "no time that rises" if len(known) else "no number in the column of time"
-        raise TableFault(found, expected)
+        raise TableFault(found, expected, "rows sorted by their time" if falls_alone else "")
     usual = float(np.median(steps[steps > 0.0]))
     if usual < SHORT and SERIAL[0] < time[known[0]] < SERIAL[1]:
         raise TableFault(f"times from {time[known[0]]:.6g} s in steps of {usual:.3g} s, as days of a spreadsheet have",

@@ -170,7 +170,8 @@ _PATHS_AND_PORTS = {
     ),
     E.SWASH_DROOP: BenchWords(
         "a swash plate that gives way",
-        "The swash plate gives way under load, and the stroke falls",
+        "The swash plate gives way under load, by {rate:angle_per_100_bar} per 100 bar with {play} of play, and the "
+        "stroke falls",
         "Measure the swash angle under pressure. Look at the plate's bearings, the setting piston, its rod and the "
         "stop screw for play.",
     ),

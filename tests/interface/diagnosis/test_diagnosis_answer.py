@@ -72,6 +72,16 @@ def _claim(effect: EffectId, size: Estimate, pair: Gap | None = None) -> Claimed
     return ClaimedEffect(effect, pair, 0.99, (), (size,))
 
 
+def test_a_droop_has_its_size_and_its_play(named: Diagnosis) -> None:
+    rate = Estimate("rate", 1.72e-10, 0.16e-10, Dimension.ANGLE_COMPLIANCE)
+    play = Estimate("play", 1e-4, 9.5e-4, Dimension.ANGLE)
+    claim = ClaimedEffect(E.SWASH_DROOP, None, 0.99, (), (rate, play))
+    assert finding_sentence(claim, named) == (
+        "The swash plate gives way under load, by 0.099 +- 0.009 deg per 100 bar with 0.01 +- 0.05 deg of play, and "
+        "the stroke falls"
+    )
+
+
 AREA = Estimate("area", 0.2074e-6, 0.0076e-6, Dimension.AREA)
 GAIN, FACTOR = Estimate("torque.gain", -0.0212, 0.0014, None), Estimate("viscosity", 1.31, 0.02, None)
 ZERO = Estimate("Q_case.zero", 6.7e-6, 2e-7, Dimension.VOLUME_FLOW)

@@ -156,3 +156,9 @@ def test_a_few_steps_beside_a_jump_tell_no_unit(few):
 def test_columns_that_are_no_time_are_refused(time, words):
     with pytest.raises(TableFault, match=words):
         clocked(time, np.zeros((50, 1)))
+
+
+def test_rows_that_run_backwards_are_to_be_sorted():
+    with pytest.raises(TableFault) as fault:
+        clocked(np.arange(50.0)[::-1], np.zeros((50, 1)))
+    assert fault.value.nearest == "rows sorted by their time"
