@@ -3,7 +3,8 @@
     python benchmarks/proof.py                            runs what is not there yet, then writes docs/proof.md
     python benchmarks/proof.py --part null --cases 40     only the first 40 cases of a part
     python benchmarks/proof.py --part rough-null          a part of the third plant; other-...: of the second
-    python benchmarks/proof.py --part rig                 a section: rig, cycles, tanks, hst, films; bench: ten maps
+    python benchmarks/proof.py --part rig                 a section: ceiling, rig, cycles, tanks, hst, films
+    python benchmarks/proof.py --part bench               the ten maps
     python benchmarks/proof.py --workers 2                side by side
     python benchmarks/proof.py --cases 0                  runs nothing, writes the page from what is there
     python benchmarks/proof.py --development --page FILE  other draws, to look at before a mend
@@ -59,7 +60,7 @@ def main() -> int:
 
 def _options() -> argparse.Namespace:
     reader = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parts = (*(part.value for part in Part), "bench", "rig", "cycles", "tanks", "hst", "films")
+    parts = (*(part.value for part in Part), "bench", "ceiling", "rig", "cycles", "tanks", "hst", "films")
     reader.add_argument("--part", choices=parts, help="only one part")
     reader.add_argument("--cases", type=int, metavar="N", help="only the first N cases of each part")
     reader.add_argument("--results", type=Path, default=ROOT / "build" / "proof", metavar="DIR")

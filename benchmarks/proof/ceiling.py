@@ -2,9 +2,9 @@
 
 A recording is the white shift of what is concealed, as the score z has it, and noise of unit size. It is explained by
 as many of the plant's own laws, faults and wrong parts as are concealed, each by its shift at z = 8 and of free size,
-an effect's not negative. The truth is right where no other set of ids gains more by over 3 nats, the gap of a class, and
-where it gains more than the odds of nothing before any reading. Physics in no catalogue is recognised where no law of
-the plant comes within 3 nats of it.
+an effect's not negative. The truth is right where no other set of ids gains more by over 3 nats, the gap of a class,
+and where it gains more than the odds of nothing before any reading. Physics in no catalogue is recognised where no law
+of the plant comes within 3 nats of it.
 """
 
 from __future__ import annotations
@@ -23,17 +23,12 @@ from diagnosis.thresholds import load_thresholds
 
 from . import cases as first
 from .other import cases as other
-from .other.sizing import MOST_FAULT
-from .other.sizing import sized as sized_other
-from .other.sizing import white_shift as shift_of_other
+from .other.sizing import MOST_FAULT, sized as sized_other, white_shift as shift_of_other
 from .parts import Part, Plant
-from .recordings import sized as sized_first
-from .recordings import white_shift as shift_of_first
+from .recordings import sized as sized_first, white_shift as shift_of_first
 from .rough import cases as rough
 from .rough.recordings import drawn_bench
-from .rough.sizing import noise, sized as sized_rough, whitening_of
-from .rough.sizing import white_shift as shift_of_rough
-from .sizing import size_for
+from .rough.sizing import noise, sized as sized_rough, white_shift as shift_of_rough, whitening_of
 from .told import Told, told
 from .wide.case import Secret, What, WideCase
 from .wide.gates import BOTH, CLEAR
@@ -45,7 +40,12 @@ the number of causes. A recording is the shift of what is concealed and noise. E
 plant is a rival, by its shift at z = 8. A class counts as above: no rival gains more by over 3 nats. The program has
 laws of another form and lets leakage and friction depart from them over the map. On pumps known by their type plate
 it also takes meters to be of their stated class. What it misses below these numbers is lost there."""
-ROWS = ("top-1 at z >= 8", "top-1 at z = 5", "both of two effects, z >= 10 each", "unknown physics recognised at z >= 8")
+ROWS = (
+    "top-1 at z >= 8",
+    "top-1 at z = 5",
+    "both of two effects, z >= 10 each",
+    "unknown physics recognised at z >= 8",
+)
 ALONE, PAIR, UNKNOWN = range(3)
 KINDS = {
     Part.GRADED: ALONE, Part.PARAMETER: ALONE, Part.SENSOR: ALONE, Part.PAIR: PAIR, Part.UNKNOWN: UNKNOWN,
@@ -53,9 +53,10 @@ KINDS = {
     Part.OTHER_UNKNOWN: UNKNOWN, Part.ROUGH_EFFECT: ALONE, Part.ROUGH_SENSOR: ALONE, Part.ROUGH_PAIR: PAIR,
     Part.ROUGH_UNKNOWN: UNKNOWN,
 }  # fmt: skip
-CASES = 60  # of each part, from its first
+CASES = 30  # of each part, from its first
 DRAWS = 200
 SIZE = 8.0
+TINY = 1e-9
 SEEN = 1.0  # score below which a rival shows nothing
 Shift = Callable[[float], Array]
 
@@ -135,7 +136,7 @@ def _of_plant(plant: Plant, seed: int) -> tuple[str, ...]:
                 found[2].append(right(posed, rng))
             elif kind == ALONE and len(posed.causes) == 1 and posed.score >= CLEAR:
                 found[0].append(right(posed, rng))
-            elif kind == ALONE and len(posed.causes) == 1 and 4.5 <= posed.score:
+            elif kind == ALONE and len(posed.causes) == 1 and posed.score >= 4.5:
                 found[1].append(right(posed, rng))
     return tuple(f"{mean(each):.1%} of {len(each)} cases" if each else "no case" for each in found)
 
@@ -212,8 +213,9 @@ def _rivals(able: Sequence[Secret], shift: Callable[[Secret, float], Array]) -> 
 
 
 def _at_size(shift: Shift, most: float) -> Array:
-    factor, _ = size_for(SIZE, lambda at: float(np.linalg.norm(shift(at))), min(1.0, most), most)
-    return shift(factor)
+    """The shift at about SIZE, by one step in proportion."""
+    first = shift(min(1.0, most))
+    return shift(min(min(1.0, most) * SIZE / max(float(np.linalg.norm(first)), TINY), most))
 
 
 def _seen(laws: Iterator[tuple[str, Array, bool]]) -> tuple[Law, ...]:

@@ -1,5 +1,5 @@
-"""Real recordings whose truth is known, by the engine of the pump's diagnosis with a model of each rig's own; and
-the film simulation as plant. Sections of the page, each with its name."""
+"""Sections of the page beside its cases, each with its name: the ceiling of names; real recordings whose truth is
+known, by the engine of the pump's diagnosis with a model of each rig's own; the film simulation as plant."""
 
 from __future__ import annotations
 
@@ -17,6 +17,7 @@ import numpy as np
 
 from system.estimation.fit import Posterior
 
+from .ceiling import TITLE as CEILING, ceiling
 from .film_plant import cases
 from .film_trial import HEAD, diagnosed
 from .told import Told, told
@@ -47,7 +48,7 @@ def sections() -> Mapping[str, Callable[[], Told]]:
         "cascaded_tanks": {"tanks": tanks},
         "hst196": {"hst": hst},
     }
-    found: dict[str, Callable[[], Told]] = {"films": films}
+    found: dict[str, Callable[[], Told]] = {"ceiling": ceiling, "films": films}
     for folder, makers in of_data.items():
         if (RECORDINGS / folder).is_dir():
             found |= makers
@@ -60,6 +61,7 @@ CAUSES = {
     "accumulator": "accumulator with less gas",
 }  # fmt: skip
 TITLES = {
+    "ceiling": CEILING,
     "rig": "A real rig, its leak concealed", "cycles": "A real rig, up to four causes concealed",
     "hst": "A real transmission", "tanks": "A real record of two tanks",
     "films": "Fidelity: the film simulation as plant",
