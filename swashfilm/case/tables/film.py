@@ -4,13 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from enum import Enum
 from typing import Annotated
 
 from reynolds.fem.space import FilmSpace
 from reynolds.problem import Cavitation
 from reynolds.solve.load_search import RigidLoad
 from swashfilm.case.fields.field import Field, Uniform
-from swashfilm.case.fields.mesh import MeshForm
+from swashfilm.case.fields.mesh import AnnulusSection, MeshForm
 from swashfilm.case.fields.reader import field_fault
 from system.inputs.sections.fields import FormulaOf, Limits, Positive, Pressure, Several, fields_of
 from system.inputs.sections.reader import Reading
@@ -20,6 +21,13 @@ from system.inputs.units import Dimension
 Velocity = Annotated[tuple[Field, Field], Several(2), FormulaOf(Dimension.VELOCITY)]
 AT_REST = (Uniform(0.0, Dimension.VELOCITY), Uniform(0.0, Dimension.VELOCITY))
 Moment = Annotated[float, Dimension.TORQUE]
+
+
+class Geometry(Enum):
+    """Shape of the faces: plane, or a full turn of a cylinder unrolled along x, whose load is a vector."""
+
+    PLANE = "plane"
+    CYLINDER = "cylinder"
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -39,6 +47,7 @@ class FilmSection:
     load: Annotated[float, Dimension.FORCE, Positive] | None = None  # that film and contact are to bear
     moment_x: Moment | None = None  # integral of p y; frees the tilt along y
     moment_y: Moment | None = None  # integral of -p x; frees the tilt along x
+    geometry: Geometry = Geometry.PLANE
 
     @property
     def rigid_load(self) -> RigidLoad | None:
@@ -62,6 +71,8 @@ def check_film(top: Table, film: Table, stated: FilmSection, space: FilmSpace | 
         film.fault(moments[0], "a moment without a load", 'a load besides, such as load = "1 kN"')
     if has_load and in_time:
         film.fault("load", "a load beside a table [time]", "one of the two: a transient states its thickness")
+    if film.values.get("geometry") == Geometry.CYLINDER.value:
+        _check_cylinder(film, stated)
     if "initial_film_fraction" in film.values and not in_time:
         film.fault("initial_film_fraction", "a start without a table [time]", "a steady film without this key")
     if "squeeze" in film.values and in_time:
@@ -75,6 +86,14 @@ def check_film(top: Table, film: Table, stated: FilmSection, space: FilmSpace | 
             film.fault(key, f"{most:.4g}", "a number above 0 and at most 1, or a formula of x and y (text in quotes)")
     if not reading.faulty & {"film.order", "film.cavitation"}:
         _check_order(film, stated, with_heat=top.get("thermal") is not None)
+
+
+def _check_cylinder(film: Table, stated: FilmSection) -> None:
+    """List faults of a film that is no full turn of a cylinder, or whose load is asked for in its plane."""
+    if isinstance(getattr(stated, "mesh", None), AnnulusSection):
+        film.fault("geometry", "'cylinder' with an annulus", "a mesh whose x runs once around the cylinder")
+    if "load" in film.values:
+        film.fault("load", "a load with geometry = 'cylinder'", "a thickness, such as c*(1 + e*cos(x/radius))")
 
 
 def _check_order(film: Table, stated: FilmSection, *, with_heat: bool) -> None:

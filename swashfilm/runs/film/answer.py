@@ -11,6 +11,8 @@ from system.inputs.shown import quantity_text
 from system.inputs.units import Dimension
 
 DIGITS = 4
+LOADS = ("bearing_load_N", "carried_load_N", "load_N")
+"""Keys of a film's load; the first that a film has is the load that it carries."""
 LEAST_SHARE = 1e-4
 """Share of area or load below which cavities and contact are not worth a word."""
 ROUGH = 3.0
@@ -19,10 +21,12 @@ ROUGH = 3.0
 
 def film_tiles(summary: Mapping[str, Any]) -> Iterator[Tile]:
     """Yield the headline numbers of a film from its summary, with error bars where it is refined."""
-    key, required = carried_key(summary), ""
+    key, note = carried_key(summary), ""
     if "required_load_N" in summary:
-        required = f"of {amount(summary['required_load_N'], Dimension.FORCE)} required"
-    yield Tile(amount(summary[key], Dimension.FORCE), "load", _note(summary, key, Dimension.FORCE, required))
+        note = f"of {amount(summary['required_load_N'], Dimension.FORCE)} required"
+    elif "attitude_angle_deg" in summary:
+        note = f"attitude angle {summary['attitude_angle_deg']:.1f} deg"
+    yield Tile(amount(summary[key], Dimension.FORCE), "load", _note(summary, key, Dimension.FORCE, note))
     for name, key, dimension in (
         ("leakage", "leakage_flow_m3_per_s", Dimension.VOLUME_FLOW),
         ("friction power", "friction_power_W" if "friction_power_W" in summary else "dissipation_W", Dimension.POWER),
@@ -38,8 +42,8 @@ def film_tiles(summary: Mapping[str, Any]) -> Iterator[Tile]:
 
 
 def carried_key(numbers: Container[str]) -> str:
-    """Return the key of the load that a film carries: with pockets and contact, where it has them."""
-    return "carried_load_N" if "carried_load_N" in numbers else "load_N"
+    """Return the key of the load that a film carries: of a journal the vector; with pockets and contact."""
+    return next(key for key in LOADS if key in numbers)
 
 
 def film_words(summary: Mapping[str, Any]) -> str:
@@ -65,16 +69,22 @@ def _coefficient(summary: Mapping[str, Any]) -> str:
 def _load_words(summary: Mapping[str, Any]) -> Iterator[str]:
     when = f"After {amount(summary['time_s'], Dimension.TIME)} the film" if "time_s" in summary else "The film"
     if "required_load_N" not in summary:
-        yield f"{when} carries {amount(summary[carried_key(summary)], Dimension.FORCE)}."
+        yield f"{when} carries {amount(summary[carried_key(summary)], Dimension.FORCE)}{_attitude(summary)}."
     elif summary["position_source"] == "rest":
         load = amount(summary["required_load_N"], Dimension.FORCE)
         yield f"The part rests where film and outer forces balance, under a load of {load}."
     else:
         carried, required = (amount(summary[f"{of}_load_N"], Dimension.FORCE) for of in ("carried", "required"))
         yield f"At the given position the film with its pockets carries {carried} of {required}."
-    if "load_of_time_max_N" in summary:
+    if "load_of_time_max_N" in summary and "bearing_load_N" not in summary:
         low, high = (amount(summary[f"load_of_time_{end}_N"], Dimension.FORCE) for end in ("min", "max"))
         yield f"Over the whole time the load lies between {low} and {high}."
+
+
+def _attitude(summary: Mapping[str, Any]) -> str:
+    """Return words on the direction of a journal's load."""
+    angle = summary.get("attitude_angle_deg")
+    return "" if angle is None else f", the vector around the shaft, at an attitude angle of {angle:.1f} deg"
 
 
 def _flow_words(summary: Mapping[str, Any]) -> str:

@@ -8,8 +8,10 @@ import numpy as np
 
 from reynolds.problem import FilmSolution
 from reynolds.solve.export import vertex_fields
-from reynolds.solve.loads import Loads, point_fields
+from reynolds.solve.loads import point_fields
+from swashfilm.case.tables.film import Geometry
 from swashfilm.formats.versions import headed
+from swashfilm.runs.film.bearing import bearing_summary
 from swashfilm.runs.film.physics import physics_summary, temperatures
 from swashfilm.runs.film.sensitivity import sensitivity_fields, sensitivity_summary
 from swashfilm.runs.film.solve.gap import gap_summary
@@ -30,6 +32,8 @@ def film_summary(study: FilmStudy) -> dict[str, Any]:
     Forces and moments as in `reynolds.solve.loads.Loads`; leakage_flow is the total flow out of the film.
     """
     solution, integrals = study.solution, study.loads
+    bearing = bearing_summary(solution) if study.geometry is Geometry.CYLINDER else {}
+    supported = bearing.get("bearing_load_N", integrals.load + integrals.contact_load)
     return {
         **headed("film"),
         "name": study.name,
@@ -45,7 +49,8 @@ def film_summary(study: FilmStudy) -> dict[str, Any]:
         "friction_force_fixed_N": list(integrals.friction_fixed),
         "friction_torque_moving_Nm": integrals.friction_torque_moving,
         "dissipation_W": integrals.dissipation,
-        **_stribeck(solution, integrals),
+        **bearing,
+        **_stribeck(solution, supported),
         "cavitated_area_fraction": integrals.cavitated_area_fraction,
         "film_fraction_min": float(solution.film_fraction.min()),
         "cavity_flow_m3_per_s": integrals.cavity_flow + 0.0,  # no negative zero
@@ -78,18 +83,17 @@ def natural_sizes(solution: FilmSolution) -> dict[str, float]:
     }
 
 
-def _stribeck(solution: FilmSolution, integrals: Loads) -> dict[str, float | None]:
+def _stribeck(solution: FilmSolution, supported: float) -> dict[str, float | None]:
     """Return friction coefficient and Hersey number mu U/p_mean (m); none without sliding or load.
 
     The friction force is the power of the walls over their mean sliding speed, also for rotating films; mu and U
-    are means over the film, p_mean is the load over its area.
+    are means over the film, p_mean is the load `supported` (N) over its area.
     """
     film, area = solution.film, solution.problem.space.area
     fields = point_fields(solution)
     (u1, v1), (u2, v2) = film.velocity_moving, film.velocity_fixed
     total = float(area.sum())
     speed = float(np.sum(np.hypot(u1 - u2, v1 - v2) * area)) / total
-    supported = integrals.load + integrals.contact_load
     if speed == 0.0 or not supported > 0.0:
         return {"friction_coefficient": None, "hersey_number_m": None}
     power = sum(

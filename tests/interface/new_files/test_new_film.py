@@ -11,8 +11,8 @@ from system.inputs.toml_table import read_toml
 
 KINDS = list(film_kinds())
 SCHEMA = Draft202012Validator(schema_of("case"))
-CLOSED_FORMS = {"step_pad": 60.9677, "slider": 47.6649, "journal": 3040.3, "loaded_pad": 19.066}
-"""Loads in N: Rayleigh's step and slope, Sommerfeld number 1.316 of the journal, the stated load of the pad."""
+CLOSED_FORMS = {"step_pad": 60.9677, "slider": 47.6649, "loaded_pad": 19.066}
+"""Loads in N: Rayleigh's step and slope, the stated load of the pad."""
 
 
 @pytest.mark.parametrize("kind", KINDS)
@@ -29,6 +29,13 @@ def test_each_kind_is_commented_and_checks(kind, tmp_path, capsys):
 @pytest.mark.parametrize(("kind", "load"), CLOSED_FORMS.items())
 def test_free_films_bear_the_load_that_is_known(kind, load, tmp_path):
     assert sf.film(sf.new("film", kind, output=tmp_path / "mine.toml")).load == pytest.approx(load, rel=1e-3)
+
+
+def test_the_journal_bears_the_load_of_its_sommerfeld_number(tmp_path):
+    """Raimondi and Boyd 1958, converged: 1.31598 mu omega L D (R/C)^2 at 50.529 deg; the mesh errs by 0.3 %."""
+    found = sf.film(sf.new("film", "journal", output=tmp_path / "mine.toml"))
+    assert found.bearing_load == pytest.approx(1.31598 * 0.03 * 100.0 * 0.05 * 0.05 * 500.0**2, rel=3e-3)
+    assert found.summary["attitude_angle_deg"] == pytest.approx(50.529, rel=3e-3)
 
 
 @pytest.mark.parametrize("kind", ["piston", "slipper", "valve_plate"])

@@ -220,7 +220,7 @@ def test_film_summary_keys_are_documented():
     gap = set(film_summary(solve_case(load_case(ROOT / "examples" / "films" / "ref90_piston.toml"))))
     part = _part("## summary.json of a film")
     switched: set[str] = set()
-    every_switch = "warm_slider soft_channel mixed_slider oscillating_squeeze loaded_pad warming_film"
+    every_switch = "warm_slider soft_channel mixed_slider oscillating_squeeze loaded_pad warming_film journal_bearing"
     for name in every_switch.split():
         switched |= set(film_summary(solve_case(load_case(ROOT / "examples" / "films" / f"{name}.toml"))))
     every, added, switches = re.split("A gap adds:|Switches add:", part)

@@ -8,7 +8,7 @@ from typing import Any
 from swashfilm.case.axis import StudyAxis, place_words
 from swashfilm.output.answer import Tile
 from swashfilm.output.headline import named
-from swashfilm.runs.film.answer import carried_key
+from swashfilm.runs.film.answer import LOADS, carried_key
 from swashfilm.runs.film.series.plots import LEAST_CHANGE
 from system.inputs.shown import quantity_text
 from system.inputs.units import Dimension
@@ -21,6 +21,7 @@ MAIN = {
     "loss_W": Dimension.POWER,
     "shaft_torque_Nm": Dimension.TORQUE,
     "drain_flow_m3_per_s": Dimension.VOLUME_FLOW,
+    "bearing_load_N": Dimension.FORCE,
     "carried_load_N": Dimension.FORCE,
     "load_N": Dimension.FORCE,
     "film_thickness_min_m": Dimension.LENGTH,
@@ -35,7 +36,12 @@ MAIN = {
 """Numbers that a page tells first, in this order; None: a bare number."""
 LEAST_FIRST = ("film_thickness_min_m", "friction_coefficient")
 """Numbers whose least value matters most."""
-WORDS = {"carried_load_N": "load", "dissipation_W": "friction power", "film_thickness_min_m": "least film"}
+WORDS = {
+    "bearing_load_N": "load",
+    "carried_load_N": "load",
+    "dissipation_W": "friction power",
+    "film_thickness_min_m": "least film",
+}
 MOST = 5
 
 
@@ -58,7 +64,7 @@ def study_words(summary: Mapping[str, Any]) -> str:
 def main_spans(summary: Mapping[str, Any]) -> list[tuple[str, Mapping[str, Any]]]:
     """Return the main numbers that vary, with their ends; of the loads that which the film carries."""
     numbers = summary["numbers"]
-    keys = (key for key in MAIN if key in numbers and (key != "load_N" or key == carried_key(numbers)))
+    keys = (key for key in MAIN if key in numbers and (key not in LOADS or key == carried_key(numbers)))
     found = [(key, numbers[key]) for key in keys]
     return [(key, span) for key, span in found if _varies(span)][:MOST]
 

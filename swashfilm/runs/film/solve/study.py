@@ -11,6 +11,7 @@ from reynolds.solve.loads import Loads, loads
 from reynolds.thermal.energy import FilmTemperature
 from swashfilm.case.file import FilmCase
 from swashfilm.case.gap.instant import GapCase
+from swashfilm.case.tables.film import Geometry
 from swashfilm.runs.film.solve.gap import GapStudy, solve_gap
 from swashfilm.runs.film.solve.loaded import solve_loaded
 from swashfilm.runs.film.solve.oil import film_of, heat_of, oil_solver
@@ -24,7 +25,8 @@ class FilmStudy:
     """A solved case: solution, integrals and computing time (s); None for parts that the case does not have.
 
     gap: gap of a pump; heat: temperature; history: steps of a transient, with `solution` at its end; loaded:
-    position at which the film supports its load; sensitivity: derivatives by the film thickness.
+    position at which the film supports its load; sensitivity: derivatives by the film thickness; geometry: of both
+    faces.
     """
 
     name: str
@@ -36,6 +38,7 @@ class FilmStudy:
     history: tuple[Moment, ...] = ()
     loaded: LoadedFilm | None = None
     sensitivity: Sensitivities | None = None
+    geometry: Geometry = Geometry.PLANE
 
 
 def solve_case(case: FilmCase | GapCase, report: Report = silent) -> FilmStudy:
@@ -62,4 +65,5 @@ def solve_case(case: FilmCase | GapCase, report: Report = silent) -> FilmStudy:
         found = oil_solver(case.stated, case.problem.space).solve(case.problem)
         solution, heat = film_of(found), heat_of(found)
     seconds = time.perf_counter() - began
-    return FilmStudy(case.name, solution, loads(solution), None, seconds, heat, history, loaded)
+    geometry = case.stated.film.geometry
+    return FilmStudy(case.name, solution, loads(solution), None, seconds, heat, history, loaded, geometry=geometry)

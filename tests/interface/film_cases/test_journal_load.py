@@ -1,0 +1,45 @@
+"""Load of a film unrolled from a cylinder: a vector, as closed forms of journal bearings give it."""
+
+import math
+
+import pytest
+
+import swashfilm as sf
+from system import InputFaults
+
+RADIUS, LENGTH, CLEARANCE, SPEED, VISCOSITY = 25e-3, 10e-3, 50e-6, 2.5, 0.03
+ROUND = f'kind = "rectangle", size = ["{2.0 * math.pi * RADIUS} m", "{LENGTH} m"], cells = [256, 2]'
+RING = 'kind = "annulus", inner_radius = "20 mm", outer_radius = "25 mm", cells = [2, 64]'
+LONG = f"""format = 1
+[film]
+mesh = {{ {ROUND} }}
+thickness = "{CLEARANCE}*(1 + RATIO*cos(x/{RADIUS}))"
+velocity = ["{SPEED} m/s", "0 m/s"]
+viscosity = "{VISCOSITY} Pa s"
+cavitation = "none"
+geometry = "cylinder"
+[boundary]
+left = {{ pressure = "0 bar" }}
+right = {{ pressure = "0 bar" }}
+"""
+
+
+@pytest.mark.parametrize("ratio", [0.2, 0.5, 0.8])
+def test_a_full_film_without_side_flow_bears_sommerfelds_load_across_the_line_of_centres(ratio):
+    """Sommerfeld 1904: 12 pi mu U L (R/C)^2 e/((2 + e^2) sqrt(1 - e^2)), friction (C/R) (1 + 2 e^2)/(3 e)."""
+    found = sf.film(LONG.replace("RATIO", f"{ratio}")).summary
+    scale = 12.0 * math.pi * VISCOSITY * SPEED * LENGTH * (RADIUS / CLEARANCE) ** 2
+    load = scale * ratio / ((2.0 + ratio**2) * math.sqrt(1.0 - ratio**2))
+    assert found["bearing_load_N"] == pytest.approx(load, rel=2e-3)
+    assert found["attitude_angle_deg"] == pytest.approx(90.0, abs=1e-6)
+    coefficient = CLEARANCE / RADIUS * (1.0 + 2.0 * ratio**2) / (3.0 * ratio)
+    assert found["friction_coefficient"] == pytest.approx(coefficient, rel=2e-3)
+
+
+@pytest.mark.parametrize(
+    ("change", "path"), [(("[boundary]", 'load = "1 kN"\n[boundary]'), "film.load"), ((ROUND, RING), "film.geometry")]
+)
+def test_what_is_no_turn_of_a_cylinder_is_refused(change, path):
+    with pytest.raises(InputFaults) as raised:
+        sf.film(LONG.replace("RATIO", "0.5").replace(*change))
+    assert path in {fault.path for fault in raised.value.faults}
