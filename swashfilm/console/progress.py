@@ -4,12 +4,31 @@ import sys
 import time
 from collections.abc import Iterator
 from contextlib import contextmanager
+from dataclasses import dataclass
 from typing import TextIO
 
 from swashfilm.console.compiling import Compiling, compilation
-from system.work.progress import Report
+from system.work.progress import Report, Stage
 
 LINE_EVERY = 5.0  # s between two lines in a log
+
+
+@dataclass
+class BeforeWriting:
+    """Progress of the solution of a run, whose units in all include those of writing: `share` of the solution's."""
+
+    report: Report
+    share: float
+    total: int = 0
+
+    def __call__(self, done: int, total: int, what: str) -> None:
+        self.total = total
+        self.report(done, round(total * (1.0 + self.share)), what)
+
+    def writing(self) -> None:
+        """The solution is complete."""
+        whole = round(self.total * (1.0 + self.share))
+        self.report(self.total, whole, Stage("writing fields, pictures and report"))
 
 
 @contextmanager
@@ -17,7 +36,8 @@ def progress(total: int, label: str, stream: TextIO | None = None) -> Iterator[R
     """Yield a callback that shows the progress of `label`, by default on the standard error.
 
     The computation may correct the total, and return to a lower step (a new round). The remaining time is
-    extrapolated from the steps of the present round; it is not shown before the first step. A line reports
+    extrapolated from the steps of the present round; it is not shown before the first step, and while the steps in
+    all are not known (0). A line reports
     compilation of the solvers, which is no part of the remaining time in a log.
     """
     out = sys.stderr if stream is None else stream
@@ -36,12 +56,12 @@ def progress(total: int, label: str, stream: TextIO | None = None) -> Iterator[R
         compilation(lambda text: console.print(f"{label}: {text}", markup=False)),
         Progress(*columns, console=console, transient=True) as bar,
     ):
-        task = bar.add_task(label, total=total, what="")
+        task = bar.add_task(label, total=total or None, what="")
 
         def show(done: int, steps: int, what: str) -> None:
             if done < bar.tasks[task].completed:
                 bar.reset(task)
-            bar.update(task, completed=done, total=steps, what=what)
+            bar.update(task, completed=done, total=steps or None, what=what)
 
         yield show
 
@@ -64,11 +84,12 @@ def _lines(label: str, out: TextIO, compiling: Compiling) -> Report:
         if done < last:
             round_began, compiled = now, compiling.seconds
         last = done
-        if now - shown < LINE_EVERY and done < steps:
+        if now - shown < LINE_EVERY and not isinstance(what, Stage) and (done < steps or not steps):
             return
         shown = now
         spent = now - round_began - (compiling.seconds - compiled)
         ahead = f", {spent / done * (steps - done):.0f} s to go" if 0 < done < steps else ""
-        _line(out, f"{label}: {done}/{steps} {what} ({now - began:.1f} s{ahead})")
+        count = f"{done}/{steps} " if steps else ""
+        _line(out, f"{label}: {count}{what} ({now - began:.1f} s{ahead})")
 
     return show

@@ -46,7 +46,7 @@ from system.points.floating_kinds import (
     gap_revolutions,
     group_of,
 )
-from system.points.floating_progress import WholeRun
+from system.points.floating_progress import GAP_SHARES, SHARES_BESIDE, WholeRun
 from system.points.floating_solved import Round, Solved
 from system.points.lumped import point_and_effects
 from system.points.piston_process import PistonBeside, piston_beside
@@ -136,7 +136,7 @@ def floating_point(
     if near is not None:
         gaps = tuple(_begun(kind.gaps) for kind in near.kinds)
         asked = _driven_as(asked, near)
-    whole = WholeRun(report, ROUND_LIMIT)
+    whole = WholeRun(report, ROUND_LIMIT, SHARES_BESIDE if side_by_side else GAP_SHARES)
     pistons = [None] * len(group.parts) if gaps is None else [own.piston for own in gaps]
     with piston_beside(group.parts, pistons) if side_by_side else nullcontext() as beside:
         while not rounds or not (rounds[-1].settled and _agree(rounds[-1])):

@@ -1,10 +1,12 @@
 """Progress of a floating point as a whole, in units of work: rounds until all agrees, gaps of a round, turns of a gap.
 
-The number of rounds is not known in advance. The first round takes longer, since its films have no start. The others
-are expected by the rate at which the changes fell in the rounds before.
+The number of rounds is not known in advance: before the first has ended there are no units in all. The first round
+takes longer, since its films have no start. The others are expected by the mean rate at which the changes fell, and
+to be no fewer than usual until the changes are within their tolerances.
 """
 
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 
 from system.work.progress import Report
@@ -12,21 +14,26 @@ from system.work.progress import Report
 FIRST, LATER = 100, 70
 """Units of the first round and of a later one (`ref90`, all physics: 11 s and 6 to 9 s on two cores)."""
 EXPECTED_ROUNDS = 6
-RATE = 0.2
-"""Factor by which a round reduces the changes, before two rounds have shown it."""
 SLOWEST = 0.8
+"""Factor by which a round reduces the changes, at most."""
 GAP_SHARES = {"slipper": 0.25, "block": 0.3, "piston": 0.45}
 """Share of each gap in the work of a round."""
-TURNS = 2
+SHARES_BESIDE = {"slipper": 0.45, "block": 0.5, "piston": 0.05}
+"""The same where a second process solves the piston meanwhile."""
+TURNS = 1
 """Number of turns after which a gap counts as nine tenths solved."""
 
 
 @dataclass
 class WholeRun:
-    """Progress of one point: tells `report` the units done and the units in all, as they are known now."""
+    """Progress of one point: tells `report` the units done and the units in all, as they are known now.
+
+    shares: of the gaps in a round; most: rounds.
+    """
 
     report: Report
     most: int
+    shares: Mapping[str, float]
     rounds: int = 0
     expected: int = EXPECTED_ROUNDS
     changes: list[float] = field(default_factory=list)
@@ -49,8 +56,11 @@ class WholeRun:
         """Rounds still expected: the changes go on falling as they fell, and the last round confirms it."""
         if change <= 1.0:
             return 1
-        rate = self.changes[-1] / self.changes[-2] if len(self.changes) > 1 else RATE
-        return max(1, math.ceil(math.log(change) / -math.log(min(max(rate, RATE**2), SLOWEST))))
+        usual = max(1, EXPECTED_ROUNDS - self.rounds)
+        if self.rounds == 1:
+            return usual
+        rate = min((change / max(self.changes[0], 1.0)) ** (1.0 / (self.rounds - 1)), SLOWEST)
+        return max(usual, math.ceil(math.log(change) / -math.log(rate)))
 
     def _turn(self, done: int, total: int, what: str) -> None:
         """One report of a gap: steps of a turn whose name begins with the gap's."""
@@ -58,10 +68,11 @@ class WholeRun:
         self.turns.setdefault(gap, set()).add(turn)
         *passed, last = self.turns
         of_last = 1.0 - 0.1 ** ((len(self.turns[last]) - 1 + done / total) / TURNS)
-        share = sum(GAP_SHARES[one] for one in passed) + of_last * GAP_SHARES[last]
+        share = sum(self.shares[one] for one in passed) + of_last * self.shares[last]
         units = FIRST if self.rounds == 1 else LATER
         self.done = max(self.done, self._before(self.rounds) + int(share * units))
-        self.report(self.done, max(self._before(self.expected + 1), self.done), f"round {self.rounds}, {what}")
+        known = max(self._before(self.expected + 1), self.done) if self.changes else 0
+        self.report(self.done, known, f"round {self.rounds}, {what}")
 
     def _before(self, number: int) -> int:
         """Units of the rounds before one."""

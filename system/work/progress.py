@@ -3,7 +3,11 @@
 from collections.abc import Callable
 
 Report = Callable[[int, int, str], None]
-"""Called with the steps done, the steps in all and the present step's name."""
+"""Called with the steps done, the steps in all (0: not known yet) and the present step's name."""
+
+
+class Stage(str):
+    """Name of a step that is told at once, since nothing more is told for a while."""
 
 
 def silent(done: int, total: int, what: str) -> None:

@@ -116,6 +116,7 @@ def solve_map(asked: MapCase, folder: Path, executor: Executor, report: Report) 
     count = (CHECKED if solver.cost <= CHEAP else 0) if asked.checks is None else asked.checks
     fresh, size = check_points(plan, count), len(plan.points)
     kept = _solved(work, (*plan.points, *fresh), asked.resume, folder, executor, report)
+    report(len(kept.outcomes), len(kept.outcomes), "writing the map and its pictures")
     data = map_data(plan, solver.words, kept.outcomes[:size])
     error = _error(data, fresh, kept.outcomes[size:])
     summary = map_summary(plan, work, data, kept, error) | {

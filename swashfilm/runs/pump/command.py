@@ -62,18 +62,20 @@ def run_pump_command(options: argparse.Namespace) -> int:
         return _run_varied(options)
     case = pump_case(options)
     from swashfilm.console.assumed import show_assumptions
-    from swashfilm.console.progress import progress
+    from swashfilm.console.progress import BeforeWriting, progress
     from swashfilm.output.run_folder import run_folder
-    from swashfilm.runs.pump.run import solve_pump, unfinished_kept
+    from swashfilm.runs.pump.run import WRITING, solve_pump, unfinished_kept
     from system.points.floating_kinds import work_of
 
     show_assumptions(options.pump, case.assumptions)
     name = case.pump.name
     if case.fidelity is Fidelity.FLOATING and (times := work_of(case.pump)) > 1.0:
         show(f"chambers differ: their floating gaps take about {times:.0f} times as long as identical ones")
-    with run_folder(name, options.output, workbook=options.excel) as folder, progress(1, f"run {name}") as report:
+    with run_folder(name, options.output, workbook=options.excel) as folder, progress(0, f"run {name}") as report:
+        solving = BeforeWriting(report, WRITING)
         with unfinished_kept(case, folder) as solved:
-            found = solve_pump(case, report, solved)
+            found = solve_pump(case, solving, solved)
+        solving.writing()
         added = found.write(folder)
     show_result(found, folder, added)
     return 0

@@ -42,15 +42,19 @@ def refine_point(
     found = [first]
     for number in range(2, levels + 1):
         options = refined(found[-1].options)
-        found.append(solve(options, None, _of_level(report, number, levels)))
+        found.append(solve(options, None, of_level(report, number, levels)))
     rows = [point_numbers(one) for one in found]
     size = sizes(rows[-1], {})
     numbers = {key: convergence([row[key] for row in rows], EXPECTED, size[key]) for key in rows[0]}
     return Refinement(tuple(map(_unknowns, found)), EXPECTED, numbers)
 
 
-def _of_level(report: Report, number: int, levels: int) -> Report:
-    return lambda done, total, what: report(done, total, f"level {number} of {levels}, {what}")
+def of_level(report: Report, number: int, levels: int) -> Report:
+    """Return the progress of a level; the units in all are known at the last, which takes longer than all before."""
+    if levels == 1:
+        return report
+    last = number == levels
+    return lambda done, total, what: report(done, total if last else 0, f"level {number} of {levels}, {what}")
 
 
 def _unknowns(found: FloatingPoint) -> int:

@@ -21,7 +21,7 @@ from swashfilm.runs.pump.data import films_dataset, point_dataset, write_tables,
 from swashfilm.runs.pump.floating import floating_summary, scene_of, write_floating, write_unfinished
 from swashfilm.runs.pump.forces import force_warnings, forces_summary, write_forces
 from swashfilm.runs.pump.page import pump_figures, write_pump_page
-from swashfilm.runs.pump.refine import refine_point
+from swashfilm.runs.pump.refine import of_level, refine_point
 from swashfilm.runs.pump.result import PumpRun
 from swashfilm.runs.pump.scene.given_films import films_scene, write_fields
 from swashfilm.runs.pump.scene.views import pump_drawings
@@ -46,6 +46,8 @@ if TYPE_CHECKING:
     import xarray
 
 Drawings = Mapping[Path, Sequence[Frame]]
+WRITING = 0.25
+"""Time that the folder of a run with films takes to be written, of the time that their solution takes."""
 
 
 @dataclass(frozen=True)
@@ -127,7 +129,8 @@ def _floating(case: PumpCase, report: Report, solved: Solved | None) -> PumpRun:
     def solve(options: FloatingOptions | None, near: FloatingPoint | None, told: Report) -> FloatingPoint:
         return floating_point(pump, at, options, near=near, side_by_side=beside, report=told)
 
-    found = floating_point(pump, at, case.options, side_by_side=beside, report=report, solved=solved)
+    told = of_level(report, 1, case.levels)
+    found = floating_point(pump, at, case.options, side_by_side=beside, report=told, solved=solved)
     return floating_run(case, found, refine_point(found, case.levels, solve, report) if case.levels > 1 else None)
 
 

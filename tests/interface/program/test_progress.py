@@ -7,8 +7,9 @@ import re
 import pytest
 from numba.core import event
 
+from swashfilm.__main__ import main
 from swashfilm.console import progress as module
-from swashfilm.console.progress import progress
+from swashfilm.console.progress import BeforeWriting, progress
 
 
 @pytest.fixture
@@ -65,6 +66,46 @@ def test_a_short_compilation_is_not_told(monkeypatch):
     assert log.getvalue() == ""
 
 
+def test_steps_that_are_not_known_have_no_count_and_no_time(clock):
+    log = io.StringIO()
+    with progress(0, "work", log) as step:
+        for done in range(4):
+            step(done, 0, "films")
+        step(4, 8, "films")
+    assert log.getvalue().splitlines() == ["work: films (2.0 s)", "work: films (8.0 s)"]
+
+
+def test_the_folder_is_a_stage_of_its_own_in_the_remaining_time(monkeypatch):
+    now = [100.0]
+    monkeypatch.setattr(module.time, "monotonic", lambda: now[0])
+    log = io.StringIO()
+    with progress(0, "work", log) as report:
+        solving = BeforeWriting(report, 0.25)
+        for done, time in ((0, 100.0), (10, 110.0), (20, 120.0)):
+            now[0] = time
+            solving(done, 20, "films")
+        solving.writing()
+    assert log.getvalue().splitlines() == [
+        "work: 0/25 films (0.0 s)",
+        "work: 10/25 films (10.0 s, 15 s to go)",
+        "work: 20/25 films (20.0 s, 5 s to go)",
+        "work: 20/25 writing fields, pictures and report (20.0 s, 5 s to go)",
+    ]
+
+
+@pytest.mark.parametrize(
+    ("command", "told"),
+    [
+        ("run ref90 --fidelity lumped", "run ref90: writing fields, pictures and report"),
+        ("map ref90 --fidelity lumped --pressures 10,20MPa --speeds 1000rpm --displacements 1 --check 0 --workers 1",
+         "map ref90: 2/2 writing the map and its pictures"),
+    ],
+)  # fmt: skip
+def test_a_command_tells_that_it_writes(tmp_path, capsys, command, told):
+    assert main([*command.split(), "-o", str(tmp_path / "run")]) == 0
+    assert told in capsys.readouterr().err
+
+
 def test_a_terminal_gets_a_bar():
     class Terminal(io.StringIO):
         def isatty(self) -> bool:
@@ -74,5 +115,6 @@ def test_a_terminal_gets_a_bar():
     with progress(2, "work", screen) as step:
         step(1, 2, "films")
         step(0, 4, "again")
+        step(4, 0, "unknown")
         step(4, 4, "done")
     assert re.search(r"work.*/4", screen.getvalue(), re.DOTALL)
