@@ -12,6 +12,9 @@ from system.inputs.units import TURN
 from system.multibody.transient import kernels as kernel
 from system.multibody.transient.solver import Transient
 
+LYING = 0.75
+"""Share of a contact in touch from which the plate lies against the stop; below it, it bounces."""
+
 
 @dataclass(frozen=True)
 class StopContact:
@@ -76,16 +79,17 @@ def contact_words(contacts: list[Mapping[str, Any]]) -> Iterator[str]:
     """Yield a sentence on each contact of a summary."""
     for one in contacts:
         stop, begin, end = f"the {one['stop']} stop", _ms(one["from_s"]), _ms(one["to_s"])
+        bounces = one["lifts"] and one["share"] < LYING
+        does = "bounces on" if bounces else "lies against"
         if one["from_start"]:
-            until = "the whole time" if one["to_end"] else f"until {end}"
-            told = f"The plate lies against {stop} {until}"
+            told = f"The plate {does} {stop} {'the whole time' if one['to_end'] else f'until {end}'}"
         elif one["to_end"]:
-            told = f"It meets {stop} at {begin} and stays there"
+            told = f"It meets {stop} at {begin} and {'bounces on it from then on' if bounces else 'stays there'}"
         elif one["to_s"] > one["from_s"]:
-            told = f"It lies against {stop} from {begin} to {end}"
+            told = f"It {does} {stop} from {begin} to {end}"
         else:
             told = f"It strikes {stop} at {begin}"
-        yield f"{told}{_lifts(one)}."
+        yield f"{told}, {_touch(one)} that time, and lifts {_lifts(one)}." if bounces else f"{told}{_but_lifts(one)}."
 
 
 def contact_rows(contacts: list[Mapping[str, Any]]) -> Iterator[tuple[str, str]]:
@@ -94,7 +98,7 @@ def contact_rows(contacts: list[Mapping[str, Any]]) -> Iterator[tuple[str, str]]
         yield "contact with a stop", "none"
     for one in contacts:
         impact = f"impact up to {one['impact_max_Nms']:.2g} N m s" if one["impact_max_Nms"] else "no impact"
-        share = f"in touch {100.0 * one['share']:.0f} % of it{_lifts(one)}"
+        share = f"{_touch(one)} it{_but_lifts(one)}"
         yield f"contact with the {one['stop']} stop", f"{_ms(one['from_s'])} to {_ms(one['to_s'])}, {share}; {impact}"
 
 
@@ -118,10 +122,16 @@ def _ms(seconds: float) -> str:
     return f"{1e3 * seconds:.0f} ms"
 
 
+def _touch(one: Mapping[str, Any]) -> str:
+    return f"in touch {100.0 * one['share']:.0f} % of"
+
+
+def _but_lifts(one: Mapping[str, Any]) -> str:
+    return f", but lifts {_lifts(one)}" if one["lifts"] else ""
+
+
 def _lifts(one: Mapping[str, Any]) -> str:
-    """Return how often and how far the plate lifts off the stop meanwhile; nothing where it does not."""
+    """Return how often and how far the plate lifts off the stop meanwhile."""
     count, turns = one["lifts"], one["turns"]
-    if not count:
-        return ""
     often = "once" if count == 1 else f"{count / turns:.0f} times a turn" if turns >= 2.0 else f"{count} times"
-    return f", but lifts {often} by up to {np.degrees(one['lift_max_rad']):.2g} deg"
+    return f"{often} by up to {np.degrees(one['lift_max_rad']):.2g} deg"

@@ -88,8 +88,9 @@ def test_a_contact_tells_when_it_is_and_how_often_the_plate_lifts():
     assert (lower.begin, lower.lifts, lower.impact) == (pytest.approx(3.1), 14, 0.7)
     told = [*contact_words([contact_summary(one) for one in contacts])]
     assert told[0] == "The plate lies against the upper stop until 1000 ms, but lifts once by up to 0.057 deg."
-    assert (
-        told[1] == "It meets the lower stop at 3100 ms and stays there, but lifts 5 times a turn by up to 0.00057 deg."
+    assert told[1] == (
+        "It meets the lower stop at 3100 ms and bounces on it from then on, in touch 52 % of that time, and lifts 5 "
+        "times a turn by up to 0.00057 deg."
     )
 
 
