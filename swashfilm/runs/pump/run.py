@@ -46,7 +46,7 @@ if TYPE_CHECKING:
     import xarray
 
 Drawings = Mapping[Path, Sequence[Frame]]
-WRITING = 0.25
+WRITING = 0.3
 """Time that the folder of a run with films takes to be written, of the time that their solution takes."""
 
 
