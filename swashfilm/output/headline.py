@@ -105,12 +105,19 @@ def sizes(numbers: Mapping[str, float], least: Mapping[str, float]) -> dict[str,
     """Return the scale of round-off of each number: the largest of its family, at least the value in `least`.
 
     Families: `moment`, `friction` (all forces), `torque`, `flow` (of all boundaries); any other number is a family
-    of its own.
+    of its own. A number that is itself round-off has the scale of all numbers of its unit.
     """
     largest = dict(least)
     for key, value in numbers.items():
         largest[_family(key)] = max(largest.get(_family(key), 0.0), abs(value))
-    return {key: largest[_family(key)] for key in numbers}
+    scales = largest_of_units((named(key)[1], [value]) for key, value in numbers.items())
+
+    def size(key: str, value: float) -> float:
+        unit = named(key)[1]
+        of_unit = scales.get(unit, 0.0) if abs(value) < round_off(key, unit, scales) else 0.0
+        return max(largest[_family(key)], of_unit)
+
+    return {key: size(key, value) for key, value in numbers.items()}
 
 
 def _family(key: str) -> str:

@@ -14,6 +14,8 @@ from reynolds.fem.mesh_check import mesh_faults
 from reynolds.fem.refine import refine_mesh
 from reynolds.numerics.convergence import ConvergenceKind, convergence
 from swashfilm.__main__ import main
+from swashfilm.output.headline import sizes
+from swashfilm.output.refinement import Refinement, refinement_rows, refinement_summary
 
 SLIDER = """
 format = 1
@@ -59,6 +61,17 @@ def test_what_does_not_converge_as_expected_says_so(values, verdict, order):
         assert found.error is None
     else:
         assert abs(found.extrapolated - values[-1]) <= found.error
+
+
+def test_a_number_that_is_round_off_beside_the_others_of_its_unit_has_no_order():
+    """A contact load of 1e-87 N beside a load of 47 N; a contact of 1 N has its order."""
+    for contact, verdict in ((1e-87, ConvergenceKind.CONVERGED), (1.0, ConvergenceKind.OSCILLATING)):
+        values = [one * contact for one in (2.0, 0.8, 0.98)]
+        size = sizes({"load_N": 47.0, "contact_load_N": values[-1]}, {})["contact_load_N"]
+        found = convergence(values, (1.0, 2.0), size)
+        assert found.verdict is verdict
+        shown = refinement_summary(Refinement((9, 36, 144), (1.0, 2.0), {"contact_load_N": found}))
+        assert (next(refinement_rows(shown))[1:4] == ("0", "0", "0")) == (contact < 1.0)
 
 
 def test_a_doubtful_order_costs_the_larger_safety():
