@@ -104,13 +104,19 @@ def nearest_path(path: Path) -> str:
         return ""
 
 
+def _named_like(folder: Path, name: str) -> list[str]:
+    """Return the names in a folder that are spelt like one without their suffixes, which many files share."""
+    beside = [item.name for item in folder.iterdir()] if folder.is_dir() else []
+    stem = Path(name).stem
+    return [one for one in beside if nearest_choice(stem, [Path(one).stem])]
+
+
 def _nearest_path(path: Path) -> str:
     found, mended = Path(path.anchor), False
     for part in path.parts[1:] if path.anchor else path.parts:
         there = found / part
         if not there.exists():
-            beside = (item.name for item in found.iterdir()) if found.is_dir() else ()
-            near = nearest_choice(part, beside)
+            near = nearest_choice(part, _named_like(found, part))
             if not near:
                 break
             there, mended = found / near, True

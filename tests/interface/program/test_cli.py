@@ -122,6 +122,12 @@ def test_bad_input_ends_with_2_and_says_what_to_do(words, told, capsys, here):
     assert sorted(path.name for path in here.iterdir()) == ["pad.toml"]
 
 
+def test_a_file_that_shares_only_its_suffix_is_not_suggested(capsys, here):
+    (here / "neg.toml").write_text("", encoding="utf-8")
+    assert main(["run", "nofile.toml"]) == 2
+    assert "neg.toml" not in capsys.readouterr().err
+
+
 @pytest.mark.usefixtures("rendered")
 def test_a_film_leaves_a_run_folder_with_everything_in_it(capsys):
     assert main(["film", "pad.toml"]) == 0
