@@ -61,7 +61,7 @@ def _rows(name: str, model: type[Any], tables: Mapping[str, Any], marks: Mapping
 
 def _title(model: type[Any]) -> str:
     """Return what a table holds, the first thought of its docstring."""
-    return re.split(r"[;.,] ", described(model).rstrip("."), maxsplit=1)[0]
+    return re.split(r"[;,] |(?<![ .])\. ", described(model).rstrip("."), maxsplit=1)[0]
 
 
 def _sigma(path: str, tolerance: Mapping[str, Any], mark: str) -> str:

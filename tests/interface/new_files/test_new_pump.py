@@ -57,6 +57,7 @@ def test_every_key_is_commented_and_every_assumption_marked(tmp_path):
     for line in entries:
         assert line.partition(" # ")[2], line
         assert ("assumed" in line) != line.startswith(stated), line
+    assert "# sealing lands 1 .. 2 and 3 .. 4 (inner and outer)\n" in text
     assert "assumed: ref90's +- 50%" in next(line for line in entries if line.startswith("radial_clearance"))
     assert "assumed: scaled from ref90" in next(line for line in entries if line.startswith("piston_diameter"))
 
