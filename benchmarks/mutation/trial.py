@@ -115,6 +115,8 @@ class Copy:
             return Fate.HANGS, ""
         if failed is not None:
             return Fate.KILLED, failed[1]
+        if run.returncode < 0:
+            return Fate.KILLED, f"the end of the interpreter by {signal.Signals(-run.returncode).name}"
         if run.returncode != 0:
             raise RuntimeError(f"pytest ends with {run.returncode} and names no test:\n{told[-2000:]}")
         return Fate.SURVIVED, ""

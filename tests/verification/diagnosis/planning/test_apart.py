@@ -6,10 +6,11 @@ from itertools import combinations_with_replacement
 
 import numpy as np
 import pytest
+from numpy.typing import NDArray
 
 from diagnosis import load_thresholds
 from diagnosis.explain.hypotheses import Hypothesis
-from diagnosis.next_point.discrimination import added_points, promise
+from diagnosis.next_point.discrimination import _exchanged, added_points, promise
 from diagnosis.planning.apart import Contest, PairCampaign, all_pairs
 from diagnosis.planning.design import spread_order, wanted_distance
 from diagnosis.planning.responses import White
@@ -17,6 +18,7 @@ from diagnosis.planning.suspects import Suspect
 from reynolds import Array
 from system import EffectId
 from system.effects.effect import Kind
+from system.work.progress import silent
 
 WIDE = 1e6
 
@@ -165,3 +167,21 @@ def test_laws_nearer_than_they_are_true_are_not_told_apart() -> None:
         np.column_stack([np.linspace(-1, 1, 4), np.ones(4)]), np.zeros((4, 1)), np.full(2, 20.0), np.ones(2)
     )
     assert wide.told(wide.apart(np.ones(4, dtype=int)), 3.4, load_thresholds().form)[0, 1]
+
+
+def test_points_are_exchanged_until_none_is_better() -> None:
+    """What a point promises changes with the others: the best of three is seen once the second has been taken."""
+    worth = np.array([1.0, 2.0, 3.0])
+
+    class Campaign:
+        looks = 0
+
+        def total(self, counts: NDArray[np.int64]) -> float:
+            return float(worth @ counts)
+
+        def promised(self, counts: NDArray[np.int64]) -> Array:
+            self.looks += 1
+            return np.where(np.arange(3) == min(self.looks, 2), 1.0, 0.0)
+
+    counts = np.zeros(3, dtype=np.int64)
+    assert _exchanged(Campaign(), counts, np.ones(3, dtype=np.int64), [0], silent) == [2]
