@@ -20,6 +20,7 @@ from swashfilm.case.settings import STEP, put, read_set, with_comments
 from system.inputs.faults import Fault, InputFaults, nearest_choice
 from system.inputs.toml_table import Table, fault_lines, quoted
 from system.inputs.units import Dimension, parse_quantity
+from system.pump_file.tables import TABLES
 
 MOST_POINTS = 10_000
 Point = tuple[int, ...]
@@ -286,7 +287,9 @@ def _at_study(fault: Fault, study: StudyCase) -> Fault:
             return replace(fault, path=_named(study.where, axis.key), nearest=near)
         head, _, rest = axis.key.partition(".")
         if fault.path == head and head not in study.tables:
-            near = nearest_choice(head, list(study.tables))
+            film = study.tables.get("film")
+            of_pump = head in TABLES and isinstance(film, dict) and "gap" in film
+            near = f"pump.{head}" if of_pump else nearest_choice(head, list(study.tables))
             nearest = f'"{near}.{rest}"' if near else ""
             return Fault(_named(study.where, axis.key), "unknown key", fault.expected, nearest)
     return fault

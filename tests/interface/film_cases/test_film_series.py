@@ -191,6 +191,15 @@ def test_a_fault_of_a_study_says_where(table, path, words):
         assert word in f"{told[0].found} {told[0].expected} {told[0].nearest}", str(refused.value)
 
 
+def test_a_key_of_the_pump_of_a_gap_is_meant_with_pump_before_it():
+    Path("gap.toml").write_text(
+        'format = 1\n[film]\ngap = "slipper"\npump = "ref90"\n[study]\n"oil.grade" = ["ISO VG 46"]\n', "utf-8"
+    )
+    with pytest.raises(InputFaults) as refused:
+        load_film(Path("gap.toml"))
+    assert [fault.nearest for fault in refused.value.faults] == ['"pump.oil.grade"']
+
+
 @pytest.mark.parametrize(
     ("words", "told"),
     [
