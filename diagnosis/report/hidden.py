@@ -1,4 +1,4 @@
-"""Effects that a diagnosis does not name, at the largest size that the recording allows.
+"""Effects and meter faults that a diagnosis does not name, at the largest size that the recording allows.
 
 About the fit with residual r, and the whitened column v of an effect for one spread of its size x ~ N(0, w^2), the
 fitted parameters projected out (P):
@@ -25,7 +25,7 @@ from diagnosis.study.model import Candidate, Study
 from diagnosis.verdict.diagnosis import ClaimedEffect, Diagnosis, Estimate
 from reynolds.numerics.arrays import Array
 from system.description.gap import Gap
-from system.effects.effect import EffectId
+from system.effects.effect import EffectId, Kind
 from system.estimation.evidence import Sign, project
 from system.estimation.posterior import Posterior, settled
 
@@ -73,15 +73,17 @@ class HiddenEffect:
 
 
 def hidden_effects(study: Study, diagnosis: Diagnosis) -> tuple[HiddenEffect, ...]:
-    """Every effect of the catalogue that is not claimed, at each place where it may act; largest changes first.
+    """Every effect and meter fault that is not claimed, at each place where it may act; largest changes first.
 
-    Effects that change no channel by `MATERIAL` of its median at any size that the prior allows are left out.
+    Those that change no channel by `MATERIAL` of its median at any size that the prior allows are left out. A fault is
+    what a meter is off beyond its calibration.
     """
     fit, thresholds = settled(diagnosis.after), diagnosis.thresholds
     claimed = {claim.effect for claim in diagnosis.effects}
     width = max(thresholds.name.mixture_widths)
-    laws = (own for own in hypotheses(study, thresholds) if own.laws and not claimed & set(own.effects))
-    found = [one for own in laws if (one := _largest(study, fit, own, width)) is not None]
+    open_ones = (own for own in hypotheses(study, thresholds) if own.laws or own.kind is Kind.SENSOR_FAULT)
+    hiding = (own for own in open_ones if not claimed & set(own.effects))
+    found = [one for own in hiding if (one := _largest(study, fit, own, width)) is not None]
     return tuple(sorted(found, key=lambda one: (not one.limited, -one.relative)))
 
 
@@ -131,15 +133,15 @@ def _sizes(study: Study, fit: Posterior, candidates: Sequence[Candidate], width:
     covariance = np.linalg.inv(np.eye(spreads.size) + columns.T @ project(fit, columns))
     means, sigmas = covariance @ (columns.T @ fit.residual), np.sqrt(np.diag(covariance))
     for one, spread, mean, sigma in zip(candidates, spreads, means, sigmas, strict=True):
-        if one.extension is None:
-            continue
-        parameter = next(each for each in one.extension.parameters if each.name == one.parameter)
+        known = study.base.parameters if one.extension is None else one.extension.parameters
+        parameter = next(each for each in known if each.name == one.parameter)
         size = spread * largest_size(float(mean), float(sigma), one.sign)
         xi = float(np.clip(size, parameter.lowest, parameter.highest))
         value = Estimate(parameter.name, parameter.value(xi), 0.0, parameter.dimension)
         changes = _strongest(study.base.whitening.unwhiten(one.column * xi)[:, : len(study.channels)])
         relative = float(np.max(np.abs(changes) / _medians(study)))
-        yield HiddenEffect(one.entry.id, one.extension.pair, value, bool(sigma < NARROWED), changes, relative)
+        pair = None if one.extension is None else one.extension.pair
+        yield HiddenEffect(one.entry.id, pair, value, bool(sigma < NARROWED), changes, relative)
 
 
 def largest_size(mean: float, sigma: float, sign: Sign) -> float:

@@ -7,7 +7,6 @@ from math import log
 
 from diagnosis.recording.model import DataNote, NoteKind
 from system.bench.parameters import base_parameters
-from system.description.gap import Gap
 from system.description.pump import PumpDescription
 from system.description.tolerances import Tolerances
 from system.inputs.units import Dimension, format_quantity
@@ -15,7 +14,8 @@ from system.inputs.units import Dimension, format_quantity
 OF_DISPLACEMENT = 0.03
 """Share by which a plate may be off: makers round by less."""
 OF_LEVELS = 4.0
-"""Factor on a film or on friction: two sigma of pumps of one size."""
+"""Factor on the film that is widest for its gap, or on friction: two sigma of pumps of one size. One film alone may be
+far less: its gap then leaks nothing, and the others what the drain has."""
 
 
 def far_levels(stated: PumpDescription, fitted: PumpDescription, allowed: Tolerances) -> Iterator[DataNote]:
@@ -31,15 +31,15 @@ def far_levels(stated: PumpDescription, fitted: PumpDescription, allowed: Tolera
             "or the column or unit that is wrong (speed, flow, displacement_ratio)"
         )
     before, after = ({one.name: one.centre for one in base_parameters(pump, allowed)} for pump in (stated, fitted))
-    for gap in Gap:
-        name = f"film_thickness.{gap.value}"
-        if name in before and abs(log(after[name] / before[name])) > log(OF_LEVELS):
-            film, usual = (_shown(each[name], Dimension.LENGTH) for each in (after, before))
-            yield _warning(
-                f"leakage: the recording asks for a film of {film} at the {gap.value.replace('_', ' ')}, "
-                f"{_times(after[name], before[name])} that of a pump of this size, {usual}. The pump is taken with it: "
-                "check the flows, their units, and the oil"
-            )
+    films = [name for name in before if name.startswith("film_thickness.")]
+    widest = max(films, key=lambda name: after[name] / before[name], default=None)
+    if widest is not None and abs(log(after[widest] / before[widest])) > log(OF_LEVELS):
+        film, usual = (_shown(each[widest], Dimension.LENGTH) for each in (after, before))
+        gap, times = widest.rpartition(".")[2].replace("_", " "), _times(after[widest], before[widest])
+        yield _warning(
+            f"leakage: the recording asks for films {times} those of a pump of this size, {film} for {usual} at the "
+            f"{gap}. The pump is taken with them: check the flows, their units, and the oil"
+        )
     friction = [name for name in before if name.startswith("friction.") and before[name] > 0.0]
     if friction and abs(log(after[friction[0]] / before[friction[0]])) > log(OF_LEVELS):
         yield _warning(

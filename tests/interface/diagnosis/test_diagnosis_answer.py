@@ -237,12 +237,15 @@ def test_levels_far_from_those_of_the_type_plate_are_told() -> None:
     own = {one.name: one.centre for one in base_parameters(pump, allowed)}
     assert list(far_levels(pump, pump_with(pump, own | {"displacement": 1.02}), allowed)) == []
     friction = {name: 5.0 * value for name, value in own.items() if name.startswith("friction.")}
-    thin = {"film_thickness.valve_plate": own["film_thickness.valve_plate"] / 8.0}
+    films = [name for name in own if name.startswith("film_thickness.")]
+    one_thin = {films[0]: own[films[0]] / 8.0}
+    assert list(far_levels(pump, pump_with(pump, own | one_thin), allowed)) == []
+    thin = {name: own[name] / 8.0 for name in films}
     told = list(far_levels(pump, pump_with(pump, own | {"displacement": 0.9} | friction | thin), allowed))
     assert all(note.kind is NoteKind.WARNED for note in told)
     plate, film, torque = (note.text for note in told)
     assert "the pump file states 89.9 cm3/rev, the recording is of 80.9 cm3/rev" in plate
-    assert "at the valve plate, 1/8 of that of a pump of this size" in film
+    assert "1/8 of those of a pump of this size" in film
     assert "asks for 5 times the friction" in torque
 
 

@@ -264,6 +264,9 @@ def test_a_hidden_effect_has_its_place_and_what_it_changes() -> None:
     assert bleed.relative == pytest.approx(
         abs(bleed.changes[1]) / np.median(np.abs(study.observations.values[:, 1])), rel=1e-12
     )
+    gain = found[EffectId.TORQUE_GAIN, None]
+    assert gain.changes[:2] == pytest.approx(0.0)
+    assert abs(gain.changes[2]) == pytest.approx(abs(gain.size.value) * study.observations.values[:, 2].max(), rel=0.02)
     claimed = replace(nothing, effects=(ClaimedEffect(CONTROL.id, None, 0.9, (), ()),))
     assert CONTROL.id not in {each.effect for each in hidden_effects(study, claimed)}
     assert all(each.relative > 0.002 for each in found.values())
