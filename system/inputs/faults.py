@@ -67,6 +67,8 @@ def stated(value: object) -> str:
 _CONTROL = re.compile(r"[\x00-\x08\x0b-\x1f\x7f-\x9f\u200e\u200f\u202a-\u202e\u2066-\u2069\ud800-\udfff]")
 LONGEST = 600
 """Characters of what was found that a message shows."""
+SHORT = 4
+"""Characters of a name that is short."""
 
 
 def printable(text: str) -> str:
@@ -105,10 +107,18 @@ def nearest_path(path: Path) -> str:
 
 
 def _named_like(folder: Path, name: str) -> list[str]:
-    """Return the names in a folder that are spelt like one without their suffixes, which many files share."""
-    beside = [item.name for item in folder.iterdir()] if folder.is_dir() else []
-    stem = Path(name).stem
-    return [one for one in beside if nearest_choice(stem, [Path(one).stem])]
+    """Return the names in a folder that are spelt like one without their suffixes, which many files share.
+
+    Of a short name half is enough, if both begin alike: wear for worn.
+    """
+    beside = {item.name: item.stem.lower() for item in folder.iterdir()} if folder.is_dir() else {}
+    stem = Path(name).stem.lower()
+    short = len(stem) <= SHORT
+    return [
+        one
+        for one, other in beside.items()
+        if get_close_matches(stem, [other], cutoff=0.5 if short and other[:1] == stem[:1] else 0.6)
+    ]
 
 
 def _nearest_path(path: Path) -> str:
