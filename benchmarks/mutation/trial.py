@@ -18,6 +18,7 @@ from .compiled_code import anew
 from .edits import Edit
 
 HANGS = 400.0  # s, in which one test of the default suite ends even on a loaded machine
+CRASH = "the interpreter, by"
 SHARED = 8.0  # seconds of the clock for one of a processor, at most
 LEFT_OUT = ".git", ".venv", "build", ".hypothesis", ".mypy_cache", ".import_linter_cache", "runs"
 FAILED = re.compile(r"^(?:FAILED|ERROR) (.+?)(?: - .*)?$", re.MULTILINE)
@@ -85,6 +86,8 @@ class Copy:
 
     def _is_sound(self, test: str, limit: float) -> bool:
         """Whether a test passes without any mutation; one that does not has noticed nothing."""
+        if test.startswith(CRASH):
+            return True
         if test not in self._sound:
             self._sound[test] = self._run([test], limit)[0] is Fate.SURVIVED
         return self._sound[test]
@@ -116,7 +119,7 @@ class Copy:
         if failed is not None:
             return Fate.KILLED, failed[1]
         if run.returncode < 0:
-            return Fate.KILLED, f"the end of the interpreter by {signal.Signals(-run.returncode).name}"
+            return Fate.KILLED, f"{CRASH} {signal.Signals(-run.returncode).name}"
         if run.returncode != 0:
             raise RuntimeError(f"pytest ends with {run.returncode} and names no test:\n{told[-2000:]}")
         return Fate.SURVIVED, ""
