@@ -3,7 +3,7 @@
 A recording is the white shift of what is concealed, as the score z has it, and noise of unit size. It is explained by
 as many of the plant's own laws, faults and wrong parts as are concealed, each by its shift at z = 8 and of free size,
 an effect's not negative. The truth is right where no other set of ids gains more by over 3 nats, the gap of a class,
-and where it gains more than the odds of nothing before any reading. Physics in no catalogue is recognised where no law
+and where each cause adds more than its odds before any reading. Physics in no catalogue is recognised where no law
 of the plant comes within 3 nats of it.
 """
 
@@ -97,7 +97,8 @@ def right(posed: Posed, rng: np.random.Generator) -> float:
     beaten = np.max([_gain(each, readings) for each in sets if {one.id for one in each} != truth], axis=0)
     limits = load_thresholds()
     each = log(limits.prior.none / limits.prior.missing_physics * len({one.id for one in posed.rivals}))
-    return float(np.mean((own >= beaten - limits.name.class_gap) & (own > len(truth) * each)))
+    without = np.max([_gain(some, readings) for some in combinations(posed.causes, len(posed.causes) - 1)], axis=0)
+    return float(np.mean((own >= beaten - limits.name.class_gap) & (own - without > each)))
 
 
 def recognised(posed: Posed, rng: np.random.Generator) -> float:
@@ -114,6 +115,8 @@ def _readings(posed: Posed, rng: np.random.Generator) -> Array:
 
 def _gain(laws: Sequence[Law], readings: Array) -> Array:
     """Gain (M,) in log likelihood by the best sizes; where one is negative that may not be, by the best alone."""
+    if not laws:
+        return np.zeros(len(readings))
     columns = np.stack([one.shift / np.linalg.norm(one.shift) for one in laws], axis=1)
     along = readings @ columns
     signed = np.array([one.is_signed for one in laws])

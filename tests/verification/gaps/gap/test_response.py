@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from gaps import Axis, Response
-from gaps.response import Measure, Output, Samples, Spacing, held_out_points, learnt_points
+from gaps.response import Measure, Output, Samples, Spacing, fewest_learnt, held_out_points, learnt_points
 from reynolds import FilmInputError
 
 AXES = (
@@ -169,3 +169,8 @@ def test_an_output_that_goes_as_an_inverse_is_learnt_with_its_powers():
 
     assert errors(Output("y", Measure.ABSOLUTE, powers=(("z", 1.0), ("no axis", 1.0)))) < 1e-12
     assert errors(Output("y", Measure.ABSOLUTE)) > 0.02
+
+
+def test_the_fewest_points_hold_all_corners_and_twice_a_linear_law():
+    """2^d corners, and 2 (d + 1) points for the d + 1 coefficients of a linear law."""
+    assert [fewest_learnt(inputs) for inputs in range(1, 6)] == [4, 6, 8, 16, 32]
