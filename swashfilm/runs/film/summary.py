@@ -11,9 +11,9 @@ from reynolds.solve.export import vertex_fields
 from reynolds.solve.loads import point_fields
 from swashfilm.case.tables.film import Geometry
 from swashfilm.formats.versions import headed
-from swashfilm.runs.film.bearing import bearing_summary
 from swashfilm.runs.film.physics import physics_summary, temperatures
 from swashfilm.runs.film.sensitivity import sensitivity_fields, sensitivity_summary
+from swashfilm.runs.film.solve.bearing import bearing_summary
 from swashfilm.runs.film.solve.gap import gap_summary
 from swashfilm.runs.film.solve.loaded import load_summary
 from swashfilm.runs.film.solve.study import FilmStudy
