@@ -11,7 +11,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
-from functools import cache
+from functools import cache, partial
 from itertools import combinations
 from math import log
 from statistics import mean
@@ -167,16 +167,14 @@ def _is_effect(one: first.Concealed) -> bool:
 def _rivals_of_first(campaign: str) -> tuple[Law, ...]:
     known = (*first.PHYSICS, *first.PARAMETERS, *first.SENSORS)
     able = [one for one in known if campaign in first.NEEDS.get(one.label, (campaign,))]
-    shifts = (_at_size(lambda factor, one=one: shift_of_first(campaign, one, factor), one.most) for one in able)
+    shifts = (_at_size(partial(shift_of_first, campaign, one), one.most) for one in able)
     return _seen(zip((one.id for one in able), shifts, (not _is_effect(one) for one in able), strict=True))
 
 
 def _of_other(case: WideCase) -> Posed:
     factors, scores = sized_other(case)
     return Posed(
-        _causes(case, factors, lambda one, factor: shift_of_other(case.campaign, one, factor)),
-        min(scores),
-        _rivals_of_other(case.campaign),
+        _causes(case, factors, partial(shift_of_other, case.campaign)), min(scores), _rivals_of_other(case.campaign)
     )
 
 
@@ -184,7 +182,7 @@ def _of_other(case: WideCase) -> Posed:
 def _rivals_of_other(campaign: str) -> tuple[Law, ...]:
     known = (*other.EFFECTS, *other.PARTS, *other.FAULTS)
     able = [one for one in known if campaign in other.NEEDS.get(one.label, (campaign,))]
-    return _rivals(able, lambda one, factor: shift_of_other(campaign, one, factor))
+    return _rivals(able, partial(shift_of_other, campaign))
 
 
 def _of_rough(case: WideCase) -> Posed:
@@ -211,7 +209,7 @@ def _causes(case: WideCase, factors: Sequence[float], shift: Callable[[Secret, f
 
 
 def _rivals(able: Sequence[Secret], shift: Callable[[Secret, float], Array]) -> tuple[Law, ...]:
-    shifts = (_at_size(lambda factor, one=one: shift(one, factor), min(one.most, MOST_FAULT)) for one in able)
+    shifts = (_at_size(partial(shift, one), min(one.most, MOST_FAULT)) for one in able)
     return _seen(zip((one.id for one in able), shifts, (one.what is not What.EFFECT for one in able), strict=True))
 
 
