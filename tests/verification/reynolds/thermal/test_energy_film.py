@@ -36,6 +36,7 @@ from reynolds import (
     solve_energy,
     solve_thermal,
 )
+from reynolds.thermal.energy_system import solve_heat
 from reynolds.thermal.film_profile import dowson, levels
 from reynolds.thermal.walls import ConductingBody, Wall
 
@@ -293,3 +294,24 @@ def test_heat_without_a_way_out():
     problem = FilmProblem(space, oil, {"bottom": Held(0.0), "top": Held(0.0)})
     with pytest.raises(FilmNotConverged):
         solve_thermal(problem, oil_heat(Adiabatic(), Adiabatic(), ("bottom", "top")), constant)
+
+
+def test_all_sweeps_are_counted(monkeypatch):
+    """From nothing and from the field itself: upwind solves and those of every correction."""
+    counted = []
+
+    def counting(*given):
+        found, sweeps = solve_heat(*given)
+        counted.append(sweeps)
+        return found, sweeps
+
+    monkeypatch.setattr("reynolds.thermal.energy.solve_heat", counting)
+    space = square(8)
+    solution = FilmSolver(space).solve(wedge(space, 2.0))
+    profile = dowson(levels(4), np.full((space.size, 4), VISCOSITY))
+    first = solve_energy(solution, oil_heat(Adiabatic(), Adiabatic()), profile)
+    assert len(counted) > 2
+    assert first.iterations == sum(counted)
+    counted.clear()
+    again = solve_energy(solution, oil_heat(Adiabatic(), Adiabatic()), profile, start=first.temperature)
+    assert again.iterations == sum(counted) > 0
