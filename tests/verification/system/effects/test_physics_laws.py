@@ -240,6 +240,15 @@ def test_flows_of_sheets_b5_d1_d4():
     assert bleed.drain_flow[0] * lpm == pytest.approx(1.5, rel=0.08)
 
 
+@pytest.mark.parametrize("case", [0.0, 0.15e6, 1e6])
+def test_what_slippers_pump_is_throttled_from_the_inlet_to_the_case(case):
+    """Q dp (1 + dp/2K) of the difference of both pressures, dp/K some 1e-3."""
+    at = state(2100, case=case)
+    pumped, drop = flow_laws.squeeze_pumping({"stroke": 3e-6}, courses(), at), 2.5e6 - case
+    expected = pumped.drain_from_inlet[0] * drop * (1.0 + 0.5 * drop / REF90.oil.bulk_modulus)
+    assert pumped.carried_off[0] == pytest.approx(expected, rel=1e-6)
+
+
 def test_control_flow_by_orifice_and_by_clearance():
     area, rated = {"area": 1e-7}, state(1000, pressure=35.15e6)
     orifice = flow_laws.control_flow(area | {"laminar": 0.0}, courses(), rated).drain_flow[0]
