@@ -144,10 +144,9 @@ def _ratios(recording: Recording, displacement: float) -> Iterator[DataNote]:
 
 
 def _other_displacement(flow: float | None, torque: float | None, displacement: float) -> dict[str, Array]:
-    """The displacement (in words) with which flow and torque both go, and by what it takes either; none where it
-    does not.
+    """The displacement in words that agrees with flow and torque, and the factor on a channel that does the same.
 
-    flow, torque: over what the pump file's displacement gives.
+    flow, torque: medians over what the pump file's displacement gives. Empty where no displacement agrees with both.
     """
     if flow is None or torque is None or flow <= 0.0 or not _Span(*TORQUE_RATIO).holds(torque / flow):
         return {}

@@ -4,15 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Collection, Sequence
 from dataclasses import replace
-from math import e, log
+from math import e, exp, log
 
 import numpy as np
 
 from diagnosis.explain.ranked import Explanation
 from reynolds.numerics.arrays import Array
 from system.effects.effect import Kind
-
-TINY = 1e-300  # of a factor: less is nothing
 
 
 def doubted(explanations: Sequence[Explanation], share: float, rest: Collection[Kind]) -> tuple[Explanation, ...]:
@@ -31,14 +29,15 @@ def doubted(explanations: Sequence[Explanation], share: float, rest: Collection[
 
 
 def no_surer(explanations: Sequence[Explanation], chance: float) -> tuple[Explanation, ...]:
-    """The explanations with P(nothing) at least what a mismatch of this chance (0 to 1) leaves of its prior; all others
-    in their proportions.
+    """The explanations with a least probability of "no mismatch", and all others in their proportions.
 
-    Evidences are of laws that differ from those of the pump: they may speak against nothing more than the readings do.
+    A p-value `chance` (0 to 1) changes the prior odds of "no mismatch" by the factor of `sellke_bayarri_berger` at
+    most. Evidences may say more, since the laws behind them differ from those of the pump; the readings do not.
     """
     null = next(each for each in explanations if each.hypothesis.kind is Kind.NO_MISMATCH)
-    before = float(_prior(explanations, frozenset(Kind))[[each is null for each in explanations]].sum())
-    least = before / (before + (1.0 - before) / max(sellke_bayarri_berger(chance), TINY))
+    others = np.exp([each.hypothesis.log_prior for each in explanations if each is not null]).sum()
+    odds = sellke_bayarri_berger(chance) * exp(null.hypothesis.log_prior) / float(others)
+    least = odds / (1.0 + odds)
     if null.probability >= least:
         return tuple(explanations)
     factor = (1.0 - least) / (1.0 - null.probability)

@@ -36,9 +36,8 @@ def progress(total: int, label: str, stream: TextIO | None = None) -> Iterator[R
     """Yield a callback that shows the progress of `label`, by default on the standard error.
 
     The computation may correct the total, and return to a lower step (a new round). The remaining time is
-    extrapolated from the steps of the present round; it is not shown before the first step, and while the steps in
-    all are not known (0). A line reports
-    compilation of the solvers, which is no part of the remaining time in a log.
+    extrapolated from the steps of the present round. It is not shown before the first step, nor while the total is
+    unknown (0). A line reports the compilation of the solvers, which is no part of the remaining time in a log.
     """
     out = sys.stderr if stream is None else stream
     if not out.isatty():

@@ -20,17 +20,16 @@ _DAY = 86400.0
 
 
 def seconds_of(cells: Sequence[object]) -> tuple[Array, str] | None:
-    """Seconds from the first stamp, nan for a cell that is none, and what the cells were; None without a stamp.
+    """Seconds from the first stamp, nan for other cells, and the kind of the stamps in words; None without a stamp.
 
     A date has a four-digit year. Where it begins with the year, the month follows; where points part it, the day is
     first. Else the order is the one in which all cells are dates; of both the one in which the recording is shorter.
     A time of day that falls by more than half a day is of the next day.
     """
-    stamps = ["" if cell is None else str(cell) for cell in cells]
     if any(isinstance(cell, datetime) for cell in cells):
         times = pd.to_datetime(pd.Series([cell if isinstance(cell, datetime) else None for cell in cells]))
         return _from_first(times), "dates"
-    texts = [_DECIMAL_COMMA.sub(".", text.strip()) for text in stamps]
+    texts = [_DECIMAL_COMMA.sub(".", str(cell).strip()) for cell in cells]
     first = next((text for text in texts if any(sign.isdigit() for sign in text)), "")
     if _OF_DAY.fullmatch(first):
         return _of_day(texts), "times of day"

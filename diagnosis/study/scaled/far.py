@@ -1,4 +1,4 @@
-"""Levels of a recording that a pump of this type plate hardly has: what is off, before any hypothesis is asked."""
+"""Displacement, films and friction of a recording that contradict the type plate of its pump."""
 
 from __future__ import annotations
 
@@ -31,21 +31,26 @@ def far_levels(stated: PumpDescription, fitted: PumpDescription, allowed: Tolera
             "or the column or unit that is wrong (speed, flow, displacement_ratio)"
         )
     before, after = ({one.name: one.centre for one in base_parameters(pump, allowed)} for pump in (stated, fitted))
-    films = [name for name in before if name.startswith("film_thickness.")]
-    widest = max(films, key=lambda name: after[name] / before[name], default=None)
-    if widest is not None and abs(log(after[widest] / before[widest])) > log(OF_LEVELS):
+    ratios = {name: after[name] / value for name, value in before.items() if value > 0.0}
+    films = {name: ratio for name, ratio in ratios.items() if name.startswith("film_thickness.")}
+    widest = max(films, key=films.__getitem__, default=None)
+    if widest is not None and _is_far(films[widest]):
         film, usual = (_shown(each[widest], Dimension.LENGTH) for each in (after, before))
-        gap, times = widest.rpartition(".")[2].replace("_", " "), _times(after[widest], before[widest])
+        gap = widest.rpartition(".")[2].replace("_", " ")
         yield _warning(
-            f"leakage: the recording asks for films {times} those of a pump of this size, {film} for {usual} at the "
-            f"{gap}. The pump is taken with them: check the flows, their units, and the oil"
+            f"leakage: the recording asks for films {_times(films[widest])} those of a pump of this size, {film} for "
+            f"{usual} at the {gap}. The pump is taken with them: check the flows, their units, and the oil"
         )
-    friction = [name for name in before if name.startswith("friction.") and before[name] > 0.0]
-    if friction and abs(log(after[friction[0]] / before[friction[0]])) > log(OF_LEVELS):
+    friction = next((ratio for name, ratio in ratios.items() if name.startswith("friction.")), 1.0)
+    if _is_far(friction):
         yield _warning(
-            f"torque: the recording asks for {_times(after[friction[0]], before[friction[0]])} the friction of a pump "
-            "of this size. The pump is taken with it: check that torque and pressures are what their columns say"
+            f"torque: the recording asks for {_times(friction)} the friction of a pump of this size. The pump is taken "
+            "with it: check that torque and pressures are what their columns say"
         )
+
+
+def _is_far(ratio: float) -> bool:
+    return abs(log(ratio)) > log(OF_LEVELS)
 
 
 def _warning(text: str) -> DataNote:
@@ -56,6 +61,6 @@ def _shown(value: float, dimension: Dimension) -> str:
     return format_quantity(value, dimension, digits=3)
 
 
-def _times(after: float, before: float) -> str:
-    """How many times one value is the other: "8 times", "1/8 of"."""
-    return f"{after / before:.2g} times" if after > before else f"1/{before / after:.2g} of"
+def _times(ratio: float) -> str:
+    """A ratio in words: "8 times", "1/8 of"."""
+    return f"{ratio:.2g} times" if ratio > 1.0 else f"1/{1.0 / ratio:.2g} of"
