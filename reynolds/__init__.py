@@ -1,4 +1,4 @@
-"""One thin film: pressure from film thickness (Reynolds 1886). Knows nothing of pumps."""
+"""One thin film: pressure from film thickness (Reynolds 1886). Independent of pumps."""
 
 import lazy_loader
 

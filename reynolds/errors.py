@@ -26,7 +26,7 @@ class WallsOverlap(FilmInputError):
 class NotConverged(RuntimeError):
     """A solve ended without meeting its stated tolerance.
 
-    The message says which solve, how far it got, what was demanded, and what to try.
+    The message states the solve, the tolerance reached, the tolerance demanded, and what to try.
     """
 
 

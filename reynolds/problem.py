@@ -82,11 +82,11 @@ class Film:
     Each array is (cells | 1, points | 1): a length of one means "everywhere". SI: thickness m, viscosity Pa s, wall
     velocities m/s (moving and fixed wall, x and y), squeeze = dh/dt at a fixed place, m/s. `thickness_at_vertices`
     (vertices,) m, for pictures and the least film: if None it is extrapolated from the quadrature points, which is
-    exact for a smooth film and void for a step within a cell. Where viscosity varies across the film (Dowson 1962),
-    `viscosity` is that of pressure flow, `couette_viscosity` (Pa s; None: the same) that of sliding, and `moving_share`
-    w the moving wall's share: mean velocity w U_moving + (1 - w) U_fixed, shear of the pressure gradient w h grad p on
-    the moving wall and (1 - w) h grad p on the fixed one. Validity: thin (h much less than its length), laminar,
-    inertia-free (rho U h^2/(mu L) << 1).
+    exact for a smooth film and not valid for a step within a cell. Where viscosity varies across the film (Dowson
+    1962), `viscosity` is that of pressure flow, `couette_viscosity` (Pa s; None: the same) that of sliding, and
+    `moving_share` w the moving wall's share: mean velocity w U_moving + (1 - w) U_fixed, shear of the pressure gradient
+    w h grad p on the moving wall and (1 - w) h grad p on the fixed one. Validity: thin (h much less than its length),
+    laminar, inertia-free (rho U h^2/(mu L) << 1).
     """
 
     thickness: Array
@@ -184,7 +184,7 @@ class FilmProblem:
             raise FilmInputError("storage", f"a step of {self.storage.step:g} s", "above zero, and finite")
 
     def _check_fields(self) -> None:
-        """Fault a field at the quadrature points."""
+        """Check a field at the quadrature points."""
         cells, points = self.space.area.shape
         oil = self.film
         for name, field_values in (
@@ -211,7 +211,7 @@ class FilmProblem:
                 raise FilmInputError(name, f"{viscosity.min():.4g} Pa s", "positive everywhere")
 
     def _check_nodal(self) -> None:
-        """Fault a field at the unknowns or at the vertices."""
+        """Check a field at the unknowns or at the vertices."""
         held = None if self.storage is None else self.storage.held_before
         for name, values, size in (
             ("held nodes", self.held_nodes, self.space.size), ("storage", held, self.space.size),
@@ -286,7 +286,7 @@ def contents(problem: FilmProblem, content: Array) -> Array:
 
 
 def holds_oil(problem: FilmProblem, held: Array) -> bool:
-    """True if no unknown has negative oil (size,) m3, but for the overshoot of cells with obtuse angles."""
+    """True if no unknown has negative oil (size,) m3, except for the overshoot of cells with obtuse angles."""
     film = np.ones(problem.space.size, dtype=bool)
     for name, condition in problem.boundary.items():
         if isinstance(condition, Pocket) and name in problem.space.edge_dofs:

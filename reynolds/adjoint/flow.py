@@ -48,7 +48,7 @@ def flow_slopes(film: SolvedFilm, boundary: str) -> OutputSlopes:
 
 
 def _feed_slopes(film: SolvedFilm) -> Array:
-    """Slopes of the feeds of pockets by their pressure, (size,): what leaves a pocket by the film is its feed."""
+    """Slopes of the feeds of pockets by their pressure, (size,): the flow from a pocket into the film is its feed."""
     found = np.zeros(film.space.size)
     for name, condition in film.problem.boundary.items():
         if isinstance(condition, Pocket):

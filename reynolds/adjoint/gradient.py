@@ -117,8 +117,8 @@ def _gradient(film: SolvedFilm, transposed: TransposedFilm, output: Output) -> F
 def held_gradient(gradient: FilmGradient, supported: Sequence[FilmGradient], growth: Sequence[Array]) -> FilmGradient:
     """The derivative of an output while the film moves so that it keeps other outputs: a loss at held load.
 
-    `supported` (k): gradients of what is kept; `growth` (k) of (cells | 1, points | 1): by how much the film grows with
-    each of as many coordinates that yield. Raises FilmInputError where those do not change what is to be kept.
+    `supported` (k): gradients of the outputs that are kept; `growth` (k) of (cells | 1, points | 1): growth of the film
+    with each of as many free coordinates. Raises FilmInputError where these do not change the outputs that are kept.
     """
     slopes = np.array([[one.along(mode) for mode in growth] for one in supported])
     own = np.array([gradient.along(mode) for mode in growth])
@@ -140,7 +140,8 @@ def weakly_active(solution: FilmSolution) -> NDArray[np.bool_]:
     """Unknowns (size,) at which the film neither bears pressure nor lacks oil, to 1e-6 of the largest pressure.
 
     The slightest change of the film may open or close the cavity there: derivatives are one-sided. Under JFO the lack
-    of oil counts as the pressure that moves as much; under Reynolds' condition the oil that the cavity makes does.
+    of oil counts as the pressure that moves as much oil; under Reynolds' condition the oil that the cavity creates
+    counts likewise.
     """
     problem = solution.problem
     if problem.cavitation is Cavitation.NONE:

@@ -91,7 +91,7 @@ class MomentOutput:
 
 @dataclass(frozen=True)
 class FlowOutput:
-    """Flow out through a named boundary, m3/s; raises FilmInputError for one that is closed or not of the film."""
+    """Flow out through a named boundary, m3/s; raises FilmInputError for one that is closed or unknown."""
 
     boundary: str
     unit: ClassVar[str] = "m3/s"
@@ -118,7 +118,7 @@ class FrictionOutput:
 
 @dataclass(frozen=True)
 class FrictionForceOutput:
-    """Magnitude of the force of oil and contact on the moving wall, N; raises FilmInputError where there is none."""
+    """Magnitude of the force of oil and contact on the moving wall, N; raises FilmInputError where it is zero."""
 
     unit: ClassVar[str] = "N"
 

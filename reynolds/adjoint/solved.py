@@ -1,4 +1,4 @@
-"""A solved film with what derivatives of its outputs need, and the form of such derivatives."""
+"""A solved film with the operators for derivatives of its outputs, and the form of such derivatives."""
 
 from __future__ import annotations
 

@@ -1,10 +1,10 @@
 """Transposed solves of a film's linearised balance: lambda with F_u^T lambda = J_u.
 
 The matrix is that of the last Newton step. Between rigid walls, of constant oil without a cavity that conserves oil, it
-is symmetric, and its factor is at hand. Else the transposed matrix is factorised once for all outputs; on a large grid
-the transposed iteration of `CavitatedFilm` solves it. Between elastic walls F_u = A + B C: GMRES (Saad and Schultz
-1986) on the transpose, with the dense factor of the Newton matrix up to DENSE_LIMIT free pressures and the factor of A
-beyond. B is exact there: with the change of a cavity's upwinding.
+is symmetric, and its factor exists. Else the transposed matrix is factorised once for all outputs; on a large grid the
+transposed iteration of `CavitatedFilm` solves it. Between elastic walls F_u = A + B C: GMRES (Saad and Schultz 1986) on
+the transpose, with the dense factor of the Newton matrix up to DENSE_LIMIT free pressures and the factor of A beyond. B
+is exact there: with the change of a cavity's upwinding.
 """
 
 from __future__ import annotations
@@ -73,14 +73,14 @@ class TransposedFilm:
         return product(*by.by_pressure), product(*by.by_fraction)
 
     def by_given_gap(self, force: Array) -> Array:
-        """Slopes by the gap of undeformed walls of what has slopes `force` by the gap in balance, (vertices,) each.
+        """Slopes of an output by the gap of undeformed walls, from `force`, those by the gap in balance; (vertices,).
 
         The pressures are held; contact that closes as the gap opens deforms elastic walls.
         """
         return force if self._touch is None else self._touch.settled_transposed(force)
 
     def by_wall_pressure(self, force: Array) -> Array:
-        """Slopes by pressure, (size,), of what has slopes `force` (vertices,) by the gap: elastic walls deform."""
+        """Slopes of an output by pressure, (size,), from `force` (vertices,), those by the gap of elastic walls."""
         walls = self._film.problem.walls
         if walls is None:
             return np.zeros(self._film.space.size)
@@ -119,7 +119,7 @@ class TransposedFilm:
 
     @cached_property
     def _on_grid(self) -> CavitatedFilm | None:
-        """The Newton matrix of a large film on a grid; None where there is none, and where it is not fit."""
+        """The Newton matrix of a large film on a grid; None without a grid or where it cannot be preconditioned."""
         grid = grid_of(self._film.space)
         if grid is None or self._film.space.size < LARGE:
             return None
@@ -190,7 +190,7 @@ class TransposedFilm:
 
 
 def _touch_of(film: SolvedFilm) -> Touch | None:
-    """Contact of elastic walls, with the faint one that Newton's method leaves out; None where nothing can touch."""
+    """Contact of elastic walls, with the weak one that Newton's method leaves out; None where walls cannot touch."""
     if film.problem.walls is None or film.problem.asperities is None:
         return None
     touch = touch_at(film.problem, film.solution.deformation)

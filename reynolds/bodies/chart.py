@@ -21,7 +21,7 @@ class Side(Enum):
 
 
 class Chart(Protocol):
-    """A film plane on a body's surface, isometric but for a sphere's, whose stretch is in the film's space."""
+    """A film plane on a body's surface, isometric except for a sphere's, whose stretch is in the film's space."""
 
     def places(self, film_points: Array) -> Array:
         """Points (n, 3) m of the wall at points (n, 2) m of the film plane."""

@@ -84,7 +84,7 @@ def compliance_of(operator: WallOperator) -> WallMatrix:
 
 
 def contact_of(operator: WallOperator) -> csr_array:
-    """Pressure of contact by the gap, (size, vertices) Pa/m: nothing where nothing touches."""
+    """Pressure of contact by the gap, (size, vertices) Pa/m: no entries without contact."""
     if isinstance(operator, LowRank | np.ndarray | csr_array):
         return csr_array(operator.shape[::-1])
     return operator.contact
@@ -100,7 +100,7 @@ def columns_of(matrix: WallOperator, unknowns: NDArray[np.intp]) -> Array:
 
 
 def transposed_product(matrix: WallMatrix, force: Array) -> Array:
-    """C^T force, (size,): the slope by pressures of what has the slope `force` (vertices,) by the deformation."""
+    """C^T force, (size,): an output's slope by pressures, from `force` (vertices,), its slope by the deformation."""
     if isinstance(matrix, LowRank):
         return np.asarray(matrix.right.T @ (matrix.left.T @ force))
     return np.asarray(matrix.T @ force)

@@ -4,7 +4,7 @@
     sigma = lambda div u I + 2 mu eps(u) - (3 lambda + 2 mu) alpha (T - T_0) I
 
 Both are linear, so that their effect on the film is a `FaceResponse`: reference + matrix @ (heat at the face nodes).
-Transient heat is left out: a body's own time L^2 rho c/k is seconds to minutes, a revolution's milliseconds.
+Transient heat is neglected: a body's own time L^2 rho c/k is seconds to minutes, a revolution's milliseconds.
 """
 
 from collections.abc import Mapping
@@ -87,7 +87,7 @@ class HeatedBody:
 def heated_body(space: BodySpace, thermal: Thermal, surroundings: Surroundings) -> HeatedBody:
     """A body in its surroundings; a face that is not named passes no heat but the film's.
 
-    Raises FilmInputError where nothing takes heat away: no steady temperature exists.
+    Raises FilmInputError where no face or surroundings remove heat: no steady temperature exists.
     """
     if not surroundings:
         raise FilmInputError("body's surroundings", "no face that heat leaves by", "convection or a held temperature")
@@ -125,7 +125,7 @@ def face_expansion(heated: HeatedBody, body: Structure, face: Face, normals: Arr
     """Displacement into the body at the face nodes (m) by heat (W) into each: reference + matrix @ heat.
 
     The reference is that of the surroundings alone. Of a body free to move the rigid part is removed as for forces
-    (`elasticity`), so that one evenly warm expands freely about its middle.
+    (`elasticity`), so that a uniformly warm one expands freely about its middle.
     """
     into = normal_forces(body.space, face, normals)
     coupling = expansion_forces(body, heated.thermal.expansion)

@@ -2,10 +2,10 @@
 
     div sigma + b = 0,   sigma = lambda div u I + 2 mu eps(u),   lambda = E nu/((1+nu)(1-2nu)), mu = E/(2(1+nu))
 
-What the supports leave free to move rigidly is treated as a free body: loads are balanced by inertia forces of
-uniform density (inertia relief), and the displacement has no rigid part in the mean square over the volume. The
-body's mean position is then the gap's own position, and compliance stays symmetric.
-Validity: small strain, one isotropic material, no vibration.
+In the rigid motions that the supports leave, the body is a free body: loads are balanced by inertia forces of uniform
+density (inertia relief), and the displacement has no rigid part in the mean square over the volume. The body's mean
+position is then the gap's own position, and compliance stays symmetric. Validity: small strain, one isotropic material,
+no vibration.
 """
 
 from dataclasses import dataclass
@@ -48,8 +48,8 @@ class Structure:
     """A supported body, factorised.
 
     `motions` (dofs, k) are the rigid motions that the supports leave, of unit square integral over the body, and
-    `inertia` (dofs, k) their integrals with the shape functions; `allowed` (dofs, free) is a basis of what else
-    may move.
+    `inertia` (dofs, k) their integrals with the shape functions; `allowed` (dofs, free) is a basis of all other
+    motions.
     """
 
     space: BodySpace
@@ -67,7 +67,7 @@ class Structure:
 
 
 def structure(space: BodySpace, elastic: Elastic, supports: Supports) -> Structure:
-    """A body with its supports, ready for any load. Raises FilmInputError for a face that is not there."""
+    """A body with its supports, ready for any load. Raises FilmInputError for an unknown face."""
     held, free = constraints(space, supports)
     rigid = rigid_motions(space)
     if held.shape[1]:
@@ -123,9 +123,9 @@ def pressure_forces(space: BodySpace, face: Face, pressure: float) -> Array:
 
 
 def centrifugal_forces(space: BodySpace, density: float, speed: float, axis: tuple[float, float] = (0.0, 0.0)) -> Array:
-    """Nodal forces (dofs,) N of turning at `speed` (rad/s) about a line along z through axis (x, y) m.
+    """Nodal forces (dofs,) N of rotation at `speed` (rad/s) about a line along z through axis (x, y) m.
 
-    Body force density x speed^2 x distance, outwards. Of a free body inertia relief keeps the part that strains.
+    Body force density x speed^2 x distance, outwards. In a free body inertia relief leaves the part that strains it.
     """
     away = space.places.copy()
     away[:, -1] = 0.0

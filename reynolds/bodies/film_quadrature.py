@@ -1,7 +1,8 @@
 """The film's side of a transfer: a quadrature finer than the film's own, and fields at its vertices.
 
-A film cell may lie across several facets of the body, whose shape functions have kinks there: points as sparse as
-the film's own would press the body in spots. Where facets are much smaller than cells, cells are split.
+A film cell may lie across several facets of the body, whose shape functions have kinks there: at points as sparse as
+the film's own the load on the body would be concentrated in spots. Where facets are much smaller than cells, cells are
+split.
 """
 
 from dataclasses import dataclass

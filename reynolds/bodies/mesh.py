@@ -35,7 +35,7 @@ class BodyMesh:
 
 
 def scaled(body: BodyMesh, unit: float) -> BodyMesh:
-    """Return the body with its places times `unit`: a mesh in units of so many metres, in metres."""
+    """Return the body with its places times `unit`, the length unit of the mesh in metres: the mesh in metres."""
     return replace(body, mesh=replace(body.mesh, doflocs=unit * body.mesh.doflocs))
 
 
@@ -69,9 +69,9 @@ def hollow_cylinder(
 ) -> BodyMesh:
     """Between two radii about z, over `angles` (rad) and z from `bottom` up to bottom + height (m).
 
-    `cells` is (radial, around, along z). A shell, a thick-walled cylinder, a sector of one, or an annular plate.
-    Faces: inner, outer, bottom, top, and of a sector start and end. Raises FilmInputError unless the sectors of
-    the cells are below 120 degrees (the parabola through three points of an arc strays by more than 1 % there).
+    `cells` is (radial, around, along z). A shell, a thick-walled cylinder, a sector of one, or an annular plate. Faces:
+    inner, outer, bottom, top, and of a sector start and end. Raises FilmInputError unless the sectors of the cells are
+    below 120 degrees (the parabola through three points of an arc deviates by more than 1 % there).
     """
     turn = angles[1] - angles[0]
     _positive("ring", (radii[0], radii[1] - radii[0], height, turn), cells)

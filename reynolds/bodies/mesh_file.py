@@ -20,12 +20,12 @@ CORNERS = {"quad9": 4, "quad": 4, "triangle6": 3, "triangle": 3}
 
 
 def body_from_file(path: Path, unit: float = 1.0) -> BodyMesh:
-    """The body of a mesh file, a coordinate of one being `unit` metres: one kind of hexahedra (8 or 27 nodes) or
-    tetrahedra (4 or 10 nodes).
+    """The body of a mesh file whose length unit is `unit` (m): one kind of hexahedra (8 or 27 nodes) or tetrahedra (4
+    or 10 nodes).
 
     Faces are the named surfaces of the file, cells of triangles or quadrilaterals: gmsh physical surfaces, cell sets,
-    or, as in VTU, cell data that is one on a face and zero elsewhere. Displacements are quadratic whatever the file's
-    geometry. Raises FilmInputError for a file that is absent, holds no such cells or mixes them, or names no face.
+    or, as in VTU, cell data that is one on a face and zero elsewhere. Displacements are quadratic for any geometry of
+    the file. Raises FilmInputError for a file that is absent, holds no such cells or mixes them, or names no face.
     """
     if not is_file(path):
         raise FilmInputError("body mesh", f"no file {path}", "an existing mesh file in a format that meshio reads")

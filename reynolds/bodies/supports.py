@@ -1,4 +1,4 @@
-"""Supports of a body, and the motions that they leave."""
+"""Supports of a body, and the motions that they leave free."""
 
 from dataclasses import dataclass
 
@@ -29,7 +29,7 @@ class Supports:
 def constraints(space: BodySpace, supports: Supports) -> tuple[csc_array, csc_array]:
     """Orthonormal bases of the motions that supports hold (dofs, held) and allow (dofs, free).
 
-    Raises FilmInputError for a face that is not there and for a point far from the body.
+    Raises FilmInputError for an unknown face and for a point far from the body.
     """
     dim = space.dim
     directions: dict[int, list[Array]] = {}

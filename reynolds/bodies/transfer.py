@@ -4,12 +4,12 @@ Every point of the film's rule is found in the face, along the film's normal. Wi
 
     force at face node i = int p N_i dA          deformation w: int psi (w - sum_i N_i w_i) dA = 0 for all hats psi
 
-so that the force, its moments and, since one is the other's transpose, the work p w are the same on either side
-whatever the meshes (Farhat, Lesoinne and Le Tallec 1998); the work exactly for a linear film without pockets. On a
-cylinder N is scaled by the nearly unit factor that makes its nodes' normals add up to the normal.
+so that the force, its moments and, since one is the other's transpose, the work p w are the same on either side for any
+meshes (Farhat, Lesoinne and Le Tallec 1998); the work exactly for a linear film without pockets. On a cylinder N is
+scaled by the nearly unit factor that makes its nodes' normals add up to the normal.
 
-Two meshes draw one circle by different polygons. A film point that lies beyond the edge of the face by no more
-than that takes the nearest point of the face: force and work stay the same, moments up to that distance.
+Two meshes approximate one circle by different polygons. A film point that lies beyond the edge of the face by no more
+than that uses the nearest point of the face: force and work stay the same, moments up to that distance.
 """
 
 from dataclasses import dataclass
@@ -27,8 +27,8 @@ from reynolds.errors import FilmInputError
 from reynolds.fem.space import FilmSpace
 from reynolds.numerics.arrays import Array
 
-INSIDE = 1e-6  # of a facet: how far outside its edges a point still belongs to it
-OFF_FACE = 0.1  # of a facet's size: how far off the face along the normal the film may lie
+INSIDE = 1e-6  # of a facet: largest distance outside its edges of a point that still belongs to it
+OFF_FACE = 0.1  # of a facet's size: largest distance of the film from the face along the normal
 BEYOND = 0.15  # of the longer edge of both: how far beyond the face; a hexagon strays by 0.134 of one from its circle
 STEPS = 6  # of Newton's method within a facet; four are enough for one that is not folded
 CONVERGED = 1e-13  # of a facet
@@ -70,9 +70,9 @@ class Transfer:
 def transfer(film: FilmSpace, face: Face, chart: Chart) -> Transfer:
     """Find the film's points in the face of a body along the chart's normal.
 
-    A film of revolution acts on a section (r, z) by its mean around the turn. Raises FilmInputError where the
-    face ends short of the film by more than the meshes explain or lies off it by more than a tenth of a facet: how
-    many points, where, and how far from the face.
+    A film of revolution acts on a section (r, z) by its mean around the turn. Raises FilmInputError where the face ends
+    before the film by more than the difference of the meshes or lies off it by more than a tenth of a facet: how many
+    points, where, and how far from the face.
     """
     rule = film_rule(film, _splits(film, face))
     places = chart.places(rule.points)
@@ -138,7 +138,7 @@ def _longest_edge(corners: Array) -> Array:
 
 
 def _candidates(face: Face, places: Array, normals: Array, slack: float) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
-    """Pairs of film points and facets that lie near each other (m beyond their reach) and look the same way."""
+    """Pairs of film points and facets near each other (m beyond their reach) whose normals have about one direction."""
     corners = face.places[face.facets]
     centre = corners.mean(axis=1)
     reach = np.linalg.norm(corners - centre[:, None], axis=2).max(axis=1)
@@ -152,9 +152,9 @@ def _candidates(face: Face, places: Array, normals: Array, slack: float) -> tupl
 
 
 def _projected(face: Face, facet: NDArray[np.int64], places: Array, normals: Array) -> tuple[Array, Array]:
-    """Newton's method for the point of a facet that lies on a film point's normal; and how far along it.
+    """Newton's method for the point of a facet that lies on a film point's normal; and its distance along it.
 
-    NaN where there is none near the facet.
+    NaN without such a point near the facet.
     """
     corners = face.places[face.facets]
     across = _tangents(normals)

@@ -1,6 +1,6 @@
 """A body under a film: response of its face as operators on the film's unknowns.
 
-Signs: positive opens the film. Everything expensive is done once per body and face and kept (`cache`); the film's
+Signs: positive opens the film. Every costly result is computed once per body and face and kept (`cache`); the film's
 mesh may change freely after that.
 """
 
@@ -56,7 +56,7 @@ class FacePressure:
 
 @dataclass(frozen=True)
 class Spin:
-    """Load case: turning at `speed` (rad/s) about a line along z through `axis` (x, y) m; density in kg/m3."""
+    """Load case: rotation at `speed` (rad/s) about a line along z through `axis` (x, y) m; density in kg/m3."""
 
     density: float
     speed: float
@@ -101,8 +101,8 @@ def body_wall(
 ) -> BodyWall:
     """The elastic wall of a film: deformation = matrix @ pressure, symmetric in mean square (module `transfer`).
 
-    `pockets` names, for a pocket of the film, the body's face that its pressure fills: it has no film cells of its
-    own. Raises FilmInputError where the face does not lie under the film, or for a name that is not there.
+    `pockets` names, for a pocket of the film, the body's face that its pressure fills: it has no film cells of its own.
+    Raises FilmInputError where the face does not lie under the film, or for an unknown name.
     """
     found = face_wall(body, film, pockets=pockets, folder=folder)
     return BodyWall(found.matrix.toarray(), found.origin)

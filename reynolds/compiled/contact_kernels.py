@@ -18,7 +18,7 @@ _FAST = {"cache": True, "fastmath": {"contract"}, "error_model": "numpy"}
 
 @njit(**_FAST)
 def _touched(table, compliance, seats, shares, given, alone, found, bears, slopes, rest):
-    """Contact (vertices,) Pa and its slope Pa/m at a deformation; rest: what is missing of it, m. Its norm."""
+    """Contact (vertices,) Pa and its slope Pa/m at a deformation; rest: residual of the deformation, m. Its norm."""
     seated = compliance.shape[1]
     pressed, borne, count = np.zeros(seated), np.empty(seated, np.int64), 0
     for v in range(len(found)):
@@ -68,7 +68,7 @@ def _solve(matrix, x):
 
 @njit(**_FAST)
 def _step(compliance, seats, shares, slopes, stiff, rest, change):
-    """change := x with x - C dp_c/dh x = rest, contact felt where it is stiffer than `stiff` (Pa/m)."""
+    """change := x with x - C dp_c/dh x = rest, contact counted where it is stiffer than `stiff` (Pa/m)."""
     felt, count = np.empty(len(rest), np.int64), 0
     for v in range(len(rest)):
         change[v] = rest[v]

@@ -127,7 +127,7 @@ class FilmBalance:
 
     @property
     def holds(self) -> Array:
-        """Oil of each unknown (size,) m3 that its flows leave there: what is not in balance is not lost."""
+        """Oil of each unknown (size,) m3 that its flows leave there: the residual is kept in the oil content."""
         oil = self.flow.contents * self.oil.fraction * self.oil.ratio
         return oil - self.film.given.step * np.where(self.film.setting.held, 0.0, self.fed[0])
 
@@ -211,8 +211,8 @@ class Linearised:
     def _feed_pockets(self, pressure: Array) -> None:
         """Give pockets the pressures at which their feeds send the flow of the linear step.
 
-        Behind an orifice flow follows the root of the pressure, on which Newton's method creeps or swings; pressure
-        follows the flow smoothly.
+        Behind an orifice flow follows the root of the pressure, on which Newton's method converges slowly or
+        oscillates; pressure is a smooth function of the flow.
         """
         at = self.balance
         for node, pocket in at.film.setting.pockets:
@@ -223,9 +223,9 @@ class Linearised:
 
 
 def linearised(balance: FilmBalance, factor: GeneralFactor) -> Linearised:
-    """The slopes of a balance between rigid walls, factorised in `factor`, which serves until its next use.
+    """The slopes of a balance between rigid walls, factorised in `factor`, valid until its next use.
 
-    Raises FilmNotConverged where nothing enters the film.
+    Raises FilmNotConverged where no flow enters the film.
     """
     upper, lower, unit, scale = _newton_matrix(balance)
     factor.update(balance.film.problem.space.matrix(upper), lower, balance.cavity)

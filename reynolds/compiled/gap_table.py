@@ -1,9 +1,9 @@
 """Laws of rough walls by the distance of their mean planes, as one table that compiled loops read.
 
-Film thickness, flow factors, mean thickness and contact pressure are functions of the gap alone. Their published
-forms (`laws`) are evaluated once, at knots that lie dense where walls touch; between knots cubic Hermite polynomials
-of values and slopes follow them to some 1e-9, and their slopes are those of the polynomials: Newton's method sees
-one consistent function.
+Film thickness, flow factors, mean thickness and contact pressure are functions of the gap alone. Their published forms
+(`laws`) are evaluated once, at knots that lie dense where walls touch; between knots cubic Hermite polynomials of
+values and slopes follow them to some 1e-9, and their slopes are those of the polynomials: Newton's method has one
+consistent function.
 """
 
 from functools import lru_cache
@@ -49,8 +49,8 @@ def is_isotropic(surface: Surface | None) -> bool:
 def gap_table(surface: Surface | None, asperities: Asperities | None, *, elastic: bool) -> GapTable:
     """The table of walls without direction of their roughness (`is_isotropic`); `elastic` walls keep a film open.
 
-    Range: from the lowest gap of contact (six standard deviations of the summits below their mean plane), or from
-    zero where nothing touches, to any gap. Sources: Patir and Cheng 1978, 1979; Greenwood and Tripp 1970-71.
+    Range: from the lowest gap of contact (six standard deviations of the summits below their mean plane), or from zero
+    without contact, to any gap. Sources: Patir and Cheng 1978, 1979; Greenwood and Tripp 1970-71.
     """
     if surface is None and asperities is None:
         return SMOOTH

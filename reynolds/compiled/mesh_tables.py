@@ -1,4 +1,4 @@
-"""A film's mesh, conditions and state as tuples of arrays, which compiled loops take whole."""
+"""A film's mesh, conditions and state as tuples of arrays for compiled loops."""
 
 from typing import NamedTuple
 

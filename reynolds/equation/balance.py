@@ -7,7 +7,7 @@ At unknown i, with nodal pressure p, film fraction theta and density ratio r,
 K is the conductance, C the convection by the walls, M the lumped content. D, the least diffusion that makes C + D an
 upwind scheme (Kuzmin and Turek 2002), vanishes where the film is full, since its rows sum to zero: the full film keeps
 its order of accuracy, a cavity moves with the walls without overshoot, and columns that sum to zero conserve mass to
-round-off. At an edge without inflow D takes the edge's film fraction out of the balance beside it.
+round-off. At an edge without inflow D removes the edge's film fraction from the balance beside it.
 """
 
 from dataclasses import dataclass
@@ -127,8 +127,8 @@ def operators(problem: FilmProblem, state: FilmState) -> Operators:
 def without_inflow(problem: FilmProblem, flux: tuple[Array, Array]) -> NDArray[np.bool_]:
     """Unknowns of held edges over which the walls bring no oil into the film, (size,).
 
-    Their film fraction has no effect on the film. Upwinding across the walls' direction would bring it in all the
-    same, and feed a cavity that runs along the side of a bearing.
+    Their film fraction has no effect on the film. Upwinding across the walls' direction would nevertheless convect it
+    in, and feed a cavity that runs along the side of a bearing.
     """
     space = problem.space
     held, sends = np.zeros(space.size, dtype=bool), np.zeros(space.size, dtype=bool)
@@ -211,7 +211,7 @@ def flow_balance(problem: FilmProblem, parts: Operators, state: FilmState) -> Ba
     else:
         ratio = density(problem, state.pressure)[0]
         filling = state.film_fraction * ratio
-        # Growth is filled in proportion to the filling; where the gap closes, the film fraction is what yields.
+        # Growth is filled in proportion to the filling; where the gap closes, the film fraction changes.
         grown = parts.rate * np.where(parts.rate > 0.0, filling, ratio)
         net, flow_scale = grown.copy(), np.abs(parts.rate * filling)
         kernels.convect(pattern.indptr, pattern.indices, *parts.convection, filling, net, flow_scale)

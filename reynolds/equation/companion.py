@@ -1,8 +1,8 @@
 """The linear film on the nodes of a quadratic one, whose operator has nearly the spectrum of the quadratic operator.
 
-With linear elements on the quadratic elements' own nodes the two energies of any nodal field differ by a bounded
-factor, whatever the mesh (Orszag 1980; Deville and Mund 1985). So a cycle of multigrid for the linear film
-preconditions the quadratic one.
+With linear elements on the quadratic elements' own nodes the two energies of any nodal field differ by a bounded factor
+on any mesh (Orszag 1980; Deville and Mund 1985). So a cycle of multigrid for the linear film preconditions the
+quadratic one.
 """
 
 from __future__ import annotations

@@ -1,8 +1,8 @@
 """Deformation of elastic walls under a film's pressure and, where they touch, under their contact.
 
 g = C (p + p_c(h + g)): contact presses on the walls as the film does, p_c the mean of the vertices that share an
-unknown. Where a pocket or a port is, at a pocket's unknown and at held nodes inside, one wall is missing: nothing
-touches.
+unknown. Where a pocket or a port is, at a pocket's unknown and at held nodes inside, one wall is missing: there is no
+contact.
 """
 
 from __future__ import annotations
@@ -28,7 +28,7 @@ MAX_STEPS = 15
 TOLERANCE = 1e-12  # of film thickness and asperities' height
 DEEPEST = 5.0  # standard deviations of the summits by which they may be in each other at first
 ROOM = 0.9  # of the way to where the law of contact ends
-MOST_HALVINGS, LEAST_GAIN = 8, 1e-4  # of a step; of what is missing, by a full step
+MOST_HALVINGS, LEAST_GAIN = 8, 1e-4  # of a step; of the residual, by a full step
 FELT = 1e-6  # of the stiffness K E'/sigma where mean planes meet: less resists nothing
 
 
@@ -83,7 +83,7 @@ def settled_deformation(meeting: Meeting, given: Array, alone: Array, start: Arr
 
 
 def deformation_slope(problem: FilmProblem, found: Array) -> WallOperator:
-    """dg/dp at a deformation (vertices,) m: (vertices, size) m/Pa, the compliance where nothing touches."""
+    """dg/dp at a deformation (vertices,) m: (vertices, size) m/Pa, the compliance without contact."""
     assert problem.walls is not None
     compliance = problem.walls.matrix
     if problem.asperities is None:
@@ -141,12 +141,12 @@ class Touch:
 
     @property
     def weights(self) -> Array:
-        """Pressure of contact on its unknown by the gap of each vertex where it is felt, (felt,) Pa/m."""
+        """Pressure of contact on its unknown by the gap of each vertex of `felt`, (felt,) Pa/m."""
         return np.asarray(self.meeting.shares[self.felt] * self.bears.slope[self.felt])
 
     @cached_property
     def _columns(self) -> WallMatrix:
-        """C dp_c/dh where contact is felt, (vertices, felt)."""
+        """C dp_c/dh of the vertices of `felt`, (vertices, felt)."""
         unknown, weight = self.meeting.seats[self.felt], self.weights
         if isinstance(self.compliance, LowRank):
             return LowRank(self.compliance.left, self.compliance.right[:, unknown] * weight[None, :])
@@ -155,7 +155,7 @@ class Touch:
 
     @cached_property
     def _within(self) -> Answer:
-        """The same where contact is felt: elsewhere it follows."""
+        """The same at the vertices of `felt`, which determine the others."""
         here = _rows(self._columns, self.felt)
         return _less(here if isinstance(here, csr_array) else full(here))
 
@@ -197,7 +197,7 @@ class Resisted:
 class Meeting:
     """Places at which rough elastic walls can touch.
 
-    oil (vertices,): where nothing touches; seats (vertices,): unknown of each vertex; shares (vertices,): of its
+    oil (vertices,): vertices without contact; seats (vertices,): unknown of each vertex; shares (vertices,): of its
     pressure in that of the unknown.
     """
 
@@ -254,7 +254,7 @@ def _rows(matrix: WallMatrix, rows: NDArray[np.intp]) -> WallMatrix:
 
 
 def _less(matrix: Array | csr_array) -> Answer:
-    """The answer of the identity less a matrix."""
+    """Solver of the identity less a matrix."""
     if not isinstance(matrix, csr_array):
         return dense_answer(np.eye(len(matrix)) - matrix)
     try:

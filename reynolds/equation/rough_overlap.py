@@ -1,4 +1,4 @@
-"""The film between rough walls whose mean planes touch or overlap: thin, yet a film.
+"""The film between rough walls whose mean planes touch or overlap: its thickness stays positive.
 
 The gap between mean planes may have either sign where asperities are pressed together; the oil there flows, shears
 and is stored between the summits.
@@ -18,11 +18,11 @@ from reynolds.problem import FilmProblem, FilmSolution
 def film_between(problem: FilmProblem, gap: Array) -> Tangent:
     """Film thickness (m) at a gap between mean planes (m), of any shape, and its slope by the gap.
 
-    The gap itself where nothing touches (no asperities). With asperities alone: hT = sigma [H N(H) + n(H)], the mean
-    distance of walls of Gaussian height, H = gap/sigma, with the summits' sigma; but the gap itself between elastic
-    walls, which keep it open. With a `Surface`, whose flow factors are functions of the gap: the gap down to the range
-    of Patir and Cheng (half a standard deviation or one), from there on an exponential with the same value and slope.
-    That continuation is ours: it keeps the film positive and is no measurement.
+    The gap itself without asperities. With asperities alone: hT = sigma [H N(H) + n(H)], the mean distance of walls of
+    Gaussian height, H = gap/sigma, with the summits' sigma; but the gap itself between elastic walls, which keep it
+    open. With a `Surface`, whose flow factors are functions of the gap: the gap down to the range of Patir and Cheng
+    (half a standard deviation or one), from there on an exponential with the same value and slope. That continuation is
+    assumed, not measured: it keeps the film positive.
     """
     return film_at(problem.surface, problem.asperities, problem.walls is not None, gap)
 

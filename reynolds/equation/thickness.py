@@ -60,7 +60,7 @@ class ThicknessSlopes:
 
     @cached_property
     def _stored_filling(self) -> Array:
-        """Filling of what grows at each unknown, (size,), as `balance.flow_balance` has it."""
+        """Filling of the growing volume at each unknown, (size,), as `balance.flow_balance` has it."""
         ratio = density(self.problem, self.state.pressure)[0]
         return np.where(self.parts.rate > 0.0, self.state.film_fraction * ratio, ratio)
 

@@ -77,7 +77,7 @@ def levered(
     dofs, shape, value, steep, gradient, signs, area, driven_x, driven_y, hourglass, drag_x, drag_y, stored,
     filling, weight, basis, points, out,
 ):  # fmt: skip
-    """out[e, q] = sum_i weight_i times what `thicken` adds to i for a growth at this point: its transpose."""
+    """out[e, q] = sum_i weight_i times the addition of `thicken` to i for a growth at this point: its transpose."""
     for e in range(dofs.shape[0]):
         s = shape[e]
         for q in range(len(points)):
@@ -209,7 +209,7 @@ def mixed_levered(
     dofs, slots, shape, value, gradient, slope_x, slope_y, weight, basis, points,
     indptr, indices, upper, lower, leaves, level, out,
 ):  # fmt: skip
-    """out[e, q] += sum_i weight_i times what `mixed_more` adds to i for a growth at this point: its transpose."""
+    """out[e, q] += sum_i weight_i times the addition of `mixed_more` to i for a growth at this point: its transpose."""
     of_upper, of_lower = _mixing_levers(indptr, indices, upper, lower, leaves, level, weight)
     for e in range(dofs.shape[0]):
         s, k = shape[e], 0

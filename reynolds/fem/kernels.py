@@ -167,8 +167,8 @@ def convection(dofs, slots, shape, value, gradient, flux_x, flux_y, basis, point
 def upwinding(indptr, indices, upper, lower, leaves, diffusion):
     """The least diffusion D, symmetric with rows of sum zero, for which C + D couples nothing positively.
 
-    Beside an edge without inflow (`leaves`) D takes the level of the unknown there for the edge's, as far as the
-    edge's unknowns so bring in no more than they take.
+    Beside an edge without inflow (`leaves`) D uses the level of the unknown there for the edge's, as far as the edge's
+    unknowns then have no net inflow.
     """
     size = indptr.shape[0] - 1
     taken, brought = np.zeros(size), np.zeros(size)
@@ -253,8 +253,8 @@ def lump(dofs, value, area, field, basis, points, out):
 def gather(indptr, indices):
     """Number of the aggregate of each unknown, (n,) (Vanek, Mandel and Brezina 1996).
 
-    The graph is symmetric. An unknown none of whose neighbours is taken makes an aggregate with them; the others
-    join an aggregate beside them.
+    The graph is symmetric. An unknown without aggregated neighbours forms an aggregate with them; the others join a
+    neighbouring aggregate.
     """
     size = indptr.shape[0] - 1
     aggregate = np.full(size, -1, np.int32)

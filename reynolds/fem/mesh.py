@@ -189,7 +189,7 @@ def read_mesh_file(path: Path) -> Any:
     said = io.StringIO()
     try:
         expect_regular(path)
-        if path.stat().st_size == 0:  # some readers wait for ever for a line
+        if path.stat().st_size == 0:  # some readers wait indefinitely for a line
             raise FilmInputError("mesh", f"{path} is empty", "a file that meshio reads")
         with contextlib.redirect_stdout(said), contextlib.redirect_stderr(said):
             return meshio.read(path)

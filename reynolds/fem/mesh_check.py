@@ -14,8 +14,8 @@ NEAREST = 1e-9  # least distance of two points / size of the mesh
 def mesh_faults(points: Array, cells: Cells) -> list[str]:
     """Faults of plane points (n, 2) m and cells (cells, 3 | 4); empty for a valid film mesh.
 
-    Faults: cells that name points which are not there, points in no cell or without coordinates, cells without area or
-    crossed or not convex, cells that lie on each other, points in one place. Cells may be numbered either way round.
+    Faults: cells with points that do not exist, points in no cell or without coordinates, cells without area or crossed
+    or not convex, overlapping cells, coincident points. Cells may be numbered either way round.
     """
     if cells.min() < 0 or cells.max() >= len(points):
         return [f"cells name points up to number {cells.max()}, of {len(points)} (from 0)"]

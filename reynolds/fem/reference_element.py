@@ -23,10 +23,10 @@ ELEMENTS = {
 class ReferenceElement:
     """Basis and geometry on the reference element at its quadrature points.
 
-    `steep` tables belong to the conductance: for a bilinear quadrilateral they are taken at the corner next to
-    the point, which integrates as exactly (trapezium rule) and leaves no positive coupling between unknowns of any
-    rectangle: pressure and film fraction do not overshoot. `equation.hourglass` takes the excess stiffness off.
-    Other cells have the same tables for both.
+    `steep` tables belong to the conductance: for a bilinear quadrilateral they are evaluated at the corner next to the
+    point, which integrates as exactly (trapezium rule) and leaves no positive coupling between unknowns of any
+    rectangle: pressure and film fraction do not overshoot. `equation.hourglass` removes the excess stiffness. Other
+    cells have the same tables for both.
     """
 
     value: Array  # (points, basis)

@@ -25,8 +25,8 @@ NO_CONTACT = 8.0  # standard deviations from the summits' mean: beyond, less tha
 class Modes:
     """The modes phi_j of one space.
 
-    at_vertices (vertices, k); at_points (cells, points, k), interpolated between the vertices; pockets (size, k)
-    m2: by how much the volume of a pocket grows with each coordinate beyond the film, at the pocket's unknown.
+    at_vertices (vertices, k); at_points (cells, points, k), interpolated between the vertices; pockets (size, k) m2:
+    growth of a pocket's volume with each coordinate beyond the film, at the pocket's unknown.
     """
 
     space: FilmSpace

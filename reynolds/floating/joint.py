@@ -57,7 +57,7 @@ class JointState:
 
 @dataclass(frozen=True)
 class JointSlopes:
-    """Slopes of film and forces at a state, ready for Newton's method; they serve until others are made.
+    """Slopes of film and forces at a state, ready for Newton's method; they are kept until others are made.
 
     by_position: changes of the film by the position, growth (cells, points, k) of the gap at constant pressure;
     opened (vertices, k): growth of the gap, the film in balance, as contact of the first state lets it; stiff (k, k)
@@ -148,7 +148,7 @@ class JointSearch:
         self.films = 0
 
     def stage(self, q: Array, warm: FilmSolution) -> JointStage | None:
-        """The stage reached from a position (k,) m and a film near it; None where the way is not plain."""
+        """The stage reached from a position (k,) m and a film near it; None where the iteration fails."""
         try:
             at, slopes = self._at(q, warm.pressure, warm.film_fraction, warm.cavity, warm.deformation), None
             for _ in range(MOST_STEPS):
@@ -161,7 +161,7 @@ class JointSearch:
                         slopes, _ = self._linearised(new)
                     return self._stage(new, slopes)
                 at = new
-        except (FilmNotConverged, InputError):  # a law ends, or no force resists: films in balance tell why
+        except (FilmNotConverged, InputError):  # a law ends, or no force resists: films in balance give the reason
             return None
         return None
 

@@ -1,7 +1,7 @@
 """Pockets of a floating film: their oil, and its growth with the position.
 
-A pocket's oil counts as the film's: where the pocket falls to cavitation pressure it is filled in part, so that a
-part that lifts off leaves a cavity behind where its supply does not follow.
+A pocket's oil counts as the film's: where the pocket falls to cavitation pressure it is filled in part, so that a part
+that lifts off leaves a cavity where its supply is too small.
 """
 
 from dataclasses import replace

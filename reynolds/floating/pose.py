@@ -29,7 +29,7 @@ class PosedFilm:
 def posed(shape: FilmProblem, modes: Modes, q: Array) -> PosedFilm:
     """The film of a shape at a position (k,) m.
 
-    Between rigid walls contact is left out of the problem, since the gap decides it; elastic walls feel it.
+    Between rigid walls the problem has no contact, since the gap determines it; between elastic walls it has.
     """
     gap, corners = shape.film.thickness + modes.rise(q), shape.film.thickness_at_vertices
     if shape.walls is not None:
@@ -74,7 +74,7 @@ def deformed_pose(at: PosedFilm, solution: FilmSolution, contact: ContactForce |
 
 
 def lowest_gap(shape: FilmProblem) -> float:
-    """The gap (m) above which there is a film: next to zero, or the end of the law of contact.
+    """The gap (m) above which there is a film: nearly zero, or the end of the law of contact.
 
     Smooth elastic walls keep any film open.
     """

@@ -1,7 +1,7 @@
 """A floating film under a constant drive: held at a position, or at rest where its forces balance.
 
-Rest is found by implicit Euler with steps that grow. Long steps forget the way of the motion, so that the rest
-found is stable and near the start; a motion without rest ends in an error with its cause.
+Rest is found by implicit Euler with steps that grow. Long steps do not depend on the path, so that the rest found is
+stable and near the start; a motion without rest is an error with its cause.
 """
 
 from dataclasses import replace
@@ -23,7 +23,7 @@ STILL = 3  # steps in a row that move no coordinate by more than allowed, each G
 PATIENCE = 3  # steps solved before a length without solution is tried again, which is costly
 MOST_STEPS = 100
 SHORTEST = 1e-6  # of the first step
-FOR_EVER = 1e9  # s, a step that forgets the start
+FOR_EVER = 1e9  # s, a step that does not depend on the start
 
 
 def held_at(
@@ -41,10 +41,10 @@ def held_at(
 def come_to_rest(solve: StageSolver[S], start: State[S], step: float, allowed: float) -> AcceptedStep[S]:
     """The last step of a motion from `start`, its drive held at `start.time`.
 
-    `step` (s) is the first one, about the response time of the motion. Afterwards three steps in a
-    row, each four times the one before, have moved no coordinate by more than `allowed` (m). A step without
-    solution is cut to a quarter, and tried again after PATIENCE of the shorter ones. Raises FilmInputError for a
-    void step or tolerance, FilmNotConverged for a motion that finds no rest, with its last move.
+    `step` (s) is the first one, about the response time of the motion. Afterwards three steps in a row, each four times
+    the one before, have moved no coordinate by more than `allowed` (m). A step without solution is cut to a quarter,
+    and tried again after PATIENCE of the shorter ones. Raises FilmInputError for an invalid step or tolerance,
+    FilmNotConverged for a motion that reaches no rest, with its last move.
     """
     if not (np.isfinite(step) and step > 0.0 and allowed > 0.0):
         raise FilmInputError("rest", f"a step of {step:g} s and {allowed:g} m allowed", "both above zero")
@@ -62,7 +62,7 @@ def come_to_rest(solve: StageSolver[S], start: State[S], step: float, allowed: f
         still = still + 1 if moved <= allowed else 0
         if still == STILL:
             return taken
-        # The next guess is the place itself: a rate is no guide over a step four times as long.
+        # The next guess is the position itself: a rate is no estimate over a step four times as long.
         state = replace(taken.state, rate=np.zeros_like(state.rate), acceleration=0.0)
         wait -= 1
         if wait <= 0:

@@ -39,9 +39,9 @@ def started(floating: Floating, time: float, q: Array, initial: InitialFilm | No
 
 
 def pressed(solver: FilmSolver, floating: Floating, start: State[FloatingStage], step: float) -> State[FloatingStage]:
-    """The start with deformed elastic walls, before oil flows much: one implicit step (s).
+    """The start with deformed elastic walls, before significant flow: one implicit step (s).
 
-    Elastic walls follow a load at once, whatever the step. Raises as `solve_stage`.
+    Elastic walls follow a load at once, in a step of any length. Raises as `solve_stage`.
     """
     stage = solve_stage(solver, floating, start.time, start.held, step, start.q, start.stage)
     assert start.tangent is not None

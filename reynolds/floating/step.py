@@ -60,9 +60,9 @@ def films_in_balance(
 ) -> FloatingStage:
     """The same by Newton's method on the position alone, with a film in balance at each: slower, from farther away.
 
-    It starts at `guess` (k,) m and, where that fails, at the position before; `last` warms the film. A Newton step
-    leaves a fifth of the least gap, or presses rough walls by three standard deviations at most, and is halved until
-    it brings the forces nearer to balance.
+    It starts at `guess` (k,) m and, where that fails, at the position before; `last` is the film's first guess. A
+    Newton step leaves a fifth of the least gap, or presses rough walls by three standard deviations at most, and is
+    halved until it brings the forces nearer to balance.
     """
     search = _Search(instant, close, None if last is None else last.ahead(guess))
     if (found := search.balanced(guess)) is None:
@@ -99,7 +99,7 @@ def full_film(
 
 
 class _Search:
-    """Films tried at one instant, each warming the next."""
+    """Films tried at one instant, each the first guess of the next."""
 
     def __init__(self, instant: FloatingInstant, close: Closeness, warm: FilmSolution | None) -> None:
         self._instant, self._close, self._warm = instant, close, warm

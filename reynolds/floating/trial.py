@@ -90,7 +90,7 @@ class Trial:
 
     @property
     def scale(self) -> Array:
-        """Magnitudes that balance (k,) N; where next to nothing does, round-off of the largest."""
+        """Magnitudes that balance (k,) N, at least the round-off of the largest."""
         return force_scale(self.size)
 
 
@@ -111,7 +111,7 @@ class Posed(Protocol):
 
 
 def force_scale(size: Array) -> Array:
-    """Magnitudes that balance (k,) N, those of next to nothing raised to round-off of the largest."""
+    """Magnitudes that balance (k,) N, raised at least to the round-off of the largest."""
     return np.maximum(size, ROUNDING * float(np.max(size)) + 1e-300)
 
 
@@ -220,7 +220,7 @@ class FloatingInstant:
         return as_given(self._problem(q, posed(self.shape, self.modes, q)), self.ahead(at, step, film))
 
     def touching(self, at: Posed) -> bool:
-        """True where walls are next to the end of the film, or of the law of contact."""
+        """True where the film is nearly closed, or contact is near the end of its law."""
         asperities = self.shape.asperities
         height = THINNEST if asperities is None else asperities.height
         return at.least - lowest_gap(self.shape) < NEXT * height
@@ -242,7 +242,7 @@ class FloatingInstant:
         return total if at.contact is None else total + at.contact.by_pressure(film.pressure)
 
     def stiffness(self, of_film: Array, contact: ContactForce | None, outer: Outer) -> Array:
-        """d missing/dq, (k, k) N/m, but for contact by the film's pressure; of_film: dQ/dq without contact."""
+        """d missing/dq, (k, k) N/m, except for contact by the film's pressure; of_film: dQ/dq without contact."""
         total = of_film + outer.by_position + outer.by_rate / self.step
         if contact is not None:
             total = total + contact.slopes
@@ -297,8 +297,8 @@ class FloatingInstant:
 def room_within(shape: FilmProblem, at: Posed, growth: Array) -> float:
     """The share of a growth of the gap (vertices,) m, maybe more than one, that leaves as much as one step may take.
 
-    A step leaves a fifth of the least gap, or of rough walls all but three standard deviations of the summits; smooth
-    elastic ones go any way, since they yield the further the nearer they come.
+    A step leaves a fifth of the least gap, or closes rough walls by three standard deviations of the summits; a step of
+    smooth elastic ones has no limit, since they yield more the nearer they come.
     """
     if shape.walls is not None and shape.asperities is None:
         return np.inf

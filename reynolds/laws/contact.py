@@ -25,10 +25,10 @@ class Asperities:
     """Rough walls by Greenwood and Tripp: two sheets of parabolic summits of Gaussian height.
 
     density: summits per area eta, 1/m2; radius: of the summits beta, m; height: standard deviation sigma of the
-    summits' heights, both walls together, m; modulus E' of both walls (`composite_modulus`), Pa;
-    friction_coefficient of the boundary layer, 1; summit_height: mean plane of the summits above the mean plane
-    of the walls, from which the film h is counted, m; shear_limit: greatest stress of the boundary layer, Pa.
-    Typical: eta beta sigma 0.03 .. 0.05, sigma/beta 1e-4 .. 1e-2. Raises FilmInputError for what is not positive.
+    summits' heights, both walls together, m; modulus E' of both walls (`composite_modulus`), Pa; friction_coefficient
+    of the boundary layer, 1; summit_height: mean plane of the summits above the mean plane of the walls, from which the
+    film h is counted, m; shear_limit: greatest stress of the boundary layer, Pa. Typical: eta beta sigma 0.03 .. 0.05,
+    sigma/beta 1e-4 .. 1e-2. Raises FilmInputError for a value that is not positive.
     """
 
     density: float
@@ -162,7 +162,7 @@ def _moments(h: Array, *orders: float) -> list[Array]:
 
 @lru_cache(maxsize=16)
 def _series(order: float) -> Array:
-    """Chebyshev coefficients, from Gauss' quadrature at the nodes: t = u^2 takes the root out of t^n.
+    """Chebyshev coefficients, from Gauss' quadrature at the nodes: t = u^2 removes the root from t^n.
 
     F_n e^(H^2/2) = integral of t^n e^(-t^2/2 - H t) dt/sqrt(2 pi); the part beyond t^2/2 + H t = 60 + 18 is
     below round-off (18 = H^2/2 at H = -6, where the integrand's peak is e^18).

@@ -21,11 +21,11 @@ API_LUBRICANT = 0.6278  # kg/(m3 K): expansion times density of lubricating oils
 
 @dataclass(frozen=True)
 class RationalDensity:
-    """rho/rho0 = (a + b p)/(a + p), a in Pa, b the ratio at endless pressure.
+    """rho/rho0 = (a + b p)/(a + p), a in Pa, b the limit of the ratio at high pressure.
 
-    Source: the form of Dowson and Higginson 1966; a = 2.22e9 Pa, b = 1.66 in Bertocchi et al. 2013. Written
-    1 + A p/(1 + B p), a = 1/B and b = 1 + A/B. Bulk modulus a/(b - 1) at zero pressure. Raises FilmInputError
-    where tension takes the density to zero (p <= -a/b).
+    Source: the form of Dowson and Higginson 1966; a = 2.22e9 Pa, b = 1.66 in Bertocchi et al. 2013. Written 1 + A p/(1
+    + B p), a = 1/B and b = 1 + A/B. Bulk modulus a/(b - 1) at zero pressure. Raises FilmInputError where tension
+    reduces the density to zero (p <= -a/b).
     """
 
     a: float
@@ -153,7 +153,7 @@ class Aerated:
 
     @property
     def saturation_pressure(self) -> float:
-        """Gauge pressure (Pa) at which the last bubble is dissolved; endless where nothing dissolves."""
+        """Gauge pressure (Pa) at which the last bubble is dissolved; infinite without solubility."""
         if self.bunsen == 0.0:
             return np.inf if self.free_air > 0.0 else 0.0
         return self.atmosphere * self.free_air / (self.bunsen * (1.0 - self.free_air))

@@ -20,7 +20,7 @@ _TEMPERATURE_100C = 373.15
 
 @dataclass(frozen=True)
 class Oil:
-    """A Newtonian oil at the pressure of the case, named by two viscosities.
+    """A Newtonian oil at the pressure of the case, given by two viscosities.
 
     kinematic_viscosity_40C, kinematic_viscosity_100C in m2/s, density in kg/m3, bulk_modulus in Pa,
     specific_heat in J/(kg K). Raises FilmInputError for a value that is not positive, for a viscosity below
@@ -82,8 +82,8 @@ def walther_coefficients(oil: Oil) -> tuple[float, float]:
 def walther(temperature: ArrayLike, oil: Oil) -> np.ndarray:
     """Return the kinematic viscosity in m2/s at `temperature` in K (any shape), from Walther's law.
 
-    Raises FilmInputError outside -40 .. 150 degC and where the oil is thinner than 2 mm2/s: the law is void
-    there. Source: Walther 1931, ASTM D341.
+    Raises FilmInputError outside -40 .. 150 degC and where the oil is thinner than 2 mm2/s: the law is not valid there.
+    Source: Walther 1931, ASTM D341.
     """
     kelvin = np.asarray(temperature, dtype=float)
     lowest, highest = (limit - 273.15 for limit in (LOWEST_TEMPERATURE, HIGHEST_TEMPERATURE))

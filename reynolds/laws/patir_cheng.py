@@ -2,9 +2,9 @@
 
 gamma, Peklenik's number, is the ratio of correlation lengths of the roughness along x and across: gamma > 1 ridges
 along x, < 1 across, 1 isotropic. Between the rows of the table the factors (not their coefficients, whose formulas
-differ) are interpolated in log gamma. Below a row's range every factor changes exponentially, with the value and
-slope it has at the limit. That continuation is ours: smooth and positive for the solver, but no
-measurement. FilmInputError for gamma outside 1/9 .. 9.
+differ) are interpolated in log gamma. Below a row's range every factor changes exponentially, with the value and slope
+it has at the limit. That continuation is assumed: smooth and positive for the solver, but not measured. FilmInputError
+for gamma outside 1/9 .. 9.
 """
 
 from collections.abc import Callable
@@ -162,8 +162,8 @@ def _continued(law: Callable[[Row, Array], Tangent], row: Row, lowest: float, ra
 def phi_f(ratio: ArrayLike) -> Tangent:
     """Couette shear stress factor h E[1/hT] and its slope over H > 0, any Peklenik number.
 
-    Heights of density (35/32)(1 - s^2)^3 on +-3 sigma; what is thinner than sigma/100 is left out of the mean.
-    Source: Patir and Cheng 1979, in closed form; from H = 9 on, where that loses digits, by its moments.
+    Heights of density (35/32)(1 - s^2)^3 on +-3 sigma; a film thinner than sigma/100 is not in the mean. Source: Patir
+    and Cheng 1979, in closed form; from H = 9 on, where that loses digits, by its moments.
     """
     given = np.asarray(ratio, dtype=float, order="C")
     value, slope = np.empty(given.shape), np.empty(given.shape)

@@ -9,8 +9,8 @@ from reynolds.errors import FilmInputError
 from reynolds.laws.law import Tangent, require_positive, within
 from reynolds.laws.oil import HIGHEST_TEMPERATURE, LOWEST_TEMPERATURE, WALTHER_SHIFT, Oil, walther, walther_coefficients
 
-# Barus is the tangent of ln mu at zero pressure. With mu0 = 0.041 Pa s and 22 /GPa it is 1.2 times Roelands at
-# 0.1 GPa and 2.9 times at 0.3 GPa: beyond, its number is void (at 1 GPa it is e^22).
+# Barus is the tangent of ln mu at zero pressure. With mu0 = 0.041 Pa s and 22 /GPa it is 1.2 times Roelands at 0.1 GPa
+# and 2.9 times at 0.3 GPa: beyond, it is not valid (at 1 GPa it is e^22).
 BARUS_HIGHEST_PRESSURE = 0.3e9  # Pa
 ROELANDS_PRESSURE = 1.96e8  # Pa; Roelands 1966, as in Hamrock, Schmid and Jacobson 2004
 ROELANDS_LOG_VISCOSITY = 9.67  # ln(1 Pa s / 6.31e-5 Pa s): where all his isotherms meet

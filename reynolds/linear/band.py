@@ -1,9 +1,9 @@
 """Direct solves of small films: elimination in the narrow band of a good order of the unknowns.
 
-A film around a ring, numbered from one line across it both ways round, couples only to unknowns at most two lines
-away. Below some thousand unknowns its elimination costs less than a few iterations do, and each further right-hand
-side next to nothing. Film columns are symmetric and diagonally dominant, those of a cavity transport downstream:
-such a matrix needs no exchange of rows (Golub and Van Loan 2013, 3.4.10); where one does, the residual shows it.
+A film around a ring, numbered from one line across it both ways round, couples only to unknowns at most two lines away.
+Below some thousand unknowns its elimination costs less than a few iterations do, and each further right-hand side
+almost nothing. Film columns are symmetric and diagonally dominant, those of a cavity transport downstream: such a
+matrix needs no exchange of rows (Golub and Van Loan 2013, 3.4.10); where one does, the residual shows it.
 """
 
 import numpy as np
@@ -47,7 +47,7 @@ class BandedFactor:
         return float(len(self._band.reach)) * self._band.half**2
 
     def update(self, upper: Array, lower: Array) -> bool:
-        """Take the entries of the upper triangle and their mirror; False where a pivot vanishes."""
+        """Set the entries of the upper triangle and their mirror; False where a pivot vanishes."""
         both = self._both
         self._entries = both.entries(upper, lower)
         kernels.fill(self._place, self._border, both.column, both.indices, self._entries, self._order, self._band)

@@ -43,7 +43,7 @@ class CavitatedFilm:
         self._columns: kernels.CavitatedColumns | None = None
 
     def update(self, upper: Array, lower: Array, cavity: NDArray[np.bool_]) -> bool:
-        """Take the entries of the upper triangle, their mirror, and which columns are the cavity's (size,).
+        """Set the entries of the upper triangle, their mirror, and which columns are the cavity's (size,).
 
         False where the film alone is not positive definite, or a cavity's column has no diagonal.
         """

@@ -21,7 +21,7 @@ MOST_RETURNED = 1.0 - 1e-3  # a film that cavities return all to would have no l
 
 
 class CavitatedColumns(NamedTuple):
-    """A matrix in columns (indptr, indices, entries) and its diagonal (n,); and apart, the cavity's transport.
+    """A matrix in columns (indptr, indices, entries) and its diagonal (n,); separately, the cavity's transport.
 
     order: the cavity's unknowns downstream; begin, row, value: their columns without diagonal; edge: the entries
     by which columns of the film, edge_column, reach the cavity.

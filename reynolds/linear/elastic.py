@@ -1,11 +1,11 @@
 """Linear solver of the film coupled to elastic walls, J = A + B C, for any load.
 
-A, sparse, is the balance between rigid walls, B, sparse, its slope by the deformation, C the walls' compliance. A
-film smooths the walls' feedback: but for a few smooth pressures A^-1 B C is small, on any mesh, so that
-GMRES (Saad and Schultz 1986) on J A^-1 takes a few tens of solves with A, where a dense factor of J costs size^3.
-Up to DENSE_LIMIT free pressures the factor is cheaper all the same (803 of 1575 unknowns: 28 ms, and .4 ms a load;
-GMRES takes 30 to 100 steps of .9 ms a load). Beyond, for more loads on one balance or on similar ones, the dense
-factor is made and kept: GMRES on J J_before^-1 takes a few steps.
+A, sparse, is the balance between rigid walls, B, sparse, its slope by the deformation, C the walls' compliance. A film
+smooths the walls' feedback: except for a few smooth pressures A^-1 B C is small, on any mesh, so that GMRES (Saad and
+Schultz 1986) on J A^-1 takes a few tens of solves with A, where a dense factor of J costs size^3. Up to DENSE_LIMIT
+free pressures the factor is cheaper all the same (803 of 1575 unknowns: 28 ms, and .4 ms a load; GMRES takes 30 to 100
+steps of .9 ms a load). Beyond, for more loads on one balance or on similar ones, the dense factor is made and kept:
+GMRES on J J_before^-1 takes a few steps.
 """
 
 from collections.abc import Callable
@@ -88,7 +88,7 @@ class _Iterated:
     def __init__(self, balance: WallBalance, near: NearFactor) -> None:
         self._balance, self._near = balance, near
         self._size = len(balance.pressures)
-        # Rows are scaled, since in a thin film next to nothing flows.
+        # Rows are scaled, since flows of a thin film nearly vanish.
         diagonal = np.abs(balance.rigid.diagonal())
         self._rows = 1.0 / np.where(diagonal > 0.0, diagonal, 1.0)
         self._before = near.answer or _rigid_answer(balance.rigid)
@@ -189,7 +189,7 @@ def _add(dense: Array, sparse: csr_array) -> None:
 
 
 def _coupled_answer(balance: WallBalance, alone: NDArray[np.bool_]) -> Answer:
-    """The answer of J by the dense factor of its unknowns but for held ones, `alone`, which couple to no other."""
+    """The answer of J by the dense factor of its unknowns except held ones, `alone`, which couple to no other."""
     number, coupled = np.where(alone, -1, np.cumsum(~alone) - 1), np.flatnonzero(~alone)
     wider = columns_of(balance.wider, coupled) * balance.pressures[coupled]
     matrix = np.empty((len(coupled), len(coupled)))

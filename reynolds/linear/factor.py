@@ -29,7 +29,7 @@ from reynolds.numerics.arrays import Array
 DIRECT_LIMIT = 60_000
 GRID_LEAST = 400  # unknowns: below, a direct solve of a grid is as fast as multigrid
 ITERATIVE_TOLERANCE = 1e-11
-STALLED = 1e3  # times the tolerance: what round-off may leave; beyond, the next solver
+STALLED = 1e3  # times the tolerance: residual allowed by round-off; beyond, the next solver
 ROUND_OFF = 1e-13  # of the answer, in units of the scaled matrix
 GENERAL_TOLERANCE = 1e-10  # residual over load beyond which an elimination without pivots is done again with them
 
@@ -65,7 +65,7 @@ class Factor:
         self._stalled = False
 
     def update(self, upper: csc_array, linear: Array | None = None) -> None:
-        """Take the upper triangle of a symmetric positive definite matrix; the pattern never changes.
+        """Set the upper triangle of a symmetric positive definite matrix; the pattern never changes.
 
         linear: entries of a quadratic film's companion.
         """
@@ -164,7 +164,7 @@ class GeneralFactor:
         self._lu: SuperLU | None = None
 
     def update(self, upper: csc_array, lower: Array, cavity: NDArray[np.bool_] | None = None) -> None:
-        """Take the upper triangle with its diagonal, the mirrored entries and which columns are the cavity's.
+        """Set the upper triangle with its diagonal, the mirrored entries and which columns are the cavity's.
 
         lower[k] is the entry (j, i) where upper.data[k] is (i, j); on the diagonal it is not used. The
         pattern never changes. Without `cavity` (size,) the elimination solves it. Raises FilmNotConverged for a

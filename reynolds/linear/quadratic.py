@@ -1,7 +1,7 @@
 """Linear solver of a quadratic film on a grid, at a cost in proportion to the unknowns.
 
 Conjugate gradients; the preconditioner is a multigrid cycle of the linear film on the same nodes
-(`reynolds.equation.companion`): some 15 to 20 steps to 1e-11, whatever the mesh.
+(`reynolds.equation.companion`): some 15 to 20 steps to 1e-11 on any mesh.
 """
 
 import numpy as np
@@ -31,7 +31,7 @@ class QuadraticFilm:
         self._matrix: csc_array | None = None
 
     def update(self, upper: csc_array, linear: Array) -> bool:
-        """Take the upper triangle and the companion's entries; False where that is not positive definite."""
+        """Set the upper triangle and the companion's entries; False where that is not positive definite."""
         self._matrix = upper
         return self._cycle.update(linear)
 

@@ -1,1 +1,1 @@
-"""General methods that know no film: array loops, fixed point, GMRES, implicit steps, shooting, disk cache."""
+"""Numerical methods independent of the film: array loops, fixed point, GMRES, implicit steps, shooting, disk cache."""

@@ -57,7 +57,7 @@ def norm(vector):
 
 @njit(**_FAST)
 def largest(values):
-    """Largest magnitude of an array (n,), 0 of none; NaN if one is."""
+    """Largest magnitude of an array (n,), 0 of an empty one; NaN if one is."""
     found = 0.0
     for k in range(values.shape[0]):
         size = abs(values[k])

@@ -65,8 +65,9 @@ def content_key(*parts: object) -> str:
 def kept(key: str, compute: Callable[[], Mapping[str, Array]], folder: Path | None = None) -> CachedArrays:
     """The arrays of `compute`, from the cache if present.
 
-    Afterwards the cache holds them: written beside and moved into place, so that no reader finds half a file. A broken
-    file is computed anew, as the origin and the log state. Raises FilmInputError where the folder cannot be written.
+    Afterwards the cache holds them: written beside and moved into place, so that no reader finds a partial file. A
+    broken file is computed anew, as the origin and the log state. Raises FilmInputError where the folder cannot be
+    written.
     """
     place = cache_folder(folder) / f"{key}.npz"
     found = _read(place) if place.is_file() else None

@@ -130,9 +130,9 @@ class AcceptedStep(Generic[S]):
 def advance(tableau: Tableau, solve: StageSolver[S], state: State[S], step: float) -> AcceptedStep[S]:
     """One step (s) of a method from a state.
 
-    Stage i solves y_i = y + step sum_j matrix[i][j] rate_j, and the last one is the end. q is integrated as if
-    by its own rate, which is exact where y is linear in q (a full film); this enters the error and the guesses
-    alone. Raises what `solve` raises.
+    Stage i solves y_i = y + step sum_j matrix[i][j] rate_j, and the last one is the end. q is integrated as if by its
+    own rate, which is exact where y is linear in q (a full film); this enters the error and the guesses alone. Raises
+    as `solve`.
     """
     tangent = state.tangent
     held = _beside(state.held, None if tangent is None else tangent.held)  # column 0, its tangents after it
@@ -187,9 +187,9 @@ def integrate(
 ) -> Iterator[AcceptedStep[S]]:
     """Step by step from a state to the last of `nodes` (s), each of which ends a step.
 
-    Each step's error estimate over its tolerance, `excess(step)`, is at most one, but for steps up to `shortest` (s):
-    a motion without mass may jump, and no step resolves that. The first step aims at the first node. A step on which
-    a stage has no solution is halved. Raises FilmInputError for nodes that do not rise from the state's time on,
+    Each step's error estimate over its tolerance, `excess(step)`, is at most one, except for steps up to `shortest`
+    (s): a motion without mass may jump, and no step resolves that. The first step aims at the first node. A step on
+    which a stage has no solution is halved. Raises FilmInputError for nodes that do not rise from the state's time on,
     FilmNotConverged where no step is short enough.
     """
     times = np.array([start.time, *nodes])

@@ -1,4 +1,4 @@
-"""Files read within bounds, and written whole: what a name, a size or a stop may do to a file is decided here."""
+"""Files read within bounds and written whole: limits on names and sizes, and safety against interruption."""
 
 from __future__ import annotations
 
@@ -13,11 +13,11 @@ from pathlib import Path
 from typing import Any
 
 LARGEST_TEXT = 10_000_000
-"""Bytes of a file that a person writes."""
+"""Largest size of a file written by a person, bytes."""
 LARGEST_DATA = 500_000_000
-"""Bytes of a file that a program or a logger writes."""
+"""Largest size of a file written by a program or a logger, bytes."""
 LARGEST_CELLS = 30_000_000
-"""Numbers that a file of data holds, in all its columns."""
+"""Most numbers of a file of data, in all its columns."""
 _WHOLE_DIGITS = 19
 _KINDS = {
     stat.S_ISDIR: "a folder", stat.S_ISFIFO: "a pipe", stat.S_ISCHR: "a device", stat.S_ISBLK: "a device",
@@ -29,7 +29,7 @@ REFUSED_BY_DISK = frozenset({
     errno.ENOSPC, errno.EDQUOT, errno.EFBIG, errno.EROFS, errno.EACCES, errno.EPERM, errno.EIO, errno.EMFILE,
     errno.ENFILE, errno.ENAMETOOLONG,
 })  # fmt: skip
-"""Reasons why a file cannot be written that lie in the disk, the folder or their permissions."""
+"""Reasons in the disk, the folder or their permissions for which a file cannot be written."""
 
 
 class UnfitFile(OSError):
@@ -45,7 +45,7 @@ class UnfitFile(OSError):
 def expect_regular(path: Path, largest: int = LARGEST_DATA) -> None:
     """Raise OSError for a file that is absent, UnfitFile for a device, a pipe, a folder, and more than `largest` bytes.
 
-    A device or a pipe would be read without end, or waited for.
+    Reading a device or a pipe may never end.
     """
     status = path.stat()
     for is_kind, words in _KINDS.items():
@@ -56,7 +56,7 @@ def expect_regular(path: Path, largest: int = LARGEST_DATA) -> None:
 
 
 def is_file(path: Path) -> bool:
-    """Return True for a file that can be read to its end; False for what no name of one is, too."""
+    """Return True for a file that can be read to its end; False also for an invalid name."""
     try:
         return stat.S_ISREG(path.stat().st_mode)
     except (OSError, ValueError):  # ValueError: a name with a zero byte
@@ -99,7 +99,7 @@ def read_json(path: Path) -> dict[str, Any]:
 def replaced(path: Path) -> Iterator[Path]:
     """Yield a name beside `path` to write to; afterwards the file is at `path`, in place of any other or of a link.
 
-    After an error, or a stop at any moment, `path` is as it was: no reader meets a part of a file.
+    After an error, or a stop at any moment, `path` is as it was: no reader finds a partial file.
     """
     beside = path.with_name(f".{path.name}.{os.getpid()}.part")
     beside.unlink(missing_ok=True)
@@ -148,10 +148,10 @@ def expect_room(folder: Path, size: int) -> None:
 
 
 def append_whole(path: Path, data: bytes) -> None:
-    """Add lines to the end of a file: all of them or, where the disk is full, nothing.
+    """Add lines to the end of a file: all of them or, on a full disk, none.
 
     They begin on a line of their own. A program that is killed on the way may leave an unfinished last line. Raises
-    OSError. Data of several programs at once stand one after the other.
+    OSError. Simultaneous data of several programs follow one another.
     """
     with path.open("ab+", buffering=0) as file:
         before = file.seek(0, os.SEEK_END)

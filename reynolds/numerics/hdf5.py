@@ -1,4 +1,4 @@
-"""HDF5 files looked through before they are read: nothing outside them, no more than memory holds, and an end.
+"""Checks of HDF5 files before they are read: no data outside the file, sizes within memory, heaps that end.
 
 Layout of a heap of texts and references: HDF5 File Format Specification 3.0, section III.E (sizes of 8 bytes).
 """
@@ -17,7 +17,8 @@ _HEAP, _OBJECT = struct.Struct("<4sB3xQ"), struct.Struct("<HH4xQ")
 def expect_contained(path: Path) -> None:
     """Raise UnfitFile for an HDF5 file with links or data in other files, soft links, or more than LARGEST_CELLS.
 
-    Also for a broken heap of texts, on which the HDF5 library does not end. Raises OSError for a file of another kind.
+    Also for a broken heap of texts, on which the HDF5 library would not terminate. Raises OSError for a file of another
+    kind.
     """
     import h5py
 

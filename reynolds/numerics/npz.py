@@ -1,4 +1,4 @@
-"""Arrays of an NPZ file: numbers alone, no objects, and no more than memory holds."""
+"""Arrays of an NPZ file: only numbers, no objects, sizes within memory."""
 
 from __future__ import annotations
 

@@ -107,10 +107,10 @@ def _turned(turn: T, start: Array, changes: list[float]) -> PeriodicTurn[T]:
 
 
 def approached(turn_from: TurnFrom[T], start: Array) -> PeriodicTurn[T]:
-    """The first turn whose end is next to the periodic motion, however far away its start `start` (k,) m was.
+    """The first turn whose end is close to the periodic motion, at any distance of its start `start` (k,) m.
 
-    Afterwards all linearised turns after it lead no further than `allowed` from its end. Cheaper than `periodic`
-    where a turn forgets nearly all of its start. Raises as that does.
+    Afterwards all linearised turns after it lead no further than `allowed` from its end. Cheaper than `periodic` where
+    the end of a turn hardly depends on its start. Raises as that does.
     """
     changes = []
     for at, turn in _turns(turn_from, start):
@@ -152,14 +152,14 @@ def _too_far(last_start: Array, last: Turn, start: Array, turn: Turn) -> bool:
 
 
 def _circles(slopes: Array) -> bool:
-    """True if turns lead round a periodic motion and not to it, none straight away: Newton's step leads to it."""
+    """True if the turns circle the periodic motion, and none leads straight away: Newton's step leads to it."""
     multipliers = np.linalg.eigvals(slopes)
     leading = multipliers[np.abs(multipliers) >= CIRCLING]
     return bool(len(leading) and np.all(np.abs(leading.imag) > np.abs(leading.real - 1.0)))
 
 
 def _next(start: Array, turn: Turn, share: float) -> Array:
-    """The end of as many linearised turns as stay within reach of the turn's end; towards where they circle, if so."""
+    """The end of as many linearised turns as stay within reach of the turn's end; of circling turns, their centre."""
     reach = share * turn.reach
     way, power = turn.end - start, turn.slopes
     if _circles(turn.slopes):

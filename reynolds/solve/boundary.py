@@ -103,7 +103,7 @@ def _check_fraction(name: str, condition: Held, problem: FilmProblem) -> None:
 def _check_level(
     problem: FilmProblem, held: NDArray[np.bool_], pockets: list[tuple[int, Pocket]], level: float
 ) -> None:
-    """Fault a piece of the film without a pressure level."""
+    """Raise FilmInputError for a piece of the film without a pressure level."""
     pattern = problem.space.pattern
     fed = held.copy()
     for node, pocket in pockets:
@@ -114,7 +114,7 @@ def _check_level(
 
 
 def pressure_sending(feed: Feed, flow: float, start: float) -> float:
-    """A pressure (Pa) at which a feed sends about a flow (m3/s); `start` where none does or the law is linear.
+    """A pressure (Pa) at which a feed sends about a flow (m3/s); `start` without such a pressure or for a linear law.
 
     `feed` as in `problem.Pocket`: (m3/s, its slope by pressure), never rising. Behind an orifice,
     q ~ sqrt(p_supply - p), Newton's method oscillates between a pressure far from the supply's and its mirror

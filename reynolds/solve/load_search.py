@@ -61,7 +61,7 @@ class Position:
 class LoadedFilm:
     """A film at the position at which it bears its load.
 
-    force N and moments N m that film and contact bear there; rest: largest miss, relative as TOLERANCE; films:
+    force N and moments N m that film and contact bear there; rest: largest residual, relative as TOLERANCE; films:
     number of films solved.
     """
 
@@ -77,11 +77,11 @@ class LoadedFilm:
 def carry_load(problem: FilmProblem, load: RigidLoad, solve: Solve | None = None) -> LoadedFilm:
     """The film of `problem`, its thickness a shape, at the position at which it bears the load.
 
-    Afterwards force and free moments are those of `load` to 1e-6. The separation is bracketed between a film that
-    bears more and a thicker one that bears less, so that it is stable, and closed in by regula falsi (Illinois:
-    Dowell and Jarratt 1971). Tilts: Newton's method with Broyden's updates (1965) from there.
-    `solve` gives the film of a problem (left out: `FilmSolver`, each film warming the next). Raises
-    FilmNotConverged, with the nearest supported load, where no position bears the load; also as `solve` does.
+    Afterwards force and free moments are those of `load` to 1e-6. The separation is bracketed between a film that bears
+    more and a thicker one that bears less, so that it is stable, and closed in by regula falsi (Illinois: Dowell and
+    Jarratt 1971). Tilts: Newton's method with Broyden's updates (1965) from there. `solve` gives the film of a problem
+    (left out: `FilmSolver`, each film the first guess of the next). Raises FilmNotConverged, with the nearest supported
+    load, where no position bears the load; also as `solve` does.
     """
     search = _LoadSearch(problem, load, solve or _warmed(problem))
     for lean in search.leans():
@@ -114,7 +114,7 @@ class _Nowhere(Exception):
 
 @dataclass(frozen=True)
 class _Tried:
-    """A film at a position: supported load (N, N m), misses that are to vanish, least gap by its shape (m)."""
+    """A film at a position: supported load (N, N m), residuals that are to vanish, least gap by its shape (m)."""
 
     position: Position
     solution: FilmSolution
@@ -128,7 +128,7 @@ class _Tried:
 
 
 class _LoadSearch:
-    """Films of one shape at positions; remembers the one that bore the load best."""
+    """Films of one shape at positions; keeps the one nearest to the load."""
 
     def __init__(self, problem: FilmProblem, load: RigidLoad, solve: Solve) -> None:
         self._problem, self._load, self._solve = problem, load, solve
@@ -178,7 +178,7 @@ class _LoadSearch:
         return tried
 
     def _misses(self, supported: tuple[float, float, float]) -> Array:
-        """Force near the load relative to it, -1 .. 1 however far; moments over the load at the film's edge."""
+        """Relative residual of the force, within -2 .. 2; moments over the load at the film's edge."""
         load, (force, moment_x, moment_y) = self._load, supported
         size = 0.5 * (max(force, 0.0) + load.force)
         misses = [max((force - load.force) / size, -2.0)]
@@ -277,7 +277,7 @@ class _LoadSearch:
         return None
 
     def _slopes(self, here: _Tried) -> Array:
-        """Misses by the free unknowns (1/m), by differences."""
+        """Slopes of the residuals by the free unknowns (1/m), by differences."""
         width = DIFFERENCE * (here.gap if self._problem.walls is None else self._scale)
         columns = []
         for k in range(len(self.free)):

@@ -322,7 +322,7 @@ def _energy_error(solution: FilmSolution, fields: PointFields) -> float:
 
 
 def cavitated_fraction(solution: FilmSolution) -> float:
-    """Share of the film's area that its cavity takes."""
+    """Share of the film's area in its cavity."""
     if not solution.cavity.any():
         return 0.0
     space = solution.problem.space

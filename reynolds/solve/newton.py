@@ -98,6 +98,6 @@ def signed_after(problem: FilmProblem, at: Iterate, change: Array, scale: float)
         lack = at.state.film_fraction + scale * change - 1.0
         return np.where(at.cavity, lack * at.parts.lack, pressure - level)
     balance = flow_balance(problem, at.parts, replace(at.state, pressure=pressure))
-    # A node of zero balance (but for round-off) would otherwise enter and leave the cavity for ever.
+    # A node of zero balance (except for round-off) would otherwise enter and leave the cavity indefinitely.
     made = (balance.net + TIE * balance.flow_scale) / at.parts.stiffness[problem.space.pattern.diagonal]
     return np.where(at.cavity, -made, pressure - level)

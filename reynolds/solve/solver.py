@@ -87,7 +87,7 @@ class FilmSolver:
             try:
                 return self._solved(problem, self.solve(simpler))
             except FilmNotConverged:
-                pass  # the simpler film is no help, or has no solution itself: a cold start
+                pass  # the simpler film does not help, or has no solution itself: a cold start
         return self._solved(problem, start)
 
     def _solved(self, problem: FilmProblem, start: FilmSolution | None) -> FilmSolution:
@@ -121,7 +121,7 @@ class FilmSolver:
                 _check_filled(at)
                 self._answered = _solution(problem, setting, at, path)
                 return self._answered
-            # Under JFO an unknown near zero may change sides for ever: either side is the solution.
+            # Under JFO an unknown near zero may change sides indefinitely: either side is the solution.
             near = imbalance < (NEAR if settled else TOLERANCE if problem.cavitation is Cavitation.JFO else 0.0)
             cycles |= iteration >= FULL_STEPS or (not settled and at.cavity.tobytes() in seen)
             seen.add(at.cavity.tobytes())
@@ -167,7 +167,7 @@ class FilmSolver:
         return active_set(matrix, self._factor, obstacle, guess) if costly or guess.size > FINEST else guess
 
     def _answer(self, solution: FilmSolution) -> _Answers | None:
-        """The last linearised balance, if it is of that film, with the same cavity but for full unknowns."""
+        """The last linearised balance, if it is of that film, with the same cavity except full unknowns."""
         kept = self._answers
         if kept is None or self._answered is not solution:
             return None
@@ -248,7 +248,7 @@ class FilmSolver:
         return made, load
 
     def _of_companion(self, problem: FilmProblem, at: Iterate, fixed: NDArray[np.bool_]) -> Array | None:
-        """Entries of a quadratic film's companion, None where there is none."""
+        """Entries of a quadratic film's companion, None without one."""
         if self._companion is None:
             return None
         if problem.space.vertices is not self._placed:
@@ -314,7 +314,7 @@ def _not_settled(problem: FilmProblem, at: Iterate, imbalance: float) -> FilmNot
 
 
 def _check_filled(at: Iterate) -> None:
-    """Fault a cavity of negative film fraction: upwinding leaves none below zero, obtuse angles little."""
+    """Raise for a cavity of negative film fraction: upwinding leaves none below zero, obtuse angles little."""
     if (least := float(at.state.film_fraction.min())) < LEAST_FRACTION:
         raise FilmNotConverged(
             f"more oil drawn from a cavity than flows into it (film fraction {least:.3g})",

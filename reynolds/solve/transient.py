@@ -1,6 +1,6 @@
 """A film in time: implicit Euler on the oil that each unknown holds, theta r h as one quantity.
 
-Mass is conserved to round-off at every step, whatever its size; time enters to first order.
+Mass is conserved to round-off in a step of any size; the accuracy in time is of first order.
 """
 
 from collections.abc import Callable, Iterator
@@ -21,7 +21,7 @@ MOST_HALVINGS = 12  # of a step on which the cavity does not converge
 
 
 class Holding(Protocol):
-    """A solution of any kind, of which a march needs the unknowns' oil."""
+    """A solution of any kind with the oil of its unknowns, as a march requires."""
 
     @property
     def holds(self) -> Array:

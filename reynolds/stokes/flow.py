@@ -104,7 +104,7 @@ def solve_navier_stokes(problem: FlowProblem, densities: Sequence[float], start:
 
 
 def _continued(problem: FlowProblem, system: Sparse, start: Flow, density: float) -> Flow:
-    """The flow at a density, by as many steps between as it takes."""
+    """The flow at a density, by as many intermediate steps as necessary."""
     flow, share = start, 1.0
     while flow.density != density:
         rest = density - flow.density
@@ -130,7 +130,7 @@ def _system(problem: FlowProblem) -> Sparse:
 
 
 def _newton(problem: FlowProblem, system: Sparse, density: float, start: Array, most: int) -> Flow:
-    """Newton's method at one density from a start; raises FilmNotConverged after `most` steps or a wild one."""
+    """Newton's method at one density from a start; raises FilmNotConverged after `most` steps or a diverging one."""
     space, count = problem.space, problem.space.velocity.N
     unknowns = start.copy()
     unknowns[problem.held.unknowns] = problem.held.values

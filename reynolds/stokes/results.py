@@ -1,4 +1,4 @@
-"""Results of a solved flow: flux, pressure at an end, and turning places of the flow along a wall."""
+"""Results of a solved flow: flux, pressure at an end, and places of separation and reattachment along a wall."""
 
 from typing import Any
 
@@ -52,7 +52,7 @@ def wall_shear(flow: Flow, height: float) -> tuple[Array, Array]:
 
 
 def turning_places(flow: Flow, height: float) -> Array:
-    """Places x in m, ascending, on walls y = height where the shear changes sign: flow parts or reattaches."""
+    """Places x in m, ascending, on walls y = height where the shear changes sign: flow separates or reattaches."""
     x, shear = wall_shear(flow, height)
     at = np.nonzero(shear[:-1] * shear[1:] < 0.0)[0]
     return np.asarray(x[at] - shear[at] * (x[at + 1] - x[at]) / (shear[at + 1] - shear[at]))

@@ -273,7 +273,7 @@ def _image(
 
 
 def _share(posed: ThermalCase, conditions: _Conditions, pressure: Array) -> Array:
-    """Viscosity by the law over that of the resting oil, (size, m). Raises FilmInputError where that is void."""
+    """Viscosity by the law over that of the resting oil, (size, m). Raises FilmInputError where that is not defined."""
     found = posed.law(conditions.temperature[:, 1:-1], pressure[:, None], conditions.rate)
     share = np.broadcast_to(found / resting_viscosity(posed.problem, pressure)[:, None], conditions.rate.shape)
     if not (share.min() > THINNEST and share.max() < 1.0 / THINNEST):

@@ -101,7 +101,7 @@ def _with_walls(solution: FilmSolution) -> Array:
     space, reference = solution.problem.space, solution.problem.space.reference
     from_fixed = _fixed_wall_flux(solution)
     moving = [whole - part for whole, part in zip(solution.flux, from_fixed, strict=True)]
-    # Flow over a line of the map: what crosses a length of the film, times their ratio.
+    # Flow over a line of the map: that across a length of the film, times their ratio.
     flows = [np.asarray(part * space.scale) for part in (*moving, *from_fixed)]
     filling = solution.film_fraction * density(solution.problem, solution.pressure)[0]
     out = np.empty((2, len(space.pattern.indices)))

@@ -42,7 +42,7 @@ CORRECTED = 1e-5  # change of the last correction over the range of temperature
 PATIENCE = 40  # corrections, after which larger and larger jumps go upwind too
 CLOSER = 0.1  # of the residual is left by the solve of a correction
 MAX_CORRECTIONS = 100
-ROUND_OFF = 1e-7  # of what the film could conduct over its range of temperature: less heat is round-off
+ROUND_OFF = 1e-7  # of the heat that the film could conduct over its range of temperature: less is round-off
 NO_INFLOW = 1e-9  # of the unknown's flow scale
 
 
@@ -80,7 +80,7 @@ class Heat:
 
     @property
     def given(self) -> tuple[float, ...]:
-        """Temperatures that the case fixes (K): of inflow first, then of walls; empty where none is."""
+        """Temperatures that the case fixes (K): of inflow first, then of walls; empty without any."""
         ports = () if self.port_temperature is None else (self.port_temperature,)
         walls = [
             float(np.mean(wall.temperature if isinstance(wall, GivenTemperature) else wall.outer_temperature))
@@ -96,7 +96,7 @@ class Heat:
 
     @property
     def datum(self) -> float:
-        """The lowest given temperature (K), against which heat is counted. Raises FilmInputError where none is."""
+        """The lowest given temperature (K), against which heat is counted. Raises FilmInputError without one."""
         if not self.given:
             raise FilmInputError("heat", "no temperature anywhere", "one of inflow or of a wall")
         return min(self.given)
@@ -244,14 +244,14 @@ def _terms(solution: FilmSolution, heat: Heat, profile: FlowProfile, before: Arr
 
 
 def _inflow_temperature(solution: FilmSolution, heat: Heat) -> Array:
-    """Temperature of the inflow at each unknown (size,) K; NaN where there is none."""
+    """Temperature of the inflow at each unknown (size,) K; NaN without inflow."""
     space, boundary = solution.problem.space, solution.problem.boundary
     if unknown := set(heat.inflow) - set(boundary):
         expected = f"one of {', '.join(sorted(boundary))}, through which oil can pass"
         raise FilmInputError(f"inflow temperature at {', '.join(sorted(unknown))}", "no open boundary", expected)
     total, length = np.zeros(space.size), np.zeros(space.size)
     for name, kelvin in heat.inflow.items():
-        # A corner of two boundaries takes from each by its length; a pocket's single unknown has its own.
+        # A corner of two boundaries has a share of each by its length; a pocket's single unknown has its own.
         total[space.edge_dofs[name]] += space.edge_share[name] * kelvin
         length[space.edge_dofs[name]] += space.edge_share[name]
     found = np.where(length > 0.0, total / np.where(length > 0.0, length, 1.0), np.nan)

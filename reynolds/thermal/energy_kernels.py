@@ -168,7 +168,7 @@ def sweep(start, neighbour, edge, sign, flow, inverse, order, right, field):
 
 @njit(**_FAST)
 def downstream(start, neighbour, out_flow, first, order):
-    """Nodes in the order of the flow, as far as it has no circles: depth first, the last left first.
+    """Nodes in the order of the flow, as far as it has no cycles: depth first, the last left first.
 
     out_flow[k] > 0 where the flow of entry k leaves its node; `first` are the nodes to begin at, in turn.
     """

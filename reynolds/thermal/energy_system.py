@@ -1,6 +1,6 @@
 """The linear system of a film's temperature: blocks of nodes, swept down the flow, inside GMRES.
 
-Heat moves with the oil, so that block Gauss-Seidel in the order of the flow is nearly exact but for backward
+Heat moves with the oil, so that block Gauss-Seidel in the order of the flow is nearly exact except for backward
 couplings: oil that circulates or flows back along a wall, and walls that conduct heat from place to place.
 """
 

@@ -29,7 +29,7 @@ class Adiabatic:
 
 @dataclass(frozen=True)
 class Convecting:
-    """Each place on its own through a coefficient H (W/(m2 K)) to an outer temperature (K): q = H (T - T_outer).
+    """Local heat transfer through a coefficient H (W/(m2 K)) to an outer temperature (K): q = H (T - T_outer).
 
     Numbers, or one for each vertex (vertices,). A wall of thickness d and conductivity k has H = k/d.
     """
@@ -65,7 +65,7 @@ class ConductingBody:
 
 @dataclass(frozen=True)
 class Turning:
-    """A wall that turns fast under the film and so has one temperature: that at which it takes `heat` (W)."""
+    """A wall that turns fast under the film and so has one temperature, at which it absorbs `heat` (W)."""
 
     heat: float = 0.0
 

@@ -85,9 +85,9 @@ def _factorise(a, level):
 def _weights(a, level):
     """Interpolation of the odd lines from their neighbours: T w = - sum of their couplings to that neighbour.
 
-    Afterwards the odd block of `answer` has the southern weights, that of `load` the northern ones. T is the line,
-    with as much diagonal as makes the two weights one together where there are two neighbours: what a held end of
-    the line has taken out of the matrix must not shorten them.
+    Afterwards the odd block of `answer` has the southern weights, that of `load` the northern ones. T is the line, with
+    the diagonal at which the two weights of two neighbours have the sum one: couplings to a held end of the line, which
+    the matrix lacks, must not reduce them.
     """
     slots, begin, wide = a.slots[level], a.start[level, 1] + 1, width(a, level, 1)
     over = a.start[level, 0] - begin

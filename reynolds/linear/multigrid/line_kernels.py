@@ -1,11 +1,11 @@
 """Lines of nine-point stencils, compiled once by numba: memory layout, and operations on many at once.
 
-Layout: the lines of a level lie side by side, so that eight of them share a vector register; odd ones and even
-ones apart, since each colour needs the other only. A block is n + 2 rows of `slots` numbers: row i has unknowns i
-of its lines, rows 0 and n + 1 are zero. Line 2 k is in slot k of the even block, line 2 k + 1 in slot k + 1 of
-the odd one: line k of a colour has its southern neighbour in slot k of the other block, its northern one in slot
-k + 1. The other slots are pads: the centre of their stencil is one, all else zero, but for a copy of
-the line at the other end where the last line is next to the first.
+Layout: the lines of a level lie side by side, so that eight of them share a vector register; odd ones and even ones
+apart, since each colour needs the other only. A block is n + 2 rows of `slots` numbers: row i has unknowns i of its
+lines, rows 0 and n + 1 are zero. Line 2 k is in slot k of the even block, line 2 k + 1 in slot k + 1 of the odd one:
+line k of a colour has its southern neighbour in slot k of the other block, its northern one in slot k + 1. The other
+slots are pads: the centre of their stencil is one, all else zero, except a copy of the line at the other end where the
+last line is next to the first.
 
 Numba's cache watches a function's own file only: after a change here, touch the kernels that import it.
 """

@@ -73,7 +73,7 @@ class Multigrid:
 
     @property
     def levels(self) -> tuple[GridLevels, GridLevels, Coarsest]:
-        """The cycle: its finest level, the others and what solves the last, for kernels that cycle themselves."""
+        """The cycle: its finest level, the others and the solver of the last, for kernels that cycle themselves."""
         return self._top, self._coarse, self._coarsest
 
     @property
@@ -82,7 +82,7 @@ class Multigrid:
         return self._slots
 
     def update(self, data: Array) -> bool:
-        """Take the entries of the upper triangle; False where the matrix is not positive definite on some line."""
+        """Set the entries of the upper triangle; False where the matrix is not positive definite on some line."""
         return (
             bool(coarsening_kernels.take_in(data, self._places, self._entries, self._fine, *self.levels))
             or self._precise()

@@ -1,8 +1,8 @@
 """Sweeps over the lines of a level of multigrid, compiled once by numba.
 
 A line is eliminated from one end on and substituted from the other: even lines up first, odd ones down. So the one
-colour's substitution and the next operation run through the rows the same way, in one sweep, some rows apart: half
-the passes through memory, and two chains of operations where one would wait for itself.
+colour's substitution and the next operation run through the rows the same way, in one sweep, some rows apart: half the
+passes through memory, and two independent chains of operations in place of one dependent chain.
 """
 
 # mypy: allow-untyped-defs, allow-incomplete-defs, no-check-untyped-defs
@@ -106,7 +106,7 @@ def finish_even_start_odd(a, level):
 def finish_odd_hand_down(a, level, b, below, whole):
     """Up: the answer of the odd lines, and the residual of the even ones as the load of the next level.
 
-    The even ones have just been solved, but for the odd lines, unless `whole`.
+    The even ones have just been solved, except for the odd lines, unless `whole`.
     """
     slots, even, odd, n = a.slots[level], a.start[level, 0], a.start[level, 1] + 1, a.length
     wide, half, around = width(a, level, 1), width(b, below, 0), a.around
