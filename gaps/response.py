@@ -1,8 +1,8 @@
-"""A response: what a costly computation gives over a box of inputs, learnt from points, its error from others.
+"""A response: the outputs of a costly computation over a box of inputs, learnt from points, its error from others.
 
-Learnt are the corners of the box and the first points of Sobol's sequence (Sobol 1967), held out those that
-continue it. Between learnt points runs a cubic radial basis interpolant with a linear tail (Duchon 1977; scipy's
-RBFInterpolator), in inputs scaled to the unit box. Its error is what the held-out points show, nothing else.
+Learnt are the corners of the box and the first points of Sobol's sequence (Sobol 1967), held out those that continue
+it. Between learnt points runs a cubic radial basis interpolant with a linear tail (Duchon 1977; scipy's
+RBFInterpolator), in inputs scaled to the unit box. Its error is measured at the held-out points alone.
 """
 
 from collections.abc import Sequence
@@ -17,7 +17,7 @@ from reynolds.errors import FilmInputError
 from reynolds.numerics.arrays import Array
 
 ROUND_OFF = 1e-9
-"""Of an axis' length: what a point may lie outside its ends, as a unit turned forth and back leaves it."""
+"""Of an axis' length: distance that a point may lie outside its ends, the round-off of a conversion of units."""
 
 
 class Spacing(Enum):
@@ -28,10 +28,10 @@ class Spacing(Enum):
 
 
 class Measure(Enum):
-    """Measure by which an output is learnt and its error is taken.
+    """Measure in which an output is learnt and its error is stated.
 
-    Of positive values by logarithm, relative; else as it is: of an output of order one the error itself, of others
-    over the largest magnitude of all learnt values.
+    Positive values by logarithm, with relative error; others directly: with the error itself for an output of order
+    one, else over the largest magnitude of all learnt values.
     """
 
     RELATIVE = "relative"
@@ -73,7 +73,7 @@ class Axis:
 
 @dataclass(frozen=True)
 class Output:
-    """One output by its name, the measure of its error, and what errors of the largest are taken of at least.
+    """One output by its name, the measure of its error, and the least reference of errors, of the largest value.
 
     powers: of positive inputs by name, with whose product it is learnt: an output that goes as their inverse is then a
     constant.
@@ -115,7 +115,7 @@ class HeldOutError:
 
 @dataclass(frozen=True)
 class ErrorRegion:
-    """The box around the held-out points with an error above a limit: how many, lower and upper ends (d,), SI."""
+    """The box around the held-out points with an error above a limit: their number, lower and upper ends (d,), SI."""
 
     count: int
     lower: Array
@@ -208,7 +208,7 @@ def fewest_learnt(inputs: int) -> int:
 def learnt_points(axes: Sequence[Axis], count: int) -> Array:
     """The points (count, d) to learn from: the 2^d corners of the box, then Sobol's sequence.
 
-    The corners keep the interpolant from guessing beyond the outermost of the others: with 120 points of four
+    The corners keep the interpolant from extrapolating beyond the outermost of the others: with 120 points of four
     inputs a smooth function is learnt 1.1 to 9 times better than from Sobol points alone
     (tests/verification/gaps/gap/test_response.py). Raises FilmInputError for fewer than twice the corners.
     """

@@ -1,1 +1,1 @@
-"""Piston, slipper and block films at one time: physics, what drives them, friction."""
+"""Piston, slipper and block films at one time: physics, drives, friction."""

@@ -13,9 +13,9 @@ n by n . (lift + W x (r - S)), W the block's turning about the spline S at heigh
 
 a turning about the sphere's centre would not change the film.
 
-The block is held sideways and turned at the spline, a point of the shaft: tilting about that point the shaft does
-no work on it, so that moments count about it. The pressing forces are all forces from outside on block, pistons
-and slippers but those of film and kidneys, D'Alembert's included (`wrench_about`).
+The block is held sideways and turned at the spline, a point of the shaft: as it tilts about that point the shaft does
+no work on it, so that moments count about it. The pressing forces are all forces from outside on block, pistons and
+slippers but those of film and kidneys, D'Alembert's included (`wrench_about`).
 """
 
 from collections.abc import Callable, Mapping
@@ -182,7 +182,7 @@ class BlockFilm:
         )
 
     def _walls(self, angle: float) -> ElasticWalls | None:
-        """Both walls with the block at a shaft angle (rad): pads and plates of unlike sectors turn past it."""
+        """Both walls with the block at a shaft angle (rad): pads and plates of different sectors turn past it."""
         walls = self._laws.walls
         if walls is None:
             return None
@@ -225,8 +225,8 @@ class BlockFilm:
     def tilted_torque(self, stage: FloatingStage) -> float:
         """Torque (N m) about the shaft, against its turning, of the pressure on the block's tilted face.
 
-        Pressure of film and kidneys presses along the block's own axis, about which it has no moment: what balances
-        the forces that tip the block then turns it about the shaft's. It has no power on the block.
+        Pressure of film and kidneys presses along the block's own axis, about which it has no moment: the balance of
+        the forces that tip the block then has a moment about the shaft's. It has no power on the block.
         """
         _, about_x, about_y = np.asarray(self.drive.press(self._angle(stage.time)))
         rise_x, rise_y = stage.q[1:] / self.geometry.land_radii[3]
@@ -293,7 +293,7 @@ def _leverage(sphere: Sphere, spline_height: float) -> float:
 def floating_block(film: BlockFilm) -> Floating:
     """The block as a floating film: coordinates (h, rise x, rise y) m, massless.
 
-    Validity: small tilts; a plane or spherical valve plate but for its face and ports; a spline without friction.
+    Validity: small tilts; a plane or spherical valve plate except for its face and ports; a spline without friction.
     """
     return Floating("block", film.problem_at, film.modes_at, film.outer_at, reference=film.drive.case_pressure)
 

@@ -1,7 +1,7 @@
 """Shear of oil and of touching asperities on the walls of a floating film, and the heat of both.
 
-A floating film keeps contact apart from its oil: asperities bear by the gap between mean planes, which may overlap,
-while the thickness of the oil stays positive (`reynolds.equation.rough_overlap`). Rubbing follows the same rule.
+A floating film separates contact from its oil: asperities bear by the gap between mean planes, which may overlap, while
+the thickness of the oil stays positive (`reynolds.equation.rough_overlap`). Rubbing follows the same rule.
 """
 
 from dataclasses import dataclass, replace

@@ -14,7 +14,7 @@ from reynolds.thermal.shear_thinning import ShearLaw, newtonian
 
 
 class Effect(Enum):
-    """A part of the physics that can be left out, each named after the field of `Physics` that it switches."""
+    """A part of the physics that can be left out, each with the name of the field of `Physics` that it switches."""
 
     CAVITATION = "cavitation"
     PRESSURE_VISCOSITY = "pressure_viscosity"

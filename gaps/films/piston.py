@@ -8,7 +8,7 @@ depth inside the case edge, s = guide_length - y,
 
     h = c + bore(s) + piston(depth from its end) - e(s) . (cos, sin),   e(s) = e1 + (e0 - e1) s/guide_length.
 
-The mesh spans what is engaged and stretches as the piston moves; wall velocities are relative to it. Between
+The mesh covers the engaged length and stretches as the piston moves; wall velocities are relative to it. Between
 elastic walls its rows are closer at both edges.
 """
 
@@ -62,9 +62,9 @@ class PistonDrive:
     """Drive of a piston over the turn, SI.
 
     shaft_speed rad/s; viscosity Pa s and pressures Pa; spins rad/s of piston and bore about the bore's axis in the
-    frame that does not turn. Over the shaft angle: chamber_pressure Pa; reach m, depth of the piston's end inside
-    the case edge; velocity m/s of the piston out of the block, -d reach/dt; outer (4,) N, the generalised
-    forces of all but the film (`gaps.loads.ball_joint`).
+    frame that does not turn. Over the shaft angle: chamber_pressure Pa; reach m, depth of the piston's end inside the
+    case edge; velocity m/s of the piston out of the block, -d reach/dt; outer (4,) N, all generalised forces except
+    those of the film (`gaps.loads.ball_joint`).
     """
 
     shaft_speed: float
@@ -242,10 +242,10 @@ class PistonFilm:
         return -float(np.sum(above * slope * space.area)) - chamber * self._on_chamber_edge(taken_off)
 
     def _tilted_force(self, stage: FloatingStage, above: Array) -> float:
-        """Force (N) out of the block of pressure on a piston askew in its bore, -int (p - p_case) d(phi q)/dy dA.
+        """Force (N) out of the block of pressure on a piston tilted in its bore, -int (p - p_case) d(phi q)/dy dA.
 
-        Film presses across the piston's own axis, along which it slides: its share along the bore loads the piston and
-        has no power.
+        The film's pressure acts across the piston's own axis, along which it slides: its share along the bore loads the
+        piston and has no power.
         """
         slope = slope_along(stage.solution, self.modes_at(stage.time) @ stage.q)
         return -float(np.sum(above * slope * stage.solution.problem.space.area))
@@ -265,8 +265,8 @@ class PistonFilm:
     def chamber_flow(self, stage: FloatingStage, flows: Mapping[str, float], given: PistonDeformation | None) -> float:
         """Flow (m3/s) out of the chamber, which grows by the piston's nominal section and the deformation `given`.
 
-        `flows` out of the film by `reynolds.solve.loads.boundary_flows`. The film's edge moves with the piston's
-        end and sweeps the clearance there, which flows out besides; the piston's relief is no part of the section.
+        `flows` out of the film by `reynolds.solve.loads.boundary_flows`. The film's edge moves with the piston's end
+        and sweeps the clearance there, which is an additional outflow; the piston's relief is no part of the section.
         """
         swept = 0.0
         if self._driven(stage.time).reach < self.shape.guide_length:

@@ -31,9 +31,9 @@ class Active(Enum):
 class GapReport:
     """Quantities that every gap reports of a stage.
 
-    flow (n,) m3/s out of the chambers that feed it (one, or z of the block); leakage m3/s into the case; heat W;
-    contact_load N, int of the asperities' pressure; active: contact above a hundredth of the largest generalised
-    force from outside, cavitation above a hundredth of the film's area, the retainer where it presses; else lift.
+    flow (n,) m3/s out of the chambers that feed the gap (one, or z of the block); leakage m3/s into the case; heat W;
+    contact_load N, int of the asperities' pressure; active: contact above a hundredth of the largest generalised force
+    from outside, cavitation above a hundredth of the film's area, the retainer where it presses; else lift.
     """
 
     flow: Array

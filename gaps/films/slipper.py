@@ -37,10 +37,10 @@ ROUND_OFF = 1e-13  # of a retainer's force
 
 @dataclass(frozen=True)
 class PocketOrifice:
-    """Diameter and length (m) of the bore that feeds the pocket; flow coefficient of its ends, None: none.
+    """Diameter and length (m) of the bore that feeds the pocket; flow coefficient of its ends, None: no loss there.
 
-    With a flow coefficient Cd entry and exit take rho/2 (q/(Cd A))^2 on top of the laminar loss. A table holds the
-    whole drop, in place of both.
+    With a flow coefficient Cd entry and exit lose rho/2 (q/(Cd A))^2 in addition to the laminar loss. A table gives the
+    whole pressure drop, in place of both.
     """
 
     diameter: float
@@ -81,10 +81,10 @@ class Retainer:
 class SlipperDrive:
     """Drive of a slipper over the turn, SI.
 
-    shaft_speed rad/s; viscosity Pa s, density kg/m3, pressures Pa; spin rad/s about the plate's normal. Over the
-    shaft angle: chamber_pressure Pa; sliding (2,) m/s over the plate along x and y; outer (3,) N, the generalised
-    forces of all but film, pocket and retainer (`face_force`). inertia (3, 3) kg: generalised masses of the moving
-    parts (`face_inertia`), None: none.
+    shaft_speed rad/s; viscosity Pa s, density kg/m3, pressures Pa; spin rad/s about the plate's normal. Over the shaft
+    angle: chamber_pressure Pa; sliding (2,) m/s over the plate along x and y; outer (3,) N, all generalised forces
+    except those of film, pocket and retainer (`face_force`). inertia (3, 3) kg: generalised masses of the moving parts
+    (`face_inertia`), None: massless.
     """
 
     shaft_speed: float
@@ -109,8 +109,8 @@ def face_inertia(outer_radius: float, lifted: float, mass: float, centre_of_mass
     """Generalised masses (3, 3) kg of a slipper that moves with its piston along a bore tilted by `tilt` (rad).
 
     Both, `lifted` kg, move by h/cos(tilt) as the film grows by h. A slipper of `mass` kg tilts about the ball, its
-    centre of mass l (m) from there: m (l^2 + r2^2/4), as a disc of its rim. Small beside a film's damping, but
-    decisive without it: in the flight of a slipper until its retainer stops it.
+    centre of mass l (m) from there: m (l^2 + r2^2/4), as a disc of its rim. Small compared with a film's damping, but
+    decisive without it: when a slipper lifts off until its retainer stops it.
     """
     turned = mass * (centre_of_mass**2 + 0.25 * outer_radius**2) / outer_radius**2
     return np.diag([lifted / np.cos(tilt) ** 2, turned, turned])
@@ -119,9 +119,9 @@ def face_inertia(outer_radius: float, lifted: float, mass: float, centre_of_mass
 def pressed_by(inertia: Array, centre_of_mass: float, friction: Array, ball_height: float, ball_moment: Array) -> Array:
     """int p (x, y) dA (N m) that the film must give to keep the slipper's moments about the ball in balance.
 
-    l m A - H T + n x M: inertia m A (2,) N of its centre of mass, l (m) from the ball towards the face; friction
-    T (2,) N of the plate on the face, H (m) from the ball; moment M (2,) N m of the joint on the slipper. All
-    along the plate's x and y; the slipper's moments of inertia are left out.
+    l m A - H T + n x M: inertia m A (2,) N of its centre of mass, l (m) from the ball towards the face; friction T (2,)
+    N of the plate on the face, H (m) from the ball; moment M (2,) N m of the joint on the slipper. All along the
+    plate's x and y; the slipper's moments of inertia are neglected.
     """
     turned = np.array([-ball_moment[1], ball_moment[0]])
     return np.asarray(centre_of_mass * np.asarray(inertia) - ball_height * np.asarray(friction) + turned)
@@ -138,8 +138,8 @@ def hagen_poiseuille_conductance(diameter: float, length: float, viscosity: floa
 def orifice_and_capillary(drop: float, conductance: float, loss: float) -> Tangent:
     """Flow q (m3/s) and dq/d drop of a bore with laminar and Bernoulli's loss in series: drop = q/G + k q |q|.
 
-    conductance G m3/(s Pa) by Hagen and Poiseuille; loss k = rho/(2 (Cd A)^2), Pa s2/m6, 0: none.
-    Validity: laminar in the bore, Re d/l << 64 but for what k adds.
+    conductance G m3/(s Pa) by Hagen and Poiseuille; loss k = rho/(2 (Cd A)^2), Pa s2/m6, 0: none. Validity: laminar in
+    the bore, Re d/l << 64 except for the loss k.
     """
     root = np.sqrt(1.0 + 4.0 * loss * conductance**2 * abs(drop))
     return Tangent(2.0 * conductance * drop / (1.0 + root), conductance / root)
@@ -258,7 +258,7 @@ class SlipperFilm:
         )
 
     def _walls(self, time: float) -> ElasticWalls | None:
-        """Both walls at a time (s); a spinning slipper of unlike sectors turns in its film."""
+        """Both walls at a time (s); a spinning slipper of different sectors turns in its film."""
         walls = self._laws.walls
         if walls is None:
             return None
@@ -295,7 +295,7 @@ class SlipperFilm:
         return wall_shear(stage.solution, self.asperities, stage.gap, self._laws.thinning)
 
     def friction(self, stage: FloatingStage, by: WallShear) -> SlipperFriction:
-        """Friction of film and contact of the lands on the slipper; the pocket's oil has next to none."""
+        """Friction of film and contact of the lands on the slipper; friction of the pocket's oil is neglected."""
         space = stage.solution.problem.space
         x, y = space.points
         along, across = (part * space.area for part in by.on_moving)

@@ -59,7 +59,7 @@ def ball_forces(bore_axis: Array, plate_normal: Array, piston: DrivenBody, slipp
     """Forces of joint, slipper film and bore, from both bodies' balance of forces (module docstring).
 
     The ball's acceleration is the slipper's prescribed motion along the plate: growth and tilting of its film are
-    left out of it (1e-4 of the rest). Raises FilmInputError where the plate hardly faces the bore (n . a < 0.1).
+    neglected (1e-4 of the rest). Raises FilmInputError where the plate hardly faces the bore (n . a < 0.1).
     """
     facing = float(plate_normal @ bore_axis)
     if not facing >= LEAST_FACING:
@@ -75,8 +75,8 @@ def ball_forces(bore_axis: Array, plate_normal: Array, piston: DrivenBody, slipp
 def swept_acceleration(place: Array, axis: Array, velocity: float, acceleration: float, shaft_speed: float) -> Array:
     """Acceleration (3,) m/s2 of a point at `place` (3,) m that slides along an axis turning with the shaft.
 
-    s'' a + 2 w s' z x a - w^2 (r - z z . r): along the bore, Coriolis (nothing for a cylindrical block) and
-    centripetal, z the shaft's axis. velocity s' m/s, acceleration s'' m/s2, shaft_speed w rad/s, constant.
+    s'' a + 2 w s' z x a - w^2 (r - z z . r): along the bore, Coriolis (zero for a cylindrical block) and centripetal, z
+    the shaft's axis. velocity s' m/s, acceleration s'' m/s2, shaft_speed w rad/s, constant.
     """
     inward = shaft_speed**2 * np.array([place[0], place[1], 0.0])
     around = np.array([-axis[1], axis[0], 0.0])
@@ -88,18 +88,18 @@ def relative_spin(
 ) -> Array:
     """Angular velocity (3,) rad/s of the slipper against the piston: s n - w z - s_p a.
 
-    piston_spin s_p about its axis relative to the block, slipper_spin s about the plate's normal relative to the
-    plate, both rad/s; the slipper's tilting is left out.
+    piston_spin s_p about its axis relative to the block, slipper_spin s about the plate's normal relative to the plate,
+    both rad/s; the slipper's tilting is neglected.
     """
     return np.asarray(slipper_spin * plate_normal - shaft_speed * np.array([0.0, 0.0, 1.0]) - piston_spin * bore_axis)
 
 
 def ball_friction(coefficient: float, force: float, radius: float, spin: Array, shaft_speed: float) -> Array:
-    """Moment (3,) N m of the joint's friction on the slipper, -mu |B| r W/|W|; the piston feels its opposite.
+    """Moment (3,) N m of the joint's friction on the slipper, -mu |B| r W/|W|; its opposite acts on the piston.
 
-    Coulomb's law on the ball's radius (m) under a force (N), W the relative spin (rad/s); |W| is taken as
-    sqrt(W^2 + (0.01 w)^2), so that a joint at rest has none. Exact for a contact that is small beside the ball and
-    W square to the force; contact over the whole socket has another factor, of order one.
+    Coulomb's law on the ball's radius (m) under a force (N), W the relative spin (rad/s); |W| is replaced by sqrt(W^2 +
+    (0.01 w)^2), so that a joint at rest has no friction. Exact for a contact that is small compared with the ball and W
+    normal to the force; contact over the whole socket has another factor, of order one.
     """
     width = np.sqrt(float(spin @ spin) + (CREEP * shaft_speed) ** 2)
     return np.asarray(-coefficient * abs(force) * radius / width * spin)
@@ -137,14 +137,14 @@ def free_spins(
 ) -> Spins:
     """The spins at which the joint's friction and both films' drag balance about bore and plate normal.
 
-    bore_axis (n, 3) and friction mu |B| r (n,) N m of the joint are those at n equidistant shaft angles: a joint that
-    nearly sticks feels how its axes swing. `stated`: spins (rad/s) of piston and slipper that are given; None: free.
-    `driven`: torques T (N m) by which films turn piston and slipper that do not spin; drags: N m s, above zero. They
-    are the least of mean(friction |W|) + (piston_drag s_p^2 + slipper_drag s^2)/2 - T . s, a convex function of both,
-    found by Newton's method. A joint that rubs harder than the films drags the piston back against the block until
-    neither turns in space (s = 0, s_p = -w on a cylindrical block); without friction neither is turned (s = s_p = 0).
-    Quasi-steady: at a piston's inertia spins follow within some 1e-2 s, so that means over a turn belong here. Raises
-    FilmInputError for a drag that is not positive, FilmNotConverged where Newton's method does not settle.
+    bore_axis (n, 3) and friction mu |B| r (n,) N m of the joint are those at n equidistant shaft angles: the friction
+    of a joint that nearly sticks depends on the swing of its axes. `stated`: spins (rad/s) of piston and slipper that
+    are given; None: free. `driven`: torques T (N m) by which films turn piston and slipper that do not spin; drags: N m
+    s, above zero. They are the least of mean(friction |W|) + (piston_drag s_p^2 + slipper_drag s^2)/2 - T . s, a convex
+    function of both, found by Newton's method. A joint with more friction than the films holds the piston back against
+    the block until neither turns in space (s = 0, s_p = -w on a cylindrical block); without friction neither is turned
+    (s = s_p = 0). Quasi-steady: at a piston's inertia spins follow within some 1e-2 s, so that means over a turn belong
+    here. Raises FilmInputError for a drag that is not positive, FilmNotConverged where Newton's method does not settle.
     """
     require_positive("free spins", shaft_speed=shaft_speed, piston_drag=piston_drag, slipper_drag=slipper_drag)
     free = np.array([spin is None for spin in stated])

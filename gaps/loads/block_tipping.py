@@ -94,7 +94,7 @@ class BlockBalance:
         return np.array([forces.sum(), lever * (forces @ np.sin(places)), -lever * (forces @ np.cos(places))])
 
     def pressed_at(self, delivery: float, suction: float, spring: float) -> float:
-        """Distance from the shaft (m) at which what the film does not lift presses; pressures over the case's, Pa.
+        """Distance from the shaft (m) of the force that the film does not balance; pressures over the case's, Pa.
 
         F = z Ap (pd + ps)/2 (1 - B) + spring (N), M = z Ap (pd - ps)/pi R (1 - B_M), placed as `pressed_by` does.
         """
@@ -106,8 +106,8 @@ class BlockBalance:
     def pressed_by(self, force: float, moment: float) -> float:
         """Distance from the shaft (m) at which a force (N) with a moment about the spline (N m) presses.
 
-        Beyond the face no film without hydrodynamic lift can hold it: the block tips. Infinite where nothing presses
-        (F <= 0: it lifts off).
+        Beyond the face no film without hydrodynamic lift can hold it: the block tips. Infinite without a pressing force
+        (F <= 0: the block lifts off).
         """
         if force <= 0.0:
             return np.inf

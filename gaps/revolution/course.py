@@ -1,4 +1,4 @@
-"""Course of a gap over one step of its march: its instants, what lies between them, and what passes."""
+"""Course of a gap over one step of its march: its instants, the states between them, and the flows that pass."""
 
 from __future__ import annotations
 
@@ -55,8 +55,8 @@ class GapInstant(Generic[Value]):
 class Course(Generic[Value]):
     """A gap over one step (s): its instants at the stages, the last at the end, and that at the step's start.
 
-    Between them the parabola through all; flows the line through the stages alone, whose integral over the step is
-    the method's: what passes in parts of a step adds up to what the march keeps.
+    Between them the parabola through all; flows the line through the stages alone, whose integral over the step is the
+    method's: the flows of parts of a step add up to the balance of the march.
     """
 
     behind: GapInstant[Value] | None
@@ -71,7 +71,7 @@ class Course(Generic[Value]):
         return self.stages[-1]
 
     def at(self, angle: float, since: Passed[Value]) -> GapInstant[Value]:
-        """The gap at a shaft angle (rad) of the step; `since`: what has passed since the reported angle before."""
+        """The gap at a shaft angle (rad) of the step; `since`: mean of the flows since the reported angle before."""
         known = self.stages if self.behind is None else (self.behind, *self.stages)
         shares = self._shares(angle, [one.angle for one in known])
         found = with_numbers(known[-1], shares @ self._instants)
@@ -83,7 +83,7 @@ class Course(Generic[Value]):
         return np.asarray(sum(share * held for share, held in zip(shares, self.holds, strict=True)))
 
     def passed(self, began: float, ended: float, since: Passed[Value]) -> None:
-        """Add what passes from one time (s) of the step to another."""
+        """Add the flows from one time (s) of the step to another."""
         middle = 0.5 * self.speed * (began + ended)
         shares = self._shares(middle, [one.angle for one in self.stages])
         since.add(ended - began, self.end, shares @ self._flows)
@@ -111,7 +111,7 @@ class Course(Generic[Value]):
 
 
 def instant_of_stage(angle: float, stage: FloatingStage, report: Value) -> GapInstant[Value]:
-    """The instant of a stage; what passes is what its report has."""
+    """The instant of a stage; the flows are those of its report."""
     space, film = stage.solution.problem.space, stage.solution.film
     area, at_vertices = space.area, vertex_thickness(stage.solution)
     x, y = space.vertices[int(np.argmin(at_vertices))]
@@ -138,9 +138,8 @@ def instant_of_stage(angle: float, stage: FloatingStage, report: Value) -> GapIn
 def weighted_mean(items: Sequence[Item], weights: Array) -> Item:
     """Weighted mean of reports of several stages, of the same unit.
 
-    Numbers and arrays are averaged, dataclasses field by field; anything else is the last one's.
-    A flow averaged over stages by the weights of their method is what the step has passed, to round-off; weights may
-    have either sign.
+    Numbers and arrays are averaged, dataclasses field by field; anything else is the last one's. A flow averaged over
+    stages by the weights of their method is the mean flow of the step, to round-off; weights may have either sign.
     """
     return with_numbers(items[-1], weights / weights.sum() @ np.array([numbers_of(one) for one in items]))
 

@@ -1,10 +1,10 @@
 """Film temperature over the revolution: each film by its own dissipation, walls by the heat of the turn.
 
-Heat crosses a film in h^2/(pi^2 a), below a millisecond at 30 um, and a turn takes tens of them: so the
-temperature of a film follows its motion without delay (dT/dt at a place of the mesh is left out). Parts take
-minutes to warm, so that each has one temperature, at which the heat that its wall takes over the turn leaves it by
-its resistance. Rounds of motion with the viscosity so found, and of temperatures at WARMED angles with positions,
-rates and cavities of that motion, until viscosity stays.
+Heat crosses a film in h^2/(pi^2 a), below a millisecond at 30 um, and a turn lasts tens of them: so the temperature of
+a film follows its motion without delay (dT/dt at a place of the mesh is neglected). Parts need minutes to warm, so that
+each has one temperature, at which the heat that its wall absorbs over the turn leaves it through its resistance. Rounds
+of motion with the viscosity so found, and of temperatures at WARMED angles with positions, rates and cavities of that
+motion, until viscosity stays.
 """
 
 from __future__ import annotations
@@ -40,7 +40,7 @@ WARMED, FEWEST = 24, 4  # angles of a turn with their own temperatures, and of a
 CLOSE = 0.01  # relative change of viscosity by one more round, root mean square
 MOST_ROUNDS = 12
 ROUGHLY = 1e-2  # relative change of viscosity within an angle, at first
-THINS = 3e-3  # 1/K: a tenth of what oils thin by
+THINS = 3e-3  # 1/K: a tenth of the thinning of oils
 MOST_WALL_ROUNDS = 40
 
 
@@ -60,7 +60,7 @@ SETTLED, COLD = HeatTolerance(0.05, 1e-3), HeatTolerance(1.0, ROUGHLY)
 class Sink:
     """Heat sink of a wall: a temperature (K) behind a resistance (m2 K/W, thickness over conductivity).
 
-    Without resistance the wall has that temperature; a huge one lets no heat pass.
+    Without resistance the wall has that temperature; an infinite one passes no heat.
     """
 
     temperature: float
@@ -71,9 +71,9 @@ class Sink:
 class GapHeat:
     """Oil and walls of a gap that warms, SI.
 
-    density, specific_heat, conductivity of the oil; temperature (K) of inflow; thins(T): viscosity over that
-    at this temperature; heat sinks of the fixed and of the moving wall. The work of compression is left
-    out: oil comes as cold from a chamber as from the case, and throttling warms it by dp/(rho c).
+    density, specific_heat, conductivity of the oil; temperature (K) of inflow; thins(T): viscosity over that at this
+    temperature; heat sinks of the fixed and of the moving wall. The work of compression is neglected: oil from a
+    chamber is as cold as oil from the case, and throttling warms it by dp/(rho c).
     """
 
     density: float
@@ -179,7 +179,7 @@ class _Warming(Generic[Reported]):
         return self._report_of(stage)
 
     def of(self, found: GapRevolution[Reported], rounds: int, enough: HeatTolerance) -> GapTemperatures:
-        """The temperatures of the films gathered over the turn just passed, as near as is enough."""
+        """The temperatures of the films gathered over the turn just passed, within the tolerance."""
         rubbing = float(np.mean([instant.report.heat.rubbing for instant in found.turn.instants]))
         self._settle(rubbing, enough)
         films = [self._warm[time] for time in self._times]
@@ -200,9 +200,9 @@ class _Warming(Generic[Reported]):
         )
 
     def _settle(self, rubbing: float, enough: HeatTolerance) -> None:
-        """Warm all films, and the walls by what they take over the turn until they stay.
+        """Warm all films, and the walls by the heat that they absorb over the turn, until their temperatures settle.
 
-        Films need not agree better with their viscosity than walls that still change leave it.
+        Films need not agree with their viscosity better than the change of the walls allows.
         """
         history, near = History(), None
         agreed = enough.viscosity if self._warm else ROUGHLY  # those of the round before need no nearing
@@ -221,7 +221,7 @@ class _Warming(Generic[Reported]):
         )
 
     def _wall_image(self, rubbing: float) -> Array:
-        """Walls (2,) K at which their resistance passes the heat taken; the film's conductance damps."""
+        """Walls (2,) K at which their resistance passes the absorbed heat; the film's conductance damps."""
         heat, flows = self._heat, self._flows(rubbing)
         films = [self._warm[time].film for time in self._times]
         area = self._mean([float(film.problem.space.area.sum()) for film in films])
@@ -230,12 +230,12 @@ class _Warming(Generic[Reported]):
         return wall_image(heat, self._walls, taken, self._mean(passing) / area)
 
     def _warmed(self, time: float, agreed: float, near: Found | None) -> Found:
-        """The film of a time, of the viscosity that its own temperature makes to within `agreed`, its shape as it is.
+        """The film at a time, with viscosity and temperature consistent to `agreed`, at fixed shape.
 
         It starts from a film near it, if any.
 
-        Oil is as stiff as the motion's pressure makes it, to which that of a film of given shape comes back as
-        both agree: under its own a thin one between walls then rigid would stiffen without bound.
+        The viscosity is that under the pressure of the motion, to which the pressure of a film of given shape
+        converges: under its own pressure, the oil of a thin film between rigid walls would stiffen without bound.
         """
         cold, film, heat = self._floating.shape_at(time), self._gathered[time], self._heat
         under = at_points(film.problem.space, film.pressure)
@@ -260,7 +260,7 @@ class _Warming(Generic[Reported]):
         return np.array([of_films[-1][places_of(first, last).unknowns], *of_films])
 
     def _flows(self, rubbing: float) -> HeatFlows:
-        """Heat, mean over the turn; rubbing (W) goes into the walls that rub."""
+        """Heat, mean over the turn; rubbing (W) heats the walls in contact."""
         heats = [self._warm[time].heat for time in self._times]
         return HeatFlows(
             dissipation=self._mean([one.dissipation for one in heats]),
@@ -277,9 +277,9 @@ class _Warming(Generic[Reported]):
 
 
 def wall_image(heat: GapHeat, walls: Array, taken: Array, conductance: float) -> Array:
-    """Walls (2,) K nearer to those that conduct the heat taken, `taken` (2,) W/m2, through their resistance.
+    """Walls (2,) K nearer to those that conduct the absorbed heat, `taken` (2,) W/m2, through their resistance.
 
-    The film's own conductance (W/(m2 K)) damps: a warmer wall takes less.
+    The film's own conductance (W/(m2 K)) damps: a warmer wall absorbs less.
     """
     resistance = np.array([heat.fixed.resistance, heat.moving.resistance])
     missing = resistance * taken - (walls - heat.outside)

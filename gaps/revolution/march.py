@@ -41,7 +41,7 @@ class Leg(Enum):
 
 @dataclass(frozen=True)
 class GapRevolution(Generic[Value]):
-    """A gap whose turn closes: the turn, and how it was found (turns, changes a turn, multipliers).
+    """A gap whose turn closes: the turn, and its solution (turns, changes a turn, multipliers).
 
     spent: time (s) of each leg; elastic includes pressure-dependent viscosity. warmth: temperatures over
     the turn, None where they are not solved.
@@ -100,13 +100,12 @@ def run_revolution(
 ) -> GapRevolution[Value]:
     """The periodic motion of a gap whose drive repeats with the schedule's last angle.
 
-    Starts as a full film at rest at `start` (k,) m, from which turns of wide steps lead next to the periodic
-    motion, or goes on from a revolution `before` it, from its `final` film where it has no last stage. `report_of`
-    gives the report of each angle. The steps of the first turn that stops at all angles are those of all that follow,
-    so that the map of a turn is smooth. Afterwards each coordinate is as near to the periodic motion as `closed` says,
-    and the oil in the film repeats as well; where `accuracy` is not settled, one turn more has been run. Raises
-    FilmInputError for a schedule that does not rise from 0, FilmNotConverged with part and time where a step or the
-    turn does not settle.
+    Starts as a full film at rest at `start` (k,) m, from which turns of wide steps lead close to the periodic motion,
+    or goes on from a revolution `before` it, from its `final` film where it has no last stage. `report_of` gives the
+    report of each angle. The steps of the first turn that stops at all angles are those of all that follow, so that the
+    map of a turn is smooth. Afterwards each coordinate is as near to the periodic motion as `closed` says, and the oil
+    in the film repeats as well; where `accuracy` is not settled, one turn more has been run. Raises FilmInputError for
+    a schedule that does not rise from 0, FilmNotConverged with part and time where a step or the turn does not settle.
     """
     angles = np.concatenate([[0.0], schedule.angles])
     if len(angles) < 2 or not np.all(np.diff(angles) > 0.0) or not schedule.speed > 0.0:
@@ -133,7 +132,7 @@ def _numbered(report: TurnReport, name: str) -> Callable[[int, float], None]:
 
 
 def mass_balance_error(revolution: GapRevolution[Reported]) -> float:
-    """Oil that enters a gap over the turn and does not leave it, of all that passes between the reported angles.
+    """Oil that enters a gap over the turn and does not leave it, as a share of the flow between the reported angles.
 
     The march keeps its oil to round-off; the rest is the turn's lack of periodicity, and films that are
     extrapolated along their slopes (`Closeness`).

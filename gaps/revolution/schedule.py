@@ -18,11 +18,11 @@ FEWEST = 24  # nodes of a whole turn with steps as wide as their error allows
 class Accuracy:
     """Accuracy of the march and closure of a revolution.
 
-    step, floor: largest error of the film by one step, share of it in each place and m beside it; balance: share
-    of that error within which forces are taken along their slopes; closed: distance from the periodic motion,
-    share of the mean film, and oil that differs in place after a turn, share of all; reach: distance of the next
-    start from a turn's end, share of the least film there. settled: turns and temperatures until both agree; else one
-    turn and its temperatures, on the way to a motion whose drive is still to change.
+    step, floor: largest error of the film by one step, share of it in each place and m beside it; balance: share of
+    that error within which forces are extrapolated along their slopes; closed: distance from the periodic motion, share
+    of the mean film, and oil that differs in place after a turn, share of all; reach: distance of the next start from a
+    turn's end, share of the least film there. settled: turns and temperatures until both agree; else one turn and its
+    temperatures, on the way to a motion whose drive is still to change.
     """
 
     step: float = 1e-3
@@ -41,7 +41,7 @@ class Accuracy:
     def rough(self) -> Accuracy:
         """The same for turns of wide steps that only lead near to the periodic motion.
 
-        Their steps are more exact, so that the first turn that stops at all angles closes, if it is to.
+        Their steps are more exact, so that the first turn that stops at all angles closes for a periodic motion.
         """
         if not self.settled:
             return self
@@ -52,9 +52,9 @@ class Accuracy:
 class Schedule:
     """Schedule of a revolution: shaft speed rad/s, angles (n,) rad to report, `breaks` to step on, films to keep.
 
-    Angles rise from above 0 to the last, at which the turn closes: 2 pi, or a pitch where parts and mesh repeat
-    with it. `breaks` are those of kinks of the drive (a port opens). Every `keep`th reported film is kept; between
-    such angles steps are as long as their accuracy allows, and what is reported there is interpolated.
+    Angles rise from above 0 to the last, at which the turn closes: 2 pi, or a pitch where parts and mesh repeat with
+    it. `breaks` are those of kinks of the drive (a port opens). Every `keep`th reported film is kept; between such
+    angles steps are as long as their accuracy allows, and reports there are interpolated.
     """
 
     speed: float

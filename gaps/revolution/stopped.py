@@ -1,4 +1,4 @@
-"""The end of a turn that finds no film on its way."""
+"""The end of a turn at an angle without a solution of the film."""
 
 from typing import Any
 

@@ -36,7 +36,7 @@ class GapTurn(Generic[Value]):
     """One turn: its start q, its instants, kept films by angle with the deformation that is in their shape, its end.
 
     oil: (size,) m3 of each unknown at each reported angle; final: film at its end, on the mesh of its start; times (s)
-    of its steps; step_error: largest error of a step over what was allowed, jumps left out; accuracy: that allowance,
+    of its steps; step_error: largest error of a step over the allowed one, without jumps; accuracy: that allowance,
     share of the film; allowed, reach, repeats: as `reynolds.numerics.shooting.Turn` has them.
     """
 
@@ -66,7 +66,7 @@ class GapTurn(Generic[Value]):
 
 
 class Turns(Generic[Value]):
-    """Turns of one gap, each from a start; counts what they cost."""
+    """Turns of one gap, each from a start, and their count."""
 
     def __init__(
         self,
@@ -93,9 +93,9 @@ class Turns(Generic[Value]):
         self.films_solved = 0
 
     def turn(self, start: Array, before: GapTurn[Value] | None) -> GapTurn[Value]:
-        """One turn from a start, on from what the turn before left in the film.
+        """One turn from a start, with the oil that the turn before left in the film.
 
-        Once the film is where it was in that turn, and that one ended next to the start, its rest is taken over.
+        Once the film agrees with that turn, and that turn ended close to its start, the rest of it is adopted.
         """
         state = begin = self._begin(start, before or self._opening)
         joins = before is not None and bool(np.abs(before.end - start).max() <= before.allowed)
@@ -212,7 +212,7 @@ class Turns(Generic[Value]):
         return stage
 
     def _excess(self, taken: AcceptedStep[FloatingStage]) -> float:
-        """Largest error of the film by a step, over what is allowed there."""
+        """Largest error of the film by a step, over the allowed one there."""
         stage = taken.stage
         allowed = self._accuracy.step * stage.yardstick + self._accuracy.floor
         return float(np.max(np.abs(stage.moved(taken.error)) / allowed))
@@ -244,7 +244,7 @@ class _Gathered(Generic[Value]):
         self.jumped = 0.0
 
     def step(self, state: State[FloatingStage], error: float) -> None:
-        """One more step, with its error over what was allowed."""
+        """One more step, with its error over the allowed one."""
         self.times.append(state.time)
         self.errors.append(error)
 
@@ -262,13 +262,13 @@ class _Gathered(Generic[Value]):
             self.films[instant.angle] = replace(stage.solution, deformation=stage.deformation)
 
     def meets(self, before: GapTurn[Value], closed: float) -> bool:
-        """True if part and oil at the last reported angle are those of the turn before."""
+        """True if position and oil at the last reported angle are those of the turn before."""
         here = len(self.instants) - 1
         away = np.abs(self.instants[here].position - before.instants[here].position).max()
         return bool(away <= MET * before.allowed) and _moved(before.oil[here], self.oil[here]) <= closed
 
     def join(self, before: GapTurn[Value]) -> State[FloatingStage]:
-        """Take the rest of the turn before; its end."""
+        """Adopt the rest of the turn before; its end."""
         count, time, angle = len(self.instants), self.times[-1], self.instants[-1].angle
         self.instants += before.instants[count:]
         self.oil += before.oil[count:]

@@ -51,8 +51,8 @@ def thinned(floating: Floating, shaft_speed: float, shares: ViscosityRatios | No
 class HeatFlows:
     """Heat balance of a gap's film, W.
 
-    dissipation of the oil and rubbing of asperities arise; to_fixed, to_moving into the walls, half of rubbing
-    with each; convected_out by oil, against oil that enters; stored in oil that the film takes up as it grows.
+    dissipation of the oil and rubbing of asperities arise; to_fixed, to_moving into the walls, half of rubbing with
+    each; convected_out by oil, against oil that enters; stored in oil that enters the film as it grows.
     """
 
     dissipation: float

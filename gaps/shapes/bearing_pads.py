@@ -1,6 +1,6 @@
 """Outer bearing pads of the valve plate: lands beyond the sealing lands, with case oil all around them.
 
-They are fixed to the plate while the block turns over them; a run of pads is alike, evenly spaced, the first
+They are fixed to the plate while the block turns over them; the pads of a ring are equal and evenly spaced, the first
 about pump angle 0.
 """
 
@@ -18,14 +18,14 @@ from reynolds.numerics.arrays import Array
 EDGE = "pads"
 """Name of the pads' edges in a mesh."""
 LONG = 10.0  # cells around over across: pressure turns over a pad's width, not along it
-CLOSED = 1e-9  # rad; what is left of a turn between the ends of a pad that is a whole ring
+CLOSED = 1e-9  # rad; remainder of a turn between the ends of a pad that is a whole ring
 
 
 @dataclass(frozen=True)
 class BearingPads:
-    """A run of pads: inner and outer radius (m), arc of one (rad; a turn: one whole ring), and how many.
+    """A ring of pads: inner and outer radius (m), arc of one (rad; a turn: one whole ring), and number of pads.
 
-    Raises FilmInputError for radii that do not rise from above zero and for pads that run into each other.
+    Raises FilmInputError for radii that do not rise from above zero and for pads that overlap.
     """
 
     inner_radius: float
@@ -49,12 +49,12 @@ class BearingPads:
 
     @property
     def area(self) -> float:
-        """Of all together, m2."""
+        """Area of all pads together, m2."""
         return 0.5 * self.number * self.arc * (self.outer_radius**2 - self.inner_radius**2)
 
     @property
     def mean_radius(self) -> float:
-        """Between inner and outer radius, m."""
+        """Width between inner and outer radius, m."""
         return 0.5 * (self.inner_radius + self.outer_radius)
 
     def cells(self, across: int) -> tuple[Array, NDArray[np.int64]]:
@@ -78,7 +78,7 @@ class BearingPads:
 def with_pads(film_mesh: FilmMesh, runs: Iterable[BearingPads], across: int, turned: float = 0.0) -> FilmMesh:
     """A mesh of quadrilaterals with the cells of all pads after its own, their edges named EDGE.
 
-    `turned`: angle (rad) about which the first pad of a run lies. Own vertices, cells and names stay as they are.
+    `turned`: angle (rad) about which the first pad of a ring lies. Own vertices, cells and names are unchanged.
     """
     mesh = film_mesh.mesh
     places, quads, count = [mesh.p], [mesh.t], mesh.p.shape[1]

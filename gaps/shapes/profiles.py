@@ -1,8 +1,8 @@
-"""Shapes of faces and pistons: material taken off a plain face or cylinder, as a sum of simple shapes.
+"""Shapes of faces and pistons: material removed from a plain face or cylinder, as a sum of simple shapes.
 
 `place` is the length along the profile (m): from its chamber's end on a piston, from the case edge in a bore, the
 radius on a face. `angle` (rad) goes round the part. Positive depths open the film, negative ones close it. A film
-samples depth and slopes at the quadrature points of its mesh, which does not resolve what is shorter than a cell.
+samples depth and slopes at the quadrature points of its mesh, which does not resolve waves shorter than a cell.
 """
 
 from collections.abc import Iterable, Sequence
@@ -18,7 +18,7 @@ from reynolds.numerics.arrays import Array
 
 
 class Relief(NamedTuple):
-    """Material taken off (m), and its slopes along the profile (m/m) and around (m/rad), arrays of one shape."""
+    """Material removed (m), and its slopes along the profile (m/m) and around (m/rad), arrays of one shape."""
 
     depth: Array
     along: Array
@@ -47,12 +47,12 @@ class Profile:
 
 
 PLAIN = Profile()
-"""Nothing taken off."""
+"""No material removed."""
 
 
 @dataclass(frozen=True)
 class Barrel:
-    """A parabola over a length (m) from place 0, `height` (m) taken off at both ends and nothing in the middle."""
+    """A parabola over a length (m) from place 0, `height` (m) removed at both ends, zero in the middle."""
 
     length: float
     height: float
@@ -68,7 +68,7 @@ class Barrel:
 
 @dataclass(frozen=True)
 class Crown:
-    """A face domed as a parabola: `height` (m) taken off at `radius` (m), nothing in the centre.
+    """A face domed as a parabola: `height` (m) removed at `radius` (m), zero in the centre.
 
     A negative height makes it dished.
     """
@@ -86,10 +86,10 @@ class Crown:
 
 @dataclass(frozen=True)
 class EdgeRelief:
-    """An edge at a place (m) taken back by `depth` (m), falling to nothing at `end` (m) as a parabola.
+    """An edge at a place (m) taken back by `depth` (m), falling to zero at `end` (m) as a parabola.
 
-    depth ((x - end)/(edge - end))^2 from `end` to the edge and beyond it: depth and slope run on at `end`, where
-    the curvature jumps. `end` lies on the part's side of the edge, either way.
+    depth ((x - end)/(edge - end))^2 from `end` to the edge and beyond it: depth and slope are continuous at `end`,
+    where the curvature jumps. `end` lies on the part's side of the edge, either way.
     """
 
     edge: float
@@ -127,7 +127,7 @@ class RingGroove:
 class Waviness:
     """Waves around a part: amplitude cos(waves (angle - crest)), m, half of peak to peak; mean depth zero.
 
-    `crest` (rad) is an angle at which most is taken off.
+    `crest` (rad) is an angle of the largest depth.
     """
 
     waves: int
@@ -147,8 +147,8 @@ class Waviness:
 class DepthPoints:
     """Measured depths (m) at rising places (m), straight in between: the slope jumps at each.
 
-    Raises FilmInputError for places that do not rise, and, if set, beyond the first and last of them: what was
-    not measured is not known.
+    Raises FilmInputError for places that do not rise, and, if set, beyond the first and last of them: nothing is
+    extrapolated.
     """
 
     places: tuple[float, ...]
@@ -217,8 +217,8 @@ def measured(rows: Sequence[Sequence[float]]) -> DepthPoints | PointsAround:
 def missed_rise(profile: Profile, edges: Array) -> float:
     """Largest error (m) of the rise of measured points over a cell between edges (n,) m, 0.0 without points.
 
-    A film takes the rise from slopes at its quadrature points; what it misses flows into it, times the part's speed.
-    Three points along a cell, twelve angles around.
+    A film has the rise by slopes at its quadrature points; the error, times the part's speed, is a spurious flow into
+    it. Three points along a cell, twelve angles around.
     """
     points = Profile(tuple(shape for shape in profile.shapes if isinstance(shape, (DepthPoints, PointsAround))))
     nodes, weights = np.polynomial.legendre.leggauss(3)
@@ -240,7 +240,7 @@ def _level(place: Array) -> Relief:
 
 
 def _cell_of(where: str, knots: Array, found: Array) -> tuple[NDArray[np.int64], Array]:
-    """Number of the interval of each value, and how far into it (0 .. 1); raises beyond the ends."""
+    """Number of the interval of each value, and the place in it (0 .. 1); raises beyond the ends."""
     unit = "m" if "place" in where else "rad"
     slack = 1e-9 * (knots[-1] - knots[0])  # a mesh's last line, not another place
     values = within(where, found, knots[0] - slack, knots[-1] + slack, unit, "measured points over all of the part")

@@ -1,4 +1,4 @@
-"""Polygons that stand for circles in a mesh of straight cells."""
+"""Polygons in place of circles in a mesh of straight cells."""
 
 import numpy as np
 
@@ -8,8 +8,8 @@ from reynolds.numerics.arrays import Array
 def round_scale(sectors: Array) -> float:
     """Factor on the corners' radius by which a polygon has the area of its circle.
 
-    sectors: angles (n,) rad between the corners, over the whole turn. A film between lands carries by its areas: of a
-    ring of 20 corners that lie on its circles 1.6 % would be missing.
+    sectors: angles (n,) rad between the corners, over the whole turn. The load of a film between lands goes with its
+    area: a ring of 20 corners on its circles has 1.6 % too little.
 
     >>> round(round_scale(np.full(4, np.pi / 2.0)), 4)
     1.2533

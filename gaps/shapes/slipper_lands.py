@@ -1,7 +1,7 @@
 """The face of a slipper: sealing lands, grooves between them, and a mesh of the lands with the edges named.
 
-A groove is closed, and takes the one pressure at which as much flows in as out, or vented: open to the case. What
-lies beyond the first vented groove seals nothing; it supports.
+A groove is closed, at the pressure at which inflow and outflow balance, or vented: open to the case. A land beyond the
+first vented groove is a support land without sealing.
 """
 
 from collections.abc import Iterable
@@ -22,8 +22,8 @@ Land = tuple[float, float]
 class SlipperLands:
     """Lands (inner, outer radius) m from the pocket outwards; `vented`: numbers of the grooves open to the case.
 
-    Groove k, from 1, lies beyond land k. Raises FilmInputError for lands that do not follow each other and for
-    vented grooves that do not exist.
+    Groove k, from 1, lies beyond land k. Raises FilmInputError for lands out of order and for vented grooves that do
+    not exist.
     """
 
     radii: tuple[Land, ...]
@@ -113,7 +113,7 @@ def slipper_mesh(lands: tuple[Land, ...], cells: tuple[int, int]) -> FilmMesh:
     """Rings of quadrilaterals, one a land, `cells` (across each, around), with boundaries pocket, groove_k, case.
 
     Radii of each land rise by one ratio, as the pressure falls with the logarithm; polygons have the areas of the
-    circles that they stand for. A groove is one boundary: both its edges. Raises FilmInputError as
+    circles that they replace. A groove is one boundary: both its edges. Raises FilmInputError as
     `reynolds.fem.mesh.hollow_cylinder`.
     """
     radii = np.concatenate([np.geomspace(*land, cells[0] + 1) for land in lands])

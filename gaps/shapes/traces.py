@@ -1,4 +1,4 @@
-"""Raw traces of a profilometer: their tilt taken out, and their waves below a cutoff."""
+"""Raw traces of a profilometer: tilt and waves below a cutoff removed."""
 
 from collections.abc import Sequence
 
@@ -24,10 +24,10 @@ def levelled(places: Array, depths: Array, unworn: Sequence[tuple[float, float]]
 def smoothed(places: Array, depths: Array, cutoff: float, at: Array) -> Array:
     """Depths (m) at places `at` (m,), smoothed by a Gaussian of a cutoff wavelength (m), from (n,) rising places.
 
-    Line of least squares about each place with the weights exp(-pi (x/cutoff)^2/0.4697^2), each point standing for
-    the length up to the middles between it and its neighbours. Away from the ends and on equal steps that is the
-    Gaussian filter of ISO 16610-21; at the ends and on unequal steps a straight trace stays what it is (ISO 16610-28).
-    Points are to lie closer than half the cutoff.
+    Line of least squares about each place with the weights exp(-pi (x/cutoff)^2/0.4697^2), each point standing for the
+    length up to the middles between it and its neighbours. Away from the ends and on equal steps that is the Gaussian
+    filter of ISO 16610-21; at the ends and on unequal steps a straight trace is unchanged (ISO 16610-28). Points are to
+    lie closer than half the cutoff.
     """
     middles = 0.5 * (places[1:] + places[:-1])
     share = np.diff(np.concatenate([places[:1], middles, places[-1:]]))

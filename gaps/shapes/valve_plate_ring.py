@@ -1,9 +1,9 @@
 """The ring between cylinder block and valve plate: its mesh, which turns with the block, and the ports under it.
 
-Kidneys are holes of the mesh, kidney_1 about angle 0 at shaft angle 0; the film plane (pump's x, y, x to the inner
-dead centre) does not turn. Ports are sectors of the valve plate between R2 and R3. Webs between kidneys that lie
-over a port are at its pressure and are no film; a port's edge is taken at the next mesh line inside it. Outer
-bearing pads (`gaps.shapes.bearing_pads`) are cells of their own, fixed to the plate.
+Kidneys are holes of the mesh, kidney_1 about angle 0 at shaft angle 0; the film plane (pump's x, y, x to the inner dead
+centre) does not turn. Ports are sectors of the valve plate between R2 and R3. Webs between kidneys that lie over a port
+are at its pressure and are no film; a port's edge lies on the next mesh line inside it. Outer bearing pads
+(`gaps.shapes.bearing_pads`) are cells of their own, fixed to the plate.
 """
 
 from dataclasses import dataclass, replace
@@ -28,11 +28,11 @@ Arc = tuple[float, float]
 class ValvePlateGeometry:
     """Land radii R1 < R2 < R3 < R4 (m), chambers, kidney arc (rad) and the ports' arcs.
 
-    Ports are sectors of the valve plate between R2 and R3, in pump angle, parted by the webs (from, to) in them that
+    Ports are sectors of the valve plate between R2 and R3, in pump angle, divided by the webs (from, to) in them that
     are flush with its face; `turned` is the angle (rad) from which the plate's own angles count, its ports', webs',
-    pads' and face's; kidneys are taken as sectors of the same width (rounded ends are not modelled: their effect on the
-    webs is under 0.1 of a web). Radii are distances from the shaft axis, also on a `sphere`: its radius is positive
-    where the plate bulges into a hollow block.
+    pads' and face's; kidneys are modelled as sectors of the same width (without rounded ends: their effect on the webs
+    is under 0.1 of a web). Radii are distances from the shaft axis, also on a `sphere`: its radius is positive where
+    the plate bulges into a hollow block.
     """
 
     land_radii: tuple[float, float, float, float]
@@ -118,7 +118,7 @@ class Ring:
         self._in_kidney_ring = (radius > r2 * (1.0 - 1e-9)) & (radius < r3 * (1.0 + 1e-9))
 
     def turned(self, shaft_angle: float) -> FilmSpace:
-        """The space with the block at a shaft angle (rad); pads stay where they are."""
+        """The space with the block at a shaft angle (rad); pads do not move."""
         return self.space.moved(self._at(shaft_angle))
 
     def turns_with_block(self, space: FilmSpace) -> NDArray[np.bool_]:
@@ -167,7 +167,7 @@ def _on(sphere: Sphere, drawn: FilmSpace) -> FilmSpace:
 
 
 def _turned(vertices: Array, angle: float) -> Array:
-    """Points (n, 2) turned about the origin."""
+    """Points (n, 2) rotated about the origin."""
     c, s = np.cos(angle), np.sin(angle)
     return np.asarray(vertices @ np.array([[c, s], [-s, c]]))
 

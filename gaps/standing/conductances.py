@@ -36,7 +36,7 @@ def piston_conductance(solver: FilmSolver, stage: FloatingStage) -> float:
 
 
 def slipper_conductance(solver: FilmSolver, film: SlipperFilm, stage: FloatingStage) -> float:
-    """Flow per pressure difference through orifice and lands in series, m3/(s Pa), the orifice as it flows."""
+    """Flow per pressure difference through orifice and lands in series, m3/(s Pa), the orifice at its present flow."""
     land, orifice = slipper_land_conductance(solver, film, stage), film.throttling(stage)
     return land * orifice / (land + orifice)
 

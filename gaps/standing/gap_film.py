@@ -32,7 +32,7 @@ from reynolds.solve.loads import Loads, loads
 from reynolds.solve.solver import FilmSolver
 
 LOAD_TOLERANCE = 1e-3
-"""Share of the required load by which a film at a given position may miss it and still count as holding it."""
+"""Share of the required load by which a film's supported load may differ from it and still balance it."""
 FIRST_STEP = 1e-3  # s, in which parts of a pump answer to their load through films of a micrometre
 SOFTENING = 1e-2  # of it, in which elastic walls deform under their first load
 STILL = 1e-10  # m, by which a part at rest may still move in a step
@@ -42,9 +42,9 @@ STILL = 1e-10  # m, by which a part at rest may still move in a step
 class GapFilm(Generic[Reported]):
     """Film of a gap at one instant, SI; the part neither approaches nor tilts.
 
-    position (k,) m, as the gap's film counts it; friction_power W drawn from the moving parts; required_load N and
-    carried_load N: what presses the parts together and what the film with its pockets and contact holds, both in
-    the load's direction.
+    position (k,) m, as the gap's film counts it; friction_power W of the moving parts; required_load N and carried_load
+    N: the force that presses the parts together and the supported load of film, pockets and contact, both in the load's
+    direction.
     """
 
     solution: FilmSolution
@@ -77,7 +77,7 @@ class GapFilm(Generic[Reported]):
 
     @property
     def carried_fraction(self) -> float:
-        """Share of the required load that the film carries; 1 where nothing is required."""
+        """Share of the required load that the film supports; 1 where it is zero."""
         return self.carried_load / self.required_load if self.required_load > 0.0 else 1.0
 
     @property
@@ -95,8 +95,8 @@ class GapFilm(Generic[Reported]):
 def rest_from(solver: FilmSolver, floating: Floating, time: float, start: Array) -> FloatingStage:
     """The part at rest under its drive at `time` (s), nearest to a start (k,) m as `come_to_rest` finds it.
 
-    Raises FilmNotConverged, with its last move, for a part that finds none: pulled off, or pressed on walls that
-    do not bear, or that bear on a film below CONTINUUM.
+    Raises FilmNotConverged, with its last move, for a part without rest: pulled off, pressed on walls that do not bear,
+    or on a film below CONTINUUM.
     """
     begin = started(floating, time, start)
     if floating.shape_at(time).walls is not None:

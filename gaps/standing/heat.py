@@ -1,7 +1,7 @@
 """Temperatures of a part that stands still at every angle of a turn, by its films' own heat.
 
-Heat crosses a film in less than a millisecond, so that films of a turn are warmed one by one; walls take minutes,
-so that each has one temperature, at which it conducts the heat of all films of the turn.
+Heat crosses a film in less than a millisecond, so that films of a turn are warmed one by one; walls need minutes, so
+that each has one temperature, at which it conducts the heat of all films of the turn.
 """
 
 from collections.abc import Sequence
@@ -29,8 +29,8 @@ def warm_turn(
 ) -> list[FloatingStage]:
     """The films of a turn at evenly spaced angles, warmed, between walls that conduct their heat.
 
-    cold: the part held at its positions (`held_at`) in isothermal films between rigid walls. `rubbing` (W): mean
-    loss of contact over the turn, of which each wall takes half. Raises FilmInputError where the oil's law ends,
+    cold: the part held at its positions (`held_at`) in isothermal films between rigid walls. `rubbing` (W): mean loss
+    of contact over the turn, half of it into each wall. Raises FilmInputError where the oil's law ends,
     FilmNotConverged where films, temperatures or walls do not converge.
     """
     area, conductance = _means(cold, heat)
@@ -51,7 +51,7 @@ def warm_turn(
 
 
 def _agreed(solver: FilmSolver, cold: FloatingStage, heat: GapHeat, walls: Array, before: Warm | None) -> Warm:
-    """Film and temperature that agree, started from a film warmed before."""
+    """Film and temperature in agreement, started from a film warmed before."""
     problem = cold.solution.problem
     posed = ThermalCase(problem, local_law(problem, heat), heat.of(problem, walls), at_once=True)
     return agree(posed, levels(), SETTLED.viscosity, solver, before)

@@ -35,7 +35,7 @@ class GapWalls(Protocol):
 
     @property
     def alike_around(self) -> bool:
-        """True where turned parts are the same."""
+        """True where rotated parts are the same."""
 
     def at(self, film: FilmSpace, pose: Pose) -> ElasticWalls:
         """The walls of a film on that mesh, for a pose of the parts."""
@@ -45,7 +45,7 @@ class GapWalls(Protocol):
 class PlateWalls:
     """Both parts of a film across an axis, the moving one first.
 
-    Parts made from sizes are alike all around; a part by a mesh of the user's need not be.
+    Parts made from sizes are symmetric about the axis; a part by a mesh of the user's need not be.
     """
 
     parts: tuple[SlipperPart | PlatePart, SlipperPart | PlatePart]
@@ -53,7 +53,7 @@ class PlateWalls:
 
     @property
     def alike_around(self) -> bool:
-        """True where turned parts are the same."""
+        """True where rotated parts are the same."""
         return all(part.own is None for part in self.parts)
 
     def at(self, film: FilmSpace, pose: Pose) -> ElasticWalls:
@@ -99,7 +99,7 @@ class BoreWalls:
 
     @property
     def alike_around(self) -> bool:
-        """True where turned parts are the same."""
+        """True where rotated parts are the same."""
         return self.piston.own is None and self.bushing.own is None
 
     def at(self, film: FilmSpace, pose: Pose) -> ElasticWalls:

@@ -1,13 +1,13 @@
 """The parts that deform: meshed from their sizes, held as they are held in the pump, loaded by their film.
 
     piston      hollow or solid cylinder, free: films and the ball hold it, and its rigid motion is the gap's own
-    bushing     ring in the block out to the middle of the web, where it slides on what the next bore presses back
+    bushing     ring in the block out to the middle of the web, where it slides against the wall of the next bore
     slipper     flange on its socket: rigid over the ball, the rim bends about it
     plate       swash plate or valve plate, its back on the cradle or on the end case
 
-A part lies in its film's own axes: slipper and valve plate under the plane z = 0, swash plate and block over it
-(made from sizes under it, which is their mirror image). Cells are enough for the shapes in which parts bend; a
-body's finer dents have the size of its face's cells. `own` puts a user's mesh in place of any of them.
+A part lies in its film's own axes: slipper and valve plate under the plane z = 0, swash plate and block over it (made
+from sizes under it, which is their mirror image). Cells resolve the bending of the parts; finer deformations of a body
+have the size of its face's cells. `own` puts a user's mesh in place of any of them.
 """
 
 from collections.abc import Callable
@@ -127,9 +127,9 @@ def piston_body(part: PistonPart, cells: Cells = (3, 16, 18)) -> Body:
 
     `chamber` is its end and its inside: where the chamber's pressure is.
 
-    Free: no point of it is held in the pump. What films, ball and inertia leave over bends nothing (inertia
-    relief), and rigid motion is the gap's own coordinates. The ball's force, which the film's balances, is spread
-    over the volume: the bending that it causes between ball and bore is left out.
+    Free: no point of it is held in the pump. The resultant of films, ball and inertia bends nothing (inertia relief),
+    and rigid motion is the gap's own coordinates. The ball's force, which the film's balances, is spread over the
+    volume: the bending that it causes between ball and bore is neglected.
     """
     radius = 0.5 * part.diameter
     chart = Cylinder(radius, Side.SHAFT)
@@ -148,7 +148,7 @@ def piston_body(part: PistonPart, cells: Cells = (3, 16, 18)) -> Body:
 def bushing_body(part: BushingPart, cells: Cells = (3, 16, 18)) -> Body:
     """The bore's wall about z from the guide's inner end, z = 0, to its case edge; faces inner (film), outer.
 
-    Its outer face slides: between two bores alike the middle of the web moves to neither. Stiffer than a bore
+    Its outer face slides: between two equal bores the middle of the web does not move sideways. Stiffer than a bore
     beside one at low pressure, far stiffer than a ring of its own (Lame's).
     """
     radius = 0.5 * part.diameter
@@ -186,8 +186,8 @@ def slipper_body(part: SlipperPart, cells: Cells = (8, 24, 2)) -> Body:
 def plate_body(part: PlatePart, cells: Cells = (6, 36, 2)) -> Body:
     """A plate under z = 0; faces top (film), bottom, outer and, with a hole, inner; with a pocket, pocket.
 
-    Its back is held: the swash plate's on the cradle bearing, the valve plate's on the end case. Ports are not cut
-    out: a valve plate is taken for its solid ring. About a pocket's middle the mesh leaves a pinhole.
+    Its back is held: the swash plate's on the cradle bearing, the valve plate's on the end case. Ports are not cut out:
+    a valve plate is modelled as its solid ring. About a pocket's middle the mesh leaves a pinhole.
     """
     if part.own:
         return own_body(part.own, part.elastic, OnSphere(part.sphere, part.over_film))
@@ -202,13 +202,13 @@ def plate_body(part: PlatePart, cells: Cells = (6, 36, 2)) -> Body:
     else:
         across = max(cells[1] // 4, 1)
         mesh = disc(part.outer_radius, part.thickness, (across, cells[0], cells[2]), bottom=-part.thickness)
-    # What lies over a film is its mirror image under one: there the sphere bulges the other way.
+    # A body over a film is its mirror image under one: there the sphere bulges the other way.
     sphere = Sphere(-part.sphere.radius) if part.over_film else part.sphere
     return Body(_on(sphere, mesh), part.elastic, Supports(clamped=("bottom",)), "top", OnSphere(sphere))
 
 
 def part_wall(body: Body, film: FilmSpace, *, folder: Path | None = None) -> ElasticWalls:
-    """One part as its film feels it, by whichever is smaller: its face's nodes or the film's unknowns.
+    """Compliance of one part for its film, by the smaller number: its face's nodes or the film's unknowns.
 
     Pocket and grooves of the film press on the part's faces of those names, where it has them. Raises
     FilmInputError where the face does not lie under the film.

@@ -103,8 +103,8 @@ def _around(opened: Array, angle: float) -> Array:
 class ChamberInfluence:
     """Influence of unit pressure (Pa) in the chamber on faces outside the film.
 
-    deformation (vertices,) m/Pa of the film, piston (vertices,) m/Pa by the piston alone; chamber_growth m3/Pa.
-    The influence of the piston's chamber faces on each other is left out: it is the same at any reach.
+    deformation (vertices,) m/Pa of the film, piston (vertices,) m/Pa by the piston alone; chamber_growth m3/Pa. The
+    influence of the piston's chamber faces on each other is omitted: it is the same at any reach.
     """
 
     deformation: Array

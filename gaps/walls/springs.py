@@ -1,6 +1,6 @@
 """Walls on springs side by side: they deform in proportion to the pressure at their own place alone.
 
-The wall of closed laws for the flow of a deformed gap: bodies spread a load, springs do not.
+The wall of closed laws for the flow of a deformed gap: bodies distribute a load, springs do not.
 """
 
 from dataclasses import dataclass, field
@@ -17,7 +17,7 @@ from reynolds.fem.space import FilmSpace
 
 @dataclass(frozen=True)
 class SpringBore(BoreWalls):
-    """A bore on springs, `compliance` in m/Pa above zero; the parts' sizes as they are, the piston rigid."""
+    """A bore on springs, `compliance` in m/Pa above zero; the parts' sizes unchanged, the piston rigid."""
 
     compliance: float = field(kw_only=True)
 
@@ -37,7 +37,7 @@ class SpringBore(BoreWalls):
 
 @dataclass(frozen=True)
 class SpringPlates(PlateWalls):
-    """A plate on springs, `compliance` in m/Pa above zero; the parts' sizes as they are."""
+    """A plate on springs, `compliance` in m/Pa above zero; the parts' sizes unchanged."""
 
     compliance: float = field(kw_only=True)
 

@@ -1,4 +1,4 @@
-"""A part by a mesh of the user's: read from a file, its faces by what they are for, under the film of its gap.
+"""A part by a mesh of the user's: read from a file, its faces by their function, under the film of its gap.
 
 In place of the body that `gaps.walls.parts` makes from the part's sizes, and in the same axes: a face under the
 film, faces held or sliding, and faces that pressures beside the film press on, by the names of those pressures.
@@ -23,7 +23,7 @@ FILM, HELD, SLIDING, CHAMBER, POCKET = "film", "held", "sliding", "chamber", "po
 
 @dataclass(frozen=True)
 class OwnMesh:
-    """A mesh of a file (m), and names of its faces by what they are for; `content`: a hash of what the file held.
+    """A mesh of a file (m), and names of its faces by their function; `content`: a hash of the file's content.
 
     film: under the film; held: held fast; sliding: held across itself; pressed: (name of a pressure, face), such
     as ("pocket", "floor").
@@ -39,15 +39,15 @@ class OwnMesh:
 
     @property
     def named(self) -> tuple[str, ...]:
-        """All faces that it names."""
+        """All faces by name."""
         return self.film, *self.held, *self.sliding, *(face for _, face in self.pressed)
 
 
 def own_body(own: OwnMesh, elastic: Elastic, chart: Chart) -> Body:
     """The part of a user's mesh, its face under the film where the chart has it.
 
-    Its faces `film` and those of pressures go by these names. With nothing held it is a free body (inertia
-    relief). Raises FilmInputError for a face that the mesh has not.
+    Its faces `film` and those of pressures go by these names. With nothing held it is a free body (inertia relief).
+    Raises FilmInputError for a face that the mesh lacks.
     """
     mesh = own.body
     if lost := [name for name in own.named if name not in mesh.face_names]:
