@@ -43,8 +43,8 @@ class MapPorts:
 def map_ports(pump: PumpDescription, shift: Array, wear: PortWear[Array], samples: int) -> MapPorts:
     """The ports at N points, later by shift (N,) rad (`SwashDrive.dead_centre_shift`), with their wear.
 
-    Nodes are the breaks of the ports and, of an even number of samples, every second: over steps no
-    longer the stages give the pressure as well as the steps do. Equal points share the work.
+    Nodes are the breaks of the ports and, of an even number of samples, every second: over steps of that length the
+    stages give the pressure as accurately as the steps. Equal points share the work.
     """
     rows = np.column_stack([shift, *vars(wear).values()])
     kinds, of_point = np.unique(rows, axis=0, return_inverse=True)
@@ -62,16 +62,16 @@ def _kind(pump: PumpDescription, shift: float, *wear: float, samples: int) -> tu
 
 
 FEWEST = 8
-"""Points of a map for a thread: fewer cost less than handing them over."""
+"""Points of a map for a thread: fewer cost less than their transfer."""
 OF_GAPS = ("case_pressure", "kinematic_viscosity")
-"""Constants of a chamber that act by its gaps alone; ports turn from laminar to turbulent at a few kPa."""
+"""Constants of a chamber that act by its gaps alone; the flow of ports becomes turbulent at a few kPa."""
 
 
 @dataclass(frozen=True)
 class Steps:
     """Steps by which courses at N points were solved: trail, all end to end, those of point i from begins[i] on.
 
-    records (N,) of CHAMBER, gaps (N, M, 7, 4), held (N, 1, 2, 4): chambers, tables, ports as compiled code took them.
+    records (N,) of CHAMBER, gaps (N, M, 7, 4), held (N, 1, 2, 4): chambers, tables, ports as given to compiled code.
     """
 
     records: np.ndarray
@@ -104,7 +104,7 @@ class Courses:
 
 @dataclass(frozen=True)
 class MapProblem:
-    """The chamber at N points, arrays (N,): leaks (N, 3, M), and by what its ports differ from the drawing."""
+    """The chamber at N points, arrays (N,): leaks (N, 3, M), and differences of its ports from the drawing."""
 
     chamber: Chamber[Array]
     leaks: LeakTable
@@ -112,7 +112,7 @@ class MapProblem:
 
     @cached_property
     def records(self) -> np.ndarray:
-        """The chambers (N,) as compiled code reads them, ports not yet filled in."""
+        """The chambers (N,) as compiled code reads them, without their ports."""
         return chamber_records(self.chamber)
 
     @property
@@ -122,11 +122,11 @@ class MapProblem:
 
     @cached_property
     def ports(self) -> Array:
-        """Quantities by which the ports of points differ, one a row, (4, N)."""
+        """Quantities in which the ports of points differ, one a row, (4, N)."""
         return np.stack([self.shift, *vars(self.wear).values()])
 
     def is_that_of(self, other: MapProblem) -> bool:
-        """True if all is equal that the courses depend on."""
+        """True if all inputs of the courses are equal."""
         own, others = self.leaks, other.leaks
         return (
             np.array_equal(self.records, other.records)
@@ -136,13 +136,13 @@ class MapProblem:
         )
 
     def differs_in_gaps_alone(self, other: MapProblem) -> bool:
-        """True if the other's chambers differ by nothing but the leakage of their gaps."""
+        """True if the other's chambers differ only by the leakage of their gaps."""
         own, others = self.records, other.records
         names = [name for name in CHAMBER.names or () if name not in OF_GAPS]
         return all(np.array_equal(own[name], others[name]) for name in names) and self.has_ports_of(other)
 
     def has_ports_of(self, other: MapProblem) -> bool:
-        """True if the other's ports open at the same angles, so that its chambers can take the same steps."""
+        """True if the other's ports open at the same angles, so that its chambers can use the same steps."""
         return np.array_equal(self.ports, other.ports)
 
 
@@ -161,11 +161,11 @@ def solve_map(pump: PumpDescription, problem: MapProblem, tolerance: float) -> C
 
 
 def beside(pump: PumpDescription, courses: Courses, problem: MapProblem, tolerance: float) -> Courses:
-    """`solve_map` of chambers that differ a little, in all but their ports' areas, from those of solved courses.
+    """`solve_map` of chambers with small differences from those of solved courses, except in their ports' areas.
 
-    They take the same steps, so that differences are smoother than those of two maps solved apart, at six tenths
-    of the cost. Points that do not converge on these steps are solved by themselves. Raises ValueError for courses
-    that were not solved by themselves.
+    They use the same steps, so that differences are smoother than those of two independent maps, at six tenths of the
+    cost. Points that do not converge on these steps are solved by themselves. Raises ValueError for courses that were
+    not solved by themselves.
     """
     steps, run = _steps(courses), _run(pump, problem, tolerance)
 

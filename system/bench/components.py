@@ -16,7 +16,7 @@ from system.pump.chamber.problem import LeakTable
 from system.pump.laws.friction_pairs import Pair
 
 UNIT_SHARE = 0.01
-"""Share of the rated displacement: size of flows and drag that the model leaves out."""
+"""Share of the rated displacement: size of flows and drag outside the model."""
 WARMER = 1.0
 """Rise of the case oil in K that represents the thermal state."""
 LEAKAGE = (Component.PISTON_LEAKAGE, Component.SLIPPER_LEAKAGE, Component.PLATE_LEAKAGE)
@@ -41,9 +41,9 @@ def components(solved: Solved, warmer: Solved, channels: tuple[ChannelName, ...]
     """Contribution of each component to the readings (N, C) of a solved map, SI: a share more of it is a mismatch.
 
     Leakage by gap, friction by pair, displacement, compression and commutation as the model has them; a sensor's is its
-    reading. Flows and drag that the model leaves out have the size UNIT_SHARE: cross flow (delivery to inlet) and drain
-    flow (delivery to case) with the root of the pressure difference, drag in the case with the square of speed; the
-    thermal state is the change by the viscosity of case oil warmer by WARMER, the map `warmer`.
+    reading. Flows and drag outside the model have the size UNIT_SHARE: cross flow (delivery to inlet) and drain flow
+    (delivery to case) with the root of the pressure difference, drag in the case with the square of speed; the thermal
+    state is the change by the viscosity of case oil warmer by WARMER, the map `warmer`.
     """
     whole = solved.truth
     found = {

@@ -1,7 +1,7 @@
 """Departures of a pump's laws from the simulation's: smooth factors over the map on leakage and friction.
 
-A pump of another make leaks and rubs by laws of another form. With y0 the reading, D the contribution of each part of
-the pump and Phi smooth shapes of the map:
+Leakage and friction of a pump of another make follow laws of another form. With y0 the reading, D the contribution of
+each part of the pump and Phi smooth shapes of the map:
 
     y = y0 + sum over parts of D (w Phi beta),   beta ~ N(0, 1)
 

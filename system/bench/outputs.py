@@ -21,7 +21,7 @@ from system.pump.lumped import lumped_pairs
 from system.pump.power import bench_reading, chamber_exchange, gap_leakage, metered
 
 SIMULATED = (ChannelName.Q_OUT, ChannelName.Q_IN, ChannelName.Q_CASE, ChannelName.TORQUE)
-"""Flows and torque of the whole pump, which the lumped bench knows."""
+"""Flows and torque of the whole pump, as the lumped bench computes them."""
 DRAINS = {
     Gap.PISTON: ChannelName.Q_PISTON,
     Gap.SLIPPER: ChannelName.Q_SLIPPER,
@@ -29,12 +29,12 @@ DRAINS = {
 }
 """Channel of each gap's own drain: its leakage, which is part of the case drain's flow too."""
 METERED = (*SIMULATED, *DRAINS.values(), ChannelName.TORQUE_UNCOUPLED)
-"""All that the lumped bench can read, in the order of `Solved.truth`."""
+"""All channels of the lumped bench, in the order of `Solved.truth`."""
 
 
 @dataclass(frozen=True)
 class Solved:
-    """A map at given values: as it is without laws of what physics left out (`plain`), and with them.
+    """A map at given values: without laws of missing physics (`plain`), and with them.
 
     `plain_courses()` solves the map without them at its first call.
     """
@@ -63,7 +63,7 @@ class Solved:
 
 
 def losses(solved: Solved) -> FrictionPairs[Array]:
-    """Losses of the seven pairs, (N, M) W, with what laws change of them."""
+    """Losses of the seven pairs, (N, M) W, with the changes by laws."""
     at = solved.setting
     found = lumped_pairs(at.pump, at.point, at.motion, solved.courses)
     return found if solved.affected is None else rubbed(found, solved.affected.effects)
@@ -77,5 +77,5 @@ def shear_torques(solved: Solved) -> Array:
 
 
 def throttling_torque(setting: Setting, courses: Courses) -> Array:
-    """Torque (N,) N m that throttling in both ports takes."""
+    """Torque (N,) N m of throttling in both ports."""
     return np.asarray(setting.pump.pump.pistons / TURN * courses.totals.path_energy.ports)

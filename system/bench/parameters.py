@@ -1,4 +1,4 @@
-"""The uncertain parameters of a pump, and the pump that given values of them make."""
+"""The uncertain parameters of a pump, and the pump with given values of them."""
 
 from collections.abc import Mapping
 from dataclasses import fields, replace
@@ -17,7 +17,7 @@ from system.pump.laws.kinematics import stroke, swash_angle_for_stroke
 from system.pump.lumped import full_drive
 
 SLOPE_ABOUT = 323.15
-"""Temperature (K) about which viscosity_slope turns the oil's law: 50 degC."""
+"""Temperature (K) at which viscosity_slope leaves the oil's viscosity unchanged: 50 degC."""
 FILM_WARMTH = (INLET_SHARE, THROTTLE_SHARE) = ("inlet_share", "throttle_share")
 THROTTLED = (0.4, 0.2)
 """Centre and one sigma of throttle_share: throttled oil warms by 1 - beta T = .8 of dp/(rho c), a film by half."""
@@ -34,7 +34,7 @@ _THICKNESS = {
 
 GROOVE_NAMES = (GROOVE_ADVANCE, GROOVE_AREA) = ("groove_advance", "groove_area")
 GROOVE_SPREAD = (np.radians(0.5), 0.1)
-"""One sigma of how relief grooves are cut: of their beginning (rad), of their throats' area (relative)."""
+"""One sigma of the cut of relief grooves: of their beginning (rad), of their throats' area (relative)."""
 
 FRICTION_PAIRS = tuple(own.name for own in fields(FrictionSection))
 FILE_KEYS = {
@@ -46,7 +46,7 @@ FILE_KEYS = {
     "dead_volume": "pump.dead_volume",
     "flow_coefficient": "ports.flow_coefficient",
 }
-"""Table and key of a pump file by the name of the parameter that is this very value."""
+"""Table and key of a pump file by the name of the parameter with this value."""
 BASE_NAMES = frozenset(
     {
         *(f"film_thickness.{gap.value}" for gap in Gap),
@@ -83,7 +83,7 @@ def base_parameters(pump: PumpDescription, tolerances: Tolerances) -> tuple[Para
 
 
 def _by_drawing(parameter: Parameter, sigma: float | None) -> Parameter:
-    """Return the parameter with a sigma (SI) of the drawing, itself where there is none."""
+    """Return the parameter with a sigma (SI) of the drawing, itself without one."""
     if sigma is None:
         return parameter
     return replace(parameter, spread=sigma / parameter.centre if parameter.scale is Scale.LOG else sigma)
@@ -92,7 +92,7 @@ def _by_drawing(parameter: Parameter, sigma: float | None) -> Parameter:
 def groove_parameters() -> tuple[Parameter, ...]:
     """Cut of the relief grooves ahead of the kidneys: groove_advance in rad sooner, groove_area a factor.
 
-    Steady readings hardly show it: for what has traces.
+    Steady readings hardly show it: for benches with traces.
     """
     advance, area = GROOVE_SPREAD
     return (
@@ -102,10 +102,10 @@ def groove_parameters() -> tuple[Parameter, ...]:
 
 
 def pump_with(pump: PumpDescription, values: Mapping[str, float]) -> PumpDescription:
-    """The pump with values of `base_parameters` by name; what is not named stays, other names do not matter.
+    """The pump with values of `base_parameters` by name; other values stay, other names do not matter.
 
-    displacement moves the swash plate's stop; viscosity and viscosity_slope make the oil's two viscosities nu
-    factor exp(slope (T - 50 degC)) at 40 and 100 degC, between which Walther's law runs.
+    displacement moves the swash plate's stop; viscosity and viscosity_slope multiply the oil's two viscosities by
+    factor exp(slope (T - 50 degC)) at 40 and 100 degC, with Walther's law between them.
     """
     changed: dict[str, Any] = {}
     for gap, (section, key) in _THICKNESS.items():
@@ -152,7 +152,7 @@ def _thickness(pump: PumpDescription, gap: Gap, tolerances: Tolerances) -> Param
 
 
 def _warmth(tolerances: Tolerances) -> tuple[Parameter, ...]:
-    """Share of the inlet's oil in the temperature of the films; none where the films are as warm as the case."""
+    """Share of the inlet's oil in the temperature of the films; none where the films have the case's temperature."""
     spread = tolerances.inlet_share
     if spread == 0.0:
         return ()
@@ -193,7 +193,7 @@ def _relative(
 
 
 def _eccentricity(centre: float, spread: float) -> Parameter:
-    """Leakage grows with its square, so that a scale of its own would end where that has no slope."""
+    """Leakage grows with its square, so that a linear scale would end where the slope vanishes."""
     scale, lower = (Scale.SQUARE, CONCENTRIC) if centre > CONCENTRIC else (Scale.NORMAL, 0.0)
     return Parameter("eccentricity_ratio", Role.BASE, scale, centre, spread, lower, 0.95, None, "[tolerance]")
 

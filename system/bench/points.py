@@ -1,4 +1,4 @@
-"""The steady points of a test bench, as arrays: what a simulator of a whole map is asked for."""
+"""The steady points of a test bench, as arrays: inputs of a simulator of a whole map."""
 
 from dataclasses import dataclass
 
@@ -11,8 +11,8 @@ from system.pump.operating import OperatingPoint, operating_point
 class BenchPoints:
     """N steady points: speed in rad/s, pressures in Pa gauge, temperatures in K, hours run in h; arrays (N,).
 
-    `order` is the place of a point in the sequence in which the points were taken, from 0. `warming` in K/s: rate by
-    which T_case as read rises, 0 at rest.
+    `order` is the place of a point in the sequence of measurement, from 0. `warming` in K/s: rate at which the reading
+    of T_case rises, 0 at rest.
     """
 
     speed: Array
@@ -28,7 +28,7 @@ class BenchPoints:
 
 
 def operating_at(pump: PumpDescription, points: BenchPoints, at: int) -> OperatingPoint:
-    """Point number `at` as a pump's operating point, its oil as warm as the case; raises as `operating_point`."""
+    """Point number `at` as a pump's operating point, its oil at the case's temperature; raises as `operating_point`."""
     return operating_point(
         pump,
         shaft_speed=float(points.speed[at]),

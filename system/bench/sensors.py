@@ -18,14 +18,14 @@ BIASED_INPUTS = (ChannelName.P_OUT, ChannelName.T_CASE, ChannelName.DISPLACEMENT
 METER_OF = {ChannelName.TORQUE_UNCOUPLED: ChannelName.TORQUE}
 """Channels that the meter of another one reads, with its gain, zero and drift."""
 CALIBRATION, TAKEN = "calibration of the channel", "not measured, taken"
-FARTHEST = 4.0  # sigma that what is taken may be off
+FARTHEST = 4.0  # sigma: largest error of an assumed value
 FARTHEST_GAIN = 0.3  # relative error of a meter: one that is farther off is another meter or has another unit
 ENCODER_OFFSET = "encoder_offset"
 CHAMBER_GAIN, CHAMBER_ZERO, CHAMBER_LAG = (f"{ChannelName.P_CHAMBER.value}.{what}" for what in ("gain", "zero", "lag"))
 TRACE_NAMES = frozenset({ENCODER_OFFSET, CHAMBER_GAIN, CHAMBER_ZERO, CHAMBER_LAG})
-"""Names of the parameters that change what traces read, and no steady reading."""
+"""Names of the parameters that change readings of traces, and no steady reading."""
 READING_NAMES = frozenset(f"{channel.value}.{what}" for channel in OUTPUTS for what in ("gain", "zero", "drift", "lag"))
-"""Names of the parameters that change what is read, not what is there."""
+"""Names of the parameters that change the readings, not the truth."""
 THERMOMETER_LAG = f"{ChannelName.T_CASE.value}.lag"
 SENSOR_NAMES = frozenset(
     {*TRACE_NAMES, *READING_NAMES, THERMOMETER_LAG, *(f"{channel.value}.zero" for channel in INPUTS)}
@@ -47,7 +47,7 @@ class Sensor(Protocol):
 def sensor_parameters(sensors: Iterable[Sensor]) -> tuple[Parameter, ...]:
     """CHANNEL.gain and CHANNEL.zero of every output, CHANNEL.zero of the inputs in BIASED_INPUTS.
 
-    A reading is the truth (1 + gain) + zero. What is known for certain (sigma 0) has no parameter.
+    A reading is the truth (1 + gain) + zero. A quantity with sigma 0 has no parameter.
     """
     found = []
     for sensor in sensors:
@@ -59,13 +59,12 @@ def sensor_parameters(sensors: Iterable[Sensor]) -> tuple[Parameter, ...]:
 
 
 def taken_parameter(channel: ChannelName, sigma: float) -> Parameter:
-    """CHANNEL.zero of an input that was not measured: by how much too high it is taken (SI)."""
+    """CHANNEL.zero of an input that was not measured: excess of its assumed value (SI)."""
     return replace(_bias(channel, "zero", sigma, channel.dimension, FARTHEST * sigma), source=TAKEN)
 
 
 def drift_parameter(channel: ChannelName, sigma: float) -> Parameter:
-    """CHANNEL.drift: what an output reads too much at the last point, growing evenly from the first, or where a course
-    of its drift is known at its height (SI)."""
+    """CHANNEL.drift: excess (SI) of an output's reading at the last point, or at a known course's peak."""
     return _bias(channel, "drift", sigma, channel.dimension, inf)
 
 
@@ -80,14 +79,14 @@ def thermometer_parameter(lag: float, sigma: float) -> Parameter:
 
 
 def encoder_parameter(sigma: float) -> Parameter:
-    """encoder_offset in rad: what the encoder of traces reads too much."""
+    """encoder_offset in rad: excess of the encoder's reading in traces."""
     return Parameter(ENCODER_OFFSET, Role.SENSOR, Scale.NORMAL, 0.0, sigma, -0.2, 0.2, Dimension.ANGLE, CALIBRATION)
 
 
 def transducer_parameters(transducer: Sensor, lag: float) -> tuple[Parameter, ...]:
     """p_chamber.gain, p_chamber.zero (Pa) and p_chamber.lag (s, one sigma `lag`) of the transducer of traces.
 
-    The lag is that of the bore and line before it, a first-order one. What is known for certain has no parameter.
+    The lag is that of the bore and line before it, a first-order one. A quantity with sigma 0 has no parameter.
     """
     found = [lag_parameter(transducer.name, lag)]
     if transducer.gain_sigma > 0.0:
@@ -100,8 +99,8 @@ def transducer_parameters(transducer: Sensor, lag: float) -> tuple[Parameter, ..
 def read_turns(pressure: Array, speed: Array, angles: Array, values: Mapping[str, float]) -> Array:
     """Chamber pressure (N, K) in Pa gauge as read at shaft angles (K,) rad, of turns (N, M) at even angles from 0.
 
-    speed (N,), rad/s. By the values of TRACE_NAMES: the encoder reads its offset too much; what the transducer
-    follows with its lag tau is the turn's k-th harmonic over 1 + i k omega tau.
+    speed (N,), rad/s. By the values of TRACE_NAMES: the encoder reads its offset too much; the transducer with its lag
+    tau reads the turn's k-th harmonic over 1 + i k omega tau.
     """
     samples = pressure.shape[1]
     lag = values.get(CHAMBER_LAG, 0.0)
@@ -158,14 +157,14 @@ def _bias(channel: ChannelName, what: str, sigma: float, dimension: Dimension | 
 
 
 def _progress(points: BenchPoints) -> Array:
-    """From 0 at the first point taken to 1 at the last: by the hours where they are known, else by the order."""
+    """From 0 at the first measured point to 1 at the last: by the hours where they are known, else by the order."""
     time = points.hours if np.all(np.isfinite(points.hours)) and np.ptp(points.hours) > 0.0 else points.order
     span = np.ptp(time)
     return np.asarray((time - np.min(time)) / span) if span > 0.0 else np.zeros(len(time))
 
 
 def _lagging(reading: Array, points: BenchPoints, lag: float) -> Array:
-    """Readings that have come only part of the way from those at the point before, exp(-t/lag) being left."""
+    """Readings with a lag: the share exp(-t/lag) of the change from the point before is missing."""
     sequence = np.argsort(points.order, kind="stable")
     ordered, hours = reading[sequence], points.hours[sequence]
     left = np.exp(-3600.0 * np.diff(hours) / lag)

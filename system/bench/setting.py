@@ -1,4 +1,4 @@
-"""A pump at the points of a bench map with given values of its parameters: what all readings come from."""
+"""A pump at the points of a bench map with given values of its parameters: the origin of all readings."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
@@ -23,9 +23,9 @@ from system.pump.ports.wear import PortWear
 
 @dataclass(frozen=True)
 class Setting:
-    """A pump at N points, columns (N, 1): its motion over M shaft angles, what its gaps leak, its ports' wear.
+    """A pump at N points, columns (N, 1): its motion over M shaft angles, its gaps' leakage, its ports' wear.
 
-    free_air, air_exponent: of the bubbles in its chambers, (N,) or none.
+    free_air, air_exponent: of the bubbles in its chambers, (N,), or None.
     """
 
     pump: PumpDescription
@@ -65,7 +65,7 @@ def setting(pump: PumpDescription, points: BenchPoints, values: Mapping[str, flo
 
 
 def affected(given: Setting, effects: Effects) -> Setting:
-    """The same with what effects change of displacement, inlet, gaps and ports, at their points and angles."""
+    """The same with the changes by effects of displacement, inlet, gaps and ports, at their points and angles."""
     pump, point, motion = given.pump, given.point, given.motion
     point = left_over(point, _column(effects.ideal), _column(effects.suction_loss))
     if np.any(effects.ideal != 1.0):

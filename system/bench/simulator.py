@@ -36,13 +36,13 @@ TRACE_SAMPLES_PER_PITCH = 80
 STEP = 0.03
 """Of slopes by difference, in spreads of the parameter."""
 LAW_STEP = 0.005
-"""The same of laws, whose sizes are known far better by readings than by priors: a knee seldom lies within the step."""
+"""The same of laws, whose sizes readings determine far better than priors: a knee seldom lies within the step."""
 LOG_STEP = 1e-3
 """The largest, of the value, on a logarithmic scale: leakage goes with the cube of a film."""
 SQUARE_STEP = 0.02
 """The largest, of the value, on a scale of squares."""
 KEPT = 8
-"""Courses of a map that are remembered, the last ones."""
+"""Number of last courses of a map that are kept."""
 INPUT_STEPS = {
     ChannelName.SPEED: 1.0,
     ChannelName.DISPLACEMENT_RATIO: -2e-3,
@@ -52,19 +52,19 @@ INPUT_STEPS = {
     ChannelName.T_IN: 1.0,
     ChannelName.T_CASE: 0.2,
 }
-"""Steps of slopes by input, SI: some ten times what a sensor is good to."""
+"""Steps of slopes by input, SI: some ten times the accuracy of a sensor."""
 
 
 class LumpedBench:
     """The readings of a bench at N points, by the lumped fidelity; a `system.estimation.simulator.Simulator`.
 
     channels: the C outputs of METERED that are read, inputs: the M measured inputs, both in the order of the
-    observations. Parameters: of `base_parameters`, `sensor_parameters` and those of the extensions in `physics`,
-    which join where they are not among them. All else is as the pump states it, its own [physics] too, unless
-    `own_laws` stand in its place (those of solved films), which see all parameters by name. Ports are held at their
-    mean pressures: lines behind them and their ripple are left out. Raises InputError for a channel it does not
-    know, another parameter, chambers that differ, and points at which the oil's law is void. departures: (N, C, k)
-    of its laws and meters; drifts: course (N,) of a meter's drift, even in time for meters without one.
+    observations. Parameters: of `base_parameters`, `sensor_parameters` and those of the extensions in `physics` that
+    are not among them. All other values are the pump's own, its [physics] too, unless `own_laws` replace it (those of
+    solved films), which have all parameters by name. Ports are held at their mean pressures: lines behind them and
+    their ripple are neglected. Raises InputError for an unknown channel or parameter, chambers that differ, and points
+    at which the oil's law is not valid. departures: (N, C, k) of its laws and meters; drifts: course (N,) of a meter's
+    drift, even in time for meters without one.
     """
 
     def __init__(
@@ -100,7 +100,7 @@ class LumpedBench:
         self.own_laws = stated_laws(pump) if own_laws is None else own_laws
 
     def __getstate__(self) -> dict[str, object]:
-        """State for another process: all but the courses that are remembered."""
+        """State for another process: without the kept courses."""
         return {**vars(self), "_kept": deque(maxlen=KEPT)}
 
     @property
@@ -115,7 +115,7 @@ class LumpedBench:
     def difference(self, values: Array, other: Array) -> Array:
         """Readings (N, C) at `other` values less those at `values`, by `other_gaps` where gaps alone differ.
 
-        Friction and sensors are exact; leakage and what it takes from the ports are good to 1 % of their change.
+        Friction and sensors are exact; leakage and its effect on the ports are accurate to 1 % of their change.
         Chambers that differ in anything else are solved `beside` those at `values`.
         """
         solved = self.solved(values)
@@ -189,7 +189,7 @@ class LumpedBench:
         return self.finely(points).turns(values, angles)
 
     def finely(self, points: tuple[int, ...]) -> LumpedBench:
-        """The same bench at some of its points, with as many shaft angles as a trace asks for."""
+        """The same bench at some of its points, with as many shaft angles as a trace requires."""
         chosen = list(points)
         some = replace(self.points, **{name: getattr(self.points, name)[chosen] for name in vars(self.points)})
         return self._like(points=some, samples_per_pitch=TRACE_SAMPLES_PER_PITCH, departures=None, drifts=None)
@@ -204,7 +204,7 @@ class LumpedBench:
         return self.solved(values).courses
 
     def solved(self, values: Array) -> Solved:
-        """The map at the values (k,): what readings, components and traces come from."""
+        """The map at the values (k,): the origin of readings, components and traces."""
         plain = self._setting(values, self.points)
         return self._complete(plain, cache(lambda: self._solve(plain)), values, self._solve)
 
@@ -222,14 +222,14 @@ class LumpedBench:
         return len(self.points.speed), len(self.channels)
 
     def _setting(self, values: Array, points: BenchPoints) -> Setting:
-        """The pump at the points; values of which no pump can be made are a step too far of a fit."""
+        """The pump at the points; values without a possible pump are a fit's step that is too long."""
         try:
             return setting(self.pump, points, self._named(values), self.samples_per_pitch)
         except ValueError as void:
             raise NotConverged(f"bench map: no pump has these values: {void}") from void
 
     def _solve(self, at: Setting) -> Courses:
-        """The courses of a setting, remembered by all on which they depend."""
+        """The courses of a setting, kept by all their inputs."""
         for problem, courses in self._kept:
             if problem.is_that_of(at.problem):
                 return courses
@@ -279,7 +279,7 @@ class LumpedBench:
         return read(found, self.channels, points, named, self.drifts)
 
     def step_of(self, name: str, values: Array) -> float:
-        """The step in SI by which a slope of the named parameter is taken, away from its nearer bound."""
+        """The step in SI of a slope by the named parameter, away from its nearer bound."""
         index = [parameter.name for parameter in self.parameters].index(name)
         parameter, value = self.parameters[index], float(values[index])
         share = LAW_STEP if parameter.role is Role.EXTENSION else STEP
@@ -316,7 +316,7 @@ class LumpedBench:
 
 
 def _hold_known(parameters: tuple[Parameter, ...], physics: tuple[Extension, ...]) -> None:
-    """Raise InputError for a parameter that nothing listens to."""
+    """Raise InputError for a parameter without effect."""
     laws = {parameter.name for law in physics for parameter in law.free}
     for parameter in parameters:
         if parameter.name not in BASE_NAMES | laws | SENSOR_NAMES and not parameter.name.startswith(FORM):

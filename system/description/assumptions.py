@@ -18,7 +18,7 @@ class Assumption:
 
 
 class Taken:
-    """Gathers what is taken."""
+    """Collects assumed values."""
 
     def __init__(self) -> None:
         self.assumptions: list[Assumption] = []
@@ -34,5 +34,5 @@ class Taken:
         return usual
 
     def note(self, path: str, value: str, reason: str) -> None:
-        """Note what is taken of a path, as people read it."""
+        """Note the assumed value of a path, as people read it."""
         self.assumptions.append(Assumption(path, value, reason))

@@ -33,9 +33,9 @@ _VISCOSITIES = ("oil.kinematic_viscosity_40C", "oil.kinematic_viscosity_100C")
 
 
 def drawing_of(pump: PumpDescription) -> Drawing:
-    """Return the scatter that a pump's [tolerance] states; what it leaves out does not scatter.
+    """Return the scatter that a pump's [tolerance] states; other dimensions do not scatter.
 
-    [[tolerance.dimension]] and [[tolerance.fit]] stand in place of the table's own sigma of the same dimension. Raises
+    [[tolerance.dimension]] and [[tolerance.fit]] replace the table's own sigma of the same dimension. Raises
     InputFaults with every fault.
     """
     faults: list[Fault] = []

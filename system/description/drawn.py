@@ -60,7 +60,7 @@ class DrawnFit:
 class Drawing:
     """All that scatters; correlation: coefficient of the normal scores by the names of two dimensions.
 
-    unused: keys of [tolerance] that state what is not known of a pump but no dimension that scatters.
+    unused: keys of [tolerance] of an unknown of a pump that is no scattering dimension.
     """
 
     dimensions: tuple[Drawn, ...]

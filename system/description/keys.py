@@ -1,4 +1,4 @@
-"""Numbers of a pump file by table and key: what a sensitivity varies and what a tolerance names."""
+"""Numbers of a pump file by table and key: the subjects of sensitivities and tolerances."""
 
 from __future__ import annotations
 
@@ -71,7 +71,7 @@ def _keys_in(path: str, section: Any) -> Iterator[PumpKey]:
 def with_values(pump: PumpDescription, values: Mapping[str, float]) -> PumpDescription:
     """Return the pump with other values (SI) of some of its `pump_keys`, its stated displacement left to follow.
 
-    Limits of single values hold; `system.pump_file.file.check_pump` knows those of the geometry. Raises ValueError,
+    Limits of single values hold; `system.pump_file.file.check_pump` checks those of the geometry. Raises ValueError,
     and InputError, for a value that no such key has.
     """
     changed: Any = replace(pump, pump=replace(pump.pump, displacement=None))

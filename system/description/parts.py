@@ -1,6 +1,6 @@
 """Tables of the pump description that floating gaps need: the parts' shapes, surfaces, materials and holds.
 
-Every key may be left out; `system.films.parts` says what is then taken, and why.
+Every key may be left out; `system.films.parts` has the assumed values and their reasons.
 """
 
 import math

@@ -1,4 +1,4 @@
-"""The pump description, format 1: what a pump file says, in SI floats.
+"""The pump description, format 1: the values of a pump file, in SI floats.
 
 Lengths in m, angles in rad, speeds in rad/s, pressures in Pa gauge (atmosphere = 0), temperatures in K.
 `system.pump_file.file` reads and writes it; `system.pump_file.check` holds it to geometry.
@@ -175,7 +175,7 @@ class ValvePlateSection:
 
     @property
     def bearing_pads(self) -> tuple[BearingPads, ...]:
-        """The pads as films take them; raises InputError for those that run into each other."""
+        """The pads as inputs of films; raises InputError for pads that overlap."""
         return tuple(BearingPads(pad.inner, pad.outer, pad.arc, pad.number) for pad in self.pads)
 
     @property
@@ -260,7 +260,7 @@ class OilSection:
 
     @property
     def fluid(self) -> Oil:
-        """The oil as `reynolds.laws.oil` knows it; raises ValueError where Walther's law is void."""
+        """The oil for `reynolds.laws.oil`; raises ValueError where Walther's law is not valid."""
         return Oil(**{name: getattr(self, name) for name in Oil.__dataclass_fields__})
 
 

@@ -1,4 +1,4 @@
-"""Tolerances of a pump before anything is measured: one sigma of each uncertain parameter."""
+"""Tolerances of a pump before any measurement: one sigma of each uncertain parameter."""
 
 from dataclasses import dataclass, fields
 

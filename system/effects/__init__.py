@@ -1,1 +1,1 @@
-"""Physics that loss models leave out, as effects that extend the pump model."""
+"""Physics missing in loss models, as effects that extend the pump model."""

@@ -39,7 +39,7 @@ def effects_at(
 ) -> Affected:
     """Changes by laws with their values at N points, columns (N, 1), at chamber pressures without any effect.
 
-    `cycle()` gives these pressures. It is called only if a law asks for the course of a gap.
+    `cycle()` gives these pressures. It is called only if a law needs the course of a gap.
     """
 
     def found() -> dict[Gap, GapCourse]:
@@ -52,7 +52,7 @@ def effects_at(
 
 
 def left_over(point: OperatingPoint[Number], ideal: Number, suction_loss: Number) -> OperatingPoint[Number]:
-    """The point with what effects leave: `ideal` of the stroke, the inlet's pressure less `suction_loss` Pa."""
+    """The point after effects: `ideal` of the stroke, the inlet's pressure less `suction_loss` Pa."""
     return replace(
         point, displacement_ratio=point.displacement_ratio * ideal, inlet_pressure=point.inlet_pressure - suction_loss
     )

@@ -1,4 +1,4 @@
-"""The parts of a pump's balance that a mismatch can be laid at: leakage paths, friction pairs, sensors."""
+"""The possible places of a mismatch in a pump's balance: leakage paths, friction pairs, sensors."""
 
 from enum import Enum
 

@@ -77,10 +77,10 @@ class EffectId(Enum):
 class GapCourse:
     """One gap over the turn at N points, M shaft angles each: arrays (N, M), of one piston, one slipper, the ring.
 
-    pressure: chamber over case pressure in Pa; sliding_speed: of the two walls in m/s, never negative; film:
-    thickness in m; normal_force: the force that Coulomb friction multiplies, N; coulomb, viscous: loss in W
-    without any effect; leakage: through the lands, m3/s, without any; width (N,): of the film across its sliding,
-    m; land_area (N,): of the sealing lands in m2.
+    pressure: chamber over case pressure in Pa; sliding_speed: of the two walls in m/s, never negative; film: thickness
+    in m; normal_force: the force that Coulomb friction multiplies, N; coulomb, viscous: loss in W without any effect;
+    leakage: through the lands, m3/s, without any effect; width (N,): of the film across its sliding, m; land_area (N,):
+    of the sealing lands in m2.
     """
 
     pressure: Array
@@ -96,7 +96,7 @@ class GapCourse:
 
 @dataclass(frozen=True)
 class BenchState(Generic[Value]):
-    """N bench points as laws see them: rad/s, Pa gauge, Pa s, K, h run; arrays (N,). `geometry` is the pump.
+    """N bench points as inputs of laws: rad/s, Pa gauge, Pa s, K, h run; arrays (N,). `geometry` is the pump.
 
     BenchState[float]: one point.
     """
@@ -165,7 +165,7 @@ FACTORS = (
 
 
 def neutral(points: int, angles: int) -> Effects:
-    """The effects of no law at all."""
+    """Neutral effects: no change."""
     of_gaps = dict.fromkeys(("conductance", "viscous", "coulomb", "gap_flow"), (3, points, angles))
     shapes = {**of_gaps, "extra_coulomb": (5, points, angles)}
     return Effects(
@@ -177,6 +177,6 @@ def neutral(points: int, angles: int) -> Effects:
 
 
 def both(one: Effects, other: Effects) -> Effects:
-    """Two laws at once, each as if the other were not: factors multiply, all else adds."""
+    """Two laws at once, each independent of the other: factors multiply, all else adds."""
     pairs = {field.name: (getattr(one, field.name), getattr(other, field.name)) for field in fields(Effects)}
     return Effects(**{name: a * b if name in FACTORS else a + b for name, (a, b) in pairs.items()})

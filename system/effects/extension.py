@@ -19,13 +19,13 @@ Law = Callable[[Values, Mapping[Gap, GapCourse], BenchState], Effects]  # values
 class Extension:
     """One law switched on, at one gap or (None) at the pump as a whole.
 
-    Parameters are named as in a pump file, `elastic_opening.slipper.opening`; the law uses the last part. `grid`
-    lists the values of parameters that set a scale rather than a size and are tried one after the other: one
-    empty mapping where there is none. `scales` are the continuous ones of them: a fit of a member frees them
-    about the member's values. Values are those of the grid's first member and the parameters'.
+    Parameters are named as in a pump file, `elastic_opening.slipper.opening`; the law uses the last part. `grid` lists
+    the values of parameters that set a scale rather than a size and are tried one after the other: one empty mapping
+    without such parameters. `scales` are the continuous ones of them: in a fit of a member they are free about the
+    member's values. Values are those of the grid's first member and the parameters'.
 
     `forms` are other published laws of the same effect. Each has the sizes of this one, and a key of its own in its
-    grid, by which a pump file states it. of_films: solved with the films, by no table of a pump file.
+    grid, by which a pump file states it. of_films: solved with the films, without a table of a pump file.
     """
 
     id: EffectId
@@ -44,13 +44,13 @@ class Extension:
         return (*own, *(member for form in self.forms for member in form.members))
 
     def form_of(self, values: Values) -> Extension:
-        """The form of which a pump file's table states all keys of the grid; this one where it states no other's."""
+        """The form of which a pump file's table states all keys of the grid; else this one."""
         found = (form for form in self.forms if form.grid[0].keys() <= values.keys())
         return max(found, key=lambda form: len(form.grid[0]), default=self)
 
     @property
     def free(self) -> tuple[Parameter, ...]:
-        """All that a fit of one member sets free: the sizes and the scales."""
+        """All free parameters in a fit of one member: the sizes and the scales."""
         return (*self.parameters, *self.scales)
 
     def stated(self, values: Mapping[str, float]) -> dict[str, float]:

@@ -20,9 +20,9 @@ def gap_courses(
     cycle: Pressed,
     losses: FrictionPairs[Array],
 ) -> dict[Gap, GapCourse]:
-    """Films of given thickness at N points with the losses that no law has changed yet.
+    """Films of given thickness at N points with their losses before any change by laws.
 
-    The force that rubs is the pairs' Coulomb loss at a coefficient and a speed of one.
+    The normal force is the pairs' Coulomb loss at a coefficient and a speed of one.
     """
     axial, side = piston_forces(pump, point, motion, cycle)
     ones = np.ones_like(axial)
@@ -76,7 +76,7 @@ def gap_courses(
 
 
 def bench_state(pump: PumpDescription, point: OperatingPoint[Value], hours: Value) -> BenchState[Value]:
-    """N points, given as columns (N, 1), and the hours (N,) run until then, as laws see them; or one point."""
+    """N points, given as columns (N, 1), and the hours (N,) run until then, as inputs of laws; or one point."""
     at = flat(point)
     return BenchState(
         speed=at.shaft_speed,

@@ -38,10 +38,10 @@ REACH = 1.75
 """Highest pressure of a table, of the pump's rated pressure: walls half as soft again."""
 LEARNT, HELD_OUT = 12, 3
 FINER = 0.5
-"""Of the usual cells each way: both films of a ratio err alike."""
+"""Of the usual cells each way: both films of a ratio have equal errors."""
 ELASTIC = SMOOTH.including(Effect.ELASTIC_WALLS)
 VARIED = ("speed", "pressure", "displacement_ratio", "inlet_pressure", "case_pressure")
-"""Of [operating]: what a film of the table has of its own."""
+"""Of [operating]: a film's own values in the table."""
 OUTPUTS = (Output("leakage", Measure.RELATIVE), Output("shear", Measure.RELATIVE))
 INSTANT = {Gap.PISTON: 1.5 * np.pi, Gap.SLIPPER: 1.5 * np.pi, Gap.VALVE_PLATE: 0.1}
 """Shaft angle of the films: amid the delivery stroke, and of the ring just past a dead centre."""
@@ -51,7 +51,7 @@ INSTANT = {Gap.PISTON: 1.5 * np.pi, Gap.SLIPPER: 1.5 * np.pi, Gap.VALVE_PLATE: 0
 class OpeningCase:
     """Response to learn: a gap of a pump at rated speed, over the pressure above the case. A `SamplingTask`.
 
-    The case's own pressure acts on all sides of the parts and deforms none; it is left out.
+    The case's own pressure acts on all sides of the parts and deforms none; it is omitted.
     """
 
     pump: PumpDescription
@@ -61,7 +61,7 @@ class OpeningCase:
 
     @property
     def axes(self) -> tuple[Axis, ...]:
-        """Pressure over that of the case, Pa, from none on."""
+        """Pressure over that of the case, Pa, from zero on."""
         return (Axis("pressure", 0.0, REACH * self.pump.pump.rated_pressure),)
 
     def key(self, x: Array) -> str:
@@ -90,7 +90,7 @@ class OpeningCase:
 
 @dataclass(frozen=True)
 class OpeningTable:
-    """A gap's leakage and shear over the pressure, and the film (m) that they were learnt at."""
+    """A gap's leakage and shear over the pressure, and the film (m) at which they were learnt."""
 
     gap: Gap
     film: float
@@ -104,8 +104,8 @@ class OpeningTable:
     def factors(self, pressure: Array) -> tuple[Array, Array]:
         """Leakage and shear over those between rigid walls at pressures (Pa) above the case.
 
-        Below the case's pressure nothing opens; beyond the table's end the film stays as open as there, which only
-        the spike of a chamber passes.
+        Below the case's pressure the film does not open; beyond the table's end it keeps the opening there, which only
+        the pressure spike of a chamber exceeds.
         """
         (axis,) = self.response.axes
         places = np.clip(pressure, axis.lower, axis.upper)
@@ -115,7 +115,7 @@ class OpeningTable:
 
 
 def opening_table(pump: PumpDescription, gap: Gap, report: Report = silent) -> OpeningTable:
-    """The table of a gap of a pump, its films kept by content and solved where they are not.
+    """The table of a gap of a pump, its films read by content or solved.
 
     Raises NotConverged where too few of them have a solution.
     """
@@ -126,7 +126,7 @@ def opening_table(pump: PumpDescription, gap: Gap, report: Report = silent) -> O
 
 @dataclass(frozen=True)
 class SolvedOpening:
-    """The law of a gap's elastic walls: `compliance`, 1 for walls as soft as drawing and material make them."""
+    """The law of a gap's elastic walls: `compliance`, 1 for walls by drawing and material."""
 
     table: OpeningTable
 

@@ -10,9 +10,9 @@ from system.pump.bench import Outside
 def outside(effects: Effects[Value], state: BenchState[Value]) -> Outside[Value]:
     """Flows past the chambers, drag on the shaft and the part of the displacement that is not filled.
 
-    Oil keeps its mass from port to port at the constant bulk modulus K: volumes go with exp(-p/K). A part 1 -
-    intake of the displaced volume holds no oil at inlet pressure: it is neither taken in nor delivered, and its
-    work per volume at zero pressure, h(delivery) - h(inlet), h = K (1 - exp(-p/K)), is not done.
+    Oil keeps its mass from port to port at the constant bulk modulus K: volumes go with exp(-p/K). A part 1 - intake of
+    the displaced volume contains no oil at inlet pressure: it is neither drawn in nor delivered, and its work per
+    volume at zero pressure, h(delivery) - h(inlet), h = K (1 - exp(-p/K)), is not done.
     """
     modulus = state.geometry.oil.bulk_modulus
     delivery, inlet, case = (

@@ -69,7 +69,7 @@ def whole(
 
 
 def share_of(effect: EffectId, key: str, centre: float, source: str) -> Parameter:
-    """A share between two forms of a law, 0 to 1, of which nothing but the range is known."""
+    """A share between two forms of a law, 0 to 1, of which only the range is known."""
     return Parameter(path_of(effect, key), Role.EXTENSION, Scale.NORMAL, centre, 0.5, 0.0, 1.0, None, source)
 
 
@@ -82,7 +82,7 @@ def missing_physics(
     sentence: str,
     source: str,
 ) -> Entry:
-    """The entry of an effect that the plain loss model leaves out."""
+    """The entry of an effect missing in the plain loss model."""
     return Entry(
         extensions[0].id, Kind.MISSING_PHYSICS, extensions, components, channels, regime, twins, sentence, source
     )

@@ -17,7 +17,7 @@ GAPS = tuple(Gap)
 
 
 class AwaitedCourses(Mapping[Gap, GapCourse]):
-    """The courses of the gaps at N points and M angles, worked out when a law first asks for one."""
+    """The courses of the gaps at N points and M angles, computed when a law first needs one."""
 
     def __init__(self, shape: tuple[int, int], found: Callable[[], Mapping[Gap, GapCourse]]) -> None:
         self.shape, self._found = shape, cache(found)
@@ -53,7 +53,7 @@ def full_stroke(state: BenchState[Value]) -> float:
 
 
 def swash_tangent(state: BenchState) -> Array:
-    """tan(swash angle) (N,), proportional to the displacement ratio: exact but for t^2 of the bores' cone."""
+    """tan(swash angle) (N,), proportional to the displacement ratio: exact except for t^2 of the bores' cone."""
     return np.asarray(state.displacement_ratio * np.tan(state.geometry.pump.swash_angle_max))
 
 
@@ -68,7 +68,7 @@ def ideal_flow(state: BenchState[Value]) -> Value:
 
 
 def dead_volume(state: BenchState) -> Array:
-    """Volume (N,) m3 of all chambers together at inner dead centre: it grows as the stroke is set back."""
+    """Volume (N,) m3 of all chambers together at inner dead centre: it grows as the stroke is reduced."""
     part = state.geometry.pump
     back = piston_area(state) * full_stroke(state) * (1.0 - state.displacement_ratio) / 2.0
     return np.asarray(part.pistons * (part.dead_volume + back))
@@ -93,8 +93,8 @@ def orifice_flow(state: BenchState, area: float, drop: Array) -> Array:
 def throttled(state: BenchState, flow: Array, drop: Array) -> Array:
     """Power (N,) W that a `flow` (m3/s at the higher pressure) loses over a `drop` (Pa): Q K (exp(dp/K) - 1).
 
-    It is the mass flow times the difference of h = K (1 - exp(-p/K)), for the oil expands on its way: Q dp (1 + dp/2K)
-    to second order.
+    It is the mass flow times the difference of h = K (1 - exp(-p/K)), since the oil expands on its path: Q dp (1 +
+    dp/2K) to second order.
     """
     modulus = state.geometry.oil.bulk_modulus
     return np.asarray(flow * modulus * np.expm1(drop / modulus))
@@ -103,8 +103,8 @@ def throttled(state: BenchState, flow: Array, drop: Array) -> Array:
 def warmed(state: BenchState, rise: Array) -> Array:
     """Viscosity of the oil warmer by `rise` K over its viscosity at the state's temperature, (N, ...) as `rise`.
 
-    Walther's law (1931, ASTM D341) through the oil's two viscosities, also beyond 150 degC: there it goes on
-    smoothly, positive and falling, so that a fit may pass by.
+    Walther's law (1931, ASTM D341) through the oil's two viscosities, also beyond 150 degC: there it continues
+    smoothly, positive and falling, for intermediate steps of a fit.
     """
     intercept, slope = walther_coefficients(state.geometry.oil.fluid)
     cold = state.temperature.reshape((-1,) + (1,) * (rise.ndim - 1))

@@ -24,7 +24,7 @@ def switched_on(pump: PumpDescription) -> Iterator[tuple[Extension, Values]]:
 
 
 def stated_laws(pump: PumpDescription) -> tuple[tuple[Law, Values], ...]:
-    """The laws of all of them with their values; films between elastic walls are kept, or solved where new."""
+    """The laws of all of them with their values; films between elastic walls are read if kept, else solved."""
     return tuple((_law(pump, extension, values), values) for extension, values in switched_on(pump))
 
 
@@ -35,6 +35,6 @@ def _law(pump: PumpDescription, extension: Extension, values: Values) -> Law:
 
 
 def stated_effects(laws: Sequence[tuple[Law, Values]], courses: Mapping[Gap, GapCourse], state: BenchState) -> Effects:
-    """Combined changes by `stated_laws`; none where all are off."""
+    """Combined changes by `stated_laws`; neutral where all are off."""
     found = (law(values, courses, state) for law, values in laws)
     return reduce(both, found, unchanged(courses))

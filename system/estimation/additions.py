@@ -38,7 +38,7 @@ class Addition:
 class Rung:
     """Additions to a model: the fit without them, those that were fitted, the best first, and the failures as text.
 
-    dropped: of a ladder, the names of earlier additions that are not needed beside the best.
+    dropped: of a ladder, the names of earlier additions that are not needed with the best.
     """
 
     before: Posterior
@@ -48,12 +48,12 @@ class Rung:
 
     @property
     def taken(self) -> Addition | None:
-        """The addition of greatest evidence, None where it is not worth it."""
+        """The addition of greatest evidence, None where its gain is below `WORTH`."""
         return self.tried[0] if self.tried and self.tried[0].gain >= WORTH else None
 
     @property
     def rivals(self) -> tuple[Addition, ...]:
-        """Additions that the readings do not tell from the one that is taken: within `WORTH` nats of it."""
+        """Additions that the readings do not distinguish from the chosen one: within `WORTH` nats of it."""
         best = self.taken
         return () if best is None else tuple(one for one in self.tried[1:] if one.gain > best.gain - WORTH)
 
@@ -68,11 +68,11 @@ class Ladder:
 
     @property
     def before(self) -> Posterior:
-        """The fit of the model as it is."""
+        """The fit of the model without additions."""
         return self.rungs[0].before
 
     def rivals(self, name: str) -> tuple[str, ...]:
-        """Names of the additions that the readings did not tell from a kept one when it was taken."""
+        """Names of the additions that the readings did not distinguish from a kept one when it was chosen."""
         rung = next(one for one in reversed(self.rungs) if one.taken is not None and one.taken.name == name)
         return tuple(one.name for one in rung.rivals)
 
@@ -132,8 +132,8 @@ def ladder(
     """Additions one after the other, each beside those before it, as long as one gains `WORTH` nats: `most` steps.
 
     An earlier addition whose evidence falls below that beside a later one is dropped (stepwise selection; Efroymson
-    1960). renewed: the observations with the noise that a fit leaves, where it is not known. Raises InputError where
-    nothing may be added, NotConverged as `additions`.
+    1960). renewed: the observations with the noise that a fit leaves, where it is not known. Raises InputError without
+    any possible addition, NotConverged as `additions`.
     """
     if not possible:
         raise InputError("ladder", "no possible addition", "one at least")
@@ -166,7 +166,7 @@ class _Model:
 
     @property
     def simulator(self) -> Simulator:
-        """The base with all the additions; a parameter that two of them share is there once."""
+        """The base with all the additions; a parameter that two of them share occurs once."""
         added = {one.name: one for name in self.names for one in self.possible[name]}
         return self.base.with_parameters(tuple(added.values())) if added else self.base
 

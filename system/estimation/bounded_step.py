@@ -79,7 +79,7 @@ class Quadratic:
         return cls(xi, slopes.T @ residual - xi, slopes.T @ slopes + np.eye(xi.size))
 
     def fall(self, step: Array) -> float:
-        """By how much the model's objective falls along a step."""
+        """Decrease of the model's objective along a step."""
         return float(2.0 * self.gradient @ step - step @ self.precision @ step)
 
 

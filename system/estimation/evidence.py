@@ -1,4 +1,4 @@
-"""Comparison of hypotheses: evidence of a fit, scores and evidences of columns that were not fitted.
+"""Comparison of hypotheses: evidence of a fit, scores and evidences of columns outside the fit.
 
 A column v is the whitened change of all readings by one spread of a parameter that the fit does not have. With the
 fit's slopes A, precision H = A^T A + 1 and residual r everything follows from g = v.r and G = v.(v - A H^-1 A^T v):
@@ -95,7 +95,7 @@ def family_evidences(
 
 
 def taken_up(posterior: Posterior, columns: Array, widths: Sequence[float]) -> float:
-    """Nats of the objective that columns (n, m) take up, g^T (1/w^2 + G)^-1 g / 2, at the width of most evidence."""
+    """Nats of the objective that columns (n, m) absorb, g^T (1/w^2 + G)^-1 g / 2, at the width of most evidence."""
     width = max(widths, key=lambda width: multiplier_evidence(posterior, columns, [width]))
     agreement, content = columns.T @ posterior.residual, columns.T @ project(posterior, columns)
     return 0.5 * float(agreement @ np.linalg.solve(content + np.eye(len(content)) / width**2, agreement))

@@ -1,4 +1,4 @@
-"""The peak of the posterior, by damped Gauss-Newton steps. Slopes propose a step, a prediction decides it.
+"""The peak of the posterior, by damped Gauss-Newton steps. Slopes propose a step, a prediction accepts or rejects it.
 
 Approximate slopes still lead to the peak of the true objective (`trial.py`). They are computed again at the peak, and
 where a step achieves little of its predicted reduction.
@@ -71,14 +71,14 @@ def maximum_posterior(
 
 
 def is_peak(posterior: Posterior, limits: FitLimits = LIMITS) -> bool:
-    """True unless the slopes of a fit promise a fall with which it would not count as a peak: it was given up."""
+    """True unless the slopes of a fit predict a decrease with which it would not count as a peak: it was given up."""
     model = Quadratic.of(posterior.xi, posterior.residual, posterior.slopes)
     step = bounded_step(model, Bounds.of(posterior.parameters).about(posterior.xi), 0.0, np.inf)
     return model.fall(step) < _stall(posterior, limits)
 
 
 def _stall(place: Iterate | Posterior, limits: FitLimits) -> float:
-    """The fall promised with which a place that no step betters is a peak."""
+    """The predicted decrease below which a place that no step improves is a peak."""
     gross = place.objective > limits.gross * place.residual.size
     return max(limits.stall * excess(place), limits.coarse * place.objective if gross else 0.0)
 
@@ -86,10 +86,10 @@ def _stall(place: Iterate | Posterior, limits: FitLimits) -> float:
 def best_posterior(
     simulator: Simulator, observations: Observations, starts: Sequence[Array], limits: FitLimits = LIMITS
 ) -> Posterior:
-    """The peak of greatest evidence among those found from several starts; its effort is theirs together.
+    """The peak of greatest evidence among those found from several starts; its effort is the sum of theirs.
 
-    For parameters that do nothing below a threshold, or whose effect has several peaks. Raises NotConverged
-    where no start leads to a peak.
+    For parameters without effect below a threshold, or with several peaks. Raises NotConverged where no start leads to
+    a peak.
     """
     found: list[Posterior] = []
     failed: list[NotConverged] = []
@@ -112,10 +112,10 @@ def best_posterior(
 
 
 def _descend(fit: Fit, walk: Walk, whitening: Whitening) -> tuple[Iterate, Array]:
-    """Go down to a peak. Return it with slopes taken no farther than NEAR from it.
+    """Go down to a peak. Return it with slopes computed no farther than NEAR from it.
 
-    Where the simulator's slopes, which may be approximate, end short of a peak, slopes by predictions lead on; not
-    where they are right and it is the valley that is curved.
+    Where the simulator's slopes, which may be approximate, end before a peak, slopes by predictions continue; not where
+    they are right and the valley is curved.
     """
     walk, given_up = _ended(fit, walk, whitening)
     is_short = not given_up and fit.promised(walk) >= _stall(walk.place, fit.limits)
@@ -141,7 +141,7 @@ def _ended(fit: Fit, walk: Walk, whitening: Whitening) -> tuple[Walk, bool]:
 
 
 def _steps(fit: Fit, walk: Walk, whitening: Whitening) -> tuple[Walk, bool]:
-    """Trials until nothing more is promised or gained; true where the predicted peak is of no use, or the model.
+    """Trials until the predicted and the achieved decrease are below tolerance; true for a hopeless peak or model.
 
     Beyond MOST_DAMPING no step by these slopes gains.
     """
@@ -167,10 +167,11 @@ def _steps(fit: Fit, walk: Walk, whitening: Whitening) -> tuple[Walk, bool]:
 
 
 def _is_hopeless(trials: int, objective: float, promised: float, limits: FitLimits) -> bool:
-    """True where the peak that the slopes promise lies above `hopeless`, after trials from which that counts.
+    """True where the peak that the slopes predict lies above `hopeless`, after trials from which that counts.
 
-    Any promise does after `patience` trials; after SOON one that is met but for the share MET of the fall to
-    `hopeless`, so that the slopes are right, and one that is MUCH times as high: fresh slopes change it by less.
+    Any prediction counts after `patience` trials; after SOON trials one that is met except for the share MET of the
+    decrease to `hopeless`, so that the slopes are right, and one that is MUCH times as high: new slopes change it by
+    less.
     """
     peak = objective - promised
     if peak <= limits.hopeless:
@@ -182,7 +183,7 @@ def _is_hopeless(trials: int, objective: float, promised: float, limits: FitLimi
 def _posterior(fit: Fit, place: Iterate, slopes: Array, whitening: Whitening, effort: FitEffort) -> Posterior:
     """The posterior at a peak, with the evidence of the part of its bell that lies within the bounds.
 
-    A fit that was given up is no peak: where even the promised peak is hopeless it has the evidence of that, else that
+    A fit that was given up is no peak: where even the predicted peak is hopeless it has the evidence of that, else that
     of a bell about its place.
     """
     model = Quadratic.of(place.xi, place.residual, slopes)

@@ -1,4 +1,4 @@
-"""Readings left out of a fit: by levels of an axis, and as the fit without them predicts them."""
+"""Readings left out of a fit: by levels of an axis, and their prediction by the fit without them."""
 
 import numpy as np
 from numpy.typing import NDArray

@@ -17,8 +17,7 @@ STEP = 1e-4  # of a parameter's spread: slopes lead a fit, predictions decide it
 class FunctionSimulator:
     """A model whose readings are law(values by name), (N, C) in SI; its inputs are known exactly.
 
-    A parameter that the model has not got is absent from the names: `values.get("leak", 0.0)`. `Simulator` says the
-    rest.
+    A parameter that the model lacks is absent from the names: `values.get("leak", 0.0)`. See `Simulator`.
     """
 
     law: Callable[[Mapping[str, float]], Array]

@@ -27,12 +27,12 @@ class Channel:
 class Observations:
     """N points by C channels, all in SI; rows are in the order of recording.
 
-    values, sigma: (N, C), reading and one sigma of its repeatability; nan = not measured. inputs, input_sigma:
-    names of the M inputs that were measured too, and one sigma of each, (N, M). quantum: (C,), the step of a
-    digital reading, 0 for none. blocks: (N,) integers, points of one block are close to each other (region of the
-    map, stretch of time). memory: coefficients of an autoregressive noise along the rows (of consecutive points
-    of a time series), the nearest first; empty: the noise of each point is independent. correlation: of each channel
-    (N, N), known correlation of the readings' own noise between points, in place of `memory`; or none at all.
+    values, sigma: (N, C), reading and one sigma of its repeatability; nan = not measured. inputs, input_sigma: names of
+    the M inputs that were measured too, and one sigma of each, (N, M). quantum: (C,), the step of a digital reading, 0
+    without one. blocks: (N,) integers, points of one block are close to each other (region of the map, stretch of
+    time). memory: coefficients of an autoregressive noise along the rows (of consecutive points of a time series), the
+    nearest first; empty: the noise of each point is independent. correlation: of each channel (N, N), known correlation
+    of the readings' own noise between points, in place of `memory`; or None.
     """
 
     channels: tuple[Channel, ...]
@@ -46,7 +46,7 @@ class Observations:
     correlation: tuple[Array, ...] = ()
 
     def __post_init__(self) -> None:
-        """Raise InputError for arrays that do not fit each other and for a reading without a noise."""
+        """Raise InputError for arrays of inconsistent shapes and for a reading without a noise."""
         points, channels = len(self.values), len(self.channels)
         shapes = (
             ("values", self.values.shape, (points, channels)),

@@ -32,9 +32,9 @@ class Role(Enum):
 class Parameter:
     """One parameter and its prior: xi ~ N(0, 1), cut to [lower, upper] in value; HALF: also xi >= 0.
 
-    centre, lower and upper are SI values; spread is in SI too, but for LOG relative. `dimension` is None for a
-    pure number. `source` is the origin of the prior. linear: readings are linear in it, so that steps may be long.
-    power: of a LOG value in which readings are nearly linear (3 for a film that leaks), 0 where none is.
+    centre, lower and upper are SI values; spread is in SI too, except relative for LOG. `dimension` is None for a pure
+    number. `source` is the origin of the prior. linear: readings are linear in it, so that steps may be long. power: of
+    a LOG value in which readings are nearly linear (3 for a film that leaks), 0 without such a power.
     """
 
     name: str
@@ -50,7 +50,7 @@ class Parameter:
     power: float = 0.0
 
     def __post_init__(self) -> None:
-        """Raise InputError for a void prior."""
+        """Raise InputError for an invalid prior."""
         where = f"parameter {self.name}"
         if not 0 < self.spread < inf:
             raise InputError(where, f"a spread of {self.spread}", "a positive number")
@@ -90,7 +90,7 @@ class Parameter:
         return (value - self.centre) / self.spread
 
     def stretch(self, xi: float) -> float:
-        """d value / d xi, in SI: what a slope by value is multiplied with to be one by xi."""
+        """d value / d xi, in SI: factor from a slope by value to a slope by xi."""
         if self.scale is Scale.SQUARE:
             return self.centre * self.spread / self.value(xi)
         return self.spread * (self.value(xi) if self.scale is Scale.LOG else 1.0)

@@ -166,7 +166,7 @@ def linear_posterior(simulator: Simulator, observations: Observations, about: Ar
     of slopes.
 
     Peak H xi = A^T r0, r = r0 - A xi, r0 the linear model's residual at xi = 0. Bounds do not hold here: a score tests
-    the direction of a parameter, and a wrong model would drag a bounded fit to its corners.
+    the direction of a parameter, and a wrong model would move a bounded fit to its corners.
     """
     begun = process_time()
     parameters = simulator.parameters

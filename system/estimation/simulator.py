@@ -11,7 +11,7 @@ from system.estimation.parameters import Parameter
 class Simulator(Protocol):
     """A model of the N points and C channels of some observations, in SI.
 
-    `values` are those of `parameters`, in their order. Predictions decide a fit; slopes only lead it and may be
+    `values` are those of `parameters`, in their order. Predictions determine a fit; slopes only lead it and may be
     approximate.
     """
 

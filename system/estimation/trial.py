@@ -1,7 +1,7 @@
 """A fit in progress: its places, and trials of steps that its slopes propose.
 
-Damped Gauss-Newton steps (Levenberg 1944, Marquardt 1963) between bounds; a prediction decides each. Each step corrects
-the slopes (Broyden 1965). A step that leaves the floor of a curved valley is corrected back to it.
+Damped Gauss-Newton steps (Levenberg 1944, Marquardt 1963) between bounds; a prediction accepts or rejects each. Each
+step corrects the slopes (Broyden 1965). A step that leaves the floor of a curved valley is corrected back to it.
 """
 
 from collections.abc import Sequence
@@ -18,17 +18,17 @@ from system.estimation.posterior import Posterior, standard_slopes, values_at
 from system.estimation.simulator import Simulator
 from system.estimation.whitening import Whitening, whitener
 
-HARDER, EASIER = 8.0, 1.0 / 8.0  # the damping after a trial that failed, that kept its promise
+HARDER, EASIER = 8.0, 1.0 / 8.0  # the damping after a trial that failed, that achieved its prediction
 GROWTH = 2.0  # of that factor with each trial that fails in a row
 LEAST_DAMPING, FIRST_DAMPING, MOST_DAMPING = 1e-7, 1e-6, 1e6  # of the sensitivities: valleys have far smaller ones
 CORRECTIONS, LEFT = 6, 0.8  # of a trial, down to the floor of a curved valley: each leaves less than this share
 LOCAL = 1e2  # damping from which a failed trial shows wrong slopes here, not the curve on the way
 SHORT = 1e-3  # in xi: over shorter steps the solvers' own error exceeds the change of the readings
-GOOD = 0.5  # share of the promised fall: below it the slopes are asked for anew
-TRUE, LONGER = 0.75, 2.0  # share of the promised fall from which the next step may be so many times as long
-STEP = 0.05  # in xi, of slopes by predictions: over shorter ones steps that the solver takes otherwise would count
+GOOD = 0.5  # share of the predicted decrease: below it the slopes are computed anew
+TRUE, LONGER = 0.75, 2.0  # share of the predicted decrease from which the next step may be so many times as long
+STEP = 0.05  # in xi, of slopes by predictions: over shorter ones other steps of the solver would count
 PROBE = 0.01  # in xi, of a step that shows whether slopes are right
-FAR = 1.0  # in xi: slopes from farther away are asked for anew where a step is curved
+FAR = 1.0  # in xi: slopes from farther away are computed anew where a step is curved
 NEAR = 0.02  # in xi: slopes taken no farther away are valid for a peak and its covariance
 
 
@@ -36,14 +36,13 @@ NEAR = 0.02  # in xi: slopes taken no farther away are valid for a peak and its 
 class FitLimits:
     """End of a fit: steps at most, change of the objective, largest first step in xi, rounds of whitening.
 
-    stall: predicted fall of the objective below which a point that no step improves counts as a peak; like the
-    change it is in units of the objective per reading where that is above one. Half a nat suits smooth models;
-    models with kinks predict more than they achieve. hopeless: an objective above which a fit is of no use. After
+    stall: predicted fall of the objective below which a point that no step improves counts as a peak; like the change
+    it is in units of the objective per reading where that is above one. Half a nat suits smooth models; for models with
+    kinks more decrease is predicted than achieved. hopeless: an objective above which a fit is useless. After
     `patience` trials, or fewer where slopes are right, a fit whose predicted objective is not lower ends, with the
-    evidence of the predicted peak.
-    gross: objective per reading of a model that is wrong; its fit ends where `level` trials gain less than the share
-    `coarse` of the objective. stuck: steps that together gain less than `change`, after which slopes lead no
-    farther.
+    evidence of the predicted peak. gross: objective per reading of a model that is wrong; its fit ends where `level`
+    trials gain less than the share `coarse` of the objective. stuck: steps that together gain less than `change`, after
+    which slopes give no further gain.
     """
 
     steps: int = 100
@@ -74,10 +73,10 @@ class Iterate:
 
 @dataclass(frozen=True)
 class Walk:
-    """A place, the slopes that lead on from it and the xi they were taken at, damping and most length of the next step.
+    """A place, the slopes for its next step and the xi of their computation, damping and largest length of that step.
 
-    longest: in any xi, in units of the largest first step; it grows while steps of that length keep their promise.
-    failed: trials in a row.
+    longest: in any xi, in units of the largest first step; it grows while steps of that length achieve the predicted
+    decrease. failed: trials in a row.
     """
 
     place: Iterate
@@ -123,7 +122,7 @@ class Fit:
         return Iterate(xi, predictions, residual, float(residual @ residual + xi @ xi))
 
     def walk(self, place: Iterate, whitening: Whitening) -> Walk:
-        """A walk from a place, with the last slopes where they were taken near it."""
+        """A walk from a place, with the last slopes if they were computed near it."""
         if not _apart(place.xi, self.taken) <= NEAR:
             self.slopes(place.xi)
         return Walk(place, whitening.whiten(self.raw), self.taken, LEAST_DAMPING)
@@ -135,7 +134,7 @@ class Fit:
         return Walk(place, whitening.whiten(lent), np.full_like(place.xi, np.inf), LEAST_DAMPING)
 
     def renewed(self, walk: Walk, whitening: Whitening) -> Walk:
-        """The same place with slopes taken there."""
+        """The same place with slopes computed there."""
         self.slopes(walk.place.xi)
         return replace(walk, slopes=whitening.whiten(self.raw), taken=self.taken)
 
@@ -144,7 +143,7 @@ class Fit:
         return slopes * np.exp(self.bounds.bend * (other - xi))
 
     def slopes(self, xi: Array) -> None:
-        """Take d prediction / d xi at xi."""
+        """Compute d prediction / d xi at xi."""
         self.slope_maps += 1
         self.taken, self.raw = xi, self._by_predictions(xi) if self.exact else standard_slopes(self.simulator, xi)
 
@@ -184,7 +183,7 @@ class Fit:
         return gained < self.limits.change * excess(place)
 
     def promised(self, walk: Walk) -> float:
-        """By how much the objective would fall to the peak that the slopes promise."""
+        """Decrease of the objective to the peak that the slopes predict."""
         model, step = self.to_peak(walk)
         return model.fall(step)
 
@@ -195,7 +194,7 @@ class Fit:
 
 
 def are_right(fit: Fit, walk: Walk, whitening: Whitening) -> bool:
-    """True if the objective falls towards the promised peak as steeply as the slopes say, to GOOD; two predictions."""
+    """True if the objective falls towards the peak as steeply as the slopes predict, to GOOD; two predictions."""
     place, (model, step) = walk.place, fit.to_peak(walk)
     step *= PROBE / float(np.abs(step).max())
     before, after = (fit.trial(fit.bounds.reached(place.xi, sign * step), whitening) for sign in (-1.0, 1.0))
@@ -236,10 +235,10 @@ def tried(fit: Fit, walk: Walk, whitening: Whitening) -> Walk:
 def _on_the_floor(fit: Fit, walk: Walk, trial: Iterate, promised: float, whitening: Whitening) -> tuple[Iterate, Array]:
     """A trial that is corrected down to the floor of a curved valley, and the slopes there.
 
-    The floor is the residual that the slopes promise at the trial's step. The first correction is half the second
+    The floor is the residual that the slopes predict at the trial's step. The first correction is half the second
     derivative of the readings along the step, solved with the slopes (geodesic acceleration; Transtrum and Sethna
     2012). Further corrections follow, each with slopes corrected by the last one, while each leaves less than LEFT of
-    the fall that is missing. No component of a correction is longer than the step.
+    the missing decrease. No component of a correction is longer than the step.
     """
     step = fit.bounds.step_to(walk.place.xi, trial.xi)
     floor, longest = walk.place.residual - walk.slopes @ step, float(np.abs(step).max())
@@ -261,7 +260,7 @@ def _on_the_floor(fit: Fit, walk: Walk, trial: Iterate, promised: float, whiteni
 
 
 def _by_secant(slopes: Array, change: Array, went: Array) -> Array:
-    """Slopes (n, k) that give the change (n,) of the readings over a step (k,) and else stay (Broyden 1965)."""
+    """Slopes (n, k) that give the change (n,) of the readings over a step (k,), otherwise unchanged (Broyden 1965)."""
     if np.abs(went).max() <= SHORT:
         return slopes
     return slopes + np.outer(change - slopes @ went, went) / (went @ went)
@@ -278,10 +277,10 @@ def _harder(walk: Walk) -> float:
 
 
 def _easier(damping: float, kept: float) -> float:
-    """The damping after a trial that kept this share of the fall promised (Nielsen 1999)."""
+    """The damping after a trial that achieved this share of the predicted decrease (Nielsen 1999)."""
     return max(damping * max(EASIER, 1.0 - (2.0 * kept - 1.0) ** 3), LEAST_DAMPING)
 
 
 def excess(place: Iterate | Posterior) -> float:
-    """The objective per reading where that is above one: what fits badly is not worth a fine fit."""
+    """The objective per reading where that is above one: a bad model does not need an accurate fit."""
     return max(1.0, place.objective / place.residual.size)

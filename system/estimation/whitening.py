@@ -16,9 +16,9 @@ from system.estimation.observations import Observations
 class Whitening:
     """Whitening of arrays over N points and C channels, of which n readings count.
 
-    factors: (N, C, C), L^-1 of each point's noise covariance L L^T; measured: (N, C), the readings that count.
-    serial: one Cholesky factor per channel of the noise's correlation along the rows, or none at all.
-    log_determinant: ln det of (L^-1 times the repeatability), the contribution of the noise to the evidence.
+    factors: (N, C, C), L^-1 of each point's noise covariance L L^T; measured: (N, C), the readings that count. serial:
+    one Cholesky factor per channel of the noise's correlation along the rows, or none. log_determinant: ln det of (L^-1
+    times the repeatability), the contribution of the noise to the evidence.
     """
 
     factors: Array
@@ -59,16 +59,16 @@ class Whitening:
 
     @property
     def sigma(self) -> Array:
-        """(N, C) in SI: one sigma of each reading, with what its inputs bring."""
+        """(N, C) in SI: one sigma of each reading, with the noise of its inputs."""
         return np.sqrt((np.linalg.inv(self.factors) ** 2).sum(axis=2))
 
 
 def whitener(observations: Observations, input_slopes: Array) -> Whitening:
     """The whitening of observations whose inputs are known to their own sigma only.
 
-    Covariance of a point: diag(sigma^2 + quantum^2/12) + G diag(input_sigma^2) G^T, G = input_slopes (N, C, M):
-    the noise of an input is one to all channels of its point. Valid while readings are near linear in their inputs
-    over an input's sigma (errors in variables to first order; Fuller 1987, sections 1.2 and 3.1).
+    Covariance of a point: diag(sigma^2 + quantum^2/12) + G diag(input_sigma^2) G^T, G = input_slopes (N, C, M): the
+    noise of an input is common to all channels of its point. Valid while readings are near linear in their inputs over
+    an input's sigma (errors in variables to first order; Fuller 1987, sections 1.2 and 3.1).
     """
     measured = observations.measured
     own = np.where(measured, observations.sigma, 1.0)
@@ -101,7 +101,7 @@ def autocorrelation(memory: tuple[float, ...], lags: int) -> Array:
 def _serial_factors(observations: Observations, share: Array) -> tuple[Array, ...]:
     """Cholesky factors of each channel's correlation between its readings: as known, or at their distance in rows.
 
-    share: (N, C), of a reading's sigma that is its own: what its inputs bring is independent of known correlation.
+    share: (N, C), of a reading's sigma that is its own: the noise of its inputs is independent of known correlation.
     """
     if observations.correlation:
         pairs = zip(observations.correlation, share.T, strict=True)

@@ -1,1 +1,1 @@
-"""The pump put on its gap films: parts, walls, heat, drives; films at given positions."""
+"""The gap films of a pump: parts, walls, heat, drives; films at given positions."""

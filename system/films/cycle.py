@@ -29,7 +29,7 @@ from system.films.standing import StandingGap, standing_block_gap, standing_pist
 from system.work.progress import Report, silent
 
 SMOOTH = RIGID.without(Effect.ROUGHNESS)
-"""At a given position nothing touches: load and friction of asperities are in the pairs' coefficients."""
+"""At a given position walls do not touch: load and friction of asperities are in the pairs' coefficients."""
 
 
 @dataclass(frozen=True)
@@ -81,7 +81,7 @@ class GapCycle:
 
 @dataclass(frozen=True)
 class _Films:
-    """Films of a part over its angles, what flows into them (N,) m3/s, and its slopes (N,) m3/(s Pa)."""
+    """Films of a part over its angles, the flow into them (N,) m3/s, and its slopes (N,) m3/(s Pa)."""
 
     films: tuple[GapFilm, ...]
     flow: Array
@@ -122,10 +122,10 @@ def gap_cycles(
 ) -> tuple[GapCycle, ...]:
     """All films at equidistant `shaft_angle` (N,), N a multiple of the pistons, and pressures (N,) Pa of each kind.
 
-    Meshes have `finer` times the usual cells each way. Parts have the positions of the pump file. With heat in
-    a gap's physics its walls are warmed by films and `rubbing`, the mean loss of contact of one piston,
-    one slipper and the ring (W) of each kind, none where left out; the ring's is the first's. Raises InputError
-    where parts touch, FilmNotConverged.
+    Meshes have `finer` times the usual cells each way. Parts have the positions of the pump file. With heat in a gap's
+    physics its walls are warmed by films and `rubbing`, the mean loss of contact of one piston, one slipper and the
+    ring (W) of each kind, zero if left out; the ring's is the first's. Raises InputError where parts touch,
+    FilmNotConverged.
     """
     count = len(shaft_angle)
     driven = [
@@ -223,7 +223,7 @@ def _ring(asked: _Asked, drive: BlockDrive) -> _Ring:
 
 
 def _held(gap: StandingGap[Any, Any], asked: _Asked, heat: Callable[[], GapHeat]) -> list[FloatingStage]:
-    """Films at the angles, each started from that before; stiffening oil from a film of its own."""
+    """Films at the angles, each started from that before; oil that stiffens under pressure from its own first guess."""
     stages: list[FloatingStage] = []
     for k, angle in enumerate(asked.angles):
         stiffens = gap.floating.shape_at(gap.time(angle)).fluid.viscosity is not isoviscous

@@ -1,8 +1,8 @@
 """Drives of the three gaps: forces between the parts over a turn, from chamber pressure and friction.
 
 Every sampled shaft angle has the balance of forces of piston and slipper with the ball joint between them
-(`gaps.loads.ball_joint`); from it follow what the bore, the swash plate and the valve plate must bear. Friction of
-films comes from the revolutions before (`Rubbing`).
+(`gaps.loads.ball_joint`); from it follow the loads on bore, swash plate and valve plate. Friction of films comes from
+the revolutions before (`Rubbing`).
 """
 
 from collections.abc import Sequence
@@ -64,10 +64,10 @@ def no_rubbing(count: int) -> Rubbing:
 class GroupInstant:
     """One piston with its slipper at a shaft angle.
 
-    forces at the joint; ball_moment (3,) N m of its friction on the slipper; joint_loss W, what that takes;
-    pressed (2,) N m: int p (x, y) dA that the slipper's film must give; held N, force of the spring on the slipper
-    besides `forces.lift`; inertia (2, 3) N of piston and slipper, -m a; plate (3,) N of the swash plate on the
-    slipper; places (3, 3) m of both centres of mass and of the plate's force.
+    forces at the joint; ball_moment (3,) N m of its friction on the slipper; joint_loss W, its power; pressed (2,) N m:
+    int p (x, y) dA required of the slipper's film; held N, force of the spring on the slipper besides `forces.lift`;
+    inertia (2, 3) N of piston and slipper, -m a; plate (3,) N of the swash plate on the slipper; places (3, 3) m of
+    both centres of mass and of the plate's force.
     """
 
     forces: BallForces
@@ -135,8 +135,9 @@ def _spring_share(rotor: Rotor, parts: FloatingParts) -> float:
 def slipper_retainer(rotor: Rotor, parts: FloatingParts) -> Retainer:
     """The retainer over a slipper: a fixed plate, or one that the spring presses on the others.
 
-    Of the latter a slipper already bears its share; up to what tips the plate about the slippers across it is as
-    firm as a fixed one, and then yields as the spring does, reduced by the smaller rise of its middle.
+    Under the latter each slipper carries its part of the spring force; up to the force that tips the plate about the
+    opposite slippers it is as stiff as a fixed one, and then yields as the spring does, reduced by the smaller rise of
+    its middle.
     """
     of, tilt = parts.slipper.retainer, rotor.drive.swash_angle
     if of.kind is not RetainerKind.SPRING:
@@ -148,7 +149,7 @@ def slipper_retainer(rotor: Rotor, parts: FloatingParts) -> Retainer:
 
 @dataclass(frozen=True)
 class Drives:
-    """The drives of the three gaps at one chamber pressure, and the balances (N,) that they come from."""
+    """The drives of the three gaps at one chamber pressure, and the balances (N,) from which they follow."""
 
     piston: PistonDrive
     slipper: SlipperDrive
@@ -159,7 +160,7 @@ class Drives:
 def drives(rotor: Rotor, parts: FloatingParts, shaft_angle: Array, pressure: Array, rubbing: Rubbing) -> Drives:
     """Drives from the chamber pressure (N,) Pa at equidistant shaft angles (N,) rad, N a multiple of the pistons.
 
-    A chamber that cavitates is within a kilopascal of the cavity's pressure, which films take.
+    A chamber that cavitates is within a kilopascal of the cavity's pressure, which films have then.
     """
     pressure = np.maximum(pressure, CAVITY_PRESSURE)
     group = tuple(
@@ -249,7 +250,7 @@ def block_drive(
     held = np.maximum(np.stack(pressure, axis=-1), CAVITY_PRESSURE)
     chamber = PeriodicCurve(angles, held[:, 0] if len(pressure) == 1 else held)
     if parts.slipper.retainer.kind is not RetainerKind.SPRING:
-        # Then the slippers do not pass the spring's force to the swash plate: the shaft bears it.
+        # Then the slippers do not transmit the spring's force to the swash plate: the shaft bears it.
         press = press - np.array([block_spring(rotor.pump), 0.0, 0.0])
     return BlockDrive(
         shaft_speed=point.shaft_speed,

@@ -63,7 +63,7 @@ def block_heat(rotor: Rotor, parts: FloatingParts) -> GapHeat:
 
 
 def all_taken(rotor: Rotor, parts: FloatingParts, physics: Physics) -> tuple[Assumption, ...]:
-    """Assumptions of floating gaps where the pump file has no value, those of heat only where they warm."""
+    """Assumptions of floating gaps where the pump file has no value, those of heat only with heated films."""
     taken = Taken()
     if physics.heat:
         _oil_conductivity(rotor.pump, taken)

@@ -1,6 +1,6 @@
-"""The parts as floating gaps need them: what the pump file says, and what is taken where it says nothing.
+"""The parts for floating gaps: stated values of the pump file, and assumed values for the others.
 
-Every value taken is an `Assumption`, which a result names; nothing is assumed in silence.
+Every assumed value is an `Assumption`, which a result lists.
 """
 
 import math
@@ -113,7 +113,7 @@ class FloatingParts:
 
 
 def floating_parts(pump: PumpDescription) -> FloatingParts:
-    """The parts of a pump, every value stated or taken. Of a single part: `pump.of_chamber(number)`."""
+    """The parts of a pump, every value stated or assumed. Of a single part: `pump.of_chamber(number)`."""
     taken = Taken()
     materials = {name: _material(pump, name, taken) for name in _USUAL}
     oil = _fluid(pump, taken)
@@ -136,8 +136,8 @@ def floating_parts(pump: PumpDescription) -> FloatingParts:
 def ball_plane_height(pump: PumpDescription) -> float:
     """Height (m) over the valve plate at which the plane of the ball centres cuts the shaft at full swash angle.
 
-    Dead space (taken as a straight prolongation of the bore), engaged length, overhang and way along a bore that
-    is square to the swash plate's steepest line.
+    Dead space (modelled as a straight prolongation of the bore), engaged length, overhang and way along a bore at right
+    angles to the swash plate's steepest line.
     """
     way = float(piston_displacement(full_drive(pump), 0.5 * math.pi))
     reach = pump.pump.dead_volume / piston_area(pump) + pump.piston.engaged_length + pump.piston.overhang + way
@@ -217,7 +217,7 @@ def _retainer(pump: PumpDescription, taken: Taken) -> RetainerParts:
 
 
 def spline_height(pump: PumpDescription, taken: Taken) -> float:
-    """Height (m) over the valve plate at which the shaft holds the block sideways, stated or taken."""
+    """Height (m) over the valve plate at which the shaft holds the block sideways, stated or assumed."""
     return taken.value(
         "block.spline_position", pump.block.spline_position, ball_plane_height(pump),
         "where the plane of the ball centres cuts the shaft", Dimension.LENGTH,
@@ -269,7 +269,7 @@ def _fluid(pump: PumpDescription, taken: Taken) -> Fluid:
 
 
 def _material(pump: PumpDescription, name: str, taken: Taken) -> Material:
-    """The material of a part; what it leaves out is the usual one's."""
+    """The material of a part; values that it does not state are the usual ones."""
     stated: MaterialSection | None = getattr(pump.materials, name)
     usual, called = _USUAL[name]
     if stated is None:

@@ -1,8 +1,8 @@
 """Place of each film in the pump, for VTU files and pictures.
 
-Pump frame: z along the shaft from valve plate to swash plate with z = 0 on the valve plate, x to the inner dead
-centre. The description gives no axial position of the block; it follows from the dead volume, taken as a
-straight prolongation of the bore between valve plate and piston.
+Pump frame: z along the shaft from valve plate to swash plate with z = 0 on the valve plate, x to the inner dead centre.
+The description gives no axial position of the block; it follows from the dead volume, modelled as a straight
+prolongation of the bore between valve plate and piston.
 """
 
 from __future__ import annotations

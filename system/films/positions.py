@@ -13,7 +13,7 @@ NO_RUBBING = "friction of the films on the parts: left out of the forces between
 
 
 def eccentric(clearance: float, ratio: float, outer: Array) -> Array:
-    """A piston parallel to its bore, off by `ratio` of its clearance (m) where forces (4,) N press it: (4,) m."""
+    """A piston parallel to its bore, displaced by `ratio` of its clearance (m) along forces (4,) N: (4,) m."""
     across = np.asarray(outer).reshape(2, 2).sum(axis=0)
     return np.tile(ratio * clearance * across / max(float(np.hypot(*across)), 1e-300), 2)
 
@@ -41,7 +41,7 @@ def given_block(pump: PumpDescription) -> Array:
 
 
 def instant_drives(rotor: Rotor, parts: FloatingParts, shaft_angle: float, pressure: Array) -> Drives:
-    """Drives that hold at one shaft angle (rad) of chamber 1, without friction of the films.
+    """Drives valid at one shaft angle (rad) of chamber 1, without friction of the films.
 
     pressure (z,) Pa of the chambers, chamber k at shaft angle + (k - 1) pitch; or (1,), of them all.
     """

@@ -1,4 +1,4 @@
-"""A pump's rotating group at an operating point, and the ring that it turns on."""
+"""A pump's rotating group at an operating point, and the ring of its valve plate."""
 
 from dataclasses import dataclass
 from functools import cached_property
@@ -19,7 +19,7 @@ from system.pump.operating import OperatingPoint
 class Rotor:
     """A pump at an operating point, its drive set to the displacement ratio.
 
-    spin_torques: of solved films, which set free spins; None before any is solved.
+    spin_torques: of solved films, which determine free spins; None before any is solved.
     """
 
     pump: PumpDescription
@@ -35,7 +35,7 @@ class Rotor:
 
     @property
     def estimated_torques(self) -> SpinTorques:
-        """Torques that set free spins before any film is solved."""
+        """Torques that determine free spins before any film is solved."""
         return estimated_torques(self.pump, self.point, self.drive)
 
 

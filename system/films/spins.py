@@ -33,11 +33,12 @@ class SpunFilms:
 
 @dataclass(frozen=True)
 class SpinTorques:
-    """Torques that set spins: friction mu |B| r (n,) N m of the joint at n equidistant shaft angles; drags (N m s) of
-    both films, and torques (N m) of the films on parts without spin.
+    """Torques that determine spins: friction mu |B| r (n,) N m of the joint at n equidistant shaft angles; drags (N m
+    s) of both films, and torques (N m) of the films on parts without spin.
 
     tried: the films of the last rounds at this point, the latest last; empty: estimated, or films of another point.
-    careful: the same by lines through rest, for spins that `drags` lead far towards rest; None where they are these.
+    careful: the same by lines through rest, for spins that `drags` lead far towards rest; None where they are equal to
+    these.
     """
 
     friction: Array
@@ -64,7 +65,7 @@ def spins(pump: PumpDescription, point: OperatingPoint, drive: SwashDrive, torqu
 
 
 def _far(last: Spins, found: Spins) -> bool:
-    """True if a spin leaves less than NEAREST of the last, or turns round: lines of two spins do not hold so far."""
+    """True if a spin is less than NEAREST of the last, or changes sign: lines of two spins are not valid so far."""
     both = (last.piston, found.piston), (last.slipper, found.slipper)
     return any(before != 0.0 and after / before < NEAREST for before, after in both)
 
@@ -87,7 +88,7 @@ def _balanced(
 
 
 def estimated_torques(pump: PumpDescription, point: OperatingPoint, drive: SwashDrive) -> SpinTorques:
-    """Torques that set spins before any film is solved.
+    """Torques that determine spins before any film is solved.
 
     The friction is that of the turn's mean force, Ap (mean of both ports' pressures - p_case)/cos(g); drags are
     Petroff's of a centred piston at mid stroke and of the slipper's parallel lands at `film_thickness`.
@@ -107,10 +108,10 @@ def estimated_torques(pump: PumpDescription, point: OperatingPoint, drive: Swash
 def torques_of_films(
     estimated: SpinTorques, friction: Array, spun: SpunFilms, before: tuple[SpunFilms, ...] = ()
 ) -> SpinTorques:
-    """Torques that set the next spins, by films just solved and those of the rounds `before` at the same point.
+    """Torques that determine the next spins, by films just solved and those of the rounds `before` at the same point.
 
-    Each film's torque is taken as a line over spin: through rest where its own torque alone is known (drag, if it
-    exceeds the estimated one; what is left of it the film drives), else by `_drag`. friction as `SpinTorques` has it.
+    Each film's torque is approximated by a line over spin: through rest where its own torque alone is known (drag, if
+    it exceeds the estimated one; the remainder is the film's drive), else by `_drag`. friction as `SpinTorques` has it.
     """
     tried = (*before, spun)[-REMEMBERED:]
     spins = [[one.turned.piston for one in tried], [one.turned.slipper for one in tried]]
@@ -136,13 +137,13 @@ def _through_rest(spin: float, torque: float, least: float) -> float:
 
 
 def _drag(spins: list[float], torques: list[float], least: float, through_rest: float) -> float:
-    """Drag (N m s) of a film by its torques (N m) at the spins (rad/s) tried: how the torque falls with spin.
+    """Drag (N m s) of a film by its torques (N m) at the spins (rad/s) tried: the decrease of the torque with spin.
 
     The slope between the last two spins, at least FLATTEST of the estimated drag `least` and at most that of the line
-    through rest. A film that warms and lifts drags less as it turns faster; spins then move farther each round, until
-    they pass the balance. Once the balance lies between two tried spins, the slope is at least that to either of them,
-    and at most STEEPEST times that through rest. Between two spins that are nearly equal, pressures and friction have
-    changed the torque as well; a slope from these alone would hold a spin off its balance.
+    through rest. The drag of a film that warms and lifts decreases as it turns faster; spins then move farther each
+    round, until they pass the balance. Once the balance lies between two tried spins, the slope is at least that to
+    either of them, and at most STEEPEST times that through rest. Between two spins that are nearly equal, pressures and
+    friction have changed the torque as well; a slope from these alone would hold a spin off its balance.
     """
     last, torque = spins[-1], torques[-1]
     if spins[-2] == last:
@@ -160,7 +161,7 @@ def _slope(spin: float, torque: float, last: float, last_torque: float) -> float
 def _around(spins: list[float]) -> tuple[int, ...]:
     """Numbers of the tried spins next to the last one on both sides, from which the next ones came towards it.
 
-    Empty where it has none on a side: the balance is not known to lie between two spins.
+    Empty where a side has none: the balance is not known to lie between two spins.
     """
     last, way = spins[-1], np.sign(np.diff(spins))
     below = [k for k, to in enumerate(way) if to > 0.0 and spins[k] < last]

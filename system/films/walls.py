@@ -1,4 +1,4 @@
-"""The bodies of the parts that float, by their sizes: as far as the pump file has them, else by what is usual."""
+"""The bodies of the parts that float, by their sizes: stated in the pump file, else usual."""
 
 import math
 from collections.abc import Mapping
@@ -104,7 +104,7 @@ def block_walls(pump: PumpDescription, elastic: Materials, taken: Taken) -> Plat
 
 
 def own_mesh(part: str, body: BodySection | None, taken: Taken) -> OwnMesh | None:
-    """The user's mesh of a part; a name that its table leaves out is the mesh's face of that name, if it has one.
+    """The user's mesh of a part; a name that its table leaves out is the mesh's face of that name, if any.
 
     None where no mesh is stated.
     """
@@ -117,7 +117,7 @@ def own_mesh(part: str, body: BodySection | None, taken: Taken) -> OwnMesh | Non
 
 
 def by_names(body: BodySection) -> OwnMesh:
-    """The mesh of a table with the faces that it names or that go by the keys' own names."""
+    """The mesh of a table with the faces that it names or that have the keys' own names."""
     read = body.mesh
     bare = OwnMesh(read.path, scaled(read.body, body.unit.metres), f"{read.content} {body.unit.value}")
     faces = bare.body.face_names

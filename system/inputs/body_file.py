@@ -1,4 +1,4 @@
-"""A body's mesh out of the file that a pump file names."""
+"""A body's mesh from the file that a pump file names."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from system.inputs.units import QuantityError
 
 @dataclass(frozen=True)
 class BodyFile:
-    """A mesh as its file has it, places in the file's own unit; `content` is a hash of what the file held."""
+    """A mesh as its file has it, places in the file's own unit; `content` is a hash of the file's content."""
 
     path: Path
     content: str
@@ -22,7 +22,7 @@ class BodyFile:
 
 
 def read_body_file(path: Path) -> BodyFile:
-    """The body of a mesh file; raises QuantityError for one that holds none."""
+    """The body of a mesh file; raises QuantityError for one without a body."""
     try:
         body = body_from_file(path)
     except InputError as reason:

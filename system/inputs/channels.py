@@ -1,4 +1,4 @@
-"""The channels of a test bench by their standard names, and what each measures."""
+"""The channels of a test bench by their standard names, with their quantities."""
 
 from __future__ import annotations
 

@@ -16,9 +16,9 @@ from system.inputs.faults import Fault, InputFaults, nearest_choice, nearest_pat
 from system.inputs.units import Dimension, QuantityError, parse_quantity
 
 Heads = Mapping[str, Dimension | None]
-"""Names of the columns a table must have, and what each measures; None: a bare number, `[1]`."""
+"""Names of the columns a table must have, and their quantities; None: a bare number, `[1]`."""
 SEPARATORS = (";", "\t", ",")
-"""Signs between cells; the first that the head has is the file's."""
+"""Separators of cells; the first one in the head is the file's."""
 _COMMA = re.compile(r"[+-]?\d+,\d+([eE][+-]?\d+)?")
 _POINT = re.compile(r"[+-]?\d*\.\d+([eE][+-]?\d+)?")
 _HEAD = re.compile(r"\s*(.+?)\s*\[(.+)\]\s*")
@@ -37,7 +37,7 @@ class CsvText:
 
 @dataclass(frozen=True)
 class Column:
-    """A column of a CSV file: its name, the unit in its head (None without one), and what it measures."""
+    """A column of a CSV file: its name, the unit in its head (None without one), and its quantity."""
 
     name: str
     unit: str | None
@@ -54,15 +54,14 @@ class CsvTable:
     comments: tuple[str, ...]
 
     def comment(self, key: str) -> str:
-        """The rest of the first comment `key: ..`; empty where there is none."""
+        """The rest of the first comment `key: ..`, or empty."""
         return next((line[len(key) + 1 :].strip() for line in self.comments if line.startswith(f"{key}:")), "")
 
 
 def read_table(path: Path, heads: Heads) -> CsvTable:
     """The table of a CSV file, columns in any order and any fitting unit.
 
-    Raises InputFaults with everything that is wrong with it: no file, other columns, units and numbers that are
-    none, each with its line.
+    Raises InputFaults with all its faults: no file, other columns, invalid units and numbers, each with its line.
     """
     try:
         text = read_csv_text(path, _wanted(heads))
@@ -82,9 +81,9 @@ def read_table(path: Path, heads: Heads) -> CsvTable:
 def read_csv_text(path: Path, wanted: str) -> CsvText:
     """The lines of a CSV file without those that are empty or begin with #.
 
-    Cells are parted by the first of SEPARATORS in the head. Where this is no comma, and no cell has a decimal
-    point, cells may have a decimal comma. Raises QuantityError for what is no file, cannot be read or has no head;
-    `wanted` says in words what it should be.
+    Cells are separated by the first of SEPARATORS in the head. Where this is no comma, and no cell has a decimal point,
+    cells may have a decimal comma. Raises QuantityError where there is no file, one that cannot be read or one without
+    a head; `wanted` describes the expected file.
     """
     lines = [line for line in enumerate(_text(path, wanted).splitlines(), start=1) if line[1].strip(" ;,\t")]
     comments = tuple(line.strip(' \t"#;,') for _, line in lines if _is_comment(line))
@@ -110,7 +109,7 @@ def _text(path: Path, wanted: str) -> str:
 
 
 def _cells(path: Path, number: int, line: str, separator: str, wanted: str) -> list[str]:
-    """The cells of a line; raises QuantityError for a line that cannot be parted."""
+    """The cells of a line; raises QuantityError for a line that cannot be split."""
     try:
         return next(csv.reader([line], delimiter=separator))
     except csv.Error as reason:

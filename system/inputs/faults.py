@@ -1,4 +1,4 @@
-"""Faults of an input, for the person who wrote it: where, what was found, what was expected, what to try."""
+"""Faults of an input, for its author: where, what was found, what was expected, what to try."""
 
 from __future__ import annotations
 
@@ -13,9 +13,9 @@ from pathlib import Path
 
 @dataclass(frozen=True)
 class Fault:
-    """One thing that is wrong: `path` in the file (`section.key`), what was found, what was expected.
+    """One fault: `path` in the file (`section.key`), what was found, what was expected.
 
-    `nearest` names the nearest valid choice, or what to do; empty where there is none.
+    `nearest` names the nearest valid choice, or the remedy; empty without one.
     """
 
     path: str
@@ -66,13 +66,13 @@ def stated(value: object) -> str:
 
 _CONTROL = re.compile(r"[\x00-\x08\x0b-\x1f\x7f-\x9f\u200e\u200f\u202a-\u202e\u2066-\u2069\ud800-\udfff]")
 LONGEST = 600
-"""Characters of what was found that a message shows."""
+"""Largest number of characters of a found value in a message."""
 SHORT = 4
 """Characters of a name that is short."""
 
 
 def printable(text: str) -> str:
-    """Return a text with its control signs written out, so that a terminal shows them and does not obey."""
+    """Return a text with its control signs written out, so that a terminal shows them and does not execute them."""
     return _CONTROL.sub(lambda sign: ascii(sign[0])[1:-1], text)
 
 
@@ -86,7 +86,7 @@ def _short(text: str) -> str:
 
 
 def nearest_choice(found: str, choices: Iterable[str]) -> str:
-    """Return the choice spelt most like `found` (any case), or an empty string when none comes near."""
+    """Return the choice spelt most like `found` (any case), or an empty string without a similar one."""
     if len(found) > LONGEST:
         return ""
     by_lower = {choice.lower(): choice for choice in choices}
@@ -95,21 +95,21 @@ def nearest_choice(found: str, choices: Iterable[str]) -> str:
 
 
 def nearest_path(path: Path) -> str:
-    """Return the path of a file or folder that is spelt most like one that is not there, or an empty string.
+    """Return the path of a file or folder spelt most like one that does not exist, or an empty string.
 
-    Each part of it that is missing is the nearest name in the folder before it; where none comes near, the path
-    ends there.
+    Each part of it that is missing is the nearest name in the folder before it; without a similar one, the path ends
+    there.
     """
     try:
         return _nearest_path(path)
-    except (OSError, ValueError):  # a name that none can have, or a folder that may not be listed
+    except (OSError, ValueError):  # an invalid name, or a folder without permission to list it
         return ""
 
 
 def _named_like(folder: Path, name: str) -> list[str]:
     """Return the names in a folder that are spelt like one without their suffixes, which many files share.
 
-    Of a short name half is enough, if both begin alike: wear for worn.
+    Of a short name half suffices, if both begin alike: wear for worn.
     """
     beside = {item.name: item.stem.lower() for item in folder.iterdir()} if folder.is_dir() else {}
     stem = Path(name).stem.lower()

@@ -24,7 +24,7 @@ DIGITS = 4
 SMALL = 1e-3
 """Size below which a number is shown with a power of ten."""
 THICK = 1e-3
-"""Length in m that no film has."""
+"""Length in m above any film's."""
 
 
 ROUND_OFF = 1e-10
@@ -52,7 +52,7 @@ def pressures_in(unit: PressureUnit | None) -> Iterator[None]:
 
 
 def pressure_unit(usual: PressureUnit = PressureUnit.MPA) -> PressureUnit:
-    """Return the unit in which pressures are shown: `usual` where no other is asked for."""
+    """Return the unit in which pressures are shown: `usual` if no other is requested."""
     return _ASKED.get() or usual
 
 
@@ -122,7 +122,7 @@ _BACK = {one.unit: one for one in (*_SHOWN.values(), *_PRESSURE.values(), _PLACE
 def shown_in(si_unit: str, quantity: str = "", largest: float = 0.0) -> Shown:
     """Return the unit in which a quantity of an SI unit is shown; itself where people read it in SI.
 
-    Lengths are those of films, in um, unless their name or their largest value tells otherwise.
+    Lengths are those of films, in um, unless their name or their largest value indicates otherwise.
     """
     if si_unit == "Pa":
         return _PRESSURE[pressure_unit()]
@@ -141,7 +141,7 @@ def pressure_text(value: float, digits: int = 3) -> str:
 
 
 def quantity_text(value: float, dimension: Dimension, digits: int = 3) -> str:
-    """Return an SI value for a sentence in the unit that suits its size; pressures in the unit that is asked for."""
+    """Return an SI value for a sentence in the unit that suits its size; pressures in the requested unit."""
     if dimension is Dimension.PRESSURE:
         return pressure_text(value, digits)
     if dimension is Dimension.ANGULAR_SPEED:
@@ -150,7 +150,7 @@ def quantity_text(value: float, dimension: Dimension, digits: int = 3) -> str:
 
 
 def known_unit(unit: str) -> Shown:
-    """Return the conversion of a unit in a head; a unit that is not shown elsewhere stands for itself."""
+    """Return the conversion of a unit in a head; a unit that is not shown elsewhere is itself."""
     return _BACK.get(unit, Shown(unit, unit))
 
 

@@ -1,4 +1,4 @@
-"""Reading a TOML case: values with their units out of tables, and every fault of the file at once."""
+"""Reading a TOML case: values with their units from tables, and every fault of the file at once."""
 
 from __future__ import annotations
 
@@ -51,9 +51,9 @@ def parse_toml(text: str) -> dict[str, Any]:
     """The tables of a TOML text.
 
     Raises ValueError for another text, for one nested more than DEEPEST times, and for a whole number of more than 64
-    bits, which TOML has not.
+    bits, which TOML does not have.
     """
-    if found := _LONG_KEY.search(text):  # the parser takes time and memory by the square of a key's names
+    if found := _LONG_KEY.search(text):  # the parser needs time and memory by the square of a key's names
         raise ValueError(f"a key of more than {DEEPEST} names (at line {_line(text, found.start())})")
     try:
         tables = tomllib.loads(text)
@@ -105,9 +105,9 @@ def quoted(text: str) -> str:
 
 @dataclass
 class Table:
-    """One table being read: hands out SI values and collects what is wrong with it.
+    """One table being read: returns SI values and collects its faults.
 
-    `faults` is shared by all tables of a file. A key that was asked for is known; `close` faults the others.
+    `faults` is shared by all tables of a file. A requested key is known; `close` adds faults for the others.
     """
 
     path: str
@@ -116,7 +116,7 @@ class Table:
     asked: list[str] = field(default_factory=list)
 
     def get(self, key: str) -> Any:
-        """The raw value of a key, None where there is none; the key is known from then on."""
+        """The raw value of a key, None if it is absent; the key is known from then on."""
         if key not in self.asked:
             self.asked.append(key)
         return self.values.get(key)
@@ -130,7 +130,7 @@ class Table:
         return f"{self.path}.{key}" if self.path else key
 
     def table(self, key: str, *, needed: str = "") -> Table | None:
-        """The table under a key, or None: faulted where it is no table, or absent and `needed` (why)."""
+        """The table under a key, or None: with a fault where it is no table, or absent and `needed` (why)."""
         raw = self.get(key)
         if isinstance(raw, dict):
             return Table(self.name(key), raw, self.faults)
@@ -152,7 +152,7 @@ class Table:
         return None
 
     def close(self) -> None:
-        """Fault every key that nobody asked for, with the nearest one that is known."""
+        """Add a fault for every key that was not requested, with the nearest known one."""
         for key in self.values:
             if key not in self.asked:
                 self.fault(key, "unknown key", f"one of {', '.join(self.asked)}", nearest_choice(key, self.asked))

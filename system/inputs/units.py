@@ -1,4 +1,4 @@
-"""Quantities at the doors: text with a unit to SI floats and back. SI inside, always.
+"""Quantities of inputs and outputs: text with a unit to SI floats and back. SI inside, always.
 
 The unit registry of pint costs some 0.4 s, so it is made at the first quantity, not at import.
 """
@@ -24,11 +24,11 @@ TURN = 2.0 * math.pi  # rad
 RPM = math.pi / 30.0  # rad/s in an r/min
 LPM = 6e4  # L/min in a m3/s
 
-LARGEST = Fraction(10) ** 30  # in SI; with its inverse the range of sizes that machines have
+LARGEST = Fraction(10) ** 30  # in SI; with its inverse the range of sizes of machines
 
 
 MOST_DIGITS = 60
-"""Characters of a number in a text; more are no number of a machine."""
+"""Most characters of a number in a text; more are no number of a machine."""
 
 
 @dataclass(frozen=True)
@@ -103,11 +103,11 @@ _MOST = {
     Dimension.DISPLACEMENT: 10**3,
     Dimension.TIME: 10**10,
 }
-"""In SI, more than any pump or oil has: beyond it numbers are finite and void."""
+"""In SI, above the value of any pump or oil: beyond it finite numbers are not valid."""
 
 
 class QuantityError(ValueError):
-    """A text that is not the quantity asked for: what was found, what was expected, what may be meant."""
+    """A text that is not the requested quantity: what was found, what was expected, what may be meant."""
 
     def __init__(self, found: str, expected: str, nearest: str = "") -> None:
         self.found = found
@@ -136,13 +136,12 @@ _UNIT_TEXT = re.compile(rf"(?:1(?=\s*/)|{_PRODUCT})(?:\s*/\s*(?:{_FACTOR}|\(\s*{
 def parse_quantity(text: object, dimension: Dimension, *, difference: bool = False, example: str = "") -> float:
     """Return the SI value of a text such as "22 mm", rounded once: "15 um" is 1.5e-05 to the last bit.
 
-    rpm, r/min, cm3, cm^3, cc/rev, mL/r, lpm, um, degC, cSt, mPa s and what pint knows are understood.
-    Raises QuantityError for a bare number, a number that cannot be read, an unknown unit and a unit that
-    measures something else; a turn or an angle is never left to be guessed ("90 cm3" is no displacement
-    per revolution and "35 Hz" no rotational speed). A size below 1e-30 or, by its kind,
-    above that of any machine is refused.
-    Of a `difference` the unit's zero does not count: "0.3 degC" is 0.3 K. `example`: a usual value, whose unit a
-    bare number may mean; left out: that of the dimension.
+    rpm, r/min, cm3, cm^3, cc/rev, mL/r, lpm, um, degC, cSt, mPa s and the units of pint are understood. Raises
+    QuantityError for a bare number, a number that cannot be read, an unknown unit and a unit that measures something
+    else; a turn or an angle is never assumed ("90 cm3" is no displacement per revolution and "35 Hz" no rotational
+    speed). A size below 1e-30 or, by its kind, above that of any machine is refused. Of a `difference` the unit's zero
+    does not count: "0.3 degC" is 0.3 K. `example`: a usual value, whose unit a bare number may mean; left out: that of
+    the dimension.
     """
     example = example or dimension.example
     expected = f"{dimension.noun} with its unit, such as '{example}'"
@@ -192,15 +191,15 @@ def format_quantity(value: float, dimension: Dimension, digits: int | None = Non
 
 
 def share_meant(text: str) -> str:
-    """Return what a text that is no bare number may mean: 80% is 0.8, and 0,8 is 0.8; else an empty string."""
+    """Return the probable meaning of a text that is no bare number: 80% is 0.8, 0,8 is 0.8; else an empty string."""
     percent = _PERCENT.fullmatch(text)
     return f"{float(percent[1]) / 100.0:g}" if percent else with_point(text)
 
 
 def with_point(text: str) -> str:
-    """Return what a number with a comma in it may mean, unit and all, or an empty string where there is none.
+    """Return the probable meaning of a number with a comma, with its unit, or an empty string without a comma.
 
-    A decimal comma is a point here; before three digits it may part thousands as well.
+    A decimal comma is a point here; before three digits it may also separate thousands.
     """
     match = _COMMA.fullmatch(text)
     if match is None:
@@ -234,7 +233,7 @@ def _registry() -> pint.UnitRegistry:
 
 @cache
 def _unit(text: str) -> _Unit | None:
-    """Return what a unit text means, or None when it is not known."""
+    """Return the unit of a text, or None for an unknown one."""
     import pint
 
     if _UNIT_TEXT.fullmatch(text) is None:
@@ -315,7 +314,7 @@ def reading_unit(value: float, dimension: Dimension) -> str:
 
 
 def _rounded(number: float, digits: int) -> str:
-    """Return a number rounded to significant digits, without a decimal exponent where it can be helped."""
+    """Return a number rounded to significant digits, without a decimal exponent if possible."""
     return repr(float(f"{number:.{digits}g}")).removesuffix(".0")
 
 

@@ -1,4 +1,4 @@
-"""Versions of the kinds of files: a reader takes every version up to its own, and refuses later ones in words."""
+"""Versions of the kinds of files: a reader accepts every version up to its own, and refuses later ones by name."""
 
 from __future__ import annotations
 

@@ -48,7 +48,7 @@ LOSSES = {
 class MapData:
     """A map: numbers over the five axes, nan where a point has no result.
 
-    name: the pump's; words: how points were solved; bulk_modulus: the oil's, Pa; values: arrays by column, SI;
+    name: the pump's; words: the solver of the points; bulk_modulus: the oil's, Pa; values: arrays by column, SI;
     status, reason: text of each point; warnings: its remarks, (name, text).
     """
 
@@ -92,7 +92,7 @@ class MapData:
     def toet(self) -> dict[tuple[int, int, int], Derived]:
         """Displacement by Toet's method, m3/rev, by the index of displacement ratio, temperature, inlet pressure.
 
-        Of all points that pump; absent where they hold fewer than two speeds and two pressures.
+        Of all points that pump; absent for fewer than two speeds and two pressures.
         """
         found = {}
         speed, pressure = (self.grid[given] for given in (MapInput.SPEED, MapInput.PRESSURE))
@@ -105,17 +105,17 @@ class MapData:
             try:
                 found[index] = toet_displacement(*taken)
             except InputError:
-                continue  # void: nan, and by `toet_notes`
+                continue  # not defined: nan, and by `toet_notes`
         return found
 
     @property
     def _pumps(self) -> np.ndarray:
-        """Mask of the points with a result and a delivery; elsewhere efficiencies are void."""
+        """Mask of the points with a result and a delivery; elsewhere efficiencies are not defined."""
         flows = (self.values[name] > 0.0 for name in ("delivery_flow", "inlet_flow", "shaft_power"))
         return np.logical_and.reduce([self.solved, *flows])
 
     def efficiency(self, definition: EfficiencyDefinition) -> MapEfficiency:
-        """The efficiencies of a definition at every point; nan where the machine does not pump, or it has none."""
+        """The efficiencies of a definition at every point; nan without pumping or without a value."""
         parts = np.full((3, *self.shape), nan)
         for index in map(tuple, np.argwhere(self._pumps)):
             derived = self.toet.get(index[2:])
@@ -153,7 +153,7 @@ class Best:
 
 
 def map_data(plan: MapPlan, words: str, outcomes: tuple[PartOutcome, ...]) -> MapData:
-    """The map of a plan's outcomes, which are in the order of its points; words: how they were solved."""
+    """The map of a plan's outcomes, which are in the order of its points; words: their solver."""
     numbers = [outcome.record.get("numbers", {}) for outcome in outcomes]
     remarks = [tuple((name, text) for name, text in one.record.get("warnings", ())) for one in outcomes]
     return MapData(
@@ -194,7 +194,7 @@ def best_points(data: MapData) -> tuple[Best, ...]:
 
 
 def warning_counts(data: MapData) -> dict[str, tuple[int, str]]:
-    """Each warning of the points by name: at how many, and its text at the first of them."""
+    """Each warning of the points by name: number of points, and its text at the first of them."""
     found: dict[str, tuple[int, str]] = {}
     for name, text in (remark for remarks in data.warnings.flat for remark in remarks):
         count, first = found.get(name, (0, text))
@@ -203,7 +203,7 @@ def warning_counts(data: MapData) -> dict[str, tuple[int, str]]:
 
 
 def toet_notes(data: MapData) -> tuple[str, ...]:
-    """Displacements by Toet that use fewer levels than ISO 8426-1 requires, or that are void."""
+    """Displacements by Toet that use fewer levels than ISO 8426-1 requires, or that are not defined."""
     void = int(np.prod(data.shape[2:])) - len(data.toet)
     notes = list(dict.fromkeys(note for derived in data.toet.values() for note in derived.notes))
     if void:

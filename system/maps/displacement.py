@@ -10,7 +10,7 @@ from reynolds.numerics.arrays import Array
 from system.estimation.folds import levels
 from system.inputs.units import TURN
 
-LEAST_LEVELS = 5  # speeds, and pressure differences, that ISO 8426-1:2025 asks for
+LEAST_LEVELS = 5  # speeds, and pressure differences, that ISO 8426-1:2025 requires
 
 
 @dataclass(frozen=True)
@@ -32,10 +32,10 @@ class Derived:
 def toet_displacement(shaft_speed: Array, pressure_difference: Array, delivery_flow: Array) -> Derived:
     """The two-step method of Toet (ISO 8426-1:2025; Toet et al. 2019, Energies 12, 415).
 
-    rad/s, Pa, m3/s (N,) of one displacement setting, each pump turn wholly filled: points with a starved inlet are
-    the caller's to leave out. First the slope V(dp) of flow over speed at each level of the pressure difference:
-    leakage, the same at every speed, is no part of it; then the line V(dp), read at dp = 0. Raises InputError
-    for fewer than two pressure differences with two speeds each.
+    rad/s, Pa, m3/s (N,) of one displacement setting, each pump turn wholly filled: the caller leaves out points with a
+    starved inlet. First the slope V(dp) of flow over speed at each level of the pressure difference: leakage, the same
+    at every speed, is no part of it; then the line V(dp), read at dp = 0. Raises InputError for fewer than two pressure
+    differences with two speeds each.
     """
     level, speed_level = levels(pressure_difference), levels(shaft_speed)
     own = [level == one for one in np.unique(level)]
@@ -53,8 +53,8 @@ def toet_displacement(shaft_speed: Array, pressure_difference: Array, delivery_f
 def intercept_displacement(shaft_speed: Array, pressure_difference: Array, delivery_flow: Array) -> Derived:
     """The zero-pressure intercept of Q/n over dp at one speed (ISO 8426-2:2025), arguments as `toet_displacement`.
 
-    A loss that is there without pressure counts as lacking displacement. Raises InputError for readings of
-    several speeds or of fewer than two pressure differences.
+    A loss at zero pressure counts as lacking displacement. Raises InputError for readings of several speeds or of fewer
+    than two pressure differences.
     """
     if np.unique(levels(shaft_speed)).size > 1:
         raise InputError("readings", "several shaft speeds", "readings of one")

@@ -1,4 +1,4 @@
-"""A duty cycle by a map: energies over the time, each with the error that the map between its levels has."""
+"""A duty cycle by a map: energies over the time, each with the map's error between its levels."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -22,7 +22,7 @@ class Cycle:
     """Inputs of a map over time (s), SI, (N,) each and linear between rows; inputs that the map holds may be left
     out.
 
-    A repeated time is a step. Raises InputError for fewer than two rows, and for times that fall or do not pass.
+    A repeated time is a step. Raises InputError for fewer than two rows, and for times that fall or do not increase.
     """
 
     time: Array
@@ -65,10 +65,10 @@ class Duty:
 
 
 def duty(interpolant: MapInterpolant, cycle: Cycle, error: MapError) -> Duty:
-    """A cycle's energies; raises InputFaults for a cycle that leaves the map's box, saying where.
+    """A cycle's energies; raises InputFaults for a cycle that leaves the map's box, with the place.
 
-    The error of each energy is the largest that the map has shown of that power, over the whole time: it holds
-    wherever in the box the cycle stays.
+    The error of each energy is the largest measured one of that power, over the whole time: it is valid anywhere in the
+    box.
     """
     _hold_inside(interpolant.data.axes, cycle)
     places, share = _stretches(cycle)

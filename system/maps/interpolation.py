@@ -1,4 +1,4 @@
-"""A map between its levels: smooth along each axis, with an error that fresh points have shown."""
+"""A map between its levels: smooth along each axis, with an error measured at additional points."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
@@ -18,20 +18,20 @@ from system.pump.operating import OperatingPoint, operating_point
 CUBIC = 3
 ROUND_OFF = 1e-9  # of an axis' width, by which a point may lie outside
 ROWS = 1024
-"""Points at a time: memory."""
+"""Points at a time: limits the memory."""
 CHECKED = 40
-"""Fresh points that a map is checked at, where each costs little."""
+"""Number of additional points for the check of a map whose points cost little."""
 IDEAL = ("delivery_flow", "inlet_flow", "shaft_torque")
-"""Numbers of which the part that no loss changes is left out before anything is interpolated."""
+"""Numbers without their lossless part in the interpolation."""
 
 
 @dataclass(frozen=True)
 class MapInterpolant:
-    """Numbers of a whole map anywhere in its box: tensor product of splines, no-knot ends, cubic along four levels
-    or more, else of the degree that fewer hold.
+    """Numbers of a whole map anywhere in its box: tensor product of splines, no-knot ends, cubic along four levels or
+    more, else of the degree that fewer determine.
 
-    What is interpolated are losses: flows and torque less the ideal ones, everything else as it is. Raises
-    InputFaults for a map with points that have no result.
+    Interpolated are losses: flows and torque less the ideal ones; other numbers directly. Raises InputFaults for a map
+    with points that have no result.
     """
 
     data: MapData
@@ -67,7 +67,7 @@ class MapInterpolant:
         return np.asarray(kernel @ self._losses.reshape(kernel.shape[1], -1))
 
     def coefficients(self, name: str) -> Array:
-        """B-spline coefficients (n1, .., n5) of what is interpolated of a number, by the `axis_spline` of each axis."""
+        """B-spline coefficients (n1, .., n5) of a number's interpolated quantity, by the `axis_spline` of each axis."""
         found = self._losses[..., self._names.index(name)]
         for k, axis in enumerate(self.data.axes):
             found = np.moveaxis(np.tensordot(axis_spline(axis).coefficients, found, axes=(1, k)), 0, k)
@@ -96,8 +96,8 @@ def ideal(name: str, inputs: Mapping[MapInput, Array], values: Mapping[str, Arra
 
 @dataclass(frozen=True)
 class AxisSpline:
-    """B-splines of an axis over 0..1 between its ends: degree, knots (levels + degree + 1,), and the matrix
-    (levels, levels) that makes their coefficients of values at the levels."""
+    """B-splines of an axis over 0..1 between its ends: degree, knots (levels + degree + 1,), and the matrix (levels,
+    levels) from values at the levels to their coefficients."""
 
     degree: int
     knots: Array
@@ -157,7 +157,7 @@ def _hold_inside(axes: Sequence[MapAxis], places: Mapping[MapInput, Array]) -> N
 
 
 def check_points(plan: MapPlan, count: int) -> tuple[OperatingPoint, ...]:
-    """Fresh points inside the box of a plan, by Sobol's sequence over the axes that have several levels."""
+    """Additional points inside the box of a plan, by Sobol's sequence over the axes that have several levels."""
     from scipy.stats.qmc import Sobol
 
     wide = [axis for axis in plan.axes if len(axis.values) > 1]
@@ -187,14 +187,14 @@ class MapError:
 
 
 def fresh_error(interpolant: MapInterpolant, points: Sequence[OperatingPoint], found: Mapping[str, Array]) -> MapError:
-    """The error at fresh points: `found` are their numbers (N,) by column."""
+    """The error at additional points: `found` are their numbers (N,) by column."""
     at = {given: np.array([getattr(point, given.value) for point in points]) for given in MapInput}
     interpolated = interpolant.at(at)
     return _error({name: interpolated[name] - values for name, values in found.items()}, "fresh points, solved")
 
 
 def left_out_error(data: MapData) -> MapError | None:
-    """Error of each inner level of each axis, predicted from the others; None where no axis has one.
+    """Error of each inner level of each axis, predicted from the others; None without inner levels.
 
     Levels are then twice as far apart: an upper bound for a smooth map, some five times too large on REF90.
     """

@@ -94,7 +94,7 @@ class MapPlan:
 
     @cached_property
     def points(self) -> tuple[OperatingPoint, ...]:
-        """All points, the last axis' level changing first; raises InputError where the oil's law is void."""
+        """All points, the last axis' level changing first; raises InputError where the oil's law is not valid."""
         names = [axis.input.value for axis in self.axes]
         levels = product(*(axis.values for axis in self.axes))
         return tuple(operating_point(self.pump, **dict(zip(names, level, strict=True))) for level in levels)
@@ -114,14 +114,14 @@ class MapPlan:
 
 @dataclass(frozen=True)
 class MapCheck:
-    """Faults of a plan's points, none twice, and its warnings by the key of the pump file that they are of."""
+    """Faults of a plan's points, each once, and its warnings by their key of the pump file."""
 
     faults: tuple[Fault, ...]
     warnings: Mapping[str, str]
 
 
 def map_plan(pump: PumpDescription, axes: Sequence[MapAxis]) -> MapPlan:
-    """A plan of the stated axes; an input that has none is held at the pump's own operating point."""
+    """A plan of the stated axes; an input without an axis is held at the pump's own operating point."""
     stated, point = {axis.input: axis for axis in axes}, operating_point(pump)
     held = {given: MapAxis(given, (getattr(point, given.value),)) for given in MapInput}
     return MapPlan(pump, tuple((held | stated).values()))

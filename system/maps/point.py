@@ -1,4 +1,4 @@
-"""One point of an operating map: its solver, the key of its content, and the numbers that are kept of it."""
+"""One point of an operating map: its solver, the key of its content, and its kept numbers."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ from system.pump.operating import OperatingPoint
 from system.pump_file.file import resolved_toml
 
 MAP_FORMAT = 2
-"""Raised when the same point gives other numbers: by the laws behind it, or by what is kept."""
+"""Raised when the same point gives other numbers: by its laws, or by the kept numbers."""
 GAPS = ("piston", "slipper", "valve_plate")
 KEY_LENGTH = 24
 
@@ -53,7 +53,7 @@ class MapSolver(Protocol):
         """Seconds a point."""
 
     def reads(self, pump: PumpDescription) -> PumpDescription:
-        """The pump without tables that nothing here reads."""
+        """The pump without tables that are not read here."""
 
     def solve(self, pump: PumpDescription, point: OperatingPoint) -> SolvedPoint:
         """The point; raises as the fidelity."""
@@ -71,11 +71,11 @@ class LumpedSolver:
 
     @property
     def stated(self) -> Mapping[str, str]:
-        """Nothing beside pump and point."""
+        """No inputs besides pump and point."""
         return {"fidelity": "lumped: films of given thickness"}
 
     def reads(self, pump: PumpDescription) -> PumpDescription:
-        """Without materials and surfaces, where no effect of [physics] asks for them."""
+        """Without materials and surfaces, where no effect of [physics] needs them."""
         if pump.physics.on:
             return pump
         return replace(pump, materials=MaterialsSection(), surfaces=SurfacesSection())
@@ -236,7 +236,7 @@ QUANTITIES = (
     ),
     _of_pump("mass_balance_error", "1", "of the delivered mass", "checks.mass_balance_error"),
 )  # fmt: skip
-"""All that is kept of a point."""
+"""All kept numbers of a point."""
 
 
 def columns() -> Iterator[tuple[str, str, str]]:
@@ -268,7 +268,7 @@ class MapWork:
     solver: MapSolver
 
     def key(self, point: OperatingPoint) -> str:
-        """Name of all that a point's numbers depend on: pump as far as it is read, solver, point, program."""
+        """Name of all inputs of a point's numbers: pump as far as it is read, solver, point, program."""
         made_by = "operating map", MAP_FORMAT, version("swashfilm"), sorted(self.solver.stated.items())
         read = self._read, self.pump.file_contents
         return content_key(*made_by, *read, np.array(astuple(point)))[:KEY_LENGTH]
@@ -279,7 +279,7 @@ class MapWork:
         return {"numbers": point_numbers(solved), "warnings": point_remarks(solved)}
 
     def row(self) -> MapWork:
-        """The same points, each on from the one before."""
+        """The same points, each started from the one before."""
         return replace(self, solver=self.solver.row())
 
     @cached_property

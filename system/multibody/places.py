@@ -30,7 +30,7 @@ class GroupPlaces:
 
 
 def group_places(pump: PumpDescription) -> GroupPlaces:
-    """The places of a pump's joints, every value stated or taken."""
+    """The places of a pump's joints, every value stated or assumed."""
     taken = Taken()
     pivot = ball_plane_height(pump)
     spline = spline_height(pump, taken)
@@ -46,7 +46,7 @@ def slippers_reach(pump: PumpDescription) -> float:
 
 
 def actuator_arm(pump: PumpDescription, taken: Taken) -> float:
-    """Distance (m) of the actuator's pin from the tilt axis, stated or taken."""
+    """Distance (m) of the actuator's pin from the tilt axis, stated or assumed."""
     reach = slippers_reach(pump)
     return taken.value("actuator.arm", pump.actuator.arm, reach, "out to the slippers' rims", Dimension.LENGTH)
 

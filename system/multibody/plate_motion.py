@@ -19,7 +19,7 @@ from system.multibody.rotating_group import joint_forces
 from system.points.lumped import lumped_point
 from system.pump.operating import OperatingPoint
 
-FILLS = 0.1  # s in which a taken orifice fills the actuator
+FILLS = 0.1  # s in which an assumed orifice fills the actuator
 DROP = 1e6  # Pa over it meanwhile
 
 
@@ -51,13 +51,13 @@ class Actuator:
 
     @property
     def sense(self) -> float:
-        """1 where its pressure makes the angle larger, -1 where smaller."""
+        """1 where its pressure increases the angle, -1 where it decreases it."""
         return 1.0 if self.strokes is Stroking.UP else -1.0
 
 
 @dataclass(frozen=True)
 class Mechanism:
-    """Plate and actuator, complete; taken: the values that are not stated."""
+    """Plate and actuator, complete; taken: the assumed values."""
 
     plate: SwingingPlate
     actuator: Actuator

@@ -1,10 +1,10 @@
 """Retainer and ball guide: force of the spring and friction, on guide and slippers.
 
-The retainer turns with the shaft's speed about the plate's normal n, on a ball guide that turns about the shaft:
-they slide by W = w (n - z) about the guide's centre, in which both axes meet. Every normal of the contact's
-circle of latitude has the same share along n and none across in sum, so the guide's axial balance gives the sum
-along n, F_s/cos g, at any pressure. Friction -q dV/|dV|, with q spread evenly round the circle, is a force along
-the tilt axis and a moment; its power is -q mean |dV|.
+The retainer turns with the shaft's speed about the plate's normal n, on a ball guide that turns about the shaft: they
+slide by W = w (n - z) about the guide's centre, in which both axes meet. The normals of the contact's circle of
+latitude have equal shares along n and no sum across, so the guide's axial balance gives the sum along n, F_s/cos g, at
+any pressure. Friction -q dV/|dV|, with q spread evenly round the circle, is a force along the tilt axis and a moment;
+its power is -q mean |dV|.
 
 The retainer transmits both to the slippers, R n in their ball centres and H in the plane, with sum and moment
 about the guide's centre in balance, and without friction on them: sum H . (v - w n x P) = 0. Of all such forces
@@ -20,7 +20,7 @@ from reynolds.numerics.arrays import Array
 from system.multibody.kinematics import BallMotion
 from system.pump.laws.retainer import QUADRATURE_POINTS, BallGuide
 
-SAME = 1e-10  # share of the largest singular value below which a condition says nothing
+SAME = 1e-10  # share of the largest singular value below which a condition has no content
 
 
 @dataclass(frozen=True)

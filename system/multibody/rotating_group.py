@@ -100,8 +100,8 @@ class JointForces:
 def joint_forces(pump: PumpDescription, found: PumpPoint) -> JointForces:
     """The forces between all parts at an operating point, with friction from the losses.
 
-    A loss at a sliding speed is a force loss/speed (`shaft_torque.forces_by_loss`). Torques of [physics] effects
-    on the shaft outside the pairs are no joint of the group and are left out.
+    A loss at a sliding speed is a force loss/speed (`shaft_torque.forces_by_loss`). Torques of [physics] effects on the
+    shaft outside the pairs are no joint of the group and are not included.
     """
     full = full_drive(pump)
     ratio = found.geometric_displacement / displacement(pump.pump.pistons, piston_area(pump), stroke(full))
@@ -112,7 +112,7 @@ def joint_forces(pump: PumpDescription, found: PumpPoint) -> JointForces:
 def joined(group: TurningGroup, loads: Sequence[ChamberLoads], found: PumpPoint) -> JointForces:
     """The forces between all parts from known forces on pistons and slippers, of one chamber for all or of each.
 
-    What rubs about the shaft is of the point's losses.
+    Friction about the shaft is that of the point's losses.
     """
     sets, held, guide = _held_sets(group, loads, found.pairs.ball_guide_retainer.mean)
     drag = _shaft_drag(found)
@@ -191,7 +191,7 @@ def _guide_spline(group: TurningGroup, guide: GuideContact) -> Array:
 
 
 def _on_block(group: TurningGroup, loads: Sequence[ChamberLoads], sets: Sequence[SetForces]) -> Array:
-    """All on the block but valve plate and spline, (6, N): bores, the oil over the pistons, spring."""
+    """Wrench on the block without valve plate and spline, (6, N): bores, the oil over the pistons, spring."""
     axis, each = group.ball.axis, []
     for own, one in zip(loads, sets, strict=True):
         on_axis = wrench(-own.known.along_bore * axis, group.ball.place, -one.twist * axis)

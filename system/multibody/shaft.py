@@ -3,7 +3,7 @@
 Wrenches are (6, N): force N and moment N m about the pump's origin, on the shaft's axis in the face of the valve plate,
 over N shaft angles. The block is balanced about the shaft and turns with it. The valve plate supports it along the
 shaft and about both axes across, the spline sideways and about the shaft. On a spherical valve plate part of the
-sideways force is the plate's; here the spline takes all of it. The ball guide moves freely along the shaft.
+sideways force is the plate's; here the spline bears all of it. The ball guide moves freely along the shaft.
 """
 
 from dataclasses import dataclass

@@ -58,7 +58,7 @@ DRAWINGS = {
 
 
 class Unit(Enum):
-    """Unit of a number: SI unit, the unit shown, and the factor between them; of pressures as asked for."""
+    """Unit of a number: SI unit, the unit shown, and the factor between them; of pressures as requested."""
 
     NUMBER = ("1", "1", 1.0)
     SHARE = ("1 as a share", "%", 100.0)
@@ -99,7 +99,7 @@ class FigureAxis:
 
 @dataclass(frozen=True)
 class Curve:
-    """Points (n,) in SI; sigma (n,): how widely each is known, None where it is computed."""
+    """Points (n,) in SI; sigma (n,): uncertainty of each, None where it is computed."""
 
     name: str
     x: Array

@@ -1,4 +1,4 @@
-"""Films of a floating point, as they are kept for the paper's figures."""
+"""Films of a floating point, kept for the paper's figures."""
 
 from math import pi
 from typing import Any

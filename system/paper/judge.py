@@ -50,7 +50,7 @@ class Range:
 
 
 def _shown(value: float, digits: int) -> str:
-    """So many digits; round-off is shown as zero."""
+    """Rounded to so many digits; round-off is shown as zero."""
     return "0" if abs(value) < ROUND_OFF else f"{value:.{digits}g}"
 
 
@@ -79,7 +79,7 @@ class PaperClaim:
 
 @dataclass(frozen=True)
 class Impossibility:
-    """Quantity outside a bound within which it would have to lie for any number of ours to meet a statement.
+    """Quantity whose bound is necessary for a statement: with the quantity outside no number here can meet it.
 
     It is computed each time; a quantity within the bound is no contradiction.
     """
@@ -103,7 +103,7 @@ class Impossibility:
 
 @dataclass(frozen=True)
 class Judged:
-    """A claim with the range found, in one reading of the losses (None: where they do not matter)."""
+    """A claim with the range found, in one reading of the losses (None: independent of them)."""
 
     claim: PaperClaim
     reading: LossReading | None
@@ -133,8 +133,8 @@ def judge(
 ) -> Judged:
     """A claim with its verdict.
 
-    REACHED where the whole range found lies within the expected one; else CONTRADICTED where an impossibility
-    holds; else MISSED. An impossibility that no longer holds is left out.
+    REACHED where the whole range found lies within the expected one; else CONTRADICTED where an impossibility holds;
+    else MISSED. An impossibility that no longer holds is omitted.
     """
     if claim.expected.holds(found):
         return Judged(claim, reading, found, StatementVerdict.REACHED, reason, None)

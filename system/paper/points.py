@@ -31,7 +31,7 @@ from system.work.progress import Report, silent
 from system.work.tasks import Executor, PartStatus, Record
 
 POINT_FORMAT = 2
-"""Raised when the same point gives other numbers: by the laws behind it, or by what is kept."""
+"""Raised when the same point gives other numbers: by its laws, or by the kept numbers."""
 KEY_LENGTH = 24
 SPEEDS = tuple(RPM * speed for speed in (1000.0, 1300.0, 1700.0, 2100.0))
 PRESSURES = tuple(1e6 * pressure for pressure in (5.0, 10.0, 15.0, 20.0, 25.0, 30.0, 35.0))
@@ -40,7 +40,7 @@ RATIOS = (0.13, 0.28, 0.51, 0.77, 1.0)
 RATED = SPEEDS[-1]
 FULL = RATIOS[-1]
 NEAR_ZERO = 5e5
-"""Pressure difference (Pa) taken for the "near 0" at which Case 2 of Fig. 3 begins."""
+"""Pressure difference (Pa) assumed for the "near 0" at which Case 2 of Fig. 3 begins."""
 
 
 class LossReading(Enum):
@@ -112,7 +112,7 @@ class PaperPoint:
         return self.loss(pair, reading) / float(self.pair_losses(reading).sum())
 
     def read(self, reading: LossReading) -> BenchReading:
-        """Bench readings; mixed coefficients alone leave the torque of the films' shear out."""
+        """Bench readings; mixed coefficients alone do not include the torque of the films' shear."""
         if reading is LossReading.WITH_SHEAR:
             return self.bench
         return replace(self.bench, shaft_torque=self.bench.shaft_torque - sum(self.viscous) / self.bench.shaft_speed)
@@ -156,7 +156,7 @@ class PaperWork:
         return replace(self, floating=FloatingSolver(self.options).row())
 
     def key(self, part: Place) -> str:
-        """Name of all that the point's numbers depend on."""
+        """Name of all inputs of the point's numbers."""
         stated = sorted(FloatingSolver(self.options).stated.items()) if self.fidelity is PaperFidelity.FLOATING else ()
         return content_key(POINT_FORMAT, self.fidelity, resolved_toml(self.pump), part, stated)[:KEY_LENGTH]
 
@@ -190,7 +190,7 @@ class PaperPoints:
     points: Mapping[Place, PaperPoint]
 
     def at(self, speed: float, pressure: float, ratio: float) -> PaperPoint:
-        """The point of a place; KeyError where it was not asked for."""
+        """The point of a place; KeyError where it was not requested."""
         return self.points[Place(speed, pressure, ratio)]
 
     def over_pressure(self, speed: float, ratio: float) -> tuple[PaperPoint, ...]:
@@ -204,7 +204,7 @@ def near_zero(pump: PumpDescription) -> float:
 
 
 def places_of(pump: PumpDescription, figures: Sequence[Figure]) -> tuple[Place, ...]:
-    """The points that some figures are made of, each once."""
+    """The points required by some figures, each once."""
     low = (near_zero(pump), *PRESSURES)
     plan = _grid(SPEEDS, PRESSURES, RATIOS[1:])
     needs: dict[Figure, tuple[Place, ...]] = {
@@ -238,9 +238,9 @@ def _grid(speeds: Sequence[float], pressures: Sequence[float], ratios: Sequence[
 def solve_points(
     work: PaperWork, places: Sequence[Place], store: KeptPoints, executor: Executor, report: Report = silent
 ) -> PaperPoints:
-    """The places solved, or taken from `store`. Raises InputError for the first that has no solution."""
+    """The places solved, or read from `store`. Raises InputError for the first that has no solution."""
     pump, fidelity = work.pump, work.fidelity
-    if fidelity is PaperFidelity.LUMPED:  # dearer to keep than to solve
+    if fidelity is PaperFidelity.LUMPED:  # costlier to keep than to solve
         solved = {}
         for done, place in enumerate(places):
             report(done, len(places), "lumped points")

@@ -37,7 +37,7 @@ OF_POINTS: Mapping[Figure, Callable[[PaperPoints], FigureResult]] = {
     Figure.FIG22: fig22,
     Figure.EQUATIONS: equations,
 }
-"""Figures that are made of the operating points alone."""
+"""Figures that require the operating points alone."""
 
 
 @dataclass(frozen=True)

@@ -1,4 +1,4 @@
-"""Effects of [physics] at one operating point, chambers and losses of which are those of any fidelity."""
+"""Effects of [physics] at one operating point, with chambers and losses of any fidelity."""
 
 from collections.abc import Sequence
 from dataclasses import replace
@@ -45,7 +45,7 @@ def affected_problem(
 
 
 def at_the_ports(point: OperatingPoint, effects: Sequence[Effects[float]]) -> OperatingPoint:
-    """The point with the stroke and the inlet pressure that effects leave, mean of the chambers' effects."""
+    """The point with stroke and inlet pressure after effects, mean of the chambers' effects."""
     if not effects:
         return point
     ideal, loss = (float(np.mean([getattr(one, name) for one in effects])) for name in ("ideal", "suction_loss"))

@@ -1,7 +1,7 @@
 """[physics] in films: effects that heat, stiffen, thin or open a film are solved in it, not applied as a factor.
 
     film_heating        films warm, between walls with the stated thermal resistance to the case
-    viscosity_pressure  Barus' law at every place of the films; Roelands' where they float, under edges that touch
+    viscosity_pressure  Barus' law at every place of the films; Roelands' where they float, under edges in contact
     elastic_opening     by compliance: the parts' own bodies, so many times as compliant; by opening: springs
     thermal_clearance   films of the thickness at the point's temperature (`film_thickness`)
     shear_thinning      Cross' law at the rate of sliding, at every place of the films
@@ -54,9 +54,9 @@ BALANCED = {
     EffectId.BLOCK_TIPPING: "the block tips as the forces on it balance",
     EffectId.MIXED_FRICTION: "asperities bear and rub where films are thin",
 }
-"""Effects that floating films compute by themselves, without the numbers of [physics], and how."""
+"""Effects that floating films compute by themselves, without the numbers of [physics], with the method."""
 _SOLVED_SHARES = (0.0, 1.0, 0.0)
-"""carried_share, throttled_share and carry_over by which the closed-form law comes nearest to films that solve them."""
+"""carried_share, throttled_share and carry_over with which the closed-form law is nearest to solved films."""
 _PART = {Gap.PISTON: "piston", Gap.SLIPPER: "slipper", Gap.VALVE_PLATE: "block"}
 _FACES = {
     Gap.PISTON: ("bushing", "piston"),
@@ -173,10 +173,10 @@ def _with_effects(
 
 
 def softened(pump: PumpDescription, gap: Gap, walls: GapWalls | None) -> GapWalls | None:
-    """The walls that [physics.elastic_opening.GAP] gives a film; None for rigid ones, and where it has no table.
+    """The walls that [physics.elastic_opening.GAP] gives a film; None for rigid ones, and without a table.
 
-    compliance C: the parts' own bodies with moduli E/C, since displacement is proportional to 1/E. opening s, a
-    share of the film per pressure: a wall on springs that a pressure p lifts by s p h0.
+    compliance C: the parts' own bodies with moduli E/C, since displacement is proportional to 1/E. opening s, a share
+    of the film per pressure: a wall on springs with deformation s p h0 under a pressure p.
     """
     stated: OpeningSection | None = getattr(pump.physics.elastic_opening, gap.value)
     if stated is None or walls is None:
@@ -193,7 +193,7 @@ def softened(pump: PumpDescription, gap: Gap, walls: GapWalls | None) -> GapWall
 
 
 def _softer(walls: GapWalls, times: float) -> GapWalls:
-    """The same bodies, so many times as soft."""
+    """The same bodies, so many times as compliant."""
 
     def softer(part: Any) -> Any:
         return replace(part, elastic=Elastic(part.elastic.youngs_modulus / times, part.elastic.poisson_ratio))
@@ -210,7 +210,7 @@ def _between_walls(
 ) -> tuple[FloatingParts, tuple[Assumption, ...]]:
     """Parts by which a film's mean temperature has the stated resistance to the case (`even_rise`); ratios stay.
 
-    No wall resists where the film alone resists more than is stated.
+    The walls have no resistance where the film alone has more than is stated.
     """
     materials, taken = dict(parts.materials), Taken()
     for gap in Gap:
@@ -234,10 +234,10 @@ def _between_walls(
 
 
 def even_rise(across: float, one: float, two: float) -> float:
-    """Mean rise of a film over the case per heat that is made evenly across it, m2 K/W.
+    """Mean rise of a film over the case per heat that arises evenly across it, m2 K/W.
 
-    across: h/k of the film, between walls that resist by one and two (m2 K/W). T'' = -q/(h k) between walls at
-    R1 q1 and R2 q2: q1/q = (h/(2 k) + R2)/(R1 + R2 + h/k), mean/q = (R1 q1 + R2 q2)/(2 q) + h/(12 k).
+    across: h/k of the film, between walls of the resistances one and two (m2 K/W). T'' = -q/(h k) between walls at R1
+    q1 and R2 q2: q1/q = (h/(2 k) + R2)/(R1 + R2 + h/k), mean/q = (R1 q1 + R2 q2)/(2 q) + h/(12 k).
     """
     share = (0.5 * across + two) / (one + two + across)
     return 0.5 * (one * share + two * (1.0 - share)) + across / 12.0
@@ -249,7 +249,7 @@ def resisting(wanted: float, across: float, one: float, two: float) -> float:
     """
     if wanted <= across / 12.0:
         return 0.0
-    most = 2.0 * wanted / min(one, two) + 2.0  # there even the better wall alone would let it rise more
+    most = 2.0 * wanted / min(one, two) + 2.0  # there even the better wall alone would cause a larger rise
 
     def missing(times: float) -> float:
         return even_rise(across, times * one, times * two) - wanted

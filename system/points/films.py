@@ -51,7 +51,7 @@ SAMPLES_PER_PITCH. Five times as many move REF90's leakage by 0.1 % (benchmarks/
 TOLERANCE = 1e-6
 """Largest change of the chamber pressure between two rounds, of delivery minus inlet pressure."""
 ROUND_LIMIT = 40
-"""Rigid films of plain oil take two or three; walls that open a film to three times its thickness some twenty."""
+"""Rigid films of plain oil need two or three rounds, walls that open a film to three times its thickness some 20."""
 
 
 GIVEN_BY = {
@@ -59,7 +59,7 @@ GIVEN_BY = {
     "slipper": ("slipper.film_thickness", "slipper.tilt_radial, tilt_tangential or shape of its face"),
     "block": ("valve_plate.film_thickness", "valve_plate.tilt_x, tilt_y or waviness"),
 }
-"""Keys that hold the walls of a gap apart at its given position, and what brings them together."""
+"""Keys that hold the walls of a gap apart at its given position, and those that reduce their distance."""
 
 
 @dataclass(frozen=True)
@@ -162,7 +162,8 @@ def films_point(
 def _of_pump(pump: PumpDescription, reason: InputError) -> InputError | NotConverged:
     """The reason in the pump's words: parts that touch, oil that stiffens without bound; else the reason itself.
 
-    Beyond Barus' law, where plain oil would come to 1/a, (1 - exp(-a p))/a of the stiffening oil does at no pressure.
+    Beyond Barus' law: where plain oil would reach the pressure 1/a, (1 - exp(-a p))/a of the stiffening oil reaches it
+    at no pressure.
     """
     if isinstance(reason, WallsOverlap):
         path, with_it = GIVEN_BY[reason.where.partition(" ")[0]]
@@ -182,8 +183,8 @@ def _of_pump(pump: PumpDescription, reason: InputError) -> InputError | NotConve
 class _Coupling:
     """Constants of the rounds, and their start: films and cycles of the lumped pump without effects.
 
-    pump: with only those effects that films do not solve; kinds: of its chambers; point: with the stroke after
-    effects; motions, effects (none where no law acts) and films by kind, cycles by chamber.
+    pump: with only those effects that films do not solve; kinds: of its chambers; point: with the stroke after effects;
+    motions, effects (none without an active law) and films by kind, cycles by chamber.
     """
 
     pump: PumpDescription
@@ -202,7 +203,7 @@ class _Coupling:
 
     @property
     def by_chamber(self) -> tuple[Effects[float], ...]:
-        """The effects of each chamber, of one where all are equal; none where no law acts."""
+        """The effects of each chamber, of one where all are equal; none without an active law."""
         return self.kinds.by_chamber(self.effects) if self.effects else ()
 
     def pressures(self, cycles: Sequence[ChamberCycle]) -> list[Array]:
@@ -253,8 +254,7 @@ def _work(pump: PumpDescription, point: OperatingPoint, physics: GapPhysics) -> 
 
 
 def _ported(work: _Coupling, gaps: Sequence[GapCycle], met: OperatingPoint) -> tuple[PortedCycle, list[LeakTable]]:
-    """Chambers and ports with the films' leaks, ports as `met` before; and these leaks by kind, without closed-form
-    laws."""
+    """Chambers and ports with the films' leaks, ports from `met`; and these leaks by kind, without closed-form laws."""
     leaks = [edged_leaks(one, work.point, films) for one, films in zip(work.kinds.pumps, gaps, strict=True)]
     problems = [
         affected_problem(one, work.point, motion, leak, acting)
@@ -325,9 +325,9 @@ def film_shear(gaps: GapCycle, case_pressure: float) -> tuple[Array, Array, Arra
 
 
 def with_film_shear(losses: FrictionPairs, gaps: GapCycle, case_pressure: float) -> FrictionPairs:
-    """The pairs with the viscous part of the three gaps' pairs from the films, between film angles linear.
+    """The pairs with the viscous part of the three gaps' pairs from the films, linear between film angles.
 
-    Linear between equidistant angles keeps the mean of the film solves exactly.
+    Linear interpolation between equidistant angles preserves the mean of the film solves exactly.
     """
     piston, slipper, ring = film_shear(gaps, case_pressure)
     samples = losses.piston_cylinder.viscous.size
@@ -346,7 +346,7 @@ def _refine(periodic: Array, samples: int) -> Array:
 
 
 def _sampling_error(work: _Coupling, ported: PortedCycle, leaks: Sequence[LeakTable]) -> float:
-    """Relative change of the leakage when the chambers know only every second angle of the films' leaks."""
+    """Relative change of the leakage when the chambers use only every second angle of the films' leaks."""
     fine, rough = 0.0, 0.0
     for one, leak, acting in zip(work.group, leaks, work.acting, strict=True):
         halved = LeakTable(leak.conductance[:, ::2].copy(), leak.drag_flow[:, ::2].copy())

@@ -1,10 +1,10 @@
 """The floating fidelity: gaps whose films come from the balance of forces, coupled with the chambers.
 
-Rounds alternate between the three gaps over the revolution and the chamber's cycle. Films leak into the chamber's
-balance, the parts' small motion changes its volume, and their friction loads each other through the ball joint.
-Friction of the three gaps is shear of their films and contact of their asperities, without Coulomb's law. The
-ball joint rubs by its forces and spins; the other pairs are the lumped fidelity's. Films solve what [physics] states of
-them (`film_effects`); its other effects act by their laws, at the pump's chambers without any.
+Rounds alternate between the three gaps over the revolution and the chamber's cycle. The films' leakage enters the
+chamber's balance, the parts' small motion changes its volume, and their friction acts on each other through the ball
+joint. Friction of the three gaps is shear of their films and contact of their asperities, without Coulomb's law. The
+ball joint's friction follows from its forces and spins; the other pairs are the lumped fidelity's. Films solve their
+effects of [physics] (`film_effects`); its other effects act by their laws, at the pump's chambers without effects.
 """
 
 from collections.abc import Sequence
@@ -70,9 +70,9 @@ SPIN_TOLERANCE = 2e-3
 FIRST_STEP = 0.05
 """Error that the first rounds' steps may make, share of the film."""
 FAR = 20.0
-"""Times its tolerance, a change of a spin by a round with steps of FIRST_STEP from which the next has them too."""
+"""Change of a spin by a round with steps of FIRST_STEP, over its tolerance, from which the next round has them too."""
 NEARLY = 6.0
-"""Times as large as their tolerances may the changes of a round be for gaps and chambers to nearly agree."""
+"""Multiple of their tolerances within which the changes of a round count as near agreement of gaps and chambers."""
 ROUND_LIMIT = 20
 
 
@@ -122,10 +122,9 @@ def floating_point(
     """One periodic operating point with the three gaps floating; side by side: the pistons in a second process.
 
     near: a point of the same pump, whose motion, temperatures, spins and chambers this one starts from. solved: is
-    filled with rounds and gaps as they are solved, and keeps them where a later one fails.
-    Raises NotConverged where gaps and chamber pressure do not settle within ROUND_LIMIT rounds, FilmNotConverged
-    where a film does not, ValueError for steps that do not divide among the pistons, InputError for a film that
-    warmth closes.
+    filled with rounds and gaps as they are solved, and keeps them where a later one fails. Raises NotConverged where
+    gaps and chamber pressure do not settle within ROUND_LIMIT rounds, FilmNotConverged where a film does not,
+    ValueError for steps that do not divide among the pistons, InputError for a film that thermal expansion closes.
     """
     options = options or usual_options(pump.pump.pistons)
     group, asked = _beginning(pump, point, options)
@@ -254,7 +253,7 @@ def _rubbing_change(one: Rubbing, other: Rubbing) -> float:
 def _spins_change(turning: Sequence[Rotor], group: Group, following: RoundDrives) -> float:
     """Largest change of a spin to the next round, of the shaft's, by the torques' lines and by those through rest.
 
-    Lines of two spins may be so steep that they hold any spin.
+    Lines of two spins may be so steep that any spin is a solution.
     """
     through_rest = tuple(own and (own.careful or own) for own in following.spin_torques)
     ways = group.rotors(following), group.rotors(replace(following, spin_torques=through_rest))
@@ -271,7 +270,8 @@ def _spin_change(one: Rotor, other: Rotor) -> float:
 def _approaching(options: FloatingOptions, rounds: list[Round], *, cold: bool) -> FloatingOptions:
     """Accuracy of a round's gaps: one turn of each until they nearly agree with the chambers.
 
-    The first ones of `cold` gaps, which have no start, have wide steps, until the spins are nearly those of the films.
+    The first rounds of `cold` gaps, which have no start, have wide steps, until the spins are nearly those of the
+    films.
     """
     exact = options.accuracy
     if cold and all(taken.spin_change > FAR * SPIN_TOLERANCE for taken in rounds):
@@ -281,7 +281,7 @@ def _approaching(options: FloatingOptions, rounds: list[Round], *, cold: bool) -
 
 
 def _agree(taken: Round, times: float = 1.0) -> bool:
-    """True if a round's changes are within the tolerances, or within so many times them."""
+    """True if a round's changes are within the tolerances, or within this multiple of them."""
     return all(change <= times * tolerance for change, tolerance in _changes(taken))
 
 

@@ -1,7 +1,7 @@
-"""Balance of forces on a gap that finds no film: the press on it, the lift of its lands, a dimension that mends it.
+"""Balance of forces on a gap without equilibrium: pressing force, lift of its lands, a dimension that restores it.
 
-Pressed, a film rises by the pressure that its lands take from the chamber; the rest is left to wedge and squeeze. A
-part whose lands lift far less than presses sinks, one whose lands lift more flies off.
+The lands of a film lift by the chamber's pressure on them; wedge and squeeze bear the rest of the pressing force. A
+part whose lands lift far less than the pressing force sinks, one whose lands lift more flies off.
 """
 
 import math
@@ -35,7 +35,7 @@ class Shortfall:
 def slipper_shortfall(rotor: Rotor, drive: SlipperDrive, angle: float) -> Shortfall:
     """Force on a slipper at a shaft angle (rad), less the lift of its lands at the chamber's pressure.
 
-    Where more than its retainer holds pulls it off its plate on the way, that alone is named. The remedy is the outer
+    Where a force above its retainer's pulls it off its plate before, that alone is named. The remedy is the outer
     radius at which the lands of a parallel film lift all of it (`SlipperLands.effective_area`).
     """
     if (pulled := _pulled_off(drive)) is not None:
@@ -79,8 +79,8 @@ def _pulled_off(drive: SlipperDrive) -> Shortfall | None:
 def block_shortfall(rotor: Rotor, drive: BlockDrive, angle: float) -> Shortfall:
     """Force and its place on the block at a shaft angle (rad), less the lift of its lands at the chambers' pressures.
 
-    The remedies are the spring's force with which the rest presses within the outermost land, and the outer radius of
-    the lands with which it does (`gaps.loads.block_tipping`).
+    The remedies are the spring's force with which the remaining force acts within the outermost land, and the outer
+    radius of the lands with which it does (`gaps.loads.block_tipping`).
     """
     pump, plate = rotor.pump, rotor.pump.valve_plate
     chambers = valve_plate_geometry(pump).kidney_places(angle)
@@ -115,7 +115,7 @@ def block_shortfall(rotor: Rotor, drive: BlockDrive, angle: float) -> Shortfall:
 
 
 def piston_shortfall(rotor: Rotor, drive: PistonDrive, angle: float) -> Shortfall:
-    """Forces across the bore at both ends of the guide at a shaft angle (rad), all of which the film has to raise."""
+    """Forces across the bore at both ends of the guide at a shaft angle (rad), which the film has to bear."""
     part, outer = rotor.pump.piston, np.asarray(drive.outer(angle))
     inner, case = float(np.hypot(*outer[:2])), float(np.hypot(*outer[2:]))
     guide = part.guide_length or part.engaged_length

@@ -52,7 +52,7 @@ def passing(revolution: GapRevolution[Reported], value: Callable[[Reported], flo
 def around(means: Array) -> Array:
     """Means over the steps on both sides of equidistant angles, (n, ...), from means up to each angle.
 
-    The total over the turn is unchanged, however short its bursts.
+    The total over the turn is unchanged, for bursts of any length.
     """
     return np.asarray(0.5 * (means + np.roll(means, -1, axis=0)))
 
@@ -75,7 +75,7 @@ def resampled(values: Array, samples: int) -> Array:
 
 
 def leak_table(gaps: FloatingGaps) -> LeakTable:
-    """Flow out of the chamber into each gap, by its angle; it follows the pressure in the next round only."""
+    """Flow out of the chamber into each gap, by its angle; it changes with the pressure in the next round only."""
     piston = passing(gaps.piston, lambda report: float(report.flow[0]))
     slipper = passing(gaps.slipper, lambda report: float(report.flow[0]))
     flow = np.stack([piston, slipper, chamber_draws(gaps.block, gaps.chamber, len(piston))])
@@ -227,7 +227,7 @@ def block_torque(block: GapRevolution[BlockReport], samples: int) -> Array:
 def with_floating_gaps(losses: FrictionPairs, gaps: FloatingGaps, group: tuple[GroupInstant, ...]) -> FrictionPairs:
     """The pairs with those of the three gaps from their films: shear of oil as viscous, rubbing as Coulomb's.
 
-    The joint rubs as its forces and spins have it. Ball guide and bearings stay.
+    The joint's friction is that of its forces and spins. Ball guide and bearings are unchanged.
     """
     pistons, samples = losses.piston_cylinder.count, len(group)
     joint = np.array([at.joint_loss for at in group])

@@ -1,4 +1,4 @@
-"""One floating gap of a pump over the revolution: the pump's parts and drives put on its films."""
+"""One floating gap of a pump over the revolution: the pump's parts and loads applied to its films."""
 
 from __future__ import annotations
 
@@ -43,10 +43,10 @@ MARCHED = Accuracy(step=1e-2, balance=0.1)
 PISTON_CELLS, SLIPPER_CELLS, BLOCK_CELLS = (48, 24), (12, 72), (6, 24)
 LEAST_CELLS = 2
 LEAST_PISTON_CELLS = 8
-"""Along a bore: on fewer, a tilted piston with much clearance leaves the ends of its film between their points."""
+"""Along a bore: with fewer cells, the ends of a tilted piston's film with much clearance lie between their points."""
 FINER = 0.5
-"""Multiple of these cells that films have where nothing else is stated."""
-SLIPPER_START = BLOCK_START = 1e-5  # m: a film that every pump starts with
+"""Multiple of these cells in films, unless stated otherwise."""
+SLIPPER_START = BLOCK_START = 1e-5  # m: initial film of every pump
 SOFTLY = "a coarser mesh to find where, or rigid walls"
 STIFFLY = "elastic walls, or oil of one viscosity: under an edge that cannot yield, oil that stiffens has no bound"
 USUAL = Physics()
@@ -91,7 +91,7 @@ class FloatingOptions:
 
 
 def usual_options(pistons: int) -> FloatingOptions:
-    """Options of a pump where nothing else is stated: steps near the usual that divide among its pistons."""
+    """Default options of a pump: a number of steps near the usual that its pistons divide."""
     usual = FloatingOptions()
     return replace(usual, steps=round(usual.steps / pistons) * pistons)
 
@@ -104,7 +104,7 @@ def piston_revolution(
     before: GapRevolution[PistonReport] | None = None,
     report: Report = silent,
 ) -> GapRevolution[PistonReport]:
-    """The piston over the turn, from the middle of its bore or on from a revolution `before`.
+    """The piston over the turn, from the middle of its bore or continued from a revolution `before`.
 
     Raises as `run_revolution`; a turn that stops with the balance of forces there.
     """
@@ -129,7 +129,7 @@ def slipper_revolution(
     before: GapRevolution[SlipperReport] | None = None,
     report: Report = silent,
 ) -> GapRevolution[SlipperReport]:
-    """The slipper over the turn, from a film of SLIPPER_START without tilt or on from a revolution `before`.
+    """The slipper over the turn, from a film of SLIPPER_START without tilt or continued from a revolution `before`.
 
     Raises as `run_revolution`; a turn that stops with the balance of forces there.
     """
@@ -153,11 +153,11 @@ def block_revolution(
     before: GapRevolution[BlockReport] | None = None,
     report: Report = silent,
 ) -> GapRevolution[BlockReport]:
-    """The block over the turn, or over a piston pitch where chambers are equal, after which all repeats.
+    """The block over the turn, or over a piston pitch where chambers are equal, after which the motion repeats.
 
-    From a film of BLOCK_START without tilt or on from a revolution `before`; between elastic walls from the
-    result between rigid ones. Raises ValueError where the steps do not divide among the pitches, else as
-    `run_revolution`; a turn that stops with the balance of forces there.
+    From a film of BLOCK_START without tilt or continued from a revolution `before`; between elastic walls from the
+    result between rigid ones. Raises ValueError where the pitches do not divide the steps, else as `run_revolution`; a
+    turn that stops with the balance of forces there.
     """
     pistons, pump = rotor.pump.pump.pistons, rotor.pump
     if options.steps % pistons:

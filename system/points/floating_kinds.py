@@ -35,7 +35,7 @@ from system.pump.operating import OperatingPoint
 from system.work.progress import Report
 
 BLOCK_SHARE = 0.1
-"""Of the work of a round of chambers that are alike, what the block takes over a pitch (REF90, 72 steps)."""
+"""Share of the block over a pitch in the work of a round of equal chambers (REF90, 72 steps)."""
 
 
 @dataclass(frozen=True)
@@ -122,7 +122,7 @@ def gap_revolutions(
     report: Report,
     solved: Solved,
 ) -> tuple[FloatingGaps, ...]:
-    """The gaps of each kind over the revolution, on from those before; pistons in their own process, if it was begun.
+    """The gaps of each kind over the revolution, continued from those before; pistons in their own process, if begun.
 
     Each is kept in `solved` as soon as it is found.
     """

@@ -1,8 +1,8 @@
-"""Progress of a floating point as a whole, in units of work: rounds until all agrees, gaps of a round, turns of a gap.
+"""Progress of a floating point as a whole, in units of work: rounds until agreement, gaps of a round, turns of a gap.
 
-The number of rounds is not known in advance: before the first has ended there are no units in all. The first round
-takes longer, since its films have no start. The others are expected by the mean rate at which the changes fell, and
-to be no fewer than usual until the changes are within their tolerances.
+The number of rounds is not known in advance: before the first has ended there is no total. The first round takes
+longer, since its films have no start. The number of the others is estimated from the mean rate at which the changes
+fell; it is at least the usual one until the changes are within their tolerances.
 """
 
 import math
@@ -26,7 +26,7 @@ TURNS = 1
 
 @dataclass
 class WholeRun:
-    """Progress of one point: tells `report` the units done and the units in all, as they are known now.
+    """Progress of one point: reports to `report` the units done and the total, as known now.
 
     shares: of the gaps in a round; most: rounds.
     """
@@ -53,7 +53,7 @@ class WholeRun:
         self.done = max(self.done, self._before(self.rounds + 1))
 
     def _left(self, change: float) -> int:
-        """Rounds still expected: the changes go on falling as they fell, and the last round confirms it."""
+        """Rounds still expected: the changes continue to fall at their rate, and the last round confirms it."""
         if change <= 1.0:
             return 1
         usual = max(1, EXPECTED_ROUNDS - self.rounds)

@@ -39,10 +39,11 @@ SETTLED = 1e-7
 def lumped_point(pump: PumpDescription, point: OperatingPoint, tolerance: float = TOLERANCE) -> PumpPoint:
     """One periodic operating point of a pump with films of given thickness: REF90's nominal loss model.
 
-    Chambers that differ have each its own cycle; what rubs about the shaft takes the mean of pumps with chambers like
-    each. Effects of [physics] see the gaps as they are without any; then chambers are solved once more. Raises
-    NotConverged when the chamber pressure does not become periodic, InputError for a film that warmth closes. Valid for
-    films thick against their roughness at the viscosity of the case; docs/theory.md, What is left out, lists the rest.
+    Chambers that differ have each its own cycle; friction about the shaft is the mean of pumps with chambers like each.
+    The inputs of effects of [physics] are the gaps without effects; then chambers are solved once more. Raises
+    NotConverged when the chamber pressure does not become periodic, InputError for a film that thermal expansion
+    closes. Valid for films thick against their roughness at the viscosity of the case; docs/theory.md, What is left
+    out, lists the rest.
     """
     found = kinds(pump)
     expansion(pump, point.temperature)
@@ -62,7 +63,7 @@ def point_and_effects(pump: PumpDescription, point: OperatingPoint) -> tuple[Pum
 
 
 def _effects(found: Kinds, plain: PumpPoint) -> tuple[Effects[float], ...]:
-    """The changes by [physics] of each kind of chamber, at the pressures of a point without any."""
+    """The changes by [physics] of each kind of chamber, at the pressures of a point without effects."""
     cycles = [plain.chambers[found.of_chamber.index(kind)] for kind in range(len(found.pumps))]
     return tuple(point_effects(own, plain.point, cycle) for own, cycle in zip(found.pumps, cycles, strict=True))
 
@@ -70,7 +71,7 @@ def _effects(found: Kinds, plain: PumpPoint) -> tuple[Effects[float], ...]:
 def _solved(
     found: Kinds, pump: PumpDescription, asked: OperatingPoint, effects: Sequence[Effects[float]], tolerance: float
 ) -> PumpPoint:
-    """The point with what effects change, kind by kind, or with none."""
+    """The point with the changes by effects, kind by kind, or without."""
     point = at_the_ports(asked, effects)
     motions = [piston_motion(own, point) for own in found.pumps]
     ported = _ported(found, pump, point, motions, effects, tolerance)
@@ -94,7 +95,7 @@ def _ported(
     effects: Sequence[Effects[float]],
     tolerance: float,
 ) -> PortedCycle:
-    """Chambers and ports; where lands lose by inertia (`land_losses`), at pressures that these losses leave.
+    """Chambers and ports; where lands lose by inertia (`land_losses`), at the pressures with these losses.
 
     Raises NotConverged where flow and pressure do not settle within ROUND_LIMIT rounds.
     """
@@ -122,7 +123,7 @@ def _ported(
 
 
 def _slowed(pump: PumpDescription, point: OperatingPoint, creeping: LeakTable, cycle: ChamberCycle) -> LeakTable:
-    """Leaks less what inertia takes at a cycle's pressures; the same where no file says anything."""
+    """Leaks less the losses by inertia at a cycle's pressures; the same without files of losses."""
     if not land_losses(pump).any:
         return creeping
     return with_inertia(pump, creeping, cycle.pressure - point.case_pressure, point.viscosity, bore=True)

@@ -53,7 +53,7 @@ class PistonBeside:
         self._connection = connection
 
     def start(self, driven: tuple[Driven, ...]) -> None:
-        """Begin a round, from where the one before ended."""
+        """Begin a round, from the end of the one before."""
         self._connection.send(driven)
 
     def fetch(self, report: Report) -> tuple[Found, ...]:
@@ -81,7 +81,7 @@ class PistonBeside:
 def piston_beside(parts: tuple[FloatingParts, ...], before: Sequence[Found | None]) -> Iterator[PistonBeside]:
     """A process for the pistons as long as the context lasts; Ctrl-C is for this process alone, which ends it.
 
-    before: the revolution that each piston's first one goes on from, if any.
+    before: the revolution from which each piston's first one continues, if any.
     """
     ours, theirs = multiprocessing.get_context("spawn").Pipe()
     process = multiprocessing.get_context("spawn").Process(target=_serve, args=(theirs, parts, before), daemon=True)
@@ -106,7 +106,7 @@ def _serve(connection: Connection, parts: tuple[FloatingParts, ...], first: Sequ
             return
         try:
             found = [_solve(*each, _progress_to(connection)) for each in zip(asked, parts, before, strict=True)]
-        except Exception as reason:  # whatever it is belongs to whoever asked
+        except Exception as reason:  # sent to the caller, which raises it
             connection.send(reason)
         else:
             before = [*found]
@@ -114,7 +114,7 @@ def _serve(connection: Connection, parts: tuple[FloatingParts, ...], first: Sequ
 
 
 def _progress_to(connection: Connection) -> Report:
-    """Progress, seldom enough for a pipe that nobody reads for a while."""
+    """Progress, seldom enough for a pipe that is not read for a while."""
 
     def report(done: int, total: int, what: str) -> None:
         if done % max(1, total // REPORTS_A_TURN) == 0:

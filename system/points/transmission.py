@@ -8,7 +8,7 @@ from system.pump.assembly import PumpPoint
 from system.pump.operating import OperatingPoint
 
 SPEED_RATIOS = (0.05, 2.0)
-"""Motor over pump speed by displacements between which the motor is looked for."""
+"""Interval of motor over pump speed, of that by displacements, in which the motor is sought."""
 SPEED_TOLERANCE = 1e-9
 """Of that ratio."""
 
@@ -17,8 +17,8 @@ SPEED_TOLERANCE = 1e-9
 class Transmission:
     """Both machines at their common operating speeds.
 
-    The motor is a pump that turns the same way with the high pressure at its suction port: its powers count into
-    it, so its shaft power is negative, and its efficiencies as a pump are void (`no_delivery`).
+    The motor is a pump that turns the same way with the high pressure at its suction port: its powers count into it, so
+    its shaft power is negative, and its efficiencies as a pump are not defined (`no_delivery`).
     """
 
     pump: PumpPoint
@@ -38,10 +38,10 @@ class Transmission:
 def transmission(pump: PumpDescription, motor: PumpDescription, point: OperatingPoint) -> Transmission:
     """The transmission at the pump's operating point, whose `inlet_pressure` is that of the low-pressure line.
 
-    The motor takes the pump's delivery at full displacement, with the same temperature and case pressure; nothing
-    is lost between them. Flows of a line-to-line relief valve, a flushing valve or the control are not included:
-    the flushing valve and the charge pump are at the low pressure. Raises ValueError where the pump delivers
-    nothing that would turn the motor, NotConverged as `lumped_point`.
+    The motor receives the pump's delivery at full displacement, with the same temperature and case pressure; without
+    losses between them. Flows of a line-to-line relief valve, a flushing valve or the control are not included: the
+    flushing valve and the charge pump are at the low pressure. Raises ValueError where the pump does not deliver a flow
+    to turn the motor, NotConverged as `lumped_point`.
     """
     from scipy.optimize import brentq
 

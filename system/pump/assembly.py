@@ -33,7 +33,7 @@ from system.work.means import mean_of
 
 
 class PointWarning(Enum):
-    """Warnings of an operating point; none of them makes a number void."""
+    """Warnings of an operating point; none of them invalidates a number."""
 
     CHAMBER_CAVITATES = "chamber_cavitates"
     CHAMBER_OVERPRESSURE = "chamber_overpressure"
@@ -56,7 +56,7 @@ class Remark:
 
 
 PORT_PRESSURE_MET = 1e-3
-"""Part of the ports' pressure difference by which a port's mean pressure may miss the operating point."""
+"""Part of the ports' pressure difference by which a port's mean pressure may differ from the operating point's."""
 ENERGY_BALANCED = 5e-3
 """Energy balance error from which a point warns: five times the tolerance of every fidelity."""
 OVERPRESSURE = 1.1
@@ -67,10 +67,10 @@ OVERPRESSURE = 1.1
 class PointChecks:
     """Relative errors of a point; those of the chamber are in its cycle.
 
-    mass_balance_error of the delivered mass; energy_balance_error: mean torque from the forces on the rotating
-    group times shaft speed against all that the shaft power goes into, each computed on its own, of the shaft
-    power; work_balance_error: the same with the work that the pistons do by the chambers' integration, friction in
-    either; quadrature_error: of the friction power, estimated from every second shaft angle.
+    mass_balance_error of the delivered mass; energy_balance_error: mean torque from the forces on the rotating group
+    times shaft speed against all sinks of the shaft power, each computed independently, of the shaft power;
+    work_balance_error: the same with the work that the pistons do by the chambers' integration, friction in either;
+    quadrature_error: of the friction power, estimated from every second shaft angle.
     """
 
     mass_balance_error: float
@@ -85,11 +85,11 @@ class PumpPoint:
 
     Per chamber, arrays over `cycle.shaft_angle`: `cycle` (where chambers differ their mean, each at its own angle, and
     so `leaks` and `pairs`), `delivery_area`, `suction_area` in m2; `chambers`: the cycle of each, of one where they are
-    alike. Whole pump: `delivery_flow_ripple` in m3/s over the same angles (volume at chamber pressure through the
-    delivery port); `delivery`, `suction`: pressure of either port and what its line takes; `shaft_torque` in N m, from
-    the forces on the rotating group; `leakage_flow` of each gap (mean over the revolution, all chambers, volume at case
-    pressure); `exchange`, what the gaps exchange beside; `bench`, what a test bench reads; `geometric_displacement` and
-    `derived_displacement` in m3 per revolution.
+    equal. Whole pump: `delivery_flow_ripple` in m3/s over the same angles (volume at chamber pressure through the
+    delivery port); `delivery`, `suction`: pressure of either port and the flow and power of its line; `shaft_torque` in
+    N m, from the forces on the rotating group; `leakage_flow` of each gap (mean over the revolution, all chambers,
+    volume at case pressure); `exchange`, the gaps' other exchange; `bench`, the readings of a test bench;
+    `geometric_displacement` and `derived_displacement` in m3 per revolution.
     """
 
     point: OperatingPoint
@@ -137,9 +137,9 @@ def assemble(
 ) -> PumpPoint:
     """The pump's flows, torque and powers from the chambers' periodic cycles and the friction of their pairs.
 
-    pairs, masses: of one chamber for all, or of each of z. outside: flows and torque that pass the chambers by;
-    they do not load the lines on the ports. Gaps leak heat by their flow, and the torque comes from
-    the forces behind the losses: `put_together`.
+    pairs, masses: of one chamber for all, or of each of z. outside: flows and torque past the chambers; they do not
+    load the lines on the ports. The gaps' heat follows from their flow, and the torque from the forces behind the
+    losses: `put_together`.
     """
     ring = exchange.drag_power.valve_plate
     torque = shaft_torque(ported.problems, ported.cycles, pairs, masses, pistons, ring)
@@ -162,8 +162,9 @@ def put_together(
     """The pump from its chambers' cycle, the friction of its pairs, the shaft's torque (N,) N m by forces and the
     heat (W) of the flow through each gap.
 
-    The bench reads the torque of `power.shaft_work`, good to the chambers' integration; the torque from forces is good
-    to the sampled angles. Where a line of stated orifice sets a port's pressure, the point is given at that pressure.
+    The bench reads the torque of `power.shaft_work`, as accurate as the chambers' integration; the torque from forces
+    is as accurate as the sampling of angles. Where a line of stated orifice sets a port's pressure, the point is given
+    at that pressure.
     """
     problem, cycle, asked = ported.problem, ported.cycle, point
     point = met_point(point, ported)
@@ -207,13 +208,13 @@ def put_together(
 
 
 def met_point(point: OperatingPoint, ported: PortedCycle) -> OperatingPoint:
-    """The operating point at the ports' mean pressures as chambers and lines have settled them."""
+    """The operating point at the ports' mean pressures, from the balance of chambers and lines."""
     problem = ported.problem
     return replace(point, delivery_pressure=problem.delivery_pressure, inlet_pressure=problem.inlet_pressure)
 
 
 def pumps(reading: BenchReading) -> bool:
-    """True if shaft power goes in and oil goes from inlet to delivery: else the efficiency is void."""
+    """True if shaft power is consumed and oil flows from inlet to delivery: else the efficiency is not defined."""
     return reading.shaft_power > 0.0 and reading.inlet_flow > 0.0 and reading.delivery_flow > 0.0
 
 
@@ -258,7 +259,7 @@ def _no_delivery(reading: BenchReading, leaks: Gaps[float]) -> Remark:
 
 
 def _unbalanced(energy: float) -> Iterator[Remark]:
-    """A remark where the power of the forces on the shaft is not what all sinks take."""
+    """A remark where the power of the forces on the shaft differs from the sum of all sinks."""
     if energy > ENERGY_BALANCED:
         yield Remark(
             PointWarning.ENERGY_NOT_BALANCED,
@@ -269,13 +270,13 @@ def _unbalanced(energy: float) -> Iterator[Remark]:
 
 
 def _chamber_by(ported: PortedCycle, size: Callable[[ChamberCycle], float]) -> tuple[ChamberCycle, str]:
-    """The chamber that is largest by a measure, and what to call it."""
+    """The chamber that is largest by a measure, and its name."""
     number = int(np.argmax([size(cycle) for cycle in ported.cycles]))
     return ported.cycles[number], "the chamber" if len(ported.cycles) == 1 else f"chamber {number + 1}"
 
 
 def _ports_off(asked: OperatingPoint, ported: PortedCycle) -> Iterator[Remark]:
-    """A remark for each port whose line keeps another mean pressure than was asked for."""
+    """A remark for each port whose line keeps another mean pressure than requested."""
     allowed = PORT_PRESSURE_MET * ported.problem.pressure_span
     wanted = (asked.delivery_pressure, asked.inlet_pressure)
     for name, port, pressure in zip(("delivery", "inlet"), (ported.delivery, ported.suction), wanted, strict=True):

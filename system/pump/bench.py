@@ -46,9 +46,9 @@ class BenchReading(Generic[Number]):
 class Outside(Generic[Number]):
     """Flows, torque and power past a pump's chambers; Outside[Array]: at N points, arrays (N,).
 
-    Added to delivery, inlet and drain flow in m3/s and to the shaft's torque in N m; carried_off in W: where the
-    power of flows and torque goes; delivery_reading: factor on the flow that the delivery's meter reads;
-    suction_loss: Pa that the inlet loses between its gauge and the suction port.
+    Added to delivery, inlet and drain flow in m3/s and to the shaft's torque in N m; carried_off in W: sink of the
+    power of flows and torque; delivery_reading: factor on the flow that the delivery's meter reads; suction_loss: Pa
+    that the inlet loses between its gauge and the suction port.
     """
 
     delivery: Number
@@ -90,7 +90,7 @@ class EnergySplit:
     """Split of the shaft power in W: the four fields add up to it exactly.
 
     `hydraulic` is p Q summed over the ports; `elastic` the energy stored in the oil they pass, which a machine
-    downstream can take back; `leakage` what the drained oil gave up on its way; `hydromechanical` the rest.
+    downstream can recover; `leakage` the loss of the drained oil on its path; `hydromechanical` the rest.
     """
 
     hydraulic: float
@@ -112,9 +112,9 @@ def ideal_flow(displacement: float, shaft_speed: float) -> float:
 def paper_losses(reading: BenchReading) -> LossSplit:
     """The paper's Eqs. (1), (2) as printed.
 
-    Eq. (1) charges the compression flow Q_i - Q_o - Q_drain with the whole pressure difference, Q_o dp^2/K: twice
-    the elastic energy (at no inlet pressure) that the delivered oil takes with it and may give back. What is
-    charged too much is missing in Eq. (2). `energy_split` keeps the three apart.
+    Eq. (1) charges the compression flow Q_i - Q_o - Q_drain with the whole pressure difference, Q_o dp^2/K: twice the
+    elastic energy (at no inlet pressure) that the delivered oil carries and may give back. The excess in Eq. (1) is
+    missing in Eq. (2). `energy_split` keeps the three apart.
     """
     r = reading
     drained = r.drain_flow * (r.delivery_pressure - r.drain_pressure)
@@ -127,8 +127,8 @@ def paper_losses(reading: BenchReading) -> LossSplit:
 def paper_efficiency(reading: BenchReading) -> Efficiency:
     """The paper's Eqs. (3)-(5) as printed.
 
-    Eq. (4), 1 - (Q_i - Q_o)/Q_i, compares flows at different pressures: it is not ISO 4409's. Raises ValueError
-    where a ratio is void: no shaft power, inlet or delivery flow.
+    Eq. (4), 1 - (Q_i - Q_o)/Q_i, compares flows at different pressures: it is not ISO 4409's. Raises ValueError where a
+    ratio is not defined: no shaft power, inlet or delivery flow.
     """
     r = reading
     overall = _overall(r)
@@ -159,8 +159,8 @@ def iso_efficiency(reading: BenchReading, derived_displacement: float) -> Effici
 def energy_split(reading: BenchReading, bulk_modulus: float) -> EnergySplit:
     """Shaft power split without charging the compression energy that the delivered oil keeps.
 
-    With constant bulk modulus K (Pa) oil holds e(p) = K (exp(p/K) - 1) - p per volume, p^2/(2K) for p << K. Every
-    drained volume is taken to have been raised to the delivery pressure first, as in Eq. (1).
+    With constant bulk modulus K (Pa) oil holds e(p) = K (exp(p/K) - 1) - p per volume, p^2/(2K) for p << K. Assumption:
+    every drained volume was raised to the delivery pressure first, as in Eq. (1).
     """
     r = reading
     hydraulic = sum(flow * pressure for flow, pressure in r.ports)

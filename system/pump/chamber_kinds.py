@@ -1,8 +1,8 @@
 """Pumps whose chambers differ: `[piston.3]` beside `[piston]`.
 
-Such a pump is the mean of z pumps that are alike, each with the piston and slipper of one chamber: flows, powers
-and torques of chambers add. Chambers with the same parts are of one kind; where all are, one chamber is solved
-for all. Results by chamber come as a tuple: of one where all are alike, else of z, chamber 1 first.
+Such a pump is the mean of z pumps with equal chambers, each with the piston and slipper of one chamber: flows, powers
+and torques of chambers add. Chambers with the same parts are of one kind; where all are, one chamber is solved for all.
+Results by chamber are a tuple: of one where all are equal, else of z, chamber 1 first.
 """
 
 from collections.abc import Sequence
@@ -16,7 +16,7 @@ Of = TypeVar("Of")
 
 @dataclass(frozen=True)
 class Kinds:
-    """The kinds of chambers that a pump has: `pumps`, one a kind, each alike; the kind `of_chamber` 1, 2, ..
+    """The kinds of chambers that a pump has: `pumps`, one a kind with equal chambers; the kind `of_chamber` 1, 2, ..
 
     The most common kind comes first.
     """
@@ -44,7 +44,7 @@ class Kinds:
 
 
 def kinds(pump: PumpDescription) -> Kinds:
-    """The kinds of a pump's chambers; single parts that say the same are of one kind."""
+    """The kinds of a pump's chambers; equal single parts are of one kind."""
     own = [pump.of_chamber(number) for number in range(1, pump.pump.pistons + 1)]
     found = [one for k, one in enumerate(own) if one not in own[:k]]
     found.sort(key=own.count, reverse=True)

@@ -1,4 +1,4 @@
-"""Efficiencies by the name of their definition: the only way to a number that is plotted or compared."""
+"""Efficiencies by the name of their definition: the only source of plotted or compared efficiencies."""
 
 from __future__ import annotations
 
@@ -48,10 +48,10 @@ class EfficiencyBasis:
 
 
 def efficiency(definition: EfficiencyDefinition, basis: EfficiencyBasis) -> Efficiency:
-    """The efficiencies of a definition; volumetric and hydromechanical are nan where it has none.
+    """The efficiencies of a definition; volumetric and hydromechanical are nan if not defined.
 
-    The two by energy differ by E/(w T): the share of the shaft power that the oil takes along as compression.
-    Raises ValueError where a ratio is void, InputError for Toet's without its displacement.
+    The two by energy differ by E/(w T): the share of the shaft power that the oil carries as compression. Raises
+    ValueError where a ratio is not defined, InputError for Toet's without its displacement.
     """
     reading = basis.reading
     match definition:

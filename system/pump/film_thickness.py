@@ -10,7 +10,7 @@ from system.description.gap import Gap
 from system.description.pump import OperatingSection, PumpDescription
 
 LEAST_FILM = 0.05
-"""Of a film's thickness: to less warmth does not close it. What a fit tries there is no film any more."""
+"""Least share of a film's thickness to which thermal expansion may close it: below, a fit's trial has no film."""
 
 
 def given_film(pump: PumpDescription, gap: Gap) -> float:
@@ -23,7 +23,7 @@ def given_film(pump: PumpDescription, gap: Gap) -> float:
 
 
 def at_temperature(pump: PumpDescription, temperature: float) -> PumpDescription:
-    """The pump with films as [physics.thermal_clearance] leaves them at a temperature (K), without such a table.
+    """The pump with films after [physics.thermal_clearance] at a temperature (K), without such a table.
 
     Raises InputError as `expansion`.
     """
@@ -57,7 +57,7 @@ def moved_to(pump: PumpDescription, operating: OperatingSection) -> PumpDescript
 
 
 def unpressed(pump: PumpDescription, case_pressure: float) -> PumpDescription:
-    """The pump whose walls on springs, under the case's pressure (Pa) alone, leave films as thick as stated."""
+    """The pump whose walls on springs, under the case's pressure (Pa) alone, give films of the stated thickness."""
     return _thicker(pump, {gap: 1.0 - opening_share(pump, gap) * case_pressure for gap in Gap})
 
 

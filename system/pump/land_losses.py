@@ -1,7 +1,7 @@
-"""The lands of a pump whose edges and feeding bores lose as their files say: [slipper] and [valve_plate] .._file.
+"""The lands of a pump with losses of edges and feeding bores by files: [slipper] and [valve_plate] .._file.
 
-Pockets, kidneys, grooves and the case are deep beside films: of steps the deepest of the file are taken, of
-grooves those of the deepest film ratio, at their own width. Films count as thick as film_thickness says.
+Pockets, kidneys, grooves and the case are deep beside films: of steps the deepest of the file are used, of grooves
+those of the deepest film ratio, at their own width. The thickness of films is film_thickness.
 """
 
 from dataclasses import dataclass
@@ -73,8 +73,8 @@ def creeping_film_leaks(pump: PumpDescription, leaks: LeakTable, viscosity: floa
 def with_inertia(pump: PumpDescription, leaks: LeakTable, drop: Array, viscosity: float, *, bore: bool) -> LeakTable:
     """Leaks of creeping flow with the losses by inertia at pressures over the case's, drop (N,) in Pa.
 
-    Conductances are those of chords: flow over pressure. `bore`: of the slipper's bore too, where the leaks have
-    not got it from a film that is fed through it. Raises InputError as `secant_conductance`.
+    Conductances are those of chords: flow over pressure. `bore`: of the slipper's bore too, where the leaks do not
+    include it from a film fed through it. Raises InputError as `secant_conductance`.
     """
     losses, density = land_losses(pump), pump.oil.density
 
@@ -108,7 +108,7 @@ def _plate_shares(pump: PumpDescription) -> tuple[float, float]:
 
 
 def bore_table(slipper: SlipperSection) -> OrificeTable | None:
-    """The slipper's bore by its file at its own opening; None where none is stated."""
+    """The slipper's bore by its file at its own opening; None without a file."""
     if slipper.orifice_file is None:
         return None
     return orifice_table(slipper.orifice_file, 0.25 * np.pi * slipper.orifice_diameter**2)

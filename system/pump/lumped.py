@@ -57,7 +57,7 @@ class PistonMotion(Generic[Number]):
 
 
 class Pressed(Protocol):
-    """Whatever has the chamber's pressure (Pa gauge) over the motion's shaft angles."""
+    """An object with the chamber's pressure (Pa gauge) over the motion's shaft angles."""
 
     @property
     def pressure(self) -> Array:
@@ -74,14 +74,14 @@ class Pressures:
 def port_lines(pump: PumpDescription, point: OperatingPoint) -> Lines:
     """Lines on the ports by [delivery_line] and [suction_line].
 
-    A tank pressure left out is the inlet's: the low-pressure side of a circuit, or what the pump draws from.
+    A tank pressure left out is the inlet's: the low-pressure side of a circuit, or the tank of the inlet.
     """
     tank = point.inlet_pressure
     return Lines(delivery=line_of(pump.delivery_line, tank), suction=line_of(pump.suction_line, tank))
 
 
 def group_masses(pump: PumpDescription) -> GroupMasses:
-    """Masses of piston and slipper as the lumped fidelity has them: together at the ball."""
+    """Masses of piston and slipper in the lumped fidelity: together at the ball."""
     return GroupMasses(pump.piston.mass, pump.slipper.mass)
 
 
@@ -97,13 +97,13 @@ def full_drive(pump: PumpDescription) -> SwashDrive:
 
 
 def swept_displacement(pump: PumpDescription, drive: SwashDrive) -> float:
-    """Swept displacement in m3 per revolution: what geometry of pistons and ports displaces without any loss.
+    """Swept displacement in m3 per revolution: the displacement by the geometry of pistons and ports without any loss.
 
-    z (Ap + pi dp delta/2) (S at which the suction port shuts - S at which the delivery port shuts). Oil taken in
-    after the suction port shut comes back out of the delivery port, so less than the stroke counts (1.5 % on
-    REF90); oil dragged in the piston gap moves as if the piston had the mean of its own and the bore's area
-    (+ 2 delta/dp, 0.14 %). Toet's method on readings (`displacement`, ISO 8426-1) finds 0.4 % less on REF90: what
-    compression and commutation take at every pressure in proportion to speed.
+    z (Ap + pi dp delta/2) (S at which the suction port shuts - S at which the delivery port shuts). Oil drawn in after
+    the suction port shut returns through the delivery port, so less than the stroke counts (1.5 % on REF90); oil
+    dragged in the piston gap moves as if the piston had the mean of its own and the bore's area (+ 2 delta/dp, 0.14 %).
+    Toet's method on readings (`displacement`, ISO 8426-1) finds 0.4 % less on REF90: the loss by compression and
+    commutation at every pressure in proportion to speed.
     """
     area = piston_area(pump) + np.pi * pump.pump.piston_diameter * pump.piston.radial_clearance / 2.0
     ports = port_openings(pump, drive.dead_centre_shift)
@@ -115,8 +115,8 @@ def swept_displacement(pump: PumpDescription, drive: SwashDrive) -> float:
 def piston_stand_out(pump: PumpDescription, drive: SwashDrive[Number]) -> Number:
     """Length in m by which the piston is further out of its bore at inner dead centre than at full displacement.
 
-    [piston] stand_out_share of (H_max - H)/2 (`kinematics.stand_out`): all of it where the plate pivots on the
-    shaft axis, none where the inner dead centre stays; all of it where nothing is stated.
+    [piston] stand_out_share of (H_max - H)/2 (`kinematics.stand_out`): all of it where the plate pivots on the shaft
+    axis, none where the inner dead centre stays; all of it by default.
     """
     share = pump.piston.stand_out_share
     return (1.0 if share is None else share) * stand_out(full_drive(pump), drive)
@@ -147,7 +147,7 @@ def piston_motion(
 def lumped_leaks(pump: PumpDescription, point: OperatingPoint[Number], motion: PistonMotion[Number]) -> LeakTable:
     """Leakage of one chamber's gaps over shaft angle: paper Eqs. (15)-(17), viscosity at case temperature.
 
-    With what edges and the slipper's bore lose in creeping flow where files say it (`land_losses`).
+    With the losses of edges and of the slipper's bore in creeping flow by files (`land_losses`).
     """
     p, s, v, mu = pump.piston, pump.slipper, pump.valve_plate, point.viscosity
     losses = land_losses(pump)
@@ -175,7 +175,7 @@ def chamber_problem(
     leaks: LeakTable,
     wear: PortWear[float] = AS_DRAWN,
 ) -> ChamberProblem:
-    """One chamber of the pump at the point with its ports, and with gaps that leak as `leaks` says."""
+    """One chamber of the pump at the point with its ports, and with the leakage `leaks` of its gaps."""
     suction, delivery = port_openings(pump, motion.drive.dead_centre_shift, wear)
     one = chamber(pump, point, motion.drive)
     return ChamberProblem(**vars(one), delivery_port=delivery, suction_port=suction, leaks=leaks)
@@ -227,7 +227,7 @@ def _port_opening(pump: PumpDescription, p: PortsSection, dead_centre: float) ->
 
 
 def _coefficients(ports: PortsSection, side: PortsSection) -> FlowTable:
-    """Flow coefficients of one side, scaled by [ports] flow_coefficient; none where no file is stated."""
+    """Flow coefficients of one side, scaled by [ports] flow_coefficient; none without a file."""
     if ports.coefficient_file is None or side.coefficient_file is None:
         return FlowTable()
     return port_table(ports.coefficient_file, side.coefficient_file, ports.critical_reynolds)
@@ -244,7 +244,7 @@ def piston_forces(
 
 
 def block_clamping(pump: PumpDescription, point: OperatingPoint[Number], cycle: Pressed) -> Array:
-    """Force in N with which the block rubs on the valve plate."""
+    """Normal force in N of the block's friction on the valve plate."""
     pressed = pairs.over_chambers([cycle.pressure - point.case_pressure], pump.pump.pistons)
     force = piston_area(pump) * pressed
     return pairs.clamping_force(force, pump.valve_plate.residual_clamping, block_spring(pump))

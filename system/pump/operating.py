@@ -1,4 +1,4 @@
-"""The operating point: what is asked of the pump, and the viscosity its oil then has."""
+"""The operating point: the inputs of a run, and the viscosity of the oil there."""
 
 from dataclasses import dataclass, replace
 from typing import Any, Generic, TypeVar, cast
@@ -51,10 +51,10 @@ def operating_point(
     displacement_ratio: float | None = None,
     temperature: float | None = None,
 ) -> OperatingPoint:
-    """Return the operating point of the description's [operating] table, with what is given in its place.
+    """Return the operating point of the description's [operating] table, with the given values in place of its own.
 
-    The viscosity is that of the pump's oil at the temperature, at case pressure. Raises ValueError where
-    the oil's law is void; `system.pump_file.operating.check_operating_point` holds the rest to reason.
+    The viscosity is that of the pump's oil at the temperature, at case pressure. Raises ValueError where the oil's law
+    is not valid; `system.pump_file.operating.check_operating_point` checks the rest.
     """
     stated = pump.operating
     kelvin = stated.temperature if temperature is None else temperature

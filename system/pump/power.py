@@ -18,8 +18,8 @@ from system.pump.laws.kinematics import Number
 class GapExchange(Generic[Number]):
     """Exchange of the gaps besides the leakage of one chamber, mean over the revolution.
 
-    drag_power: power in W that oil dragged along by moving walls gives them back, all chambers; delivery_draw,
-    suction_draw: flow in m3/s (at port pressure) that the valve plate's film takes from the ports themselves.
+    drag_power: power in W that oil dragged along by moving walls returns to them, all chambers; delivery_draw,
+    suction_draw: flow in m3/s (at port pressure) from the ports themselves into the valve plate's film.
     """
 
     drag_power: Gaps[Number]
@@ -28,7 +28,7 @@ class GapExchange(Generic[Number]):
 
 
 def chamber_exchange(totals: TurnTotals[Number], rate: Number) -> GapExchange[Number]:
-    """The exchange of gaps that know nothing but their own chamber; `rate` is chambers times turns per second."""
+    """The exchange of gaps that depend on their own chamber alone; `rate` is chambers times turns per second."""
     drag = totals.drag_energy
     each = rate * drag.piston, rate * drag.slipper, rate * drag.valve_plate
     return GapExchange(Gaps(*each), 0.0 * rate, 0.0 * rate)
@@ -36,13 +36,13 @@ def chamber_exchange(totals: TurnTotals[Number], rate: Number) -> GapExchange[Nu
 
 @dataclass(frozen=True)
 class PowerBalance:
-    """Sinks of the shaft power, mean over a revolution, in W: the fields but `shaft` add up to it.
+    """Sinks of the shaft power, mean over a revolution, in W: the fields except `shaft` add up to it.
 
-    hydraulic: p Q summed over delivery, inlet (negative) and case; elastic: stored in the oil that leaves, less
-    that which enters (compression: a machine downstream can take it back); ripple: what both ports' lines take
-    besides, as pressure and flow pulse together; leakage: turned into heat in each gap by the pressure;
-    throttling_delivery, throttling_suction: in the ports; friction: the seven pairs; extended: what effects of
-    [physics] carry off past the chambers and the pairs.
+    hydraulic: p Q summed over delivery, inlet (negative) and case; elastic: stored in the oil that leaves, less that
+    which enters (compression: a machine downstream can recover it); ripple: additional power into both ports' lines, as
+    pressure and flow pulse together; leakage: turned into heat in each gap by the pressure; throttling_delivery,
+    throttling_suction: in the ports; friction: the seven pairs; extended: losses by effects of [physics] outside the
+    chambers and the pairs.
     """
 
     shaft: float
@@ -62,7 +62,7 @@ class PowerBalance:
 
     @property
     def accounted(self) -> float:
-        """All that the shaft power goes into."""
+        """Sum of all sinks of the shaft power."""
         delivered = self.hydraulic + self.elastic + self.ripple
         return delivered + self.leakage.total + self.throttling + self.friction + self.extended
 
@@ -96,8 +96,8 @@ def bench_reading(
     """Flows and torque of a pump by its chambers' totals, the friction (W) of its pairs and the flows past them.
 
     Bubbles in the oil count in the flows of delivery and inlet, not in the drain's, where they leave the oil. The
-    torque is that of `shaft_work`, good to the chambers' integration. The delivery's flow is the pump's own, before the
-    factor of its meter (`metered`).
+    torque is that of `shaft_work`, as accurate as the chambers' integration. The delivery's flow is the pump's own,
+    before the factor of its meter (`metered`).
     """
     rate, out = pistons * chamber.shaft_speed / TURN, totals.outflow
     delivered = rate * out.delivery * bubbly_volume(chamber.delivery_pressure, chamber)
@@ -152,8 +152,8 @@ def power_balance(
 ) -> PowerBalance:
     """A reading's shaft power and its sinks.
 
-    rate: chambers times turns per second; friction: W of all pairs; leakage: W of each gap; extended: W that goes
-    past chambers and pairs.
+    rate: chambers times turns per second; friction: W of all pairs; leakage: W of each gap; extended: W of losses
+    outside chambers and pairs.
     """
     energy, ports = ported.cycle.path_energy, reading.ports
     return PowerBalance(

@@ -1,14 +1,14 @@
-"""The torque on the shaft from the forces on the rotating group: the moment of what the swash plate does to it.
+"""The torque on the shaft from the forces on the rotating group: the moment of the swash plate's forces on it.
 
-Block, pistons and slippers turn as one. From outside the swash plate presses each slipper and rubs on it, and the
-valve plate, the ball guide and the bearings rub; pressure in the block has no moment about the shaft. Hence, with
-r the ball's place, lift the plate's normal force, T its friction, M the joint's friction moment on the slipper and
-z the shaft's axis (the plate's pressure and friction hold the slipper's moments about the ball, hence M),
+Block, pistons and slippers turn as one. The external forces are the swash plate's pressure and friction on each
+slipper, and the friction of valve plate, ball guide and bearings; pressure in the block has no moment about the shaft.
+Hence, with r the ball's place, lift the plate's normal force, T its friction, M the joint's friction moment on the
+slipper and z the shaft's axis (the plate's pressure and friction hold the slipper's moments about the ball, hence M),
 
     torque = sum over chambers of z . [r x (lift n - T) + M + r x m_s a_s + r_c x m_p a_p] + rubbing about z.
 
 No power, work or flow enters: against the sum of all sinks this is a check of the energy balance, not its definition.
-Leaving out the slipper's moments of inertia and the growth of its film, as `gaps.loads.ball_joint` does.
+The slipper's moments of inertia and the growth of its film are neglected, as in `gaps.loads.ball_joint`.
 """
 
 from collections.abc import Sequence
@@ -34,7 +34,7 @@ from system.work.means import mean_of
 AT_REST = 1e-9
 """Part of the largest speed below which a part is at rest and its loss gives no force."""
 ABOUT_SHAFT = (Pair.VALVE_PLATE_CYLINDER, Pair.BALL_GUIDE_RETAINER, Pair.FRONT_BEARING, Pair.REAR_BEARING)
-"""Pairs that rub about the shaft: their torque is loss over shaft speed."""
+"""Pairs with friction about the shaft: their torque is loss over shaft speed."""
 
 
 @dataclass(frozen=True)
@@ -48,7 +48,7 @@ class GroupMasses:
 
 @dataclass(frozen=True)
 class ChamberForces:
-    """Forces on one piston and its slipper over N shaft angles, those that bear them left out.
+    """Forces on one piston and its slipper over N shaft angles, without the reactions.
 
     along_bore (N,) N on the piston, out of the block: pressure and friction; on_slipper (2, N) N of the plate along its
     steepest line and tilt axis; joint (N,) N m: friction moment of the joint on the slipper about the shaft.
@@ -62,11 +62,11 @@ class ChamberForces:
 def chamber_torque(
     drive: SwashDrive, shaft_angle: Array, shaft_speed: float, masses: GroupMasses, forces: ChamberForces
 ) -> Array:
-    """Torque (N,) N m that one piston with its slipper asks of the shaft at shaft angles (N,) rad.
+    """Torque (N,) N m that one piston with its slipper requires of the shaft at shaft angles (N,) rad.
 
     The joint's force follows from the slipper's balance in the plate and the piston's along its bore, the lift from the
     slipper's across the plate (as `gaps.loads.ball_joint.ball_forces`, all angles at once). A frictionless massless
-    piston under a force F asks for -F R sin(phi) tan(gamma) on a cylindrical block. Validity: constant shaft speed.
+    piston under a force F requires -F R sin(phi) tan(gamma) on a cylindrical block. Validity: constant shaft speed.
     """
     outward = np.stack([np.cos(shaft_angle), np.sin(shaft_angle), np.zeros_like(shaft_angle)])
     onward = np.stack([-outward[1], outward[0], outward[2]])
@@ -92,9 +92,9 @@ def forces_by_loss(
 ) -> ChamberForces:
     """The forces behind a cycle's pressure and the losses of its pairs.
 
-    A loss at a sliding speed is a force loss/speed against it; the drag flow C of moving walls pulls them with C
-    (p - p_case)/speed: the pull of the gap's pressure gradient. The joint of a slipper that does not turn against
-    its plate rubs about the shaft with loss/w.
+    A loss at a sliding speed is a force loss/speed against it; the drag flow C of moving walls pulls them with C (p -
+    p_case)/speed: the pull of the gap's pressure gradient. The joint of a slipper that does not turn against its plate
+    has a friction torque loss/w about the shaft.
     """
     angle, speed = cycle.shaft_angle, problem.shaft_speed
     above = cycle.pressure - problem.case_pressure
@@ -137,7 +137,7 @@ def _whole(loss: PairLoss) -> Array:
 
 
 def _force(power: Array, speed: Array) -> Array:
-    """Power over speed; none where the part is at rest."""
+    """Power over speed; zero where the part is at rest."""
     force = np.zeros_like(speed)
     np.divide(power, speed, out=force, where=np.abs(speed) > AT_REST * np.max(np.abs(speed)))
     return force

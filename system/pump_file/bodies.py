@@ -24,7 +24,7 @@ from system.films.walls import by_names
 from system.inputs.faults import Fault, nearest_choice
 from system.pump_file.check import CheckWarning, Finding, length, needs
 
-AROUND = 24  # cells of the film that a mesh is held against
+AROUND = 24  # cells of the film for the check of a mesh
 ALIKE = 0.05  # of a face's size: two of one size
 FEWEST_AROUND, FEWEST_ACROSS = 12, 2  # facets of a face that still bends as its body does
 
@@ -124,7 +124,7 @@ def _plate_fits(path: str, pump: PumpDescription, body: BodySection | None, *, o
 
 
 def _fits(path: str, body: BodySection, place: _Place, wanted: tuple[str, ...]) -> Iterator[Finding]:
-    """All that is wrong with a mesh at its place; `wanted`: faces without which a load or a hold is missing."""
+    """All faults of a mesh at its place; `wanted`: faces without which a load or a support is missing."""
     own = by_names(body)
     names = own.body.face_names
     yield from _names(path, body, own, names)
@@ -140,7 +140,7 @@ def _fits(path: str, body: BodySection, place: _Place, wanted: tuple[str, ...]) 
 
 
 def _names(path: str, body: BodySection, own: OwnMesh, names: tuple[str, ...]) -> Iterator[Finding]:
-    """Faces that are named and are not there."""
+    """Named faces that do not exist."""
     keys = [("film", own.film), *((key, name) for key in ("held", "sliding") for name in getattr(own, key))]
     for key, name in [*keys, *own.pressed]:
         if name not in names:
@@ -150,7 +150,7 @@ def _names(path: str, body: BodySection, own: OwnMesh, names: tuple[str, ...]) -
 
 
 def _missing(path: str, own: OwnMesh, wanted: tuple[str, ...]) -> Iterator[Finding]:
-    """Faces without which the part is loaded or held otherwise than it is in the pump."""
+    """Faces without which the part has other loads or supports than in the pump."""
     pressed = [name for name, _ in own.pressed]
     for name in wanted:
         if name == "held":
@@ -179,14 +179,14 @@ def _lies(path: str, body: BodySection, space: BodySpace, face: Face, place: _Pl
 
 
 def _likely_unit(stated: MeshUnit, ratio: float) -> MeshUnit | None:
-    """The unit in which a face that is too small by a ratio would have the film's size; None near one."""
+    """The unit in which a face that is too small by a ratio would have the film's size; None near a ratio of one."""
     if 0.1 < ratio < 10.0:
         return None
     return min(MeshUnit, key=lambda unit: abs(math.log(ratio * stated.metres / unit.metres)))
 
 
 def _remedy(face: Face, place: _Place) -> str:
-    """The change that would bring the face under the film; empty where none is plain."""
+    """The change that would bring the face under the film; empty without an obvious one."""
     outward = face.area.sum(axis=1)
     middles = face.places[face.facets].mean(axis=1)
     if (outward * place.chart.normals(middles)).sum() < 0.0:

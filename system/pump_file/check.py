@@ -1,8 +1,8 @@
-"""Named checks of a pump description: what cannot be, and what is doubtful, each with number, limit and remedy.
+"""Named checks of a pump description: impossible and doubtful values, each with number, limit and remedy.
 
-One check is one function. It says which values it needs, so that it runs on every description in which these
-could be read, however much else is wrong. `system.pump_file.geometry`, `system.pump_file.films` and
-`system.pump_file.operating` hold them.
+One check is one function. It states the values that it needs, so that it runs on every description in which these could
+be read, with any other faults. They are in `system.pump_file.geometry`, `system.pump_file.films` and
+`system.pump_file.operating`.
 """
 
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
@@ -15,7 +15,7 @@ from system.inputs.units import Dimension, format_quantity
 
 @dataclass(frozen=True)
 class CheckWarning:
-    """A value that can be, but is doubtful: where, the number, the limit, and what to do about it."""
+    """A possible but doubtful value: its path, the number, the limit, and the remedy."""
 
     path: str
     value: str
@@ -31,7 +31,7 @@ Finding = Fault | CheckWarning
 
 @dataclass(frozen=True)
 class CheckReport:
-    """Findings of the checks: faults forbid a run, warnings do not."""
+    """Findings of the checks: faults prevent a run, warnings do not."""
 
     faults: tuple[Fault, ...]
     warnings: tuple[CheckWarning, ...]
@@ -63,8 +63,7 @@ def checks_in(module: Mapping[str, object]) -> tuple[Check, ...]:
 def run_checks(checks: Iterable[Check], pump: PumpDescription, trusted: Collection[str] | None = None) -> CheckReport:
     """Run the checks of a pump and sort their findings.
 
-    With `trusted`, only the checks all of whose values are among these paths are run: the description may
-    then be one that lacks the others.
+    With `trusted`, only the checks with all values among these paths are run: the description may then lack the others.
     """
     found = [
         finding

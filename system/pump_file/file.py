@@ -53,16 +53,16 @@ def builtin_pumps() -> tuple[str, ...]:
 def load_pump(source: str | Path, overrides: Mapping[str, object] | None = None) -> PumpDescription:
     """Return the description of a built-in pump (by name) or of a pump file (by path), in SI.
 
-    `overrides` puts values in place of the file's, as written there: {"operating.speed": "1500 rpm"}.
-    A file that a value names is looked for beside the pump file; with a built-in pump, in the working directory.
-    A scant file is completed; `load_known_pump` says with what. Raises InputFaults with everything that is wrong: in
-    the file's form, its units, its values and its geometry. Doubtful values raise nothing; `check_pump` reports them.
+    `overrides` puts values in place of the file's, as written there: {"operating.speed": "1500 rpm"}. A file named in a
+    value is sought beside the pump file; with a built-in pump, in the working directory. A scant file is completed;
+    `load_known_pump` lists the assumptions. Raises InputFaults with all faults: in the file's form, its units, its
+    values and its geometry. Doubtful values raise no exception; `check_pump` reports them.
     """
     return load_known_pump(source, overrides).pump
 
 
 def load_known_pump(source: str | Path, overrides: Mapping[str, object] | None = None) -> KnownPump:
-    """Return a pump as `load_pump` does, with what its file states and what is assumed.
+    """Return a pump as `load_pump` does, with its stated paths and its assumptions.
 
     A file is scant if it lacks one of the tables [slipper], [valve_plate], [ports]: it states little more than
     displacement, pistons and oil, and the rest is REF90's, scaled. Raises InputFaults as `load_pump`; for a scant file
@@ -85,14 +85,14 @@ def load_known_pump(source: str | Path, overrides: Mapping[str, object] | None =
 
 
 def check_pump(pump: PumpDescription) -> CheckReport:
-    """Return what is impossible and what is doubtful about a description and its own operating point."""
+    """Return the impossible and the doubtful values of a description and its own operating point."""
     return single_parts_checked(CHECKS, pump, run_checks(CHECKS, pump))
 
 
 def varied(pump: PumpDescription, variant: Variant) -> PumpDescription:
     """Return the pump with the values of a variant; raise InputFaults where no pump has them.
 
-    The faults are those of the single value and of the geometry: nothing is cut to a limit.
+    The faults are those of the single value and of the geometry: no value is cut to a limit.
     """
     try:
         made = with_values(pump, dict(variant))
@@ -118,7 +118,7 @@ def resolved_toml(pump: PumpDescription) -> str:
 
 
 def _read(source: str | Path) -> tuple[str, str]:
-    """Return what to call the source, and its text."""
+    """Return the name of the source, and its text."""
     name = str(source)
     if name in builtin_pumps():
         return f"built-in pump {name}", BUILT_IN.joinpath(f"{name}.toml").read_text("utf-8")
@@ -132,7 +132,7 @@ def _read(source: str | Path) -> tuple[str, str]:
 
 
 def _not_there(path: Path) -> Fault:
-    """Return the fault of a name that is neither a built-in pump nor a file, with what comes nearest."""
+    """Return the fault of a name that is neither a built-in pump nor a file, with the nearest one."""
     builtin, beside = builtin_pumps(), nearest_path(path)
     nearest = nearest_choice(str(path), builtin) or (beside if Path(beside).suffix in ("", ".toml") else "")
     return Fault(

@@ -1,4 +1,4 @@
-"""Checks of a pump whose gaps are to float: can its parts find a film at all? Warnings: a run will show it."""
+"""Checks of a pump with floating gaps: can its parts have a film in equilibrium? Warnings: a run decides."""
 
 import math
 from collections.abc import Iterator
@@ -12,7 +12,7 @@ from system.pump_file.check import CheckReport, CheckWarning, Finding, length, n
 
 @needs("pump.rated_pressure", "valve_plate.land_radius_1", "valve_plate.land_radius_4")
 def block_tips(pump: PumpDescription) -> Iterator[Finding]:
-    """The pistons' force that a parallel film does not lift acts within the valve plate's outermost face.
+    """The pistons' force that a parallel film does not balance acts within the valve plate's outermost face.
 
     At rated pressure and full swash angle, spring included (`gaps.loads.block_tipping`).
     """
@@ -60,5 +60,5 @@ FLOATING_CHECKS = (block_tips, slipper_has_a_wedge)
 
 
 def check_floating(pump: PumpDescription) -> CheckReport:
-    """Return what is doubtful about a pump whose gaps are to float, besides what `check_pump` finds."""
+    """Return the doubtful values of a pump with floating gaps, besides the findings of `check_pump`."""
     return run_checks(FLOATING_CHECKS, pump)

@@ -34,7 +34,7 @@ def _whole_tilt(pump: PumpDescription) -> float:
 
 @needs(*_CONE)
 def swash_plate_cuts_every_bore(pump: PumpDescription) -> Iterator[Finding]:
-    """tan(cone angle) tan(swash angle) < 1: else Eq. (6) has a pole and the piston leaves the block for good."""
+    """tan(cone angle) tan(swash angle) < 1: else Eq. (6) has a pole and the piston leaves the block."""
     cone, swash = pump.pump.bore_cone_angle, _whole_tilt(pump)
     if math.tan(cone) * math.tan(swash) >= 1.0:
         yield Fault(
@@ -69,7 +69,7 @@ def displacement_is_that_of_the_geometry(pump: PumpDescription) -> Iterator[Find
 def slippers_clear_each_other(pump: PumpDescription) -> Iterator[Finding]:
     """Two slippers are narrower than the smallest distance of neighbouring ball centres on the swash plate.
 
-    With a cone the ball centres draw together at the inner dead centre, r = R/(1 + tan(cone) tan(swash) cos phi).
+    With a cone the ball centres approach each other at the inner dead centre, r = R/(1 + tan(cone) tan(swash) cos phi).
     """
     drive = _drive(pump)
     if drive is None:
@@ -170,7 +170,7 @@ def valve_plate_lands_are_in_order(pump: PumpDescription) -> Iterator[Finding]:
 
 @needs("valve_plate.land_radius_4", "valve_plate.pads")
 def pads_lie_beyond_the_lands(pump: PumpDescription) -> Iterator[Finding]:
-    """Bearing pads lie outside the outer land, run after run, with gaps between the pads of a run."""
+    """Bearing pads lie outside the outer land, ring after ring, with gaps between the pads of a ring."""
     last = pump.valve_plate.land_radius_4
     for number, pad in enumerate(pump.valve_plate.pads, start=1):
         path = f"valve_plate.pads.{number}"
@@ -211,7 +211,7 @@ def kidneys_lie_between_the_lands(pump: PumpDescription) -> Iterator[Finding]:
 
 @needs("pump.pistons", "valve_plate.kidney_arc")
 def kidneys_leave_webs(pump: PumpDescription) -> Iterator[Finding]:
-    """A kidney is shorter than its share of the turn, so that a web parts it from the next."""
+    """A kidney is shorter than its share of the turn, so that a web separates it from the next."""
     share = 2 * math.pi / pump.pump.pistons
     if pump.valve_plate.kidney_arc >= share:
         yield Fault(
@@ -239,7 +239,7 @@ def port_opening_fits_the_kidney(pump: PumpDescription) -> Iterator[Finding]:
 
 @needs("pump.pistons", "pump.piston_diameter", "piston.engaged_length", "piston.overhang", *_DRIVE)
 def bores_clear_each_other(pump: PumpDescription) -> Iterator[Finding]:
-    """Pistons do not meet at their inner ends, where a cone has drawn their axes together (inner dead centre)."""
+    """Pistons do not meet at their inner ends, where a cone brings their axes together (inner dead centre)."""
     drive = _drive(pump)
     if drive is None:
         return
@@ -281,7 +281,7 @@ def piston_stays_in_its_bore(pump: PumpDescription) -> Iterator[Finding]:
 
 @needs("bearings.front_share", "bearings.rear_share")
 def bearings_share_the_side_force(pump: PumpDescription) -> Iterator[Finding]:
-    """The two bearings take the whole side force."""
+    """The two bearings bear the whole side force."""
     total = pump.bearings.front_share + pump.bearings.rear_share
     if abs(total - 1.0) > 1e-6:
         yield Fault(

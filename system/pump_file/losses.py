@@ -1,4 +1,4 @@
-"""Checks of the files by which lands and bores lose: do they hold for this pump?"""
+"""Checks of the files of losses of lands and bores: are they valid for this pump?"""
 
 import math
 from collections.abc import Iterator, Sequence
@@ -13,7 +13,7 @@ from system.pump_file.check import CheckWarning, Finding, needs
 DEEP = 10.0
 """Thickness over the film's from which a step or groove is deep: more changes its losses by some percent."""
 WIDE = 10.0
-"""Width over the film from which a groove is two edges of their own: beyond a file's last such row is no doubt."""
+"""Width over the film from which a groove is two separate edges: beyond such a last row of a file there is no doubt."""
 NO_GROOVES = "grooves in the land, [slipper] grooves, that lie ahead of any vented one"
 
 
@@ -36,7 +36,7 @@ def kidney_losses_are_of_steps(pump: PumpDescription) -> Iterator[Finding]:
 
 @needs("slipper.groove_file", "slipper.film_thickness", *_LANDS)
 def groove_losses_are_of_grooves(pump: PumpDescription) -> Iterator[Finding]:
-    """The file of the slipper's grooves has deep grooves as wide as these; and there are some."""
+    """The file of the slipper's grooves has deep grooves of their width; and the slipper has grooves."""
     part = pump.slipper
     if part.groove_file is None:
         return
@@ -48,7 +48,7 @@ def groove_losses_are_of_grooves(pump: PumpDescription) -> Iterator[Finding]:
 
 @needs("slipper.orifice_file", "slipper.orifice_diameter")
 def bore_coefficients_are_a_table(pump: PumpDescription) -> Iterator[Finding]:
-    """The file of the slipper's bore holds at its opening, and takes the place of a coefficient."""
+    """The file of the slipper's bore is valid at its opening, and replaces a coefficient."""
     part, key = pump.slipper, "slipper.orifice_file"
     if part.orifice_file is None:
         return
@@ -75,7 +75,7 @@ def _shallow(key: str, found: LossFactors) -> Iterator[Finding]:
 
 
 def _unlike(key: str, found: LossFactors, widths: Sequence[float]) -> Iterator[Finding]:
-    """A warning where the deepest grooves are not deep, and where the pump's (widths / film) are others."""
+    """A warning where the deepest grooves are not deep, and where the pump's (widths / film) differ."""
     ratio, width = found.sizes.T
     if ratio.max() < DEEP:
         sizes = f"grooves of film_ratio {ratio.max():g} at most"

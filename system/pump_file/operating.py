@@ -19,9 +19,9 @@ from system.pump_file.check import CheckReport, CheckWarning, Finding, angle, ch
 # Below this an oil has given off its dissolved air and its light fractions boil; a mineral oil itself boils below
 # 0.1 kPa at 50 degC. The model is one of liquid oil: assumption, order of magnitude.
 CAVITATION_PRESSURE_ABS = 5e3
-# What makers of axial piston pumps ask of a suction line, 0.8 bar absolute: below it chambers fill in part.
+# Requirement of makers of axial piston pumps for a suction line, 0.8 bar absolute: below it chambers fill in part.
 FILLING_PRESSURE_ABS = 80e3
-# Of its volume; a mineral oil (1.4 to 2 GPa, stiffer as it is pressed) is not pressed so far by any pump.
+# Of its volume; a mineral oil (1.4 to 2 GPa, stiffer as it is pressed) is not compressed so far by any pump.
 LARGE_COMPRESSION = 0.1
 
 
@@ -88,7 +88,7 @@ def pressure_is_within_rating(pump: PumpDescription) -> Iterator[Finding]:
 
 @needs("operating.pressure", "oil.bulk_modulus")
 def oil_is_little_compressed(pump: PumpDescription) -> Iterator[Finding]:
-    """The delivery pressure is small against the bulk modulus, which is taken as constant."""
+    """The delivery pressure is small against the bulk modulus, which is assumed constant."""
     ratio = pump.operating.pressure / pump.oil.bulk_modulus
     if ratio > LARGE_COMPRESSION:
         yield CheckWarning(
@@ -150,7 +150,7 @@ def oil_has_a_viscosity(pump: PumpDescription) -> Iterator[Finding]:
     "pump.pitch_radius",
 )  # fmt: skip
 def cross_angle_leaves_the_displacement(pump: PumpDescription) -> Iterator[Finding]:
-    """The cross angle cannot be set back: with it alone the pistons still move."""
+    """The cross angle is fixed: with it alone the pistons still move."""
     part, ratio = pump.pump, pump.operating.displacement_ratio
     cross = abs(part.cross_angle or 0.0)
     if math.tan(part.bore_cone_angle) * math.hypot(math.tan(part.swash_angle_max), math.tan(cross)) >= 1.0:
@@ -185,7 +185,7 @@ def suction_flows_from_its_tank(pump: PumpDescription) -> Iterator[Finding]:
     "ball_guide.spring_compression", "retainer.kind",
 )  # fmt: skip
 def spring_holds_the_slippers(pump: PumpDescription) -> Iterator[Finding]:
-    """The spring's share exceeds what pulls a slipper off the plate as its piston sets out from the inner dead
+    """The spring's share exceeds the force that pulls a slipper off the plate as its piston leaves the inner dead
     centre: inertia, and the case's pressure on the piston over the inlet's.
     """
     part, at = pump.pump, pump.operating
@@ -212,7 +212,7 @@ OPERATING_CHECKS = checks_in(globals())
 
 
 def check_operating_point(pump: PumpDescription, point: OperatingPoint) -> CheckReport:
-    """Return what is wrong with and doubtful about running the pump at a point, all at once."""
+    """Return all faults and doubts about a run of the pump at a point."""
     stated = OperatingSection(
         speed=point.shaft_speed,
         pressure=point.delivery_pressure,

@@ -18,13 +18,13 @@ _Found = TypeVar("_Found", Fault, CheckWarning)
 
 Rows = tuple[tuple[float, ...], ...]
 STEEPEST = 0.01  # depth of a shape over its width; above it the film is no thin film
-DEEPEST = 100e-6  # m, of wear; more than any film that carries
+DEEPEST = 100e-6  # m, of wear; more than any film that bears a load
 
 _BORE = ("piston.engaged_length", "pump.dead_volume", "pump.piston_diameter")
 
 
 def _bore_depth(pump: PumpDescription) -> float:
-    """Depth of a bore from its case edge (m), the dead volume taken as its straight prolongation."""
+    """Depth of a bore from its case edge (m), the dead volume modelled as its straight prolongation."""
     area = math.pi * pump.pump.piston_diameter**2 / 4
     return pump.piston.engaged_length + pump.pump.dead_volume / area
 
@@ -99,7 +99,7 @@ def block_profile_fits(pump: PumpDescription) -> Iterator[Finding]:
 
 
 def _places(path: str, rows: Rows, start: float, end: float) -> Iterator[Finding]:
-    """Places of a profile grow, and reach from `start` to `end`: what was not measured is not known.
+    """Places of a profile grow, and reach from `start` to `end`: nothing is extrapolated.
 
     Of a profile with angles each place has each angle once, within less than a turn. Depths are those of a film.
     """
@@ -164,7 +164,7 @@ def _leaves_clearance(path: str, rows: Rows, clearance: float) -> Iterator[Findi
 
 @needs("piston.edge_relief", "piston.engaged_length")
 def piston_edge_leaves_a_land(pump: PumpDescription) -> Iterator[Finding]:
-    """The relieved edge of the piston is shorter than half of what the bore holds of it."""
+    """The relieved edge of the piston is shorter than half of its length in the bore."""
     relief = pump.piston.edge_relief
     yield from _relief("piston.edge_relief", relief, pump.piston.engaged_length / 2, "half of engaged_length")
 
@@ -186,7 +186,7 @@ def slipper_rim_lies_on_the_land(pump: PumpDescription) -> Iterator[Finding]:
 
 @needs("piston.barrel", "piston.engaged_length")
 def barrel_is_shallow(pump: PumpDescription) -> Iterator[Finding]:
-    """A crowned piston falls little over its half length."""
+    """The crown of a piston is small over its half length."""
     yield from _steep("piston.barrel", pump.piston.barrel, pump.piston.engaged_length / 2)
 
 
@@ -215,7 +215,7 @@ def waves_are_shallow(pump: PumpDescription) -> Iterator[Finding]:
 
 @needs("valve_plate.sphere_radius", "valve_plate.land_radius_4")
 def sphere_reaches_over_the_face(pump: PumpDescription) -> Iterator[Finding]:
-    """A spherical face has its lands and pads before the equator; what takes it as plane says so."""
+    """A spherical face has its lands and pads before the equator; results that treat it as plane state so."""
     radius, path = pump.valve_plate.sphere_radius, "valve_plate.sphere_radius"
     if radius is None:
         return
@@ -233,7 +233,7 @@ def sphere_reaches_over_the_face(pump: PumpDescription) -> Iterator[Finding]:
 
 @needs("retainer.kind", "ball_guide.spring_preload", "ball_guide.spring_stiffness", "ball_guide.spring_compression")
 def a_spring_presses_the_retainer(pump: PumpDescription) -> Iterator[Finding]:
-    """A retainer that a spring is to press has one."""
+    """A retainer pressed by a spring has a spring."""
     part = pump.retainer
     if part.kind is RetainerKind.SPRING and not block_spring(pump) > 0.0:
         found = "'spring' with a ball guide whose spring does not press"
@@ -266,7 +266,7 @@ def stops_are_apart(pump: PumpDescription) -> Iterator[Finding]:
 
 
 def single_parts_checked(checks: Iterable[Check], pump: PumpDescription, report: CheckReport) -> CheckReport:
-    """Return the report of a pump with what its single parts add: the same checks, with that part in all chambers.
+    """Return the report of a pump with the findings of its single parts: the same checks, the part in all chambers.
 
     Paths name the single part: `piston.3.radial_clearance`.
     """

@@ -115,7 +115,7 @@ def ports_shut_before_the_other_opens(pump: PumpDescription) -> Iterator[Finding
 @needs("valve_plate.kidney_arc", *_KIDNEY)
 @of_sides
 def ports_belong_to_the_kidney(pump: PumpDescription) -> Iterator[Finding]:
-    """A kidney opens and shuts over its own arc, and that leaves a port between."""
+    """A kidney opens and shuts over its own arc, with an open port between."""
     arc, ports = pump.valve_plate.kidney_arc, pump.ports
     if ports.kidney_end - ports.groove_end <= arc:
         yield Fault(
@@ -147,7 +147,7 @@ def grooves_fit_the_port(pump: PumpDescription) -> Iterator[Finding]:
 def grooves_are_smaller_than_the_kidney(pump: PumpDescription) -> Iterator[Finding]:
     """The relief grooves on either side open less than the kidney does."""
     ports = pump.ports
-    if any(groove_faults(ports)) or ports.groove_start == ports.groove_end:  # `ports_open_in_order` tells of the latter
+    if any(groove_faults(ports)) or ports.groove_start == ports.groove_end:  # `ports_open_in_order` reports the latter
         return
     largest, kidney = max(throats(ports, pump.valve_plate.kidney_pitch_radius)), ports.kidney_area
     if largest >= kidney:

@@ -32,7 +32,7 @@ def pump_schema() -> Schema:
 
 
 def _either(table: Schema, key: str, others: tuple[str, ...]) -> None:
-    """Let one key take the place of others."""
+    """Let one key replace others."""
     table["required"] = [name for name in table["required"] if name not in others]
     none_of_others = {"not": {"anyOf": [{"required": [name]} for name in others]}}
     table["oneOf"] = [{"required": [key], **none_of_others}, {"required": list(others), "not": {"required": [key]}}]

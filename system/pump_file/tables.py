@@ -35,10 +35,10 @@ TABLES = {name: model for name, own in fields_of(PumpDescription).items() if (mo
 def pump_of_tables(
     label: str, tables: Mapping[str, Any], folder: Path = HERE, lines: Mapping[str, int | None] | None = None
 ) -> PumpDescription:
-    """Return the description of a pump file's tables, as TOML gives them; files are looked for from the folder.
+    """Return the description of a pump file's tables, as TOML gives them; paths of files start from the folder.
 
-    lines: of the file's paths. Raises InputFaults, under the name `label`, with everything that is wrong with the
-    tables, those of the checks included.
+    lines: of the file's paths. Raises InputFaults, under the name `label`, with all faults of the tables, those of the
+    checks included.
     """
     reading = Reading(folder, _SPECIAL, SINGLE_PARTS)
     name = tables.get("name")

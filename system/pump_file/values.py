@@ -12,7 +12,7 @@ from system.pump_file.check import CheckWarning, Finding, needs
 
 _PAIRS = tuple(own.name for own in fields(FrictionSection))
 STEEL_DENSITY = 7850.0  # kg/m3
-HEAVY = 1.5  # times the solid cylinder: to spare for a ball and heavier alloys
+HEAVY = 1.5  # times the solid cylinder: with a margin for a ball and heavier alloys
 DRY_FRICTION = 1.0  # of steel on steel without any oil; boundary layers have 0.08 .. 0.15
 
 

@@ -1,1 +1,1 @@
-"""A pump whose dimensions vary: what a change of each costs, and how a series of pumps scatters."""
+"""A pump whose dimensions vary: the cost of a change of each, and the scatter of a series of pumps."""

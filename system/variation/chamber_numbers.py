@@ -81,7 +81,7 @@ def slipper_balance(pump: PumpDescription, drive: SwashDrive[Number]) -> Any:
 def flow_numbers(point: PumpPoint) -> dict[str, float]:
     """Return the numbers OF_FLOW of a point, m3/s, all chambers: volume at chamber pressure.
 
-    reverse_flow: mean over the turn of what flows out of the delivery port into chambers, and out of chambers into the
+    reverse_flow: mean over the turn of the flow out of the delivery port into chambers, and out of chambers into the
     inlet; ripples: of either port, from the least to the largest flow over the turn.
     """
     flows = [one.flow for one in point.chambers]

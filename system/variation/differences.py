@@ -24,7 +24,7 @@ WIDEST = {Dimension.ANGLE: np.radians(0.2)}
 
 
 class Side(Enum):
-    """Side of the stated value on which a pump can be."""
+    """Side of the stated value on which pumps exist."""
 
     BOTH = "both sides"
     ABOVE = "above only"
@@ -49,7 +49,7 @@ class Stencil:
 
     @property
     def values(self) -> tuple[float, ...]:
-        """Values (SI): in the order that `derivative` takes the numbers."""
+        """Values (SI): in the order of the numbers for `derivative`."""
         at, h = self.key.value, self.step
         if self.side is Side.BOTH:
             return at + h, at - h, at + 0.5 * h, at - 0.5 * h
@@ -92,7 +92,7 @@ def one_of(key: PumpKey) -> float:
 def stencils(key: PumpKey, step: float, made: Callable[[float], object]) -> Iterator[Stencil]:
     """Yield the stencils that the geometry admits, the best first: both sides at a small step before one at any.
 
-    made: makes the pump of a value, raises InputFaults where there is none.
+    made: makes the pump of a value, raises InputFaults where no pump has it.
     """
     admitted = {(part, sign): _admits(made, key.value + sign * part * step) for part in FALLS for sign in (1, -1)}
     yield from (Stencil(key, Side.BOTH, part * step) for part in FALLS if admitted[part, 1] and admitted[part, -1])

@@ -1,4 +1,4 @@
-"""Numbers of a varied pump: what is kept of each point, and what becomes of them over all points."""
+"""Numbers of a varied pump: those kept of each point, and their measures over all points."""
 
 from __future__ import annotations
 
@@ -67,7 +67,8 @@ class Needs(Enum):
 class Measure:
     """A number of a pump over its operating points.
 
-    unit: SI; of: value (..,) of the numbers (.., P) and the weights (P,). needs: what a fidelity must solve to know it.
+    unit: SI; of: value (..,) of the numbers (.., P) and the weights (P,). needs: the solution that it requires of a
+    fidelity.
     """
 
     name: str
@@ -183,7 +184,7 @@ MEASURES = {
 
 
 def measures_of(known: Needs) -> tuple[Measure, ...]:
-    """Return the measures that a fidelity knows: all that need no more than it solves."""
+    """Return the measures of a fidelity: all that need no more than its solution."""
     return tuple(one for one in MEASURES.values() if one.needs.value <= known.value)
 
 

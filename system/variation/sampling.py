@@ -16,7 +16,7 @@ from system.description.tolerance import Shape
 from system.pump_file.file import Variant
 
 FILMS = ("piston.radial_clearance", "slipper.film_thickness")
-"""Films that leak by their cube, of which a pump has one a piston."""
+"""Films whose leakage goes with their cube, one for each piston of a pump."""
 
 
 @dataclass(frozen=True)
@@ -80,7 +80,7 @@ def values_of(drawing: Drawing, scores: Array) -> Array:
 
 
 def alike(path: str, values: Array) -> Array:
-    """Return the value (N,) of parts that are alike for parts of values (N, parts): their mean.
+    """Return the value (N,) of equal parts that replaces parts of values (N, parts): their mean.
 
     Of a film or clearance the cube root of the mean cube, by which the parts leak the same. Where a part has no size,
     0 or below, its value: no pump has it.
@@ -127,8 +127,8 @@ def below(shape: Shape, least: float, most: float, value: Array) -> Array:
 def fit_values(fit: DrawnFit, scores: Array) -> Array:
     """Return radial clearances (N,) in m of scores (N, 2): holes, and shafts of the same class.
 
-    Classes part either tolerance in equal widths; what lies beyond the limits belongs to the outer ones. A shaft of a
-    class is one of the series whose diameter lies in it.
+    Classes divide either tolerance into equal widths; diameters beyond the limits belong to the outer ones. A shaft of
+    a class is one of the series whose diameter lies in it.
     """
     hole = quantile(fit.shape, *fit.hole, 0.5 * sum(fit.hole), ndtr(scores[:, 0]))
     edges = np.linspace(*fit.hole, fit.classes + 1)[1:-1]

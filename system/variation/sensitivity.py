@@ -64,13 +64,13 @@ class KeySlopes:
 
     @property
     def unit(self) -> float:
-        """The change (SI) that people ask for: 1 um of a length, 1 deg of an angle, else 1 %."""
+        """The usual unit change (SI): 1 um of a length, 1 deg of an angle, else 1 %."""
         return unit_change(self.key)
 
 
 @dataclass(frozen=True)
 class Refused:
-    """A dimension without a derivative, and why."""
+    """A dimension without a derivative, and the reason."""
 
     key: PumpKey
     reason: str
@@ -93,7 +93,7 @@ class Sensitivity:
         return next(at for at, one in enumerate(self.measures) if one.name == name)
 
     def ranked(self, name: str) -> list[KeySlopes]:
-        """Return the dimensions with a number for a measure, the dearest first by their unit change."""
+        """Return the dimensions with a number for a measure, the costliest first by their unit change."""
         at = self.place(name)
         known = [one for one in self.slopes if one.verdict[at] is Verdict.SMOOTH]
         return sorted(known, key=lambda one: -abs(one.value[at] * one.unit))
@@ -164,7 +164,7 @@ def _differentiated(
 
 @dataclass(frozen=True)
 class _Pumps:
-    """Varied pumps that are solved as they are needed; known: their outcomes."""
+    """Varied pumps, solved when needed; known: their outcomes."""
 
     work: VariedWork
     folder: Path
@@ -215,7 +215,7 @@ def variants_needed(count: int) -> int:
 def _chosen(
     pump: PumpDescription, keys: Mapping[str, PumpKey], accuracy: Accuracy
 ) -> tuple[dict[str, list[Stencil]], list[Refused]]:
-    """Return the stencils of each dimension that has any, and the others with what the geometry says."""
+    """Return the stencils of each dimension that has any, and the others with the fault of the geometry."""
     chosen, refused = dict[str, list[Stencil]](), list[Refused]()
     for path, key in keys.items():
         step = usual_step(key, accuracy.step)

@@ -1,4 +1,4 @@
-"""Shares of the dimensions in the scatter of a series, and what a tighter tolerance buys.
+"""Shares of the dimensions in the scatter of a series, and the gain by a tighter tolerance.
 
 A quadratic surface is fitted to the pumps of the series; Sobol' shares (2001) are those of the surface, by the
 estimators of `scipy.stats.sobol_indices` (Saltelli et al. 2010). On the pumps themselves the same shares would need
@@ -50,10 +50,10 @@ class Surface:
 
 @dataclass(frozen=True)
 class Share:
-    """Share of a group of dimensions in a number's variance: alone (first), and with all that it acts with (total).
+    """Share of a group of dimensions in a number's variance: alone (first), and with all its interactions (total).
 
-    width, mean: what the 5 to 95 % width and the mean of the number change by where the tolerances of the group are
-    tightened by a third. names: of the group, one unless dimensions are correlated.
+    width, mean: change of the 5 to 95 % width and of the mean of the number with the tolerances of the group tightened
+    by a third. names: of the group, one unless dimensions are correlated.
     """
 
     names: tuple[str, ...]
@@ -95,8 +95,8 @@ def _terms(standard: Array) -> Array:
 def shares(series: Series, numbers: Array, seed: int) -> tuple[Surface, list[list[Share]]]:
     """Return the surface of the numbers (N, M) of a series, and of each number the shares by group.
 
-    Intervals hold what the pumps drawn and the estimator's own sample leave open, by REPEATS of both. Correlated
-    dimensions count as one group: their variance cannot be parted.
+    Intervals cover the uncertainty by the pumps drawn and by the estimator's own sample, by REPEATS of both. Correlated
+    dimensions count as one group: their variance cannot be separated.
     """
     surface, random = fitted_surface(series.values, numbers), np.random.default_rng(seed)
     best, repeats = _estimates(series, surface, SAMPLES, random), []

@@ -17,7 +17,7 @@ _ASKED = tuple(own.name for own in fields(OperatingPoint) if own.name != "viscos
 
 @dataclass(frozen=True)
 class Sites:
-    """Operating points (P) and their weights (P,), of sum 1; words: where they are from."""
+    """Operating points (P) and their weights (P,), of sum 1; words: their origin."""
 
     points: tuple[OperatingPoint, ...]
     weights: Array
@@ -39,7 +39,8 @@ def plan_sites(plan: MapPlan) -> Sites:
 def cycle_sites(plan: MapPlan, cycle: Cycle) -> Sites:
     """Return the points of a plan with weights by which their sum is the mean over a duty cycle.
 
-    Between the levels numbers run as those of a map do. Raises InputFaults for a cycle that leaves the plan's box.
+    Between the levels numbers are interpolated as those of a map. Raises InputFaults for a cycle that leaves the plan's
+    box.
     """
     weights = node_weights(plan.axes, cycle)
     return Sites(plan.points, weights, f"a duty cycle of {cycle.duration:.6g} s, means")

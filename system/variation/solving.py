@@ -26,7 +26,7 @@ from system.work.progress import Report
 from system.work.tasks import Executor, PartOutcome
 
 FORMAT = 2
-"""Raised when the same pump gives other numbers: by the laws behind it, or by what is kept."""
+"""Raised when the same pump gives other numbers: by its laws, or by the kept numbers."""
 PART = 0.3
 """Least seconds of work in a batch, for which the data sent with it are negligible."""
 _OF_TABLE = (
@@ -34,11 +34,11 @@ _OF_TABLE = (
     "oil.kinematic_viscosity", "ball_guide.radius", "ball_guide.contact_latitude", "friction.ball_guide_retainer",
     "friction.front_bearing", "friction.rear_bearing", "friction.piston_slipper_socket",
 )  # fmt: skip
-"""Dimensions that act beside the films of a response table, or on them by its viscosity."""
+"""Dimensions that act outside the films of a response table, or on them by its viscosity."""
 
 
 def variable_keys(pump: PumpDescription, table: ResponseTable | None = None) -> dict[str, PumpKey]:
-    """Return the dimensions that may vary: all of a pump's; by a response table its axes and those beside films."""
+    """Return the dimensions that may vary: all of a pump's; by a response table its axes and those outside films."""
     keys = pump_keys(pump)
     if table is None:
         return keys
@@ -46,7 +46,7 @@ def variable_keys(pump: PumpDescription, table: ResponseTable | None = None) -> 
 
 
 def beside_films(path: str) -> bool:
-    """True for a dimension that the films of a response table do not know, or by its viscosity alone."""
+    """True for a dimension that acts on the films of a response table not at all, or by its viscosity alone."""
     return path.startswith(_OF_TABLE)
 
 
@@ -63,14 +63,14 @@ class VariedWork:
     whole: bool = False
 
     def key(self, variant: Variant) -> str:
-        """Name of all that a variant's numbers depend on."""
+        """Name of all inputs of a variant's numbers."""
         made_by = "varied pump", FORMAT, version("swashfilm"), sorted(self.solver.stated.items()), self._read
         points = np.array([list(vars(point).values()) for point in self.sites.points])
         paths, values = [path for path, _ in variant], np.array([value for _, value in variant])
         return content_key(*made_by, self.whole, self.pump.file_contents, points, paths, values)[:KEY_LENGTH]
 
     def solve(self, variant: Variant) -> dict[str, object]:
-        """The numbers of all sites, and the names of their warnings, which points solved together have not."""
+        """The numbers of all sites, and the names of their warnings, absent for points solved together."""
         pump = varied(self.pump, variant)
         if isinstance(self.solver, TogetherSolver):
             return {"numbers": self.solver.solve_all(pump, self.sites.of(pump)), "warnings": []}

@@ -31,7 +31,7 @@ from system.variation.measures import NUMBERS
 class TogetherSolver:
     """`lumped_point` at many points of a pump at once, without the course over the turn: a third of the time.
 
-    For pumps that `solves_together` names.
+    For pumps that `solves_together` accepts.
     """
 
     words = "lumped"

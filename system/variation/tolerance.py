@@ -34,9 +34,9 @@ class LimitFound:
 class Tolerance:
     """Scatter of a series of pumps.
 
-    pumps: drawn; series: those with a result, values and `numbers` (N, P, NUMBERS) of each; refused, failed: what
-    keeps the others from one, by reason and count; scatters, shares: of each measure over all operating points;
-    at_sites: of each measure at each point, (P, M).
+    pumps: drawn; series: those with a result, values and `numbers` (N, P, NUMBERS) of each; refused, failed: reasons of
+    the others with their count; scatters, shares: of each measure over all operating points; at_sites: of each measure
+    at each point, (P, M).
     """
 
     measures: tuple[Measure, ...]
@@ -132,7 +132,7 @@ def _limit(limit: Limit, measures: tuple[Measure, ...], of_all: Array, at_each: 
 
 
 def _reasons(outcomes: Sequence[PartOutcome], kinds: tuple[PartStatus, ...]) -> dict[str, int]:
-    """Return the reasons of outcomes without a result, their values left out, with how many have each."""
+    """Return the reasons of outcomes without a result, without their values, with the count of each."""
     found: dict[str, int] = {}
     for one in outcomes:
         if one.status in kinds:
@@ -142,6 +142,6 @@ def _reasons(outcomes: Sequence[PartOutcome], kinds: tuple[PartStatus, ...]) -> 
 
 
 def _subject(reason: str) -> str:
-    """Return what a reason is about: the path of its first fault, or its words up to a number."""
+    """Return the subject of a reason: the path of its first fault, or its words up to a number."""
     path, colon, _ = reason.partition(":")
     return path if colon and " " not in path else reason

@@ -19,14 +19,14 @@ if TYPE_CHECKING:
 Part = TypeVar("Part")
 Result = TypeVar("Result")
 IN_FLIGHT = 4
-"""Parts sent a worker: enough for none to wait, few enough for a scheduler."""
+"""Parts sent to a worker: enough to keep it busy, few enough for a scheduler."""
 CONNECT = 30.0  # s
 THREADS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
 RECIPE = "docs/cluster.md"
 
 
 class Cluster:
-    """The workers that a scheduler has; some may come and go while parts are done."""
+    """The workers that a scheduler has; some may join and leave while parts are done."""
 
     def __init__(self, client: Client) -> None:
         self._client = client
@@ -93,7 +93,7 @@ class Cluster:
 
 @contextmanager
 def cluster(address: str) -> Iterator[Cluster]:
-    """The cluster of a scheduler, for as long as it is needed; it goes on running afterwards.
+    """The cluster of a scheduler, as long as it is needed; it keeps running afterwards.
 
     Raises InputFaults where Dask is not installed, no scheduler answers, there is no worker, or a worker has other
     versions than this process, or threads of its own in its libraries.
@@ -105,7 +105,7 @@ def cluster(address: str) -> Iterator[Cluster]:
     from distributed import Client
 
     for name in ("distributed", "distributed.core", "distributed.comm"):
-        logging.getLogger(name).setLevel(logging.CRITICAL)  # heartbeats that break as workers go are no news
+        logging.getLogger(name).setLevel(logging.CRITICAL)  # heartbeats that break as workers leave are not logged
     try:
         client = Client(address, timeout=CONNECT)
     except (OSError, TimeoutError, ValueError) as reason:

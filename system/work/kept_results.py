@@ -28,7 +28,7 @@ Part = TypeVar("Part")
 
 @dataclass(frozen=True)
 class KeptPoints:
-    """A folder of outcomes; `keeps`: of which kinds. Others would come out otherwise another time."""
+    """A folder of outcomes; `keeps`: of which kinds. Others may differ at another time."""
 
     folder: Path
     keeps: frozenset[PartStatus] = frozenset({PartStatus.SOLVED, PartStatus.NOT_CONVERGED})
@@ -57,8 +57,8 @@ class KeptPoints:
         return sum(1 for _ in self.folder.glob("*.json"))
 
     def put(self, outcome: PartOutcome) -> None:
-        """Keep an outcome of a kind that is kept. The file is written elsewhere and moved, so no reader meets a
-        part of it.
+        """Keep an outcome of a kind that is kept. The file is written elsewhere and moved, so no reader finds a part of
+        it.
 
         Raises InputError where the folder cannot be written.
         """
@@ -81,7 +81,7 @@ def _seal(values: Mapping[str, Any]) -> str:
 
 
 def points_of_run(folder: Path) -> KeptPoints:
-    """The points of another run, finished or broken off; raises InputFaults where the folder has none."""
+    """The points of another run, finished or interrupted; raises InputFaults where the folder has none."""
     if not (folder / POINTS).is_dir():
         found, near = f"{folder}, which holds no {POINTS}", nearest_path(folder)
         fault = Fault("--resume", found, "the folder of a run in points that was begun", near)
@@ -91,7 +91,7 @@ def points_of_run(folder: Path) -> KeptPoints:
 
 @dataclass(frozen=True)
 class KeptOutcomes:
-    """All outcomes in the order of the parts, and how many of them were there before."""
+    """All outcomes in the order of the parts, and the number of those kept before."""
 
     outcomes: tuple[PartOutcome, ...]
     known: int
@@ -111,7 +111,7 @@ def run_kept(
     """Every part's outcome. Each is in `store` as soon as it is known here: an interruption loses only the parts
     under way.
 
-    Outcomes in `store` or `earlier` are taken from there. At most `batch` parts go to a process at a time, as a row
+    Outcomes in `store` or `earlier` are read from there. At most `batch` parts go to a process at a time, as a row
     where the work has rows; on this machine each is kept as soon as it is solved. No part's failure ends the others;
     parts of a batch whose process dies are tried one by one.
     """
@@ -140,7 +140,7 @@ def run_kept(
 
 
 def _known(work: Work[Part], part: Part, store: KeptPoints, earlier: KeptPoints | None) -> PartOutcome | None:
-    """The outcome of a part that is kept somewhere, afterwards in `store`; unnamed where nothing is kept."""
+    """The outcome of a part that is kept somewhere, afterwards in `store`; unnamed without a store."""
     if not store.folder.is_dir() and earlier is None:
         return None
     try:
@@ -163,9 +163,9 @@ def _outcomes(
     keeper: KeptPoints | None,
     meanwhile: Callable[[], None],
 ) -> Iterator[tuple[int, PartOutcome]]:
-    """Index and outcome of the parts that are to do, as they are done and, with a keeper, kept."""
+    """Index and outcome of the remaining parts, as they are done and, with a keeper, kept."""
     groups = [[(k, parts[k]) for k in todo[at : at + batch]] for at in range(0, len(todo), batch)]
-    if executor.here and executor.workers == 1:  # in this process, which tells of every part of a row
+    if executor.here and executor.workers == 1:  # in this process, which reports every part of a row
         for group in groups:
             yield from _row(work, keeper, group)
         return
@@ -193,7 +193,7 @@ def _row(
 ) -> Iterator[tuple[int, PartOutcome]]:
     """Outcomes of parts one after the other, each kept at once by the keeper, if any.
 
-    What it has of a row whose process died is taken from there.
+    Its outcomes of a row whose process died are used.
     """
     own = work.row() if isinstance(work, WorkInRows) else work
     for index, part in group:

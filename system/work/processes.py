@@ -1,4 +1,4 @@
-"""Work that falls into parts, done by several processes side by side; a process that dies costs its part only."""
+"""Work that falls into parts, done by several processes side by side; a process that dies loses its part only."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ DIED = "its process died twice, the second time alone: out of memory, or killed 
 
 
 class WorkerDied(RuntimeError):
-    """The process that was at a part died, and died again when it had nothing else to do."""
+    """The process of a part died, and died again with this part alone."""
 
 
 @dataclass(frozen=True)
@@ -68,9 +68,9 @@ class ProcessPool:
 
         `meanwhile` is called every `TICK` seconds while other processes are at parts.
 
-        Task and parts must be picklable. The processes start when they are first needed. Ctrl-C is for this
-        process alone. Parts under way when a process died are tried once more, each alone, so that the one which
-        kills its process is known: its fault is WorkerDied.
+        Task and parts must be picklable. The processes start when they are first needed. Only this process receives
+        Ctrl-C. Parts under way when a process died are tried once more, each alone, to identify the one which kills its
+        process: its fault is WorkerDied.
         """
         if self.workers == 1 or len(parts) < 2:
             yield from (_tried(task, part) for part in parts)
@@ -96,7 +96,7 @@ class ProcessPool:
         """Stop the others at once after a process died.
 
         A process that starts while its pool breaks is missed by the pool's own clean-up (CPython 3.11), which would
-        then wait for it for ever.
+        then wait for it indefinitely.
         """
         if self._pool is not None:
             for process in list((self._pool._processes or {}).values()):
@@ -121,7 +121,7 @@ class ProcessPool:
                 while parts and len(flying) < most:
                     flying[self._hands().submit(task, parts[0])] = parts[0]
                     parts.popleft()
-            except BrokenProcessPool:  # found at the next submit: what flies is lost, if anything flies
+            except BrokenProcessPool:  # found at the next submit: parts under way, if any, are lost
                 if not flying:
                     self._leave_broken()
                     continue
@@ -163,7 +163,7 @@ def _tried(task: Callable[[Part], Result], part: Part) -> Attempt[Part, Result]:
     """A part done by this process itself."""
     try:
         return Attempt(part, task(part), None)
-    except Exception as fault:  # whatever it is, it is the part's reason, or raised by `do`
+    except Exception as fault:  # any exception is the part's reason, or raised by `do`
         return Attempt(part, None, fault)
 
 
@@ -175,7 +175,7 @@ def _landed(future: Future[Result], part: Part) -> Attempt[Part, Result]:
 
 
 def _begin() -> None:
-    """Of a new process: Ctrl-C is not for it, and it does not outlive the one that started it."""
+    """Set up a new process: it ignores Ctrl-C and does not outlive the one that started it."""
     import signal
     from threading import Thread
 

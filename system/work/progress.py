@@ -7,8 +7,8 @@ Report = Callable[[int, int, str], None]
 
 
 class Stage(str):
-    """Name of a step that is told at once, since nothing more is told for a while."""
+    """Name of a step that is reported at once, since no further report follows for a while."""
 
 
 def silent(done: int, total: int, what: str) -> None:
-    """Report progress to nobody."""
+    """Ignore progress."""

@@ -94,8 +94,8 @@ def solved_points(
 ) -> tuple[SampledPoint, ...]:
     """Every point of `points_of`, in its order; points that are kept already are not solved again.
 
-    After an interruption the next call continues. A point that does not converge, or that no law or case reaches,
-    has its reason and is tried again the next time.
+    After an interruption the next call continues. A point that does not converge, or lies outside the range of a law or
+    case, has its reason and is tried again the next time.
     """
     store = KeptPoints(tables_folder(folder) / POINTS, frozenset({PartStatus.SOLVED}))
     kept = run_kept(TableWork(asked), list(points_of(asked)), store, executor, described=_described, report=report)

@@ -34,9 +34,9 @@ class PartStatus(Enum):
 
 @dataclass(frozen=True)
 class PartOutcome:
-    """A part's record, or the reason why there is none; seconds of processor time, and the process that took them.
+    """A part's record, or the reason for its absence; seconds of processor time, and the process that took them.
 
-    `key` names the part's content; it is empty where the part has none, being faulty.
+    `key` names the part's content; it is empty for a faulty part.
     """
 
     key: str
@@ -51,7 +51,7 @@ class Work(Protocol[GivenPart]):
     """The computation of each part; frozen data that can be sent to another process."""
 
     def key(self, part: GivenPart) -> str:
-        """Name of all that the part's result depends on; raises InputFaults for an invalid part."""
+        """Name of all inputs of the part's result; raises InputFaults for an invalid part."""
 
     def solve(self, part: GivenPart) -> Record:
         """The part's record; raises NotConverged, FilmNotConverged, InputError or InputFaults."""
@@ -98,7 +98,7 @@ def done_part(work: Work[Part], part: Part) -> PartOutcome:
         return ended(PartStatus.FAULTY, _line(reason))
     except NotConverged as reason:
         return ended(PartStatus.NOT_CONVERGED, str(reason))
-    except Exception as error:  # an error of the program: it must not cost the parts that are good
+    except Exception as error:  # an error of the program: it must not lose the valid parts
         return ended(PartStatus.INTERNAL, internal_reason(error))
     return ended(PartStatus.SOLVED, "", record)
 

@@ -1,4 +1,4 @@
-"""Compiled work on like parts, shared by threads: for kernels that let go of Python's lock (`nogil`)."""
+"""Compiled work on equal parts, shared by threads: for kernels that release Python's lock (`nogil`)."""
 
 from __future__ import annotations
 
@@ -15,13 +15,13 @@ if TYPE_CHECKING:
 
 Result = TypeVar("Result")
 SHARES = 2
-"""Of a thread: parts cost unlike times."""
+"""Of a thread: parts need different times."""
 
 
 def side_by_side(task: Callable[[slice], Result], count: int, fewest: int = 1) -> list[Result]:
     """Results of `task` over slices of `count` parts in their order, at least `fewest` parts a slice.
 
-    A process that is one of several takes all of the parts itself: the cores are at work already.
+    A process that is one of several does all of the parts itself: the cores are in use already.
     """
     threads = 1 if parent_process() is not None else cores()
     shares = max(1, min(SHARES * threads, count // fewest)) if threads > 1 else 1

@@ -106,7 +106,7 @@ class EqTwentyOne:
 
 
 def eq_twenty_one(bench: LumpedBench, values: Array, parameters: tuple[Parameter, ...]) -> EqTwentyOne:
-    """Eq. (21) of a bench, all but the coefficients of `parameters` held at `values` (of the bench's own)."""
+    """Eq. (21) of a bench, all coefficients except those of `parameters` held at `values` (of the bench's own)."""
     solved = bench.solved(values)
     simulated = solved.truth
     at, found = solved.setting, losses(solved)

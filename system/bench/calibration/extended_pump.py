@@ -22,7 +22,7 @@ _OF_FRICTION: Mapping[str, str] = {
 
 
 def values_by_name(parameters: Sequence[Parameter], values: Array) -> dict[str, float]:
-    """Values (k,) by the names of their parameters, held to the bounds to the last digit, as a file wants them."""
+    """Values (k,) by the names of their parameters, within the bounds to the last digit, as a file requires."""
     pairs = zip(parameters, map(float, values), strict=True)
     return {one.name: min(max(value, one.lower), one.upper) for one, value in pairs}
 
@@ -61,8 +61,8 @@ def extended_pump(
 def calibrated_pump(pump: PumpDescription, fit: Posterior, laws: Sequence[Extension] = ()) -> PumpDescription:
     """The pump with a fit's values, and with `laws` switched on; [tolerance] holds the fit's own sigmas.
 
-    A key of [tolerance] for several parameters takes the widest of them. Others keep their tolerance; the drawing's of
-    a fitted dimension is left out. Raises ValueError for values outside an effect's limits.
+    A key of [tolerance] for several parameters has the widest of them. Others keep their tolerance; that of the drawing
+    is omitted for a fitted dimension. Raises ValueError for values outside an effect's limits.
     """
     own = extended_pump(pump, values_by_name(fit.parameters, fit.values), laws)
     sigma = np.sqrt(np.diag(fit.covariance))

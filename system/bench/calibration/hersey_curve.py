@@ -1,4 +1,4 @@
-"""Friction of the films over their Hersey number, as a fit has it."""
+"""Friction of the films over their Hersey number, by a fit."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -39,8 +39,8 @@ def hersey_curves(
 ) -> tuple[HerseyCurve, ...]:
     """f = f_c + f_b exp(-(H/H0)^d) of the three films over the numbers met at a bench's points under load.
 
-    `posterior` is a fit of the bench with `laws` on: `mixed_friction`, or none (f = f_c). Under load is a chamber
-    above half the delivery pressure.
+    `posterior` is a fit of the bench with `laws` on: `mixed_friction`, or without laws (f = f_c). A chamber above half
+    the delivery pressure is under load.
     """
     solved = bench.solved(posterior.values[: len(bench.parameters)])
     at, courses = solved.setting, solved.courses

@@ -1,4 +1,4 @@
-"""A loss model as a simulator of a test bench: its coefficients are parameters, fitted as any others."""
+"""A loss model as a simulator of a test bench: its coefficients are parameters, fitted like any others."""
 
 from __future__ import annotations
 
@@ -26,8 +26,8 @@ MODELLED = (ChannelName.Q_OUT, ChannelName.TORQUE)
 class LossModelBench:
     """Q_out in m3/s and torque in N m at N points by a loss model; a `system.estimation.simulator.Simulator`.
 
-    Parameters are flow.NAME and torque.NAME, coefficients of no known size: priors as wide as a loss as large as
-    all the pump can give, so that readings decide. Coefficients that physics lets have one sign have it.
+    Parameters are flow.NAME and torque.NAME, coefficients of unknown size: priors as wide as a loss of the pump's whole
+    power, so that readings determine them. Coefficients with one physical sign have it.
     """
 
     model: LossModel

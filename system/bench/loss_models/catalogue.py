@@ -1,9 +1,9 @@
-"""Loss models of the literature by name, as readings ask for them.
+"""Loss models of the literature by name.
 
 Wilson (1946; Positive-Displacement Pumps and Fluid Motors, 1950); Schlosser (1961, Hydraulic Power Transmission 7):
-Wilson's with what density brings; McCandlish and Dorey (1984, Proc. IMechE 198B): compression, and coefficients that
-vary with pressure, speed and displacement, here linearly, "after" them; Zarotti and Nevegna (1981, 6th BHRA Fluid
-Power Symposium), with the regressors as later authors cite them: the original was not at hand.
+Wilson's with the effect of density; McCandlish and Dorey (1984, Proc. IMechE 198B): compression, and coefficients that
+vary with pressure, speed and displacement, here linearly, "after" them; Zarotti and Nevegna (1981, 6th BHRA Fluid Power
+Symposium), with the regressors as later authors cite them: the original was not available.
 """
 
 from collections.abc import Callable, Mapping
@@ -27,18 +27,18 @@ Column = Callable[[LossPoints], Array]
 
 
 def turbulent_slip(points: LossPoints) -> Array:
-    """V^(2/3) sqrt(2 dp/rho) in m3/s: leakage as through an orifice; none against the pressure."""
+    """V^(2/3) sqrt(2 dp/rho) in m3/s: leakage as through an orifice; zero against the pressure."""
     difference = np.maximum(points.pressure_difference, 0.0)
     return np.asarray(points.displacement ** (2 / 3) * np.sqrt(2.0 * difference / points.density))
 
 
 def hydrodynamic_drag(points: LossPoints) -> Array:
-    """rho w^2 V^(5/3) in N m: oil thrown about and pressed through ports."""
+    """rho w^2 V^(5/3) in N m: oil accelerated and forced through ports."""
     return points.density * points.speed**2 * points.displacement ** (5 / 3)
 
 
 def compression(points: LossPoints) -> Array:
-    """D w dp/K in m3/s: what oil of the full displacement yields to pressure."""
+    """D w dp/K in m3/s: compression of the oil of the full displacement."""
     return points.per_radian * points.speed * points.pressure_difference / points.bulk_modulus
 
 
@@ -139,4 +139,4 @@ T_L = C1 y + C2 eps y + C3 x + C4 eps x + C5 eps^2 x^2 + C6 x y + C7; x = w/w_ra
 LOSS_MODELS: Mapping[LossModelName, LossModel] = {
     model.name: model for model in (WILSON, SCHLOSSER, MCCANDLISH_DOREY, ZAROTTI_NEVEGNA, ivantysyn())
 }
-"""All but Polymod, whose orders depend on the readings: `orders.polymod_for`."""
+"""All except Polymod, whose orders depend on the readings: `orders.polymod_for`."""

@@ -48,12 +48,12 @@ def columns(terms: Sequence[Term], points: LossPoints) -> Array:
 
 
 def laminar_slip(points: LossPoints) -> Array:
-    """D dp/mu in m3/s: leakage through gaps that stay as they are."""
+    """D dp/mu in m3/s: leakage through gaps of constant thickness."""
     return points.per_radian * points.pressure_difference / points.viscosity
 
 
 def viscous_drag(points: LossPoints) -> Array:
-    """D mu w in N m: shear of films that stay as they are."""
+    """D mu w in N m: shear of films of constant thickness."""
     return points.per_radian * points.viscosity * points.speed
 
 

@@ -1,4 +1,4 @@
-"""Orders of a polynomial by cross-validation: those that predict levels left out the best."""
+"""Orders of a polynomial by cross-validation: those that best predict the levels left out."""
 
 from dataclasses import astuple
 from itertools import product
@@ -23,7 +23,7 @@ HIGHEST = Orders(3, 4, 3)
 def polymod_for(
     pump: PumpDescription, points: BenchPoints, inputs: tuple[ChannelName, ...], observations: Observations
 ) -> LossModel:
-    """Polymod of the orders, one set for flow and one for torque, that predicts these readings the best.
+    """Polymod of the orders, one set for flow and one for torque, that best predicts these readings.
 
     Each level of speed, pressure difference and displacement is left out in turn; the orders' misfits there, in sigma,
     are compared. An axis of m levels allows m - 2 at most: with one more a level left out is predicted by a polynomial

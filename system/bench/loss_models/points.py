@@ -16,8 +16,8 @@ from system.pump.lumped import full_drive, swept_displacement
 class LossPoints:
     """N points in SI: speed in rad/s, pressure_difference in Pa, ratio to full displacement, viscosity in Pa s.
 
-    displacement: m3 per revolution at ratio 1; density in kg/m3 and bulk_modulus in Pa of the oil; rated_speed and
-    rated_pressure make polynomials of numbers near one.
+    displacement: m3 per revolution at ratio 1; density in kg/m3 and bulk_modulus in Pa of the oil; with rated_speed and
+    rated_pressure the arguments of polynomials are near one.
     """
 
     speed: Array
@@ -52,7 +52,7 @@ class LossPoints:
 
 
 def loss_points(pump: PumpDescription, points: BenchPoints) -> LossPoints:
-    """The points of a bench as loss models see them: V swept by the pump's geometry, viscosity at the case."""
+    """The points of a bench as inputs of loss models: V swept by the pump's geometry, viscosity at the case."""
     return LossPoints(
         speed=points.speed,
         pressure_difference=points.p_out - points.p_in,

@@ -43,7 +43,7 @@ def ivantysyn() -> LossModel:
 
 
 def polymod(flow: Orders, torque: Orders) -> LossModel:
-    """After Mikeska and Ivantysynova (2002, Bath workshop): orders as the readings bear them."""
+    """After Mikeska and Ivantysynova (2002, Bath workshop): orders as the readings support them."""
     return polynomial(LossModelName.POLYMOD, "after Polymod", flow, torque, "after Mikeska and Ivantysynova 2002")
 
 

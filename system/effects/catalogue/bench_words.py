@@ -1,4 +1,4 @@
-"""Each effect in the words of a bench: its name, what happens in the pump, and what to look at on parts or meters."""
+"""Each effect in the words of a bench: its name, its process in the pump, and the inspection of parts or meters."""
 
 from __future__ import annotations
 
@@ -14,10 +14,10 @@ class BenchWords:
     """An effect in the words of a bench engineer.
 
     name: a noun that follows "the cause is" and may be followed by "at the pistons". finding: a sentence without its
-    end. Its fields are {place} (a gap in words), {part} (a friction pair or bearing), {stated} (a stated value),
-    {size} (the effect's first size) and sizes by the last part of their names, in a form that may follow a colon
-    (`diagnosis.report.sizes`). look: one to three sentences, which parts to inspect and what one sees there, {parts}
-    for those of the gap; of a meter, how to check it.
+    end. Its fields are {place} (a gap in words), {part} (a friction pair or bearing), {stated} (a stated value), {size}
+    (the effect's first size) and sizes by the last part of their names, in a form that may follow a colon
+    (`diagnosis.report.sizes`). look: one to three sentences, the parts to inspect and their signs of damage, {parts}
+    for those of the gap; of a meter, its check.
     """
 
     name: str

@@ -37,7 +37,7 @@ def _solved(table: OpeningTable) -> Extension:
 
 
 def entry_of(effect: EffectId) -> Entry:
-    """The entry of an effect; raises ValueError for unknown physics, which has none."""
+    """The entry of an effect; raises ValueError for unknown physics, which has no entry."""
     for entry in (*CATALOGUE, *SOLVED_ENTRIES):
         if entry.id is effect:
             return entry

@@ -24,7 +24,7 @@ def free_air(share: float, pressure: Array) -> Array:
 
 
 def entrained_air(values: Values, courses: Courses, state: BenchState) -> Effects:
-    """Bubbles fill part of the displacement and of the dead volume as they grow again; they are gone at delivery.
+    """Bubbles fill part of the displacement and of the dead volume as they expand; at delivery they have vanished.
 
     `void`: volume share at one atmosphere. The missing oil is x(p_in) - x(p_out) of displaced and dead volume.
     """
@@ -38,7 +38,7 @@ def air_in_chambers(values: Values, courses: Courses, state: BenchState) -> Effe
 
     `void`: x0, of the oil's volume at one atmosphere; `polytropic`: n, 1 (slow, isothermal) to 1.4 (fast, adiabatic;
     Nykaenen, Esque and Ellman 2000). They soften the oil at low pressure, delay the rise of the chamber's pressure and
-    take the place of oil. They are taken to dissolve no faster than they are compressed.
+    replace oil. Assumption: they dissolve no faster than they are compressed.
     """
     share = np.full_like(state.speed, values["void"])
     exponent = np.where(share > 0.0, 1.0 / values["polytropic"], 0.0)

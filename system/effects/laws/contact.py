@@ -1,4 +1,4 @@
-"""Laws of faces that touch: friction of boundary layers where films no longer part them."""
+"""Laws of faces that touch: friction of boundary layers where films no longer separate them."""
 
 from collections.abc import Mapping
 from dataclasses import replace
@@ -12,7 +12,7 @@ from system.effects.extension import Values
 from system.effects.state import GAPS, unchanged
 
 UNLOADED = 1e-9
-"""N that a film is taken to bear at least: of none the number is without bound."""
+"""N, least load assumed on a film: without load the Hersey number is infinite."""
 
 
 def hersey(viscosity: Array, course: GapCourse) -> Array:
@@ -24,8 +24,8 @@ def hersey(viscosity: Array, course: GapCourse) -> Array:
 def stribeck_share(number: Array, scale: float, exponent: float) -> Array:
     """Share of the load that boundary layers bear at a Hersey number: exp(-(H/H0)^d), after Stribeck 1902.
 
-    Of a rough pad that hydrodynamics and Greenwood and Tripp's summits bear together, film with the root of H (one
-    that pivots) or with H itself (a fixed wedge), d is .5 to 1.4, the stiffer its summits, to .02 of the load.
+    Of a rough pad that hydrodynamics and Greenwood and Tripp's summits bear together, its film with the root of H (a
+    pivoting pad) or with H itself (a fixed wedge): d is .5 to 1.4, larger for stiffer summits, to .02 of the load.
     """
     return np.asarray(np.exp(-((number / scale) ** exponent)))
 

@@ -13,7 +13,7 @@ from system.effects.state import dead_volume, displaced, full_stroke, ideal_flow
 from system.inputs.units import TURN
 
 BARREL_WALL = 0.2
-"""Wall outside the bores, of the piston diameter (usual; no drawing of ours states it)."""
+"""Wall outside the bores, of the piston diameter (usual; not stated in any available drawing)."""
 BARREL_LENGTH = 1.4
 """Length of the barrel, of the pistons' engaged length (usual)."""
 HOUSING_GAP = 1.0 / 6.0
@@ -64,7 +64,7 @@ def churning(values: Values, courses: Courses, state: BenchState) -> Effects:
 
 
 def seal_drag(values: Values, courses: Courses, state: BenchState) -> Effects:
-    """A shaft seal's `torque` (N m), and `per_case_pressure` (1/Pa) of it more as the case presses on its lip."""
+    """A shaft seal's `torque` (N m), and `per_case_pressure` (1/Pa) of it more with the case's pressure on its lip."""
     pressed = 1.0 + values["per_case_pressure"] * np.maximum(state.case_pressure, 0.0)
     return _drag(courses, state, values["torque"] * pressed)
 
@@ -78,7 +78,7 @@ def charge_pump_drag(values: Values, courses: Courses, state: BenchState) -> Eff
 def port_throttling(values: Values, courses: Courses, state: BenchState) -> Effects:
     """Passages behind both ports, `factor` times the loss of two open kidneys: rho/2 (Q/(2 Cd A))^2 each way.
 
-    Torque of that pressure on the displacement: n^2 eps^3, whatever the pressure and the oil's temperature.
+    Torque of that pressure on the displacement: n^2 eps^3, independent of the pressure and the oil's temperature.
     """
     ports = state.geometry.ports
     speed = ideal_flow(state) / (2.0 * ports.flow_coefficient * ports.kidney_area)

@@ -1,4 +1,4 @@
-"""Laws of chambers that no longer fill at suction: by the loss of each piston's flow, of the line's, by an onset."""
+"""Laws of chambers that fill in part at suction: by the loss of each piston's flow, of the line's, by an onset."""
 
 from collections.abc import Mapping
 from dataclasses import replace
@@ -18,16 +18,16 @@ from system.pump.ports.areas import opening_area
 
 Courses = Mapping[Gap, GapCourse]
 LEAST_LOSS = 1e-3
-"""Pa that a kidney is taken to lose at least: none of a plate that stands upright."""
+"""Pa, least loss assumed of a kidney: an upright plate has none."""
 HALVINGS = 50
-"""Of the bracket of what the line leaves: to round-off."""
+"""Of the bracket of the pressure behind the line: to round-off."""
 STROKE_ANGLES = 361
 ROOTS = np.linspace(0.0, 4.0, 401)
-"""At which the share that fills is worked out; at more every chamber fills."""
+"""Ratios at which the filled share is computed; above them every chamber fills."""
 
 
 def kidney_loss(state: BenchState, speed: Array, displacement_ratio: Array) -> Array:
-    """Pa (N,) that the suction kidney takes of one piston's largest flow: rho/2 (q/(Cd A))^2."""
+    """Pa (N,), loss of the suction kidney at one piston's largest flow: rho/2 (q/(Cd A))^2."""
     suction, _ = state.geometry.ports.sides
     flow = piston_area(state) * speed * 0.5 * full_stroke(state) * displacement_ratio
     drop = 0.5 * state.geometry.oil.density * (flow / (suction.flow_coefficient * suction.kidney_area)) ** 2
@@ -44,9 +44,9 @@ def suction_opening(state: BenchState) -> tuple[Array, Array]:
 def filled_share(root: Array, angle: Array, opened: Array) -> Array:
     """Share of a chamber that fills at a root of the port's pressure over the kidney's largest loss.
 
-    A piston's speed goes with the sine of the angle; the port passes `root` times its opened area where a cavity is.
-    So the cavity is what the volume swept since any earlier angle exceeds the oil passed, at most (a reflected walk).
-    root (N,); angle, opened (M,): of the suction stroke.
+    A piston's speed goes with the sine of the angle; the port passes `root` times its opened area during cavitation. So
+    the cavity is the largest excess, over all earlier angles, of the volume swept since over the oil passed (a
+    reflected walk). root (N,); angle, opened (M,): of the suction stroke.
     """
     swept = 0.5 * (1.0 - np.cos(angle))
     passed = 0.5 * cumulative_trapezoid(opened, angle, initial=0.0)
@@ -55,18 +55,18 @@ def filled_share(root: Array, angle: Array, opened: Array) -> Array:
 
 
 def starved_kidneys(values: Values, courses: Courses, state: BenchState) -> Effects:
-    """An inlet that loses `inlet_loss` times the pressure loss of the kidney, each piston's flow for itself.
+    """An inlet that loses `inlet_loss` times the pressure loss of the kidney, for each piston's own flow.
 
-    Inlet and kidney act as a kidney (1 + inlet_loss)^(-1/2) as wide, dp = rho/2 (Q/(Cd A))^2. Where that loss
-    equals the inlet's pressure a cavity opens. Above a speed n_c, which is proportional to the root of that
-    pressure, chambers no longer fill: the share n_c/n. True of passages between the plenum and one kidney.
+    Inlet and kidney act as a kidney (1 + inlet_loss)^(-1/2) as wide, dp = rho/2 (Q/(Cd A))^2. Where that loss equals
+    the inlet's pressure a cavity opens. Above a speed n_c, which is proportional to the root of that pressure, chambers
+    no longer fill: the share n_c/n. Valid for passages between the plenum and one kidney.
     """
     narrowed = (1.0 + values["inlet_loss"]) ** -0.5
     return replace(unchanged(courses), suction_area=np.full_like(state.speed, narrowed))
 
 
 def starved_line(values: Values, courses: Courses, state: BenchState) -> Effects:
-    """An inlet line that loses pressure by the sum of all pistons' flow that comes, dp = x L ((1 - l) q^2 + l m q).
+    """An inlet line that loses pressure by the sum of all pistons' inflow, dp = x L ((1 - l) q^2 + l m q).
 
     q: flow over the displaced flow at rated speed and full stroke, by `filled_share` where chambers starve; L: the
     kidney's loss there; x: `inlet_loss`; l: `laminar` share at 25 mPa s, m: viscosity over that. After Ivantysyn and
@@ -95,9 +95,9 @@ def starved_line(values: Values, courses: Courses, state: BenchState) -> Effects
 def starved_beyond_onset(values: Values, courses: Courses, state: BenchState) -> Effects:
     """Cavities that grow smoothly from a critical speed on: filled share 1/(1 + g (n/n_c - 1)^2) above n_c.
 
-    n_c: at which the loss of line and kidney, 1 + `inlet_loss` times the kidney's, equals the inlet's pressure; it
-    goes with the root of that. g: `growth`. A form of test reports, not derived. Relative to the kidney alone, whose
-    filling the chamber's own balance has.
+    n_c: at which the loss of line and kidney, 1 + `inlet_loss` times the kidney's, equals the inlet's pressure; it goes
+    with the root of that. g: `growth`. A form of test reports, not derived. Relative to the kidney alone, whose filling
+    the chamber's own balance includes.
     """
     above = np.maximum(state.inlet_pressure - CAVITY_PRESSURE, 1.0)
     plain = np.sqrt(kidney_loss(state, state.speed, state.displacement_ratio) / above)

@@ -38,7 +38,7 @@ def barus_shear(exponent: Array) -> Array:
 
 
 def opening_flow(opening: Array) -> Array:
-    """((1 + c)^4 - 1)/(4 c): flow through a film that opens by the share c where the pressure is full.
+    """((1 + c)^4 - 1)/(4 c): flow through a film that opens by the share c at full pressure.
 
     The mean of (h/h0)^3 along a pressure that falls linearly and lifts the wall in proportion.
     """
@@ -71,7 +71,7 @@ class ElasticOpening:
 
 @dataclass(frozen=True)
 class ThermalClearance:
-    """The law of one gap whose walls expand unlike: `rate` 1/K of the film, from the pump's own temperature on."""
+    """The law of one gap whose walls expand differently: `rate` 1/K of the film, from the pump's own temperature on."""
 
     gap: Gap
 
@@ -85,7 +85,7 @@ class ThermalClearance:
 def shear_thinning(values: Values, courses: Courses, state: BenchState) -> Effects:
     """Cross' law at the shear rate speed/film of sliding: `drop`, and `rate` 1/s at which half of it is lost.
 
-    Thins shear alone: leakage runs at rates a tenth as high, and across the sliding.
+    Reduces the viscosity of shear alone: leakage flows at rates a tenth as high, and across the sliding.
     """
     shear = [
         cross_ratio(courses[gap].sliding_speed / courses[gap].film, values["drop"], values["rate"]) for gap in GAPS
@@ -113,8 +113,8 @@ class HeatShares:
     """Shares of a film's heat by path, each 0 to 1; the defaults are those of films solved with heat.
 
     carried: share of the heat that leaves with the oil before it reaches a wall; throttled: share of 0.45 K/MPa that
-    warms the film above the case: 1 where oil comes as warm as the case, less where it comes from cooler chambers;
-    carry_over: share of the film's own warm oil in the oil that sliding draws in (Ettles 1969: .7 to .9 of pads).
+    warms the film above the case: 1 where oil enters at the case's temperature, less from cooler chambers; carry_over:
+    share of the film's own warm oil in the oil that sliding draws in (Ettles 1969: .7 to .9 of pads).
     """
 
     carried: float = 0.0
@@ -125,10 +125,9 @@ class HeatShares:
 def film_rise(resistance: float, shares: HeatShares, own: GapCourse, state: BenchState) -> Array:
     """Kelvin (N,) by which a film is warmer than the case: heat P over G = A/R to the walls and C with the oil.
 
-    P: the pair's loss, Coulomb and shear, and q 0.45 K/MPa of throttling; C = rho c (leakage + (1 - k) h U w/2,
-    the cool oil that sliding draws in over the width w). theta = P/(G + C), of which s P goes with the oil alone:
-    theta = P (1 + s G/C)/(G + C). s, q, k of `shares`. Solved by Newton's method as if viscosity fell by THINNING
-    a kelvin.
+    P: the pair's loss, Coulomb and shear, and q 0.45 K/MPa of throttling; C = rho c (leakage + (1 - k) h U w/2, the
+    cool oil that sliding draws in over the width w). theta = P/(G + C), of which s P leaves with the oil alone: theta =
+    P (1 + s G/C)/(G + C). s, q, k of `shares`. Solved by Newton's method with viscosity falling by THINNING a kelvin.
     """
     oil, area = state.geometry.oil, own.land_area
     heat = oil.density * oil.specific_heat

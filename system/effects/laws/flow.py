@@ -1,4 +1,4 @@
-"""Laws of oil that goes another way: past the chambers, into the case, or not into the chamber at all."""
+"""Laws of oil on other paths: past the chambers, into the case, or not into the chamber."""
 
 from collections.abc import Mapping
 from dataclasses import replace
@@ -27,7 +27,7 @@ def squeeze_pumping(values: Values, courses: Courses, state: BenchState) -> Effe
 
 
 def port_short_circuit(values: Values, courses: Courses, state: BenchState) -> Effects:
-    """A turbulent path of `area` m2 from delivery to inlet, in the mean: sqrt(dp), whatever speed and oil."""
+    """A turbulent path of `area` m2 from delivery to inlet, in the mean: sqrt(dp), at any speed and with any oil."""
     return _across(courses, state, orifice_flow(state, values["area"], pressure_difference(state)))
 
 

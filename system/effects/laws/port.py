@@ -21,8 +21,8 @@ def swash_droop(values: Values, courses: Courses, state: BenchState) -> Effects:
     """A plate that deflects under load by an angle, independent of its own: `rate` rad/Pa, and `play` rad at any
     load.
 
-    The moment of the pistons under pressure deforms stop, actuator and trunnions. Ideal flow and torque fall by
-    the same share, larger at small tilt; the plate deflects no further than upright.
+    The moment of the pistons under pressure deforms stop, actuator and trunnions. Ideal flow and torque fall by the
+    same share, larger at small tilt; the plate deflects at most to upright.
     """
     angle = np.arctan(swash_tangent(state))
     left = np.maximum(angle - values["rate"] * pressure_difference(state) - values["play"], 0.0)
@@ -44,8 +44,8 @@ def lorentz(speed: Array, at: float) -> Array:
 
 
 def line_resonance(values: Values, courses: Courses, state: BenchState) -> Effects:
-    """A delivery meter that reads `height` (share) too much where the ripple meets the line's resonance.
+    """A delivery meter that reads `height` (share) too much where the ripple is at the line's resonance.
 
-    Mean bias of turbine meters in pulsing flow; the pump itself is unmoved. `speed`: of the shaft, rad/s.
+    Mean bias of turbine meters in pulsing flow; the pump itself is unaffected. `speed`: of the shaft, rad/s.
     """
     return replace(unchanged(courses), delivery_reading=1.0 + values["height"] * lorentz(state.speed, values["speed"]))

@@ -1,4 +1,4 @@
-"""Laws of parts that lose their seat: slippers that lift off the plate, a block that tips on its valve plate."""
+"""Laws of parts that lift or tip: slippers off the swash plate, a block on its valve plate."""
 
 from collections.abc import Mapping
 from dataclasses import replace
@@ -37,7 +37,7 @@ def slipper_ratio(state: BenchState, pressure: Array, retainer_force: float) -> 
 
 
 def slipper_lift(values: Values, courses: Courses, state: BenchState) -> Effects:
-    """Slippers that tip off by `ride_height` m where chamber and `retainer_force` (N each) hold too little."""
+    """Slippers that tip off by `ride_height` m where chamber and `retainer_force` (N each) do not hold them."""
     ratio = slipper_ratio(state, courses[Gap.SLIPPER].pressure, values["retainer_force"])
     return _ridden(values["ride_height"] * unseated_share(ratio), courses, state)
 
@@ -45,8 +45,8 @@ def slipper_lift(values: Values, courses: Courses, state: BenchState) -> Effects
 def slippers_tilt_by_degrees(values: Values, courses: Courses, state: BenchState) -> Effects:
     """The same with slippers that tilt by degrees, r^m/(1 + r^m) of `ride_height` at the ratio r of the moments.
 
-    m: `sharpness`. The film's own moment, and parts that are not alike, spread the onset (tilts of Harris,
-    Edge and Tilley 1996).
+    m: `sharpness`. The film's own moment, and differences between parts, spread the onset (tilts of Harris, Edge and
+    Tilley 1996).
     """
     ratio = slipper_ratio(state, courses[Gap.SLIPPER].pressure, values["retainer_force"])
     tilted = ratio ** values["sharpness"]
@@ -56,9 +56,9 @@ def slippers_tilt_by_degrees(values: Values, courses: Courses, state: BenchState
 def slippers_ride_on_a_wedge(values: Values, courses: Courses, state: BenchState) -> Effects:
     """Slippers that ride higher by a hydrodynamic wedge: film + s x/(1 + x), x = (H/H0)^e, s `ride_height`.
 
-    H: viscosity times sliding speed over what holds the slipper, chamber pressure and `retainer_force`; H0: at 25 mPa s
-    and rated speed under the retainer's force alone. e: `wedge_exponent`, 1/2 of pads that find their tilt, 1 of a
-    fixed wedge (Hooke and Li 1988). On both halves of the turn, largest at suction.
+    H: viscosity times sliding speed over the holding force, chamber pressure and `retainer_force`; H0: at 25 mPa s and
+    rated speed under the retainer's force alone. e: `wedge_exponent`, 1/2 of pads free to tilt, 1 of a fixed wedge
+    (Hooke and Li 1988). On both halves of the turn, largest at suction.
     """
     course, part = courses[Gap.SLIPPER], state.geometry.pump
     force = values["retainer_force"]
@@ -99,10 +99,9 @@ def block_tipping(values: Values, courses: Courses, state: BenchState) -> Effect
     """A block that tips open by `wedge` m on one side: more flow over the lands, and between the kidneys.
 
     `wedge` is the tilt by the balance of forces times the plate's diameter. The tilts of 1.65e-4 to 4.3e-4 rad that
-    Zhang et al. (2020) measure are larger: they belong to an error of coaxiality, which opens the film at any speed.
-    A wedge 0 .. w over a film h has the mean conductance (h + w/2)^3 + 3/2 (h + w/2)(w/2)^2 round the plate. Of
-    the plate between the kidneys, two webs as long as a chamber's pitch, the same additional flow goes from
-    delivery to inlet.
+    Zhang et al. (2020) measure are larger: they are due to an error of coaxiality, which opens the film at any speed. A
+    wedge 0 .. w over a film h has the mean conductance (h + w/2)^3 + 3/2 (h + w/2)(w/2)^2 round the plate. Of the plate
+    between the kidneys, two webs as long as a chamber's pitch, the same additional flow goes from delivery to inlet.
     """
     course, effects = courses[Gap.VALVE_PLATE], unchanged(courses)
     pump, half = state.geometry, 0.5 * values["wedge"] * unseated_share(block_ratio(state, course))[:, None]

@@ -28,7 +28,7 @@ Excess = Callable[[Array], Array]
 
 @dataclass(frozen=True)
 class LossCourse:
-    """Loss factors (N,) over Reynolds numbers (N,), ascending; straight between, those of the ends beyond."""
+    """Loss factors (N,) over Reynolds numbers (N,), ascending; linear between, those of the ends beyond."""
 
     reynolds: Array
     loss_factor: Array
@@ -40,7 +40,7 @@ class LossCourse:
 
 @dataclass(frozen=True)
 class Edge:
-    """An edge or groove of a film at a radius (m): extra length in films, losses forth and back along the path."""
+    """An edge or groove of a film at a radius (m): extra length in films, losses of flow along the path and back."""
 
     radius: float
     extra_length: float
@@ -75,7 +75,7 @@ class LandPath:
         return float(np.abs(flow).max() / (self.angle * least * kinematic_viscosity))
 
     def inertia(self, flow: Array, density: float, kinematic_viscosity: float) -> Array:
-        """Pressure (Pa) that inertia takes of flows (N,) in m3/s, positive along the path."""
+        """Pressure loss (Pa) by inertia of flows (N,) in m3/s, positive along the path."""
         flow = np.asarray(flow, dtype=float)
         taken = np.zeros_like(flow)
         for edge in self.edges:
@@ -87,10 +87,10 @@ class LandPath:
 
 
 def secant_conductance(conductance: Array, excess: Excess, drop: Array, where: str) -> Array:
-    """Flow over pressure drop (N,), m3/(s Pa), of dp = q/G + excess(q) at drops (N,) in Pa; G itself at none.
+    """Flow over pressure drop (N,), m3/(s Pa), of dp = q/G + excess(q) at drops (N,) in Pa; G itself at zero.
 
-    By halving: the drop rises with the flow. Raises InputError at the path `where` for an excess so negative
-    that twice the flow needs less than the drop.
+    By bisection: the drop rises with the flow. Raises InputError at the path `where` for an excess so negative that
+    twice the flow needs less than the drop.
     """
     size = np.where(drop == 0.0, 1.0, drop)
     low, high = np.zeros_like(size), np.full_like(size, 2.0)

@@ -1,4 +1,4 @@
-"""Tables of numbers that are read from a file: they compare and hash by their numbers, and know their file."""
+"""Tables of numbers that are read from a file: they compare and hash by their numbers, and keep its path."""
 
 from __future__ import annotations
 
@@ -11,14 +11,14 @@ from reynolds.numerics.cache import content_key
 
 @dataclass(frozen=True, eq=False, repr=False)
 class FileTable:
-    """A table of a file: the file's path, and where its numbers come from."""
+    """A table of a file: the file's path, and the source of its numbers."""
 
     path: Path
     source: str
 
     @cached_property
     def content(self) -> str:
-        """Name of all that the table holds, the path left out."""
+        """Name of the table's content, without the path."""
         return content_key(*(getattr(self, own.name) for own in fields(self) if own.name != "path"))
 
     def __eq__(self, other: object) -> bool:

@@ -16,7 +16,7 @@ from system.inputs.coefficients.openfoam_case import CaseFlow
 from system.inputs.faults import Fault, InputFaults
 
 CREEPING = 1.0
-"""Largest Re of a flow that gives the extra length: what is left out there is of second order."""
+"""Largest Re of a flow that gives the extra length: the neglected part is of second order."""
 
 
 @dataclass(frozen=True)
@@ -64,8 +64,8 @@ def film_loss(
 ) -> FilmLoss:
     """Loss of a passage by the pressure drop (Pa) of a flow of oil of kg/m3 and m2/s.
 
-    With the passage's extra length known the flow gives the loss factor, without it the extra length.
-    Raises InputFaults if the extra length is asked of a flow faster than CREEPING.
+    With the passage's extra length known the flow gives the loss factor, without it the extra length. Raises
+    InputFaults for an extra length from a flow faster than CREEPING.
     """
     speed = flow.flow / passage.area
     reynolds = speed * passage.film / kinematic_viscosity

@@ -1,7 +1,7 @@
-"""Coefficients that come from elsewhere, CFD or a test bench: of ports and bores over opening and Reynolds number.
+"""Coefficients from CFD or a test bench: of ports and bores over opening and Reynolds number.
 
-A CSV file with `# source: where the numbers come from` ahead of its head. It holds in the range of its rows.
-Those of the edges of films are in `loss_files`.
+A CSV file with `# source: where the numbers come from` ahead of its head. It is valid in the range of its rows. Those
+of the edges of films are in `loss_files`.
 """
 
 from __future__ import annotations
@@ -43,9 +43,9 @@ class FlowCoefficients(FileTable):
 def read_flow_coefficients(path: Path) -> FlowCoefficients:
     """The flow coefficients of a file with the columns of PORT_HEADS.
 
-    Raises InputFaults with everything wrong: as `read_table`, no source, a number out of its range, openings with
-    unlike numbers of rows, and rows between which the flow would fall while the pressure drop rises (the flow
-    number Re/Cd must rise with Re).
+    Raises InputFaults with all faults: as `read_table`, no source, a number out of its range, openings with different
+    numbers of rows, and rows between which the flow would fall while the pressure drop rises (the flow number Re/Cd
+    must rise with Re).
     """
     table = read_table(path, PORT_HEADS)
     faults = source_faults(table)
@@ -68,14 +68,14 @@ def read_flow_coefficients(path: Path) -> FlowCoefficients:
 
 
 def source_faults(table: CsvTable) -> list[Fault]:
-    """The fault of a file that does not say where its numbers come from."""
+    """The fault of a file without the source of its numbers."""
     if table.comment(SOURCE):
         return []
     return [Fault("source", "missing", "a line '# source: ..' that says where the numbers come from")]
 
 
 def range_faults(table: CsvTable, name: str, fine: NDArray[np.bool_], expected: str) -> list[Fault]:
-    """A fault a line whose number is not fine."""
+    """A fault for each line with an invalid number."""
     values = table.columns[name]
     return [Fault(f"line {table.lines[row]}, {name}", f"{values[row]:g}", expected) for row in np.nonzero(~fine)[0]]
 
@@ -83,7 +83,7 @@ def range_faults(table: CsvTable, name: str, fine: NDArray[np.bool_], expected: 
 def _order_faults(
     table: CsvTable, order: NDArray[np.int64], opening: Array, reynolds: Array, coefficient: Array
 ) -> list[Fault]:
-    """A fault a line whose flow number does not exceed that of the next lower Reynolds number of its opening."""
+    """A fault for each line whose flow number does not exceed that of the next lower Reynolds number of its opening."""
     faults = []
     for before, row in pairwise(order):
         if opening[before] != opening[row]:

@@ -40,8 +40,8 @@ class LossFactors(FileTable):
 def read_step_losses(path: Path) -> LossFactors:
     """The losses of a file with the columns of STEP_HEADS, by film ratio.
 
-    Raises InputFaults with everything wrong: as `read_table`, no source, numbers out of their range, a grid with
-    holes, extra lengths that vary between the rows of one passage, no step into a thinner film or none out of it.
+    Raises InputFaults with all faults: as `read_table`, no source, numbers out of their range, a grid with holes, extra
+    lengths that vary between the rows of one passage, no step into a thinner film or none out of it.
     """
     table = read_table(path, STEP_HEADS)
     ratio = table.columns["film_ratio"]
@@ -61,7 +61,7 @@ def read_groove_losses(path: Path) -> LossFactors:
 
 
 def _gridded(table: CsvTable, names: list[str], faults: list[Fault]) -> LossFactors:
-    """The losses with sizes (S, len(names)); raises InputFaults with these faults and what the grid lacks."""
+    """The losses with sizes (S, len(names)); raises InputFaults with these faults and the gaps of the grid."""
     columns = table.columns
     reynolds, extra, loss = columns["reynolds"], columns["extra_length"], columns["loss_factor"]
     faults = source_faults(table) + faults + range_faults(table, "reynolds", reynolds >= 0.0, "zero or more")

@@ -1,6 +1,6 @@
 """The flow through two patches of an OpenFOAM case: a flow coefficient at a Reynolds number.
 
-Incompressible cases have a kinematic pressure p/rho in m2/s2; the `dimensions` of a file `p` say which it holds.
+Incompressible cases have a kinematic pressure p/rho in m2/s2; the `dimensions` of a file `p` state which it contains.
 """
 
 from __future__ import annotations
@@ -49,8 +49,8 @@ class CaseFlow:
 def read_case_flow(case: Path, inlet: str, outlet: str, density: float) -> CaseFlow:
     """The flow of a case folder between two patches, density in kg/m3 for kinematic pressures.
 
-    Raises InputFaults for a folder that is no case, patches and fields that it lacks, a pressure of other
-    dimensions, a flow that runs the other way, differs by more than IMBALANCE or does not fall in pressure.
+    Raises InputFaults for a folder that is no case, missing patches and fields, a pressure of other dimensions, a flow
+    in the opposite direction, one with an imbalance above IMBALANCE or without a pressure drop.
     """
     control = case / "system" / "controlDict"
     if not is_file(control):
@@ -73,7 +73,7 @@ def read_case_flow(case: Path, inlet: str, outlet: str, density: float) -> CaseF
 
 
 def _expect_files(case: Path) -> None:
-    """Raise InputFaults for a mesh or a field that is no file: its reader would wait for it, or read on for ever."""
+    """Raise InputFaults for a mesh or a field that is no file: its reader would never end."""
     faults = []
     for place in sorted([*case.glob("constant/polyMesh/*"), *case.glob("[0-9]*/*")]):
         try:
@@ -86,7 +86,7 @@ def _expect_files(case: Path) -> None:
 
 
 def _field_faults(case: Path, fields: Sequence[str]) -> list[Fault]:
-    """Fields that are not there."""
+    """Fields that do not exist."""
     return [
         Fault(f"field {name}", "no such field at the last time", "U and p", f"run the solver in {case}")
         for name in ("U", "p")
@@ -115,7 +115,7 @@ def _is_time(name: str, time: float) -> bool:
 
 
 def _held(case: Path, found: CaseFlow) -> CaseFlow:
-    """The flow; raises InputFaults where it is no flow through an orifice."""
+    """The flow; raises InputFaults for other flows than one through an orifice."""
     faults = []
     if not found.flow > 0.0:
         faults.append(Fault("inlet", f"{found.flow:.3g} m3/s in", "a flow into the case", "inlet and outlet swapped"))

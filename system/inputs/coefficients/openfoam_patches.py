@@ -1,4 +1,4 @@
-"""Patches of an OpenFOAM case, read by VTK in a process of its own: it ends by a signal on some broken cases."""
+"""Patches of an OpenFOAM case, read by VTK in a process of its own, since it ends by a signal on some broken cases."""
 
 from __future__ import annotations
 
@@ -79,7 +79,7 @@ def _through(patch: Any) -> tuple[float, float]:
 
 
 def _tell(case: Path, inlet: str, outlet: str) -> None:
-    """Print the patches, or the fault of a case that VTK, or what reads its arrays, does not understand."""
+    """Print the patches, or the fault of a case that VTK or the reader of its arrays does not understand."""
     import pyvista
 
     try:

@@ -1,7 +1,7 @@
-"""Fields of sections: what a value of a file can be. A section is a frozen dataclass, one field a key.
+"""Fields of sections: the kinds of values of a file. A section is a frozen dataclass, one field a key.
 
-A quantity, a choice, rows of quantities, a text, a file that is read, or a section of its own. The annotation of
-a field says which: Annotated[float, Dimension.LENGTH, Limits(above=0.0)].
+A quantity, a choice, rows of quantities, a text, a file that is read, or a section of its own. The annotation of a
+field states which: Annotated[float, Dimension.LENGTH, Limits(above=0.0)].
 """
 
 from __future__ import annotations
@@ -36,7 +36,7 @@ AnySection = TypeVar("AnySection", bound=Section)
 
 @dataclass(frozen=True)
 class Limits:
-    """Marks a field whose number is bounded, in SI; fewest: rows of a list; why: the reason, where it is not plain."""
+    """Marks a field whose number is bounded, in SI; fewest: rows of a list; why: the reason, if not obvious."""
 
     above: float | None = None
     least: float | None = None
@@ -105,7 +105,7 @@ class FormulaOf:
 
 
 class Text(Enum):
-    """Marks a field that is text; its value says in words which: a file that is there, a name, .."""
+    """Marks a field that is text; its value describes which: an existing file, a name, .."""
 
     FILE = "the path of a file beside this one, such as 'part.msh'"
     NAME = "a name, such as 'film'"
@@ -118,7 +118,7 @@ class Text(Enum):
 
 @dataclass(frozen=True)
 class FromFile:
-    """Marks a field whose entry names a file: its reader, which raises InputFaults. The value knows its `path`."""
+    """Marks a field whose entry names a file: its reader, which raises InputFaults. The value has its `path`."""
 
     read: Callable[[Path], Any]
 
@@ -346,7 +346,7 @@ def field_type(annotation: Any, required: bool = True, meaning: str = "") -> Fie
 
 
 def _types(annotation: Any) -> list[type]:
-    """Return the plain types of an annotation, inside Annotated, unions and lists; none of what is read apart."""
+    """Return the plain types of an annotation, inside Annotated, unions and lists; none of types read separately."""
     if get_origin(annotation) is Annotated:
         apart = any(isinstance(mark, (FromFile, FormulaOf)) for mark in annotation.__metadata__)
         return [] if apart else _types(get_args(annotation)[0])
@@ -374,7 +374,7 @@ _COMMENTED = re.compile(r"^    (\w+): .*?  # (.+)$", re.MULTILINE)
 
 
 def _comments(model: type[Any]) -> dict[str, str]:
-    """Return the comments behind the fields of a class and its bases; none of a class without source."""
+    """Return the comments behind the fields of a class and its bases; none for a class without source."""
     found: dict[str, str] = {}
     for one in filter(is_dataclass, reversed(model.__mro__)):
         with suppress(OSError):

@@ -12,7 +12,7 @@ from system.inputs.sections.values import PURE_UNITS
 
 DRAFT = "https://json-schema.org/draft/2020-12/schema"
 QUANTITY = r"^\s*[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d{1,3})?\s*(1/|[^\s\d.,]).*$"
-"""A number and a unit; which units measure a key is for the program."""
+"""A number and a unit; the program checks which units measure a key."""
 Schema = dict[str, Any]
 
 
@@ -28,7 +28,7 @@ def tables_schema(title: str, properties: Schema, required: Iterable[str]) -> Sc
 
 
 def section_schema(model: type[Any], *, complete: bool = True, inner_complete: bool = True) -> Schema:
-    """Return the schema of a table; with `complete` its required keys are required, so of the tables in it.
+    """Return the schema of a table; with `complete` its required keys are required, also in the tables in it.
 
     A pressure may be stated as KEY or as KEY_abs.
     """
@@ -127,7 +127,7 @@ def _rows_schema(layout: Points, fewest: int) -> Schema:
 
 
 def _words(own: FieldType) -> str:
-    """Return what a key holds: the comment behind its field, and the noun of its quantity."""
+    """Return the meaning of a key: the comment behind its field, and the noun of its quantity."""
     dimension = own.formula.dimension if own.formula else own.dimension
     noun = dimension.noun if dimension is not None else ""
     formula = f"or a formula in {dimension.si_unit}" if own.formula and dimension else ""

@@ -43,7 +43,7 @@ def read_rows(path: Path, layouts: tuple[Points, ...]) -> tuple[tuple[float, ...
 
 
 def wanted_file(layouts: tuple[Points, ...]) -> str:
-    """Return what such a file holds, in words."""
+    """Return the content of such a file, in words."""
     heads = " or ".join(f"'{', '.join(_example_heads(layout))}'" for layout in layouts)
     swaps = {f"; '{one.opposite}' in place of '{one.heads[-1]}' is its negative" for one in layouts if one.opposite}
     return f"a CSV file with the head {heads}, in any units that fit{''.join(sorted(swaps))}"
@@ -72,7 +72,7 @@ def _order(path: Path, head: list[str], layouts: tuple[Points, ...]) -> _Order:
 
 
 def _row(where: str, cells: list[str], order: _Order, faults: list[Fault]) -> tuple[float, ...]:
-    """One line in SI, in the layout's order; what is wrong with it goes to the faults."""
+    """One line in SI, in the layout's order; its faults are added to the list."""
     numbers = row_numbers(where, cells, order.columns, faults)
     if len(numbers) != len(order.places):
         return ()

@@ -21,9 +21,9 @@ ABSOLUTE = "_abs"  # a pressure key that ends so is absolute
 class Reading:
     """State of a file that is read: its faults, the paths with a fault, and the paths whose values are good.
 
-    `folder`: from where the paths of files in it are counted. `special`: keys by path that are read otherwise,
-    as (raw value, table, reading) -> SI values by key. `numbered`: paths of tables that hold single parts too.
-    `formula` returns what a formula holds; it raises QuantityError.
+    `folder`: base of the paths of files in it. `special`: keys by path that are read otherwise, as (raw value, table,
+    reading) -> SI values by key. `numbered`: paths of tables that hold single parts too. `formula` returns the content
+    of a formula; it raises QuantityError.
     """
 
     folder: Path = HERE
@@ -40,7 +40,7 @@ class Reading:
         self.faulty.add(path)
 
     def unknown(self, section: str, key: str, known: Sequence[str]) -> None:
-        """Note an unknown key; the known one that it is spelt like gets no fault of its own."""
+        """Note an unknown key; the known one of similar spelling gets no fault of its own."""
         near = nearest_choice(key, known)
         self.fault(f"{section}{key}", "unknown key", f"one of {', '.join(known)}", near)
         self.faulty.add(f"{section}{near}")
@@ -59,8 +59,8 @@ def read_section(
 ) -> AnySection:
     """Return one table, the file itself at the path "", as its section; with faults, one of the good values only.
 
-    What the table leaves out is that of `base`, whose own faults are noted elsewhere. Numbered tables in it are
-    left to the caller: single parts.
+    Values that the table leaves out are those of `base`, whose own faults are noted elsewhere. Numbered tables in it
+    are left to the caller: single parts.
     """
     if not isinstance(table, dict):
         reading.fault(path, repr(table), f"a table [{path}] with {', '.join(reading.keys(path, model))}")
@@ -88,7 +88,7 @@ def read_section(
 def table_section(
     top: Table, name: str, model: type[AnySection], folder: Path = HERE, *, left_out: bool = False
 ) -> AnySection | None:
-    """Return a table of a file as its section; None with its faults listed, and where there is none.
+    """Return a table of a file as its section; None with its faults listed, and without a table.
 
     With `left_out` a table that is left out counts as an empty one.
     """
@@ -126,7 +126,7 @@ def left_out_section(path: str, model: type[AnySection], reading: Reading, *, re
 def section_of(model: type[AnySection], values: Mapping[str, Any]) -> AnySection:
     """Return a section of SI values by key, tables in it as mappings.
 
-    Raises ValueError for a key that it has not, and for a value outside its limits.
+    Raises ValueError for an unknown key, and for a value outside its limits.
     """
     types, found = fields_of(model), {}
     for key, value in values.items():
@@ -152,7 +152,7 @@ def is_number(key: str) -> bool:
 
 
 def _values(path: str, model: type[Any], table: Mapping[str, object], reading: Reading) -> dict[str, object]:
-    """Return the SI values of a table, and note every entry that gives none."""
+    """Return the SI values of a table, and note every entry without a valid value."""
     values: dict[str, object] = {}
     types = fields_of(model)
     for written, raw in table.items():
@@ -178,7 +178,7 @@ def _gauge(value: Any) -> float | tuple[float, ...]:
 
 
 def read_entry(path: str, own: FieldType, raw: object, reading: Reading) -> object:
-    """Return the value of an entry, or None with its faults noted; of a table also what of it is good."""
+    """Return the value of an entry, or None with its faults noted; of a table also its valid part."""
     found: object
     if own.tables is not None:
         return _inner_tables(path, own.tables, raw, reading)
@@ -252,7 +252,7 @@ def _named(path: str, own: FieldType, raw: object, reading: Reading) -> dict[str
 def read_form(path: str, own: FieldType, table: Mapping[str, object], reading: Reading) -> object:
     """Return a table as that of a field's forms whose first key it has, of a choice with the form's own value.
 
-    None with the fault noted where there is no such form; a key of another form is a fault.
+    None with the fault noted without such a form; a key of another form is a fault.
     """
     form = next((one for one in own.forms if _fits(one, table)), None)
     if form is None:
@@ -271,7 +271,7 @@ def _fits(form: type[Any], table: Mapping[str, object]) -> bool:
 
 
 def _note_no_form(path: str, own: FieldType, table: Mapping[str, object], reading: Reading) -> None:
-    """Note the choice by which forms differ where it is wrong, or missing in all of them; else the table."""
+    """Note the choice that selects the form where it is wrong, or missing in all of them; else the table."""
     heads = [next(iter(fields_of(form).items())) for form in own.forms]
     of_choice = [head for head, first in heads if first.choices]
     if of_choice and (of_choice[0] in table or len(of_choice) == len(heads)):
@@ -283,7 +283,7 @@ def _note_no_form(path: str, own: FieldType, table: Mapping[str, object], readin
 
 
 def _inner_tables(path: str, model: type[Any], raw: object, reading: Reading) -> tuple[Any, ...]:
-    """Return the tables of a list of such; none where one has a fault."""
+    """Return the tables of a list of tables; none where one has a fault."""
     if not isinstance(raw, list):
         reading.fault(path, repr(raw), f"a list of tables with {', '.join(reading.keys(path, model))}")
         return ()
@@ -292,7 +292,7 @@ def _inner_tables(path: str, model: type[Any], raw: object, reading: Reading) ->
 
 
 def _note_inner_faults(path: str, reading: Reading) -> bool:
-    """True where something in a table has a fault; its path then counts as one with a fault."""
+    """True where an entry of a table has a fault; its path then counts as one with a fault."""
     found = any(fault.path.startswith(f"{path}.") for fault in reading.faults)
     if found:
         reading.faulty.add(path)

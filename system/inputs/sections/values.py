@@ -1,4 +1,4 @@
-"""One value of a file: from TOML to what a section's field holds, and back; what it should be, in words."""
+"""One value of a file: from TOML to the value of a section's field, and back; the expected value, in words."""
 
 from __future__ import annotations
 
@@ -92,7 +92,7 @@ def written_value(field: FieldType, value: Any) -> str:
 
 
 def wanted(field: FieldType) -> str:
-    """Return what a key holds, in words."""
+    """Return the meaning of a key, in words."""
     if field.several is None:
         return _wanted_one(field)
     if not field.several.count:
@@ -122,7 +122,7 @@ def _wanted_one(field: FieldType) -> str:
 
 
 def broken_limit(field: FieldType, value: object) -> str:
-    """Return the limit that a value breaks, in words and with its unit; empty where it breaks none."""
+    """Return the limit that a value violates, in words and with its unit; empty within the limits."""
     limits = field.limits
     if isinstance(value, tuple) and field.several is not None:
         return next((words for one in value if (words := broken_limit(field, one))), "")
@@ -144,7 +144,7 @@ def broken_limit(field: FieldType, value: object) -> str:
 
 
 def units_shown(field: FieldType) -> str:
-    """Return the example units of a key's columns, such as "mm" or "mm, um"; "-" for what has none."""
+    """Return the example units of a key's columns, such as "mm" or "mm, um"; "-" without one."""
     examples = field.layouts[0].example if field.layouts else (field.example,) if field.dimension else ()
     return ", ".join(map(unit_in, examples)) or "-"
 
@@ -181,7 +181,7 @@ def listed_rows(raw: object, layouts: tuple[Points, ...]) -> tuple[tuple[float, 
 
 
 def _layout(layouts: tuple[Points, ...], rows: Sequence[Sequence[object]]) -> Points:
-    """Return the layout with as many columns as the first row has; the first one where none has."""
+    """Return the layout with as many columns as the first row has; the first one if there is none."""
     return next((one for one in layouts if rows and len(one.columns) == len(rows[0])), layouts[0])
 
 

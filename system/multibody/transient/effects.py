@@ -1,8 +1,8 @@
-"""Effects of [physics] in a transient: each by its law, over a turn that runs along.
+"""Effects of [physics] in a transient: each by its law, over a moving turn.
 
-Chamber by chamber, the instants of a piston pitch cover all angles of a turn. They are the turn that laws see. What
-follows the pressure, sliding or load of an instant acts at that instant and chamber; what follows means over a turn has
-those of the pitch, and its displacement. A film is in balance with its heat at once.
+Chamber by chamber, the instants of a piston pitch cover all angles of a turn. They are the turn of the laws. Effects of
+the pressure, sliding or load of an instant act at that instant and chamber; effects of means over a turn have those of
+the pitch, and its displacement. A film is in balance with its heat at once.
 """
 
 from collections.abc import Sequence
@@ -27,13 +27,13 @@ from system.pump.operating import columns
 from system.pump.ports.wear import AS_DRAWN, worn_ports
 
 LEAST_RATIO = 1e-6
-"""Displacement that laws see of a plate that stands upright: some of them divide by it."""
+"""Displacement for the laws of an upright plate: some of them divide by it."""
 
 
 @dataclass(frozen=True)
 class Acting:
-    """Changes by [physics] over a turn: effects at M own angles of a piston from 0; outside, what passes the chambers;
-    droop rad, by which the plate tilts less under the pistons than at its actuator."""
+    """Changes by [physics] over a turn: effects at M own angles of a piston from 0; outside, the flows past the
+    chambers; droop rad, by which the plate tilts less under the pistons than at its actuator."""
 
     effects: Effects[float]
     outside: Outside[float]
@@ -62,7 +62,7 @@ class Acting:
 def acting_over(group: Group, laws: Sequence[tuple[Law, Values]], instants: Instants) -> Acting:
     """The changes by laws, at the instants (T,) of one piston pitch in equal steps: T z own angles.
 
-    Over centre laws see the size of the displacement.
+    Over centre the laws have the magnitude of the displacement.
     """
     tilt = float(np.mean(instants.rows[:, kernel.ANGLE]))
     ratio = max(abs(float(stroke_ratio(group.pump, np.array(tilt)))), LEAST_RATIO)
@@ -76,7 +76,7 @@ def acting_over(group: Group, laws: Sequence[tuple[Law, Values]], instants: Inst
 
 
 def affected_chamber(problem: ChamberProblem, effects: Effects[float]) -> ChamberProblem:
-    """A chamber with the ports, the oil and the pressure behind the suction port that effects leave."""
+    """A chamber with the ports, the oil and the pressure behind the suction port after effects."""
     wear = affected_wear(AS_DRAWN, effects)
     suction, delivery = worn_ports(problem.suction_port, problem.delivery_port, wear)
     return replace(
@@ -90,7 +90,7 @@ def affected_chamber(problem: ChamberProblem, effects: Effects[float]) -> Chambe
 
 
 def _turn_of(group: Group, instants: Instants) -> PistonMotion[Array]:
-    """One piston over the turn that the instants of a pitch make, arrays (1, M); its drive of their mean tilt."""
+    """One piston over the turn composed of the instants of a pitch, arrays (1, M); its drive of their mean tilt."""
     found = pistons_at(group, instants).motion
     mean = float(np.mean(found.drive.swash_angle))
     changed = {

@@ -71,8 +71,8 @@ the plate up, -1 down.
 """
 
 ATTEMPTS = 10
-"""Newton's method may swing about a narrow port's laminar range and converge slowly: an attempt starts at the
-last iterate of the one before."""
+"""Newton's method may oscillate about a narrow port's laminar range and converge slowly: an attempt starts at the last
+iterate of the one before."""
 COLUMNS = 18
 TIME, ANGLE, RATE, ACCELERATION, CONTROL, ACTUATOR, MOMENT_PRESSURE, MOMENT_INERTIA = range(8)
 MOMENT_FRICTION, MOMENT_ACTUATOR, MOMENT_SPRING, MOMENT_DRAG, MOMENT_STOP, DELIVERY, SUCTION, CASE = range(8, 16)
@@ -138,7 +138,7 @@ def actuator_reach(plate, angle):
 
 @numba.njit(cache=True, error_model="numpy")
 def actuator_at(chamber, plate, angle, rate, control, ways):
-    """The same of the actuator: its orifice takes the place of the delivery port, its leak that of the piston."""
+    """The same of the actuator: its orifice replaces the delivery port, its leak the piston's."""
     c, p = chamber[0], plate[0]
     ways[:] = 0.0
     ways[col.CONDUCTANCE] = p.actuator_leak
@@ -165,9 +165,9 @@ def content_at(chamber, plate, acting, which, shaft_angle, tilt, time, imposed, 
 
 @numba.njit(cache=True, error_model="numpy")
 def advance(chamber, plate, acting, which, shaft_angle, tilt, imposed, state, stages, totals):
-    """One step of a compartment's oil: state (2,) mass m3 and pressure Pa; False where a stage finds no pressure.
+    """One step of a compartment's oil: state (2,) mass m3 and pressure Pa; False where a stage has no pressure.
 
-    stages as `step` of the chamber has them; totals (INTEGRALS,) gains what `integral_rates` counts.
+    stages as `step` of the chamber has them; `integral_rates` adds to totals (INTEGRALS,).
     """
     length = imposed[STEP] * chamber[0].shaft_speed
     ways, flows = np.empty(WAYS), np.empty(PATHS)
@@ -286,7 +286,7 @@ def let_go(chamber, plate, acting, shaft_angle, tilt, states, row, free):
 
 @numba.njit(cache=True, error_model="numpy")
 def pass_step(chambers, plate, acting, shaft_angle, tilt, imposed, states, stages, totals):
-    """Take all oil over a step, totals (INTEGRALS,) gaining the chambers'; False where a stage finds no pressure."""
+    """Advance all oil over a step, totals (INTEGRALS,) with the chambers'; False where a stage has no pressure."""
     pistons, aside = plate[0].pistons, np.zeros(INTEGRALS)
     for k in range(pistons):
         if not advance(chambers[:1], plate, acting, k, shaft_angle, tilt, imposed, states[k], stages, totals):
@@ -296,9 +296,9 @@ def pass_step(chambers, plate, acting, shaft_angle, tilt, imposed, states, stage
 
 @numba.njit(cache=True, error_model="numpy")
 def place(chambers, plate, acting, at, tilt, states, row, pressures):
-    """Fill the row of an instant and its pressures (z,); return the momentum that a stop took, kg m2/s.
+    """Fill the row of an instant and its pressures (z,); return the momentum absorbed by a stop, kg m2/s.
 
-    at: number of the instant, of that at which the plate is let go, and the step (s).
+    at: number of the instant, of that at which the plate is released, and the step (s).
     """
     number, free, step = at
     chamber, pistons, taken = chambers[:1], plate[0].pistons, 0.0

@@ -22,8 +22,8 @@ from system.pump.chamber.problem import ChamberProblem
 @dataclass(frozen=True)
 class Setting:
     """Constants of a course: the group, its laws of [physics] with their values, a chamber without them, the plate's
-    record; so many steps of `step` s to a pitch, `held` steps before the plate is let go; controls (N, 2) Pa before the
-    actuator's orifice at begin and end of each step."""
+    record; so many steps of `step` s to a pitch, `held` steps before the plate is released; controls (N, 2) Pa before
+    the actuator's orifice at begin and end of each step."""
 
     group: Group
     laws: Sequence[tuple[Law, Values]]
@@ -42,11 +42,11 @@ class Setting:
 
 @dataclass(frozen=True)
 class Course:
-    """A course of N steps: rows (N + 1, COLUMNS), pressure (N + 1, z) Pa, torque (N + 1,) N m of the drive, outside
-    (N + 1,): what passes the chambers, impulses (N,) N m s on stops.
+    """A course of N steps: rows (N + 1, COLUMNS), pressure (N + 1, z) Pa, torque (N + 1,) N m of the drive, outside (N
+    + 1,): the flows past the chambers, impulses (N,) N m s on stops.
 
     From the release of the plate on: totals (INTEGRALS,) of all chambers, gained (2,) of `kernels.contents`. chamber:
-    as effects leave one at the end.
+    one after effects, at the end.
     """
 
     rows: Array
@@ -71,7 +71,7 @@ class _State:
 def march(setting: Setting, angle: float, pressure: Array) -> Course:
     """The course from a plate at rest at an angle (rad), chambers at pressures (M,) Pa over their own angles.
 
-    Raises NotConverged where a chamber finds no pressure.
+    Raises NotConverged where a chamber has no pressure.
     """
     steps, pistons = setting.steps, setting.group.pump.pump.pistons
     found = Course(

@@ -1,4 +1,4 @@
-"""All pistons of a pump at instants of a transient: motion, pressure, and what turns them.
+"""All pistons of a pump at instants of a transient: motion, pressure, and their torque.
 
 Arrays (T, z) over T instants and z chambers, chamber k at shaft angle + (k - 1) pitch.
 """

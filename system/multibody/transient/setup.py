@@ -22,7 +22,7 @@ from system.pump.operating import OperatingPoint
 
 USUAL_STEP = np.radians(0.5)
 SHARE_OF_SWING = 0.5
-"""Largest step times what sets the plate's pace: Verlet's rule is stable up to 2."""
+"""Largest step times the plate's natural frequency: Verlet's rule is stable up to 2."""
 FADING = 1e-3
 """Sliding of a piston, of the balls' speed on their circle, below which its Coulomb friction fades."""
 TRUNNION_FADING = 0.05
@@ -51,7 +51,7 @@ def plate_problem(pump: PumpDescription, point: OperatingPoint) -> ChamberProble
 
 
 def chamber_pair(acting: ChamberProblem, plain: ChamberProblem) -> np.ndarray:
-    """Records (2,) that `kernels` reads: a chamber as effects leave it, and the oil of the actuator."""
+    """Records (2,) that `kernels` reads: a chamber after effects, and the oil of the actuator."""
     return np.concatenate([ported_record(acting), ported_record(plain)])
 
 

@@ -41,7 +41,7 @@ class Transition(Enum):
 
 @dataclass(frozen=True)
 class ControlPressure:
-    """Values (M,) at times (M,) s that rise from 0: held from each on, or straight in between and then held."""
+    """Values (M,) at times (M,) s that rise from 0: held from each on, or linear in between and then held."""
 
     times: Array
     values: Array
@@ -84,8 +84,8 @@ class Transient:
     """The course from time 0 on at N times, step s apart.
 
     rows (N, COLUMNS) of `kernels`; pressure (N, z) of the chambers in Pa; shaft_angle (N,) rad; torque (N,) N m of the
-    drive; outside (N,), what effects let pass the chambers; chamber: as effects leave one; impulses (N - 1,) N m s that
-    stops took; swing rad/s, natural frequency of the plate on its oil at the start.
+    drive; outside (N,), the flows of effects past the chambers; chamber: one after effects; impulses (N - 1,) N m s on
+    stops; swing rad/s, natural frequency of the plate on its oil at the start.
     """
 
     case: TransientCase
@@ -116,7 +116,7 @@ def run_transient(case: TransientCase) -> Transient:
     """The solution of a case, at held ports and shaft speed, films of given thickness, equal chambers; effects of
     [physics] act by their laws.
 
-    Raises InputError for a step too long, ValueError for chambers that differ, NotConverged where a chamber finds no
+    Raises InputError for a step too long, ValueError for chambers that differ, NotConverged where a chamber has no
     pressure or an effect's films have no solution.
     """
     pump, point = case.pump, case.point

@@ -2,9 +2,9 @@
 
     T w = sum [m A . dX/dphi w - Ap (p - p_case) s_phi w - q_drag (p - p_case)] + losses of the pairs + T_outside w
 
-over the chambers; X the ball's place, A its acceleration, q_drag the drag flow of the piston through its gap.
-Losses are those of `system.pump.lumped` at each instant's tilt, sliding and pressure, with the effects of [physics]
-there; T_outside is what acts on the shaft beside the pairs.
+over the chambers; X the ball's place, A its acceleration, q_drag the drag flow of the piston through its gap. Losses
+are those of `system.pump.lumped` at each instant's tilt, sliding and pressure, with the effects of [physics] there;
+T_outside is the torque on the shaft besides the pairs.
 """
 
 import numpy as np

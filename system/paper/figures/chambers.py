@@ -1,4 +1,4 @@
-"""Figs. 10 and 11: areas of the ports over a turn, and the chamber pressure that they make."""
+"""Figs. 10 and 11: areas of the ports over a turn, and the resulting chamber pressure."""
 
 from math import pi
 

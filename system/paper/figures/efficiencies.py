@@ -81,7 +81,7 @@ def fig3(points: PaperPoints) -> FigureResult:
 
 
 def _undelivered(points: PaperPoints, figure: Figure) -> tuple[str, ...]:
-    """Points at which leakage takes all of the displacement, so that efficiencies have no value; else empty."""
+    """Points at which leakage equals the displacement, so that efficiencies are not defined; else empty."""
     places = places_of(points.pump, (figure,))
     idle = [place.text for place in places if points.points[place].bench.delivery_flow <= 0.0]
     if not idle:
@@ -106,12 +106,12 @@ def case_three(points: PaperPoints) -> PaperPoint:
 
 
 def drain_for_share(split: LossSplit, share: float, fall: float) -> float:
-    """Flow (m3/s) into the case, over a fall of pressure (Pa), that makes the hydromechanical share this one."""
+    """Flow (m3/s) into the case, over a pressure drop (Pa), that gives this hydromechanical share."""
     return (split.hydromechanical / share - split.hydromechanical - split.volumetric) / fall
 
 
 def share_with_drain(split: LossSplit, drain: float, fall: float) -> float:
-    """Hydromechanical share of the losses with a flow (m3/s) into the case besides, over a fall of it (Pa)."""
+    """Hydromechanical share of the losses with an additional flow (m3/s) into the case, over its pressure drop (Pa)."""
     return split.hydromechanical / (split.hydromechanical + split.volumetric + drain * fall)
 
 
@@ -159,7 +159,7 @@ def _best_reason(points: PaperPoints, best: float, reading: LossReading) -> str:
 
 
 def without_trapped_oil(pump: PumpDescription) -> PumpDescription:
-    """The pump with kidneys that shut at LATE_END, where they shut before."""
+    """The pump with kidneys that shut at LATE_END, if they shut earlier."""
     late = max(pump.ports.kidney_end, LATE_END)
     return replace(pump, ports=replace(pump.ports, kidney_end=late))
 

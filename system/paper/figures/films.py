@@ -1,4 +1,4 @@
-"""Fig. 8 by films solved at given positions, and how a film is drawn."""
+"""Fig. 8 by films solved at given positions, and the drawing of a film."""
 
 import numpy as np
 

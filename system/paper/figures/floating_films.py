@@ -20,7 +20,7 @@ ENDS = ("inner end", "case edge")
 
 
 def floating_fig8(points: PaperPoints) -> FigureResult:
-    """The piston's film at the rated point: as drawn in the paper, and where its axis runs over the turn."""
+    """The piston's film at the rated point: as drawn in the paper, and the path of its axis over the turn."""
     pump, piston = points.pump, films_at(points, FULL)["piston"]
     clearance = pump.piston.radial_clearance
     x, y, values = (np.array(one) for one in piston["field"])

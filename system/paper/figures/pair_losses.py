@@ -252,7 +252,7 @@ def _affine_reason(losses: Array) -> str:
 
 
 def zero_share(losses: Array) -> Array:
-    """Losses (n, k) over PRESSURES, each continued straight to no delivery pressure, of those at the first."""
+    """Losses (n, k) over PRESSURES, each extrapolated linearly to zero delivery pressure, of those at the first."""
     lines = np.polynomial.polynomial.polyfit(np.array(PRESSURES) / PRESSURES[-1], losses, 1)
     return np.asarray(lines[0] / losses[0])
 

@@ -39,7 +39,7 @@ from system.work.sampled_points import SampledPoint, points_of, samples_of, solv
 from system.work.tasks import Executor
 
 SPEEDS = (0.2, 1.2)
-"""Of the rated speed: the box where nothing else is stated."""
+"""Of the rated speed: the default box."""
 PRESSURES = (0.05, 1.15)
 """Of the rated pressure, the lower one beyond inlet and case."""
 RATIOS = (0.1, 1.0)
@@ -78,7 +78,7 @@ class TableCase:
         """Name of a point's content: the pump, the solver with its inputs, the format, the place."""
         solver, point = self.solver, point_at(self, x)
         place = np.array([getattr(point, name) for name in INPUTS])
-        # The stated pump with the values beside it: a place where no pump is has a name too.
+        # The stated pump with the values beside it: a place without a possible pump has a name too.
         made_by = pump_key(self.pump), TABLE_FORMAT, solver.source.value, sorted(solver.stated.items())
         return content_key(*made_by, place, *_variant(self, x))
 
@@ -94,7 +94,7 @@ class TableCase:
 
 
 def dimension_axis(path: str, low: float, high: float) -> Axis:
-    """The axis of a pump's dimension, SI; raises InputError for ends that are no range."""
+    """The axis of a pump's dimension, SI; raises InputError for ends in the wrong order."""
     return Axis(path, low, high, Spacing.LOGARITHMIC if low > 0.0 else Spacing.LINEAR)
 
 
@@ -108,9 +108,9 @@ def table_axes(
 ) -> tuple[Axis, ...]:
     """The box of a pump's table, SI, with temperatures for the viscosities of its oil, without the inputs `held`.
 
-    None takes the default: from the rating (SPEEDS, PRESSURES) or as RATIOS and TEMPERATURES. Raises
-    InputError for an empty range, where the oil's law is void, and where no pump runs: a delivery pressure
-    that is not above inlet and case, a displacement ratio above 1.
+    None: the default, from the rating (SPEEDS, PRESSURES) or as RATIOS and TEMPERATURES. Raises InputError for an empty
+    range, where the oil's law is not valid, and where no pump runs: a delivery pressure that is not above inlet and
+    case, a displacement ratio above 1.
     """
     rated = pump.pump
     low, high = speeds or (SPEEDS[0] * rated.rated_speed, SPEEDS[1] * rated.rated_speed)

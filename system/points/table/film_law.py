@@ -1,7 +1,7 @@
 """Solved films as laws of a bench map: gaps by response tables, in place of the lumped law.
 
-A table has what films leak and rub at an operating point, as ratios to the lumped law. Tables of one pump without and
-with a part of the film physics show what this part does to the readings.
+A table has leakage and friction of films at an operating point, as ratios to the lumped law. Tables of one pump without
+and with a part of the film physics give the effect of this part on the readings.
 """
 
 from __future__ import annotations
@@ -71,14 +71,13 @@ class GapState:
 class SolvedFilms:
     """The law of a pump whose films are those of response tables, in place of the lumped law's.
 
-    pump: as the tables have it; base: its films without what the simulation leaves out; single, pairs: with one or two
-    parts of this physics. With G the state of the gaps and s the shares of the parts,
+    pump: as the tables have it; base: its films without the physics that the simulation leaves out; single, pairs: with
+    one or two parts of this physics. With G the state of the gaps and s the shares of the parts,
 
         G = G0 + sum s_a (G_a - G0) + sum s_a s_b (G_ab - G_a - G_b + G0),
 
-    the tables' own where shares are 0 or 1, three and more parts by their pairs. off: outputs of the base table moved
-    by so much, in their own measure, for the influence of the table's error. Parameters of a fit act as on the lumped
-    law.
+    the tables' own at shares of 0 or 1, three and more parts by their pairs. off: shifts of outputs of the base table,
+    in their own measure, for the influence of the table's error. Parameters of a fit act as on the lumped law.
     """
 
     pump: PumpDescription
@@ -136,7 +135,7 @@ class _Points:
         return GapState.of(lumped_leaks(self.pump, self.point, motion), losses, PortDraws(none, none))
 
     def tabled(self, table: ResponseTable, off: Mapping[str, float]) -> GapState:
-        """The gaps by a table, with some of its outputs moved."""
+        """The gaps by a table, with some of its outputs shifted."""
         given, means = (self.pump, self.point, self._motion, self.cycle), table.nearest(self.pump, self.point, off)
         return GapState.of(
             gap_leaks(*given, means), gap_losses(*given, means), port_draws(self.pump, self.point, means)
@@ -153,7 +152,7 @@ def _blend(parts: Sequence[tuple[float, GapState]]) -> GapState:
 
 
 def _between(lumped: GapState, solved: GapState, courses: Courses) -> Effects:
-    """Changes from the lumped law's gaps to those that are solved."""
+    """Changes from the lumped law's gaps to the solved ones."""
     gaps, extra = slice(len(GAPS)), unchanged(courses).extra_coulomb
     extra[SOCKET] = solved.coulomb[-1] - lumped.coulomb[-1]
     delivery, suction = solved.draws - lumped.draws
@@ -170,5 +169,5 @@ def _between(lumped: GapState, solved: GapState, courses: Courses) -> Effects:
 
 
 def _factor(one: Array, other: Array) -> Array:
-    """Factor that makes one quantity the other, LEAST_FACTOR at least; 1 where it is 0."""
+    """Factor from one quantity to the other, LEAST_FACTOR at least; 1 where it is 0."""
     return np.maximum(np.divide(other, one, out=np.ones_like(other), where=one > 0.0), LEAST_FACTOR)

@@ -1,4 +1,4 @@
-"""A pump with floating films for a diagnosis: the simulation's films, and the film physics that it may have left out.
+"""A pump with floating films for a diagnosis: the simulation's films, and the film physics that it may lack.
 
 Every part that is left out is a hypothesis, solved by films: response tables of the pump's floating films without it,
 with it, and with every two of them, built once and kept.
@@ -40,13 +40,13 @@ NAMED = {
 }
 """The effect that a switch of the films' physics leaves out."""
 VARIANTS = (EffectId.WORN_PROFILE, EffectId.SHEAR_THINNING)
-"""Effects that another description of the pump brings into its films."""
+"""Effects that enter the films by another description of the pump."""
 IN_FILMS = (*SOLVED, *BALANCED, EffectId.SQUEEZE_PUMPING)
 """Effects that floating films have by themselves: their closed-form laws are no hypotheses beside them."""
 SIZE = 1.0, 1.5
-"""Spread and upper limit of a share: 1 is the physics as drawing, material and oil make it."""
+"""Spread and upper limit of a share: 1 is the physics by drawing, material and oil."""
 LEARNT_MORE = 2
-"""Points for each input beyond twice the corners of the box: each takes minutes."""
+"""Points for each input beyond twice the corners of the box: each needs minutes."""
 SMALL = 1e-3
 """Of the lumped law: a smaller flow or loss is no scale of an error."""
 
@@ -102,9 +102,9 @@ class FilmTask:
 class FilmModel:
     """Films of a pump in a diagnosis.
 
-    law: what the simulation's films leak and rub, and by their shares the parts that it left out; entries: these parts
-    as hypotheses; error: by output, the largest rms error of the tables at held-out points, as the output's measure is;
-    task: what the tables were built from.
+    law: leakage and friction of the simulation's films, and by their shares the parts that it left out; entries: these
+    parts as hypotheses; error: by output, the largest rms error of the tables at held-out points, in the output's
+    measure; task: the inputs of the tables.
     """
 
     law: SolvedFilms
@@ -118,7 +118,7 @@ class FilmModel:
 
     @property
     def catalogue(self) -> tuple[Entry, ...]:
-        """The hypotheses of a diagnosis: the parts left out of the films, and all that lies outside the films."""
+        """The hypotheses of a diagnosis: the parts left out of the films, and all outside the films."""
         solved = {entry.id for entry in self.entries}
         thins = () if EffectId.SHEAR_THINNING in solved else (EffectId.SHEAR_THINNING,)
         outside = (entry for entry in CATALOGUE if entry.id in thins or entry.id not in IN_FILMS)
@@ -128,7 +128,7 @@ class FilmModel:
 def film_model(
     task: FilmTask, *, executor: Executor = HERE, report: Report = silent, folder: Path | None = None
 ) -> FilmModel:
-    """The model from its tables, built where they are not kept; raises as `build_table`."""
+    """The model from its tables, built if not kept; raises as `build_table`."""
     each = task.learnt + task.held_out
     tables: dict[Parts, ResponseTable] = {}
     for parts in task.sets:
@@ -147,7 +147,7 @@ def film_counts(inputs: int) -> tuple[int, int]:
 
 
 def _errors(base: ResponseTable, tables: Iterable[ResponseTable]) -> dict[str, float]:
-    """By output, the largest rms error of the tables at their held-out points, as the base table measures it."""
+    """By output, the largest rms error of the tables at their held-out points, in the base table's measure."""
     relative = np.array([output.measure is Measure.RELATIVE for output in base.response.outputs])
     largest = np.zeros(len(relative))
     for table in tables:

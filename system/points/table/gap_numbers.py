@@ -1,4 +1,4 @@
-"""Leakage and friction of the three gaps as a response table has them, at one operating point or at N of them."""
+"""Leakage and friction of the three gaps by a response table, at one operating point or at N of them."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
@@ -60,8 +60,8 @@ def gap_losses(
 ) -> FrictionPairs[Number]:
     """The lumped pairs at the pressure of a cycle, those of gaps and joints with the table's means.
 
-    The table learns a gap's loss less the power that dragged oil returns, by the power of the lumped law's moments.
-    A gap's contact takes LEAST_CONTACT of its loss at least, so that factors on it have an inverse.
+    The table learns a gap's loss less the power that dragged oil returns, by the power of the lumped law's moments. A
+    gap's contact has LEAST_CONTACT of its loss at least, so that factors on it have an inverse.
     """
     by_law = lumped_pairs(pump, point, motion, cycle)
     moments = law_moments(lumped_leaks(pump, point, motion), pump, point, cycle.pressure)
@@ -76,7 +76,7 @@ def gap_losses(
 
 
 def port_draws(pump: PumpDescription, point: OperatingPoint[Number], means: Means) -> PortDraws:
-    """Flow that the valve plate's film takes from the ports."""
+    """Flow from the ports into the valve plate's film."""
     scale = plate_flow(pump, point)
     return PortDraws(scale * means["valve_plate.delivery_draw"], scale * means["valve_plate.suction_draw"])
 
@@ -92,12 +92,12 @@ def _mean_loss(pump: PumpDescription, law: PairLoss[Any], moments: LawMoments, g
 
 
 def _with_mean(law: PairLoss[Any], mean: Any, contact: Any) -> PairLoss[Any]:
-    """A pair with another mean (W, of all), over the angle as the law has its Coulomb and its viscous part."""
+    """A pair with another mean (W, of all), and the law's course of its Coulomb and viscous parts over the angle."""
     one = mean / law.count
     return PairLoss(law.count, _scaled(law.coulomb, contact * one), _scaled(law.viscous, (1.0 - contact) * one))
 
 
 def _scaled(course: Array, mean: Any) -> Array:
-    """A course over the angle with another mean; flat where it is nothing (a coefficient of 0)."""
+    """A course over the angle with another mean; constant where it is zero (a coefficient of 0)."""
     own, wanted = np.mean(course, axis=-1)[..., None], np.asarray(mean)[..., None]
     return np.where(own > 0.0, course * wanted / np.where(own > 0.0, own, 1.0), wanted)

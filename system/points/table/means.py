@@ -1,7 +1,7 @@
 """Entries of a response table for one solved point: the gaps' means over the turn, as ratios to the lumped law.
 
-The lumped law contains pressure, speed and viscosity already; the ratio is of order one and smooth. Ratios are
-taken at the solved point's own chamber pressure, so that they describe the gap alone.
+The lumped law contains pressure, speed and viscosity already; the ratio is of order one and smooth. Ratios are computed
+at the solved point's own chamber pressure, so that they describe the gap alone.
 """
 
 from dataclasses import dataclass
@@ -24,7 +24,7 @@ from system.pump.lumped import lumped_leaks, lumped_pairs, piston_motion
 from system.pump.operating import OperatingPoint, flat
 
 TABLE_FORMAT = 4
-"""Raised when solved points give other numbers in a table: by what is kept of them, or by the laws behind it."""
+"""Raised when solved points give other numbers in a table: by the kept numbers, or by their laws."""
 OLDEST_TABLE = 4
 """No release wrote earlier formats."""
 GAP_PAIRS = {
@@ -48,16 +48,16 @@ OF_ONE_PART = {
 }
 """Plate flow: the lumped law's with half of the chambers at delivery pressure, `plate_flow`."""
 MEANINGS = {f"{gap}.{name}": text for gap in GAP_PAIRS for name, text in OF_EVERY_GAP.items()} | OF_ONE_PART
-"""Outputs by name, and what they are, in the order of `mean_ratios`."""
+"""Outputs by name with their meanings, in the order of `mean_ratios`."""
 OF_ORDER_ONE = ("leakage", "friction", "film_mean", "film_least")
-"""Learnt by logarithm, their error relative, where they are positive at all points: a flow may turn its sign, so
-may the distance of rough walls. The others may be nothing; their error is that of the ratio itself."""
+"""Learnt by logarithm, their error relative, where they are positive at all points: a flow may change its sign, so may
+the distance of rough walls. The others may be zero; their error is that of the ratio itself."""
 
 
 BY_DRAG = ("slipper.leakage", "slipper.carried", "valve_plate.carried")
-"""Outputs, where a flow may turn its sign, of films whose oil is dragged by walls as well as pressed: over the pressure
-flow the drag goes as speed times viscosity over pressure. Learnt times the inverse of this, their errors are 1.6 to 9
-times smaller with eight points of two inputs."""
+"""Outputs, where a flow may change its sign, of films with drag and pressure flow: over the pressure flow the drag flow
+goes as speed times viscosity over pressure. Learnt times the inverse of this, their errors are 1.6 to 9 times smaller
+with eight points of two inputs."""
 DRAG = (("shaft_speed", -1.0), ("delivery_pressure", 1.0), ("viscosity", -1.0))
 FILM_RISE = 100.0
 """K: the scale of temperatures in a table."""
@@ -76,11 +76,11 @@ def _output(name: str, values: Array) -> Output:
 
 @dataclass(frozen=True)
 class SolvedPoint:
-    """A point as a costly fidelity solves it, with its films.
+    """A point solved by a costly fidelity, with its films.
 
     In m: mean over area and turn, least anywhere in the turn; K: the hottest oil in the turn, above the case.
-    load_carried: one less the largest load over the turn that the film leaves to others, of the turn's largest load:
-    at a given position to anything, of a floating part to contact; None where no film was solved.
+    load_carried: one less the largest load over the turn that the film does not support, of the turn's largest load: at
+    a given position any such load, of a floating part that on contact; None where no film was solved.
     """
 
     pump_point: PumpPoint
@@ -160,6 +160,6 @@ def given_films(pump: PumpDescription) -> Gaps:
 
 
 def plate_flow(pump: PumpDescription, point: OperatingPoint[Number]) -> Any:
-    """Leakage of the valve plate by the lumped law, m3/s or (N,), were half of the chambers at delivery pressure."""
+    """Leakage of the valve plate by the lumped law, m3/s or (N,), with half of the chambers at delivery pressure."""
     one, at = lumped_leaks(pump, point, piston_motion(pump, point)).conductance[..., 2, 0], flat(point)
     return 0.5 * pump.pump.pistons * one * (at.delivery_pressure - at.case_pressure)

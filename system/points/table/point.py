@@ -1,4 +1,4 @@
-"""The table fidelity: the lumped kernel with film physics inside, by the ratios of a response table."""
+"""The table fidelity: the lumped kernel with the film physics of a response table's ratios."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
@@ -34,8 +34,8 @@ from system.pump.power import GapExchange, chamber_exchange, port_draw
 
 ROUND_LIMIT = 12
 SETTLED = 1e-6
-"""Part of the ports' pressure difference by which the delivery pressure may miss the one that the table was asked
-at: only an orifice of stated area moves it."""
+"""Part of the ports' pressure difference by which the delivery pressure may differ from the one of the table: only an
+orifice of stated area changes it."""
 
 
 @dataclass(frozen=True)

@@ -1,4 +1,4 @@
-"""Numbers of a run by a response table, and their error at points that the table has not learnt.
+"""Numbers of a run by a response table, and their error at held-out points of the table.
 
 A table learns ratios to the lumped law, means over the turn. A run by it has further errors: the shape over the
 angle, which is the law's, and its chamber pressure. So held-out points are run by the table as well, and their
@@ -25,7 +25,7 @@ NUMBERS: Mapping[str, str] = {
     **{f"{gap}.loss": "of the pair, mean" for gap in GAP_PAIRS},
     "socket.loss": "of the ball joints, mean",
 }
-"""Numbers of a pump's point by name, and what they are, in the order of `pump_numbers`."""
+"""Numbers of a pump's point by name with their meanings, in the order of `pump_numbers`."""
 
 
 @dataclass(frozen=True)

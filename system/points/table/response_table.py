@@ -1,8 +1,7 @@
 """Response tables of a pump: its gaps' means over the turn, learnt once from solved points and kept by content.
 
-A table belongs to a pump as it is, its inlet and case pressure included, at any speed, delivery pressure,
-displacement ratio, viscosity and dimension of the pump in its box. Ports' lines belong to the run: points are solved
-at held pressures.
+A table belongs to one pump with its inlet and case pressure, at any speed, delivery pressure, displacement ratio,
+viscosity and dimension of the pump in its box. Ports' lines belong to the run: points are solved at held pressures.
 """
 
 from collections.abc import Mapping
@@ -22,9 +21,9 @@ from system.points.table.sources import Source
 from system.pump.operating import OperatingPoint, flat
 
 LARGE_ERROR = 0.03
-"""Error of a held-out point from which a table is warned of."""
+"""Error of a held-out point above which a run warns of the table."""
 HELD_TO = 1e-5
-"""Relative: how far an input that a table holds may be off."""
+"""Relative: largest deviation of an input that a table holds."""
 SPEED, PRESSURE, RATIO, VISCOSITY = "shaft_speed", "delivery_pressure", "displacement_ratio", "viscosity"
 INPUTS = (SPEED, PRESSURE, RATIO, VISCOSITY)
 """Of the operating point; every other axis is a dimension of the pump by its path."""
@@ -41,7 +40,7 @@ _DIMENSIONS: Mapping[str, Dimension | None] = {
 
 @dataclass(frozen=True)
 class Failed:
-    """A point that has no result: where (SI, in the order of the axes), and why."""
+    """A point without a result: its place (SI, in the order of the axes), and the reason."""
 
     at: tuple[float, ...]
     reason: str
@@ -71,10 +70,10 @@ class TableOrigin:
 
 @dataclass(frozen=True)
 class ResponseTable:
-    """A pump's response with its origin: axes of INPUTS but for those held, and of dimensions of the pump; outputs of
+    """A pump's response with its origin: axes of INPUTS except those held, and of dimensions of the pump; outputs of
     `means.MEANINGS`.
 
-    numbers: how far runs by the table are off at the held-out points; None before they were run.
+    numbers: errors of runs by the table at the held-out points; None before the runs.
     """
 
     origin: TableOrigin
@@ -98,8 +97,8 @@ class ResponseTable:
 
         Outside the box those at its nearest face.
 
-        off: outputs by name that are too large by so much, relative or absolute as their measure is. Held
-        inputs, inlet and case pressure act by the lumped law that the outputs are ratios to.
+        off: excess of outputs by name, relative or absolute by their measure. Held inputs, inlet and case pressure act
+        by the lumped law, the reference of the outputs' ratios.
         """
         at, axes = flat(point), self.response.axes
         places = [np.clip(_value(axis.name, pump, at), axis.lower, axis.upper) for axis in axes]
@@ -123,7 +122,7 @@ class ResponseTable:
         return held and all(axis.lower <= value <= axis.upper for axis, value in ends)
 
     def beside_failed(self, pump: PumpDescription, point: OperatingPoint) -> Failed | None:
-        """The point without a result that is nearer than any learnt one, if any: there the table guesses."""
+        """The point without a result that is nearer than any learnt one, if any: there the table is not reliable."""
         axes = self.response.axes
         here = unit_places(axes, self._place(pump, point)[None, :])
         distance = [

@@ -138,7 +138,7 @@ class FloatingRow:
         return solved_means(self.floating(pump, point))
 
     def floating(self, pump: PumpDescription, point: OperatingPoint) -> FloatingPoint:
-        """The point itself; without a start, and with a warning, where the neighbour's motion leads to none."""
+        """The point itself; without a start, and with a warning, where the start from the neighbour's motion fails."""
         near, self.last = self.last, None
         try:
             self.last = floating_point(pump, point, self.solver.options, near=near)
@@ -149,7 +149,7 @@ class FloatingRow:
         return self.last
 
     def row(self) -> FloatingRow:
-        """One of its own."""
+        """A solver of its own."""
         return FloatingRow(self.solver)
 
 
@@ -177,7 +177,7 @@ def solved_means(found: FloatingPoint) -> SolvedPoint:
 
 
 def _carried(films: Sequence[GapFilm[Any]]) -> float:
-    """One less the largest load that a film leaves to others, of the largest load of the turn."""
+    """One less the largest load that a film does not support, of the largest load of the turn."""
     left = max(film.required_load - film.carried_load for film in films)
     return 1.0 - left / max(film.required_load for film in films)
 
@@ -189,13 +189,13 @@ def _by_film(instants: Sequence[GapInstant[Any]]) -> float:
 
 
 def _oil_temperature(pump: PumpDescription, films: Sequence[GapFilm[Any]]) -> float:
-    """Temperature (K) of the thinnest oil of a gap over the turn, by its viscosity under no pressure."""
+    """Temperature (K) of the thinnest oil of a gap over the turn, by its viscosity at zero pressure."""
     thinnest = min(float(np.min(film.solution.problem.film.viscosity)) for film in films)
     return temperature_of(pump.oil.fluid, thinnest)
 
 
 def _hottest(gap: GapRevolution[Any], point: OperatingPoint) -> float:
-    """Temperature (K) of the hottest oil of a gap over the turn; that of the case where films do not warm."""
+    """Temperature (K) of the hottest oil of a gap over the turn; that of the case for films without heat."""
     return point.temperature if gap.warmth is None else float(gap.warmth.hottest.max())
 
 

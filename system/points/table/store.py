@@ -34,7 +34,7 @@ def pump_key(pump: PumpDescription) -> str:
 
     Without its name, its tolerances, its lines and laws outside its films.
     """
-    # A clearance that grows with temperature starts from the pump's own, which is then no axis alone.
+    # A clearance that grows with temperature starts from the pump's own, which is then not only an axis.
     own = pump.operating.temperature if pump.physics.thermal_clearance else 0.0
     stated = replace(pump.operating, speed=0.0, pressure=0.0, displacement_ratio=1.0, temperature=own)
     bare = replace(films_alone(pump), name="", operating=stated, tolerance=ToleranceSection())
@@ -69,7 +69,7 @@ def read_response(
 ) -> Read:
     """Result of `made` for the record and response written by `write_response`, from its .json or .npz.
 
-    Raises InputFaults where there is none, or of a format that is not one of `oldest` to `newest`.
+    Raises InputFaults where it is absent, or of a format outside `oldest` to `newest`.
     """
     try:
         record = read_json(path.with_suffix(".json"))
@@ -119,7 +119,7 @@ def find_table(pump: PumpDescription, point: OperatingPoint, folder: Path | None
     """The kept table of a pump whose box contains a point: of the last source in `Source`, then with the most
     points.
 
-    Raises InputFaults where there is none, with the boxes of the other tables.
+    Raises InputFaults without such a table, with the boxes of the other tables.
     """
     tables = [read_table(path) for path in sorted(tables_folder(folder).glob(f"{pump_key(pump)}-*.json"))]
     fit = [table for table in tables if table.holds(pump, point)]
@@ -140,7 +140,7 @@ def find_table(pump: PumpDescription, point: OperatingPoint, folder: Path | None
 
 
 def own_table(path: Path, pump: PumpDescription) -> ResponseTable:
-    """The table of a file, which must be this pump's but for the dimensions of its box.
+    """The table of a file, which must be this pump's except for the dimensions of its box.
 
     Raises InputFaults where it is another's.
     """
@@ -175,7 +175,7 @@ def table_record(table: ResponseTable) -> dict[str, Any]:
 
 
 def _numbers_record(table: ResponseTable) -> list[dict[str, Any]]:
-    """The rows of errors of runs by the table, none before they were run."""
+    """The rows of errors of runs by the table, none before the runs."""
     if table.numbers is None:
         return []
     return [

@@ -2,10 +2,10 @@
 
 Eqs. (14) and (18)-(20) of Xu, Hu, Zhang and Mao (2017), corrected.
 
-As printed, Eq. (14) with (18) and (19) counts the displacement twice and the pump delivers nothing. Here the
-chamber keeps its mass: dp/dt = (K/V)(-Ap v - q_port - sum of leaks), V = V0 + Ap S, every q > 0 out of the
-chamber. The gaps' leakage is q(phi, p) = G(phi) (p - p_case) + C(phi) from a table, whoever filled it; V may
-grow besides by what the parts themselves move, and the pressures behind the ports may vary over the turn.
+As printed, Eq. (14) with (18) and (19) counts the displacement twice and the pump delivers nothing. Here the chamber
+keeps its mass: dp/dt = (K/V)(-Ap v - q_port - sum of leaks), V = V0 + Ap S, every q > 0 out of the chamber. The gaps'
+leakage is q(phi, p) = G(phi) (p - p_case) + C(phi) from a table; V may also grow by the parts' own small motion, and
+the pressures behind the ports may vary over the turn.
 """
 
 from dataclasses import dataclass
@@ -27,7 +27,7 @@ from system.pump.chamber.turn import Paths, TurnTotals, turn_totals
 from system.pump.laws.kinematics import Number, piston_displacement, stroke
 
 TOLERANCE = 1e-6
-"""Largest local error of a step, of the port pressure difference; the closed revolution is good to about this."""
+"""Largest local error of a step, of the port pressure difference; the closed revolution has about this accuracy."""
 PERIODICITY = 1e-8
 """Largest change of the oil held from one revolution to the next, as `oil_change`, of the pressure difference."""
 REVOLUTION_LIMIT = 60
@@ -37,10 +37,10 @@ REVOLUTION_LIMIT = 60
 class ChamberChecks:
     """Errors of one periodic revolution.
 
-    mass_balance_error: net outflow plus change of content, of the swept volume; energy_balance_error: indicated
-    work minus all it went into (not imposed, so a measure of the whole integration) and work_error: the embedded
-    method's own estimate for the indicated work, both of the ideal work, swept volume times (pressure difference
-    + 1 bar); periodicity_error in Pa.
+    mass_balance_error: net outflow plus change of content, of the swept volume; energy_balance_error: indicated work
+    less all sinks (not imposed, so a measure of the whole integration) and work_error: the embedded method's own
+    estimate for the indicated work, both of the ideal work, swept volume times (pressure difference + 1 bar);
+    periodicity_error in Pa.
     """
 
     mass_balance_error: float
@@ -62,10 +62,10 @@ class Effort:
 class ChamberCycle(TurnTotals):
     """One periodic revolution of one chamber.
 
-    Arrays over `shaft_angle` (N equidistant in [0, 2 pi), rad): pressure in Pa gauge, volume in m3, `flow` in
-    m3/s of liquid at chamber pressure, positive out. Per revolution beside its totals: `growth_work` in J, the
-    part of the indicated work that the growth of the volume does in place of the piston's way. `surge` (2, N) in
-    m3 at zero gauge pressure: what has gone into either port since shaft angle 0 beyond the mean flow.
+    Arrays over `shaft_angle` (N equidistant in [0, 2 pi), rad): pressure in Pa gauge, volume in m3, `flow` in m3/s of
+    liquid at chamber pressure, positive out. Per revolution beside its totals: `growth_work` in J, the part of the
+    indicated work done by the growth of the volume in place of the piston's way. `surge` (2, N) in m3 at zero gauge
+    pressure: the oil into either port since shaft angle 0 beyond the mean flow.
     """
 
     shaft_angle: Array

@@ -2,8 +2,8 @@
 
     dM'/dphi = -(q' + k p')/(s w),   p' = M'/(dM/dp),   q' = q(p, other) - q(p, solved),   k = dq/dp of the other
 
-by an implicit Euler step per step of the trail, stable where an open port is stiff. What gaps let out more is the mean
-over the step; the ports' own flows, which their viscosity changes, are those at its end.
+by an implicit Euler step per step of the trail, stable where an open port is stiff. The gaps' additional outflow is the
+mean over the step; the ports' own flows, which their viscosity changes, are those at its end.
 """
 
 # mypy: allow-untyped-defs, allow-incomplete-defs, no-check-untyped-defs
@@ -22,14 +22,14 @@ END = STAGE + KEPT * (STAGES - 1)
 MEAN = np.full(INTEGRALS, 0.5)
 MEAN[[col.OUTFLOW + port for port in range(PORTS)] + [col.PATH_ENERGY + port for port in range(PORTS)]] = 0.0
 MEAN[col.PORT_ENERGY :] = 0.0
-"""Weight of a step's beginning in the mean of each integral's rate: none where the ports' stiff flows are in it."""
+"""Weight of a step's beginning in the mean of each integral's rate: zero where it includes the ports' stiff flows."""
 
 
 @numba.njit(cache=True, error_model="numpy", nogil=True)
 def gaps_map(constants, tables, ports, others, other_tables, trail, begins, changes):
     """Fill changes (P, INTEGRALS): integrals of a turn of the other chambers less those of the solved ones.
 
-    constants (P,), tables (P, N, 7, 4), ports, trail, begins: as `chamber_map` took and returned them; others,
+    constants (P,), tables (P, N, 7, 4), ports, trail, begins: as given to and returned by `chamber_map`; others,
     other_tables: the same of chambers with these ports and this volume.
     """
     for point in range(constants.size):
@@ -44,8 +44,8 @@ def gaps_map(constants, tables, ports, others, other_tables, trail, begins, chan
 def turn_change(chamber, table, other, other_table, ports, trail, mass, change):
     """Fill the change (INTEGRALS,) over the steps of a trail (T, TRAIL), from a change of mass in m3 at its beginning.
 
-    Returned: the change of mass at its end. At the first step an open port has made the change of pressure its own, so
-    that its end stands for its mean.
+    Returned: the change of mass at its end. At the first step an open port determines the change of pressure, so that
+    its end is used for its mean.
     """
     oil, speed = oil_of(chamber), chamber[0].shaft_speed
     ways, flows, own = np.empty(WAYS), np.empty(PATHS), np.empty(PATHS)

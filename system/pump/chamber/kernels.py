@@ -1,10 +1,10 @@
 """Compiled integration of one chamber over shaft angle: one implicit step, one revolution.
 
-Method: ESDIRK4(3)6L[2]SA of Kennedy and Carpenter (2003), Applied Numerical Mathematics 44, p. 139: order 4 with
-an embedded order 3, L-stable, stiffly accurate, stage order 2 (a chamber open to its port is stiff, and methods
-of stage order 1 get its flow wrong by 0.5 % there). The integrals below are advanced with the same weights as M,
-so what enters the chamber leaves it to round-off whatever the step. Steps are foreseen after Gustafsson (1994),
-ACM Transactions on Mathematical Software 20, p. 496: from how the error has grown over the last two.
+Method: ESDIRK4(3)6L[2]SA of Kennedy and Carpenter (2003), Applied Numerical Mathematics 44, p. 139: order 4 with an
+embedded order 3, L-stable, stiffly accurate, stage order 2 (a chamber open to its port is stiff, and methods of stage
+order 1 get its flow wrong by 0.5 % there). The integrals below are advanced with the same weights as M, so inflow and
+outflow of the chamber balance to round-off for any step. Steps are predicted after Gustafsson (1994), ACM Transactions
+on Mathematical Software 20, p. 496: from the growth of the error over the last two.
 """
 
 # mypy: allow-untyped-defs, allow-incomplete-defs, no-check-untyped-defs
@@ -30,7 +30,7 @@ from system.pump.chamber.state_kernels import (
 STAGES = 6
 LEFT, PRESSURE, OPEN = INTEGRALS, INTEGRALS + 1, INTEGRALS + 2
 COLUMNS = OPEN + col.PORTS
-"""Columns of a stage: what `fill_stage` fills, its integrals' rates, mass out by all paths per radian, pressure;
+"""Columns of a stage: the columns of `fill_stage`, its integrals' rates, mass out by all paths per radian, pressure;
 then the areas of both ports."""
 BEGIN, LENGTH, STAGE = 0, 1, 2
 KEPT = 1 + col.PORTS
@@ -66,14 +66,14 @@ FORESEEN = np.array(
         for stage in range(STAGES)
     ]
 )
-"""Weights of the stages before it in the polynomial that foresees the pressure of a stage."""
+"""Weights of the stages before it in the polynomial that predicts the pressure of a stage."""
 
 OK, NO_STAGE, STEP_TOO_SMALL = 0, 1, 2
 NEWTON_LIMIT = 100
 NEWTON_SHARE = 1e-2  # of the error of a step: the last change of a stage's pressure, which flows follow
 NEWTON_TOLERANCE = 1e-12  # of the bulk modulus: the same where that is larger; some mPa, well above round-off
 SMALLEST_STEP = 1e-12  # rad
-SAFETY = 0.8  # of the step whose error would be just what it may be
+SAFETY = 0.8  # of the step whose error would be just the allowed one
 FIRST_STEP = 1e-3  # rad
 CAVITY_STEP = 1e-4  # rad; no longer step may open or close a cavity, where dp/dphi jumps unseen by the mass
 
@@ -97,9 +97,9 @@ def total_of(flows):
 def stage_pressure(chamber, guess, content, mass, weight, close, ways, flows):
     """Pressure with V = s(p) (mass - weight sum(q)/s_liquid(p)), s there, its stiffness ratio, and success.
 
-    `weight` is gamma times the step over the shaft speed; `flows` holds the path flows at the pressure returned.
-    The equation rises strictly with p wherever anything depends on p at all, so Newton inside a shrinking bracket
-    finds its one root; a change of at most `close` (Pa) is the last, and s and flows follow it by their slopes.
+    `weight` is gamma times the step over the shaft speed; `flows` holds the path flows at the pressure returned. The
+    equation rises strictly with p wherever it depends on p, so Newton inside a shrinking bracket finds its one root; a
+    change of at most `close` (Pa) is the last, and s and flows follow it by their slopes.
     """
     bulk, oil = chamber[0].bulk_modulus, oil_of(chamber)
     low, high, pressure, sharp = -np.inf, np.inf, guess, NEWTON_TOLERANCE * bulk
@@ -150,9 +150,9 @@ def fill_stage(chamber, pressure, specific, swell, ways, flows, out):
 def step(chamber, table, ports, shaft_angle, length, mass, slope, close, stages, ways, flows):
     """One step: new mass, error of the mass (filtered for stiffness), success.
 
-    `stages` (STAGES, COLUMNS) brings the start in its first row and holds every stage after: rates of the
-    integrals, LEFT, PRESSURE; the last row is the solution at the step's end. `slope`: dp/dphi foreseen at the
-    start; `ways` and `flows` are room to work in.
+    `stages` (STAGES, COLUMNS) brings the start in its first row and holds every stage after: rates of the integrals,
+    LEFT, PRESSURE; the last row is the solution at the step's end. `slope`: dp/dphi predicted at the start; `ways` and
+    `flows` are work space.
     """
     speed = chamber[0].shaft_speed
     weight = GAMMA * length / speed
@@ -185,7 +185,7 @@ def step(chamber, table, ports, shaft_angle, length, mass, slope, close, stages,
 def slaved_pressure(chamber, table, ports, shaft_angle):
     """Pressure at which the outflow just equals the displacement, and whether there is one.
 
-    What an open port forces on the chamber whatever it did before: where a revolution is best begun.
+    The pressure set by an open port, independent of history: the best start of a revolution.
     """
     c = chamber[0]
     ways, flows = np.empty(WAYS), np.empty(PATHS)
@@ -216,7 +216,7 @@ def to_cavity(chamber, table, shaft_angle, length, mass, new_mass, left):
 
 @numba.njit(f8(f8, f8, _matrix), cache=True, error_model="numpy")
 def step_size(mass_error, work, stages):
-    """Error of a step, of what it may be: that of the mass as given, those of the energies times `work`."""
+    """Error of a step over the allowed one: that of the mass as given, those of the energies times `work`."""
     size = mass_error
     for k in (col.WORK, col.PATH_ENERGY + col.DELIVERY, col.PATH_ENERGY + col.SUCTION):
         slip = 0.0

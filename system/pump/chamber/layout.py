@@ -28,7 +28,7 @@ OUTFLOW, WORK, PATH_ENERGY, DRAG_ENERGY, PORT_ENERGY = 0, 5, 6, 11, 14
 that flows into each port."""
 
 CAVITY_PRESSURE = 1e3 - 101325.0
-"""Gauge pressure in Pa at which a cavity opens (1 kPa absolute): oil bears no tension. Its vapour pressure is
-lower still, and dissolved air leaves it earlier; neither moves a chamber pressure that is shown in bar."""
+"""Gauge pressure in Pa at which a cavity opens (1 kPa absolute): oil bears no tension. Its vapour pressure is lower
+still, and dissolved air leaves it earlier; neither changes a chamber pressure shown in bar."""
 CAVITY_SOFTNESS = 1e3
 """Fall of the pressure in Pa below CAVITY_PRESSURE while the void grows to the oil's own volume."""

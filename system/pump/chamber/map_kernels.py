@@ -11,7 +11,7 @@ from system.pump.chamber.state_kernels import oil_change, oil_of
 from system.pump.chamber.trail_kernels import NOT_PERIODIC, RUN_IN, follow_turn, sample
 
 ROOM = 256
-"""Steps of a turn that are kept at first; more are made room for."""
+"""Steps of a turn with space at first; the space grows with more."""
 
 
 @numba.njit(cache=True, error_model="numpy", nogil=True)
@@ -41,7 +41,7 @@ def chamber_map(constants, tables, ports, nodes, firsts, control, pressures, tot
 
 @numba.njit(cache=True, error_model="numpy")
 def room(count, totals):
-    """Arrays that `revolution` fills over so many nodes, but for the trail."""
+    """Arrays that `revolution` fills over so many nodes, without the trail."""
     return np.empty(count), np.empty((count, PATHS)), np.empty((count, PATHS)), totals
 
 
@@ -49,7 +49,7 @@ def room(count, totals):
 def beside_map(constants, tables, ports, nodes, firsts, control, trail, begins, pressures, totals, statuses):
     """`chamber_map` of chambers that differ little from those whose `trail` and `begins` it has returned.
 
-    They go along those steps; points that these do not lead well are solved for themselves. Returned: how many.
+    They use those steps; points without convergence on them are solved by themselves. Returned: their number.
     """
     along, alone = np.empty((np.max(np.diff(begins)), TRAIL)), 0
     for point in range(constants.size):
@@ -102,7 +102,7 @@ def periodic(given, nodes, control, filled):
 
 @numba.njit(cache=True, error_model="numpy")
 def run_in(given, nodes, tolerance, totals):
-    """A pressure at nodes[0] that an open port has already made its own; the inlet's where there is none."""
+    """The pressure at nodes[0] set by an open port, independent of history; the inlet's without an open port."""
     begin = nodes[-1] - RUN_IN
     before = np.concatenate((np.array([begin]), nodes[nodes > begin])) - 2.0 * np.pi
     start, found = slaved_pressure(*given, before[0])

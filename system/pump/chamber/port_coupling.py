@@ -1,7 +1,7 @@
 """Chambers and the volumes behind both ports, periodic together: port pressure ripple and flow ripple.
 
-Where all chambers are alike the ports repeat with each piston pitch, else with the turn. Given port pressures over that
-time, the chambers' cycles say what comes in; `ports_volume` answers with better pressures, mixed by Anderson's rule.
+Where all chambers are equal the ports repeat with each piston pitch, else with the turn. With port pressures over that
+time, the chambers' cycles give the inflow; `ports_volume` returns better pressures, mixed by Anderson's rule.
 """
 
 from __future__ import annotations
@@ -35,9 +35,9 @@ SETTLED = 10.0
 class Port:
     """One port over the turn: arrays over the cycle's shaft angles, SI, pressure gauge, flows out of the pump.
 
-    pressure Pa; line_flow m3/s at that pressure; orifice_area m2 of the line, None without an orifice; power W,
-    mean, that the line takes with its oil beyond that of the mean flow at the mean pressure; balance_error: oil of
-    the port's volume not accounted for, of the oil through it in the time in which the port repeats.
+    pressure Pa; line_flow m3/s at that pressure; orifice_area m2 of the line, None without an orifice; power W, mean,
+    into the line with its oil beyond that of the mean flow at the mean pressure; balance_error: oil of the port's
+    volume not accounted for, of the oil through it in the time in which the port repeats.
     """
 
     pressure: Array
@@ -69,7 +69,7 @@ class PortedCycle:
 
     @property
     def problem(self) -> ChamberProblem:
-        """The first chamber's: what all of them share is in it."""
+        """The first chamber's problem, with the data common to all."""
         return self.problems[0]
 
     @cached_property
@@ -89,10 +89,10 @@ def ported_cycle(
     """The periodic revolution of a pump's chambers together with the volumes behind its ports.
 
     `problems`: one for all chambers, or one for each of z. They give the ports' mean pressures: held, met by an orifice
-    of free area, or where an orifice of stated area begins its search. draws in m3/s at zero gauge pressure: what films
-    take from delivery and suction port, a mean or over a pitch from shaft angle 0, (samples/pistons,); where chambers
-    differ over the turn, (samples,). Raises NotConverged when ports and chambers do not agree within ROUND_LIMIT
-    rounds, where a port cavitates, and as `solve_cycle`.
+    of free area, or where an orifice of stated area begins its search. draws in m3/s at zero gauge pressure: the flow
+    from delivery and suction port into films, a mean or over a pitch from shaft angle 0, (samples/pistons,); where
+    chambers differ over the turn, (samples,). Raises NotConverged when ports and chambers do not agree within
+    ROUND_LIMIT rounds, where a port cavitates, and as `solve_cycle`.
     """
     solved = _Solved.by(problems, samples, tolerance)
     repeats, problem = pistons if len(problems) == 1 else 1, problems[0]

@@ -1,11 +1,11 @@
-"""Oil in the volume behind a port over one period: what the chambers push in, what the line takes, what pressure.
+"""Oil in the volume behind a port over one period: inflow from the chambers, outflow into the line, pressure.
 
 Mass over the density at zero gauge pressure, V exp(p/K) in a volume V of constant bulk modulus K, is kept:
 
     d/dt [V exp(p/K)] = inflow - exp(p/K) q_line(p) - draw,
 
-integrated once, so that the oil which came in by any shaft angle is what the chambers' integration says, spikes
-between the angles included. M equidistant times in a period, from shaft angle 0; integrals by Fourier transform.
+integrated once, so that the oil received up to any shaft angle is that of the chambers' integration, with spikes
+between the angles. M equidistant times in a period, from shaft angle 0; integrals by Fourier transform.
 """
 
 from dataclasses import dataclass
@@ -31,8 +31,8 @@ AREA_TOLERANCE = 1e-13
 class Supply:
     """Inflow of a port from the chambers over one period (s), oil at zero gauge pressure.
 
-    mean inflow in m3/s, negative at a suction port; surge (M,) m3, what has come in since shaft angle 0 beyond the
-    mean; draw (M,) m3/s, taken from the port by films; open_volume m3 of the chambers open to it, mean.
+    mean inflow in m3/s, negative at a suction port; surge (M,) m3, the inflow since shaft angle 0 beyond the mean; draw
+    (M,) m3/s, from the port into films; open_volume m3 of the chambers open to it, mean.
     """
 
     period: float
@@ -56,10 +56,10 @@ class LineFlow:
 
 @dataclass(frozen=True)
 class PortBalance:
-    """A port's oil at a pressure (M,) Pa: what the line takes, how far mass is from being kept, the next pressure.
+    """A port's oil at a pressure (M,) Pa: the line's flow, the residual of the mass balance, the next pressure.
 
-    rest (M,) m3 at zero gauge pressure: more oil in the volume than came in, beyond the mean; mean_rest m3/s: more
-    leaves than comes.
+    rest (M,) m3 at zero gauge pressure: oil in the volume less the inflow, beyond the mean; mean_rest m3/s: outflow
+    less inflow.
     """
 
     line: LineFlow
@@ -73,9 +73,9 @@ def port_balance(
 ) -> PortBalance:
     """Oil balance of a port at a pressure (M,), and a better pressure.
 
-    `wanted` Pa: the mean that an orifice of free area, and the throttle of an impedance line, hold. The better
-    pressure is Newton's, each harmonic k by itself: the rest over (V + open chambers) exp(p/K)/K + slope/(i k w).
-    Exact but for what the chambers themselves answer.
+    `wanted` Pa: the mean that an orifice of free area, and the throttle of an impedance line, hold. The better pressure
+    is Newton's, each harmonic k by itself: the rest over (V + open chambers) exp(p/K)/K + slope/(i k w). Exact except
+    for the response of the chambers themselves.
     """
     taken = line_flow(line, pressure, supply, oil)
     dense = np.exp(pressure / oil.bulk_modulus)
@@ -84,7 +84,7 @@ def port_balance(
     gone = np.zeros_like(mass_flow)
     gone[1:] = mass_flow[1:] / (1j * waves[1:])
     if pressure.size % 2 == 0:
-        gone[-1] = 0.0  # the samples hold only the cosine of the shortest wave, not its integral
+        gone[-1] = 0.0  # the samples resolve only the cosine of the shortest wave, not its integral
     rest = np.fft.rfft(line.volume * dense - supply.surge) + gone
     mean_rest = float(mass_flow[0].real) / pressure.size - supply.mean
     step = np.zeros_like(rest)
@@ -135,7 +135,7 @@ def _through(area: float, drop: Array, oil: ChamberProblem) -> tuple[Array, Arra
 
 
 def _area_for(line: OrificeLine, pressure: Array, supply: Supply, oil: ChamberProblem) -> float:
-    """Area (m2) through which the line takes all that comes: the flow is nearly proportional to it."""
+    """Area (m2) at which the line's flow equals the supply: the flow is nearly proportional to it."""
     dense, drop = np.exp(pressure / oil.bulk_modulus), pressure - line.tank_pressure
     needed = supply.mean - float(np.mean(supply.draw))
     area = 1e-5
@@ -153,7 +153,7 @@ def _area_for(line: OrificeLine, pressure: Array, supply: Supply, oil: ChamberPr
 
 
 def _impedance_flow(line: ImpedanceLine, pressure: Array, supply: Supply, oil: ChamberProblem) -> LineFlow:
-    """p/Z of each harmonic; the mean is what comes."""
+    """p/Z of each harmonic; the mean equals the supply."""
     orders = np.arange(1, pressure.size // 2 + 1)
     slope = np.zeros(orders.size + 1, dtype=complex)
     slope[1:] = 1.0 / line.impedance.at(orders / supply.period)

@@ -21,10 +21,10 @@ class LeakTable:
 
     Of P operating points at once: (P, 3, N).
 
-    Columns: N equidistant shaft angles 2 pi j/N from 0; conductance in m3/(s Pa), all >= 0, drag_flow in m3/s,
-    both for flow out of the chamber. Between the columns runs a periodic cubic spline: with two continuous
-    derivatives it keeps the integrator's order, and steps need not end on the table's angles; a linear one would
-    bend at each of them. Raises ValueError for a wrong shape or a negative conductance.
+    Columns: N equidistant shaft angles 2 pi j/N from 0; conductance in m3/(s Pa), all >= 0, drag_flow in m3/s, both for
+    flow out of the chamber. Between the columns runs a periodic cubic spline: with two continuous derivatives it keeps
+    the integrator's order, and steps need not end on the table's angles; a linear one would have a kink at each of
+    them. Raises ValueError for a wrong shape or a negative conductance.
     """
 
     conductance: Array
@@ -84,7 +84,7 @@ class Chamber(Generic[Number]):
 
     @property
     def pressure_span(self) -> Number:
-        """Size by which pressures are judged, Pa."""
+        """Reference size of pressures, Pa."""
         return pressure_span(self.delivery_pressure, self.inlet_pressure)
 
 
@@ -92,8 +92,8 @@ class Chamber(Generic[Number]):
 class ChamberProblem(Chamber):
     """One chamber at one operating point with its ports and its leaking gaps.
 
-    Without `port_pressure` the ports' pressures are held at their means. growth (N,) m3 at N equidistant shaft
-    angles from 0: what the parts' own small motion adds to the volume.
+    Without `port_pressure` the ports' pressures are held at their means. growth (N,) m3 at N equidistant shaft angles
+    from 0: growth of the volume by the parts' own small motion.
     """
 
     delivery_port: PortOpening

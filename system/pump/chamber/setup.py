@@ -1,4 +1,4 @@
-"""One revolution of a chamber as the compiled integration takes it: constants, tables, nodes, what it fills."""
+"""One revolution of a chamber for the compiled integration: constants, tables, nodes, arrays of results."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ def ported_record(problem: ChamberProblem) -> np.ndarray:
 
 
 def turn_nodes(suction: PortOpening, delivery: PortOpening, samples: int) -> tuple[Array, np.ndarray]:
-    """One turn of angles that steps must end on, and where in nodes[1:] the samples from angle 0 lie.
+    """One turn of angles on which steps must end, and the places in nodes[1:] of the samples from angle 0.
 
     The turn begins at the sample nearest the middle of the open suction kidney: the port holds the pressure there.
     """
@@ -68,7 +68,7 @@ class Course:
         return self.pressures, self.rates, self.passed, self.totals, np.empty((0, kernel.TRAIL))
 
     def at(self, nodes: Array, where: np.ndarray) -> Course:
-        """The same at the places `where` in nodes[1:], of the oil passed only what goes beyond the mean flow."""
+        """The same at the places `where` in nodes[1:], of the oil passed only the part beyond the mean flow."""
         turned = (nodes[1:] - nodes[0]) / TURN
         surge = self.passed - turned[:, None] * self.totals[:PATHS]
         return Course(self.pressures[where], self.rates[where], surge[where] - surge[where[0]], self.totals)

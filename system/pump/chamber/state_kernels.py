@@ -1,13 +1,13 @@
-"""Compiled state of one chamber at a shaft angle: oil, volume, what lets oil out, flows and their energy.
+"""Compiled state of one chamber at a shaft angle: oil, volume, outflow paths, flows and their energy.
 
 State: mass over reference density M = V/s(p) in m3, with s(p) the specific volume of the oil relative to zero
 gauge pressure, s = exp(-p/K) while it is liquid without air. Then dM/dphi = -sum(q)/(s w) is conservation of mass and,
 divided by M, the corrected Eq. (14). Every q > 0 leaves the chamber and is a volume of oil at chamber pressure, with
 its bubbles: beside a cavity too it is oil that passes ports and gaps, so its mass is q over the s of that.
 
-What varies over the turn comes as periodic cubics on equal intervals of shaft angle, in unit cells: `table` (N,
-TABLE, 4) has the gaps' conductances and drag flows and the growth of the volume by the parts' own motion in m3;
-`ports` (M, 2, 4) the pressures of delivery and suction port, M = 1 where held. `layout` names the columns.
+Quantities that vary over the turn are periodic cubics on equal intervals of shaft angle, in unit cells: `table` (N,
+TABLE, 4) has the gaps' conductances and drag flows and the growth of the volume by the parts' own motion in m3; `ports`
+(M, 2, 4) the pressures of delivery and suction port, M = 1 where held. `layout` names the columns.
 """
 
 # mypy: allow-untyped-defs, allow-incomplete-defs, no-check-untyped-defs
@@ -52,17 +52,17 @@ oils = numba.types.UniTuple(f8, 3)
 
 @numba.njit(oils(records), cache=True, error_model="numpy")
 def oil_of(chamber):
-    """A chamber's oil as the functions of its volume and energy take it: modulus, free air, exponent of the air."""
+    """A chamber's oil for the functions of its volume and energy: modulus, free air, exponent of the air."""
     c = chamber[0]
     return c.bulk_modulus, c.free_air, c.air_exponent
 
 
 @numba.njit(numba.types.UniTuple(f8, 3)(f8, oils), cache=True, error_model="numpy")
 def oil_volume(pressure, oil):
-    """Specific volumes (relative) of the oil with its cavity and of what flows, and -ds/dp of the former in 1/Pa.
+    """Specific volumes (relative) of the oil with its cavity and of the flowing oil, and -ds/dp of the former in 1/Pa.
 
     Liquid of constant bulk modulus with bubbles, s = exp(-p/K) + x (p0/(p + p0))^m; below CAVITY_PRESSURE oil and
-    cavity together, nearly at that pressure. What passes ports and gaps has no cavity, but the bubbles.
+    cavity together, nearly at that pressure. Oil in ports and gaps has no cavity, but the bubbles.
     """
     modulus, air, exponent = oil
     above = max(pressure, CAVITY_PRESSURE)
@@ -83,8 +83,8 @@ def oil_volume(pressure, oil):
 def oil_change(start, end, oil):
     """Change of a chamber's oil over a turn that leads from one pressure to another, in Pa.
 
-    Of liquid that of its pressure. Beside a cavity the pressure hardly knows how much oil there is, so that it
-    counts as the change of pressure by which liquid would hold as much more: K dM/M.
+    Of liquid the change of its pressure. Beside a cavity the pressure hardly depends on the amount of oil; there the
+    change of pressure is that by which liquid would hold as much more: K dM/M.
     """
     return oil[0] * (oil_volume(start, oil)[0] / oil_volume(end, oil)[0] - 1.0)
 
@@ -142,7 +142,7 @@ def volume(chamber, table, shaft_angle):
 
 @numba.njit(numba.void(records, f8, f8, vector), cache=True, error_model="numpy")
 def port_ways(chamber, delivery_area, suction_area, out):
-    """Fill of `ways_out` what the ports' areas (m2) give: ORIFICE, AREA and FLOW_SCALE."""
+    """Fill the part of `ways_out` from the ports' areas (m2): ORIFICE, AREA and FLOW_SCALE."""
     c = chamber[0]
     law = (c.flow_coefficient, c.density, c.kinematic_viscosity, c.critical_reynolds)
     out[col.ORIFICE], out[col.ORIFICE + 1] = orifice_coefficients(delivery_area, *law)
@@ -168,7 +168,7 @@ def ways_out(chamber, table, ports, shaft_angle, delivery_area, suction_area, ou
 
 @numba.njit(numba.void(records, cubics, cubics, f8, vector), cache=True, error_model="numpy")
 def openings(chamber, table, ports, shaft_angle, out):
-    """`ways_out` at a shaft angle, the ports as far open as they are there."""
+    """`ways_out` at a shaft angle, with the ports' openings there."""
     c = chamber[0]
     delivery, suction = section_area(shaft_angle, c.delivery_port), section_area(shaft_angle, c.suction_port)
     ways_out(chamber, table, ports, shaft_angle, delivery, suction, out)
@@ -197,8 +197,8 @@ def outflows(chamber, pressure, ways, flows):
 def integral_rates(chamber, pressure, specific, swell, ways, flows, out):
     """Rates per radian of the integrals, (INTEGRALS,); `swell` is dV/dphi.
 
-    The energy left in a path is its mass flow times h(p) - h(p_outside): what throttling and leaking turn into
-    heat. The walls do the same work on the oil that they drag, kept apart because it is not a loss.
+    The energy left in a path is its mass flow times h(p) - h(p_outside): the heat of throttling and leakage. The walls
+    do the same work on the oil that they drag, counted separately because it is not a loss.
     """
     c = chamber[0]
     oil = oil_of(chamber)

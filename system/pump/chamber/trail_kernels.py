@@ -1,8 +1,8 @@
 """Compiled use of the steps that a revolution has taken: the pressure between their ends, and chambers beside.
 
-A chamber that differs little from one that is solved goes along its steps: none is refused, the ports' areas are
-known, every stage knows nearly its pressure. What it changes is a difference at equal steps, in which their errors
-cancel (internal numerical differentiation; Bock 1981, Springer Series in Chemical Physics 18, p. 102).
+A chamber that differs little from a solved one uses its steps: none is refused, the ports' areas are known, and every
+stage has a good first guess of its pressure. The change is a difference at equal steps, in which their errors cancel
+(internal numerical differentiation; Bock 1981, Springer Series in Chemical Physics 18, p. 102).
 """
 
 # mypy: allow-untyped-defs, allow-incomplete-defs, no-check-untyped-defs
@@ -38,9 +38,9 @@ from system.pump.chamber.state_kernels import oil_change, oil_of, oil_volume, ou
 NOT_PERIODIC, TOO_ROUGH = 3, 4
 """Statuses beside those of `kernels`."""
 RUN_IN = np.pi / 9.0
-"""Angle (rad) over which an open port makes the pressure its own, whatever it was."""
+"""Angle (rad) after which the pressure is set by an open port, independent of history."""
 ROUGH = 4.0
-"""Error of a step that another chamber's steps lead to, of what it may be: a few such do not show in a turn."""
+"""Error of a step on another chamber's steps, over the allowed one: a few such have no visible effect on a turn."""
 BETWEEN = np.array([0, 2, 3, 4, 5])
 """Stages that the pressure within a step runs through; the second is less exact."""
 
@@ -77,7 +77,7 @@ def within(step, share):
 def follow(chamber, table, ports, trail, pressure, tolerance, along, totals):
     """The steps of a trail (T, TRAIL) from a pressure at their beginning: pressure at the end, status.
 
-    Filled: `along` (T, TRAIL), the steps as this chamber takes them, and totals (INTEGRALS,).
+    Filled: `along` (T, TRAIL), the steps of this chamber, and totals (INTEGRALS,).
     """
     c = chamber[0]
     scale = tolerance * (abs(c.delivery_pressure - c.inlet_pressure) + 1e5)
@@ -123,7 +123,7 @@ def run_in_row(trail):
 def follow_turn(given, trail, tolerance, limit, turns, along, totals):
     """The periodic turn of a chamber beside that whose turn `trail` is, as `follow`: its status.
 
-    Periodic when `oil_change` over it is no more than `limit`; the first is run in where the other's ends.
+    Periodic when `oil_change` over it is no more than `limit`; the first is run in at the end of the other's.
     """
     last = run_in_row(trail)
     start, status = follow(*given, trail[last:], trail[last, STAGE], tolerance, along, totals)
@@ -139,7 +139,7 @@ def follow_turn(given, trail, tolerance, limit, turns, along, totals):
 
 @numba.njit(cache=True, error_model="numpy")
 def step_along(chamber, table, ports, kept, mass, close, stages, ways, flows):
-    """`kernels.step` with the ports' areas and the first guesses of a step that another has taken."""
+    """`kernels.step` with the ports' areas and the first guesses of another chamber's step."""
     angle, length = kept[BEGIN], kept[LENGTH]
     weight = GAMMA * length / chamber[0].shaft_speed
     stiffness = 0.0

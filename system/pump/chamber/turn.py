@@ -56,7 +56,7 @@ class TurnTotals(Generic[Number]):
     """Integrals over one turn of one chamber; TurnTotals[Array]: at N operating points, arrays (N,).
 
     `outflow` in m3 at the density of zero gauge pressure; `path_energy` in J, throttled in the ports and given off in
-    the gaps; `drag_energy` in J, the part of it that dragged oil gives back to the moving walls and that is not lost
+    the gaps; `drag_energy` in J, the part of it that dragged oil returns to the moving walls, which is no loss
     (negative: the walls push the oil in); `indicated_work` in J, done on the chamber: -integral of p dV; `port_energy`
     (2,) or (2, N) in J, pressure work and elastic energy of the oil that goes into delivery and suction port.
     """

@@ -43,7 +43,7 @@ _WORDS = {
 
 @dataclass(frozen=True)
 class PairLoss(Generic[Number]):
-    """Loss of one pair over equidistant shaft angles in W, Coulomb and viscous part, and how many pairs there are.
+    """Loss of one pair over equidistant shaft angles in W, Coulomb and viscous part, and the number of pairs.
 
     `count` is z for the pistons' and slippers' pairs, whose arrays belong to one of them (the mean of all where
     chambers differ), and 1 for the others. PairLoss[Array]: at N operating points, each over its M angles, (N, M);
@@ -210,8 +210,8 @@ def pads_shear(viscosity: Number, area: float, mean_speed: Number, film_thicknes
 def ball_guide_coulomb(friction: float, spring: float, contact_latitude: float, mean_sliding_speed: Number) -> Number:
     """Loss f F_s/sin(latitude) mean|dV| of ball guide and retainer.
 
-    REF90's nominal law: it leaves the cos(gamma) of Eq. (23) out (see `retainer.uniform_normal_force`, 4 % at 16.2
-    deg). Independent of pressure.
+    REF90's nominal law: it omits the cos(gamma) of Eq. (23) (see `retainer.uniform_normal_force`, 4 % at 16.2 deg).
+    Independent of pressure.
     """
     return friction * spring / np.sin(contact_latitude) * mean_sliding_speed
 
@@ -219,5 +219,5 @@ def ball_guide_coulomb(friction: float, spring: float, contact_latitude: float, 
 def bearing_coulomb(
     friction: float, share: float, side_sum: Array, shaft_speed: Array | float, diameter: float
 ) -> Array:
-    """Loss f share sum(Fs) w d/2 of one shaft bearing that takes its share of all pistons' side forces."""
+    """Loss f share sum(Fs) w d/2 of one shaft bearing that bears its share of all pistons' side forces."""
     return friction * share * side_sum * shaft_speed * diameter / 2.0

@@ -47,7 +47,7 @@ class SwashDrive(Generic[Number]):
 
     @property
     def stroke_scale(self) -> Number:
-        """R tan(gamma)/cos(beta) in m: half the stroke of the machine but for terms of order t^2."""
+        """R tan(gamma)/cos(beta) in m: half the stroke of the machine except for terms of order t^2."""
         return self.pitch_radius * np.tan(self.swash_angle) / np.cos(self.bore_cone_angle)
 
 
@@ -183,9 +183,9 @@ def drive_at_ratio(full: SwashDrive, displacement_ratio: Number) -> SwashDrive[N
 def stand_out(full: SwashDrive, drive: SwashDrive[Number]) -> Number:
     """Overhang of the piston at its inner dead centre beyond that at full displacement, in m: (H_max - H)/2.
 
-    The plate pivots on the shaft axis, so both dead centres draw towards mid stroke as it is set back. Exact for
-    a cylindrical block; with a cone the mid point itself moves by less than t H_max/2 (0.33 mm on REF90), left
-    out so that the dead volume is the linear one REF90 states.
+    The plate pivots on the shaft axis, so both dead centres move towards mid stroke as the displacement is reduced.
+    Exact for a cylindrical block; with a cone the mid point itself moves by less than t H_max/2 (0.33 mm on REF90),
+    neglected so that the dead volume is the linear one REF90 states.
     """
     return (stroke(full) - stroke(drive)) / 2.0
 

@@ -78,8 +78,8 @@ def valve_plate_conductance(
 ) -> Number:
     """Leakage of one chamber over both sealing lands of the valve plate per pascal; paper Eq. (17).
 
-    G = alpha h^3/(12 mu) [1/ln(R2/R1) + 1/ln(R4/R3)], alpha = 2 pi/z: each chamber pressurises its own pitch.
-    Parallel film, radii R1 < R2 < R3 < R4 in m. extra_logs: what edges add to the two logarithms.
+    G = alpha h^3/(12 mu) [1/ln(R2/R1) + 1/ln(R4/R3)], alpha = 2 pi/z: each chamber pressurises its own pitch. Parallel
+    film, radii R1 < R2 < R3 < R4 in m. extra_logs: additions of edges to the two logarithms.
     """
     r1, r2, r3, r4 = land_radii
     pitch = 2.0 * np.pi / pistons

@@ -14,7 +14,7 @@ from reynolds.numerics.arrays import Array
 from system.pump.laws.kinematics import Number
 
 QUADRATURE_POINTS = 256
-"""Points of the periodic rule round the contact circle: exact to round-off for the smooth speeds met here."""
+"""Points of the periodic rule round the contact circle: exact to round-off for the smooth speeds here."""
 
 
 class RetainerMotion(Enum):
@@ -62,8 +62,8 @@ def relative_velocity(
 ) -> Array:
     """Sliding velocity of the retainer on the ball guide in m/s, shape (3, ...); paper Eq. (11).
 
-    dV = d(op')/dt - w x op' with dpsi/dt = k w. RIGID takes k = 1, the motion of a rigid body; PRINTED takes k of
-    Eq. (12), which no rigid body has. The signs garbled in the print follow from the cross product.
+    dV = d(op')/dt - w x op' with dpsi/dt = k w. RIGID has k = 1, the motion of a rigid body; PRINTED has k of Eq. (12),
+    which no rigid body has. The wrong signs in the print follow from the cross product.
     """
     sl, cl = np.sin(guide.contact_latitude), np.cos(guide.contact_latitude)
     sg, cg = np.sin(swash_angle), np.cos(swash_angle)

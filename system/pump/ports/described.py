@@ -1,4 +1,4 @@
-"""Relief grooves of the pump description: their law, and what is wrong with those that are stated."""
+"""Relief grooves of the pump description: their law, and the faults of stated ones."""
 
 import math
 from collections.abc import Iterator
@@ -20,7 +20,7 @@ _KEYS = {GrooveShape.V: ("depth", "angle"), GrooveShape.ROUND: ("depth", "width"
 
 
 def relief_groove(stated: GrooveSection, kidney_full_end: float, radius: float) -> ReliefGroove:
-    """The groove that a table means, at a radius (m); one without faults.
+    """The groove of a table without faults, at a radius (m).
 
     Ahead of the kidney it sinks from `start` to `end`, behind it (from `kidney_full_end` rad on) it rises.
     """
@@ -91,7 +91,7 @@ def throats(ports: PortsSection, radius: float) -> tuple[float, float]:
 
 
 def line_of(stated: LineSection, tank_pressure: float) -> Line:
-    """Line on a port; `tank_pressure` Pa where none is stated. The section has no faults."""
+    """Line on a port; `tank_pressure` Pa if not stated. The section has no faults."""
     match stated.kind:
         case None | LineKind.HELD:
             return HeldPressure()

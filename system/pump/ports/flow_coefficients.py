@@ -1,9 +1,9 @@
-"""Flow coefficients of a file as the chamber's kernel takes them: a factor on the plain orifice law.
+"""Flow coefficients of a file for the chamber's kernel: a factor on the plain orifice law.
 
-Over the logarithms of the flow number lambda = d_h/nu sqrt(2 dp/rho) = Re/Cd (McCloy, Martin 1980, Control of
-Fluid Power) and of the opening. Explicit in the pressure drop, it leaves the flow one equation; a factor of one is
-the plain law, whatever the drop. Beyond the file's openings its edges hold; below its least flow number flow is
-laminar (Cd grows with lambda), above its largest Cd stays.
+Over the logarithms of the flow number lambda = d_h/nu sqrt(2 dp/rho) = Re/Cd (McCloy, Martin 1980, Control of Fluid
+Power) and of the opening. It is explicit in the pressure drop, so that the flow remains one equation; a factor of one
+is the plain law at any drop. Beyond the file's openings the values at its edges apply; below its least flow number flow
+is laminar (Cd grows with lambda), above its largest Cd stays.
 """
 
 from dataclasses import dataclass
@@ -18,10 +18,10 @@ from system.inputs.coefficients.flow_files import FlowCoefficients
 MOST_OPENINGS = 12
 NODES = 40
 HEAD = 3
-"""Numbers ahead of a table's areas: how many openings, first logarithm of the flow number, step."""
+"""Numbers ahead of a table's areas: number of openings, first logarithm of the flow number, step."""
 FLOW_SIZE = HEAD + MOST_OPENINGS * (1 + 2 * NODES)
 DECADE = float(np.log(10.0))
-"""By which a table reaches below its file: there the plain law is laminar to 1e-4."""
+"""Factor by which a table extends below its file: there the plain law is laminar to 1e-4."""
 
 
 @dataclass(frozen=True)
@@ -46,7 +46,7 @@ class PlainLaw:
 class FlowTable:
     """The factor at K openings and NODES flow numbers, as compiled code reads it: `row` (FLOW_SIZE,).
 
-    The empty tuple: no file, the plain law as it is.
+    The empty tuple: no file, the unchanged plain law.
     """
 
     numbers: tuple[float, ...] = ()
@@ -137,7 +137,7 @@ def log_factor(log_number, log_area, row):  # type: ignore[no-untyped-def]
 
 @numba.njit("UniTuple(f8,2)(f8,f8,f8,f8,f8,f8[:])", cache=True)
 def with_factor(flow, slope, pressure_drop, log_scale, area, row):  # type: ignore[no-untyped-def]
-    """Flow and slope of the plain law made the table's; log_scale: a `flow_scale`, 0 for the plain law."""
+    """Flow and slope of the plain law converted to the table's; log_scale: a `flow_scale`, 0 for the plain law."""
     if log_scale == 0.0:
         return flow, slope
     size = max(abs(pressure_drop), 1e-30)

@@ -1,7 +1,7 @@
 """Lines on the ports of the pump: a held pressure, a volume that an orifice empties, a line of given impedance.
 
-A line's flow is counted out of the port, m3/s of oil at the port's pressure; a suction line's is negative. The
-volume belongs to the port: pipe and passages up to where the orifice sits or the impedance was measured.
+A line's flow is counted out of the port, m3/s of oil at the port's pressure; a suction line's is negative. The volume
+belongs to the port: pipe and passages up to the orifice or the place at which the impedance was measured.
 """
 
 from dataclasses import dataclass
@@ -14,7 +14,7 @@ from reynolds.numerics.arrays import Array
 
 @dataclass(frozen=True)
 class HeldPressure:
-    """A pressure that is the same whatever flows: a volume without end."""
+    """A constant pressure: an infinite volume."""
 
 
 @dataclass(frozen=True)

@@ -1,4 +1,4 @@
-"""Ports whose grooves and kidneys are not as drawn: how they are cut, and how they wear."""
+"""Ports whose grooves and kidneys differ from the drawing: by their cut, and by wear."""
 
 from dataclasses import dataclass, replace
 from typing import Generic
@@ -11,8 +11,8 @@ from system.pump.ports.areas import PortOpening
 class PortWear(Generic[Number]):
     """Difference of both ports from the drawing; PortWear[Array]: at N operating points, arrays (N,).
 
-    groove_advance in rad: by how much sooner the relief grooves ahead of the kidneys begin; groove_area: factor on
-    their throats; suction_area: factor on the suction kidney.
+    groove_advance in rad: earlier begin of the relief grooves ahead of the kidneys; groove_area: factor on their
+    throats; suction_area: factor on the suction kidney.
     """
 
     groove_advance: Number

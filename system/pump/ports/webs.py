@@ -1,4 +1,4 @@
-"""Webs that part a port of the valve plate into several kidneys: what they cover of the block kidney over them."""
+"""Webs that divide a port of the valve plate into several kidneys: their cover of the block kidney over them."""
 
 from dataclasses import dataclass
 
@@ -9,7 +9,7 @@ from reynolds.numerics.arrays import Array
 
 MOST_WEBS = 8
 WEBS_SIZE = 2 + 2 * MOST_WEBS
-"""Numbers of a port's webs as compiled code reads them: how many, half the kidney's arc, from and to of each."""
+"""Numbers of a port's webs as compiled code reads them: count, half the kidney's arc, from and to of each."""
 
 
 @dataclass(frozen=True)

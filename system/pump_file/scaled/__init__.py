@@ -1,1 +1,1 @@
-"""Pumps of which little is known: the rest is that of REF90, scaled."""
+"""Pumps with few known values: the others are those of REF90, scaled."""

@@ -19,9 +19,9 @@ WIDE = "wide, since the pump is scaled from another"
 SCALED = "REF90's, scaled to displacement and pistons"
 TAKEN = "REF90's"
 OPEN = "usual in an open circuit"
-"""Reasons of assumptions: of a tolerance, of a value that goes with the size, of one that does not, of a circuit."""
+"""Reasons of assumptions: of a tolerance, of a value that scales with the size, of one that does not, of a circuit."""
 STIFFER = 2.0
-"""Springs of an open circuit over those of a closed one, whose inlet presses slippers on the plate by itself."""
+"""Springs of an open circuit over those of a closed one, whose inlet pressure presses slippers on the plate."""
 
 _WIDE: dict[str, float | str] = {
     "film_thickness": 0.5,
@@ -36,7 +36,7 @@ _WIDE: dict[str, float | str] = {
     "viscosity_slope": "0.001 1/K",  # a grade leaves the index open: 95 to 115 of mineral oils are .0025 1/K apart
     "inlet_share": 0.5,
 }
-"""[tolerance] of what is scaled, which a recording decides: the films of HST 196 are 1.5 to 1.9 times REF90's."""
+"""[tolerance] of scaled values, which a recording determines: the films of HST 196 are 1.5 to 1.9 times REF90's."""
 
 
 @dataclass(frozen=True)
@@ -72,7 +72,7 @@ def is_scant(tables: Mapping[str, Any]) -> bool:
 def completed(
     label: str, stated: Mapping[str, Any], name: str, lines: Mapping[str, int | None] | None = None
 ) -> Completed:
-    """Return the tables of a scant file with REF90's, scaled, for what it leaves out; `name` is the pump's if unnamed.
+    """Return the tables of a scant file with REF90's, scaled, for missing values; `name` is the pump's if unnamed.
 
     Raises InputFaults under the name `label` if displacement, pistons or oil is not stated.
     """

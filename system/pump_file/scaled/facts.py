@@ -13,7 +13,7 @@ from system.inputs.sections.reader import Reading, read_entry, read_section
 from system.inputs.toml_table import Table
 from system.inputs.units import Dimension, QuantityError, parse_quantity
 
-FEWEST, MOST = 5, 15  # pistons for which REF90's ports can be parted anew
+FEWEST, MOST = 5, 15  # pistons for which REF90's ports can be divided anew
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -54,7 +54,7 @@ def _size(top: Table) -> Facts | None:
 
 
 def read_displacement(raw: object, _: Mapping[str, object], reading: Reading) -> Mapping[str, object]:
-    """Return a displacement per revolution, also written "60 cm3"; none with its fault added."""
+    """Return a displacement per revolution, also written "60 cm3"; None with its fault added."""
     try:
         return {"displacement": parse_quantity(raw, Dimension.VOLUME)}
     except QuantityError:

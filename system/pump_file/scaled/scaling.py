@@ -42,22 +42,22 @@ POWERS = {
     "bearings.rear_diameter": (0, 1),
     "operating.speed": (0, -1),
 }
-"""Powers of the scales of the pistons (diameter) and of the group (pitch radius) with which a value goes."""
+"""Powers of the scales of the pistons (diameter) and of the group (pitch radius) with which a value scales."""
 SIZED = frozenset({
     *POWERS, "pump.piston_diameter", "pump.dead_volume", "piston.engaged_length",
     *(f"slipper.land_{end}_radius" for end in ENDS), *(f"valve_plate.land_radius_{k}" for k in (1, 2, 3, 4)),
     "valve_plate.kidney_width", "valve_plate.kidney_arc", "ports.kidney_full_start", "ports.kidney_full_end",
 })  # fmt: skip
-"""Values that go with displacement or pistons; all others are REF90's own."""
+"""Values that scale with displacement or pistons; all others are REF90's own."""
 
 
 def scaled_tables(facts: Facts) -> dict[str, dict[str, Any]]:
     """REF90's tables at the size of the facts, values as text.
 
-    Pistons keep their share of the pitch circle, and slippers are no wider than their distance allows: with the scale
-    s of diameters and r of radii, r = s z/9 and s^2 r = V/(z area stroke) of REF90 at the swash angle. Films,
-    clearances, depths of reliefs, angles and friction are REF90's, sliding speeds on the pitch circle at rated speed
-    too; ports are parted by z.
+    Pistons keep their share of the pitch circle, and slippers are no wider than their distance allows: with the scale s
+    of diameters and r of radii, r = s z/9 and s^2 r = V/(z area stroke) of REF90 at the swash angle. Films, clearances,
+    depths of reliefs, angles and friction are REF90's, sliding speeds on the pitch circle at rated speed too; ports are
+    divided by z.
     """
     given = tomllib.loads(BUILT_IN.joinpath(f"{MODEL}.toml").read_text("utf-8"))
     model = pump_of_tables(MODEL, given)

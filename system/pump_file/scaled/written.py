@@ -60,7 +60,7 @@ def _rows(name: str, model: type[Any], tables: Mapping[str, Any], marks: Mapping
 
 
 def _title(model: type[Any]) -> str:
-    """Return what a table holds, the first thought of its docstring."""
+    """Return the meaning of a table, the first clause of its docstring."""
     return re.split(r"[;,] |(?<![ .])\. ", described(model).rstrip("."), maxsplit=1)[0]
 
 

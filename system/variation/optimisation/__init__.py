@@ -1,1 +1,1 @@
-"""Optimisation of a pump: what varies, what it aims at, the search, the Pareto set, what is in the way."""
+"""Optimisation of a pump: dimensions, objectives, search, Pareto set, obstacles."""

@@ -20,7 +20,7 @@ from system.variation.optimisation.problem import Constraint, Problem, Varied
 from system.variation.scatter import Bound
 
 DRAWN = 64
-"""Designs drawn to find one that has a bound's value, where the stated pump has not."""
+"""Designs drawn to find one that has a bound's value, where the stated pump lacks it."""
 HALVINGS = 12
 """Halvings by which the nearest valid bound is found: to 1/4096 of the way from the stated value."""
 KEPT = 0.99
@@ -30,7 +30,7 @@ _NOT_NEGATIVE = ("loss", "delivery_flow_ripple", "inlet_flow_ripple", "reverse_f
 
 
 def bound_faults(pump: PumpDescription, problem: Problem) -> Iterator[tuple[Varied, Fault]]:
-    """Yield the fault of each bound that no pump within the other bounds has, with the nearest one that some has."""
+    """Yield the fault of each bound that no pump within the other bounds has, with the nearest valid one."""
     drawn = np.asarray(qmc.LatinHypercube(len(problem.space), rng=1).random(DRAWN))
     for at, one in enumerate(problem.space):
         for place, end in ((0.0, one.low), (1.0, one.high)):
@@ -111,7 +111,7 @@ def constraint_faults(
 def _reach(
     pump: PumpDescription, points: Sequence[OperatingPoint], problem: Problem, measure: Measure
 ) -> tuple[float, float, str]:
-    """Return what a measure can be at least and at most, SI, and why."""
+    """Return the least and the largest possible value of a measure, SI, and the reason."""
     name = measure.name
     if name == PEAK:
         return max(one.delivery_pressure for one in points), inf, "chambers deliver at the delivery pressure"

@@ -1,7 +1,7 @@
 """Evolutionary search: NSGA-II (Deb et al. 2002), from three objectives on NSGA-III (Deb and Jain 2014), of pymoo.
 
-Both need values alone, no derivatives, and rank infeasible designs by their violation. A fixed seed makes the same
-designs in the same order, so that a search whose results are kept goes on where it was broken off.
+Both need only values, no derivatives, and rank infeasible designs by their violation. A fixed seed makes the same
+designs in the same order, so that a search whose results are kept continues after an interruption.
 """
 
 from __future__ import annotations
@@ -39,7 +39,7 @@ def evolve(trials: Trials, designs: int, generations: int, seed: int) -> None:
     algorithm.setup(asked, termination=("n_gen", generations), seed=seed)
     for _ in range(generations):
         population: Any = algorithm.ask()
-        if population is None:  # all further designs would be ones that were tried
+        if population is None:  # every further design is known
             return
         found = trials.tried(population.get("X"))
         Evaluator().eval(StaticProblem(asked, F=_aims(problem, found), G=_violations(problem, found)), population)

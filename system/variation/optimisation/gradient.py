@@ -1,7 +1,7 @@
 """Search by derivatives, for one smooth objective: sequential quadratic programming (SLSQP, Kraft 1988) of scipy.
 
-The derivatives are differences; the designs of one gradient are solved side by side. The optimum is that of the
-valley in which the start lies.
+The derivatives are differences; the designs of one gradient are solved side by side. The optimum is a local one, that
+of the valley of the start.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ from system.variation.optimisation.trials import Trials
 SETTLED = 1e-5
 """Change of the objective at which the search ends, of its change across the bounds by the slope of the start."""
 REFUSED = 10.0
-"""Objective of a design without a result, in the same measure: a line search turns back from it."""
+"""Objective of a design without a result, in the same measure: a line search moves back from it."""
 
 
 def descend(trials: Trials, step: float, iterations: int) -> None:
@@ -36,7 +36,7 @@ def descend(trials: Trials, step: float, iterations: int) -> None:
 
 
 class _Values:
-    """Objective and room of constraints with their slopes, each design solved with those of its gradient."""
+    """Objective and margin of constraints with their slopes, each design solved with those of its gradient."""
 
     def __init__(self, trials: Trials, step: float) -> None:
         self.trials, self.step = trials, step
@@ -68,7 +68,7 @@ class _Values:
         return np.where(place + self.step <= 1.0, self.step, -self.step)
 
     def _at(self, place: Array) -> list[Array]:
-        """Return objective and rooms (1 + c,) at a place and at one step along each dimension."""
+        """Return objective and margins (1 + c,) at a place and at one step along each dimension."""
         place = np.clip(place, 0.0, 1.0)
         places = np.vstack([place, place + np.diag(self._steps(place))])
         return [self._numbers(one) for one in self.trials.tried(places)]

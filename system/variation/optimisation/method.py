@@ -22,7 +22,7 @@ class Method(Enum):
 
 
 def usual_method(problem: Problem, *, costly: bool) -> tuple[Method, str]:
-    """Return the search that suits a problem, and why; costly: its films are solved, in seconds or minutes."""
+    """Return the suitable search for a problem, and the reason; costly: its films are solved, in seconds or minutes."""
     if len(problem.objectives) > 1:
         return Method.EVOLUTION, f"{len(problem.objectives)} objectives have a set of best designs, no single one"
     if costly:

@@ -15,8 +15,8 @@ from system.variation.optimisation.problem import MET, Constraint, Design, Probl
 class Obstacle:
     """A constraint over all designs with a result.
 
-    met: how many meet it; best: the value that comes nearest, or keeps it best; nearest: the value at the design that
-    misses all constraints together by the least, violation there of the constraint's scale.
+    met: number of designs that meet it; best: the value nearest to it, or with the largest margin; nearest: the value
+    at the design that misses all constraints together by the least, violation there of the constraint's scale.
     """
 
     constraint: Constraint
@@ -36,7 +36,7 @@ class Obstacles:
 
 
 def obstacles(problem: Problem, designs: Sequence[Design]) -> Obstacles | None:
-    """Return what is in the way of feasible designs; None where no design has a result."""
+    """Return the obstacles of feasible designs; None where no design has a result."""
     solved = [at for at, one in enumerate(designs) if one.solved]
     if not solved:
         return None

@@ -1,4 +1,4 @@
-"""Optimisation of a pump: the start, all designs that a search tries, the best of them, and what is in the way."""
+"""Optimisation of a pump: the start, all designs that a search tries, the best of them, and the obstacles."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ class Optimisation:
     seconds: float
 
     def count(self, status: PartStatus) -> int:
-        """Return the number of designs that ended so."""
+        """Return the number of designs with this outcome."""
         return sum(one.status is status for one in self.designs)
 
 
@@ -55,8 +55,8 @@ def optimise(
 ) -> Optimisation:
     """Return the optimum of a problem: solve the start, then all that the search tries, each kept in a folder.
 
-    expected: designs in all, for progress. Raises NotConverged where the pump as stated has no result, which leaves
-    nothing to compare with, InputFaults for limits by the start that no pump meets.
+    expected: designs in all, for progress. Raises NotConverged where the pump as stated has no result, which leaves no
+    reference for comparison, InputFaults for limits by the start that no pump meets.
     """
 
     def of_start(done: int, total: int, what: str) -> None:

@@ -1,4 +1,4 @@
-"""Pareto set of the designs that were tried, its knee, and how it grew over the generations."""
+"""Pareto set of the designs that were tried, its knee, and its growth over the generations."""
 
 from __future__ import annotations
 
@@ -13,12 +13,12 @@ from system.variation.optimisation.problem import Design, Problem
 ROOM = 1.1
 """Reference point of the hypervolume, of the distance from the best to the worst of each objective."""
 LATE = 0.25
-"""Last part of the generations, in which a set that is found no longer grows."""
+"""Last part of the generations, in which a converged set no longer grows."""
 
 
 @dataclass(frozen=True)
 class ParetoSet:
-    """Places (n,) among the designs that no other feasible design beats, by the first objective; and the growth.
+    """Places (n,) among the designs that no other feasible design dominates, by the first objective; and the growth.
 
     growth: hypervolume (g,) after each generation, of that of the last; zero before the first feasible design.
     """
@@ -60,7 +60,7 @@ def knee(problem: Problem, designs: Sequence[Design], members: Sequence[int]) ->
 
 
 def _best(aims: Array) -> Array:
-    """Return the places of rows (N, m) that no other row beats; of equal rows the first."""
+    """Return the places of rows (N, m) that no other row dominates; of equal rows the first."""
     from pymoo.util.nds.non_dominated_sorting import NonDominatedSorting
 
     _, first = np.unique(aims, axis=0, return_index=True)
@@ -69,7 +69,7 @@ def _best(aims: Array) -> Array:
 
 
 def _volume(scaled: Array) -> float:
-    """Return the hypervolume of rows (N, m) up to ROOM; zero of none."""
+    """Return the hypervolume of rows (N, m) up to ROOM; zero without rows."""
     from pymoo.indicators.hv import HV
 
     inside = scaled[np.all(scaled < ROOM, axis=1)]

@@ -28,7 +28,7 @@ class Aim(Enum):
 
     @property
     def sign(self) -> float:
-        """Factor that makes less the better."""
+        """Factor with which less is better."""
         return 1.0 if self is Aim.LEAST else -1.0
 
 
@@ -92,7 +92,7 @@ class Constraint:
         return abs(self.value) or 1.0 / self.measure.scale
 
     def violation(self, numbers: Array) -> Array:
-        """Return by how much of the scale numbers (..,) miss the value; negative: the room that is left."""
+        """Return the violations of numbers (..,), over the scale; negative: the margin."""
         sign = 1.0 if self.bound is Bound.MOST else -1.0
         return sign * (numbers - self.value) / self.scale
 
@@ -117,7 +117,7 @@ class Problem:
         return tuple(pair for one, value in zip(self.space, values, strict=True) for pair in one.at(float(value)))
 
     def changes(self, place: Array) -> Variant:
-        """Return the values of a place that are not the pump's own: none at the start."""
+        """Return the values of a place that differ from the pump's own: none at the start."""
         return () if np.allclose(place, self.start, rtol=0.0, atol=AT_START) else self.variant(place)
 
     @cached_property
@@ -177,7 +177,7 @@ class Design:
     """A design: its place (k,) in the unit cube, the generation that tried it, and its measures (M,), SI.
 
     at_sites: NUMBERS (P, ..) at each operating point; of_map: numbers and warnings of a map there, where they are kept;
-    warnings: their names. Without a result all are empty, and `reason` tells why.
+    warnings: their names. Without a result all are empty, and `reason` has the cause.
     """
 
     place: Array

@@ -1,8 +1,8 @@
 """Search by a quadratic model in a region of trust, for one objective of costly designs: COBYQA of scipy.
 
-COBYQA (Ragonneau and Zhang 2023) needs values alone: 2k + 1 designs about the start make the first model of objective
-and constraints, each further design improves it. It bridges jumps of slopes, as of a least film, and noise of
-solvers that are smaller than its region. The optimum is that of the valley in which the start lies.
+COBYQA (Ragonneau and Zhang 2023) needs only values: 2k + 1 designs about the start make the first model of objective
+and constraints, each further design improves it. It tolerates jumps of slopes, as of a least film, and noise of solvers
+that are smaller than its region. The optimum is a local one, that of the valley of the start.
 """
 
 from __future__ import annotations
@@ -44,12 +44,12 @@ def approach(trials: Trials, designs: int, last: float) -> None:
 
 
 def fewest_designs(dimensions: int) -> int:
-    """Return the least number of designs that a search of so many dimensions takes: the first model and a step."""
+    """Return the least number of designs of a search over so many dimensions: the first model and a step."""
     return 2 * dimensions + 2
 
 
 def _numbers(problem: Problem, design: Design, origin: float) -> Array:
-    """Return the objective's change by the start and the room of each constraint (1 + c,), all relative."""
+    """Return the objective's change by the start and the margin of each constraint (1 + c,), all relative."""
     if not design.solved:
         return np.array([REFUSED, *(-REFUSED for _ in problem.constraints)])
     aim = (float(problem.aims([design])[0, 0]) - origin) / (abs(origin) or 1.0)
