@@ -18,7 +18,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
     An internal error ends it with 1 and one line; `--debug` shows the traceback.
     """
-    if "_ARGCOMPLETE" in os.environ:  # the shell asks for words that may follow
+    if "_ARGCOMPLETE" in os.environ:  # the shell requests completions
         from swashfilm.cli.completion import complete_line
 
         complete_line()
@@ -76,7 +76,7 @@ def _resuming(words: list[str], kept: Path) -> str:
 
 
 def _notes(reason: BaseException) -> list[str]:
-    """Return what a run has added to its error: where the solved part is kept."""
+    """Return the note of a run to its error: the place of the solved part."""
     return getattr(reason, "__notes__", [])
 
 

@@ -1,4 +1,4 @@
-"""A call as the command line that it stands for: words from arguments, and faults in terms of arguments."""
+"""A call as the equivalent command line: words from arguments, and faults in terms of arguments."""
 
 from __future__ import annotations
 

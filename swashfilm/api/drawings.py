@@ -1,4 +1,4 @@
-"""Dimensions of a pump's drawing: what each costs, what a series scatters, which are the best."""
+"""Dimensions of a pump's drawing: cost of each, scatter of a series, optimum."""
 
 from __future__ import annotations
 
@@ -79,7 +79,7 @@ def optimise(case: Case, *, choose: str | None = None, report: Report = silent, 
     """Optimise dimensions of a pump under constraints, as `swashfilm optimise`.
 
     choose: "knee", an objective, or a row of the Pareto set; options: workers, cluster, resume, and those of floating
-    gaps. Without a feasible design the result tells what is in the way. Raises InputFaults and NotConverged.
+    gaps. Without a feasible design the result lists the obstacles. Raises InputFaults and NotConverged.
     """
     with door("optimise"), case_path(case) as path:
         from swashfilm.runs.variation.optimise.command import design_executor, optimise_case

@@ -1,4 +1,4 @@
-"""The errors of every function: faults of the input, and what does not converge."""
+"""The errors of every function: faults of the input, and solutions that do not converge."""
 
 from reynolds.errors import NotConverged as NotConverged
 from system.inputs.faults import InputFaults as InputFaults

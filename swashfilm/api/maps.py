@@ -1,4 +1,4 @@
-"""Operating maps, and what is made of them: duty cycles, comparisons, files for other programs."""
+"""Operating maps and their uses: duty cycles, comparisons, files for other programs."""
 
 from __future__ import annotations
 

@@ -82,7 +82,7 @@ def plan(
     report: Report = silent,
     **options: object,
 ) -> PlanRun:
-    """Plan a test: what its points tell apart, and which points and meters to add, as `swashfilm plan`.
+    """Plan a test: the causes that its points separate, and the points and meters to add, as `swashfilm plan`.
 
     limit: "speed <= 1800 rpm", or several. options: speeds, pressures, displacements, temperatures, inlet_pressures,
     plan, cost, apart, set. Raises InputFaults and NotConverged.

@@ -129,21 +129,21 @@ def _stated(top: Table, film: Table, folder: Path) -> tuple[FilmStatement | None
 
 
 def _mesh(film: Table, reading: Reading) -> CaseMesh | None:
-    """Return the mesh of a [film] table; None with its faults listed, and where it states none."""
+    """Return the mesh of a [film] table; None with its faults listed, and without a mesh."""
     raw = film.get("mesh")
     found = None if raw is None else read_entry("film.mesh", fields_of(FilmSection)["mesh"], raw, reading)
     return found if isinstance(found, CaseMesh) and "film.mesh" not in reading.faulty else None
 
 
 def _filled(section: FilmSection, time: TimeStepsSection | None) -> FilmSection:
-    """Return the table with what it leaves out: at rest and full of oil."""
+    """Return the table with its defaults: at rest and full of oil."""
     if time is None:
         return replace(section, squeeze=section.squeeze or Uniform(0.0, Dimension.VELOCITY))
     return replace(section, initial_film_fraction=section.initial_film_fraction or Formula(parse_expression("1.0")))
 
 
 def _oil(top: Table, film: Table) -> FilmOilSection | None:
-    """Return the [oil] table; None where there is none, or with its faults listed."""
+    """Return the [oil] table; None if it is absent, or with its faults listed."""
     given = "viscosity" in film.values
     if top.get("oil") is None and not given:
         film.fault("viscosity", "missing", "a viscosity, such as '30 mPa s', or a table [oil]")
@@ -152,7 +152,7 @@ def _oil(top: Table, film: Table) -> FilmOilSection | None:
 
 
 def _check_heat(top: Table, film: Table, oil: FilmOilSection | None, viscosity: Field | None) -> None:
-    """List faults of what a solved temperature needs."""
+    """List faults of the data for a solved temperature."""
     if top.get("oil") is None:
         top.fault("thermal", "no table [oil]", "its density, temperature, specific heat and thermal conductivity")
     if oil is None or oil.kinematic is not None:

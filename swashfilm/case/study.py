@@ -157,7 +157,7 @@ def read_study(path: Path, text: str, tables: Mapping[str, Any]) -> StudyCase:
 
 
 def hold_to_case(study: StudyCase, faults: list[Fault]) -> None:
-    """Raise InputFaults with `faults`; where there are none, for unknown keys, or where no point is valid."""
+    """Raise InputFaults with `faults`; without any, for unknown keys, or where no point is valid."""
     found = [*faults, *_unknown_constants(study), *_beyond_lists(study)] or _case_faults(study)
     if found:
         raise InputFaults(str(study.path), found, fault_lines(study.text, found))

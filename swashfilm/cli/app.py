@@ -40,7 +40,7 @@ COMMANDS: dict[str, Command] = {module.COMMAND.name: module.COMMAND for module i
 
 
 def run_command(words: Sequence[str]) -> int:
-    """Run the command that the words name and return its exit code; raise what its parts raise."""
+    """Run the command that the words name and return its exit code; exceptions of its parts pass through."""
     options = parse(words)
     if options.command is None:
         build_parser().print_help()
@@ -69,7 +69,7 @@ class _Parser(argparse.ArgumentParser):
     def parse_known_args(self, args: Any = None, namespace: Any = None) -> tuple[Any, list[str]]:
         """Return the options and the unknown words; an argument that may be left out may stand behind options.
 
-        Before Python 3.13 argparse takes such an argument as left out where an option stands before it.
+        Before Python 3.13 argparse treats such an argument as left out where an option stands before it.
         """
         found, unknown = super().parse_known_args(args, namespace)
         if len(unknown) == 1 and not unknown[0].startswith("-"):

@@ -24,7 +24,7 @@ def run_check_command(options: argparse.Namespace) -> int:
 
 
 def _show_file(file: str) -> None:
-    """Show a file by its kind; raise InputFaults for a file of none."""
+    """Show a file by its kind; raise InputFaults for a file of no known kind."""
     from system.inputs.toml_table import read_toml
 
     path = Path(file)
@@ -54,7 +54,7 @@ def _show_file(file: str) -> None:
 
 
 def _show_pump(file: str) -> None:
-    """Show a pump with all that it assumes, and its warnings."""
+    """Show a pump with all its assumptions and warnings."""
     from swashfilm.console.assumed import scaled_warning
     from system.multibody.assumed import assumptions
     from system.pump_file.file import check_pump, load_known_pump, resolved_toml

@@ -41,7 +41,7 @@ class Finding:
 
 
 def examine() -> list[Finding]:
-    """Return the findings on this machine; write nothing but a temporary folder."""
+    """Return the findings on this machine; write only a temporary folder."""
     return [
         Finding("python", f"{platform.python_version()} ({sys.executable})"),
         Finding("system", f"{platform.system()} {platform.release()} {platform.machine()}"),
@@ -109,7 +109,7 @@ def _kept_kernels(what: str, home: Path) -> Finding:
 
 
 def _compiler() -> Finding:
-    """Return the finding on a C compiler, which an exported FMU has its binaries from."""
+    """Return the finding on a C compiler, which compiles the binaries of an exported FMU."""
     found = [target.platform for target in targets()]
     if not found:
         return Finding("C compiler", "none", f"{COMPILER} (without one an exported FMU has sources alone)")

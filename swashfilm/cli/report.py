@@ -51,7 +51,7 @@ def run_report(options: argparse.Namespace) -> int:
 
 
 def _faults(folder: Path, reason: Exception) -> list[Fault]:
-    """Return where the summary differs from its schema; where it does not, what the page found wrong."""
+    """Return the differences of the summary from its schema; without any, the fault that the page found."""
     from swashfilm.formats.check import summary_faults
     from swashfilm.output.page import read_summary
 
@@ -59,7 +59,7 @@ def _faults(folder: Path, reason: Exception) -> list[Fault]:
 
 
 def _told(reason: Exception) -> str:
-    """Return what a page found wrong in a file, and the part of the page, where a wrong file shows."""
+    """Return the fault of a file that a page found, and the part of the page with it."""
     places = [frame for frame in traceback.extract_tb(reason.__traceback__) if "swashfilm" in frame.filename]
     place = f", in {Path(places[-1].filename).name} line {places[-1].lineno}" if places else ""
     return f"{type(reason).__name__}: {reason}{place}"

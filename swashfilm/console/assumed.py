@@ -16,7 +16,7 @@ WIDTH = 120
 
 
 def scaled_warning(assumptions: Sequence[Assumption]) -> list[str]:
-    """Return the warning of a run whose pump file leaves most values out; none of a pump stated in full."""
+    """Return the warning of a run whose pump file leaves most values out; None for a pump stated in full."""
     count = len(assumptions)
     if not count:
         return []
@@ -25,21 +25,21 @@ def scaled_warning(assumptions: Sequence[Assumption]) -> list[str]:
 
 
 def show_assumed(pump: str | Path) -> None:
-    """Print every value that a pump file leaves to ref90, by its reason; nothing of a pump stated in full."""
+    """Print every value assumed from ref90, by its reason; nothing for a pump stated in full."""
     if str(pump) in builtin_pumps() or Path(pump).suffix != ".toml":
         return
     show_assumptions(pump, load_known_pump(pump).assumptions)
 
 
 def show_assumptions(pump: str | Path, assumptions: Sequence[Assumption]) -> None:
-    """Print the assumptions for what a pump file leaves out, if there are any."""
+    """Print the assumptions for values that a pump file leaves out, if any."""
     if assumptions:
         show(f"{pump} leaves {len(assumptions)} values out, which are assumed:")
         show("\n".join(_rows(assumptions)))
 
 
 def show_assumed_in(case: Path) -> None:
-    """Print what `show_assumed` does of the pump that a film case or transient names, if it names one."""
+    """As `show_assumed`, for the pump of a film case or transient, if it has one."""
     _, tables = read_toml(case)
     named = {**tables, **tables.get("film", {}), **tables.get("transient", {})}.get("pump")
     if isinstance(named, str) and named not in builtin_pumps():

@@ -10,7 +10,7 @@ from system.inputs.faults import Fault
 
 
 def no_faults(options: argparse.Namespace, words: Sequence[str]) -> list[Fault]:
-    """Return no fault: the command checks nothing but unknown options."""
+    """Return no fault: the command checks only unknown options."""
     return []
 
 

@@ -46,7 +46,7 @@ class Compiling:
 
 @contextmanager
 def compilation(report: Callable[[str], None]) -> Iterator[Compiling]:
-    """Yield the compilation within the context, with a `report` of it; none where numba is not loaded."""
+    """Yield the compilation within the context, with a `report` of it; None where numba is not loaded."""
     found = Compiling(report)
     if "numba" not in sys.modules:
         yield found

@@ -15,7 +15,7 @@ RECORDING = "folder with a recording.toml, or a table beside one"
 
 
 def option_value(options: argparse.Namespace, option: str) -> Any:
-    """Return what the command line states for an option; None where it is left out."""
+    """Return the value of an option on the command line; None if it is left out."""
     return getattr(options, option[2:].replace("-", "_"))
 
 

@@ -34,7 +34,7 @@ def schema_text(kind: str) -> str:
 
 
 def write_new(path: Path, kind: str, text: str) -> None:
-    """Write a new file whose first line names its schema, and the schema beside it where there is none.
+    """Write a new file whose first line names its schema, and the schema beside it if absent.
 
     Raises OSError for a folder that cannot be written to, and for a file that exists.
     """

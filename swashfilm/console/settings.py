@@ -9,7 +9,7 @@ from system.inputs.toml_table import parse_toml
 
 EXAMPLE = "valve_plate.film_thickness=10um"
 LEVELS_EXAMPLE = "valve_plate.film_thickness=6..14um:9"
-"""Of --vary, which has levels where --set has a value."""
+"""Of --vary, which has levels in place of the value of --set."""
 
 
 def add_set_option(parser: argparse.ArgumentParser, of: str = "the pump file", example: str = EXAMPLE) -> None:

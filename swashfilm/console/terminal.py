@@ -21,7 +21,7 @@ def show(text: str) -> None:
 
 
 def show_at_once(text: str) -> None:
-    """Print one line to the standard output, which a program that reads it gets at once."""
+    """Print one line to the standard output without delay, for programs that read it."""
     show(text)
     sys.stdout.flush()
 

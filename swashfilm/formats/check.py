@@ -17,7 +17,7 @@ TOLD = 8
 
 
 def summary_faults(path: Path, summary: Mapping[str, Any]) -> list[Fault]:
-    """Return where a summary of a known kind differs from its schema, the first `TOLD` places; empty if nowhere."""
+    """Return the places where a summary of a known kind differs from its schema, the first `TOLD`; empty if none."""
     schema = json.loads(run_schema(summary["kind"]))["properties"]["summary.json"]
     found = sorted(Draft202012Validator(schema).iter_errors(summary), key=lambda one: list(map(str, one.absolute_path)))
     faults = [_fault(path, one) for one in found[:TOLD]]

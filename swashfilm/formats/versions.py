@@ -1,6 +1,6 @@
 """Version of each kind of run folder, which summary.json states as `format`, NetCDF files as `format_version`.
 
-A version covers summary.json, the NetCDF files and the tables of a folder. Readers take every version up to this one.
+A version covers summary.json, the NetCDF files and the tables of a folder. Readers accept every version up to this one.
 """
 
 from __future__ import annotations
@@ -65,7 +65,7 @@ def expect_known(path: Path, summary: Any) -> None:
 
 
 def check_stamp(path: Path, attributes: Mapping[str, Any]) -> None:
-    """Raise InputFaults for a NetCDF file of a later version; one without a stamp is older than stamps."""
+    """Raise InputFaults for a NetCDF file of a later version; one without a version is older than versions."""
     kind = str(attributes.get("format", "")).removeprefix(OURS)
     if kind in VERSIONS:
         stamp = attributes.get("format_version")

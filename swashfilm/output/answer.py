@@ -1,4 +1,4 @@
-"""The answer of a page: the numbers that its reader came for, a paragraph in plain words, and one picture."""
+"""The answer of a page: its main numbers, a paragraph in plain words, and one picture."""
 
 from __future__ import annotations
 
@@ -20,8 +20,8 @@ class Tile:
 class Answer:
     """First part of a page.
 
-    tiles: three to seven headline numbers. words: a paragraph that can be read out in a meeting. picture: the one
-    picture that shows the answer, None where there is none.
+    tiles: three to seven headline numbers. words: a paragraph that can be read out in a meeting. picture: the picture
+    of the answer, or None.
     """
 
     tiles: tuple[Tile, ...]

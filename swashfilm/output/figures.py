@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 Canvas = TypeVar("Canvas", bound="FigureCanvasBase")
 _MANY, _FEW = 3000, 100
 LARGE = 16_000
-"""Bytes of an SVG that a page holds; what is larger becomes a picture of pixels, mostly a third as large."""
+"""Bytes of an SVG in a page; a larger one becomes a picture of pixels, mostly a third as large."""
 _LONGEST = 5 * LARGE // 2
 """Bytes of an SVG that is LARGE even when its numbers are shortened."""
 _INKS = 32
@@ -73,7 +73,7 @@ def legend_beside(axes: Axes) -> None:
 
 
 def _literal(figure: Figure) -> None:
-    """Draw each text as it is: a dollar sign in a name begins no formula. Powers of ten beside log axes remain some."""
+    """Draw texts literally: a dollar sign in a name begins no formula. Powers of ten beside log axes remain some."""
     from matplotlib.text import Text
     from matplotlib.ticker import FixedFormatter
 

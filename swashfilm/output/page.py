@@ -137,7 +137,7 @@ def _with_contents(page: str) -> str:
 
 
 def _with_library(page: str) -> str:
-    """Return the page with what draws its figures to touch, where it has any."""
+    """Return the page with the script for its interactive figures, if any."""
     return page.replace("</body>", f"{embedded()}</body>", 1) if TOUCHED in page else page
 
 
@@ -153,16 +153,16 @@ def _files_of(folder: Path) -> list[tuple[str, str]]:
 
 
 def inlined(picture: Figure | bytes, explorer: Explorer | None = None) -> Picture:
-    """Return a picture as a page embeds it: figures by `compact`, bytes as what they are.
+    """Return a picture as a page embeds it: figures by `compact`, bytes unchanged.
 
-    Figures can be touched too, as far as `touchable` translates them; an explorer takes the place of either.
+    Figures are interactive as far as `touchable` translates them; an explorer replaces either.
     """
     content = picture if isinstance(picture, bytes) else compact(picture)
     return Picture(_address(content), _touch(picture, explorer))
 
 
 def _touch(picture: Figure | bytes, explorer: Explorer | None) -> str:
-    """Return what takes the place of a drawn picture, packed."""
+    """Return the interactive replacement of a drawn picture, packed."""
     if explorer is None and not isinstance(picture, bytes) and (translated := touchable(picture)) is not None:
         explorer = Explorer(translated)
     return "" if explorer is None else explorer.packed()
@@ -184,8 +184,8 @@ def keep_pictures(
 ) -> dict[str, Picture]:
     """Write pictures as plots/STEM-1.svg, .. (.webp, .png, see `compact`) and captions as plots/STEM.json.
 
-    What can be touched in the place of a picture is kept beside it, as a page embeds it, as plots/STEM-1.touch.
-    `explorers`: those of some pictures, by caption. Return the same as `kept_pictures`.
+    The interactive replacement of a picture is kept beside it, as a page embeds it, as plots/STEM-1.touch. `explorers`:
+    those of some pictures, by caption. Return the same as `kept_pictures`.
     """
     (folder / PLOTS).mkdir(exist_ok=True)
     captions = {}
@@ -201,7 +201,7 @@ def keep_pictures(
 
 
 def kept_pictures(folder: Path, stem: str) -> dict[str, Picture]:
-    """Return the pictures of `keep_pictures` by caption; raise InputFaults where there are none."""
+    """Return the pictures of `keep_pictures` by caption; raise InputFaults if absent."""
     captions = read_kept(folder, f"{PLOTS}/{stem}.json")
     try:
         return {str(caption): _kept(inside(folder / PLOTS, name)) for name, caption in captions.items()}

@@ -65,16 +65,16 @@ def _with_bar(shown: Shown, limit: float | None, error: float | None) -> str:
 
 
 def _digits(limit: float, error: float) -> int:
-    """Return the significant digits of a limit that its error leaves."""
+    """Return the number of significant digits of a limit within its error."""
     if error > 0.0 and limit != 0.0:
         return int(np.clip(np.ceil(np.log10(abs(limit) / error)) + 1.0, 2, 10))
     return DIGITS
 
 
 def bar_text(summary: Mapping[str, Any], key: str, dimension: Dimension) -> str:
-    """Return limit and error bar of a number of a refined run, each with its unit; empty where there is no refinement.
+    """Return limit and error bar of a number of a refined run, each with its unit; empty without refinement.
 
-    Without a limit the verdict says why.
+    Without a limit the verdict states the reason.
     """
     number = summary.get("refinement", {}).get("numbers", {}).get(key)
     if number is None:

@@ -142,7 +142,7 @@ class Result:
         return framed(self.to_xarray())
 
     def save(self, folder: str | Path | None = None, *, excel: bool = False) -> Path:
-        """Write the run folder of the command and return its path; a fresh one under runs/ where none is given.
+        """Write the run folder of the command and return its path; a new one under runs/ by default.
 
         excel: also write its tables as a workbook.
 
@@ -171,7 +171,7 @@ class Result:
 
 
 def plotted(draw: Callable[[], Figure | None]) -> list[Axes]:
-    """Return the axes of a pyplot figure, which a notebook shows; none where there is nothing to draw."""
+    """Return the axes of a pyplot figure, which a notebook shows; none without anything to draw."""
     with pyplot_figures():
         figure = draw()
     return [] if figure is None else list(figure.axes)

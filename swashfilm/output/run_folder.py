@@ -20,13 +20,13 @@ from system.inputs.faults import Fault, InputFaults
 
 RUNS = Path("runs")
 LEAST_ROOM = 1_000_000
-"""Bytes on a disk below which a write that failed did so for want of room."""
+"""Free bytes on a disk below which a failed write is attributed to a full disk."""
 FAILED = "failed.json"
 """File of the rounds and gaps that a stopped run has solved, in its `.partial` folder."""
 
 
 class Interrupted(KeyboardInterrupt):
-    """Ctrl-C during a run: `kept` is the folder of the finished part, None where there is nothing to keep.
+    """Ctrl-C during a run: `kept` is the folder of the finished part, None without one.
 
     `again`: instruction to continue where the finished part is kept elsewhere.
     """
@@ -78,7 +78,7 @@ def run_folder(name: str, wanted: Path | None = None, *, workbook: bool = False)
 
 
 def _full(reason: OSError, partial: Path) -> bool:
-    """Return True where a file could not be written; libraries that write do not always say why."""
+    """Return True where a file could not be written; libraries do not always state the cause."""
     return reason.errno in REFUSED_BY_DISK or (
         reason.errno is None and shutil.disk_usage(partial.parent).free < LEAST_ROOM
     )
@@ -114,7 +114,7 @@ def final_folder(partial: Path) -> Path:
 
 
 def write_json(path: Path, values: Mapping[str, Any]) -> None:
-    """Write values as JSON; raise NotConverged for nan and inf, which no summary may hold, with their key."""
+    """Write values as JSON; raise NotConverged for nan and inf, which are not allowed in a summary, with their key."""
     if void := next(_not_finite(values), None):
         raise NotConverged(f"{void}: the input lies beyond the range of the model")
     path.write_text(json.dumps(values, indent=2, allow_nan=False) + "\n", encoding="utf-8")

@@ -26,7 +26,7 @@ def aligned(rows: Sequence[Sequence[str]]) -> list[str]:
 
 
 def parted(title: str) -> tuple[str, str]:
-    """Return name and unit of a head `name [unit]`; the unit is empty where there is none."""
+    """Return name and unit of a head `name [unit]`; the unit is empty if absent."""
     name, _, unit = title.partition(" [")
     return name, unit.removesuffix("]")
 
@@ -40,7 +40,7 @@ def write_csv(path: Path, head: Iterable[str], rows: Iterable[Iterable[object]])
 
 
 def harmless(cell: object) -> object:
-    """Return a cell, a text that a spreadsheet program would run with an apostrophe in front, which it then shows."""
+    """Return a cell; a text that a spreadsheet program would run as a formula gets a leading apostrophe."""
     return f"'{cell}" if isinstance(cell, str) and _FORMULA.match(cell) and not _NUMBER.fullmatch(cell) else cell
 
 

@@ -1,4 +1,4 @@
-"""Warnings of a run for its page: each named check has a grade; those of one cause come together."""
+"""Warnings of a run for its page: each named check has a grade; those of one cause are grouped."""
 
 from __future__ import annotations
 
@@ -80,7 +80,7 @@ def grade_of(name: str) -> Grade:
 
 
 def causes(warnings: Iterable[str | Mapping[str, str]]) -> tuple[Cause, ...]:
-    """Return warnings, `name: text` or name and text each, by their names; what needs care comes first."""
+    """Return warnings, `name: text` or name and text each, by their names; those that need care come first."""
     texts: dict[str, list[str]] = {}
     for warning in warnings:
         name, text = _parted(warning)
@@ -104,7 +104,7 @@ def _parted(warning: str | Mapping[str, str]) -> tuple[str, str]:
 
 
 def _cause(name: str, texts: Sequence[str]) -> Cause:
-    """Return a cause; what follows the last semicolon of a text is its remedy."""
+    """Return a cause; the text after its last semicolon is the remedy."""
     parts = [text.rstrip(".").rpartition("; ") for text in texts]
     facts = tuple(fact or remedy for fact, _, remedy in parts)
     remedies = dict.fromkeys(remedy for fact, _, remedy in parts if fact)

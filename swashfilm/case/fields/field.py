@@ -64,7 +64,7 @@ class Uniform:
         return self.value
 
     def on(self, data: MeshData) -> Uniform:
-        """Return the same field, which holds on any mesh."""
+        """Return the same field, valid on any mesh."""
         return self
 
     def __str__(self) -> str:
@@ -74,7 +74,7 @@ class Uniform:
 
 @dataclass(frozen=True)
 class Formula:
-    """A formula of x, y and t, SI; a jump is exact along cell edges and smeared over a cell that it crosses."""
+    """A formula of x, y and t, SI; a jump is exact along cell edges and smoothed over a cell that it crosses."""
 
     expression: Expression
 
@@ -92,7 +92,7 @@ class Formula:
         return float(self.expression(np.zeros(1), np.zeros(1), t)[0])
 
     def on(self, data: MeshData) -> Formula:
-        """Return the same field, which holds on any mesh."""
+        """Return the same field, valid on any mesh."""
         return self
 
     def __str__(self) -> str:

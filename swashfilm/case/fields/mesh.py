@@ -108,7 +108,7 @@ class AnnulusSection:
 
 
 def read_film_mesh(path: Path) -> FileMesh:
-    """Return the mesh of a file; raise QuantityError where it holds none."""
+    """Return the mesh of a file; raise QuantityError for a file without a mesh."""
     try:
         film_mesh = mesh_from_file(path)
         return FileMesh(path, film_mesh, mesh_data(path, film_mesh))

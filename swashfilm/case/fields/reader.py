@@ -42,7 +42,7 @@ class FieldReader:
 
 
 LEAST = 1e-12
-"""SI; of a film in m it is less than an atom, and no oil has such a viscosity."""
+"""SI; as a film in m it is less than an atom, and no oil has such a viscosity."""
 
 
 def field_fault(field: Field, space: FilmSpace, t: float = 0.0, *, positive: bool = False) -> tuple[str, str] | None:

@@ -105,7 +105,7 @@ def read_gap_case(name: str, text: str, top: Table, film: Table, folder: Path) -
 
 
 def _effects(at: Rotor, physics: Physics, *, held: bool) -> FilmEffects:
-    """Return the parts and their physics, with what the pump's [physics] states of films that are held or float."""
+    """Return the parts and their physics, with the pump's [physics] of films that are held or float."""
     parts = floating_parts(at.pump)
     if held:
         return film_effects(at, parts, at.pump, GapPhysics.alike(physics))
@@ -113,12 +113,12 @@ def _effects(at: Rotor, physics: Physics, *, held: bool) -> FilmEffects:
 
 
 def _of_gap(path: str, forms: Mapping[Gap, FieldType], gap: Gap | None, raw: object, reading: Reading) -> Any:
-    """Return a table in the form of the gap; None where there is none, and for an unknown gap."""
+    """Return a table in the form of the gap; None if it is absent, and for an unknown gap."""
     return None if gap is None or raw is None else read_entry(path, forms[gap], raw, reading)
 
 
 def _film(top: Table, film: Table, reading: Reading) -> InstantSection:
-    """Return the keys of the gap, in [film] or at the top of the file; with faults those that are good."""
+    """Return the keys of the gap, in [film] or at the top of the file; with faults only the valid ones."""
     own = {key: raw for key in (*fields_of(InstantSection), "revolution") if (raw := film.get(key)) is not None}
     values = own if film is top else dict(film.values)
     values.pop("revolution", None)

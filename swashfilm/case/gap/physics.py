@@ -63,7 +63,7 @@ _SUMMARY = {
     Effect.ELASTIC_WALLS: ("elastic walls", "--rigid", Leg.ELASTIC),
     Effect.HEAT: ("temperature of films and parts", "--isothermal", Leg.HEAT),
 }
-"""Each effect in words, its switch, and the march that ends with it (its time holds all before it)."""
+"""Each effect in words, its switch, and the march that ends with it (its time includes all before it)."""
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -79,8 +79,8 @@ class RevolutionCase:
 def read_revolution_case(name: str, text: str, top: Table, film: Table, folder: Path) -> RevolutionCase | None:
     """Return the case of a file whose [film] has `gap` and `revolution = true`; None with its faults listed.
 
-    Defaults: the pump's operating point, the lumped cycle of its chamber, all physics, 360 steps per turn
-    (or the nearest number that divides among the pistons). Films solve what the pump's [physics] states of them.
+    Defaults: the pump's operating point, the lumped cycle of its chamber, all physics, 360 steps per turn (or the
+    nearest multiple of the pistons). Films solve their effects of the pump's [physics].
     """
     gap = film.choice("gap", Gap)
     if film.get("revolution") is not True:

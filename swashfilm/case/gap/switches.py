@@ -14,7 +14,7 @@ SWITCHES = {
 }
 """Keys of `swashfilm.case.gap.physics` with their values, and the meaning, by switch.
 
-Rigid walls take the law of viscosity over pressure with them: under an edge that cannot yield it has no bound.
+Rigid walls also switch off the law of viscosity over pressure: under a rigid edge the viscosity would have no bound.
 """
 
 
@@ -35,13 +35,13 @@ def add_floating_options(command: argparse.ArgumentParser) -> None:
 def switched_keys(options: argparse.Namespace) -> dict[str, str]:
     """Return the keys of `physics.SwitchesSection` that the command line sets, such as `walls` to "rigid".
 
-    Each leaves an effect out.
+    Each switches an effect off.
     """
     on = {switch for switch in SWITCHES if getattr(options, switch[2:].replace("-", "_"))}
     return {key: value for switch, (keys, _) in SWITCHES.items() if switch in on for key, value in keys.items()}
 
 
 def switches_of(stated: Collection[str]) -> list[str]:
-    """Return the switches that set these keys; one that sets all keys of another stands for both."""
+    """Return the switches that set these keys; one that sets all keys of another replaces both."""
     found = {switch: set(keys) for switch, (keys, _) in SWITCHES.items() if set(keys) <= set(stated)}
     return [switch for switch, keys in found.items() if not any(keys < more for more in found.values())]

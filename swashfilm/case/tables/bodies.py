@@ -206,7 +206,7 @@ def _clamped(stated: BuiltForm) -> tuple[str, ...]:
 
 
 def _of_file(stated: FileBodySection) -> Body:
-    """Return the body of a file; raise InputError at the key of what is wrong with it."""
+    """Return the body of a file; raise InputError at the key of its fault."""
     try:
         mesh = body_from_file(stated.mesh, stated.unit.metres)
     except InputError as reason:

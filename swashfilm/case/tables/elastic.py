@@ -60,7 +60,7 @@ class ElasticStatement:
 
 
 def read_elastic(top: Table, film: FilmMesh | None, folder: Path) -> ElasticStatement | None:
-    """Return the [elastic] table with its bodies under a film; None where there is none, or with its faults listed."""
+    """Return the [elastic] table with its bodies under a film; None if it is absent, or with its faults listed."""
     stated = table_section(top, "elastic", ElasticSection, folder)
     if stated is None or film is None:
         return None

@@ -89,7 +89,7 @@ def check_film(top: Table, film: Table, stated: FilmSection, space: FilmSpace | 
 
 
 def _check_cylinder(film: Table, stated: FilmSection) -> None:
-    """List faults of a film that is no full turn of a cylinder, or whose load is asked for in its plane."""
+    """List faults of a film that is no full turn of a cylinder, or whose load is required in its plane."""
     if isinstance(getattr(stated, "mesh", None), AnnulusSection):
         film.fault("geometry", "'cylinder' with an annulus", "a mesh whose x runs once around the cylinder")
     if "load" in film.values:

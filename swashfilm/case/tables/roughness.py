@@ -109,7 +109,7 @@ class ContactSection:
 
 
 def read_roughness(top: Table) -> tuple[RoughnessSection | None, ContactSection | None]:
-    """Return roughness and contact, filled in; None where there is no such table, or with its faults listed."""
+    """Return roughness and contact, filled in; None if the table is absent, or with its faults listed."""
     roughness = table_section(top, "roughness", RoughnessSection)
     contact = table_section(top, "contact", ContactSection)
     if top.get("contact") is not None and top.get("roughness") is None:

@@ -133,7 +133,7 @@ def _wall(stated: WallForm, body: Body | None, space: FilmSpace) -> Wall:
 
 
 def read_thermal(top: Table, bodies: Mapping[str, Body] | None) -> ThermalSection | None:
-    """Return the [thermal] table; None where there is none, or with its faults listed.
+    """Return the [thermal] table; None if it is absent, or with its faults listed.
 
     A wall that is a body is one of `bodies`, those of [elastic] (None: it has a fault itself); no half-space is.
     """

@@ -49,6 +49,6 @@ class TimeStepsSection:
 
 
 def read_time(top: Table) -> TimeStepsSection | None:
-    """Return the [time] table; None where there is none, or with its faults listed."""
+    """Return the [time] table; None if it is absent, or with its faults listed."""
     stated = table_section(top, "time", TimeStepsSection)
     return replace(stated, outputs=min(stated.outputs, stated.steps)) if stated else None

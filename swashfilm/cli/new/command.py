@@ -41,7 +41,7 @@ def run_new_command(options: argparse.Namespace) -> int:
 def new_file(options: argparse.Namespace, asks: bool = False) -> NewFile:
     """Return the file of a command line, not yet written; raise InputFaults with every fault of the options.
 
-    asks: the values that a pump needs and the options lack are asked for on the terminal; else each is a fault.
+    asks: values of a pump that the options lack are requested on the terminal; else each is a fault.
     """
     if options.kind not in KINDS:
         nearest = nearest_choice(options.kind, KINDS)
@@ -75,7 +75,7 @@ def _found(options: argparse.Namespace, path: Path, faults: list[Fault], asks: b
 
 
 def _place(options: argparse.Namespace) -> tuple[Path, str]:
-    """Return where the file goes, and the argument that says so."""
+    """Return the place of the file, and the argument that states it."""
     if options.kind == "recording":
         return Path(options.of or ".").parent / "recording.toml", "TABLE"
     usual = "pump" if options.kind == "pump" else options.of or "film"

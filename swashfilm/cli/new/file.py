@@ -11,7 +11,7 @@ from system.inputs.faults import Fault, InputFaults
 
 @dataclass(frozen=True)
 class NewFile:
-    """A file to write: its place, its kind of schema, its text without the schema line, and what to tell of it."""
+    """A file to write: its place, its kind of schema, its text without the schema line, and its message to the user."""
 
     path: Path
     kind: str
@@ -19,9 +19,9 @@ class NewFile:
     told: tuple[str, ...]
 
     def write(self) -> Path:
-        """Write the file, and the schema of its kind beside it where there is none, and return its path.
+        """Write the file, and the schema of its kind beside it if absent, and return its path.
 
-        Raises InputFaults for a folder that cannot be written to, and for a file that is there by now.
+        Raises InputFaults for a folder that cannot be written to, and for a file that exists by now.
         """
         try:
             write_new(self.path, self.kind, self.text)
@@ -32,7 +32,7 @@ class NewFile:
 
 
 def place_faults(path: Path, option: str) -> list[Fault]:
-    """Return the fault of a place that no new file can have."""
+    """Return the fault of an invalid place for a new file."""
     if path.suffix.lower() != ".toml":
         return [Fault(option, f"'{path}'", "a name that ends in .toml", f"{path.stem}.toml")]
     if not path.parent.is_dir():

@@ -23,7 +23,7 @@ mark; narrow [tolerance] with it. Any unit of the kind will do; pressures are ga
 
 
 def new_pump(given: Mapping[str, str | None], path: Path, faults: list[Fault], asks: bool) -> NewFile | None:
-    """Return the pump file of the options; None with faults added. asks: missing ones are asked for on a terminal."""
+    """Return the pump file of the options; None with faults added. asks: missing ones are requested on a terminal."""
     answers: dict[str, str] = {}
     stated: dict[str, dict[str, object]] = {}
     asks = asks and not faults

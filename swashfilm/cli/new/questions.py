@@ -27,7 +27,7 @@ _SHORT_GRADE = re.compile(r"(?:ISO )?(?:VG ?)?(\d+)", re.IGNORECASE)
 
 @dataclass(frozen=True)
 class Question:
-    """A value that a new pump file needs: its option, what it is, an example, and how an answer is read."""
+    """A value that a new pump file needs: its option, its meaning, an example, and the reader of an answer."""
 
     option: str
     what: str
@@ -43,12 +43,12 @@ class Question:
 
     @property
     def missing(self) -> Fault:
-        """The fault of no answer."""
+        """The fault of a missing answer."""
         return Fault(self.option, "missing", self.what, f"{self.option} '{self.example}'")
 
 
 def ask(question: Question) -> str:
-    """Return an answer that has no fault, asked for on the terminal until there is one."""
+    """Return an answer without fault; the question is repeated on the terminal until then."""
     while True:
         sys.stdout.write(f"{question.what} (such as {question.example}): ")
         sys.stdout.flush()
@@ -85,7 +85,7 @@ def _entry(path: str, model: type[Any], special: Mapping[str, Special]) -> Answe
 
 
 def _at_rated(path: str, key: str) -> Answered:
-    """Return the reader of a rated value, at which the pump runs where nothing else is asked for."""
+    """Return the reader of a rated value, the default operating point of the pump."""
     rated = _entry(path, PumpSection, {})
 
     def read(text: str, faults: list[Fault]) -> Tables:

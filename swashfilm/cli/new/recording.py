@@ -50,7 +50,7 @@ def new_recording(
 
 
 def _doubts(guess: GuessedRecording, path: Path) -> Iterator[str]:
-    """Yield what is wrong with the readings as guessed: a wrong guess may be the reason, and the file mends it."""
+    """Yield the faults of the readings with the guessed columns: a wrong guess is corrected in the file."""
     try:
         recording_of_tables(str(path), parse_toml(guess.text), path.parent)
     except InputFaults as reason:
@@ -75,7 +75,7 @@ def _source(table: str | None, part: str | None, faults: list[Fault]) -> TableSo
 
 
 def _faults(guess: GuessedRecording) -> list[Fault]:
-    """Return the fault of a table in which nothing is found that a pump's simulation gives."""
+    """Return the fault of a table without any output of a pump's simulation."""
     if any(one.name in OUTPUTS for one in guess.channels):
         return []
     found = ", ".join(one.column for one in guess.channels) or "no column that heads tell"

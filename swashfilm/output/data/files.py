@@ -85,14 +85,14 @@ def columns_of(data: xarray.Dataset, along: str) -> list[Column]:
 def write_netcdf(data: xarray.Dataset, path: Path, kind: str) -> None:
     """Write the data set of a kind of run folder; every variable has `units` (SI) and `long_name`.
 
-    Raises OSError, before anything is written, where the disk has no room: HDF5 ends in a disorder of messages there.
+    Raises OSError, before anything is written, on a full disk: there HDF5 only prints unrelated messages.
     """
     expect_room(path.parent, int(1.1 * data.nbytes) + HEADS)
     described(data).assign_attrs(stamped(kind)).to_netcdf(path, mode="w", engine="h5netcdf")
 
 
 def add_group(data: xarray.Dataset, path: Path, group: str) -> None:
-    """Add a data set to a NetCDF file as a group; described, and refused without room, as by `write_netcdf`."""
+    """Add a data set to a NetCDF file as a group; described, and refused on a full disk, as by `write_netcdf`."""
     expect_room(path.parent, int(1.1 * data.nbytes) + HEADS)
     described(data).to_netcdf(path, mode="a", group=group, engine="h5netcdf")
 
@@ -116,7 +116,7 @@ def read_netcdf(path: Path, group: str | None = None) -> xarray.Dataset:
         return _loaded(path, group)
     except InputFaults:
         raise
-    except Exception as reason:  # HDF5 and what reads it have no common class of faults
+    except Exception as reason:  # HDF5 and its readers have no common class of faults
         words = " ".join(str(reason).split()) or type(reason).__name__
         raise InputFaults(str(path), [Fault("file", f"cannot be read: {words}", "the NetCDF file of a run")]) from None
 

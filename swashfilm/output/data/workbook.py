@@ -84,7 +84,7 @@ def _write_sheet(book: Workbook, name: str, rows: Sequence[Sequence[Cell]]) -> N
 
 
 def _cell(sheet: Any, value: Cell, *, head: bool) -> WriteOnlyCell | Cell:
-    """Return a cell: a text stays a text, also where it begins as a formula does."""
+    """Return a cell: a text stays a text, also where it begins like a formula."""
     from openpyxl.cell import WriteOnlyCell
     from openpyxl.cell.cell import ILLEGAL_CHARACTERS_RE
     from openpyxl.styles import Font
@@ -100,7 +100,7 @@ def _cell(sheet: Any, value: Cell, *, head: bool) -> WriteOnlyCell | Cell:
 
 
 def _sheet_name(name: str, taken: Sequence[str]) -> str:
-    """Return a name that a sheet may have, unlike those taken whatever their case."""
+    """Return a valid name of a sheet that differs from those in use, also without regard to case."""
     plain = _NOT_IN_NAMES.sub(" ", name)
     known = {one.lower() for one in taken}
     for number in range(1, len(taken) + 2):

@@ -73,7 +73,7 @@ class Pictures:
 
 
 class Painter:
-    """A process that draws while this one goes on: give it the drawings, and fetch the pictures later."""
+    """A process that draws in parallel: give it the drawings, and fetch the pictures later."""
 
     def __init__(self, process: subprocess.Popen[str], beside: Executor, patience: float) -> None:
         self._process, self._beside, self._patience = process, beside, patience
@@ -89,8 +89,8 @@ class Painter:
     def pictures(self) -> Pictures:
         """Wait for the pictures begun.
 
-        Raises nothing. Afterwards all pictures exist, or none exists and `reason` names the cause: the process died
-        (no graphics libraries), took longer than its patience, or could not read the files.
+        Raises no exception. Afterwards all pictures exist, or none exists and `reason` names the cause: the process
+        died (no graphics libraries), took longer than its patience, or could not read the files.
         """
         assert self._done is not None, "no drawing has begun"
         try:

@@ -1,1 +1,1 @@
-"""Figures of a page that the reader can touch: hover, zoom, units, choices, views that turn."""
+"""Interactive figures of a page: hover, zoom, units, choices, rotating views."""

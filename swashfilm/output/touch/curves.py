@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
 
 def touchable(figure: Figure) -> go.Figure | None:
-    """Return the figure in plotly, None where it holds anything without a counterpart here.
+    """Return the figure in plotly, None if a part of it has no counterpart here.
 
     The figure must have been drawn, so that its layout is final. Lines, bands, bars, error bars, scatter, spans, texts
     and fields kept by `keep_field` are translated; other patches, images and contours are not.

@@ -1,4 +1,4 @@
-"""Figures with choices: what each choice puts into the figure, as `script/choices.js` reads it."""
+"""Figures with choices: the content of the figure by choice, for `script/choices.js`."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ class Control:
 
 @dataclass(frozen=True)
 class Pick:
-    """Place in the figure (keys from `data` or `layout` on) that gets a row of a table.
+    """Place in the figure (keys from `data` or `layout` on) of a row of a table.
 
     by: numbers of the controls that choose. rows: the row for every combination of their options, the last control's
     fastest; several rows are joined.

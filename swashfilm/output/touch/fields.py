@@ -1,4 +1,4 @@
-"""Fields behind the areas of a static picture, kept with its artist so that hovering can tell their values."""
+"""Fields behind the areas of a static picture, kept with its artist so that hovering shows their values."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Text and figures as a page holds them: gzip in letters that HTML leaves alone.
+"""Text and figures as a page holds them: gzip in letters without meaning in HTML.
 
 The letters are Python's base 85, a fifth fewer bytes of overhead than base 64, with `,.:` in place of `&<>`. So no
 `</script>` in a name ends a figure.

@@ -32,7 +32,7 @@ class Panel:
 
 
 def words(text: str) -> str:
-    """Return a text of matplotlib for plotly, which reads tags in it."""
+    """Return a text of matplotlib for plotly, which interprets tags in it."""
     return escape(text.replace("$", ""), quote=False).replace("\n", "<br>")
 
 
@@ -59,7 +59,7 @@ def _twins(below: Any, axes: Any) -> bool:
 
 
 def _titled(axes: Any, shown: Sequence[Any], letter: str) -> Any:
-    """Return the axes that tell the title of a shared axis: these, or the first sharing ones that have a title."""
+    """Return the axes with the title of a shared axis: these, or the first sharing ones that have a title."""
     group = getattr(axes, f"get_shared_{letter}_axes")()
     if getattr(axes, f"get_{letter}label")():
         return axes

@@ -7,10 +7,10 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True)
 class Picture:
-    """A static picture, and the same to touch.
+    """A static picture, and its interactive form.
 
-    address: that of an image, with its content. touch: the packed figure that takes its place where the reader's
-    browser can draw it, empty where there is none.
+    address: that of an image, with its content. touch: the packed figure that replaces it if the reader's browser can
+    draw it, empty without one.
     """
 
     address: str

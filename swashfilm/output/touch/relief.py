@@ -1,4 +1,4 @@
-"""A film as a relief over its plane: the height and the colour are a field to choose, at a shaft angle to choose."""
+"""A film as a relief over its plane: height and colour show a selectable field at a selectable shaft angle."""
 
 from __future__ import annotations
 

@@ -22,7 +22,7 @@ SIGNS = {
 STEPS = {"steps-pre": "vh", "steps": "vh", "steps-mid": "hvh", "steps-post": "hv", "default": "linear"}
 PIXELS = 1.4  # per point, of lines and marks
 MOST = 2000
-"""Points of a line; of a longer one, those stay that are highest and lowest in as many equal parts as pixels."""
+"""Points of a line; of a longer one, the highest and the lowest in each of as many equal parts as pixels."""
 
 
 class Untranslated(Exception):
@@ -30,7 +30,7 @@ class Untranslated(Exception):
 
 
 def traces_of(panel: Panel) -> list[dict[str, Any]]:
-    """Return the traces of a panel in the order of drawing; raise Untranslated for what has no counterpart."""
+    """Return the traces of a panel in the order of drawing; raise Untranslated for an artist without a counterpart."""
     axes, place = panel.axes, {"xaxis": panel.x, "yaxis": panel.y}
     bars = {id(bar): group for group in axes.containers for bar in _patches(group)}
     fields = [kept_field(one) for one in axes.collections]
@@ -190,7 +190,7 @@ def _scatter(dots: Any, panel: Panel) -> dict[str, Any]:
 
 
 def bar_title(artist: Any, panel: Panel) -> str:
-    """Return what the colours of an artist mean: the label of its colour bar, otherwise the title of its panel."""
+    """Return the meaning of an artist's colours: the label of its colour bar, otherwise the title of its panel."""
     bar = artist.colorbar
     label = "" if bar is None else bar.ax.get_ylabel() or bar.ax.get_xlabel()
     return words(label or panel.axes.get_title())

@@ -1,4 +1,4 @@
-"""Answer of a calibration: what was learnt, how well the readings are met, what the data do not determine."""
+"""Answer of a calibration: fitted values, deviations of the readings, undetermined parameters."""
 
 from __future__ import annotations
 
@@ -25,11 +25,11 @@ Row = Mapping[str, str]
 MOST_LEARNT = 3
 """Number of the best determined values that have a tile."""
 MOST_MISFITS = 2
-"""Number of channels, the worst met, that have a tile."""
+"""Number of channels, those of the largest deviation, that have a tile."""
 MOST_NAMED = 6
 """Number of parameters that the words name."""
 WITHIN = 1.2
-"""Deviation in multiples of the scatter up to which readings are met within it."""
+"""Deviation in multiples of the scatter up to which readings agree within it."""
 CAPTION = "Measured less fitted, each reading, over the reading. Band: scatter of the meter, one sigma"
 
 

@@ -33,7 +33,7 @@ Row = Mapping[str, str]
 
 
 def write_calibrate_page(folder: Path) -> Path:
-    """Write report.html of a calibration; raises InputFaults where one of its files is not there."""
+    """Write report.html of a calibration; raises InputFaults where one of its files is missing."""
     summary = read_summary(folder, FILES, "a calibration's run folder")
     tables = {name: read_rows(folder / f"{name}.csv") for name in TABLES}
     pictures = {name: inlined(figure) for name, figure in _pictures(tables).items()}
@@ -81,13 +81,13 @@ def statistics(own: Mapping[str, Any], parameters: Sequence[Row]) -> Iterator[st
         if law["supported"]:
             yield f"With constant coefficients chi-square per reading is {own['chi2_constant_friction']:.3f}."
     for row in parameters:
-        if row["at_bound"] == "yes" and float(row["mean"]) != 0.0:  # what may only add is often 0
+        if row["at_bound"] == "yes" and float(row["mean"]) != 0.0:  # a parameter that may only add is often 0
             bound = f"{row['mean']} {row['unit']}".removesuffix(" 1")
             yield f"Parameter {row['name']} is at its bound, {bound}."
 
 
 def parameter_rows(rows: Iterable[Row]) -> Iterator[tuple[str, ...]]:
-    """Yield (parameter, assumed before, fitted, how far the recording determines it), the best determined first."""
+    """Yield (parameter, assumed before, fitted, degree of determination), the best determined first."""
     for row in sorted(rows, key=lambda row: float(row["sigma_over_prior [1]"])):
         yield parameter_words(row["name"]), assumed_text(row), fitted_text(row), how_far(row)
 

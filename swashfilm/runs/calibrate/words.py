@@ -1,4 +1,4 @@
-"""Parameters of a calibration as people read them: name, value with sigma in units of the trade, how far known."""
+"""Parameters of a calibration as people read them: name, value with sigma in usual units, degree of determination."""
 
 from __future__ import annotations
 
@@ -46,7 +46,7 @@ def is_sensor(row: Row) -> bool:
 
 
 def how_far(row: Row) -> str:
-    """Return how far the recording determines a parameter."""
+    """Return the degree to which the recording determines a parameter."""
     left = float(row["sigma_over_prior [1]"])
     return DETERMINED if left < WELL else IN_PART if left < PARTLY else AS_ASSUMED
 

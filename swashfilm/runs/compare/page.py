@@ -56,7 +56,7 @@ def write_compare_page(folder: Path) -> Path:
 
 
 def compare_answer(summary: Row, picture: Picture | None = None, caption: str = "") -> Answer:
-    """Return the answer of a comparison: which is better, by how much, where, and what is within the error of both."""
+    """Return the answer of a comparison: the better map, differences with places, and those within the error."""
     one, other = summary["names"]
     row = next((row for row in summary["differences"] if row["words"] == f"{EFFICIENCY}{HEADLINE.label}"), None)
     tiles = [*(_efficiency_tiles(row, summary) if row else ()), *_loss_tiles(summary)]

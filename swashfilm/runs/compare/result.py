@@ -37,7 +37,7 @@ class CompareRun(Result):
         return read_table(folder / "differences.csv")
 
     def tables(self) -> list[Table]:
-        """Return differences by number, and over the cycle where there is one."""
+        """Return differences by number, and over the cycle, if any."""
         summary = self.summary
         sides = f"A: {summary['names'][0]}; B: {summary['names'][1]}"
         tables: list[Table] = [(f"{sides}; means over the common levels", [DIFFERENCE_HEAD, *difference_rows(summary)])]

@@ -88,7 +88,7 @@ Sides = tuple[Side, Side]
 
 
 def side_names(both: Sides) -> tuple[str, str]:
-    """Return the names of both sides: of the pumps; where these are equal with how they were solved, or the path."""
+    """Return the names of both sides: of the pumps; where these are equal, with their solver or path."""
     for names in (
         tuple(side.data.name for side in both),
         tuple(f"{side.data.name}, {side.data.words}" for side in both),
@@ -134,7 +134,7 @@ def run_compare(both: Sides, cycle: Cycle | None, folder: Path) -> dict[str, Any
 
 
 def fidelity_warnings(both: Sides) -> Iterator[str]:
-    """Yield a warning of two maps that are not of one fidelity."""
+    """Yield a warning of two maps of different fidelities."""
     one, other = (side.data.words for side in both)
     if one != other:
         yield (

@@ -1,4 +1,4 @@
-"""The pump of a finding as a file: its origin, what was found, and which fidelities run it, as comments at its head."""
+"""The pump of a finding as a file: its origin, the finding, and the fidelities that run it, as comments at its head."""
 
 from __future__ import annotations
 

@@ -40,7 +40,7 @@ def add_diagnose_options(command: argparse.ArgumentParser) -> None:
 
 
 def run_diagnose_command(options: argparse.Namespace) -> int:
-    """Run `swashfilm diagnose` and return its exit code, 0 whatever the verdict; a watch ends by Ctrl-C."""
+    """Run `swashfilm diagnose` and return its exit code, 0 for any verdict; a watch ends by Ctrl-C."""
     workers, apply = workers_and_file(options)
     if options.watch:
         _watch(options, workers)
@@ -87,7 +87,7 @@ def run_diagnose_command(options: argparse.Namespace) -> int:
 
 
 def _watch(options: argparse.Namespace, workers: int) -> None:
-    """Diagnose a folder again and again, each time into a run folder of its own; ends by KeyboardInterrupt."""
+    """Diagnose a folder repeatedly, each time into a run folder of its own; ends by KeyboardInterrupt."""
     from diagnosis.finding import diagnose
     from diagnosis.study.acceptance import checked_recording
     from swashfilm.output.page import PAGE

@@ -41,7 +41,7 @@ def write_film_fields(folder: Path, films: FilmsPoint) -> None:
 
 
 def film_pictures(folder: Path, names: tuple[str, str], found: Mapping[str, Any]) -> dict[str, Figure]:
-    """Fields of the gaps that a finding is about, without beside with it on one scale, by caption."""
+    """Fields of the gaps of a finding, without beside with it on one scale, by caption."""
     import xarray
 
     if not all((folder / name / FIELDS_FILE).is_file() for name in names):

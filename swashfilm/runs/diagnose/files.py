@@ -113,14 +113,14 @@ def diagnosis_summary(study: Study, diagnosis: Diagnosis, assumptions: Sequence[
 
 
 def write_rows(path: Path, rows: Iterable[Mapping[str, str]], head: Sequence[str] = ()) -> None:
-    """Write rows of one set of columns as CSV; head: the columns where there is no row."""
+    """Write rows of one set of columns as CSV; head: the columns without rows."""
     listed = list(rows)
     names = list(listed[0]) if listed else list(head)
     write_csv(path, names, ([row[name] for name in names] for row in listed))
 
 
 def head_of(row: Mapping[str, str], name: str) -> str:
-    """Return the head of the column `name` of a table, with its unit; raise KeyError where it has none."""
+    """Return the head of the column `name` of a table, with its unit; raise KeyError without one."""
     for head in row:
         if parted(head)[0] == name:
             return head

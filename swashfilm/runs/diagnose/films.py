@@ -72,9 +72,9 @@ def film_options_of(options: argparse.Namespace, known: KnownPump) -> FilmOption
 def film_model_of(
     pump: PumpDescription, recording: Recording, asked: FilmOptions | None, workers: int, report: Report
 ) -> FilmModel | None:
-    """The films of a pump over the points of a recording, None where none are asked for.
+    """The films of a pump over the points of a recording, None if not requested.
 
-    Tables are built where they are not kept. Raises InputFaults for too few points, NotConverged as `film_model`.
+    Tables are built if not kept. Raises InputFaults for too few points, NotConverged as `film_model`.
     """
     if asked is None:
         return None

@@ -39,13 +39,13 @@ def floating_pictures(folders: Sequence[Path], names: Sequence[str]) -> dict[str
 
 
 def _most_apart(data: Sequence[xarray.Dataset]) -> int:
-    """Number of the kept film in which the pressures are farthest apart, rms over the film."""
+    """Number of the kept film with the largest difference of pressures, rms over the film."""
     one, other = (each["film_pressure"].values for each in data)
     return int(np.argmax(np.sqrt(np.mean((one - other) ** 2, axis=1))))
 
 
 def _beside(data: Sequence[xarray.Dataset], names: Sequence[str], at: int) -> Figure:
-    """A line of maps for each field; films without temperature are as warm as the case."""
+    """A line of maps for each field; films without temperature have that of the case."""
     fields = [name for name in MAPPED if any(name in each for each in data)]
     figure = figure_of(10.0, 3.7 * len(fields))
     for line, field in zip(figure.subplots(len(fields), 2, squeeze=False), fields, strict=True):

@@ -60,7 +60,7 @@ MOST_COURSES = 2
 
 
 WORDS = ("headline", "finding", "cost", "doubt", "course")
-"""Of the answer in plain words, what the page says first."""
+"""First part of the page in the answer in plain words."""
 COURSE_CAPTION = (
     "Crosses: what the finding adds to the readings. Circles: measured minus simulated without the finding, with the "
     "scatter of the meter. Where crosses lie on circles, the finding explains the difference."
@@ -76,7 +76,7 @@ TRACE_CAPTION = (
 
 
 def write_diagnose_page(folder: Path) -> Path:
-    """Write report.html of a diagnosis; raises InputFaults where one of its files is not there."""
+    """Write report.html of a diagnosis; raises InputFaults where one of its files is missing."""
     summary = read_summary(folder, FILES, "a diagnosis's run folder")
     found = read_diagnosis(folder / "diagnosis.json")
     tables = {name: read_rows(folder / f"{name}.csv") for name in TABLES}
@@ -131,7 +131,7 @@ def _answer(
     tables: Mapping[str, Sequence[Mapping[str, str]]],
     pictures: Mapping[str, Picture],
 ) -> tuple[Answer, dict[str, Picture]]:
-    """First part of the page, and the pictures that are left for its sections."""
+    """First part of the page, and the remaining pictures for its sections."""
     told, first = found["answer"], "course" if "course" in pictures else "maps"
     caption = COURSE_CAPTION if first == "course" else _map_caption(bool(found["effects"]))
     words = " ".join(text for text in (told[key] for key in WORDS) if text)
@@ -151,7 +151,7 @@ def remarks(found: Mapping[str, Any], summary: Mapping[str, Any]) -> list[str]:
 
 
 def _pictures(found: Mapping[str, Any], tables: Mapping[str, Sequence[Mapping[str, str]]]) -> dict[str, Figure]:
-    """Pictures by name. Where nothing is claimed, one fit is drawn, not the same one twice."""
+    """Pictures by name. Without a claim one fit is drawn, not the same one twice."""
     residuals, claimed = tables["residuals"], bool(found["effects"])
     held_out = {name: row for name, row in found["fit"]["heldout"].items() if all(row[key] for key in HELD_OUT)}
     shown = {row["channel"] for row in residuals} & set(found["where"]["channels"] if claimed else [])

@@ -88,7 +88,7 @@ def hypothesis_bars(rows: Sequence[Row]) -> Figure:
     axes, places = figure.subplots(), np.arange(len(ranked))
     axes.barh(places, [float(row["probability"]) for row in ranked], 0.6, color=AFTER)
     for place, row in enumerate(ranked):
-        size = f", z {float(row['z']):.3g}" if float(row["z"] or 0.0) else ""  # the unknown has no one size
+        size = f", z {float(row['z']):.3g}" if float(row["z"] or 0.0) else ""  # the unknown has no single size
         text = f"{float(row['behind [nats]']):.3g} nats below the best{size}"
         axes.text(float(row["probability"]) + 0.01, place, text, va="center", fontsize=8)
     axes.set_yticks(places, [row["hypothesis"].replace("_", " ") for row in ranked], fontsize=8)
@@ -210,7 +210,7 @@ def _place(axes: Axes, rows: Sequence[Row], key: str, height: float) -> Array:
 
 
 def _levels(ratios: Array) -> list[tuple[float, float]]:
-    """Groups of displacement ratios: ends of each; one group of everything where there are too many."""
+    """Groups of displacement ratios: ends of each; one group of all points where there are too many."""
     known = np.unique(ratios[np.isfinite(ratios)])
     if known.size == 0:
         return [(-np.inf, np.inf)]

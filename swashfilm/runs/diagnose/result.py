@@ -56,7 +56,7 @@ class DiagnosisRun(Result):
 
     @property
     def answer(self) -> Mapping[str, Any]:
-        """The answer in plain words by part: finding, cost, certainty, what to look at, what to measure next."""
+        """The answer in plain words by part: finding, cost, certainty, inspection, next measurement."""
         found: Mapping[str, Any] = self.record["answer"]
         return found
 
@@ -95,7 +95,7 @@ class DiagnosisRun(Result):
         return plotted(lambda: plots.hypothesis_bars(self._rows["hypotheses"]) if self._rows["hypotheses"] else None)
 
     def plot_effect(self) -> list[Axes]:
-        """Contribution of the finding beside the residuals without it; nothing where nothing is claimed."""
+        """Contribution of the finding beside the residuals without it; empty without a claim."""
         rows = self._rows["residuals"]
         courses = strongest_courses(rows) if self.effects else []
         return plotted(lambda: plots.effect_courses(rows, courses) if courses else None)

@@ -140,7 +140,7 @@ def hidden_rows(rows: Sequence[Row]) -> Iterator[tuple[str, ...]]:
 
 
 def unlimited_words(rows: Sequence[Row]) -> str:
-    """The effects that the recording does not limit, as a list; empty where there is none."""
+    """The effects that the recording does not limit, as a list; empty without any."""
     places = dict.fromkeys((row["effect"], row["pair"]) for row in rows if row["limited"] == "no")
     return listed(_hidden_words(*place) for place in places)
 
@@ -188,7 +188,7 @@ def film_rows(rows: Sequence[Mapping[str, str]]) -> Iterator[tuple[str, ...]]:
 
 
 def shaft_power(rows: Sequence[Mapping[str, str]]) -> dict[str, float]:
-    """Shaft power in W without and with the finding; empty where nothing was run."""
+    """Shaft power in W without and with the finding; empty without runs."""
     return {key: float(row[key]) for row in rows if row["quantity"] == SHAFT for key in (WITHOUT, WITH)}
 
 
@@ -214,7 +214,7 @@ SIZE_TAILS = (" per 100 bar", " too high", " too low", " more", " less", " times
 
 
 def tiles(found: Mapping[str, Any], summary: Mapping[str, Any], changes: Sequence[Row]) -> tuple[Tile, ...]:
-    """Size of the finding, what it costs, how sure it is, and how well points are met that were not used in the fit."""
+    """Size of the finding, its cost, its certainty, and the deviations of points not used in the fit."""
     sizes = tuple(_size_tiles(found))
     costs = _cost_tiles(changes, MOST_FIRST - len(sizes))
     return (*sizes, *costs, _sure_tile(found), *_fit_tiles(found), *_point_tiles(found, summary))
@@ -232,7 +232,7 @@ def _size_tiles(found: Mapping[str, Any]) -> Iterator[Tile]:
 
 
 def _cost_tiles(changes: Sequence[Row], most: int) -> Iterator[Tile]:
-    """The change of efficiency, then that which is largest as a part of what it changes."""
+    """The change of efficiency, then the largest relative change."""
     known = [row for row in changes if row["quantity"] in COST_TILES and _is_material(row)]
     ranked = sorted(
         known, key=lambda row: (row["unit"] != "%", -abs(float(row["change"]) / (float(row[WITHOUT]) or 1.0)))
@@ -256,7 +256,7 @@ def _sure_tile(found: Mapping[str, Any]) -> Tile:
 
 
 def _fit_tiles(found: Mapping[str, Any]) -> Iterator[Tile]:
-    """Of the channel in which the finding shows most; without a claim of the one that is met worst."""
+    """Of the channel with the largest effect of the finding; without a claim of the one with the largest deviation."""
     met = {name: one for name, one in found["fit"]["heldout"].items() if all(one[key] for key in HELD_OUT)}
     if not met:
         return

@@ -15,7 +15,7 @@ from swashfilm.runs.pump.run import PumpCase, floating_run, lumped_run
 from system.pump_file.file import resolved_toml
 
 EXTENDED = "pump_extended.toml"
-"""In the run folder, where something is claimed: the pump with it."""
+"""In the run folder, with a claim: the pump with it."""
 
 
 def write_finding(folder: Path, found: DiagnosisResult) -> None:

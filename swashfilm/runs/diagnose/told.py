@@ -22,7 +22,7 @@ _END = re.compile(r"(?<=\.) (?=[A-Z])")
 
 
 def show_contradictions(recording: Recording, told: Recording | None = None) -> None:
-    """Print where recording and pump file contradict each other; not again what `told` had."""
+    """Print contradictions of recording and pump file, without those already printed, `told`."""
     from diagnosis.recording.model import NoteKind
 
     for note in recording.notes:
@@ -33,8 +33,8 @@ def show_contradictions(recording: Recording, told: Recording | None = None) -> 
 def answer_lines(answer: Mapping[str, Any], most: int = MOST_LINES) -> list[str]:
     """The answer of a diagnosis in at most `most` lines of at most `WIDTH` columns.
 
-    Where it is longer, last sentences are left to the page: of what to look at, of the measurement, the points not
-    used in the fit, of certainty, and of the finding, in this order.
+    From a longer one, last sentences are only on the page: of the inspection, of the measurement, the points not used
+    in the fit, of certainty, and of the finding, in this order.
     """
     told = list(_paragraphs(answer))
     while len(lines := [line for one in told for line in textwrap.wrap(one.text, WIDTH)]) > most:
@@ -71,7 +71,7 @@ def _paragraphs(answer: Mapping[str, Any]) -> Iterator[_Paragraph]:
 
 
 def _looks(looks: Sequence[Mapping[str, str]]) -> Iterator[str]:
-    """Places to look at; of several causes, and of a suspicion, each behind the name of its cause."""
+    """Places to inspect; of several causes, and of a suspicion, each behind the name of its cause."""
     for one in looks:
         yield f"{one['name']}: {one['text']}" if one["name"] else one["text"]
 

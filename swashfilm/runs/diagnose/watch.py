@@ -17,7 +17,7 @@ from system.inputs.faults import InputFaults
 from system.inputs.toml_table import parse_toml
 
 POLL = 1.0  # s between two looks at the folder
-SETTLE = 3  # looks at which nothing changes, before files count as whole
+SETTLE = 3  # looks without change before files count as complete
 CHANGED_CHANCE = 0.1  # by which the probability of the same answer changes, to be reported
 
 Stamp = tuple[int, int]
@@ -41,7 +41,7 @@ class Answer:
 
 
 def answer_of(found: Diagnosis, points: int, page: Path) -> Answer:
-    """The answer of a diagnosis of `points` points, told at length on its page."""
+    """The answer of a diagnosis of `points` points, in full on its page."""
     effects = {effect_words([claim.effect], claim.pair): claim.probability for claim in found.effects}
     return Answer(f"{found.kind.value.replace('_', ' ')} ({found.status.value})", effects, points, page)
 
@@ -52,10 +52,10 @@ def watch(
     show: Callable[[str], None],
     pause: Callable[[float], None] = time.sleep,
 ) -> None:
-    """Show a line for the folder as it is and for each change of its files; ends by KeyboardInterrupt alone.
+    """Show a line for the present folder and for each change of its files; ends by KeyboardInterrupt alone.
 
-    diagnosed: the diagnosis of the files as they are. A fault of the files and a fit that does not converge are shown
-    and waited out. pause: waits so many seconds.
+    diagnosed: the diagnosis of the present files. A fault of the files and a fit that does not converge are shown, and
+    the watch continues. pause: waits so many seconds.
     """
     last: Answer | None = None
     for _ in changes(folder, pause):
@@ -110,7 +110,7 @@ def recorded_files(folder: Path) -> Files:
 
 
 def _tables(folder: Path) -> Iterator[Path]:
-    """Tables named by recording.toml; none while it is not there or is half written."""
+    """Tables named by recording.toml; none while it is absent or incomplete."""
     try:
         stated: dict[str, Any] = parse_toml(read_text(folder / FILE))
     except (OSError, ValueError):

@@ -1,7 +1,7 @@
 """A map as Amesim tables: a text file for each number.
 
 The form is that of tables in public repositories, `# Table format: ND` with N axes; Siemens' own description was not
-at hand, and no Amesim has read these files. Remarks begin with `#`. Two or more axes: their numbers of levels, a line
+available, and no Amesim has read these files. Remarks begin with `#`. Two or more axes: their numbers of levels, a line
 each; their levels, a line each; the values, the first axis along a line, the second down the lines, then the others.
 One axis: level and value on each line.
 """

@@ -12,7 +12,7 @@ from system.maps.data import MapData
 
 
 def csv_files(data: MapData, name: str) -> Content:
-    """Return the file by its ending: heads `name [unit]`, twelve digits; nan and the reason where a point has none."""
+    """Return the file by its ending: heads `name [unit]`, twelve digits; nan and the reason without a result."""
     shown = {}
     for axis in data.axes:
         unit = READING_UNITS[axis.input.unit]

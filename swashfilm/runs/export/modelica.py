@@ -20,11 +20,11 @@ UNITS = {"N m": "N.m"}
 """Units as Modelica writes them, where they differ."""
 SHAFT = TABLES[0]
 PACKAGE = re.compile(r"(?!(Modelica|Real|Integer|Boolean|String)$)[A-Z]\w*", re.ASCII)
-"""Name of a package: the language's words begin with a small letter, but for its types."""
+"""Name of a package: the language's words begin with a small letter, except for its types."""
 
 
 def package_name(text: str) -> str:
-    """Return the name of a package that is next to a text."""
+    """Return the nearest valid name of a package to a text."""
     name = re.sub(r"\W+", "_", text, flags=re.ASCII).strip("_").capitalize()
     return name if PACKAGE.fullmatch(name) else f"Map_{name}".rstrip("_")
 

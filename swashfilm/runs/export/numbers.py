@@ -1,4 +1,4 @@
-"""Numbers of a map that other programs get: names, units, values over the map's axes; and its points without result."""
+"""Numbers of a map for other programs: names, units, values over the map's axes; and its points without result."""
 
 from __future__ import annotations
 
@@ -52,12 +52,12 @@ class Number:
 
     @property
     def identifier(self) -> str:
-        """The name without points: a word of any language."""
+        """The name without points, valid in any language."""
         return self.name.replace(".", "_")
 
 
 def numbers(data: MapData) -> Iterator[Number]:
-    """Yield every number of the map, the loss, and the efficiencies by definition; nan where there is none."""
+    """Yield every number of the map, the loss, and the efficiencies by definition; nan if not defined."""
     yield from _read(data)
     for definition in EfficiencyDefinition:
         found = data.efficiency(definition)
@@ -91,7 +91,7 @@ def held(data: MapData) -> str:
 
 
 def first_hole(data: MapData) -> str:
-    """Return how many points have no result, and inputs and reason of the first; empty for a whole map."""
+    """Return the number of points without a result, and inputs and reason of the first; empty for a whole map."""
     lacking = np.argwhere(~data.solved)
     if not len(lacking):
         return ""

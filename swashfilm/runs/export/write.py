@@ -25,7 +25,7 @@ from system.maps.data import MapData
 
 @dataclass(frozen=True)
 class Format:
-    """A format: the ending that -o states, words of what it is, and its files by ending.
+    """A format: the ending for -o, its description, and its files by ending.
 
     holes: whether it can hold a point without a result; single: whether it can hold a map of one point.
     """
@@ -101,8 +101,8 @@ def _write_all(contents: Mapping[Path, bytes]) -> None:
 def export_of(place: Path, to: str, output: Path | None) -> Export:
     """Return the export of a map, by its run folder or map.nc; raise InputFaults with every fault.
 
-    output: the file, with the ending of its format; where there are several, they differ in what follows its stem.
-    Without it, the pump's name in the working folder.
+    output: the file, with the ending of its format; several files differ after its stem. Without it, the pump's name in
+    the working folder.
     """
     faults = [*_word_faults(to, output)]
     try:

@@ -1,4 +1,4 @@
-"""Answer of one film: load, flow, friction, least film, and what limits it."""
+"""Answer of one film: load, flow, friction, least film, and its limits."""
 
 from __future__ import annotations
 
@@ -12,11 +12,11 @@ from system.inputs.units import Dimension
 
 DIGITS = 4
 LOADS = ("bearing_load_N", "carried_load_N", "load_N")
-"""Keys of a film's load; the first that a film has is the load that it carries."""
+"""Keys of a film's load; the first that a film has is its supported load."""
 LEAST_SHARE = 1e-4
-"""Share of area or load below which cavities and contact are not worth a word."""
+"""Share of area or load below which cavities and contact are not mentioned."""
 ROUGH = 3.0
-"""Ratio of film to roughness above which walls do not feel each other."""
+"""Ratio of film to roughness above which contact is negligible."""
 
 
 def film_tiles(summary: Mapping[str, Any]) -> Iterator[Tile]:
@@ -42,7 +42,7 @@ def film_tiles(summary: Mapping[str, Any]) -> Iterator[Tile]:
 
 
 def carried_key(numbers: Container[str]) -> str:
-    """Return the key of the load that a film carries: of a journal the vector; with pockets and contact."""
+    """Return the key of a film's supported load: of a journal the vector; with pockets and contact."""
     return next(key for key in LOADS if key in numbers)
 
 
@@ -107,7 +107,7 @@ def leak_words(flow: float, source: str = "its sides") -> str:
 
 
 def _limit_words(summary: Mapping[str, Any]) -> Iterator[str]:
-    """Yield what limits the film: cavities, contact, roughness, heat."""
+    """Yield the limits of the film: cavities, contact, roughness, heat."""
     cavities, carried = summary["cavitated_area_fraction"], summary.get("contact_load_N", 0.0)
     touching = carried > LEAST_SHARE * max(abs(summary["load_N"]), carried)
     if cavities > LEAST_SHARE:

@@ -109,7 +109,7 @@ def write_history(path: Path, history: Sequence[Moment]) -> None:
 
 
 def temperatures(study: FilmStudy) -> dict[str, tuple[np.ndarray, str]]:
-    """Return the temperatures at the vertices with their units, none of a film without heat."""
+    """Return the temperatures at the vertices with their units, none for a film without heat."""
     if not study.heat:
         return {}
     at, heat = study.solution.problem.space.vertex_dofs, study.heat

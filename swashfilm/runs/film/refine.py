@@ -47,7 +47,7 @@ def refine_study(case: FilmCase | GapCase, study: FilmStudy, meshes: int, report
 
 
 def expected_orders(study: FilmStudy) -> tuple[float, float]:
-    """Return the range of expected orders of integrals: twice the degree; less where theory leaves it open.
+    """Return the range of expected orders of integrals: twice the degree; less where theory does not determine it.
 
     Order one: a cavity's front, which moves by whole cells, upwind transport of oil, and of heat where
     temperatures jump. Order two: quadratic pressures on straight cells of a round film.

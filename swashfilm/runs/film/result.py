@@ -46,5 +46,5 @@ class FilmRun(Result):
         return plotted(lambda: section_figure(sections(last_of(self.to_xarray()))))
 
     def plot_sensitivity(self) -> list[Axes]:
-        """Draw maps of each output's derivative by the film thickness, none of a film solved without."""
+        """Draw maps of each output's derivative by the film thickness, none for a film solved without."""
         return plotted(lambda: sensitivity_figure(last_of(self.to_xarray())))

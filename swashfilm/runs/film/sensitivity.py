@@ -63,7 +63,7 @@ def sensitivity_fields(study: FilmStudy) -> dict[str, tuple[np.ndarray, str]]:
 
 
 def sensitivity_rows(summary: Mapping[str, Any]) -> list[tuple[str, ...]]:
-    """Return (output, parameter, derivative) of every pair, with a head; nothing of a film without derivatives.
+    """Return (output, parameter, derivative) of every pair, with a head; no rows for a film without derivatives.
 
     Of a parameter with a value also the change of the output by 1 % of it.
     """
@@ -106,7 +106,7 @@ def sensitivity_figure(fields: xarray.Dataset) -> Figure | None:
         unit = fields[name].attrs["units"].removeprefix("(").removesuffix(")/m3")
         factor, symbol = _SHOWN.get(unit, (1.0, unit))
         values = factor * PER_AREA_AND_FILM * fields[name].values
-        most = float(np.percentile(np.abs(values), 99.0)) or 1.0  # a corner of the film must not hide the rest
+        most = float(np.percentile(np.abs(values), 99.0)) or 1.0  # a peak at a corner must not hide the rest
         title = f"{str(name).removeprefix(FIELD).replace('_', ' ')} by film / ({symbol}/(mm2 um))"
         axes = figure.add_subplot(rows, columns, number)
         draw_map(axes, place, fields["cells"].values, values, title, colours="coolwarm", limits=(-most, most))

@@ -55,7 +55,7 @@ def film_warnings(study: FilmStudy) -> list[dict[str, str]]:
 
 
 def _flow_warnings(study: FilmStudy) -> Iterator[Warned]:
-    """Yield warnings of a cavity that makes oil, of a film that is not thin, and of oil under tension."""
+    """Yield warnings of a cavity that creates oil, of a film that is not thin, and of oil under tension."""
     problem, integrals = study.solution.problem, study.loads
     through = integrals.throughput
     share = abs(integrals.cavity_flow) / through if through > 0.0 else np.inf * abs(integrals.cavity_flow)
@@ -197,7 +197,7 @@ def _boundary_remedy(study: FilmStudy) -> str:
 
 
 def _pressure_warnings(study: FilmStudy) -> Iterator[Warned]:
-    """Yield a warning of pressures that no oil bears, or else of an isoviscous free film of high pressure."""
+    """Yield a warning of pressures beyond those of any oil, or else of an isoviscous free film of high pressure."""
     highest = study.loads.pressure_max
     if highest > LARGEST_OIL_PRESSURE:
         yield beyond_oil(highest)

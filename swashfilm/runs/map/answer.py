@@ -1,4 +1,4 @@
-"""Answer of an operating map: best point, range of the loss and where it arises, and how exact the map is."""
+"""Answer of an operating map: best point, range of the loss and its parts, and accuracy of the map."""
 
 from __future__ import annotations
 

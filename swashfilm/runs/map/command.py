@@ -42,7 +42,7 @@ FIDELITIES = (Fidelity.LUMPED, Fidelity.FIXED, Fidelity.FLOATING, Fidelity.TABLE
 SOLVED = (Fidelity.FIXED.value, Fidelity.FLOATING.value)
 """Fidelities that solve films."""
 WORTH_TELLING = 120.0
-"""Seconds of processor time above which the command says what it will take."""
+"""Seconds of processor time above which the command prints an estimate."""
 PLANS = ("paper", "point")
 
 
@@ -163,7 +163,7 @@ def stated_axes(options: argparse.Namespace, faults: list[Fault]) -> list[MapAxi
 
 
 def by_option(found: Sequence[Fault]) -> Iterator[Fault]:
-    """Yield the faults of a plan's points under the option of their input, those that expect the same as one."""
+    """Yield the faults of a plan's points under the option of their input, those with the same expectation as one."""
     alike: dict[tuple[str, str, str], list[str]] = {}
     for fault in found:
         path = OPTIONS.get(fault.path, fault.path)

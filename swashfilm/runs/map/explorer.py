@@ -1,4 +1,4 @@
-"""A map's numbers to choose: quantity, two axes, and the level of every other axis."""
+"""A selectable slice of a map's numbers: quantity, two axes, and the level of every other axis."""
 
 from __future__ import annotations
 

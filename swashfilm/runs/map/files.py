@@ -107,7 +107,7 @@ def _toet(data: MapData) -> np.ndarray:
 
 
 def _error_variables(error: MapError | None) -> dict[str, Any]:
-    """Return rms and largest error of each number between levels; nothing where it is not known."""
+    """Return rms and largest error of each number between levels; empty where it is not known."""
     if error is None:
         return {}
     found: dict[str, Any] = {}
@@ -120,7 +120,7 @@ def _error_variables(error: MapError | None) -> dict[str, Any]:
 
 
 def map_file(place: Path) -> Path:
-    """Return the file of a map, given by itself or by its run folder; raise InputFaults where there is none."""
+    """Return the file of a map, given directly or by its run folder; raise InputFaults without one."""
     if place.suffix == MAP_SUFFIX and place.is_file():
         return place
     if (place / MAP).is_file():

@@ -21,7 +21,7 @@ MEAN = "mean film [um]"
 
 
 def film_pictures(data: MapData) -> dict[str, Figure]:
-    """Return a picture of each quantity and gap on the main slice by caption; none where films are given."""
+    """Return a picture of each quantity and gap on the main slice by caption; none for given films."""
     piece = main_slice(data)
     if piece is None:
         return {}

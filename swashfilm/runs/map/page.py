@@ -79,7 +79,7 @@ def map_pictures(data: MapData) -> dict[str, dict[str, Figure]]:
 
 
 def further_words(data: MapData) -> str:
-    """Return which levels of further inputs the pictures leave out; empty where they leave out none."""
+    """Return the levels of further inputs that the pictures omit; empty without any."""
     third, left = third_input(data), []
     for axis, level in zip(data.axes, held_levels(data), strict=True):
         count = len(axis.values)

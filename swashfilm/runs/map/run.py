@@ -40,7 +40,7 @@ CHEAP = 0.1
 START = 4.0
 """Seconds to start another process: each one must have more work."""
 ROW = 7
-"""Points of a map that are solved one after the other, each on from its neighbour's films."""
+"""Points of a map that are solved one after the other, each started from its neighbour's films."""
 PART = 0.2
 """Least seconds of work in a batch, for which the data sent with it are negligible."""
 
@@ -89,7 +89,7 @@ class MapCase:
 
 
 def worth_starting(asked: MapCase, wanted: int) -> int:
-    """Return the number of processes, at most `wanted`, that have enough work to be worth their start."""
+    """Return the number of processes, at most `wanted`, that have enough work to justify their start."""
     return max(1, min(wanted, math.floor(asked.cost / START)))
 
 
@@ -152,7 +152,7 @@ def _solved(
 
 
 def _place_in_rows(point: OperatingPoint) -> tuple[float, ...]:
-    """Sort key of a point: rows along the pressure, from the highest, all other inputs alike."""
+    """Sort key of a point: rows along the pressure, from the highest, at equal other inputs."""
     held = point.shaft_speed, point.displacement_ratio, point.temperature, point.inlet_pressure
     return *held, -point.delivery_pressure
 

@@ -68,7 +68,7 @@ def further_slices(data: MapData, piece: Slice) -> tuple[Slice, ...]:
 
 
 def third_input(data: MapData) -> MapInput | None:
-    """Return the third input with several levels; None where there is none."""
+    """Return the third input with several levels, or None."""
     return next(iter(varied(data)[2:]), None)
 
 

@@ -1,1 +1,1 @@
-"""Command `swashfilm plan`: what a test will tell apart, and which points and meters to add."""
+"""Command `swashfilm plan`: the causes that a test will separate, and the points and meters to add."""

@@ -37,7 +37,7 @@ from system.pump_file.file import load_pump
 from system.pump_file.operating import check_operating_point
 
 USUAL = {MapInput.SPEED: 3, MapInput.PRESSURE: 3, MapInput.RATIO: 2}
-"""Levels of the grid of a test that is not stated."""
+"""Levels of the grid of a test without stated points."""
 POSSIBLE = (5, 5, 3, 3, 2)
 """Levels over the box at which points may be added; the last of the inlet pressure, where it is an axis."""
 ADDED, MOST_ADDED, MOST_POINTS = 24, 200, 1000
@@ -46,7 +46,7 @@ BOX = tuple(AXES.values())
 
 @dataclass(frozen=True)
 class PlanCase:
-    """A test to plan: what is asked, the bench, the chosen suspects (None: all that these meters can show)."""
+    """A test to plan: the requirements, the bench, the chosen suspects (None: all that these meters can show)."""
 
     pump: PumpDescription
     given: str
@@ -171,7 +171,7 @@ def _unknown(word: str, known: Sequence[str]) -> Fault:
 
 
 def _meter(name: str) -> str:
-    """The channel of a meter whose fault a suspect is; empty for all else."""
+    """The channel of a meter whose fault a suspect is; empty for any other suspect."""
     for what in ("_offset", "_gain", "_drift"):
         if name.endswith(what):
             return name.removesuffix(what)
@@ -228,7 +228,7 @@ def _possible(pump: PumpDescription, box: BenchBox) -> BenchPoints:
 
 
 def _bench_points(points: Sequence[OperatingPoint], box: BenchBox, order: Array) -> BenchPoints:
-    """Operating points as those of a bench: the inlet's oil colder than the case's by what a case warms."""
+    """Operating points as those of a bench: the inlet's oil colder than the case's by the usual warming in a case."""
 
     def column(name: str) -> Array:
         return np.array([getattr(point, name) for point in points], dtype=float)

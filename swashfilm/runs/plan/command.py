@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 PLANS = ("grid", "paper", "point")
 STEPS = 100
-"""Steps of the progress before the computation tells its own."""
+"""Steps of the progress before the computation reports its own."""
 
 
 def add_plan_options(command: argparse.ArgumentParser) -> None:

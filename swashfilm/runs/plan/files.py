@@ -14,8 +14,8 @@ EQUIPPED = "points_with_meters.csv"
 
 
 def write_tables(folder: Path, summary: Mapping[str, Any]) -> None:
-    """Write the tables: suspect x suspect in sigma, points to drive without and with further meters, their worth, pairs
-    never told apart.
+    """Write the tables: suspect x suspect in sigma, points to drive without and with further meters, the gain of these,
+    pairs never separated.
     """
     names = [one["name"] for one in summary["suspects"]]
     distances = (

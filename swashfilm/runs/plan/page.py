@@ -51,7 +51,7 @@ def write_plan_page(folder: Path) -> Path:
 
 
 def plan_answer(summary: Mapping[str, Any]) -> Answer:
-    """Return the answer: pairs told apart as planned, with the added points, with the meters; what is never told."""
+    """Return the answer: pairs separated as planned, with the added points, with the meters; pairs never separated."""
     pairs, equipped = summary["pairs"], summary["equipped"]
     tiles = [
         Tile(

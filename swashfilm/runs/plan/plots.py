@@ -17,15 +17,15 @@ if TYPE_CHECKING:
 
 PLANNED, ADDED, NEVER = "#8fb9c5", "#b5523b", "#d4d4d4"
 COLOURS = ["#f3c9b5", "#f8e6dc", "#b9d3da", "#6fa3b2", "#2f6678"]
-"""Of distances: below half of what is wanted, below it, above, well above, far above."""
+"""Of distances: below half of the required one, below it, above, well above, far above."""
 LETTER, LEGEND = 0.0078, 1.9
 """Width of a letter in inches by its size in points, and of the legend in inches."""
 FEW = 12
-"""Suspects up to which cells hold their numbers."""
+"""Number of suspects up to which cells have numbers."""
 
 
 def apart_plot(summary: Mapping[str, Any]) -> Figure:
-    """Draw how far apart every two suspects are: pale not told, dark told, grey never."""
+    """Draw the distance of every two suspects: pale not separated, dark separated, grey never."""
     from matplotlib.colors import BoundaryNorm, ListedColormap
 
     count, wanted = len(summary["suspects"]), summary["apart_sigma"]

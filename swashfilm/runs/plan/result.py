@@ -20,7 +20,7 @@ MOST = 12
 
 
 class PlanRun(Result):
-    """A planned test: what it tells apart, the points to drive, further meters."""
+    """A planned test: the separated suspects, the points to drive, further meters."""
 
     kinds: ClassVar[tuple[str, ...]] = ("plan",)
     files: ClassVar[tuple[str, ...]] = ("summary.json", POINTS)
@@ -31,7 +31,7 @@ class PlanRun(Result):
         return read_table(folder / POINTS)
 
     def tables(self) -> list[Table]:
-        """Return counts, added points, further meters, and what is never told apart."""
+        """Return counts, added points, further meters, and pairs never separated."""
         summary = self.summary
         added = [row for row, one in zip(rows.point_rows(summary), summary["points"], strict=True) if one["for"]]
         tables: list[Table] = [(f"Plan of a test of {self.name}", list(rows.count_rows(summary)))]
@@ -44,7 +44,7 @@ class PlanRun(Result):
         return tables
 
     def plot_apart(self) -> list[Axes]:
-        """Draw how far apart every two suspects are."""
+        """Draw the distance of every two suspects."""
         return plotted(lambda: apart_plot(self.summary))
 
     def plot_points(self) -> list[Axes]:

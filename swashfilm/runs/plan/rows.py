@@ -46,13 +46,13 @@ def point_rows(summary: Summary) -> Iterator[tuple[str, ...]]:
 
 
 def equipped_rows(summary: Summary) -> Iterator[tuple[str, ...]]:
-    """Yield the same of the campaign with the meters that are asked for; nothing without one."""
+    """Yield the same of the campaign with the requested meters; nothing without one."""
     if summary["equipped"]:
         yield from _point_rows(summary, summary["equipped"]["points"])
 
 
 def equipment(summary: Summary) -> str:
-    """Return the meters that are asked for, in words; empty without one."""
+    """Return the requested meters, in words; empty without one."""
     return listed(one["words"] for one in summary["equipped"]["meters"]) if summary["equipped"] else ""
 
 
@@ -63,7 +63,7 @@ def _point_rows(summary: Summary, points: Sequence[Summary]) -> Iterator[tuple[s
 
 
 def purpose(summary: Summary, point: Mapping[str, Any]) -> str:
-    """Return what a point is for, in words."""
+    """Return the purpose of a point, in words."""
     if not point["for"]:
         return "planned"
     pairs = "; ".join(pair_words(summary, pair) for pair in point["for"][:2])
@@ -112,7 +112,7 @@ def sensor_rows(summary: Summary) -> Iterator[tuple[str, ...]]:
 
 
 def never_rows(summary: Summary) -> Iterator[tuple[str, ...]]:
-    """Yield the rows of NEVER_HEAD: what is not seen at all by itself, then the pairs."""
+    """Yield the rows of NEVER_HEAD: suspects that no reading shows, then the pairs."""
     for at, own in enumerate(summary["suspects"]):
         pairs = [one for one in summary["never_apart"] if at in one["unseen"]]
         if pairs:
@@ -134,7 +134,7 @@ def _meters(summary: Summary, names: Sequence[str]) -> str:
 
 
 def open_rows(summary: Summary, most: int = 20) -> Iterator[tuple[str, str, str]]:
-    """Yield the pairs that points could tell apart and these do not, the nearest first."""
+    """Yield the pairs that points could separate and these do not, the nearest first."""
     for pair in summary["open_pairs"][:most]:
         distance = summary["distances"][pair[0]][pair[1]]
         why = "differ by less than such laws are true" if distance >= summary["apart_sigma"] else ""

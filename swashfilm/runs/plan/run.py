@@ -1,4 +1,4 @@
-"""Run of a plan: readings foreseen, points chosen, then summary, tables and page."""
+"""Run of a plan: readings predicted, points chosen, then summary, tables and page."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ from system.work.progress import Report
 def run_plan(case: PlanCase, folder: Path, report: Report) -> dict[str, Any]:
     """Plan a test; write summary.json, apart.csv, points.csv, sensors.csv, never.csv and the page.
 
-    Returns the summary. Raises InputFaults where fewer than two of the suspects move any reading, NotConverged where
+    Returns the summary. Raises InputFaults where fewer than two of the suspects change any reading, NotConverged where
     a point cannot be simulated.
     """
     begun, thresholds = process_time(), load_thresholds()

@@ -13,7 +13,7 @@ from system.inputs.units import Dimension, QuantityError, parse_quantity
 
 OPTION, FURTHER = "--sensors", "--further"
 KNOWN = tuple(dict.fromkeys(one.value for one in (*SIMULATED, *WORDS, *ALWAYS)))
-"""Channels with a sigma of their own; the inputs that set a point are always read."""
+"""Channels with a sigma of their own; the inputs of a point are always read."""
 
 
 @dataclass
@@ -25,7 +25,7 @@ class Bench:
 
 
 def bench_of(text: str | None, faults: list[Fault]) -> Bench:
-    """Return the meters of a text; those of an ordinary bench where there is none; add faults to `faults`."""
+    """Return the meters of a text; those of an ordinary bench without one; add faults to `faults`."""
     if text is None:
         return Bench(tuple(one.value for one in ORDINARY))
     found = Bench(tuple(one.value for one in ALWAYS))

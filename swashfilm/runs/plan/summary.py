@@ -86,7 +86,7 @@ def _points(found: Plan, counts: NDArray[np.int64], added: Sequence[Purpose]) ->
 
 
 def _equipped(found: Plan, own: Equipped) -> dict[str, Any]:
-    """The campaign with the meters that are asked for."""
+    """The campaign with the requested meters."""
     return {
         "meters": [{"name": one.name, "words": one.words} for one in own.meters],
         "told": len(own.told),
@@ -117,7 +117,7 @@ def _never(one: Never) -> dict[str, Any]:
 
 
 def hopeless(summary: Mapping[str, Any]) -> np.ndarray:
-    """Return (S, S), true for pairs that no point tells apart."""
+    """Return (S, S), true for pairs that no point separates."""
     count = len(summary["suspects"])
     found = np.zeros((count, count), dtype=bool)
     for one in summary["never_apart"]:

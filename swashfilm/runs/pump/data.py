@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
 GAPS = ("piston", "slipper", "valve_plate")
 PARTS = ("piston", "slipper")
-"""The gaps that each kind of chambers has for itself."""
+"""The gaps that each kind of chambers has separately."""
 RESULTS = "results.nc"
 PICTURED_TURN = 0.75
 """Fraction of the turn at which gaps are drawn: the middle of delivery, largest piston speed."""

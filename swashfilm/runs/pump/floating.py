@@ -151,7 +151,7 @@ def floating_summary(found: FloatingPoint, warnings: list[str]) -> dict[str, Any
 
 
 def _taken(kind: FloatingKind) -> tuple[Assumption, ...]:
-    """Assumptions of a kind's films, those of heat where any of them warms."""
+    """Assumptions of a kind's films, those of heat only with solved temperature."""
     warm = next((one for one in (getattr(kind.physics, gap.value) for gap in Gap) if one.heat), kind.physics.piston)
     return all_taken(kind.rotor, kind.parts, warm)
 
@@ -198,7 +198,7 @@ def _write_gap(folder: Path, path: Path, study: RevolutionStudy) -> None:
 
 
 def write_unfinished(folder: Path, name: str, solved: Solved, reason: BaseException) -> None:
-    """Write what a point that stopped has solved: failed.json, and of each gap its CSVs and group of results.nc.
+    """Write the solved part of a point that stopped: failed.json, and of each gap its CSVs and group of results.nc.
 
     failed.json: `state` (failed, or interrupted by Ctrl-C), `error`, the complete `rounds`, and `gaps` with the
     number of the round that solved them and their summary.

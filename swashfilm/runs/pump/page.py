@@ -38,7 +38,7 @@ Rows = list[tuple[str, ...]]
 class PumpFigures:
     """Figures and answer of a run folder's page, apart from 3D pictures, which a process may still draw.
 
-    view: the pump to turn, in the place of its picture; None where the folder has no films.
+    view: the rotatable pump, in place of its picture; None without films in the folder.
     """
 
     answer: Answer
@@ -156,7 +156,7 @@ def efficiency_rows(summary: Mapping[str, Any]) -> Rows:
 
 
 def bench_rows(summary: Mapping[str, Any]) -> Rows:
-    """Return (loss, by the paper's Eqs. (1), (2), by the split that leaves the oil its compression energy)."""
+    """Return (loss, by the paper's Eqs. (1), (2), by the split without the oil's compression energy)."""
     paper, exact = summary["paper_loss"], summary["bench_split"]
     return [
         ("volumetric", f"{paper['volumetric_W']:.1f} W", f"{exact['leakage_W']:.1f} W"),

@@ -136,7 +136,7 @@ def gap_maps(data: xarray.Dataset) -> dict[str, Figure]:
 def film_series(data: xarray.Dataset) -> Figure:
     """Draw film, largest pressure, load ratio and friction power of one piston and one slipper over the turn.
 
-    The least film of the turn is marked; the legend tells its angle and its place in the gap's map.
+    The least film of the turn is marked; the legend states its angle and its place in the gap's map.
     """
     figure = figure_of(10.0, 6.6)
     (films, pressures), (ratio, power) = figure.subplots(2, 2)

@@ -50,7 +50,7 @@ def refine_point(
 
 
 def of_level(report: Report, number: int, levels: int) -> Report:
-    """Return the progress of a level; the units in all are known at the last, which takes longer than all before."""
+    """Return the progress of a level; the total is known at the last, which takes longer than all before."""
     if levels == 1:
         return report
     last = number == levels
@@ -64,7 +64,7 @@ def _unknowns(found: FloatingPoint) -> int:
 
 
 def _size(gap: GapRevolution[Any]) -> int:
-    """Return the unknowns of a gap's film: by a kept film, or by its oil where none is kept."""
+    """Return the unknowns of a gap's film: by a kept film, or by its oil without kept films."""
     kept = [film.problem.space.size for film in gap.turn.films.values()]
     return kept[0] if kept else int(gap.turn.oil[0].size)
 

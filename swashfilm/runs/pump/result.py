@@ -121,7 +121,7 @@ class PumpRun(Result):
         return tables
 
     def plot_powers(self) -> list[Axes]:
-        """Draw where the shaft power goes: delivered power, friction, leakage, throttling, as ribbons."""
+        """Draw the sinks of the shaft power: delivered power, friction, leakage, throttling, as ribbons."""
         shaft = self.summary["power_balance"]["shaft_W"]
         return plotted(lambda: flow_diagram(shaft, gathered(power_parts(self.summary))))
 

@@ -47,7 +47,7 @@ if TYPE_CHECKING:
 
 Drawings = Mapping[Path, Sequence[Frame]]
 WRITING = 0.3
-"""Time that the folder of a run with films takes to be written, of the time that their solution takes."""
+"""Time for writing the folder of a run with films, of the time for their solution."""
 
 
 @dataclass(frozen=True)
@@ -56,8 +56,8 @@ class PumpCase:
 
     table: file of a response table in place of the stored one; options: of floating gaps; side_by_side: a second
     process solves the piston of floating gaps; levels: of refinement, the first being that of the options; own: the
-    pump at its own temperature, where that of the point has changed its films (`moved_to`): response tables are its;
-    assumptions: for the values that the file of a scaled pump leaves out.
+    pump at its own temperature, where that of the point has changed its films (`moved_to`): response tables belong to
+    it; assumptions: for the values that the file of a scaled pump leaves out.
     """
 
     pump: PumpDescription
@@ -73,7 +73,7 @@ class PumpCase:
 
 @contextmanager
 def unfinished_kept(case: PumpCase, folder: Path) -> Iterator[Solved]:
-    """Yield the record of a floating point; if its solution stops, write what was solved to the folder."""
+    """Yield the record of a floating point; if its solution stops, write the solved part to the folder."""
     solved = Solved()
     try:
         yield solved
@@ -169,7 +169,7 @@ def _run(
 ) -> PumpRun:
     """Return the run of a solved point: summary with forces, data with those of films, and files.
 
-    fields: writes the files of the films into a folder that has results.nc; returns what is to draw of them.
+    fields: writes the files of the films into a folder that has results.nc; returns their drawings.
     """
     summary["forces"] = forces_summary(joints, point)
     summary["warnings"] += [*force_warnings(joints), *scaled_warning(case.assumptions)]

@@ -36,7 +36,7 @@ def loss_row(path: Path, case: Path, passage: FilmPassage, found: FilmLoss) -> N
 
 
 def known_extra_length(path: Path | None, passage: FilmPassage) -> float | None:
-    """Return the extra length of a passage in a file; None where it has none, or does not exist."""
+    """Return the extra length of a passage in a file; None if it has none, or does not exist."""
     if path is None or not path.exists():
         return None
     columns = read_table(path, _heads(passage)).columns

@@ -24,7 +24,7 @@ LIMITS = {
     ReferenceKind.ORIFICE: "laminar, steady, symmetric flow (jets oscillate above Re of some 100); sharp edges",
     ReferenceKind.SLOT: "plane, laminar, steady, symmetric flow (jets bend above Re of some tens); sharp edges",
 }
-"""Flow for which the numbers hold."""
+"""Flow for which the numbers are valid."""
 
 
 def run_reference(case: ReferenceCase, folder: Path, report: Report) -> dict[str, Any]:

@@ -125,7 +125,7 @@ def _recording_of(options: argparse.Namespace) -> Recording | None:
 
 
 def _named(options: argparse.Namespace) -> list[str]:
-    """Return the names of the figures that the command line asks for."""
+    """Return the names of the figures that the command line requests."""
     return [name.strip() for name in options.figure.split(",")]
 
 

@@ -43,7 +43,7 @@ def _read(folder: Path) -> tuple[Row, list[Row]]:
 
 
 def reproduce_answer(summary: Row, rows: Sequence[Row]) -> Answer:
-    """Return the answer of a reproduction: how many statements are reached, missed or contradicted, by figure."""
+    """Return the answer of a reproduction: number of statements reached, missed or contradicted, by figure."""
     found, count = Counter(row["verdict"] for row in rows), len({row["id"] for row in rows})
     tiles = [Tile(str(found[one.value]), f"{one.value}", f"of {len(rows)} readings") for one in StatementVerdict]
     tiles.append(Tile(str(count), "statements of the paper", f"about {len(summary['figures'])} figures and tables"))

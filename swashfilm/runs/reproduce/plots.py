@@ -89,7 +89,7 @@ def _lines(axes: Any, panel: Panel) -> None:
 
 
 def _legend(axes: Any, panel: Panel) -> None:
-    """Draw the legend where it hides nothing: beside many curves, under a locus."""
+    """Draw the legend without covering data: beside many curves, under a locus."""
     if len(panel.curves) >= MANY:
         axes.legend(fontsize=7, loc="center left", bbox_to_anchor=(1.0, 0.5))
     elif panel.kind is PanelKind.TRUE_SCALE:

@@ -60,7 +60,7 @@ class Reproduction(Result):
 
 
 def _plain(row: Mapping[str, Any]) -> dict[str, Any]:
-    """Return a row with the ends of its ranges as numbers, nan where there is none, and what is impossible in words."""
+    """Return a row with the ends of its ranges as numbers, nan if absent, and the impossibility in words."""
     ends = {
         f"{name}_{side}": np.nan if end is None else end
         for name in ("expected", "found")

@@ -48,7 +48,7 @@ class ReproduceCase:
 
     @property
     def points(self) -> int:
-        """Number of operating points that the figures are made of."""
+        """Number of operating points of the figures."""
         return len(places_of(self.pump, self.figures))
 
     @property
@@ -102,7 +102,7 @@ def run_reproduce(asked: ReproduceCase, executor: Executor, folder: Path, report
 
 
 def _results(asked: ReproduceCase, means: Means) -> tuple[FigureResult, ...]:
-    """Return the figures in their order, Fig. 13 by the recording where there is one."""
+    """Return the figures in their order, Fig. 13 by the recording, if any."""
     if asked.recording is None:
         return reproduce(asked.pump, asked.figures, asked.fidelity, means)
     others = tuple(figure for figure in asked.figures if figure is not Figure.FIG13)

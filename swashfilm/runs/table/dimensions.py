@@ -20,7 +20,7 @@ MOST_DIMENSIONS = 6
 DRAWN, SEED = 10_000, 1
 """Pumps drawn to find the range that a tolerance spans."""
 BEYOND = 0.05
-"""Of that range: what the axis has beyond either end, for pumps of another seed."""
+"""Share of that range added beyond either end, for pumps of another seed."""
 
 
 def varied_axes(texts: Sequence[str], pump: PumpDescription, faults: list[Fault]) -> tuple[Axis, ...]:
@@ -55,7 +55,7 @@ def _stated(where: str, text: str, key: PumpKey, faults: list[Fault]) -> Range |
 
 
 def _drawn(where: str, pump: PumpDescription, path: str, faults: list[Fault]) -> Range | None:
-    """Return the range that a dimension's tolerance spans; a fault where it has none."""
+    """Return the range that a dimension's tolerance spans; a fault without a tolerance."""
     drawing = drawing_of(pump)
     if path not in drawing.names:
         faults.append(Fault(where, "no range, and no tolerance of this dimension", f"a range, such as {path}=A..B"))
@@ -66,7 +66,7 @@ def _drawn(where: str, pump: PumpDescription, path: str, faults: list[Fault]) ->
 
 
 def _corner_faults(pump: PumpDescription, spans: Mapping[str, Range]) -> Iterator[Fault]:
-    """Yield what the corners of the box break, each place once."""
+    """Yield the faults at the corners of the box, each place once."""
     told = set[str]()
     for corner in product(*spans.values()):
         variant: Variant = tuple(zip(spans, corner, strict=True))

@@ -17,7 +17,7 @@ from system.points.table.store import read_response
 KINDS = NUMBERS, OUTPUTS = "numbers", "outputs"
 """Kinds of rows in a summary: numbers of runs by the table, and outputs of its response."""
 HEADLINE = ("shaft_torque", "delivery_flow")
-"""Numbers of a pump's table whose errors a page always tells first."""
+"""Numbers of a pump's table whose errors a page always states first."""
 MOST_TILES = 4
 FILES = ("summary.json", "resolved.toml", "table.json", "table.npz")
 

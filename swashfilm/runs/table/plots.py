@@ -151,7 +151,7 @@ def _places(row: Mapping[str, Any], values: Array) -> Array:
 
 
 def _legend(figure: Any) -> None:
-    """Draw one legend of the gaps, where there is more than one."""
+    """Draw one legend for several gaps."""
     pairs = [axes.get_legend_handles_labels() for axes in figure.axes]
     curves = {label: handle for handles, labels in pairs for handle, label in zip(handles, labels, strict=True)}
     if len(curves) > 1:

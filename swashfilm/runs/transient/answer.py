@@ -1,4 +1,4 @@
-"""Answer of a transient: how far and how fast the swash plate moves, and what the pressures reach."""
+"""Answer of a transient: travel and speed of the swash plate, and extreme pressures."""
 
 from __future__ import annotations
 

@@ -41,7 +41,7 @@ def transient_dataset(found: Transient, name: str) -> xarray.Dataset:
     """Return series over `time` (s), units in the attributes; chamber pressures also over `chamber`.
 
     Flows are means over the step that ends at the time, at the pressure of their port, the drain at case pressure, with
-    what effects of [physics] let pass the chambers, and as their meters read them.
+    the flows of [physics] past the chambers, and as read by their meters.
     """
     import xarray
 

@@ -1,4 +1,4 @@
-"""Contacts of the swash plate with its stops: from when to when, how often it lifts meanwhile, and the impact."""
+"""Contacts of the swash plate with its stops: begin and end, number of lift-offs between, and the impact."""
 
 from __future__ import annotations
 
@@ -21,8 +21,8 @@ class StopContact:
     """A contact with a stop, without interruptions of a turn: `stop` is lower or upper.
 
     begin, end: s, of the first and last touch. from_start, to_end: it lasts from the start, or to the last turn, of the
-    transient. share: of its time in touch. turns: of the shaft meanwhile. lifts: how often the plate leaves the stop
-    meanwhile; lift: the highest, rad. impact: N m s, the largest that the stop takes.
+    transient. share: of its time in touch. turns: of the shaft meanwhile. lifts: number of times that the plate leaves
+    the stop meanwhile; lift: the highest, rad. impact: N m s, the largest on the stop.
     """
 
     stop: str
@@ -131,7 +131,7 @@ def _but_lifts(one: Mapping[str, Any]) -> str:
 
 
 def _lifts(one: Mapping[str, Any]) -> str:
-    """Return how often and how far the plate lifts off the stop meanwhile."""
+    """Return number and height of the plate's lift-offs from the stop meanwhile."""
     count, turns = one["lifts"], one["turns"]
     often = "once" if count == 1 else f"{count / turns:.0f} times a turn" if turns >= 2.0 else f"{count} times"
     return f"{often} by up to {np.degrees(one['lift_max_rad']):.2g} deg"

@@ -59,7 +59,7 @@ class VariedCase:
 
 
 def no_faults(pump: PumpDescription, table: ResponseTable | None) -> Sequence[Fault]:
-    """Return no fault: the command expects nothing else of a pump."""
+    """Return no fault: the command has no further requirement."""
     return ()
 
 

@@ -49,12 +49,12 @@ def limit_of(text: str, known: Sequence[Measure], faults: list[Fault]) -> Limit 
 
 
 def measure_of(name: str, known: Sequence[Measure]) -> Measure | None:
-    """Return the measure of a name or of its words, in any case; None where no known one has it."""
+    """Return the measure of a name or of its words, in any case; None for an unknown one."""
     return _names(known).get(name.strip().lower())
 
 
 def nearest_measure(name: str, known: Sequence[Measure]) -> str:
-    """Return the name of the measure that is spelt most like a name, empty where none comes near."""
+    """Return the name of the measure that is spelt most like a name, empty without a similar one."""
     near = nearest_choice(name, _names(known))
     return _names(known)[near].name if near else ""
 

@@ -74,12 +74,12 @@ def chosen_keys(
 
 
 def needs_keys(options: argparse.Namespace) -> bool:
-    """True where every dimension would cost too much: films that float."""
+    """True where solving every dimension is too costly: films that float."""
     return options.fidelity == Fidelity.FLOATING.value and options.keys is None
 
 
 def known_measures(fidelity: Fidelity, *, together: bool = False) -> tuple[Measure, ...]:
-    """Return the measures that a fidelity knows; together: all points of a pump are solved at once."""
+    """Return the measures of a fidelity; together: all points of a pump are solved at once."""
     from system.variation.measures import Needs, measures_of
 
     lumped = Needs.PRESSURE if together else Needs.COURSE

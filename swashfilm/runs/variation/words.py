@@ -1,4 +1,4 @@
-"""Words of the commands on varied pumps: where the pump is solved, and changes as people read them."""
+"""Words of the commands on varied pumps: its operating points, and changes as people read them."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from system.variation.sensitivity import one_of, unit_change
 
 
 def where(case: VariedCase) -> dict[str, Any]:
-    """Return the entries of a summary that say at which operating points and how a pump is solved."""
+    """Return the entries of a summary with the operating points and the solver of a pump."""
     levels = {axis.input.value: list(axis.values) for axis in case.plan.axes}
     points = case.work.sites.points
     words = point_words(points[0]) if len(points) == 1 else _levels_words(case)

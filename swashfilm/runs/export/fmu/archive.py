@@ -1,4 +1,4 @@
-"""The unit as a zip archive: model description, sources, and a binary for each platform that can be compiled for."""
+"""The unit as a zip archive: model description, sources, and a binary for each available target platform."""
 
 from __future__ import annotations
 
@@ -42,7 +42,7 @@ def fmu_files(data: MapData, name: str) -> Content:
 
 
 def model_identifier(name: str) -> str:
-    """Return the name in C that is next to a text."""
+    """Return the nearest valid name in C to a text."""
     word = re.sub(r"\W", "_", name, flags=re.ASCII)
     return word if re.match(r"[A-Za-z]", word) else f"map_{word}"
 

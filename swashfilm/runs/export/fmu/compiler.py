@@ -14,7 +14,7 @@ from shutil import which
 from swashfilm.runs.export.fmu.description import COMPILED
 
 COMPILERS = ("cc", "gcc", "clang")
-"""Looked for on the path, in this order."""
+"""Sought on the path, in this order."""
 ZIG = "ziglang"
 ZIG_TARGETS = {
     "x86_64-linux": "x86_64-linux-gnu.2.17",
@@ -34,7 +34,7 @@ NONE = f"no C compiler: the unit has sources and no binary, its importer has to 
 
 
 class CompilerFault(Exception):
-    """A compiler that gives no binary, with its message."""
+    """A compiler without a binary, with its message."""
 
 
 @dataclass(frozen=True)

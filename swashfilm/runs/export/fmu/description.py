@@ -39,7 +39,7 @@ UNITS = {
 
 
 def model_description(data: MapData, identifier: str, token: str) -> bytes:
-    """Return modelDescription.xml: capabilities, units with their display units, variables and what they depend on."""
+    """Return modelDescription.xml: capabilities, units with their display units, variables and their dependencies."""
     given, found = inputs(data), outputs(data)
     constant = held(data)
     root = Element(

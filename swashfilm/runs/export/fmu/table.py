@@ -11,7 +11,7 @@ from system.maps.data import MapData
 from system.maps.interpolation import CUBIC, MapInterpolant, axis_spline, slack
 
 PORTS = ("geometric_displacement", "port_delivery_pressure", "port_inlet_pressure")
-"""Numbers that the lossless part of torque and flows follows from."""
+"""Numbers that determine the lossless part of torque and flows."""
 LOSS = "loss"
 AXIS = """\
 typedef struct {

@@ -38,7 +38,7 @@ class Input:
 
     @property
     def start(self) -> float:
-        """Its value before any is set, SI: the middle level."""
+        """Its initial value, SI: the middle level."""
         return self.axis.values[len(self.axis.values) // 2]
 
     @property

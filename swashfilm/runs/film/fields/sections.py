@@ -78,7 +78,7 @@ def sections(fields: xarray.Dataset) -> tuple[Section, ...]:
 
 
 def places(fields: xarray.Dataset) -> dict[str, Array]:
-    """Return the places (2,) m of the highest pressure and, where the film is not even, of the least film.
+    """Return the places (2,) m of the highest pressure and, for a film of varying thickness, of the least film.
 
     Of equally thin places it is that of the highest pressure.
     """
@@ -160,7 +160,7 @@ def _interpolated(mesh: Any, fields: xarray.Dataset, name: str) -> Any:
 
 
 def _is_ring(mesh: Any) -> bool:
-    """Return whether the film lies all round the origin, which is not part of it."""
+    """Return whether the film surrounds the origin, which is not part of it."""
     angles = np.sort(np.arctan2(mesh.y, mesh.x))
     widest = np.max(np.diff(angles, append=angles[0] + TURN))
     return bool(widest < 0.25 * TURN and mesh.get_trifinder()(0.0, 0.0) < 0)

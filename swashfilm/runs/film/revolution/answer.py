@@ -1,4 +1,4 @@
-"""Answer of a gap over the turn: least film and its place, leakage, friction, and what supports the part."""
+"""Answer of a gap over the turn: least film and its place, leakage, friction, and the support of the part."""
 
 from __future__ import annotations
 

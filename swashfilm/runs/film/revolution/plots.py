@@ -95,7 +95,7 @@ def film_plot(data: xarray.Dataset) -> Figure:
 
 
 def draw_bands(axes: Any, data: xarray.Dataset) -> None:
-    """Draw a row for each limit that is active somewhere, coloured where it is active."""
+    """Draw a row for each limit that is active at some angle, coloured where it is active."""
     ends = degrees(data)[1:]
     steps = np.diff(degrees(data))
     kinds = [kind for kind in BANDS if data[f"active_{kind.value}"].values.any()]

@@ -21,7 +21,7 @@ from system.pump_file.check import run_checks
 from system.pump_file.floating import block_tips, slipper_has_a_wedge
 
 LARGEST_OVERLAP = 3.0  # standard deviations of the summits; beyond, asperities flatten completely
-LARGEST_RUBBING = 0.1  # of a gap's friction; contact rubs some ten times as hard as oil: it bears about 1 % of the load
+LARGEST_RUBBING = 0.1  # of a gap's friction; contact has ten times the friction of oil: it bears about 1 % of the load
 LARGEST_STEP_ERROR = 2.0  # relative to the tolerance of a step
 LARGEST_BALANCE_ERROR = 0.01
 LONGEST_WHIRL = 100.0  # turns once round; slower ones lead straight away
@@ -53,7 +53,7 @@ def revolution_warnings(
 def _contact(
     case: GapOverTurn, parts: FloatingParts, found: GapRevolution[Any], friction: float
 ) -> Iterator[tuple[str, str]]:
-    """Yield warnings of a film that contact replaces, and of mean planes that overlap beyond the roughness."""
+    """Yield warnings of a film replaced by contact, and of mean planes that overlap beyond the roughness."""
     laws = {
         Gap.PISTON: parts.piston.laws, Gap.SLIPPER: parts.slipper.laws, Gap.VALVE_PLATE: parts.block.laws,
     }[case.gap]  # fmt: skip

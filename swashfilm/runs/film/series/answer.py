@@ -1,4 +1,4 @@
-"""Answer of a study: what varies, between which ends the main numbers lie, and the points without a result."""
+"""Answer of a study: the varied keys, the ranges of the main numbers, and the points without a result."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ MAIN = {
     "film_temperature_max_K": Dimension.TEMPERATURE,
     "temperature_max_K": Dimension.TEMPERATURE,
 }
-"""Numbers that a page tells first, in this order; None: a bare number."""
+"""Main numbers of a page, in this order; None: a bare number."""
 LEAST_FIRST = ("film_thickness_min_m", "friction_coefficient")
 """Numbers whose least value matters most."""
 WORDS = {
@@ -62,7 +62,7 @@ def study_words(summary: Mapping[str, Any]) -> str:
 
 
 def main_spans(summary: Mapping[str, Any]) -> list[tuple[str, Mapping[str, Any]]]:
-    """Return the main numbers that vary, with their ends; of the loads that which the film carries."""
+    """Return the main numbers that vary, with their ends; of the loads the supported one."""
     numbers = summary["numbers"]
     keys = (key for key in MAIN if key in numbers and (key not in LOADS or key == carried_key(numbers)))
     found = [(key, numbers[key]) for key in keys]

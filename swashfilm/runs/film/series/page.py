@@ -70,7 +70,7 @@ def write_study_page(folder: Path) -> Path:
 
 
 def first_picture(summary: Mapping[str, Any], keys: Iterable[str]) -> str | None:
-    """Return the key of the picture that shows the answer: the Stribeck curve, or the first main number that varies."""
+    """Return the key of the answer's picture: the Stribeck curve, or the first main number that varies."""
     known = list(keys)
     wanted = ["stribeck", *(key for key, _ in main_spans(summary)), *known]
     return next((key for key in wanted if key in known), None)

@@ -30,7 +30,7 @@ class StudyOutcome:
 class StudyWork(Generic[CaseT]):
     """The points of a study as work in parts.
 
-    digest: gives a name of all that a case's numbers depend on. summary: solves a case and gives its numbers.
+    digest: returns a name of all inputs of a case's numbers. summary: solves a case and returns its numbers.
     """
 
     study: Study[CaseT]

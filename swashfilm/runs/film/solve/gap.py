@@ -35,7 +35,7 @@ THIN = np.array([1e-7, 0.0, 0.0])
 """m. Between flat faces a parallel film as thin as this supports the limit load of the hydrostatic balance."""
 
 SEVERAL = 2.0
-"""Ratio of carried to required load from which it is told as a number of times."""
+"""Ratio of supported to required load above which it is written as a multiple."""
 
 
 class PositionSource(Enum):
@@ -49,7 +49,7 @@ class PositionSource(Enum):
 class GapStudy:
     """A gap's film and the origin of its position.
 
-    assumptions: neglected forces and assumed values; doubts: name and text of warnings of what is solved.
+    assumptions: neglected forces and assumed values; doubts: name and text of warnings of the solution.
     """
 
     film: GapFilm
@@ -73,13 +73,13 @@ def solve_gap(case: GapCase) -> GapStudy:
 
 
 def case_gap(case: GapCase) -> StandingGap[Any, Any]:
-    """Return the gap of a case under its load, ready to be held or to come to rest."""
+    """Return the gap of a case under its load, with its given or sought equilibrium position."""
     drives = _loaded(case, instant_drives(case.rotor, case.parts, case.shaft_angle, case.chamber_pressure))
     return standing_gap(case.gap, case.rotor, case.parts, drives, case.physics, case.finer)
 
 
 def _held(gap: StandingGap[Any, Any], case: GapCase) -> FloatingStage:
-    """Return the part at its position; raise FilmInputError, by the keys of the case, where it lies in its wall."""
+    """Return the part at its position; raise FilmInputError, by the keys of the case, where it overlaps its wall."""
     try:
         return gap.held_at(case.shaft_angle, case.position)
     except WallsOverlap as reason:
@@ -155,7 +155,7 @@ def gap_warnings(study: GapStudy) -> list[dict[str, str]]:
 
 
 def borne(film: GapFilm) -> str:
-    """Return the load that a film carries beside that which is required, in words."""
+    """Return the supported and the required load, in words."""
     share = film.carried_fraction
     times = f"{share:.2g} times" if share >= SEVERAL else f"{share:.1%} of"
     carried, required = (
@@ -165,7 +165,7 @@ def borne(film: GapFilm) -> str:
 
 
 def imbalance(film: GapFilm) -> str:
-    """Return what follows for a part whose film carries another load than is required."""
+    """Return the consequence for a part whose supported load differs from the required one."""
     if film.carried_load > film.required_load:
         return "the film would push the part away, to a thicker film"
     return "contact, squeeze or a thinner film bears the rest"

@@ -1,4 +1,4 @@
-"""Parameters of a film's shape: by how much the film grows with each, for derivatives by the chain rule."""
+"""Parameters of a film's shape: growth of the film with each, for derivatives by the chain rule."""
 
 from __future__ import annotations
 
@@ -52,7 +52,7 @@ class Growth:
 
 
 def uniform_growth(problem: FilmProblem) -> Growth:
-    """A film that is thicker by the same everywhere."""
+    """A uniform growth of the film."""
     return Growth("film_thickness_m", None, np.ones((1, 1)), np.ones(len(problem.space.vertices)))
 
 

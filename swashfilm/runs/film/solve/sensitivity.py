@@ -23,7 +23,7 @@ OPTION = "--sensitivity"
 
 @dataclass(frozen=True)
 class Sensitivities:
-    """Gradients by the outputs' names, growth of the film with the parameters of its shape, what is kept in the
+    """Gradients by the outputs' names, growth of the film with the parameters of its shape, the quantities held in the
     derivatives, and unknowns at which the cavity may open or close with the slightest change."""
 
     gradients: Mapping[str, FilmGradient]
@@ -62,7 +62,7 @@ def _unfit(case: FilmCase) -> list[Fault]:
 def _known(case: FilmCase | GapCase) -> list[str]:
     known = list(output_names(_posed(case)))
     if isinstance(case, GapCase):
-        # Between rigid walls the gap alone decides contact, which is no part of their film.
+        # Between rigid walls the gap alone determines contact, which is no part of their film.
         return known if case.physics.elastic_walls else [name for name in known if name != "contact_load"]
     if case.stated.film.load:  # the film keeps them
         load = case.stated.film.rigid_load
@@ -90,7 +90,7 @@ def sensitivities(
 ) -> Sensitivities:
     """The derivatives of a solved case, its film and, of a pump's gap, the part in it.
 
-    The position of a gap's part is held. A free film that bears a given load keeps it, and its position yields.
+    The position of a gap's part is held. A free film under a given load keeps the load, and its position changes.
     Raises FilmNotConverged where the balance is singular.
     """
     if isinstance(case, GapCase):

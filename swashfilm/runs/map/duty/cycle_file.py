@@ -41,7 +41,7 @@ _RATIO_UNITS = {"1": 1.0, "-": 1.0, "%": 0.01}
 def read_cycle(path: Path, axes: tuple[MapAxis, ...]) -> Cycle:
     """Return the cycle of a file for a map of these axes: columns in any order and unit, `#` begins a comment.
 
-    Columns are parted by commas, or by semicolons or tabs, where numbers may have a decimal comma. Inputs with one
+    Columns are separated by commas, or by semicolons or tabs, where numbers may have a decimal comma. Inputs with one
     level in the map may be left out. Raises InputFaults with every fault.
     """
     try:
@@ -80,7 +80,7 @@ def input_columns(
     faults: list[Fault],
     words: Collection[str] = (),
 ) -> Iterator[tuple[str, tuple[int, float, float]]]:
-    """Yield the name of each column, its index, and factor and offset to SI; columns of `words` are passed over.
+    """Yield the name of each column, its index, and factor and offset to SI; columns of `words` are skipped.
 
     dimensions: of the names that a column may have, None for a bare number.
     """

@@ -44,7 +44,7 @@ def write_duty_page(folder: Path) -> Path:
 
 
 def duty_answer(summary: Mapping[str, Any], picture: Picture | None = None, caption: str = "") -> Answer:
-    """Return the answer of a cycle: energy in, out and lost, mean efficiency, and where most is lost."""
+    """Return the answer of a cycle: energy in, out and lost, mean efficiency, and the largest loss."""
     shaft, hydraulic, loss = (summary["energy_J"][name] for name in BALANCE)
     efficiency, volume = summary["efficiency"][HEADLINE.value], summary["volume_m3"]
     (first, most), *others = sinks_of(summary).items()

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 BALANCE = ("shaft", "hydraulic", "loss")
-"""Energies of a cycle that are no kind of loss."""
+"""Energies of a cycle that are no loss."""
 _INPUTS = {MapInput.SPEED: "speed", MapInput.PRESSURE: "pressure", MapInput.RATIO: "displacement ratio"}
 """Inputs that the picture of a cycle shows, with their short names."""
 RATIO = "sum p Q over shaft power"

@@ -75,7 +75,7 @@ def loss_warnings(pump: PumpDescription, point: PumpPoint) -> list[str]:
     stated = [
         ("slipper.pocket_file", pump.slipper.pocket_file, losses.slipper, slipper),
         ("slipper.groove_file", pump.slipper.groove_file, losses.slipper, slipper),
-        # Half of a kidney's flow a land, near enough to say whether a range is left.
+        # Half of a kidney's flow for each land, accurate enough for the check of a range.
         ("valve_plate.kidney_file", pump.valve_plate.kidney_file, losses.inner, 0.5 * plate),
     ]
     found = []

@@ -63,7 +63,7 @@ def share_beyond(table: FlowCoefficients, area: Array, pressure_drop: Array, den
     largest = np.interp(np.log(size), np.log(table.opening), np.log(table.flow_number[:, -1]))
     outside = (size < table.opening[0]) | (size > table.opening[-1])
     if table.opening.size == 1:
-        outside = np.zeros_like(outside)  # such a file says that the opening does not matter
+        outside = np.zeros_like(outside)  # such a file is independent of the opening
     return float(np.mean(outside | (number > np.exp(largest))))
 
 

@@ -1,4 +1,4 @@
-"""Answer of an operating point: its headline numbers, a paragraph in plain words, and where the shaft power goes."""
+"""Answer of an operating point: its headline numbers, a paragraph in plain words, and the sinks of the shaft power."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ CAPTION = (
 
 
 RUBBING = 1.0
-"""W of contact friction from which parts rub."""
+"""W of contact friction above which it is mentioned."""
 
 
 def pump_answer(summary: Mapping[str, Any]) -> Answer:
@@ -101,7 +101,7 @@ def least_film(summary: Mapping[str, Any]) -> tuple[str, Mapping[str, Any]]:
 
 
 def hottest_oil(summary: Mapping[str, Any]) -> tuple[str, float] | None:
-    """Return the gap with the hottest oil and its temperature, K; None where no film warms."""
+    """Return the gap with the hottest oil and its temperature, K; None without solved temperature."""
     warm = {gap: of["film_temperature_max_K"] for gap, of in summary["gaps"].items() if "film_temperature_max_K" in of}
     return max(warm.items(), key=lambda one: float(one[1])) if warm else None
 

@@ -13,12 +13,12 @@ from system.effects.effect import EffectId
 from system.pump.laws.friction_pairs import Pair
 
 SMALLEST = 0.003
-"""Share of the shaft power below which a part comes under `other`."""
+"""Share of the shaft power below which a part is included in `other`."""
 CARRYING = (
     EffectId.CHURNING, EffectId.SEAL_DRAG, EffectId.CHARGE_PUMP_DRAG, EffectId.CONTROL_FLOW,
     EffectId.PORT_SHORT_CIRCUIT, EffectId.LAMINAR_CROSS_LEAK,
 )  # fmt: skip
-"""Effects of [physics] that take power past chambers and friction pairs."""
+"""Effects of [physics] with a loss outside chambers and friction pairs."""
 
 
 class PowerKind(Enum):
@@ -44,7 +44,7 @@ class Power:
 
 
 def power_parts(summary: Mapping[str, Any]) -> tuple[Power, ...]:
-    """Return what the shaft power goes into, delivered power first; the parts add up to the shaft power.
+    """Return the sinks of the shaft power, delivered power first; the parts add up to the shaft power.
 
     Parts that are exactly zero are left out. The last part is the error of the balance.
     """
@@ -91,7 +91,7 @@ def gathered(parts: Sequence[Power], smallest: float = SMALLEST) -> tuple[Power,
 
 
 def largest_losses(parts: Sequence[Power], share: float = 0.5) -> tuple[tuple[Power, ...], float]:
-    """Return the fewest parts that take `share` of what is not delivered, and the share that they take."""
+    """Return the fewest parts that make up `share` of the power not delivered, and their share."""
     lost = sorted((part for part in parts if part.kind is not PowerKind.DELIVERED), key=lambda part: -part.watts)
     whole, taken, found = sum(part.watts for part in lost), 0.0, []
     for part in lost:

@@ -1,6 +1,6 @@
-"""Flow diagram of powers: what comes in on the left, what it goes into on the right, as ribbons of true width.
+"""Flow diagram of powers: power supplied on the left, its sinks on the right, as ribbons of true width.
 
-What is not delivered is drawn a second time, enlarged, and from there each of its parts runs to its name.
+The power not delivered is drawn a second time, enlarged, and from there each of its parts runs to its name.
 """
 
 from __future__ import annotations
@@ -41,9 +41,9 @@ class End:
 
 
 def flow_diagram(shaft: float, parts: Sequence[Power]) -> Figure:
-    """Draw how the shaft power (W) is divided among parts that add up to it, which come in this order.
+    """Draw the shaft power (W) as the sum of its parts, in this order.
 
-    Negative parts come in on the left beside the shaft power; a negative shaft power, of a motor, goes out.
+    Negative parts are supplied on the left beside the shaft power; a negative shaft power, of a motor, is a sink.
     """
     drive = Power("shaft power", shaft, PowerKind.SHAFT)
     given = _joined([*([drive] if shaft > 0.0 else []), *(_turned(one) for one in parts if one.watts < 0.0)])
@@ -72,7 +72,7 @@ def _turned(power: Power) -> Power:
 
 
 def _joined(given: Sequence[Power]) -> list[Power]:
-    """Return what comes in: the first, and the others as one."""
+    """Return the supplied powers: the first, and the others as one."""
     first, *others = given
     if len(others) < 2:
         return [first, *others]
@@ -89,7 +89,7 @@ def _canvas(height: float) -> tuple[Figure, Any]:
 
 
 def _draw_given(axes: Any, given: Sequence[Power], whole: float, top: float) -> None:
-    """Draw what comes in: the first straight on, with its name above; what is returned from below."""
+    """Draw the supplied power: the first straight on, with its name above; returned power from below."""
     place, below = top, top
     for k, one in enumerate(given):
         width = TRUNK * one.watts / whole
@@ -105,7 +105,7 @@ def _draw_given(axes: Any, given: Sequence[Power], whole: float, top: float) -> 
 
 
 def _draw_lost(axes: Any, lost: Sequence[Power], shaft: float, whole: float, place: float) -> None:
-    """Draw what is not delivered: enlarged from `place` on, and from there to a row for each part."""
+    """Draw the power not delivered: enlarged from `place` on, and from there to a row for each part."""
     total = sum(one.watts for one in lost)
     width, first = TRUNK * total / whole, min(place, axes.get_ylim()[1] - EDGE - TRUNK) - ROW
     room = ROW * max(len(lost), 6)

@@ -31,7 +31,7 @@ Blocks = tuple[tuple[str, str], ...]
 
 @dataclass(frozen=True)
 class ChamberKind:
-    """Chambers with pistons and slippers alike: their numbers from 0, and shaft angles (rad) of the kept films.
+    """Chambers with equal pistons and slippers: their numbers from 0, and shaft angles (rad) of the kept films.
 
     place: folder of their files in the run folder; chamber_pressure: shaft angle (rad) -> Pa.
     """
@@ -70,7 +70,7 @@ class Scene:
 
     @cached_property
     def looks(self) -> Array:
-        """Angles (n,) rad within a pitch, after which the block looks the same, at which it is shown."""
+        """Angles (n,) rad of the pictures within a pitch, after which the block repeats."""
         return self.pitch * np.unique(np.round(self.times / self.pitch, 6) % 1.0)
 
 

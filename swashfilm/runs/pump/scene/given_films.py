@@ -55,7 +55,7 @@ def _place(number: int, kind: FilmsKind) -> str:
 
 
 def _write_gap(place: Path, films: FilmsPoint, kind: FilmsKind, gap: Gap) -> None:
-    """Write the films of a gap and their series; the ring's repeat after those that are known."""
+    """Write the films of a gap and their series; the ring's repeat after the known ones."""
     series, angles, rotor = getattr(kind.gaps, gap.value), kind.gaps.shaft_angle, kind.rotor
     for k, film in enumerate(series):
         at = place_of(gap, rotor, kind.parts, angles[k])

@@ -1,4 +1,4 @@
-"""Films of a pump's gaps at given positions over the turn, to choose field and shaft angle."""
+"""Films of a pump's gaps at given positions over the turn, with selectable field and shaft angle."""
 
 from __future__ import annotations
 

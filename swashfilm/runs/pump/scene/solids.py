@@ -1,8 +1,8 @@
 """Solids of a pump's parts, by its sizes, in the pump's frame (`system.films.places`), m.
 
-Sizes are those of the pump file, or those taken for elastic walls. Of what neither has, the picture has usual
-proportions: neck of the piston, collar and pocket's depth of the slipper, diameter of the shaft. Bores and kidneys
-are straight, so that no oil way connects them; ports are sectors. Own meshes of parts are not shown.
+Sizes are those of the pump file, or those assumed for elastic walls. For all others the picture has usual proportions:
+neck of the piston, collar and pocket's depth of the slipper, diameter of the shaft. Bores and kidneys are straight, so
+that no oil passage connects them; ports are sectors. Own meshes of parts are not shown.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""The pump in space to turn with the mouse: films in the colours of a field between translucent solids.
+"""The pump in space, rotatable with the mouse: films in the colours of a field between translucent solids.
 
 Solids move as rigid bodies, so that a page holds each of them once with its motions; films are kept at every angle.
 """
@@ -32,11 +32,11 @@ MOST, NUMBERS = 1000, 42_000
 BEYOND = 0.02
 """Share of the vertices whose values may lie above the scale."""
 RIGID = 2e-5
-"""Largest departure of a body from a rigid motion, m: the single precision of its file, and no visible one."""
+"""Largest departure of a body from a rigid motion, m: the single precision of its file, which is not visible."""
 CAMERA = {"eye": {"x": 0.3, "y": -1.0, "z": 0.42}, "projection": {"type": "orthographic"}}
 HEIGHT = 620  # pixels
 INK = "#1c2328"
-"""Colour that the page turns into that of its own text."""
+"""Colour that the page replaces by that of its own text."""
 ABOVE = 0.2
 """Height of a chamber's number above the middle of its slipper's film, in radii of the film."""
 
@@ -65,7 +65,7 @@ Blocks = Sequence[dict[str, str]]
 
 
 def pump_view(folder: Path) -> Explorer | None:
-    """Return the view of a run folder with the pump's blocks (`write_pump`); None where it has none."""
+    """Return the view of a run folder with the pump's blocks (`write_pump`); None without one."""
     import plotly.graph_objects as go
 
     lists = sorted((folder / PUMP).glob("pump_*.vtm"))
@@ -117,7 +117,7 @@ def _mesh(folder: Path, file: str) -> Any:
 
 
 def _rows(blocks: Blocks, names: Sequence[str]) -> tuple[list[str], list[list[int]]]:
-    """Return the files of these blocks, and for each angle which of them they are."""
+    """Return the files of these blocks, and their numbers for each angle."""
     files = sorted({one[name] for one in blocks for name in names})
     number = {file: k for k, file in enumerate(files)}
     return files, [[number[one[name]] for name in names] for one in blocks]

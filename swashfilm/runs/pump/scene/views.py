@@ -40,7 +40,7 @@ def part_of(name: str) -> str:
 def pump_drawings(folder: Path, scene: Scene, blocks: Sequence[Blocks]) -> dict[Path, Sequence[Frame]]:
     """Return the drawings pump.png, pump.webp over the turn, and <gap>.png of the films of each kind of chambers.
 
-    blocks: those of the scene's times; a picture has the one next to PICTURED_TURN, a turn all of them.
+    blocks: those of the scene's times; a picture has the one nearest to PICTURED_TURN, a turn all of them.
     """
     pictured, degrees = TURN * PICTURED_TURN, np.degrees(scene.times)
     films = {("", "valve_plate"): nearest(scene.block_angles, scene.block_period, pictured)}

@@ -1,4 +1,4 @@
-"""Option --vary: keys of a pump file with their values, and the faults of the pumps that they make."""
+"""Option --vary: keys of a pump file with their values, and the faults of the resulting pumps."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from system.inputs.faults import Fault, InputFaults
 from system.inputs.units import Dimension, QuantityError, parse_quantity
 
 CHECKED = 100
-"""Number of points up to which the pump of each one is checked before the first is solved; else those at the ends."""
+"""Number of points up to which each pump is checked before the first is solved; else those at the ends."""
 MOST_KEYS = 3
 
 
@@ -74,7 +74,7 @@ def _is_bare(text: str) -> bool:
 def pump_faults(
     axes: Sequence[StudyAxis], points: Sequence[Point], check: Callable[[Mapping[str, object]], object]
 ) -> list[Fault]:
-    """Return the faults of the pumps at the points, each once, at its key with the levels that have none.
+    """Return the faults of the pumps at the points, each once, at its key with the valid levels.
 
     check: makes the pump with these values of the keys; raises InputFaults.
     """

@@ -33,7 +33,7 @@ class PumpStudy(Study[PumpCase]):
 
 
 def pump_digest(case: PumpCase) -> str:
-    """Return a name of all that the numbers of a case depend on."""
+    """Return a name of all inputs of a case's numbers."""
     table = case.table.read_bytes() if case.table else None
     made_by = "pump study", version("swashfilm"), case.fidelity.value, case.options, table
     return content_key(*made_by, resolved_toml(case.pump), case.pump.file_contents)[:KEY_LENGTH]
@@ -47,7 +47,7 @@ def solved_point(case: PumpCase) -> dict[str, Any]:
 
 
 def point_summary(summary: Mapping[str, Any]) -> dict[str, Any]:
-    """Return the headline numbers of an operating point, SI with units in keys, as a study of films has them."""
+    """Return the headline numbers of an operating point, SI with units in keys, as in a study of films."""
     flow, torque, power = summary["flow"], summary["torque"], summary["power_balance"]
     efficiency, own, table = summary["efficiency"]["iso_4409"], summary["gaps"], summary.get("table", {})
     films = {

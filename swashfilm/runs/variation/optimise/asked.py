@@ -56,7 +56,7 @@ def varied_of(top: Table, pump: PumpDescription, known: Mapping[str, PumpKey]) -
 
 
 def beyond_box(table: ResponseTable | None, one: Varied) -> tuple[str, str] | None:
-    """Return what is found and expected where the bounds of a dimension lie beyond a response table's box."""
+    """Return found and expected values where the bounds of a dimension lie beyond a response table's box."""
     axes = {} if table is None else {axis.name: axis for axis in table.response.axes}
     if (axis := axes.get(one.name)) is None or axis.lower <= one.low < one.high <= axis.upper:
         return None
@@ -66,7 +66,7 @@ def beyond_box(table: ResponseTable | None, one: Varied) -> tuple[str, str] | No
 
 
 def objectives_of(top: Table, known: Sequence[Measure], fidelity: Fidelity) -> tuple[Objective, ...]:
-    """Return the objectives; list the fault of each that the fidelity does not know, and of each other word."""
+    """Return the objectives; list the fault of each that the fidelity lacks, and of each other word."""
     table, found = top.table("objectives", needed='such as loss = "least"'), []
     for name, raw in _entries(table.values) if table else ():
         where, words = f"objectives.{name}", [one.value for one in Aim]
@@ -81,7 +81,7 @@ def objectives_of(top: Table, known: Sequence[Measure], fidelity: Fidelity) -> t
 
 
 def _nearest_aim(raw: object) -> str:
-    """Return the aim that a word means."""
+    """Return the aim of a word."""
     beginnings = {"min": Aim.LEAST, "max": Aim.MOST}
     meant = beginnings.get(str(raw)[:3].lower())
     return meant.value if meant else nearest_choice(str(raw), [one.value for one in Aim])
@@ -175,7 +175,7 @@ def _twice(found: Sequence[Varied]) -> Iterator[Fault]:
 def _no_dimension(
     where: str, path: str, pump: PumpDescription, known: Mapping[str, PumpKey], stated_keys: Mapping[str, PumpKey]
 ) -> Fault:
-    """Return the fault of a path that cannot vary: held by a table, left out by the file, or none."""
+    """Return the fault of a path that cannot vary: held by a table, left out by the file, or unknown."""
     if path in stated_keys:
         found = f"'{path}', on which the films depend, but no axis of this response table"
         expected = f"a table with it (swashfilm table --vary {path}), or another fidelity"
@@ -192,7 +192,7 @@ def _no_dimension(
 def _measure(
     where: str, name: str, known: Sequence[Measure], fidelity: Fidelity, faults: list[Fault]
 ) -> Measure | None:
-    """Return the measure of a name; None with its fault, which tells the fidelities that know it."""
+    """Return the measure of a name; None with its fault, which lists the fidelities with this measure."""
     if (measure := measure_of(name, known)) is not None:
         return measure
     if other := measure_of(name, [*MEASURES.values()]):

@@ -38,7 +38,7 @@ NUMBERS = {
     Method.GRADIENT: ("generations",),
     Method.TRUST_REGION: ("designs",),
 }
-"""Keys that say how long a search goes on."""
+"""Keys of the length of a search."""
 KNEE = "knee"
 TABLES = ("vary", "objectives", "constraints", "points")
 
@@ -59,8 +59,8 @@ class OptimiseSection:
 
 @dataclass(frozen=True)
 class Search:
-    """Search of an optimisation: method and why, designs of a generation (by trust region of all), generations, seed,
-    what is chosen."""
+    """Search of an optimisation: method with its reason, designs of a generation (by trust region of all), generations,
+    seed, choice."""
 
     method: Method
     why: str
@@ -173,7 +173,7 @@ def _problem_faults(pump: PumpDescription, problem: Problem, points: Sequence[Op
 
 
 def _search_faults(section: OptimiseSection, search: Search, problem: Problem) -> list[Fault]:
-    """Return the faults of a search: of one objective beside several, its numbers, a choice of nothing."""
+    """Return the faults of a search: of one objective beside several, its numbers, an invalid choice."""
     count = len(problem.objectives)
     if search.method is not Method.EVOLUTION and count > 1:
         found = f"'{search.method.value}' beside {count} objectives"

@@ -76,7 +76,7 @@ def optimise_case(options: argparse.Namespace) -> OptimiseCase:
 
 
 def checked_words(path: Path) -> str:
-    """Return what a file asks for, a line each; raise InputFaults with every fault."""
+    """Return the requests of a file, a line each; raise InputFaults with every fault."""
     parser = argparse.ArgumentParser()
     add_optimise_options(parser)
     case = optimise_case(parser.parse_args([str(path)]))
@@ -93,7 +93,7 @@ def checked_words(path: Path) -> str:
 
 @contextmanager
 def design_executor(options: argparse.Namespace, case: OptimiseCase) -> Iterator[Executor]:
-    """Yield what solves designs: processes of this machine, or workers of a cluster."""
+    """Yield the executor of designs: processes of this machine, or workers of a cluster."""
     if options.cluster is None:
         with varied_executor(options, case.varied.seconds(case.search.trials(case.problem))) as executor:
             yield executor
@@ -105,7 +105,7 @@ def design_executor(options: argparse.Namespace, case: OptimiseCase) -> Iterator
 
 
 def _show_cost(case: OptimiseCase) -> None:
-    """Print what a run will take where that is worth telling."""
+    """Print the estimated time of a long run."""
     trials = case.search.trials(case.problem)
     if (seconds := case.varied.seconds(trials)) > WORTH_TELLING:
         points = len(case.varied.work.sites.points)

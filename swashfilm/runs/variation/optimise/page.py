@@ -64,9 +64,9 @@ def _beside(found: Mapping[str, Any]) -> list[tuple[str, tuple[str, ...], list[t
 
 
 def optimise_answer(summary: Mapping[str, Any], picture: Any, beside: Mapping[str, Any] | None) -> Answer:
-    """Return the answer: objectives of chosen design and start, the set, constraints that hold.
+    """Return the answer: objectives of chosen design and start, the set, active constraints.
 
-    beside: summary of the comparison of both, None where there is none.
+    beside: summary of the comparison of both, or None.
     """
     counts, label = summary["counts"], "chosen" if summary["chosen"]["feasible"] else "nearest"
     tiles = [_tile(summary, one["name"], label) for one in summary["objectives"][:MOST_TILES]]

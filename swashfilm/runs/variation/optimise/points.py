@@ -41,7 +41,7 @@ def points_plan(top: Table, pump: PumpDescription, folder: Path) -> tuple[MapPla
 
 
 def _axis(table: Table, key: str) -> MapAxis | None:
-    """Return the levels of a key; None where it has none, or with its fault listed."""
+    """Return the levels of a key; None without levels, or with its fault listed."""
     raw: Any = table.get(key)
     if raw is None:
         return None

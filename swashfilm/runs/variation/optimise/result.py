@@ -24,7 +24,7 @@ class OptimiseRun(Result):
     files: ClassVar[tuple[str, ...]] = ("summary.json", DATA)
 
     def tables(self) -> list[Table]:
-        """Return counts, dimensions, objectives and constraints; without a feasible design what is in the way."""
+        """Return counts, dimensions, objectives and constraints; without a feasible design the obstacles."""
         summary = self.summary
         head = rows.compared_head
         tables: list[Table] = [

@@ -32,8 +32,8 @@ SOLVED = 0.02
 def run_optimise(case: OptimiseCase, folder: Path, executor: Executor, report: Report) -> dict[str, Any]:
     """Optimise a pump; write points/, summary.json, designs.csv, pareto.csv, chosen.toml, compare/, results.nc, page.
 
-    Returns the summary; without a feasible design there are no chosen.toml and compare/. Raises NotConverged where
-    the pump as stated has no result, InputFaults for a chosen row that the Pareto set has not.
+    Returns the summary; without a feasible design there are no chosen.toml and compare/. Raises NotConverged where the
+    pump as stated has no result, InputFaults for a chosen row that the Pareto set lacks.
     """
     varied = case.varied
     (folder / "input.toml").write_text(varied.given, encoding="utf-8")

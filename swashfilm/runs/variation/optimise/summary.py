@@ -19,7 +19,7 @@ from system.variation.optimisation.problem import MET, Constraint, Design, Probl
 from system.work.tasks import PartStatus
 
 HOLDS = 0.01
-"""Room of a constraint, of its value, and of a bound, of the distance of both, below which it counts as holding."""
+"""Margin of a constraint, of its value, and of a bound, of the distance of both, below which it counts as active."""
 GROWS = 0.01
 """Share of the hypervolume added in the last quarter of the generations, from which a run warns."""
 MANY_REFUSED = 0.5

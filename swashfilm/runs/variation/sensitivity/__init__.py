@@ -1,1 +1,1 @@
-"""Command `swashfilm sensitivity`: what a change of each dimension of a pump costs."""
+"""Command `swashfilm sensitivity`: the cost of a change of each dimension of a pump."""

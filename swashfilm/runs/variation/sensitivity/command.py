@@ -39,7 +39,7 @@ def run_sensitivity_command(options: argparse.Namespace) -> int:
 
 
 def show_cost(case: "VariedCase", pumps: int) -> None:
-    """Print what a run will take where that is worth telling."""
+    """Print the estimated time of a long run."""
     if (seconds := case.seconds(pumps)) > WORTH_TELLING:
         points = len(case.work.sites.points)
         show(

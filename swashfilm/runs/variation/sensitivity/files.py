@@ -20,7 +20,7 @@ DATA, TABLE = "results.nc", "sensitivity.csv"
 
 
 def write_table(path: Path, found: Sensitivity) -> None:
-    """Write a row for each dimension: value, change and sigma in its unit, and what each measure changes by it."""
+    """Write a row for each dimension: value, change and sigma in its unit, and the change of each measure by it."""
     heads = ["key", "unit", "value", "change", "side", "sigma"]
     heads += [f"{one.name} [{one.unit_of_change}]" for one in found.measures]
     heads += [f"{one.name} error [{one.unit_of_change}]" for one in found.measures]

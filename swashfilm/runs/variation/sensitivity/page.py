@@ -43,7 +43,7 @@ def write_sensitivity_page(folder: Path) -> Path:
 
 
 def sensitivity_answer(summary: Mapping[str, Any]) -> Answer:
-    """Return the answer: loss and efficiency, and the dearest length, angle and other dimension."""
+    """Return the answer: loss and efficiency, and the costliest length, angle and other dimension."""
     measures = summary["measures"]
     tiles = [
         Tile(MEASURES[LOSS].text(measures[LOSS]["value"]), "total loss", summary["solver"]),

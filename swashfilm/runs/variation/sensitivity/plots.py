@@ -1,4 +1,4 @@
-"""Pictures of a sensitivity: what one micrometre, one degree and one per cent cost."""
+"""Pictures of a sensitivity: the cost of one micrometre, one degree and one per cent."""
 
 from __future__ import annotations
 
@@ -20,9 +20,9 @@ PANELS = {"1 um": "lengths: +1 um", "1 deg": "angles: +1 deg", "1 %": "all other
 
 
 def cost_plot(summary: Mapping[str, Any]) -> Figure | None:
-    """Draw the loss in W and the efficiency in points by one um, one deg and one per cent, the dearest first.
+    """Draw the loss in W and the efficiency in points by one um, one deg and one per cent, the costliest first.
 
-    None where no dimension costs anything.
+    None where no dimension has a cost.
     """
     kinds = [kind for kind in PANELS if _shown(summary, kind)]
     if not kinds:
@@ -55,7 +55,7 @@ def tolerance_plot(summary: Mapping[str, Any]) -> Figure | None:
 
 
 def _shown(summary: Mapping[str, Any], kind: str) -> list[Row]:
-    """Return the dearest dimensions of a kind, those left out whose bar would not show."""
+    """Return the costliest dimensions of a kind, without those whose bar would not be visible."""
     rows = ranked(summary, kind)[:MOST]
     return [row for row in rows if abs(cost(row, LOSS)) >= LEAST * abs(cost(rows[0], LOSS))]
 

@@ -22,7 +22,7 @@ class SensitivityRun(Result):
     files: ClassVar[tuple[str, ...]] = ("summary.json", DATA)
 
     def tables(self) -> list[Table]:
-        """Return the pump as stated, the dearest dimensions, and those without a number."""
+        """Return the pump as stated, the costliest dimensions, and those without a number."""
         summary = self.summary
         costs = rows.first_rows(list(rows.cost_rows(summary)))
         tables: list[Table] = [
@@ -43,9 +43,9 @@ class SensitivityRun(Result):
         return self.to_xarray()["derivative"].to_pandas()
 
     def plot_costs(self) -> list[Axes]:
-        """Draw what one um, one deg and one per cent cost."""
+        """Draw the cost of one um, one deg and one per cent."""
         return plotted(lambda: cost_plot(self.summary))
 
     def plot_tolerances(self) -> list[Axes]:
-        """Draw what one standard deviation of each stated tolerance costs."""
+        """Draw the cost of one standard deviation of each stated tolerance."""
         return plotted(lambda: tolerance_plot(self.summary))

@@ -24,12 +24,12 @@ def derivative(row: Row, measure: str) -> float | None:
 
 
 def cost(row: Row, measure: str, by: str = "change") -> float:
-    """Return what a measure changes by, for the change, "percent" or "sigma" of a dimension; 0 without a number."""
+    """Return the change of a measure by the change, "percent" or "sigma" of a dimension; 0 without a number."""
     return (derivative(row, measure) or 0.0) * (row[by] or 0.0)
 
 
 def ranked(summary: Mapping[str, Any], kind: str = "") -> list[Row]:
-    """Return the dimensions that cost something, the dearest first; kind: those of a change such as "1 um"."""
+    """Return the dimensions with a cost, the costliest first; kind: those of a change such as "1 um"."""
     rows = [row for row in summary["dimensions"] if cost(row, LOSS) != 0.0 or cost(row, EFFICIENCY) != 0.0]
     chosen = [row for row in rows if not kind or kind_of(row) == kind]
     return sorted(chosen, key=lambda row: -abs(cost(row, LOSS)))
@@ -42,7 +42,7 @@ def kind_of(row: Row) -> str:
 
 
 def cost_rows(summary: Mapping[str, Any]) -> Iterator[tuple[str, ...]]:
-    """Yield the rows of COST_HEAD, the dearest first."""
+    """Yield the rows of COST_HEAD, the costliest first."""
     for row in ranked(summary):
         sigma = "" if row["sigma"] is None else _change(row, LOSS, "sigma")
         yield (
@@ -57,7 +57,7 @@ def measure_head(summary: Mapping[str, Any]) -> tuple[str, ...]:
 
 
 def measure_rows(summary: Mapping[str, Any]) -> Iterator[tuple[str, ...]]:
-    """Yield what every measure changes by, a row for each dimension that has an effect, in the order of the file."""
+    """Yield the change of every measure, a row for each dimension that has an effect, in the order of the file."""
     for row in summary["dimensions"]:
         if row["has_effect"]:
             yield row["key"], f"+{row['change_text']}", *(_change(row, name) for name in summary["measures"])
@@ -96,13 +96,13 @@ def refused_rows(summary: Mapping[str, Any]) -> Iterator[tuple[str, ...]]:
 
 
 def first_rows(rows: Sequence[tuple[str, ...]]) -> list[tuple[str, ...]]:
-    """Return the first SHOWN rows, and how many follow."""
+    """Return the first SHOWN rows, and the number of others."""
     more = len(rows) - SHOWN
     return [*rows[:SHOWN], *([(f"and {more} more in sensitivity.csv",)] if more > 0 else [])]
 
 
 def _change(row: Row, measure: str, by: str = "change") -> str:
-    """Return a change as people read it, with its error where that shows; the verdict where there is no number."""
+    """Return a change as people read it, with its error where visible; the verdict without a number."""
     found = row["measures"][measure]
     if found["verdict"] == Verdict.NOT_SMOOTH.value:
         return str(Verdict.NOT_SMOOTH.value)

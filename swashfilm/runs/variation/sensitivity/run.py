@@ -58,7 +58,7 @@ def run_sensitivity(case: VariedCase, folder: Path, executor: Executor, report: 
 
 
 def sensitivity_summary(case: VariedCase, found: Sensitivity) -> dict[str, Any]:
-    """Return the summary: SI, a derivative by SI unit of its dimension; none where it has no number."""
+    """Return the summary: SI, a derivative by SI unit of its dimension; None where it has no number."""
     return {
         **headed("sensitivity"),
         "name": case.pump.name,

@@ -1,1 +1,1 @@
-"""Command `swashfilm tolerance`: how a series of pumps scatters by the tolerances of their drawing."""
+"""Command `swashfilm tolerance`: the scatter of a series of pumps by the tolerances of their drawing."""

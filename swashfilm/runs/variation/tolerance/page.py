@@ -45,7 +45,7 @@ def write_tolerance_page(folder: Path) -> Path:
 
 
 def tolerance_answer(summary: Mapping[str, Any], data: xarray.Dataset) -> Answer:
-    """Return the answer: median and width of efficiency, drain and loss, the dearest dimension, the worst limit."""
+    """Return the answer: median and width of efficiency, drain and loss, the costliest dimension, the worst limit."""
     tiles = [_tile(summary, name) for name in (EFFICIENCY, DRAIN, LOSS)]
     first = rows.dearest(summary, EFFICIENCY)[0]
     share = f"{100.0 * first['total']['value']:.0f} %"

@@ -40,7 +40,7 @@ def dearest(summary: Mapping[str, Any], name: str) -> list[Mapping[str, Any]]:
 
 
 def share_rows(summary: Mapping[str, Any], name: str) -> Iterator[tuple[str, ...]]:
-    """Yield the rows of SHARE_HEAD of a measure; what counts less than LEAST_SHARE in one row."""
+    """Yield the rows of SHARE_HEAD of a measure; dimensions below LEAST_SHARE in one row."""
     small = []
     for one in dearest(summary, name):
         if one["total"]["value"] < LEAST_SHARE:

@@ -31,7 +31,7 @@ from system.work.tasks import Executor
 
 @dataclass(frozen=True)
 class ToleranceCase:
-    """A series to solve: the pump and its operating points, what scatters, how many pumps, the limits to keep."""
+    """A series to solve: the pump, its operating points, the scattering dimensions, the number of pumps, the limits."""
 
     varied: VariedCase
     drawing: Drawing

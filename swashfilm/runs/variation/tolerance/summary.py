@@ -101,7 +101,7 @@ def _words(one: Drawn | DrawnFit, shown: Callable[[float], str]) -> str:
 
 
 def table_warnings(solver: object, found: Tolerance) -> Iterator[str]:
-    """Yield the numbers that scatter by less than the response table errs at its held-out points."""
+    """Yield the numbers whose scatter is below the error of the response table at its held-out points."""
     if not isinstance(solver, TableSolver) or solver.table.numbers is None:
         return
     largest = solver.table.numbers.largest()
@@ -116,7 +116,7 @@ def table_warnings(solver: object, found: Tolerance) -> Iterator[str]:
 
 
 def warnings_of(found: Tolerance) -> list[str]:
-    """Return what keeps pumps from a result, and numbers that the surface does not describe."""
+    """Return the reasons of pumps without a result, and numbers that the surface does not describe."""
     said = [
         f"pumps_refused: {count} of {found.pumps} pumps are refused by the geometry and have no part in the scatter: "
         f"{reason.rstrip('.')}; narrow the tolerance that does it"
