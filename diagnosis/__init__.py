@@ -1,4 +1,4 @@
-"""Simulation against recordings: where they differ, and which physics was left out."""
+"""Simulation against recordings: their differences, and the missing physics."""
 
 import lazy_loader
 

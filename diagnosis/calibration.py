@@ -56,10 +56,10 @@ class Hersey:
 class Calibration:
     """A pump calibrated by a recording, without missing physics.
 
-    fit: base and sensor parameters, friction within the paper's ranges, constant; hersey: None where it was not
-    asked for or has no fit; undetermined: combinations of parameters that `best` leaves to the priors; equation:
-    Eq. (21) by itself, mixed: of coefficients that include the films' shear; rows: `best` and loss models in the
-    same splits; assumptions: of the pump; notes: assumptions of the recording, and parts that could not be fitted.
+    fit: base and sensor parameters, friction within the paper's ranges, constant; hersey: None if not requested or
+    without a fit; undetermined: combinations of parameters that `best` leaves to the priors; equation: Eq. (21) by
+    itself, mixed: of coefficients that include the films' shear; rows: `best` and loss models in the same splits;
+    assumptions: of the pump; notes: assumptions of the recording, and parts that could not be fitted.
     """
 
     pump: PumpDescription
@@ -101,9 +101,9 @@ def calibrate(
 ) -> Calibration:
     """Calibrate a pump by a recording.
 
-    recording: a path, or what `checked_recording` returns; models: loss models fitted to the same readings;
-    with_hersey: try friction over the Hersey number beside constant coefficients. Raises InputFaults for a
-    recording with faults or too few readings, NotConverged where no fit converges.
+    recording: a path, or a result of `checked_recording`; models: loss models fitted to the same readings; with_hersey:
+    try friction over the Hersey number beside constant coefficients. Raises InputFaults for a recording with faults or
+    too few readings, NotConverged where no fit converges.
     """
     begun, thresholds, steps = process_time(), load_thresholds(), 4 + len(models)
     known = known_pump(pump)
@@ -177,7 +177,7 @@ def _hersey(study: Study, null: Explanation, thresholds: Thresholds, notes: list
 def _equations(
     pump: PumpDescription, bench: LumpedBench, fit: Posterior, study: Study, notes: list[str]
 ) -> tuple[tuple[EqFit, ...], tuple[EqFit, ...]]:
-    """Eq. (21) beside the films' shear and including it, all else as fitted; none, with a note, without flows."""
+    """Eq. (21) beside the films' shear and including it, others as fitted; none, with a note, without flows."""
     own = tuple(one for one in bench.parameters if one.name.startswith("friction."))
     if not own:
         notes.append("Eq. (21) by itself: every friction coefficient of the pump is 0")
@@ -201,7 +201,7 @@ def _compared(
     notes: list[str],
     report: Report,
 ) -> tuple[HeldOutRow, ...]:
-    """The fitted pump and loss models in the same splits; nothing, with a note, without their channels."""
+    """The fitted pump and loss models in the same splits; none, with a note, without their channels."""
     if not models:
         return ()
     try:

@@ -37,10 +37,10 @@ from system.work.progress import Report, silent
 
 @dataclass(frozen=True)
 class DiagnosisResult:
-    """A diagnosis with all that it was made from.
+    """A diagnosis with all its inputs.
 
-    assumptions: of the pump and of its tolerances, as text; extended_pump: the pump with what is claimed, None
-    where nothing is; comparison: the pump without and with it at one operating point; answer: in plain words.
+    assumptions: of the pump and of its tolerances, as text; extended_pump: the pump with the claimed effects, None
+    without a claim; comparison: the pump without and with it at one operating point; answer: in plain words.
     """
 
     pump: PumpDescription
@@ -71,10 +71,10 @@ def diagnose(
 ) -> DiagnosisResult:
     """Diagnose a recording of a pump; `workers` processes fit hypotheses side by side.
 
-    films: floating ones of the simulation, whose `catalogue` of hypotheses it takes.
+    films: floating ones of the simulation, whose `catalogue` of hypotheses is used.
 
-    recording: a path, or what `checked_recording` returns. Raises InputFaults for a recording with faults, too few
-    or too smooth readings; NotConverged where no fit converges.
+    recording: a path, or a result of `checked_recording`. Raises InputFaults for a recording with faults, too few or
+    too smooth readings; NotConverged where no fit converges.
     """
     known, thresholds = known_pump(pump), load_thresholds()
     candidates = catalogue if films is None else films.catalogue
@@ -105,7 +105,7 @@ def diagnose(
 def _with_next_point(study: Study, pump: PumpDescription, found: Diagnosis, thresholds: Thresholds) -> Diagnosis:
     """The diagnosis with the next point to record; without one, the reason is a note.
 
-    Unknown physics gets none: the rivals are effects that do not explain the mismatch.
+    Unknown physics has none: the rivals are effects that do not explain the mismatch.
     """
     if found.kind is Kind.UNKNOWN_PHYSICS and found.status is VerdictStatus.NAMED:
         return found

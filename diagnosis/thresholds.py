@@ -1,4 +1,4 @@
-"""The numbers that decide a verdict, read from thresholds.toml beside this file."""
+"""The thresholds of a verdict, read from thresholds.toml beside this file."""
 
 from __future__ import annotations
 
@@ -229,8 +229,8 @@ class Thresholds:
     def fit_limits(self, scant: bool) -> FitLimits:
         """Ends of a fit. scant: of a pump known by its type plate.
 
-        There the last nats are open: below the odds of a name nothing hangs on them, and the evidence is that of the
-        peak that the slopes promise.
+        There the last nats are not determined: below the odds of a name they have no effect, and the evidence is that
+        of the peak that the slopes predict.
         """
         own, odds = self.fit, self.name.odds
         limits = FitLimits(change=own.change, patience=own.patience, gross=own.gross)
@@ -239,7 +239,7 @@ class Thresholds:
 
 @cache
 def load_thresholds(path: Path = FILE) -> Thresholds:
-    """The thresholds of a file. Raises InputError for keys that are missing or that nothing reads."""
+    """The thresholds of a file. Raises InputError for missing and for unused keys."""
     tables = tomllib.loads(path.read_text("utf-8"))
 
     def read(kind: type, name: str) -> Any:

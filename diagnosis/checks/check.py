@@ -18,7 +18,7 @@ from system.bench.outputs import SIMULATED
 from system.inputs.channels import OUTPUTS, ChannelName
 
 VARIED = 2.0
-"""Ratio of flow over displacement ratio between points: more than leakage explains, so that the speed varied."""
+"""Ratio of flow over displacement ratio between points: more than leakage explains: the speed varied."""
 
 
 def check_recording(recording: Recording, displacement: float | None, limits: DataLimits) -> Recording:
@@ -39,7 +39,7 @@ def check_recording(recording: Recording, displacement: float | None, limits: Da
 
 
 def too_few(recording: Recording, parameters: int) -> DataNote | None:
-    """Return the fault of a recording with no more readings of outputs than parameters; None where it has more."""
+    """Return the fault of a recording with no more readings of outputs than parameters; None if it has more."""
     readings = sum(int(np.isfinite(recording.steady.column(name)).sum()) for name in OUTPUTS)
     if readings > parameters:
         return None
@@ -50,9 +50,9 @@ def too_few(recording: Recording, parameters: int) -> DataNote | None:
 
 
 def too_smooth(chi2: float, readings: int, least: float) -> DataNote | None:
-    """Return the fault of readings that scatter about a fit by far less than their noise; None where they scatter.
+    """Return the fault of readings with far less scatter about a fit than their noise; None with enough scatter.
 
-    chi2: of all readings; below `least` of their number they are simulated, smoothed, or better than said.
+    chi2: of all readings; below `least` of their number they are simulated, smoothed, or better than stated.
     """
     if chi2 >= least * readings:
         return None
@@ -66,7 +66,7 @@ def too_smooth(chi2: float, readings: int, least: float) -> DataNote | None:
 
 
 def with_notes(recording: Recording, notes: Iterable[DataNote]) -> Recording:
-    """The recording with notes added and, of those that remove, the readings of their channel made nan."""
+    """The recording with notes added; readings of channels in removing notes become nan."""
     found = tuple(notes)
     values = recording.steady.values.copy()
     for note in found:

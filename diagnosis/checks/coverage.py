@@ -1,4 +1,4 @@
-"""Coverage of a recording: inputs that never move, and outputs too few to distinguish a sensor from the pump."""
+"""Coverage of a recording: inputs that never change, and too few outputs to distinguish a sensor from the pump."""
 
 from __future__ import annotations
 
@@ -13,14 +13,14 @@ from system.inputs.channels import INPUTS, ChannelName
 from system.inputs.units import Dimension
 
 NOISE = 8.0  # sigma: the range of noise alone in any recording
-MOVED = 0.02  # of the largest reading that an input moves at least
+MOVED = 0.02  # of the largest reading: least change of an input
 WARMED = 2.0  # K, of a temperature
-FEWEST = 3  # points, fewer of which are refused for their number
+FEWEST = 3  # least number of points of a recording
 
 
 def coverage(recording: Recording) -> Iterator[DataNote]:
-    """Yield a warning of points that are all alike, notes on inputs that stay and a single output; a fault where no
-    input is recorded, nor a trace, which is a curve by itself.
+    """Yield a warning of points that are all equal, notes on constant inputs and a single output; a fault without any
+    recorded input or trace, which is a curve by itself.
     """
     inputs = [channel for channel in recording.channels if channel.name in INPUTS and _is_read(recording, channel)]
     moved = [channel for channel in inputs if _moves(recording, channel)]

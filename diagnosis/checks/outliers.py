@@ -18,7 +18,7 @@ from system.inputs.units import STANDARD_ATMOSPHERE
 ROUNDS = 12
 NEIGHBOURS = 6
 NORMAL = 1.4826  # standard deviation of a normal distribution per median magnitude
-LEAST_LINE = 0.1  # of the largest absolute pressure of a line: less is how well it is held
+LEAST_LINE = 0.1  # of the largest absolute pressure of a line: less is the accuracy of its control
 LEAST_WARMING = 3.0  # K, the same of a temperature
 ORDER = 3  # points at the beginning and at the end of the recording: warming, cooling
 MOST_ENDS = 0.5  # of all points: an axis with more at its ends has no middle
@@ -41,10 +41,10 @@ def outliers(recording: Recording, limits: DataLimits) -> Iterator[DataNote]:
 
     The map is a polynomial in the inputs that vary, fitted by least absolute deviations, of the highest degree up to
     three that leaves a third of the points free; the deviation is that of a point left out of the fit. A deviation of
-    one channel amid the map is a slip (REMOVED). Where other channels deviate too, or at an end of an axis or of the
-    recording, it may be physics or a state of the bench: it is a suspect and stays (SUSPECT). Points which no
-    neighbour vouches for have no note; nor have groups of neighbours (an effect), nor whatever is within `outlier`
-    sigma of repeatability.
+    one channel inside the map is a slip (REMOVED). Where other channels deviate too, or at an end of an axis or of the
+    recording, it may be physics or a state of the bench: it is a suspect and stays (SUSPECT). No note is given for
+    points without near neighbours, for groups of neighbours (an effect), and for deviations within `outlier` sigma of
+    repeatability.
     """
     axes, places = _varied(recording), scaled_places(recording)
     shapes = _shapes(axes)
@@ -69,7 +69,7 @@ def scaled_places(recording: Recording) -> Array:
 
 
 def is_alone(point: int, score: Array, places: Array) -> bool:
-    """True if none of the nearest points deviates by a third as much: a step of the map moves them all."""
+    """True if none of the nearest points deviates by a third as much: a step of the map would move them all."""
     distance = np.sum((places - places[point]) ** 2, axis=1)
     nearest = np.argsort(distance)[1 : NEIGHBOURS + 1]
     return bool(np.all(np.abs(score[nearest]) < abs(score[point]) / 3.0))
@@ -142,7 +142,7 @@ def _ends(rims: Mapping[str, Marks], point: int) -> Iterator[str]:
 
 
 def _rims(recording: Recording, axes: Mapping[ChannelName, Array], limits: DataLimits) -> Mapping[str, Marks]:
-    """Points (N,) at an end of each axis and of the recording, by name; none of an axis of two levels."""
+    """Points (N,) at an end of each axis and of the recording, by name; none for an axis of two levels."""
     warmth = {name: recording.steady.column(name) for name in (ChannelName.T_IN, ChannelName.T_CASE)}
     order = np.arange(len(recording.steady.values))
     rims = {"the recording": (order < ORDER) | (order >= order.size - ORDER)}

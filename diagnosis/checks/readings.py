@@ -15,7 +15,7 @@ from system.inputs.channels import OUTPUTS, ChannelName
 from system.inputs.units import STANDARD_ATMOSPHERE, Dimension, unit_scale
 
 MOST = 0.5  # of a channel's readings: more of them are a fault of its unit
-VACUUM = -1.02 * STANDARD_ATMOSPHERE  # Pa gauge, with what a sensor may be off
+VACUUM = -1.02 * STANDARD_ATMOSPHERE  # Pa gauge, with the error of a sensor
 CODE = re.compile(r"-?(9{3,}(\.9+)?|9{2,}\.9+)")
 NO_SIGNAL = 10.0  # sigma that all other readings are away from 0 at least
 IDLE = 0.05  # displacement ratio below which a flow may be 0
@@ -25,8 +25,8 @@ Marks = NDArray[np.bool_]
 def impossible(recording: Recording) -> Iterator[DataNote]:
     """Yield readings that are put aside one by one, less than half of a channel's.
 
-    Beyond the range of a bench (speed zero or reversed, vacuum, `LIKELY`); nines far from all other readings, as
-    loggers write for none; an output at exactly 0, from which all others are NO_SIGNAL sigma away.
+    Beyond the range of a bench (speed zero or reversed, vacuum, `LIKELY`); nines far from all other readings, a
+    logger's code for no reading; an output at exactly 0, from which all others are NO_SIGNAL sigma away.
     """
     for channel in recording.channels:
         if channel.name in (ChannelName.ANGLE, ChannelName.P_CHAMBER) or channel.name.dimension is None:
@@ -73,7 +73,7 @@ def _nines(channel: RecordedChannel, values: Array) -> Marks:
 
 
 def _silent(recording: Recording, channel: RecordedChannel, values: Array) -> Marks:
-    """Outputs of exactly 0 beside none that is near it, the displacement not being 0."""
+    """Outputs of exactly 0 without others near it, the displacement not being 0."""
     ratio = recording.steady.column(ChannelName.DISPLACEMENT_RATIO)
     zero = (values == 0.0) & ~(np.abs(ratio) < IDLE)
     others = values[np.isfinite(values) & (values != 0.0)]

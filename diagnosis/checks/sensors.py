@@ -12,18 +12,18 @@ from reynolds.numerics.arrays import Array
 from system.inputs.channels import INPUTS, OUTPUTS, ChannelName
 from system.inputs.units import Dimension
 
-LEAST_RUN = 5  # readings alike from which a sensor may be stuck
+LEAST_RUN = 5  # equal readings from which a sensor may be stuck
 MOVED = 0.05  # share of its largest value by which an input moves
 ALIVE = 3.0  # steps by which a channel changes from point to point at half of the points
 SAME = 0.05  # of one sigma: two channels that agree to this are one
 SCATTER = 1e-3  # of a channel's own spread, beyond which it has noise of its own however large its sigma is stated
-BY_CHANCE = 1e-3  # of a noisy input that reads alike on end
+BY_CHANCE = 1e-3  # of a noisy input with equal consecutive readings
 FLOWS = (ChannelName.Q_OUT, ChannelName.Q_IN, ChannelName.Q_CASE)
 TELLING = 4  # channels that do not repeat themselves together
 
 
 def low_resolution(recording: Recording) -> Iterator[DataNote]:
-    """Yield the fault of channels that by their repeatability are noise alone at half of the points."""
+    """Yield the fault of channels that by their repeatability are only noise at half of the points."""
     for name in (ChannelName.SPEED, ChannelName.P_OUT, *OUTPUTS):
         channel, values = recording.channel(name), recording.steady.column(name)
         known = values[np.isfinite(values)]
@@ -39,7 +39,7 @@ def low_resolution(recording: Recording) -> Iterator[DataNote]:
 
 
 def stuck(recording: Recording) -> Iterator[DataNote]:
-    """Yield outputs that read the same at `LEAST_RUN` or more points on end while speed or pressure moved.
+    """Yield outputs with equal readings at `LEAST_RUN` or more consecutive points while speed or pressure changed.
 
     Only of a channel that elsewhere changes by more than `ALIVE` of its steps from point to point; one that never
     changes is a fault.
@@ -62,10 +62,10 @@ def stuck(recording: Recording) -> Iterator[DataNote]:
 
 
 def stuck_inputs(recording: Recording) -> Iterator[DataNote]:
-    """Yield inputs that read the same on end for longer than noise allows, and those that never change.
+    """Yield inputs with longer runs of equal readings than noise allows, and those that never change.
 
-    Steps from point to point are 0 elsewhere with a share p, or q/(2 sqrt(pi) sigma) by step and noise: a run of
-    m among N points comes by chance N p^(m-1) times. One that reads alike in most points is set, not measured.
+    Steps from point to point are 0 elsewhere with a share p, or q/(2 sqrt(pi) sigma) by step and noise: a run of m
+    among N points occurs by chance N p^(m-1) times. An input with equal readings at most points is set, not measured.
     """
     for name in INPUTS:
         channel, values = recording.channel(name), recording.steady.column(name)
@@ -90,7 +90,7 @@ def stuck_inputs(recording: Recording) -> Iterator[DataNote]:
 
 
 def repeated_rows(recording: Recording) -> Iterator[DataNote]:
-    """Yield points that are others to the last digit in every channel: a fault from `LEAST_RUN` of them on."""
+    """Yield points that equal others to the last digit in every channel: a fault from `LEAST_RUN` of them on."""
     values = recording.steady.values
     if int(np.any(np.isfinite(values), axis=0).sum()) < TELLING:
         return
@@ -150,14 +150,14 @@ def noiseless(recording: Recording) -> Iterator[DataNote]:
 
 
 def _dead(values: Array) -> bool:
-    """True where a channel has `LEAST_RUN` readings at least, all of them one."""
+    """True where a channel has `LEAST_RUN` readings at least, all of them equal."""
     known = values[np.isfinite(values)]
     return len(known) >= LEAST_RUN and float(np.ptp(known)) == 0.0
 
 
 def _runs(values: Array) -> Iterator[tuple[int, int]]:
-    """From and to of stretches of equal values."""
-    borders = np.flatnonzero(np.diff(values) != 0.0) + 1  # nan differs from everything
+    """Begin and end of stretches of equal values."""
+    borders = np.flatnonzero(np.diff(values) != 0.0) + 1  # nan differs from all values
     yield from zip([0, *borders], [*borders, len(values)], strict=True)
 
 

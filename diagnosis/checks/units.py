@@ -1,4 +1,4 @@
-"""Readings that no pump gives: units off by a factor, gauge for absolute, swapped channels."""
+"""Readings that no pump has: units wrong by a factor, gauge for absolute, swapped channels."""
 
 from __future__ import annotations
 
@@ -22,20 +22,20 @@ LIKELY = {
     Dimension.VOLUME_FLOW: (0.0, 0.1),
     Dimension.TORQUE: (0.0, 5e4),
 }
-"""SI bounds of what a pump's bench reads (median of the magnitude): to 19000 rpm, -40 .. 150 degC, 6000 L/min."""
+"""SI bounds of readings of a pump's bench (median of the magnitude): to 19000 rpm, -40 .. 150 degC, 6000 L/min."""
 HIGHEST = 1e8  # Pa
 LOWEST_DELIVERY = 2e5  # Pa gauge
 FLOW_RATIO = (0.4, 1.15)  # Q_out over displacement x speed
 INLET_RATIO = (0.4, 1.5)  # Q_in over the same
-APART = 0.15  # share of a flow by which two groups of points differ that are no one pump at one setting
-LIKE = 0.5  # of a flow's step between groups, to which the torque's is alike
+APART = 0.15  # share of a flow by which two groups of points differ that are not of one pump at one setting
+LIKE = 0.5  # of a flow's step between groups, to which the torque's is equal
 TORQUE_RATIO = (0.85, 2.5)  # torque over displacement x pressure difference
 TRACE_RATIO = (0.5, 2.0)  # upper tenth of a chamber's pressure over p_out
 CHARGED = 5e5  # Pa gauge: beyond it an inlet is charged
 CASE_PRESSURE = (-3e4, 1e6)  # Pa gauge: no vacuum, and less than any shaft seal bears
 HOTTEST = 383.15  # K: beyond, oil ages within hours
-DRAIN_WARMER = (-1.0, 80.0)  # K, T_case less T_in: what leaks has been throttled
-BULK_MODULUS = 1.6e9  # Pa, good to a fifth for any mineral oil in use
+DRAIN_WARMER = (-1.0, 80.0)  # K, T_case less T_in: leakage has been throttled
+BULK_MODULUS = 1.6e9  # Pa, within a fifth for any mineral oil in use
 FLOW_SHARE = 0.005  # of a flow to which meters agree
 SEVERAL = "two pumps or settings in one recording; a recording for each"
 Ratio = Callable[[Recording], float | None]
@@ -144,9 +144,9 @@ def _ratios(recording: Recording, displacement: float) -> Iterator[DataNote]:
 
 
 def _other_displacement(flow: float | None, torque: float | None, displacement: float) -> dict[str, Array]:
-    """The displacement in words that agrees with flow and torque, and the factor on a channel that does the same.
+    """The displacement in words that agrees with flow and torque, and the factor on a channel with the same effect.
 
-    flow, torque: medians over what the pump file's displacement gives. Empty where no displacement agrees with both.
+    flow, torque: medians over those of the pump file's displacement. Empty where no displacement agrees with both.
     """
     if flow is None or torque is None or flow <= 0.0 or not _Span(*TORQUE_RATIO).holds(torque / flow):
         return {}
@@ -155,7 +155,7 @@ def _other_displacement(flow: float | None, torque: float | None, displacement: 
 
 
 def _swept(recording: Recording, displacement: float) -> Array:
-    """Displacement x speed, m3/s, at the points' displacement ratios; full where none is recorded."""
+    """Displacement x speed, m3/s, at the points' displacement ratios; full if not recorded."""
     ratio = recording.steady.column(ChannelName.DISPLACEMENT_RATIO)
     swept: Array = np.where(np.isfinite(ratio), ratio, 1.0) * recording.steady.column(ChannelName.SPEED)
     return displacement / (2.0 * math.pi) * swept
@@ -289,10 +289,10 @@ def trace_sizes(recording: Recording) -> Iterator[DataNote]:
 
 
 def _groups(recording: Recording, displacement: float) -> Iterator[DataNote]:
-    """Flows in two groups, a tenth of the points or more in each, that one pump at one setting does not give.
+    """Flows in two groups, a tenth of the points or more in each, that one pump at one setting does not have.
 
-    A fault where the torque steps by as much between the same points: of the flow alone it may be a meter, or a starved
-    inlet.
+    A fault where the torque steps by as much between the same points: a step of the flow alone may be due to a meter,
+    or to a starved inlet.
     """
     swept = _swept(recording, displacement)
     for name in (ChannelName.Q_IN, ChannelName.Q_OUT):
@@ -343,6 +343,6 @@ def _balance(recording: Recording) -> Iterator[DataNote]:
 
 
 def _median(values: Array) -> float | None:
-    """Median of the finite values, None where there is none."""
+    """Median of the finite values, or None."""
     known = values[np.isfinite(values)]
     return float(np.median(known)) if len(known) else None

@@ -16,12 +16,12 @@ from reynolds.numerics.arrays import Array
 from system.inputs.units import TURN
 
 SIGMA_OF_MEDIAN = 1.4826  # of a normal distribution, over its median deviation
-SETTLING = 100  # samples of drawn noise thrown away
+SETTLING = 100  # samples of drawn noise discarded
 
 
 @dataclass(frozen=True)
 class AngleWindow:
-    """Shaft angles in rad from start to end where a trace stands out, and the events of the ports within.
+    """Shaft angles in rad from start to end where a trace deviates significantly, and the events of the ports within.
 
     end < start where the window holds the inner dead centre.
     """
@@ -35,9 +35,9 @@ class AngleWindow:
 def scan_angles(
     traces: Sequence[TraceMisfit], events: Sequence[PortEvent], limits: LocateLimits, seed: int
 ) -> AngleWindow | None:
-    """The window of shaft angle that stands out most among all traces, or None above the threshold of p.
+    """The window of shaft angle of greatest significance among all traces, or None above the threshold of p.
 
-    Traces are taken at equal steps of angle over one turn. p counts all windows and all traces.
+    Traces have equal steps of angle over one turn. p counts all windows and all traces.
     """
     found = [_scan(trace, limits, seed + number) for number, trace in enumerate(traces)]
     if not found:
@@ -53,7 +53,7 @@ def scan_angles(
 
 
 def _scan(trace: TraceMisfit, limits: LocateLimits, seed: int) -> tuple[float, float, float]:
-    """Start, end and p of the window of one trace whose mean stands out the most.
+    """Start, end and p of the window of one trace with the most significant mean.
 
     Means over all windows (2 to 60 degrees, each sqrt 2 wider than the last) over their own sigma; p by the
     greatest of drawn noise (Westfall and Young 1993).
@@ -90,7 +90,7 @@ def _memory(residual: Array, limits: LocateLimits) -> tuple[float, float]:
     """Lag-1 correlation and scale of a trace's noise (Yule 1927), outside its most striking window.
 
     The scale is at least one stated sigma, and more if the whole trace scatters by more: then only a window that
-    stands out of the rest of the turn counts.
+    exceeds the scatter of the rest of the turn counts.
     """
     sums = [_window_sums(residual[:, None], width)[:, 0] / np.sqrt(width) for width in _widths(len(residual), limits)]
     which, first = np.unravel_index(int(np.abs(np.stack(sums)).argmax()), (len(sums), len(residual)))
@@ -102,7 +102,7 @@ def _memory(residual: Array, limits: LocateLimits) -> tuple[float, float]:
 
 
 def _without_nuisances(trace: TraceMisfit, whitened: Array) -> Array:
-    """Whitened columns (K, m) less what parameters, each of prior N(0, 1), explain."""
+    """Whitened columns (K, m) less the part that parameters, each of prior N(0, 1), explain."""
     columns = trace.nuisances / trace.sigma[:, None]
     factor = cho_factor(columns.T @ columns + np.eye(columns.shape[1]))
     left: Array = whitened - columns @ cho_solve(factor, columns.T @ whitened)

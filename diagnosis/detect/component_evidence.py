@@ -93,7 +93,7 @@ def likeliest_multiplier(study: Study, component: Component, thresholds: Thresho
 
 
 def departing_inputs(study: Study, component: Component, thresholds: Thresholds) -> tuple[ChannelName, ...]:
-    """Inputs of the likeliest departure of a component's law; none where its share is the same everywhere."""
+    """Inputs of the likeliest departure of a component's law; none where its share is constant."""
     law, shapes = study.components[component], departure_shapes(study.recording)
     return departure_evidence(study.base, law, shapes, thresholds.locate.multiplier_widths).family.inputs
 
@@ -121,7 +121,7 @@ def group_evidences(ranking: Ranking) -> tuple[tuple[ComponentGroup, float], ...
 
 
 def tied(ranking: Ranking, odds: float) -> tuple[Component, ...]:
-    """The components within `odds` nats of the best; none where the best is not that far ahead of nothing."""
+    """The components within `odds` nats of the best; none where the best is not that far ahead of no departure."""
     if not ranking or ranking[0][1] < odds:
         return ()
     return tuple(component for component, evidence in ranking if ranking[0][1] - evidence < odds)

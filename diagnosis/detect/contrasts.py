@@ -1,6 +1,6 @@
 """Contrasts of patterns over the map with the residual of a fit, the fitted parameters projected out.
 
-Never plain means of residuals: parameters that are fitted smear a mismatch over the whole map.
+Never plain means of residuals: fitted parameters spread a mismatch over the whole map.
 A contrast w = g.r / sqrt(g.P g), P = 1 - A H^-1 A^T, is N(0, 1) where the model holds.
 """
 

@@ -29,10 +29,10 @@ class ChannelMisfit:
 
 @dataclass(frozen=True)
 class Detection:
-    """Goodness of fit, the candidates by strength, how surprising the strongest is, and flags.
+    """Goodness of fit, the candidates by strength, the significance of the strongest, and flags.
 
-    p_value, chi2_per_dof: of the objective of the linear posterior with n degrees of freedom, n readings; chance:
-    of any candidate as striking as the strongest where nothing is there.
+    p_value, chi2_per_dof: of the objective of the linear posterior with n degrees of freedom, n readings; chance: of
+    any candidate as significant as the strongest without a mismatch.
     """
 
     p_value: float
@@ -67,8 +67,8 @@ def detect(study: Study, thresholds: Thresholds) -> Detection:
 def confirmed(study: Study, found: Detection, null: Posterior, thresholds: Thresholds) -> Detection:
     """The same with the chance about the null's fit, where that holds and gives the larger chance.
 
-    About the prior mean the curvature within tolerances (leakage grows with the cube of a film) looks like a
-    mismatch. Far from the prior mean, at a fit that does not hold (`holds`), its slopes are of no use.
+    About the prior mean the curvature within tolerances (leakage grows with the cube of a film) looks like a mismatch.
+    Far from the prior mean, at a fit that does not hold (`holds`), its slopes are useless.
     """
     if not holds(null, thresholds):
         return found
@@ -86,7 +86,7 @@ def holds(null: Posterior, thresholds: Thresholds) -> bool:
 def most_striking(
     posterior: Posterior, candidates: Sequence[Candidate], thresholds: Thresholds
 ) -> tuple[float, tuple[tuple[Candidate, Score], ...]]:
-    """Candidates by the rareness of their scores about a fit; the chance of one as rare where nothing is left."""
+    """Candidates by the significance of their scores about a fit; the chance of such a one without a mismatch."""
     scored = [(candidate, score(posterior, candidate.column)) for candidate in candidates]
     log_p = log_chances(np.array([found.z for _, found in scored]), candidates)
     chance = family_chance(posterior, candidates, log_p, thresholds.mismatch.draws, thresholds.seeds.detect)
@@ -94,7 +94,7 @@ def most_striking(
 
 
 def channel_misfits(study: Study) -> dict[ChannelName, ChannelMisfit]:
-    """Chi-square of each channel over what the model leaves it free, and its share of the excess."""
+    """Chi-square of each channel over its free part beside the model, and its share of the excess."""
     found = misfit(study.base)
     observed, free = (found.pull**2).sum(axis=0), found.variance.sum(axis=0)
     observed, free = map(study.by_shown, (observed, free))

@@ -29,11 +29,11 @@ def holm(p_values: Array) -> float:
 
 
 def family_chance(posterior: Posterior, candidates: Sequence[Candidate], log_p: Array, draws: int, seed: int) -> float:
-    """The chance that any candidate is as striking as the strongest, ln p (m,), without a mismatch.
+    """The chance that any candidate is as significant as the strongest, ln p (m,), without a mismatch.
 
     Scores of similar candidates are correlated: they are drawn from N(0, V^T P V), their distribution without a
-    mismatch, and the least p of each draw is counted (Westfall and Young 1993, min P). Where fewer than one draw
-    in `draws` is as striking, Holm's bound, which ignores the correlation, is the smaller.
+    mismatch, and the least p of each draw is counted (Westfall and Young 1993, min P). Where fewer than one draw in
+    `draws` is as significant, Holm's bound, which ignores the correlation, is the smaller.
     """
     bound = holm(np.exp(log_p))
     columns = np.stack([each.column for each in candidates], axis=1) if candidates else np.zeros((0, 0))

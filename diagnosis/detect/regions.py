@@ -1,4 +1,4 @@
-"""Regions of the map: thirds of each axis that stand out, and the box of a channel's mismatch."""
+"""Regions of the map: thirds of each axis with a significant mismatch, and the box of a channel's mismatch."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ Marks = NDArray[np.bool_]
 
 @dataclass(frozen=True)
 class MapRegion:
-    """A part of the map where a channel stands out: bounds in SI by input name, contrast in sigma, text."""
+    """Part of the map with a significant mismatch of a channel: bounds in SI by input name, contrast in sigma, text."""
 
     channel: ChannelName
     lower: Mapping[str, float]
@@ -33,7 +33,7 @@ class MapRegion:
 def flagged(
     by_channel: Mapping[ChannelName, Contrasts], axes: Mapping[ChannelName, Array], thresholds: Thresholds
 ) -> tuple[MapRegion, ...]:
-    """The thirds of all axes and channels that stand out, strongest first; `flag_rate` of them falsely, at most.
+    """The significant thirds of all axes and channels, strongest first; `flag_rate` of them falsely, at most.
 
     Benjamini and Hochberg (1995), two-sided.
     """
@@ -132,7 +132,7 @@ def _half_lines(axis: ChannelName, values: Array, parts: int) -> list[_HalfLine]
 
 
 def _edges(values: Array, parts: int) -> list[float]:
-    """Edges of `parts` with about the same number of points, each in the widest gap near by."""
+    """Edges of `parts` with about the same number of points, each in the widest gap nearby."""
     ordered = np.sort(values)
     gaps = np.diff(ordered)
     reach = max(len(values) // (2 * parts), 1)

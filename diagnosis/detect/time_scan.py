@@ -27,7 +27,7 @@ class TimeKind(Enum):
 
 @dataclass(frozen=True)
 class TimeMark:
-    """A drift, or an onset at point `at`, of a channel; `parameter`: that wanders with it, or None."""
+    """A drift, or an onset at point `at`, of a channel; `parameter`: one that drifts with it, or None."""
 
     kind: TimeKind
     channel: ChannelName
@@ -62,7 +62,7 @@ def scan_time(study: Study, thresholds: Thresholds) -> TimeMark | None:
 
 
 def remains(mark: TimeMark, study: Study, fit: Posterior, thresholds: Thresholds) -> bool:
-    """True if a drift or an onset is still there in what an explanation leaves: what that explains is not of time."""
+    """True if a drift or an onset remains beside an explanation: a mismatch that it explains is not of time."""
     at = study.channels.index(mark.channel)
     own = contrasts(fit, at)
     place = 0 if mark.kind is TimeKind.DRIFT else mark.at - thresholds.locate.ends + 1
@@ -85,7 +85,7 @@ def wandering(study: Study, thresholds: Thresholds) -> str | None:
 
 
 def _patterns(points: int, ends: int) -> Array:
-    """(N, m): a straight line, then a step at each point but those near the ends."""
+    """(N, m): a straight line, then a step at each point except those near the ends."""
     order = np.arange(points)
     steps = order[:, None] >= order[None, ends : points - ends + 1]
     return np.column_stack([np.linspace(-0.5, 0.5, points), steps.astype(float)])

@@ -1,4 +1,4 @@
-"""Two and three effects at once: which to add to the best so far, judged in the linear model, then refitted."""
+"""Two and three effects at once: additions to the best so far, judged in the linear model, then refitted."""
 
 from __future__ import annotations
 
@@ -53,7 +53,7 @@ def _weight(explanation: Explanation) -> float:
 def _additions(
     study: Study, best: Explanation, known: Sequence[Explanation], thresholds: Thresholds
 ) -> list[Explanation]:
-    """The likeliest additions to the best explanation, about its refit, without those that gain nothing."""
+    """The likeliest additions to the best explanation, about its refit, without those without gain."""
     if best.posterior is None:
         return []
     posterior = settled(best.posterior)
@@ -95,7 +95,7 @@ def _best_member(study: Study, posterior: Posterior, both: Hypothesis, threshold
 
 
 def _apart(one: Hypothesis, other: Hypothesis) -> bool:
-    """True if two explanations set different parameters free: other effects, or one law at other gaps."""
+    """True if two explanations have different free parameters: other effects, or one law at other gaps."""
     return not set(one.open_names) & set(other.open_names) and not _acting(one) & _acting(other)
 
 

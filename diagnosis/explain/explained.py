@@ -62,7 +62,7 @@ def unexplained_traces(study: Study, explanation: Explanation, thresholds: Thres
 
 
 def _closed(posterior: Posterior, own: Hypothesis) -> Array:
-    """Values (k,) of a refit with the parameters that its hypothesis sets free at 0."""
+    """Values (k,) of a refit with the free parameters of its hypothesis at 0."""
     free = np.array([each.name in own.open_names for each in posterior.parameters])
     return values_at(posterior.parameters, np.where(free, 0.0, posterior.xi))
 

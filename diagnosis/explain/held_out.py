@@ -1,4 +1,4 @@
-"""Prediction of points that took no part in a fit: regions with a veto, and random fifths."""
+"""Prediction of points not used in a fit: regions with a veto, and random fifths."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from system.inputs.channels import ChannelName
 
 Marks = NDArray[np.bool_]
 
-THIRD = 1.0 / 3.0  # of a scaled axis -1 .. 1: what lies beyond it is an outer third
+THIRD = 1.0 / 3.0  # of a scaled axis -1 .. 1: points beyond it are in an outer third
 PARTS = 5
 
 
@@ -29,8 +29,8 @@ def held_out(
     """Gains of an explanation over the null in regions left out, and residuals of random fifths left out.
 
     rival: for an explanation by a wrong value, the null within its tolerances (`refit.within_tolerance`). The gains are
-    over this fit, and only `beyond_chance` vetoes: both are of one form, and several small losses are what the wider
-    prior costs.
+    over this fit, and only `beyond_chance` vetoes: both are of one form, and several small losses are the cost of the
+    wider prior.
 
     The gain of a fold is the ln ratio of the two joint predictive densities of its readings, each fit repeated
     without them by one linear step. For the veto (`has_veto`) gains are divided by the error of form (`by_form`).
@@ -60,7 +60,7 @@ def held_out(
 def regions(study: Study, fits: tuple[Posterior, ...], limits: HeldOutLimits) -> Mapping[str, Marks]:
     """Points (N,) of each region by name: outer thirds of the map's axes, at most half of all points.
 
-    A region is excluded if a parameter of one of the fits would be open without it: it tests the prior.
+    A region is excluded if a parameter of one of the fits would be undetermined without it: it tests the prior.
     """
     speed, pressure, stroke, warmth = study.axes.T
     all_regions = {
@@ -80,7 +80,7 @@ def regions(study: Study, fits: tuple[Posterior, ...], limits: HeldOutLimits) ->
 
 
 def has_veto(gains: Array, limits: HeldOutLimits) -> bool:
-    """True if regions veto: more than chance allows for so many, or several that the others do not outweigh."""
+    """True if regions veto: by more than chance allows for so many, or by several losses that gains do not outweigh."""
     negative = np.count_nonzero(gains < limits.negative_gain)
     outweighed = negative >= limits.veto_regions and gains.sum() < 0.0
     return bool(outweighed or beyond_chance(gains, limits))
@@ -89,8 +89,8 @@ def has_veto(gains: Array, limits: HeldOutLimits) -> bool:
 def beyond_chance(gains: Array, limits: HeldOutLimits) -> bool:
     """True if the regions lose more than chance allows for so many.
 
-    Under a true explanation exp(-gain) has a mean of at most 1 in each region, and so has its mean over all
-    regions: it exceeds K with a chance of 1/K at most (Markov), however many regions there are.
+    Under a true explanation exp(-gain) has a mean of at most 1 in each region, and so has its mean over all regions: it
+    exceeds K with a chance of 1/K at most (Markov), for any number of regions.
     """
     return bool(gains.size and logsumexp(-gains) - np.log(gains.size) > -limits.veto_gain)
 
@@ -107,7 +107,7 @@ def _tests_a_prior(posterior: Posterior, rows: Marks, limits: HeldOutLimits) -> 
 
 
 def _density(posterior: Posterior, points: Marks) -> float:
-    """ln of the joint density of the points' readings in SI, but for a constant that all fits share."""
+    """ln of the joint density of the points' readings in SI, up to a constant that all fits share."""
     white = np.log(np.einsum("nii->ni", posterior.whitening.factors))[points]
     return log_predictive(posterior, _rows(posterior, points)) + float(white.sum())
 

@@ -85,7 +85,7 @@ class Hypothesis:
 
 
 def hypotheses(study: Study, thresholds: Thresholds) -> tuple[Hypothesis, ...]:
-    """All single hypotheses with any influence on the readings, nothing first; prior probabilities sum to 1.
+    """All single hypotheses with any influence on the readings, "nothing" first; prior probabilities sum to 1.
 
     The ids of a kind share its mass evenly, the places of an id share that of the id.
     """
@@ -121,7 +121,7 @@ def gap_of(parameter: str) -> Gap | None:
 def simulator_of(study: Study, hypothesis: Hypothesis, thresholds: Thresholds) -> PumpSimulator:
     """The simulator with a hypothesis's laws on (first member of each grid) and its parameters widened.
 
-    Parameters that no hypothesis sets free stay within `tolerated` sigma: a flow coefficient of the ports nine
+    Parameters that are not free in any hypothesis stay within `tolerated` sigma: a flow coefficient of the ports nine
     sigma off would explain a starved pump, but no drawing allows it.
     """
     simulator = study.simulator

@@ -16,9 +16,9 @@ from system.effects.effect import EffectId, Kind
 
 
 def by_form(gained: float, thresholds: Thresholds) -> float:
-    """Error of form of a law that gains `gained` nats over nothing, in units of the noise's gap; 1 at least.
+    """Error of form of a law that gains `gained` nats over the null, in units of the noise's gap; 1 at least.
 
-    A form off by a tenth leaves the share `true_to` of its gain: up to 300 nats that is less than the gap of a class.
+    A form wrong by a tenth leaves the share `true_to` of its gain: up to 300 nats that is less than the gap of a class.
     """
     return max(1.0, thresholds.form.true_to * gained / thresholds.name.class_gap)
 
@@ -29,7 +29,7 @@ def class_gap(explanations: Sequence[Explanation], thresholds: Thresholds) -> fl
 
 
 def place_gap(explanations: Sequence[Explanation], thresholds: Thresholds) -> float:
-    """The same of one law at several places: the share `placed_by` of what is gained.
+    """The same of one law at several places: the share `placed_by` of its gain.
 
     By 24 recordings of the development set with one film that opens or warms: the law at the true gap was up to
     .06 of its gain behind that at another gap, and in half of them less than .02 ahead or behind.
@@ -46,10 +46,10 @@ def behind_unknown(best: Explanation, explanations: Sequence[Explanation]) -> fl
 def chance_of_form(best: Explanation, explanations: Sequence[Explanation], thresholds: Thresholds) -> float:
     """Probability that the best law of the catalogue, in another form, has been left out, and not unknown physics.
 
-    Unknown physics departs as it likes; a law of another make leaves a share s of the nats that it gains. Bayes' rule
-    with the priors of both and their densities at s: `lagging` exp(-s/`lag`)/`lag` of a law, `unmet` (uniform) of
-    unknown physics. 1 where the law is not behind; no less than by the evidences alone, which is all that counts for a
-    wrong parameter and a faulty sensor: they have no other form.
+    Unknown physics departs freely; a law of another make leaves a share s of the nats that it gains. Bayes' rule with
+    the priors of both and their densities at s: `lagging` exp(-s/`lag`)/`lag` of a law, `unmet` (uniform) of unknown
+    physics. 1 where the law is not behind; no less than by the evidences alone, which alone count for a wrong parameter
+    and a faulty sensor: they have no other form.
 
     By 23 recordings of the development set (both plants, z = 8 to 30): 2 of 13 laws of another make lag, by .07 and
     .12; 8 of 10 effects that no catalogue has are not met, which leaves .15 to .9.

@@ -27,7 +27,7 @@ from system.work.processes import ProcessPool
 from system.work.progress import Report
 
 PAIR = 2
-"""Refits side by side; whatever the number of processes, so that the answer does not depend on it."""
+"""Number of refits side by side for any number of processes, so that the answer does not depend on it."""
 
 
 def refit(
@@ -35,11 +35,11 @@ def refit(
 ) -> Explanation:
     """The hypothesis at the peak of its posterior; of a grid the best member, its evidence averaged over all.
 
-    A fault has no typical multiple of the tolerance: if a widened parameter goes farther than `reach`, its prior
-    is a mixture, with a tenth of its mass ten times as wide (a size as likely in each decade). Where the fit starts
-    at the largest trial size and its peak lies beyond `reach`, that tenth is all that counts. hopeless: an
-    objective above which a fit stops early. part: a refitted explanation by some of the effects, from whose peak
-    the fit starts. Raises NotConverged if no member converges.
+    A fault has no typical multiple of the tolerance: if a widened parameter goes farther than `reach`, its prior is a
+    mixture, with a tenth of its mass ten times as wide (a size as likely in each decade). Where the fit starts at the
+    largest trial size and its peak lies beyond `reach`, only that tenth counts. hopeless: an objective above which a
+    fit stops early. part: a refitted explanation by some of the effects, from whose peak the fit starts. Raises
+    NotConverged if no member converges.
     """
     limits = thresholds.fit
     near = _begun(study, replace(hypothesis, reach=1.0), thresholds, part)
@@ -119,8 +119,8 @@ def _largest(parameters: Sequence[Parameter], xi: Array, names: Sequence[str]) -
 def _refitted(study: Study, begun: _Begun, thresholds: Thresholds, hopeless: float) -> Explanation:
     """The hypothesis with one width of prior.
 
-    Members of a grid that are not refitted count as 0, so that their average is never too high. A member that stays
-    hopelessly behind one that is fitted already stops early.
+    Members of a grid that are not refitted count as 0, so that their average is never too high. The fit of a member
+    that is hopelessly behind a fitted one stops early.
     """
     limits = replace(thresholds.fit_limits(study.scant), hopeless=hopeless)
     if _gross(begun.about, thresholds):
@@ -186,9 +186,9 @@ def refit_all(
 ) -> tuple[tuple[Explanation, ...], tuple[str, ...]]:
     """The refits of some hypotheses in their order, by a crew, and the failures as text.
 
-    The first, which should be the likeliest, is refitted before the others and shows what is hopeless. part: a refitted
-    explanation, from whose peak those start that it is a part of. It shows what is hopeless beside it, so that the
-    first PAIR are refitted at once.
+    The first, which should be the likeliest, is refitted before the others and gives the limit of hopeless fits. part:
+    a refitted explanation, from whose peak those start that it is a part of. It gives that limit too, so that the first
+    PAIR are refitted at once.
     """
     found: dict[int, tuple[Explanation, str | None]] = {}
     numbered = list(enumerate(listed))
@@ -233,7 +233,7 @@ class _Begun:
     failed: tuple[NotConverged, ...]
 
     def strain(self, study: Study, thresholds: Thresholds) -> float:
-        """The largest |xi| of the widened parameters at the first start, 0 where there is none."""
+        """The largest |xi| of the widened parameters at the first start, 0 without any."""
         if not self.members or not self.hypothesis.widened:
             return 0.0
         member, begin = self.members[0]
@@ -243,7 +243,7 @@ class _Begun:
 def _begun(study: Study, hypothesis: Hypothesis, thresholds: Thresholds, part: Explanation | None) -> _Begun:
     """Starts of the fits of a hypothesis.
 
-    Only the likeliest members in the linear model are tried; of a gross mismatch, where slopes say little, all.
+    Only the likeliest members in the linear model are tried; for a gross mismatch, where slopes are unreliable, all.
     """
     about, fresh = _about(study, hypothesis, part)
     members = hypothesis.members if _gross(about, thresholds) else _likeliest(study, hypothesis, about, thresholds)

@@ -18,7 +18,7 @@ LARGEST_STEP = 1.0  # of an exponent
 class Scaling:
     """Residual of a channel ~ powers of speed, pressure, displacement, viscosity: exponents and their sigma.
 
-    above: the channel reads more than is simulated.
+    above: the channel reads more than simulated.
     """
 
     channel: ChannelName
@@ -34,7 +34,7 @@ def scaling(
 
     signal, sigma: (N,) in SI; coordinates: (N,) each, positive where a point counts; a coordinate whose values vary by
     less than `least_range` times gets no exponent. Sigma of the exponents is scaled with the residual of the power law
-    (Birge 1932), where that is more than noise. None where too few points are left or no power law is found.
+    (Birge 1932), where that is more than noise. None for too few points or without a power law.
     """
     used = np.isfinite(signal) & (sigma > 0)
     for values in coordinates.values():

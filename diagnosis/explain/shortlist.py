@@ -53,7 +53,7 @@ def first_that_gain(screened: Sequence[Explanation], thresholds: Thresholds) -> 
 def worth_a_refit(linear: Explanation, null: Explanation, thresholds: Thresholds) -> float:
     """Gain over the null in the linear model below which no explanation is refitted, where that model is right.
 
-    It is where it gives the evidence of the null's own fit: a cheap fit of what gains nothing would find nothing.
+    It is where it gives the evidence of the null's own fit: there, refits of candidates without gain are useless.
     """
     is_right = abs(linear.log_evidence - null.log_evidence) < thresholds.name.odds
     return thresholds.fit.worth if is_right else -inf
@@ -62,10 +62,10 @@ def worth_a_refit(linear: Explanation, null: Explanation, thresholds: Thresholds
 def wrong_parameters(
     study: Study, screened: Sequence[Explanation], thresholds: Thresholds
 ) -> tuple[tuple[Explanation, FirstLook], ...]:
-    """Wrong parameters to refit where there is a mismatch, each with its first look.
+    """Wrong parameters to refit for a mismatch, each with its first estimate.
 
-    Large changes of a film move the slopes of all others, so that the linear model misplaces them; those with the
-    least objective at a first look are refitted.
+    Large changes of a film change the slopes of all others, so that the linear model ranks them wrongly; those with the
+    least objective at a first estimate are refitted.
     """
     wrong = [each for each in _ranked(screened) if each.hypothesis.kind is Kind.WRONG_PARAMETER]
     looks = [(each, _look(study, each, thresholds)) for each in wrong]

@@ -1,4 +1,4 @@
-"""Places where fits start: trial sizes of free parameters, all others at their optimum in a linear model."""
+"""Starts of fits: trial sizes of free parameters, all others at their optimum in a linear model."""
 
 from __future__ import annotations
 
@@ -57,11 +57,11 @@ def start(
 
 
 def nearest_start(study: Study, simulator: Simulator, about: Expansion, begin: Array, way: tuple[float, ...]) -> Array:
-    """Of the way (k,) from the linear model's own place to a start the point of least objective, by predictions.
+    """The point of least objective, by predictions, on the way (k,) from the linear model's own place to a start.
 
-    way: shares of it that are tried.
-    A linear model promises more than it keeps far from its place, or where readings have kinks. Where its own place
-    is the best, the parameters that are new to it are off. Raises NotConverged where nothing can be simulated.
+    way: shares of it that are tried. Far from its place, or where readings have kinks, a linear model predicts more
+    decrease than is achieved. Where its own place is the best, the parameters that are new to it are at zero. Raises
+    NotConverged without any point that can be simulated.
     """
     own = about.posterior
     known = np.array([any(one.name == other.name for other in own.parameters) for one in simulator.parameters])
@@ -130,7 +130,7 @@ def _signed(sizes: tuple[float, ...], parameter: Parameter) -> list[float]:
 class _Nuisances:
     """Parameters of a linear model that are not tried themselves, with their values and slopes there.
 
-    centre (k,): xi of the simulator's parameters, those of the linear model, 0 where it has none.
+    centre (k,): xi of the simulator's parameters, those of the linear model, 0 for others.
     """
 
     def __init__(

@@ -1,8 +1,8 @@
-"""The next test: points, and with them a meter where one is needed, at which two explanations differ most.
+"""The next test: points, and a meter if needed, at which two explanations differ most.
 
 The gain of readings is the divergence of the two predictive distributions (Kullback and Leibler 1951; Box and Hill
-1967). One point is asked for where it settles the two, else up to POINTS different ones, chosen together as those of a
-campaign are (`diagnosis.next_point.discrimination`).
+1967). One point is proposed if it decides between the two, else up to POINTS different ones, chosen together as those
+of a campaign are (`diagnosis.next_point.discrimination`).
 """
 
 from __future__ import annotations
@@ -30,8 +30,8 @@ from system.pump.operating import OperatingPoint
 
 LOOKED_AT = 48  # points whose slopes are computed: those where the predictions differ most
 LEVELS = (6, 6, 3, 3, 2)  # of speed, delivery pressure, displacement ratio, case temperature, inlet pressure of the box
-POINTS = 3  # that a test asks for, at most
-LEAST = 0.02  # nats that a further point has to promise
+POINTS = 3  # largest number of points of a test
+LEAST = 0.02  # least predicted gain of a further point, nats
 
 
 @dataclass(frozen=True)
@@ -71,13 +71,13 @@ class NextPoint:
     """The best test of a box for two explanations, and the odds after `limits.readings` readings at each of its points.
 
     point, others: the points, the one of the largest gain first; point.temperature: of the case; inlet_temperature: in
-    K, by the recording's difference to the case; meter: what the bench is asked to add for it, None for nothing.
-    between: the two as text, the likelier first; separates: their ids. before: ln odds of the first against the second
-    by the recording; gain: mean gain of the readings in nats; after: mean ln odds for the true one; chance: of odds of
-    20 to 1 for it, each the lesser of both cases (first or second true). repeats: readings at each point for a gain of
-    `limits.enough`, None if `limits.most_repeats` do not reach it. expected: the reading in which the two differ most
-    at `point`; ranked: all points with a computed gain by themselves, the best first; note: why nothing farther out is
-    asked for, as text; beyond: the box exceeds the recorded range.
+    K, by the recording's difference to the case; meter: the additional meter that it needs, or None. between: the two
+    as text, the likelier first; separates: their ids. before: ln odds of the first against the second by the recording;
+    gain: mean gain of the readings in nats; after: mean ln odds for the true one; chance: of odds of 20 to 1 for it,
+    each the lesser of both cases (first or second true). repeats: readings at each point for a gain of `limits.enough`,
+    None if `limits.most_repeats` do not reach it. expected: the reading in which the two differ most at `point`;
+    ranked: all points with a computed gain by themselves, the best first; note: the reason for no point farther out, as
+    text; beyond: the box exceeds the recorded range.
     """
 
     box: BenchBox
@@ -125,14 +125,14 @@ class NextPoint:
 
     @property
     def meter_words(self) -> str:
-        """The meter that the bench needs in addition, in words; empty for none."""
+        """The meter that the bench needs in addition, in words; empty without one."""
         return "" if self.meter is None else WORDS[self.meter.name]
 
 
 def next_point(
     study: Study, pump: PumpDescription, box: BenchBox, first: Contender, second: Contender, limits: NextPointLimits
 ) -> NextPoint:
-    """The points of a box at which readings of the bench as it is separate two explanations best."""
+    """The points of a box at which readings of the present bench separate two explanations best."""
     return _Ground.of(study, pump, box, (first, second), limits, ()).test(())
 
 
@@ -145,7 +145,7 @@ def metered_test(
     limits: NextPointLimits,
     further: Sequence[RecordedChannel],
 ) -> NextPoint:
-    """The best test of a box with one of some further meters: that of the largest chance to settle the two."""
+    """The best test of a box with one of some further meters: that of the largest chance of a decision."""
     ground = _Ground.of(study, pump, box, (first, second), limits, tuple(further))
     return max((ground.test((one,)) for one in further), key=lambda test: (test.chance, test.after))
 
@@ -207,7 +207,7 @@ class _Ground:
         )
 
     def _chosen(self, foretold: Foretold, gains: Array, before: float) -> NDArray[np.int64]:
-        """The points of the test: the best alone where it settles the two or they are settled, else up to POINTS."""
+        """The points of the test: the best alone if it decides the two or they are decided, else up to POINTS."""
         best = np.array([np.argmax(gains)])
         settled = _led_to(foretold.together(best), before, self.limits)[1] >= self.limits.promised
         if settled or abs(before) >= self.limits.settled:
@@ -229,12 +229,12 @@ class _TestPoints:
     readings: int
 
     def total(self, counts: NDArray[np.int64]) -> float:
-        """Nats that the counted points bring together."""
+        """Nats of the counted points together."""
         chosen = np.flatnonzero(counts)
         return float(self.foretold.together(chosen).gain(self.readings)) if chosen.size else 0.0
 
     def promised(self, counts: NDArray[np.int64]) -> Array:
-        """(N,), nats that each point brings beside the counted ones."""
+        """(N,), nats that each point adds to the counted ones."""
         chosen, every = np.flatnonzero(counts), np.arange(len(counts))
         beside = np.column_stack([np.tile(chosen, (len(counts), 1)), every])
         return np.asarray(self.foretold.together(beside).gain(self.readings) - self.total(counts))
@@ -266,7 +266,7 @@ def _separation(
 
 
 def _expected(found: Outlook, place: int, meters: tuple[RecordedChannel, ...]) -> ExpectedReading:
-    """The reading in which the two differ most at a point: of the meter that is added, where one is."""
+    """The reading in which the two differ most at a point: of the added meter, if any."""
     count = len(found.study.channels)
     read = [count + found.further.index(one) for one in meters] or list(range(count))
     one, other = found.first[place], found.second[place]

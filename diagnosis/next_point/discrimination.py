@@ -1,13 +1,14 @@
-"""Points that tell explanations apart, several at a time: what each of them promises, and the choice among them.
+"""Points that separate explanations, several at a time: the predicted gain of each, and the choice among them.
 
-A pair of explanations has a level, the mean ln odds of the true one by all readings so far. A point promises
+A pair of explanations has a level, the mean ln odds of the true one by all readings so far. The predicted gain of a
+point is
 
     sum over pairs of min(level + gain, wanted) - min(level, wanted)
 
 with the gain of readings there (`forecast.Forecast.gain`: the divergence of Box and Hill 1967; where both explanations
-are equally uncertain, half the squared distance of T-optimality, Atkinson and Fedorov 1975). The bound keeps a pair
-that is settled from drawing more readings. Points are taken one after the other, each at its promise beside those
-before it, then exchanged for better ones as long as the sum grows (Fedorov 1972).
+are equally uncertain, half the squared distance of T-optimality, Atkinson and Fedorov 1975). The bound keeps a decided
+pair from drawing more readings. Points are chosen one after the other, each by its gain beside those before it, then
+exchanged for better ones as long as the sum grows (Fedorov 1972).
 """
 
 from __future__ import annotations
@@ -28,7 +29,7 @@ SLACK = 1e-9
 
 
 def promise(levels: Array, gains: Array, wanted: float) -> Array:
-    """(N,), nats that a reading at each of N points brings P pairs of levels (P,) by its gains (P, N), bounded."""
+    """(N,), nats of a reading at each of N points for P pairs of levels (P,) by its gains (P, N), bounded."""
     bounded = np.minimum(levels[:, None] + gains, wanted) - np.minimum(levels, wanted)[:, None]
     return np.asarray(bounded.sum(axis=0), dtype=float)
 
@@ -37,7 +38,7 @@ class Campaign(Protocol):
     """Pairs of explanations beside a campaign whose points are counted."""
 
     def total(self, counts: NDArray[np.int64]) -> float:
-        """Sum over the pairs of their levels in nats, each up to what is wanted, by so many readings (N,)."""
+        """Sum over the pairs of their levels in nats, each up to the required one, by so many readings (N,)."""
         ...
 
     def promised(self, counts: NDArray[np.int64]) -> Array:
@@ -47,7 +48,7 @@ class Campaign(Protocol):
 
 @dataclass(frozen=True)
 class Added:
-    """Readings added to a campaign: the points in the order in which they were taken, the total after each, nats.
+    """Readings added to a campaign: the points in the order of their choice, the total after each, nats.
 
     totals: (len(points) + 1,), the first without any.
     """
@@ -64,7 +65,7 @@ def added_points(
     least: float,
     report: Report = silent,
 ) -> Added:
-    """At most `most` readings added to `counts` (N,), no point beyond `allowed` (N,), until the best brings < `least`.
+    """At most `most` readings added to `counts` (N,), no point beyond `allowed` (N,), until the best gains < `least`.
 
     Nats; the total never falls.
     """
@@ -85,7 +86,7 @@ def added_points(
 
 
 def _best(campaign: Campaign, counts: NDArray[np.int64], allowed: NDArray[np.int64]) -> tuple[int, float] | None:
-    """The point of the largest promise that may be read once more, None where there is none."""
+    """The point of the largest gain that may be read once more, or None."""
     promised = np.where(counts < allowed, campaign.promised(counts), -np.inf)
     at = int(np.argmax(promised))
     return (at, float(promised[at])) if np.isfinite(promised[at]) else None

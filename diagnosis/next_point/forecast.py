@@ -1,7 +1,7 @@
 """Forecasts of two explanations for readings at new points, and the odds after such readings.
 
-Each forecast is a Gaussian with the covariance of the noise and of its own parameters: a difference that
-parameters can follow has no weight, however often it is read.
+Each forecast is a Gaussian with the covariance of the noise and of its own parameters: a difference that parameters can
+follow has no weight for any number of readings.
 """
 
 from __future__ import annotations
@@ -118,7 +118,7 @@ class Outlook:
     """Predictions of two explanations at N points, SI, of all channels of the study and of further meters.
 
     first, second: (N, C) readings; slopes: of each (N, C, k), times a factor of the parameters' covariance;
-    input_slopes: (N, C, M). C goes on with the further meters.
+    input_slopes: (N, C, M). The further meters follow the C channels.
     """
 
     study: Study
@@ -173,7 +173,7 @@ def log_density(
     """ln of the joint density of readings (N, C), SI, at new points by the forecast of an explanation.
 
     nan: not read. Up to a constant that all explanations share. Consecutive readings have the correlation of the
-    recording's noise. The columns go on with those of further meters.
+    recording's noise. Columns of further meters follow.
     """
     there = _there(contender, points, further)
     new = readings(study, values, study.observations.memory, further)
@@ -207,7 +207,7 @@ def odds_forecast(difference: Array, true: Array, other: Array) -> OddsForecast:
 
 
 def independent(repeats: int, memory: tuple[float, ...]) -> float:
-    """Independent readings that `repeats` in a row are worth, 1^T R^-1 1 with their correlation R."""
+    """Number of independent readings equivalent to `repeats` in a row, 1^T R^-1 1 with their correlation R."""
     if not memory:
         return float(repeats)
     correlation = toeplitz(autocorrelation(memory, repeats)[:repeats])
@@ -250,7 +250,7 @@ def _there(contender: Contender, points: BenchPoints, further: tuple[RecordedCha
 
 
 def _spread(contender: Contender, there: PumpSimulator) -> Array:
-    """(N, C, k), factor of the covariance that a contender's parameters give its predictions, SI."""
+    """(N, C, k), factor of the covariance of a contender's predictions by its parameters, SI."""
     slopes = standard_slopes(there, contender.posterior.xi)
     spread: Array = slopes @ np.linalg.cholesky(contender.posterior.covariance)
     return spread

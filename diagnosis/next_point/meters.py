@@ -1,7 +1,7 @@
 """Meters of an ordinary bench for a pump of any size, with the repeatability of those that are stated.
 
-Repeatability: what good meters of each kind reach on steady points. Calibration: class A of ISO 4409 taken as limits
-of even likelihood, 0.5 % / sqrt 3 for flows and torque.
+Repeatability: that of good meters of each kind at steady points. Calibration: class A of ISO 4409 as limits of uniform
+likelihood, 0.5 % / sqrt 3 for flows and torque.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ from system.pump.lumped import full_drive, swept_displacement
 
 CLASS_A = 0.005 / sqrt(3.0)
 ALWAYS = tuple(one for one in INPUTS if one is not ChannelName.T_CASE)
-"""Inputs that every bench reads: they are what a point is set by."""
+"""Inputs that every bench reads: they define a point."""
 ORDINARY = (*ALWAYS, ChannelName.Q_OUT, ChannelName.Q_CASE, ChannelName.TORQUE)
 """Channels of an ordinary bench: delivery flow, drain flow and torque beside the inputs; none in the drain's oil."""
 WORDS = {
@@ -47,9 +47,9 @@ class Stated:
 
 
 def meters(pump: PumpDescription, stated: Mapping[ChannelName, Stated]) -> tuple[RecordedChannel, ...]:
-    """Every meter of an ordinary bench, further ones too, with the stated repeatability where there is one.
+    """Every meter of an ordinary bench, further ones too, with its stated repeatability, if any.
 
-    A stated sigma below that of the calibration's zero leaves the zero as it is.
+    A stated sigma below that of the calibration's zero leaves the zero unchanged.
     """
     return tuple(_with(one, stated.get(one.name, Stated())) for one in _usual(pump))
 

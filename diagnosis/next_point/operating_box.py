@@ -20,14 +20,14 @@ BEYOND = 0.1  # of a range as recorded, beyond each of its ends
 SLOW, UNLOADED, SWIVELLED = 0.25, 0.1, 0.2  # of rated speed, rise of pressure, displacement: least on a bench
 COLD, HOT = 303.15, 353.15  # K: inlet temperatures that a bench with heater and cooler holds
 CHARGED = (0.6, 1.2)  # of the charge pressure of a closed circuit: its relief valve is set within it
-VARIED = 0.05  # of the greatest displacement ratio: a pump that was swivelled so far can be
+VARIED = 0.05  # of the greatest displacement ratio: the swash angle of such a pump is variable
 
 
 @dataclass(frozen=True)
 class BenchBox:
-    """Ends of speed, delivery pressure, displacement ratio, case temperature, SI; all else is held.
+    """Ends of speed, delivery pressure, displacement ratio, case temperature, SI; other inputs are held.
 
-    A fifth pair of ends, where there is one, is that of the inlet pressure.
+    A fifth pair of ends, if any, is that of the inlet pressure.
 
     inlet_pressure, case_pressure in Pa gauge; warmer: case over inlet temperature in K; last: order and hours of
     the recording's end.
@@ -40,7 +40,7 @@ class BenchBox:
     last: tuple[float, float]
 
     def points(self, levels: Sequence[Array]) -> BenchPoints:
-        """Every combination of levels of the axes, taken after the recording's last point."""
+        """Every combination of levels of the axes, measured after the recording's last point."""
         speed, pressure, ratio, temperature, *inlet = (axis.ravel() for axis in np.meshgrid(*levels, indexing="ij"))
         order, hours = self.last
         return BenchPoints(
@@ -89,9 +89,9 @@ def rig_box(recording: Recording, pump: PumpDescription) -> BenchBox:
 def ordinary_box(recording: Recording, pump: PumpDescription) -> BenchBox:
     """The box of `rig_box`, widened to the range of an ordinary bench along each measured axis.
 
-    From a quarter of the rated speed and a tenth of the rated rise of pressure to both, displacement from a fifth
-    to all where the pump was swivelled, the inlet at 30 to 80 degC; the charge pressure of a closed circuit, where it
-    was measured, from 0.6 to 1.2 of its median.
+    From a quarter of the rated speed and a tenth of the rated rise of pressure to both, displacement from a fifth to
+    full for a pump with variable swash angle, the inlet at 30 to 80 degC; the charge pressure of a closed circuit,
+    where it was measured, from 0.6 to 1.2 of its median.
     """
     box = rig_box(recording, pump)
     known = set(measured(recording, INPUTS))
@@ -110,7 +110,7 @@ def ordinary_box(recording: Recording, pump: PumpDescription) -> BenchBox:
 
 
 def pump_box(pump: PumpDescription) -> BenchBox:
-    """The range of an ordinary bench for a pump without a recording: all else as the pump's own operating point."""
+    """The range of an ordinary bench for a pump without a recording: other inputs as at the pump's own point."""
     stated = pump.operating
     ends = _ordinary_ends(pump, stated.inlet_pressure, WARMER)
     return BenchBox(ends, stated.inlet_pressure, stated.case_pressure, WARMER, (0.0, nan))

@@ -1,1 +1,1 @@
-"""A campaign before the test: which suspects it tells apart, which points and sensors to add."""
+"""A campaign before the test: the suspects that it separates, the points and sensors to add."""

@@ -1,14 +1,14 @@
-"""Distances of suspects under a campaign, in sigma, and the promise of one reading more.
+"""Distances of suspects under a campaign, in sigma, and the gain of one reading more.
 
 The readings of suspect i are those of the pump and its own columns at its size, y = y0 + J xi + V t_i + noise. Its
-rival j follows them as well as it can, by the uncertain parameters xi of priors N(0, 1) and by its own sizes b of
+rival j follows them as closely as possible, by the uncertain parameters xi of priors N(0, 1) and by its own sizes b of
 priors N(0, w^2), of the sign that they can have:
 
     d_ij^2 = min over xi, b |W^(1/2) (V t_i - J xi - V_j b)|^2 + |xi|^2 + |b / w|^2
 
-in sigma, W the number of readings at each point: T-optimality (Atkinson and Fedorov 1975) of linear models with
-priors. With A = J^T W J + 1 and M = V^T W V - V^T W J A^-1 J^T W V it is t_i^T M t_i less what b takes of it. A pair is
-as far apart as its nearer direction. A further reading never lessens d: its promise is half of what it adds to d^2.
+in sigma, W the number of readings at each point: T-optimality (Atkinson and Fedorov 1975) of linear models with priors.
+With A = J^T W J + 1 and M = V^T W V - V^T W J A^-1 J^T W V it is t_i^T M t_i less the part that b follows. The distance
+of a pair is that of its nearer direction. A further reading never reduces d: its gain is half of its addition to d^2.
 """
 
 from __future__ import annotations
@@ -76,7 +76,7 @@ class Contest:
         return Apart(fitted, self.truths, tuple(self._rivalry(fitted, one) for one in self.suspects))
 
     def _rivalry(self, fitted: Fitted, rival: Suspect) -> Rivalry:
-        """A rival that follows every suspect by the member of its grid that does it best."""
+        """A rival that follows every suspect by the best member of its grid."""
         found = [self._followed(fitted, one) for one in rival.members]
         taken = np.stack([one for one, _ in found])
         best = np.argmax(taken, axis=0)
@@ -84,10 +84,10 @@ class Contest:
         return Rivalry(taken.max(axis=0), tuple(rival.members[member] for member in best), sizes)
 
     def _followed(self, fitted: Fitted, columns: tuple[int, ...]) -> tuple[Array, Array]:
-        """Part of t^T M t of every suspect (S,) that sizes of some columns take, and these sizes (q, S).
+        """Part of t^T M t of every suspect (S,) that sizes of some columns follow, and these sizes (q, S).
 
-        Of sizes that must have a sign those are 0 that would have the other (all subsets are tried); a suspect of
-        either sign has the one that the rival follows best.
+        Sizes with a required sign are 0 if they would have the other (all subsets are tried); a suspect of either sign
+        has the one that the rival follows best.
         """
         own = list(columns)
         pull = fitted.content[own] @ self.truths
@@ -118,8 +118,8 @@ class Contest:
     def told(self, apart: Apart, wanted: float, limits: FormLimits) -> NDArray[np.bool_]:
         """(S, S), true for pairs that are `wanted` sigma apart, and farther than the error of form of their laws.
 
-        That error leaves a share of the square of the suspect that stands out less: of a law off by a tenth `true_to`,
-        of one effect at two places `placed_by`. A diagnosis takes what lies within it for one class.
+        That error is a share of the square of the less significant suspect: of a law wrong by a tenth `true_to`, of one
+        effect at two places `placed_by`. In a diagnosis suspects within it are of one class.
         """
         effects = [one.effect for one in self.suspects]
         same = np.array([[one is other for other in effects] for one in effects])
@@ -128,7 +128,7 @@ class Contest:
         return np.asarray(apart.distances >= np.maximum(wanted, np.sqrt(share * np.maximum(least, 0.0))))
 
     def _left(self, fitted: Fitted) -> Array:
-        """(N, m, Q), columns less what the fitted parameters take of them."""
+        """(N, m, Q), columns less the part that the fitted parameters follow."""
         return self.white.columns - self.white.slopes @ fitted.taken
 
     def common(self, apart: Apart) -> Array:
@@ -148,7 +148,7 @@ class Fitted:
 
 @dataclass(frozen=True)
 class Rivalry:
-    """One rival against S suspects: what it takes of the square of each, its columns and their sizes there."""
+    """One rival against S suspects: the part that it follows of the square of each, its columns and their sizes."""
 
     takes: Array
     columns: tuple[tuple[int, ...], ...]
@@ -165,7 +165,7 @@ class Apart:
 
     @cached_property
     def seen(self) -> Array:
-        """(S,), squared distance of each suspect from nothing at all."""
+        """(S,), squared distance of each suspect from the null."""
         return np.einsum("qs,qp,ps->s", self.truths, self.fitted.content, self.truths, optimize=True)
 
     @cached_property
@@ -186,7 +186,7 @@ class Apart:
 class PairCampaign:
     """The pairs of a contest that count, beside a campaign (`diagnosis.next_point.discrimination.Campaign`).
 
-    wanted: sigma from which on a pair is apart.
+    wanted: sigma from which a pair counts as separated.
     """
 
     contest: Contest
@@ -195,7 +195,7 @@ class PairCampaign:
 
     @property
     def enough(self) -> float:
-        """Nats of a pair that is apart."""
+        """Nats of a separated pair."""
         return 0.5 * self.wanted**2
 
     def total(self, counts: NDArray[np.int64]) -> float:
@@ -207,7 +207,7 @@ class PairCampaign:
         return self._levels(self.contest.apart(counts))
 
     def promised(self, counts: NDArray[np.int64]) -> Array:
-        """(N,), nats that one reading more at each point promises."""
+        """(N,), predicted gain of one reading more at each point, nats."""
         apart = self.contest.apart(counts)
         levels = self._levels(apart)
         near = np.flatnonzero(levels < self.enough)

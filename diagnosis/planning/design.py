@@ -1,4 +1,4 @@
-"""Design of a campaign: which readings to add at which points, with the meters at hand and with further ones."""
+"""Design of a campaign: readings to add at its points, with the available meters and with further ones."""
 
 from __future__ import annotations
 
@@ -21,19 +21,19 @@ from system.bench.points import BenchPoints
 from system.work.progress import Report, silent
 
 LEAST = 0.02
-"""Nats over all pairs that a further reading has to promise: one of three hundred that one pair needs."""
+"""Least predicted gain of a further reading over all pairs, nats: a three-hundredth of the need of one pair."""
 MANY = 20
-"""Readings at every possible point: what they do not tell apart, no campaign does."""
+"""Readings at every possible point: pairs that they do not separate, no campaign separates."""
 
 
 @dataclass(frozen=True)
 class Asked:
-    """A campaign as planned, and what may be added to it.
+    """A campaign as planned, and its possible additions.
 
-    planned: points as they are to be driven, with their readings `repeats`; possible: points that may be added;
-    channels: those of the bench; most: readings to add at most; cost: of efficiency, the size of every suspect; apart:
-    sigma from which on a pair is distinguished, None: `wanted_distance`; aim: sigma up to which a pair draws readings,
-    if more; meters: further meters to ask for, at most; further: names of those that the bench could add, None: all.
+    planned: points in the planned order, with their readings `repeats`; possible: points that may be added; channels:
+    those of the bench; most: readings to add at most; cost: of efficiency, the size of every suspect; apart: sigma from
+    which a pair is separated, None: `wanted_distance`; aim: sigma up to which a pair draws readings, if more; meters:
+    largest number of further meters; further: names of those that the bench could add, None: all.
     """
 
     planned: BenchPoints
@@ -61,7 +61,7 @@ class Asked:
 
 @dataclass(frozen=True)
 class Purpose:
-    """An added reading: its point, and the pairs that it moves most."""
+    """An added reading: its point, and the pairs that gain most."""
 
     point: int
     pairs: tuple[tuple[int, int], ...]
@@ -69,7 +69,7 @@ class Purpose:
 
 @dataclass(frozen=True)
 class Design:
-    """Readings at each point (N,), the added ones, the total after each in nats, and what they tell apart."""
+    """Readings at each point (N,), the added ones, the total after each in nats, and the pairs that they separate."""
 
     counts: NDArray[np.int64]
     added: tuple[Purpose, ...]
@@ -82,7 +82,7 @@ class Design:
 class Equipped:
     """The campaign with meters that the bench lacks: its readings at each point (N,), the same number at most.
 
-    after: (S, S), sigma; told: pairs that are apart, and farther than their laws are true.
+    after: (S, S), sigma; told: separated pairs, farther apart than the error of form of their laws.
     """
 
     meters: tuple[FurtherMeter, ...]
@@ -103,21 +103,21 @@ class Desk:
 
     @property
     def wanted(self) -> float:
-        """Sigma from which on a pair is distinguished."""
+        """Sigma from which a pair is separated."""
         return wanted_distance(self.thresholds.next_point) if self.asked.apart is None else self.asked.apart
 
     def told(self, contest: Contest, apart: Apart) -> tuple[tuple[int, int], ...]:
-        """The pairs that are distinguished."""
+        """The separated pairs."""
         found = contest.told(apart, self.wanted, self.thresholds.form)
         return tuple(pair for pair in all_pairs(len(found)) if found[pair])
 
     def rivals(self, contest: Contest, without: Collection[tuple[int, int]]) -> PairCampaign:
-        """All pairs but some, as the choice of points takes them."""
+        """All pairs except some, for the choice of points."""
         pairs = tuple(pair for pair in all_pairs(len(contest.suspects)) if pair not in without)
         return PairCampaign(contest, pairs, max(self.wanted, self.asked.aim))
 
     def designed(self, contest: Contest, hopeless: Collection[tuple[int, int]]) -> Design:
-        """The campaign with the points that tell the pairs that are not hopeless."""
+        """The campaign with the points that separate the pairs that are not hopeless."""
         counts, rivals = self.asked.counts, self.rivals(contest, hopeless)
         allowed = np.maximum(counts, self.thresholds.next_point.readings)
         added = added_points(rivals, counts, allowed, self.asked.most, LEAST, self.report)
@@ -126,9 +126,9 @@ class Desk:
         return Design(reached, _purposes(rivals, counts, added), added.totals, apart, self.told(contest, apart))
 
     def equipped(self, contest: Contest, own: Design, further: Sequence[FurtherMeter]) -> Equipped | None:
-        """The campaign with the best meters one after the other, its points chosen anew; None where none tells more.
+        """The campaign with the best meters one after the other, its points chosen anew; None without further pairs.
 
-        The best tells most pairs with the points at hand; of several the one by which all pairs gain most nats.
+        The best separates most pairs with the available points; of several the one by which all pairs gain most nats.
         """
         chosen: list[FurtherMeter] = []
         found = own
@@ -147,11 +147,11 @@ class Desk:
         return Equipped(tuple(chosen), found.counts, found.added, found.apart.distances, found.told)
 
     def _worth(self, contest: Contest, counts: NDArray[np.int64]) -> tuple[int, float]:
-        """Pairs that readings at each point (N,) tell apart, and nats of all pairs."""
+        """Pairs that readings at each point (N,) separate, and nats of all pairs."""
         return len(self.told(contest, contest.apart(counts))), self.rivals(contest, ()).total(counts)
 
     def _hopeless(self, contest: Contest) -> set[tuple[int, int]]:
-        """The pairs that no point tells apart."""
+        """The pairs that no point separates."""
         distances = contest.apart(np.full(len(self.asked.counts), MANY)).distances
         return {pair for pair in all_pairs(len(distances)) if distances[pair] < self.wanted}
 
@@ -166,7 +166,7 @@ def wanted_distance(limits: NextPointLimits) -> float:
 
 
 def _purposes(campaign: PairCampaign, counts: NDArray[np.int64], added: Added) -> tuple[Purpose, ...]:
-    """The added readings, each with the one or two pairs that it moves most."""
+    """The added readings, each with the one or two pairs that gain most."""
     found, now = [], counts.copy()
     levels = np.minimum(campaign.levels(now), campaign.enough)
     for point in added.points:
@@ -188,7 +188,7 @@ def driven(counts: NDArray[np.int64], points: BenchPoints) -> NDArray[np.int64]:
 def reading_order(counts: NDArray[np.int64], points: BenchPoints) -> NDArray[np.int64]:
     """The point of every reading of a campaign, in the order in which they are driven.
 
-    The readings of one point stand at even distances in the order, so that a drift shows between them.
+    The readings of one point stand at even distances in the order, so that a drift is visible between them.
     """
     own = driven(counts, points)
     turns = [(points.order[at] + turn / counts[at]) % 1.0 for at in own for turn in range(int(counts[at]))]

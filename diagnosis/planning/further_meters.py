@@ -1,4 +1,4 @@
-"""Further meters of a bench, and what each is worth beside a campaign: the pairs that it tells apart."""
+"""Further meters of a bench, and the gain of each beside a campaign: the pairs that it separates."""
 
 from __future__ import annotations
 
@@ -61,7 +61,7 @@ class FurtherMeter:
 
 @dataclass(frozen=True)
 class MeterWorth:
-    """A further meter: pairs that are apart only with it, and (S, S) distances with it."""
+    """A further meter: pairs that are separated only with it, and (S, S) distances with it."""
 
     name: str
     words: str
@@ -77,7 +77,7 @@ def further_meters(
     report: Report = silent,
     known: Collection[str] | None = None,
 ) -> tuple[FurtherMeter, ...]:
-    """The meters that a bench of these channels lacks; of those that are `known` by name, where names are stated."""
+    """The meters that a bench of these channels lacks; of those that are `known` by name, if names are stated."""
     lacking = (one for one in WORDS if one.value not in channels and (known is None or one.value in known))
     return tuple(
         further_meter(one, foreseen, read_at_points(channels), campaign, thresholds, report) for one in lacking

@@ -1,4 +1,4 @@
-"""Pairs of suspects that no point of a bench tells apart, and why."""
+"""Pairs of suspects that no point of a bench separates, and the reason."""
 
 from __future__ import annotations
 
@@ -13,11 +13,11 @@ from diagnosis.planning.apart import Apart, Contest, all_pairs
 from diagnosis.planning.further_meters import FurtherMeter
 
 NEARLY_ALL = 0.7
-"""Of what a suspect stands out by: a distance above it is limited by that, not by the form."""
+"""Of a suspect's distance from the null: a distance above it is limited by that, not by the form."""
 
 
 class Reason(Enum):
-    """Why no point tells two suspects apart."""
+    """Reason why no point separates two suspects."""
 
     UNSEEN = "one of the two hardly moves these readings"
     WEAK = "one of the two stands out too little for a difference to show"
@@ -26,7 +26,7 @@ class Reason(Enum):
 
 @dataclass(frozen=True)
 class Never:
-    """A pair that no point tells apart: why, the suspects that are not seen at all, and meters that would tell."""
+    """A pair that no point separates: the reason, suspects without effect on readings, meters to separate it."""
 
     pair: tuple[int, int]
     reason: Reason
@@ -37,8 +37,8 @@ class Never:
 def never_apart(
     contest: Contest, ever: Apart, counts: NDArray[np.int64], meters: Sequence[FurtherMeter], wanted: float
 ) -> tuple[Never, ...]:
-    """Pairs that `ever`, by the readings `counts` (N,) of all points, leaves nearer than `wanted`: fewer readings do
-    so too.
+    """Pairs that `ever`, by the readings `counts` (N,) of all points, leaves nearer than `wanted`: so do fewer
+    readings.
     """
     distances, seen = ever.distances, np.sqrt(np.maximum(ever.seen, 0.0))
     with_meters = [one.added_to(contest).apart(counts) for one in meters]

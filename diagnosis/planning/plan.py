@@ -1,4 +1,4 @@
-"""Plan of a test: the planned campaign's distances between suspects, points and meters to add, what is never told."""
+"""Plan of a test: the planned campaign's distances between suspects, points and meters to add, inseparable pairs."""
 
 from __future__ import annotations
 
@@ -23,14 +23,14 @@ from system.work.progress import Report, silent
 
 @dataclass(frozen=True)
 class Plan:
-    """A planned campaign: the pairs of S suspects that it tells apart, and points and meters to add.
+    """A planned campaign: the pairs of S suspects that it separates, and points and meters to add.
 
-    points: N, the planned first; planned, counts: readings at each (N,), as asked and with the added. before, after,
-    ever: (S, S), sigma, by the planned campaign, with the added points, and with MANY readings at every point; seen:
-    (S,), sigma from nothing at all, with the added points. wanted: sigma from which on a pair is apart. told_planned,
-    told: pairs that are, and farther than their laws are true (`Contest.told`). never: pairs that no point tells apart.
-    worths: of further meters beside the campaign with its added points; equipped: the campaign with the meters that are
-    asked for, None where none tells more; shows: the channel in which each suspect shows most.
+    points: N, the planned first; planned, counts: readings at each (N,), as planned and with the added ones. before,
+    after, ever: (S, S), sigma, by the planned campaign, with the added points, and with MANY readings at every point;
+    seen: (S,), sigma from the null, with the added points. wanted: sigma from which a pair is separated. told_planned,
+    told: such pairs, farther apart than the error of form of their laws (`Contest.told`). never: pairs that no point
+    separates. worths: of further meters beside the campaign with its added points; equipped: the campaign with the
+    proposed meters, None where none separates more; shows: the channel with the largest effect of each suspect.
     """
 
     points: BenchPoints
@@ -60,13 +60,13 @@ class Plan:
 
     @property
     def open(self) -> tuple[tuple[int, int], ...]:
-        """The pairs that points could tell apart, and the campaign with its added points does not."""
+        """The pairs that points could separate, and the campaign with its added points does not."""
         settled = {*self.told, *(one.pair for one in self.never)}
         return tuple(pair for pair in self.pairs if pair not in settled)
 
     @property
     def is_spent(self) -> bool:
-        """True if as many readings were added as were allowed: more would tell more."""
+        """True if as many readings were added as were allowed: more would separate more."""
         return len(self.added) >= self.most > 0 and bool(self.open)
 
 

@@ -1,6 +1,6 @@
-"""Responses of a bench's readings at points before any is recorded: to what is uncertain, and to every suspect.
+"""Responses of a bench's readings at points before any is recorded: to uncertain parameters, and to every suspect.
 
-All readings are as the pump is expected to make them, at the prior mean of its parameters; changes are to first order.
+All readings are the expected ones, at the prior mean of the pump's parameters; changes are to first order.
 """
 
 from __future__ import annotations
@@ -53,7 +53,7 @@ class White:
 
 @dataclass(frozen=True)
 class Responses:
-    """Expected readings of all C channels at N points, SI, with what changes them.
+    """Expected readings of all C channels at N points, SI, with their changes.
 
     slopes: (N, C, k), by one sigma of each of `parameters`; columns: (N, C, Q), by one spread of each candidate;
     input_slopes: (N, C, M), SI per SI.
@@ -66,7 +66,7 @@ class Responses:
     input_slopes: Array
 
     def white(self, channels: Collection[str]) -> White:
-        """The responses of a bench with these channels; its drain is as warm as the inlet is, about, if it has no
+        """The responses of a bench with these channels; its drain has about the inlet's temperature if it has no
         thermometer there.
         """
         read = [at for at, one in enumerate(self.readings.channels) if one.name in channels]
@@ -86,7 +86,7 @@ class Responses:
 
     @staticmethod
     def _taken(parameter: Parameter, channels: Collection[str]) -> float:
-        """Factor on one sigma of a parameter on this bench: what is not measured is taken, and known less well."""
+        """Factor on one sigma of a parameter on this bench: larger for inputs that are assumed, not measured."""
         if parameter.name == DRAIN_ZERO and ChannelName.T_CASE.value not in channels:
             return WARMER / parameter.spread
         return 1.0
@@ -101,7 +101,7 @@ def _laid_out(whitening: Whitening, changes: Array) -> Array:
 
 @dataclass(frozen=True)
 class Foreseen:
-    """A bench before its campaign: all points with their responses, and the study that knows every candidate."""
+    """A bench before its campaign: all points with their responses, and the study with every candidate."""
 
     study: Study
     responses: Responses
@@ -177,7 +177,7 @@ def foresee_traces(
 def expected_parameters(
     pump: PumpDescription, meters: tuple[RecordedChannel, ...], tolerances: Tolerances
 ) -> tuple[Parameter, ...]:
-    """All that is uncertain of pump and meters, those of traces too."""
+    """All uncertain parameters of pump and meters, those of traces too."""
     one = BenchPoints(**{field.name: np.full(1, np.nan) for field in fields(BenchPoints)})
     return _parameters(pump, _recording(pump, one, meters), tolerances)
 

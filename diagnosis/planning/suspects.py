@@ -1,4 +1,4 @@
-"""Suspects: hypotheses of the catalogue by name, each at the size that a test has to tell.
+"""Suspects: hypotheses of the catalogue by name, each at the size that a test has to separate.
 
 The size costs one point of overall efficiency on the mean of the campaign's points, or changes the drain flow by half
 of itself where that is less; no more than `MOST` sigma of its prior. A suspect of several sizes has all of them at the
@@ -31,7 +31,7 @@ from system.inputs.units import format_quantity
 COST = 0.01
 """Of the overall efficiency: the size of a suspect, unless another is stated."""
 DRAINED = 0.5
-"""Of the drain flow: the change that counts as much."""
+"""Of the drain flow: the equivalent change."""
 MOST = 2.0
 """Largest size, in sigma of the prior."""
 SIGNS = {Sign.POSITIVE: 1.0, Sign.NEGATIVE: -1.0, Sign.EITHER: 0.0}
@@ -42,7 +42,7 @@ class Suspect:
     """A hypothesis at its size.
 
     name: as on a command line; members: columns of each member of its grid; truth: (Q,), its size in spreads of each
-    column; costs: mean loss of efficiency by it; capped: the prior allows no size that costs as much as was asked.
+    column; costs: mean loss of efficiency by it; capped: the prior allows no size of the requested cost.
     """
 
     name: str
@@ -56,7 +56,7 @@ class Suspect:
 
     @property
     def effect(self) -> EffectId:
-        """The effect, wherever it acts."""
+        """The effect at any place."""
         return self.hypothesis.effects[0]
 
 
@@ -72,7 +72,7 @@ def suspect_names(parameters: Sequence[Parameter]) -> tuple[str, ...]:
 
 
 def entries_of(names: Collection[str]) -> tuple[Entry, ...]:
-    """The entries of the catalogue that some suspects are of."""
+    """The entries of the catalogue of some suspects."""
     return tuple(one for one in CATALOGUE if one.id.value in {name.partition(".")[0] for name in names})
 
 
@@ -84,7 +84,7 @@ def _of_entry(entry: Entry, parameters: Sequence[Parameter]) -> Iterator[Hypothe
 
 
 def suspect_name(own: Hypothesis) -> str:
-    """Name of a suspect on a command line: its id, with the place where it has one: "elastic_opening.slipper"."""
+    """Name of a suspect on a command line: its id, with its place, if any: "elastic_opening.slipper"."""
     if own.pair is not None:
         return f"{own.effects[0].value}.{own.pair.value}"
     if named_apart(own, 0):
@@ -93,7 +93,7 @@ def suspect_name(own: Hypothesis) -> str:
 
 
 def meter_of(own: Hypothesis) -> ChannelName | None:
-    """The meter whose fault a suspect is, None for all else."""
+    """The meter whose fault a suspect is, None for any other suspect."""
     if own.kind is not Kind.SENSOR_FAULT:
         return None
     return ChannelName.named(own.widened[0].partition(".")[0])

@@ -39,7 +39,7 @@ class FilmChange:
 
 @dataclass(frozen=True)
 class FilmComparison:
-    """Films of both pumps by name, empty where none is solved; text: settings and accuracy, or the reason.
+    """Films of both pumps by name, empty without a solution; text: settings and accuracy, or the reason.
 
     points: at given positions; floating: by balance of forces.
     """
@@ -52,7 +52,7 @@ class FilmComparison:
 
 @dataclass(frozen=True)
 class PumpComparison:
-    """Both pumps and their lumped points by name, empty where none is solved; text: the point, or the reason."""
+    """Both pumps and their lumped points by name, empty without a solution; text: the point, or the reason."""
 
     pumps: Mapping[str, PumpDescription] = field(default_factory=dict)
     points: Mapping[str, PumpPoint] = field(default_factory=dict)

@@ -8,7 +8,7 @@ from diagnosis.procedure.compared import WITH, PumpComparison
 from diagnosis.report.format import listed, setting_text
 
 MATERIAL = 0.002
-"""Of a flow or a torque: smaller changes are not told. Of an efficiency as much, 0.1 points."""
+"""Of a flow or a torque: smaller changes are not reported. Of an efficiency as much, 0.1 points."""
 POINTS = 0.1
 COSTS = {
     "efficiency, overall (ISO 4409)": (-1.0, "{:.2g} points of efficiency", "{:.2g} points more efficiency"),
@@ -16,11 +16,11 @@ COSTS = {
     "shaft torque": (1.0, "{:.2g} N m of torque", "{:.2g} N m less torque"),
     "case drain": (1.0, "{:.2g} L/min through the case drain", "{:.2g} L/min less case drain"),
 }
-"""Sign of a change that costs, its words, and those of a change that does not, by the quantity of a comparison."""
+"""Sign of a change that is a cost, its words, and those of the opposite change, by the quantity of a comparison."""
 
 
 def cost_words(comparison: PumpComparison) -> str:
-    """Cost of a finding where it shows most, as a sentence; what it brings there, too. Empty where no pump was run."""
+    """Cost of a finding at the point of its largest effect, as a sentence, with its gain there. Empty without a run."""
     if not comparison.changes:
         return comparison.text if not comparison.pumps else ""
     at = comparison.pumps[WITH].operating if comparison.pumps else None
@@ -45,6 +45,6 @@ def _material(comparison: PumpComparison) -> Iterator[tuple[bool, str]]:
 
 
 def is_material(unit: str, without: float, found: float) -> bool:
-    """True for a change of a flow or a torque, or of an efficiency in %, that is large enough to be told."""
+    """True for a change of a flow or a torque, or of an efficiency in %, that is large enough to be reported."""
     least = POINTS if unit == "%" else MATERIAL * max(abs(without), abs(found))
     return abs(found - without) > least

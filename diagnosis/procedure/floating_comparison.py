@@ -19,7 +19,7 @@ from system.work.progress import Report
 
 MICRO, PERCENT = 1e6, 100.0
 OWN = ("name", "operating", "tolerance")
-"""Of a pump file that brings an effect into the films: what is its own, and no effect."""
+"""Of a pump file with an effect in the films: its own tables that are no effect."""
 
 
 def compare_floating(
@@ -42,7 +42,7 @@ def compare_floating(
 
 
 def varied_pump(pump: PumpDescription, task: FilmTask, parts: Parts) -> PumpDescription:
-    """The pump with the tables of its file that a variant among the parts states otherwise."""
+    """The pump with the tables of its file that differ in a variant among the parts."""
     other = task.pump_with(parts)
     stated = {name: own for name, own in vars(other).items() if name not in OWN}
     return replace(pump, **{name: own for name, own in stated.items() if own != getattr(task.pump, name)})

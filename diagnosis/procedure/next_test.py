@@ -1,4 +1,4 @@
-"""The next test: points, or a meter more, that separate the first explanation from its likeliest rival."""
+"""The next test: points, or an additional meter, that separate the first explanation from its likeliest rival."""
 
 from __future__ import annotations
 
@@ -39,10 +39,10 @@ def with_next_point(study: Study, pump: PumpDescription, found: Diagnosis, thres
 def proposed_point(
     study: Study, pump: PumpDescription, first: Contender, second: Contender, limits: NextPointLimits
 ) -> NextPoint:
-    """Points of the rig's box if they settle two that are open, else of an ordinary bench's, else with a meter more.
+    """Points of the rig's box if they decide the two, else of an ordinary bench's, else with an additional meter.
 
-    Where none of them settles the two, the test of the largest chance. Raises NotConverged if a point of the rig's box
-    cannot be simulated; for a point farther out the failure is part of the text.
+    If none of them decides, the test of the largest chance. Raises NotConverged if a point of the rig's box cannot be
+    simulated; for a point farther out the failure is part of the text.
     """
     near = next_point(study, pump, rig_box(study.recording, pump), first, second, limits)
     if near.settles or not near.is_open:
@@ -61,7 +61,7 @@ def proposed_point(
 def further_meters(study: Study, pump: PumpDescription, limits: NextPointLimits) -> tuple[RecordedChannel, ...]:
     """Meters that the bench of a recording lacks and could add, none for a user's own simulator.
 
-    A drain of one gap reads as the drain's meter does, its gain known to `limits.gauge`. The torque meter reads the
+    The drain of one gap is read as by the drain's meter, its gain known to `limits.gauge`. The torque meter reads the
     uncoupled shaft as it reads the pump. Others are those of an ordinary bench.
     """
     if not isinstance(study.simulator, LumpedBench | TracedBench):

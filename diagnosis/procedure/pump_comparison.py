@@ -50,7 +50,7 @@ OF_FILMS = (*SOLVED, EffectId.FILM_THICKNESS, EffectId.VISCOSITY_GRADE)
 POSITIONS, FINER, AGREED = 2, 0.5, 0.05
 """Film angles a piston pitch, times the usual cells, part of the pressure difference to which chambers agree.
 
-Meant for pictures of the fields: closer agreement changes leakage by a thousandth."""
+For pictures of the fields: closer agreement changes leakage by a thousandth."""
 PERCENT = 100.0
 SHAFT, HYDRAULIC = "shaft power", "hydraulic power"
 
@@ -69,8 +69,8 @@ def compare_pumps(
 ) -> PumpComparison:
     """Both pumps of the claimed fit, solved at the recorded point where the claim adds most to the readings.
 
-    Without: its effects off, its wrong values as stated, all else as fitted. films: floating ones, by which both are
-    solved. Nothing is solved where nothing is claimed, or a sensor's fault only.
+    Without: its effects off, its wrong values as stated, other parameters as fitted. films: floating ones, by which
+    both are solved. Nothing is solved without a claim, or for a sensor's fault only.
     """
     if not found.effects:
         return NO_COMPARISON
@@ -112,8 +112,8 @@ def compare_films(
 ) -> FilmComparison:
     """The films of both pumps at their own operating points, beside their lumped `points`.
 
-    Nothing is solved for effects that leave the films as they are; the text gives the reason, and the reason why
-    films have no solution.
+    Nothing is solved for effects that do not change the films; the text gives the reason, and the reason why films have
+    no solution.
     """
     if not any(effect in OF_FILMS for effect in found):
         return FilmComparison(text="The finding does not act on the films: their fields are unchanged.")

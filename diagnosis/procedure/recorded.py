@@ -32,8 +32,8 @@ def diagnose_recording(
 ) -> tuple[Study, Diagnosis]:
     """The study of a checked recording and its diagnosis without the next point.
 
-    Suspects take part at first: they may be physics. Those that no likely explanation explains are put aside, with
-    notes, and the rest is diagnosed again. Raises what `prepared` and `diagnose_study` do.
+    Suspects are used at first: they may be physics. Those that no likely explanation explains are put aside, with
+    notes, and the rest is diagnosed again. Raises as `prepared` and `diagnose_study`.
     """
     study = prepared(recording)
     found = diagnose_study(study, _viscosity(study, pump), thresholds, report, workers)

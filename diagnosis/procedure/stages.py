@@ -108,9 +108,9 @@ def _listed_anew(
 ) -> tuple[Explanation, ...]:
     """Further explanations to refit where the linear model about the prior mean misses the null.
 
-    There a gap in that model says little: the first of its ranking that gain on the null are refitted, and those of
-    a linear model about the null's fit. Nuisances that have moved far no longer hide what they hid at the prior mean,
-    or hide it now.
+    There a gap in that model has little meaning: the first of its ranking that gain on the null are refitted, and those
+    of a linear model about the null's fit. Effects hidden by nuisances at the prior mean may be visible about that fit,
+    and the reverse.
     """
     if null.posterior is None or not _is_missed(screened, null, thresholds):
         return ()
@@ -121,7 +121,7 @@ def _listed_anew(
 
 
 def _is_missed(screened: Sequence[Explanation], null: Explanation, thresholds: Thresholds) -> bool:
-    """True if the linear model about the prior mean promises the null far more than its fit reaches."""
+    """True if the linear model about the prior mean predicts far more for the null than its fit reaches."""
     linear = next(each for each in screened if each.hypothesis.kind is Kind.NO_MISMATCH)
     return linear.log_evidence - null.log_evidence > thresholds.name.shortlist_gap
 
@@ -145,7 +145,7 @@ def _null(study: Study, linear: Explanation, thresholds: Thresholds) -> tuple[Ex
 def _screened_anew(
     study: Study, detection: Detection, screened: tuple[Explanation, ...], null: Explanation, thresholds: Thresholds
 ) -> tuple[Explanation, ...]:
-    """The screening repeated about the null's fit, where nothing contradicts that.
+    """The screening repeated about the null's fit, if no test contradicts that.
 
     About the prior mean a nonlinear influence within tolerance (an encoder's offset on the flank of a trace) looks
     like an effect, and refits would cost many maps to reject it.
@@ -184,7 +184,7 @@ def _unknown_anew(
 ) -> tuple[Explanation, ...]:
     """Unknown physics about the prior mean or about the null's refit, the larger evidence of the two.
 
-    is_missed: the linear model about the prior mean misses the null, so that it says nothing of a multiplier either.
+    is_missed: the linear model about the prior mean misses the null, so that it is not valid for a multiplier either.
     """
     fit = None if null.posterior is None else settled(null.posterior)
 

@@ -24,7 +24,7 @@ class PressureReference(Enum):
 
 
 class AccuracyClass(Enum):
-    """Classes of measurement after ISO 4409; `channel_noise` states how well their limits are known."""
+    """Classes of measurement after ISO 4409; `channel_noise` states the reliability of their limits."""
 
     A = "A"
     B = "B"

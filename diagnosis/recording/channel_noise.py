@@ -13,13 +13,13 @@ from system.inputs.channels import INPUTS, ChannelName
 from system.inputs.units import Dimension
 
 LEAST_GAIN = 1e-3
-ZERO_SHARE = 0.5  # of the largest reading's limit: what a class leaves to the zero of an output
-SETTING_SHARE = 5e-4  # of full displacement: how well a swash angle is set where nothing is stated
+ZERO_SHARE = 0.5  # of the largest reading's limit: share of a class for the zero of an output
+SETTING_SHARE = 5e-4  # of full displacement: assumed accuracy of a set swash angle
 ENCODER = math.radians(0.3)
-FEWEST_READINGS = 20  # different ones from which a step is read off
+FEWEST_READINGS = 20  # different readings from which a step is derived
 
-# Limits of the classes A, B, C of ISO 4409 as they are commonly quoted. The standard's own table was not at hand
-# to hold them against: a calibration that matters is better stated by the recording than by a class.
+# Limits of the classes A, B, C of ISO 4409 as they are commonly quoted. The standard's own table was not available for
+# comparison: an important calibration is better stated by the recording than by a class.
 _SHARES = {AccuracyClass.A: 0.005, AccuracyClass.B: 0.01, AccuracyClass.C: 0.02}
 _FLOW_SHARES = {AccuracyClass.A: 0.005, AccuracyClass.B: 0.015, AccuracyClass.C: 0.025}
 _KELVIN = {AccuracyClass.A: 0.5, AccuracyClass.B: 1.0, AccuracyClass.C: 2.0}
@@ -69,7 +69,7 @@ def recorded_channel(form: ChannelForm, readings: Array, found: float | None) ->
 
 
 def reading_step(readings: Array, form: ChannelForm) -> float:
-    """Return the step of a channel's readings in SI, 0 if there is none.
+    """Return the step of a channel's readings in SI, or 0.
 
     The largest of 1, 2, 2.5 and 5 times a power of ten, in the file's unit, of which every reading is a multiple;
     from at least `FEWEST_READINGS` different ones.
@@ -88,7 +88,7 @@ def reading_step(readings: Array, form: ChannelForm) -> float:
 
 
 def _calibration(form: ChannelForm, sigma: float, relative: float, readings: Array) -> tuple[float, float]:
-    """One sigma of gain and zero where none is stated.
+    """One sigma of gain and zero if not stated.
 
     A class gives limits (see above); a limit L of even likelihood within has one sigma of L/sqrt 3 (GUM 4.3.7).
     """

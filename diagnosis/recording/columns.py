@@ -15,7 +15,7 @@ from system.inputs.faults import Fault, nearest_choice
 
 @dataclass
 class ColumnReader:
-    """Gathers faults and notes of one recording while its tables are read."""
+    """Collects faults and notes of one recording while its tables are read."""
 
     faults: list[Fault]
     notes: list[DataNote] = field(default_factory=list)
@@ -40,8 +40,8 @@ class ColumnReader:
         return columns
 
     def column(self, path: str, name: str, columns: TableColumns, likely: str = "") -> Array | None:
-        """A column by name, for the key at `path`; None with the fault added. likely: one that may be meant where no
-        name is near.
+        """A column by name, for the key at `path`; None with the fault added. likely: a possible column without a
+        similar name.
         """
         if name in columns.values:
             return columns.values[name]

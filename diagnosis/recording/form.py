@@ -27,7 +27,7 @@ AngleSection, ChamberSection = channel_section(ChannelName.ANGLE), channel_secti
 _MEASURED = tuple(name for name in ChannelName if name not in (ChannelName.ANGLE, ChannelName.P_CHAMBER))
 Words = Annotated[str, Text.WORDS]
 TIME = 'time = { column = "time", unit = "s" }, a column of the table: where it has none, row number over sampling rate'
-"""Way out of a series without its time."""
+"""Remedy for a series without its time."""
 Duration = Annotated[float, Dimension.TIME, Positive]
 
 

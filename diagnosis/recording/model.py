@@ -20,7 +20,7 @@ class Circuit(Enum):
 
 
 class NoteKind(Enum):
-    """Kind of a note on the data; WARNED: told first, as it limits every answer."""
+    """Kind of a note on the data; WARNED: reported first, as it limits every answer."""
 
     FAULT = "fault"
     REMOVED = "removed"
@@ -43,9 +43,9 @@ class DataNote:
 class RecordedChannel:
     """A channel of the file: column and unit there; the rest in SI.
 
-    One sigma of repeatability is sigma + sigma_relative x reading; quantum: step of the reading; lag in s;
-    gain_sigma (relative) and zero_sigma (SI): one sigma of the calibration. `assumed` names the fields that the
-    file does not state.
+    One sigma of repeatability is sigma + sigma_relative x reading; quantum: step of the reading; lag in s; gain_sigma
+    (relative) and zero_sigma (SI): one sigma of the calibration. `assumed` lists the fields that the file does not
+    state.
     """
 
     name: ChannelName
@@ -67,7 +67,7 @@ def reading_sigma(channel: RecordedChannel, readings: Array) -> Array:
 
 @dataclass(frozen=True)
 class SteadyTable:
-    """N steady points in the order in which they were taken.
+    """N steady points in the order of measurement.
 
     values: (N, len(ChannelName)) in SI, pressures gauge, columns in the order of ChannelName, nan = not measured;
     repeats: (N,), points of one number repeat one set point; hours: (N,), h from the first point, nan = not known;
@@ -121,7 +121,7 @@ class TraceBlock:
 
 @dataclass(frozen=True)
 class Recording:
-    """A recording as understood: SI, pressures gauge. `pump` and `oil` are as its file names them, or empty."""
+    """A recording as read: SI, pressures gauge. `pump` and `oil` are those named in its file, or empty."""
 
     title: str
     pump: str

@@ -1,4 +1,4 @@
-"""A recording from its folder: form, tables, units, noise, traces; everything that is wrong at once."""
+"""A recording from its folder: form, tables, units, noise, traces; all faults at once."""
 
 from __future__ import annotations
 
@@ -33,11 +33,11 @@ FILE = "recording.toml"
 
 
 def read_recording(path: Path | str) -> Recording:
-    """Return a recording as understood, in SI with gauge pressures: from its folder, its `recording.toml`, or a
-    table that has a `recording.toml` beside it (then the table's file need not be stated, and is that one).
+    """Return a recording in SI with gauge pressures: from its folder, its `recording.toml`, or a table that has a
+    `recording.toml` beside it (then the table's file need not be stated, and is that one).
 
-    Raises InputFaults with everything that is wrong with the file, its tables and their columns. Readings are
-    checked by `checks.check.check_recording`.
+    Raises InputFaults with all faults of the file, its tables and their columns. Readings are checked by
+    `checks.check.check_recording`.
     """
     path = Path(path)
     if not path.exists():
@@ -69,7 +69,7 @@ def recording_of_tables(label: str, tables: Mapping[str, Any], folder: Path, dat
 
 
 def _places(path: Path) -> tuple[Path, Path | None]:
-    """The recording.toml that belongs to a path, and the table that the path is, if it is one."""
+    """The recording.toml of a path, and the table at the path, if it is one."""
     if path.is_dir():
         return path / FILE, None
     if path.suffix.lower() == ".toml":
@@ -79,9 +79,9 @@ def _places(path: Path) -> tuple[Path, Path | None]:
 
 @dataclass(frozen=True)
 class _Points:
-    """Readings (N, C) by channel of the form; set points, hours, standard errors (N, C) of means, and the table's
-    own columns where its rows are the points. series: means over a time series and what it tells of its meters; where
-    they are quasi-steady, their standard errors hold in place of a stated repeatability.
+    """Readings (N, C) by channel of the form; set points, hours, standard errors (N, C) of means, and the table's own
+    columns where its rows are the points. series: means over a time series and data on its meters; if they are
+    quasi-steady, their standard errors replace a stated repeatability.
     """
 
     readings: Array
@@ -162,7 +162,7 @@ def _is_series(form: RecordingForm, points: SteadySection, readings: Array) -> b
 
 
 def _hold_units(channels: Sequence[ChannelForm], columns: TableColumns, reader: ColumnReader) -> None:
-    """Note each channel of which the table itself says another unit than is stated."""
+    """Note each channel whose unit in the table itself differs from the stated one."""
     for channel in channels:
         in_table, dimension = columns.units.get(channel.column, ""), channel.name.dimension
         try:
@@ -226,7 +226,7 @@ def _channels(forms: Sequence[ChannelForm], points: _Points, reader: ColumnReade
 
 
 def _with_zero(channel: RecordedChannel, least: float) -> RecordedChannel:
-    """The channel with a zero no better than its readings show, where none is stated."""
+    """The channel with a zero no better than its readings show, if not stated."""
     unknown = "zero" in channel.assumed
     return replace(channel, zero_sigma=max(channel.zero_sigma, least)) if unknown else channel
 

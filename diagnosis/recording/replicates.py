@@ -1,4 +1,4 @@
-"""Repeatability out of points that repeat a set point."""
+"""Repeatability from points that repeat a set point."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ def set_points(marks: Array) -> Numbers:
 def repeatability(readings: Array, inputs: Array, numbers: Numbers) -> float | None:
     """Return one sigma of a channel (N,) from the scatter within set points, pooled; None below `FEWEST` degrees.
 
-    Set points are met approximately: the part of the scatter that follows the deviations of the inputs (N, M)
+    Set points are reached approximately: the part of the scatter that follows the deviations of the inputs (N, M)
     within set points is removed by least squares first, as far as degrees of freedom allow.
     """
     known = np.isfinite(readings)
@@ -43,7 +43,7 @@ def repeatability(readings: Array, inputs: Array, numbers: Numbers) -> float | N
 
 
 def _within(readings: Array, numbers: Numbers) -> tuple[Array, int]:
-    """Deviations from the mean of each set point, and how many set points there are."""
+    """Deviations from the mean of each set point, and the number of set points."""
     found, place = np.unique(numbers, return_inverse=True)
     means = np.bincount(place, weights=readings) / np.maximum(np.bincount(place), 1)
     return readings - means[place], len(found)

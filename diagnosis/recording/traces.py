@@ -51,7 +51,7 @@ def synchronous_mean(point: int, angle: Array, pressure: Array, cycle: Array | N
 
 
 def _cycles(angle: Array) -> Array:
-    """Number of the cycle of each row: turns since the first, wherever that is; angles wrap or count on."""
+    """Number of the cycle of each row: turns since the first row, at any angle; angles wrap or continue."""
     if not len(angle):
         return angle
     course = np.unwrap(angle)
@@ -74,7 +74,7 @@ def _resampled(angle: Array, pressure: Array, raster: Array) -> Array:
 
 @dataclass(frozen=True)
 class ReadTraces:
-    """Averaged traces, and their two channels (none where there are no traces)."""
+    """Averaged traces, and their two channels (none without traces)."""
 
     blocks: tuple[TraceBlock, ...] = ()
     channels: tuple[RecordedChannel, ...] = ()
@@ -83,8 +83,8 @@ class ReadTraces:
 def read_traces(form: TraceForm, reader: ColumnReader, rows: Array | None, count: int) -> ReadTraces:
     """Return the traces of a recording of `count` steady points; faults go to the reader.
 
-    rows: the steady table's own column of the name that the traces call a point by; without one, points count
-    from 1. A point's trace is the mean over its cycles (`traces.synchronous_mean`).
+    rows: the steady table's own column with the traces' name of a point; without one, points count from 1. A point's
+    trace is the mean over its cycles (`traces.synchronous_mean`).
     """
     columns = reader.columns("traces", form.source)
     if columns is None:

@@ -1,4 +1,4 @@
-"""The answer of a diagnosis as a bench engineer reads it in ten minutes."""
+"""The answer of a diagnosis for a bench engineer, readable in ten minutes."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ from system.effects.catalogue.bench_words import BENCH_WORDS, PARTS
 from system.effects.effect import EffectId, Kind
 
 SUSPECTS = 2
-"""Number of explanations of a suspicion for which the page says what to look at."""
+"""Number of explanations of a suspicion with inspections on the page."""
 
 
 @dataclass(frozen=True)
@@ -37,12 +37,12 @@ class Look:
 
 @dataclass(frozen=True)
 class PlainAnswer:
-    """The answer in sentences, in the order in which it is read; empty where there is nothing to say.
+    """The answer in sentences, in the order of reading; empty parts have no content.
 
-    headline: kind of answer; finding: what happens, with sizes; cost: in flow, torque and efficiency; doubt: what
-    cannot be told apart from it, and what it leaves; course: how far readings are from the simulation; where: channels
-    and part of the map; certainty: with the record of such answers; rivals: what else is possible, what is ruled out;
-    look: parts to inspect; measure: what to measure next; fit: points not used in the fit; evidence: sentences of
+    headline: kind of answer; finding: process with sizes; cost: in flow, torque and efficiency; doubt: explanations
+    inseparable from it, and the unexplained part; course: distance of the readings from the simulation; where: channels
+    and part of the map; certainty: with the record of such answers; rivals: other possible explanations, excluded ones;
+    look: parts to inspect; measure: next measurement; fit: points not used in the fit; evidence: sentences of
     statistics. sizes: of each claim; sure, record: certainty and the record of such answers in a word or two each.
     """
 
@@ -85,8 +85,8 @@ def plain_answer(study: Study, diagnosis: Diagnosis, cost: str) -> PlainAnswer:
 
 
 def _measure(study: Study, diagnosis: Diagnosis) -> str:
-    """The next measurement. Without a mismatch, where that is not sure or only a type plate is known of the pump:
-    effects that may hide, and what would show them.
+    """The next measurement. Without a mismatch, if that is uncertain or only a type plate is known of the pump: effects
+    that may be hidden, and the measurements that would show them.
     """
     found = diagnosis.kind is not Kind.NO_MISMATCH or diagnosis.status is VerdictStatus.SUSPICION
     if found or (sure_words(diagnosis, study.scant) in SURE and not study.scant):
@@ -95,7 +95,7 @@ def _measure(study: Study, diagnosis: Diagnosis) -> str:
 
 
 def _looks(diagnosis: Diagnosis) -> Iterator[Look]:
-    """Of all that is claimed and that cannot be told from it; of a suspicion the likeliest; of the unknown itself."""
+    """Inspections for claims and explanations inseparable from them; of a suspicion the likeliest; of the unknown."""
     places: dict[EffectId, list[Gap]] = {}
     for effect, pair in _suspects(diagnosis):
         known = places.setdefault(effect, [])

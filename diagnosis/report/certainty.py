@@ -19,7 +19,7 @@ ENOUGH = 10
 """Trials of a band of probability below which all bands of the answer count together."""
 GRADES = ((0.9, "very sure"), (0.75, "fairly sure"), (0.5, "likely"))
 SURE = ("very sure", "fairly sure")
-"""Words of certainty of answers on which a bench may rest."""
+"""Words of certainty of reliable answers."""
 
 
 class AnswerKind(Enum):
@@ -36,7 +36,7 @@ class AnswerKind(Enum):
 class Record:
     """Right answers among `cases` of one kind in the proof, on pumps with a file or known by their type plate.
 
-    banded: only those of like probability count.
+    banded: only those of similar probability count.
     """
 
     right: int
@@ -62,9 +62,9 @@ def _rows() -> tuple[dict[str, str | float], ...]:
 
 
 def record_of(kind: AnswerKind, scant: bool, probability: float) -> Record | None:
-    """The record of answers of a kind and of like probability; of any probability where those are fewer than `ENOUGH`.
+    """The record of answers of a kind and of similar probability; of any probability if those are fewer than `ENOUGH`.
 
-    scant: of pumps known by their type plate. None where there is no such trial.
+    scant: of pumps known by their type plate. None without such a trial.
     """
     pump = "type_plate" if scant else "stated"
     rows = [row for row in _rows() if (row["answer"], row["pump"]) == (kind.value, pump)]
@@ -76,7 +76,7 @@ def record_of(kind: AnswerKind, scant: bool, probability: float) -> Record | Non
 
 
 def stated_probability(diagnosis: Diagnosis) -> float:
-    """The probability of the answer: of claims that of the least sure class; of a suspicion that of any mismatch."""
+    """The probability of the answer: of claims that of the least certain class; of a suspicion that of any mismatch."""
     if diagnosis.effects:
         return min(_of_class(claim, diagnosis) for claim in diagnosis.effects)
     wanted = Kind.UNKNOWN_PHYSICS if _kind(diagnosis) is AnswerKind.UNKNOWN else Kind.NO_MISMATCH
@@ -85,7 +85,7 @@ def stated_probability(diagnosis: Diagnosis) -> float:
 
 
 def certainty(diagnosis: Diagnosis, scant: bool) -> str:
-    """Certainty of the answer, the record of such answers with its interval, and what the recording leaves open."""
+    """Certainty of the answer, the record of such answers with its interval, and open questions of the recording."""
     return " ".join(_sentences(diagnosis, scant))
 
 
@@ -101,7 +101,7 @@ def sure_words(diagnosis: Diagnosis, scant: bool) -> str:
 
 
 def record_words(diagnosis: Diagnosis, scant: bool) -> str:
-    """The record of such answers in a few words: "32 of 33 such answers right"; empty where there is none."""
+    """The record of such answers in a few words: "32 of 33 such answers right"; empty without one."""
     record = record_of(_kind(diagnosis), scant, stated_probability(diagnosis))
     return f"{record.right} of {record.cases} such answers right" if record else ""
 

@@ -40,14 +40,14 @@ SIDES = {
 }
 """A channel that reads more, and less, than simulated."""
 BEHIND = {ChannelName.DISPLACEMENT_RATIO: " stroke", ChannelName.T_CASE: " in the case"}
-"""Words behind a level of an axis whose unit alone does not tell it."""
+"""Words behind a level of an axis whose unit alone is ambiguous."""
 SAME = {"speed": "speed", "pressure": "pressure", "displacement": "stroke", "viscosity": "oil viscosity"}
 
 
 def course_words(study: Study, diagnosis: Diagnosis) -> str:
-    """Distance of the first channel's readings from the simulation at both ends of the input that matters most.
+    """Distance of the first channel's readings from the simulation at both ends of the most important input.
 
-    By the explanation's addition, which has no noise. Empty where nothing is explained, and for traces alone.
+    By the explanation's addition, which has no noise. Empty without an explanation, and for traces alone.
     """
     channel = _channel(study, diagnosis)
     if channel is None:
@@ -69,14 +69,14 @@ def course_words(study: Study, diagnosis: Diagnosis) -> str:
 
 
 def _channel(study: Study, diagnosis: Diagnosis) -> ChannelName | None:
-    """The channel to tell of: the first one of the map in which the mismatch shows."""
+    """The channel of the sentence: the first one of the map with the mismatch."""
     agreed = diagnosis.kind is Kind.NO_MISMATCH or diagnosis.status is VerdictStatus.SUSPICION
     steady = [one for one in diagnosis.location.channels if one in study.channels and one in SIDES]
     return None if agreed or not steady else steady[0]
 
 
 def _ends(channel: ChannelName, added: Array, axes: Mapping[ChannelName, Array]) -> str:
-    """The differences at both ends of the axis of largest correlation; the median one where no axis moves."""
+    """The differences at both ends of the axis of largest correlation; the median one where no axis varies."""
     if not axes or np.ptp(added) == 0.0:
         return _difference(channel, float(np.median(added)))
     axis = max(axes, key=lambda name: abs(_correlation(axes[name], added)))

@@ -1,4 +1,4 @@
-"""The statistics behind an answer, in sentences for its appendix: misfit, growth, odds, and what a next point gains."""
+"""The statistics behind an answer, in sentences for its appendix: misfit, growth, odds, gain of a next point."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from diagnosis.verdict.diagnosis import Diagnosis, VerdictStatus
 
 
 def evidence(diagnosis: Diagnosis) -> tuple[str, ...]:
-    """Sentences with the numbers on which the verdict rests."""
+    """Sentences with the numbers behind the verdict."""
     return tuple(_sentences(diagnosis))
 
 
@@ -63,7 +63,7 @@ def _odds_to_rivals(diagnosis: Diagnosis) -> Iterator[str]:
 
 
 def _gain(found: NextPoint) -> str:
-    """The odds of the two that a point decides on, now and after readings there."""
+    """The odds of the two explanations of a next point, now and after readings there."""
     first, second = found.between
     ahead, behind = (first, second) if found.before >= 0.0 else (second, first)
     return (

@@ -11,7 +11,7 @@ from diagnosis.study.model import SUBJECTS
 from diagnosis.verdict.diagnosis import Diagnosis
 
 RIVALS = 3
-"""Named at most."""
+"""Largest number of named explanations."""
 
 
 def explained_by(diagnosis: Diagnosis, *, other_form: bool = True) -> list[Explanation]:
@@ -46,7 +46,7 @@ def explanation_words(own: Hypothesis) -> str:
 
 
 def _which(own: Hypothesis, at: int) -> str:
-    """The parameter of an effect that has several which gaps do not distinguish."""
+    """The parameter of an effect that has several not distinguished by gaps."""
     return f" ({last_word(str(own.subjects[at]))})" if named_apart(own, at) else ""
 
 

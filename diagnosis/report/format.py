@@ -13,7 +13,7 @@ from system.inputs.channels import ChannelName
 from system.inputs.units import Dimension, in_unit, reading_unit
 
 MOST_ODDS = 1000000
-"""Odds beyond which a number means nothing: models are not that true."""
+"""Odds beyond which a number has no meaning: models are not that accurate."""
 
 NOTHING = "no mismatch"
 """The explanation by no effect at all, in words."""
@@ -51,7 +51,7 @@ COMPONENTS = {
 
 
 def channel_words(channel: ChannelName) -> str:
-    """A channel in words with its name, where they do not hold it: "case drain (Q_case)", "shaft torque"."""
+    """A channel in words with its name, unless they contain it: "case drain (Q_case)", "shaft torque"."""
     words = CHANNELS[channel]
     return words if channel.value in words else f"{words} ({channel.value})"
 
@@ -76,7 +76,7 @@ def setting_text(speed: float, pressure: float, stroke: float) -> str:
 
 
 def pressure_text(pressure: float) -> str:
-    """A delivery pressure in Pa with the unit that is asked for: "374 bar"."""
+    """A delivery pressure in Pa in the requested unit: "374 bar"."""
     return f"{reading(ChannelName.P_OUT, pressure):.3g} {channel_unit(ChannelName.P_OUT)}"
 
 

@@ -34,7 +34,7 @@ SHARE = 0.95
 NARROWED = 0.5
 """Of the prior's sigma: a size known no better is not limited by the recording."""
 MATERIAL = 0.002
-"""Of the median of a channel: smaller changes are not told."""
+"""Of the median of a channel: smaller changes are not reported."""
 MOST_TOLD = 3
 """Effects in a sentence."""
 HEAD = (
@@ -47,9 +47,8 @@ HEAD = (
 class HiddenEffect:
     """An effect at the largest size that the recording allows.
 
-    limited: the recording narrows the size; otherwise `size` is what the prior allows. changes: (C,) in SI, what the
-    effect alone adds to each channel at the point where it adds most. relative: largest of them over the median of
-    its channel.
+    limited: the recording narrows the size; otherwise `size` is the prior's limit. changes: (C,) in SI, largest
+    addition of the effect alone to each channel. relative: largest of them over the median of its channel.
     """
 
     effect: EffectId
@@ -66,7 +65,7 @@ class HiddenEffect:
 
     @property
     def size_words(self) -> str:
-        """Its size to two digits, in the form of its finding where that has one: "12 % per 100 bar", "rate 0.002"."""
+        """Its size to two digits, in the form of its finding, if any: "12 % per 100 bar", "rate 0.002"."""
         rounded = replace(self.size, value=float(f"{self.size.value:.2g}"))
         told = size_words(ClaimedEffect(self.effect, self.pair, 0.0, (), (rounded,)))
         return told or f"{last_word(self.size.name)} {quantity(rounded)}"
@@ -76,7 +75,7 @@ def hidden_effects(study: Study, diagnosis: Diagnosis) -> tuple[HiddenEffect, ..
     """Every effect and meter fault that is not claimed, at each place where it may act; largest changes first.
 
     Those that change no channel by `MATERIAL` of its median at any size that the prior allows are left out. A fault is
-    what a meter is off beyond its calibration.
+    an error of a meter beyond its calibration.
     """
     fit, thresholds = settled(diagnosis.after), diagnosis.thresholds
     claimed = {claim.effect for claim in diagnosis.effects}

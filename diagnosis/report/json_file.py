@@ -1,4 +1,4 @@
-"""diagnosis.json, format 1: a diagnosis as other programs read it, every number with its unit."""
+"""diagnosis.json, format 1: a diagnosis for other programs, every number with its unit."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ from system.inputs.versions import version_fault
 
 FORMAT = 1
 ANSWER_FORMAT = 1
-"""Of the answer in plain words in the file, which changes with its parts and the page that shows them."""
+"""Version of the answer in plain words in the file, which changes with its parts and the page that shows them."""
 KEYS = (
     "format", "verdict", "status", "statement", "details", "mismatch", "where", "effects", "hypotheses", "fit",
     "scaling", "next_test", "not_identifiable", "notes",
@@ -160,7 +160,7 @@ def _held_out(fit: HeldOut) -> dict[str, Any]:
 
 
 def _number(channel: ChannelName, values: Mapping[ChannelName, float]) -> float | None:
-    """A residual in its unit; None where there is none."""
+    """A residual in its unit, or None."""
     value = values.get(channel)
     return None if value is None or not isfinite(value) else difference(channel, value)
 

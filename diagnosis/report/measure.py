@@ -29,7 +29,7 @@ MAP_AXES = (ChannelName.SPEED, ChannelName.P_OUT, ChannelName.DISPLACEMENT_RATIO
 
 
 def measure_words(diagnosis: Diagnosis) -> str:
-    """The measurement that decides between what is still open, in one to three sentences; or that none is needed."""
+    """The measurement that decides between the open explanations, in one to three sentences; or that none is needed."""
     found = diagnosis.next_point
     if found is not None and (found.is_open or diagnosis.status is VerdictStatus.SUSPICION):
         return next_point_text(found)
@@ -50,7 +50,7 @@ def measure_words(diagnosis: Diagnosis) -> str:
 
 
 def hidden_words(study: Study, examples: str) -> str:
-    """Effects that may hide, and meters, axes and dimensions that would show more, where nothing is found and such
+    """Effects that may be hidden, and meters, axes and dimensions that would show more, if nothing is found and such
     answers have a poor record. examples: the effects, in words.
     """
     moving = axis_values(study.recording)
@@ -79,7 +79,7 @@ def next_point_text(found: NextPoint) -> str:
 
 
 def _sure(found: NextPoint) -> str:
-    """The chance that the readings decide, or how many would."""
+    """The chance that the readings decide, or the number that would."""
     if found.settles or found.chance >= EVEN:
         return f"{found.readings} readings decide with a chance of {100.0 * min(found.chance, 0.99):.0f} %."
     if found.repeats:

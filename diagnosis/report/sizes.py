@@ -30,8 +30,8 @@ class Size:
 def finding_sentence(claim: ClaimedEffect, diagnosis: Diagnosis) -> str:
     """Process in the pump, with sizes, without a full stop.
 
-    The sentence of the catalogue's entry with all sizes behind a colon where the fit has not the sizes that the words
-    ask for (elastic walls as solved, say, have a share of the computed opening).
+    The sentence of the catalogue's entry with all sizes behind a colon where the fit lacks the sizes of the words
+    (solved elastic walls, for instance, have a share of the computed opening).
     """
     words = BENCH_WORDS[claim.effect].finding
     known = _fields(claim, diagnosis)
@@ -44,7 +44,7 @@ def finding_sentence(claim: ClaimedEffect, diagnosis: Diagnosis) -> str:
 
 
 def size_words(claim: ClaimedEffect) -> str:
-    """The first size of a claim in the form of its sentence; empty where the sentence tells none."""
+    """The first size of a claim in the form of its sentence; empty for a sentence without sizes."""
     known = {last_word(one.name).replace(" ", "_"): one for one in claim.parameters}
     asked = [(name, form) for _, name, form, _ in Formatter().parse(BENCH_WORDS[claim.effect].finding) if name]
     first = claim.parameters[0] if claim.parameters else None

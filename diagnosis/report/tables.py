@@ -27,7 +27,7 @@ Row = Mapping[str, str]
 
 
 def steady_rows(recording: Recording) -> Iterator[Row]:
-    """The steady points as understood: row, from 1, and every channel that was measured, in its reading unit."""
+    """The steady points as read: row, from 1, and every channel that was measured, in its reading unit."""
     table = recording.steady
     names = list(ChannelName)
     recorded = [name for name in names if np.any(np.isfinite(table.values[:, names.index(name)]))]
@@ -39,7 +39,7 @@ def steady_rows(recording: Recording) -> Iterator[Row]:
 
 
 def added_by_claim(study: Study, diagnosis: Diagnosis) -> Array:
-    """(N, C) in SI, addition of the claimed effects to the readings, all else as fitted; 0 without a claim."""
+    """(N, C) in SI, addition of the claimed effects to the readings, other parameters as fitted; 0 without a claim."""
     if not diagnosis.effects:
         return np.zeros_like(study.observations.values)
     return explained_mismatch(study, diagnosis.hypotheses[0], diagnosis.thresholds).added
@@ -162,7 +162,7 @@ def pull_sums(before: Posterior, after: Posterior) -> tuple[float, float]:
 
 
 def _set_free(before: Posterior, after: Posterior) -> Iterator[str]:
-    """Names of the parameters whose prior is another after: widened by the claim."""
+    """Names of the parameters with another prior after: widened by the claim."""
     stated = {one.name: one for one in before.parameters}
     for one in after.parameters:
         if one.name in stated and one.spread != stated[one.name].spread:
@@ -170,7 +170,7 @@ def _set_free(before: Posterior, after: Posterior) -> Iterator[str]:
 
 
 def _reading(channel: ChannelName, value: float) -> str:
-    """A reading in SI in its unit, empty where there is none."""
+    """A reading in SI in its unit, empty without one."""
     return _text(reading(channel, value)) if np.isfinite(value) else ""
 
 

@@ -1,4 +1,4 @@
-"""A diagnosis as text: headline, finding with size and place, certainty, and what is still open."""
+"""A diagnosis as text: headline, finding with size and place, certainty, and open questions."""
 
 from __future__ import annotations
 
@@ -37,13 +37,13 @@ COUNTS = ("no", "one", "two", "three", "four", "five", "six", "seven", "eight", 
 
 
 def statement(diagnosis: Diagnosis) -> str:
-    """Headline, finding with its size, where it shows, and certainty."""
+    """Headline, finding with its size, its place, and certainty."""
     told = (headline(diagnosis), finding(diagnosis), doubt(diagnosis), where_words(diagnosis), _sure(diagnosis))
     return " ".join(text for text in told if text)
 
 
 def paragraphs(diagnosis: Diagnosis) -> tuple[str, ...]:
-    """The statement, points not used in the fit, what else is possible, and what to measure next."""
+    """The statement, points not used in the fit, other possible explanations, and the next measurement."""
     told = (statement(diagnosis), fit_words(diagnosis), rivals_words(diagnosis), measure_words(diagnosis))
     return tuple(text for text in told if text)
 
@@ -92,12 +92,12 @@ def doubt(diagnosis: Diagnosis) -> str:
 
 
 def suspected(diagnosis: Diagnosis) -> list[Explanation]:
-    """The explanations of a suspicion that are likely enough to be told, the likeliest first."""
+    """The explanations of a suspicion that are likely enough to be listed, the likeliest first."""
     return [one for one in explained_by(diagnosis) if one.probability >= OTHER]
 
 
 def where_words(diagnosis: Diagnosis) -> str:
-    """Channels in which it shows, where it is strongest on the map, in time and over the shaft angle."""
+    """Channels with the mismatch, its strongest region of the map, in time and over the shaft angle."""
     location = diagnosis.location
     if diagnosis.kind is Kind.NO_MISMATCH or not location.channels:
         return ""
@@ -138,7 +138,7 @@ def rivals_words(diagnosis: Diagnosis) -> str:
 
 
 def _is_told(own: Hypothesis, diagnosis: Diagnosis) -> bool:
-    """True for an explanation that the finding names already, as one of those that cannot be told apart."""
+    """True for an explanation that the finding names already, as one of those that are inseparable."""
     if len(diagnosis.effects) != 1 or len(own.effects) != 1:
         return False
     (claim,) = diagnosis.effects
@@ -182,7 +182,7 @@ def _times(location: Location) -> str:
 
 
 def _angles(location: Location) -> str:
-    """A sentence of its own: an angle that stands out in a trace need not belong to the claim."""
+    """A sentence of its own: a significant angle in a trace need not belong to the claim."""
     if location.angle is None:
         return ""
     start, end = (reading(ChannelName.ANGLE, angle) for angle in (location.angle.start, location.angle.end))
@@ -207,7 +207,7 @@ def _of_which(at: int, diagnosis: Diagnosis) -> str:
 
 
 def _class(diagnosis: Diagnosis) -> Iterator[str]:
-    """Effects and gaps that the recording cannot tell apart."""
+    """Effects and gaps that the recording cannot separate."""
     if diagnosis.status is VerdictStatus.SUSPICION:
         return
     for claim in diagnosis.effects:
@@ -226,7 +226,7 @@ def _class(diagnosis: Diagnosis) -> Iterator[str]:
 
 
 def _is_behind_unknown(diagnosis: Diagnosis) -> bool:
-    """True if unknown physics has more evidence than what is claimed."""
+    """True if unknown physics has more evidence than the claim."""
     unknown = [one.log_weight for one in diagnosis.hypotheses if one.hypothesis.kind is Kind.UNKNOWN_PHYSICS]
     return max(unknown, default=-inf) > diagnosis.hypotheses[0].log_weight
 
@@ -242,7 +242,7 @@ def _member(effect: EffectId, diagnosis: Diagnosis) -> str:
 
 
 def _incomplete(diagnosis: Diagnosis) -> Iterator[str]:
-    """A sentence on the part that remains, and on the certainty of names beside which no unknown cause stands."""
+    """A sentence on the remaining part, and on the certainty of names without an unknown cause beside them."""
     if diagnosis.status is VerdictStatus.INCOMPLETE:
         several = len(diagnosis.effects) > 1
         they, names = ("they do", "the names are") if several else ("it does", "the name is")

@@ -42,7 +42,7 @@ def trace_residual_rows(study: Study, diagnosis: Diagnosis) -> Iterator[Row]:
 def simulated_traces(study: Study, diagnosis: Diagnosis, points: tuple[int, ...], angle: Array) -> tuple[Array, Array]:
     """Chamber pressure (len(points), K), Pa gauge, at shaft angles (K,) rad: by the null's fit, by the claimed.
 
-    The latter is the null's if nothing is claimed, or if no law gives the claim.
+    The latter is the null's without a claim, or for a claim without a law.
     """
     before = study.simulator.traces(diagnosis.before.values, points, angle)
     own = diagnosis.hypotheses[0]

@@ -17,12 +17,12 @@ from system.inputs.faults import Fault, InputFaults
 from system.pump_file.file import KnownPump, builtin_pumps, load_known_pump
 
 GRADE_BAND = 0.101
-"""Of the viscosity that an ISO grade names, with a little for what a file rounds."""
+"""Of the viscosity of an ISO grade, with a margin for rounding in a file."""
 _GRADE = re.compile(r"\bVG\s*(\d+)", re.IGNORECASE)
 
 
 def accepted_recording(source: Recording | Path | str, known: KnownPump) -> Recording:
-    """The recording itself, which `checked_recording` has returned, or the checked recording of a path."""
+    """A recording that `checked_recording` has returned, or the checked recording of a path."""
     return source if isinstance(source, Recording) else checked_recording(source, known)
 
 
@@ -46,8 +46,8 @@ def checked_recording(path: Path | str, known: KnownPump | None = None) -> Recor
 def contradictions(recording: Recording, known: KnownPump | None) -> Iterator[DataNote]:
     """Notes where the recording names another pump, or an oil of another grade, than the pump that it is compared with.
 
-    ISO 3448 allows a grade 10 % either side of its viscosity at 40 degC. An oil without a grade in its name says
-    nothing.
+    ISO 3448 allows a grade 10 % either side of its viscosity at 40 degC. An oil without a grade in its name is not
+    checked.
     """
     if known is None:
         return
@@ -72,7 +72,7 @@ def refuse_too_few(study: Study) -> None:
 
 
 def refuse_too_smooth(study: Study, least_chi2: float) -> None:
-    """Raises InputFaults for readings that scatter about the fit by far less than their noise."""
+    """Raises InputFaults for readings with far less scatter about the fit than their noise."""
     smooth = too_smooth(study.base.objective, study.base.residual.size, least_chi2)
     if smooth is not None:
         raise InputFaults(study.recording.title, [Fault("recording", smooth.text, "readings with the noise stated")])

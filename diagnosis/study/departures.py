@@ -1,10 +1,10 @@
-"""Departures of a law over the map, of which only is known that few inputs make them.
+"""Departures of a law over the map, known only to depend on few inputs.
 
 A law a(x) becomes a(x) (1 + Phi b), b ~ N(0, w^2). Phi are the shapes of one family: a polynomial of second order in
 one to four of the inputs, or any course over one of them. Families of as many inputs share a mass, and so do the
-courses. A departure by one input costs little evidence, one by many costs more: which inputs matter is found, not
-assumed (Occam's factor; MacKay 1992, doi:10.1162/neco.1992.4.3.415). A factor that is the same everywhere does not
-count: it is a wrong value, a meter's gain, or a law of the catalogue, which are hypotheses of their own.
+courses. A departure by one input costs little evidence, one by many costs more: the important inputs are found, not
+assumed (Occam's factor; MacKay 1992, doi:10.1162/neco.1992.4.3.415). A constant factor does not count: it is a wrong
+value, a meter's gain, or a law of the catalogue, which are hypotheses of their own.
 """
 
 from __future__ import annotations
@@ -53,9 +53,9 @@ class Shapes:
 
 @dataclass(frozen=True)
 class DepartureEvidence:
-    """ln evidence of a law's departure over none, averaged over families; the family that gives most of it.
+    """ln evidence of a law's departure over none, averaged over families; the family with the largest part.
 
-    taken: nats of the objective that this family takes up.
+    taken: nats of the objective that this family absorbs.
     """
 
     log_evidence: float
@@ -64,7 +64,7 @@ class DepartureEvidence:
 
 
 def departure_shapes(recording: Recording) -> Shapes:
-    """All families of shapes over the inputs that move in a recording; a constant where none does."""
+    """All families of shapes over the inputs that move in a recording; a constant without any."""
     inputs = _inputs(recording)
     names, scaled = tuple(inputs), [on_axis(name, values) for name, values in inputs.items()]
     columns, places = _monomials(scaled, len(next(iter(inputs.values()), recording.steady.values)))

@@ -1,9 +1,9 @@
 """Course of a meter's drift: a smooth function of time that no law of the pump's inputs replaces.
 
-    y = f(inputs) + sum over k of a_k (cos(k pi t) - 1),   t: share of the recording that is past, a_k ~ N(0, w^2)
+    y = f(inputs) + sum over k of a_k (cos(k pi t) - 1),   t: elapsed share of the recording, a_k ~ N(0, w^2)
 
 A meter drifts where these columns in its channel alone are likelier than a free smooth multiplier over the map on any
-part of the pump: a pressure that is swept many times tells the two apart, a warm-up that is recorded once does not.
+part of the pump: a pressure that is swept many times separates the two, a warm-up that is recorded once does not.
 
 The course is found about the prior mean, where the pump's other errors distort it. In a fit each of its cosines
 departs from the course by a share of its height.
@@ -57,7 +57,7 @@ def course_departures(study: Study, courses: Mapping[ChannelName, Array], share:
 
 
 def _shapes(hours: Array) -> Array:
-    """Cosines (N, ORDERS) of the share of the recording that is past, 0 at its first point."""
+    """Cosines (N, ORDERS) of the elapsed share of the recording, 0 at its first point."""
     past = (hours - hours.min()) / np.ptp(hours)
     return np.stack([np.cos(order * np.pi * past) - 1.0 for order in range(1, ORDERS + 1)], axis=1)
 

@@ -1,7 +1,7 @@
-"""Parameters that a fit needs: the others keep their stated values and cost no slopes.
+"""Parameters that a fit needs: the others keep their stated values and need no slopes.
 
-A parameter that no reading feels decides nothing. One that others replace decides nothing either: where these are
-free within their tolerances, the readings leave its prior variance as it is,
+A parameter without influence on the readings has no effect on a fit. One that others replace has none either: where
+these are free within their tolerances, the readings leave its prior variance as it is,
 
     var(xi_k | y) = (A^T A + 1)^-1_kk > redundant,   A: slopes of the readings by xi, in sigma
 
@@ -22,7 +22,7 @@ from system.estimation.parameters import Parameter
 
 
 def felt(study: Study, thresholds: Thresholds) -> tuple[Parameter, ...]:
-    """Parameters of a study that its readings feel and that no others replace, in their order."""
+    """Parameters of a study with influence on its readings that no others replace, in their order."""
     parameters, slopes = study.base.parameters, study.base.slopes
     questioned = {name for effect in SUBJECTS for name in concerned(effect, parameters)}
     stays = np.array([one.name == THERMOMETER_LAG for one in parameters], dtype=bool)
@@ -34,7 +34,7 @@ def felt(study: Study, thresholds: Thresholds) -> tuple[Parameter, ...]:
 
 
 def _most_open(slopes: Array, kept: NDArray[np.bool_], removable: NDArray[np.bool_], redundant: float) -> int | None:
-    """The removable parameter that the readings leave most open, None where they narrow all of them."""
+    """The removable parameter that the readings determine least, None where they narrow all of them."""
     own = slopes[:, kept]
     variance = np.zeros(kept.size)
     variance[kept] = np.diag(np.linalg.inv(own.T @ own + np.eye(own.shape[1])))

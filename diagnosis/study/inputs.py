@@ -44,7 +44,7 @@ class AssumedInput:
 
 
 def measured(recording: Recording, names: Iterable[ChannelName]) -> tuple[ChannelName, ...]:
-    """Those of the channels that the recording has a sigma and a reading of."""
+    """Those of the channels for which the recording has a sigma and a reading."""
     return tuple(
         name
         for name in names

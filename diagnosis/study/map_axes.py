@@ -19,14 +19,14 @@ LEAST_WARMING = 3.0  # K, the same for temperatures
 
 
 def axis_values(recording: Recording) -> Mapping[ChannelName, Array]:
-    """The axes along which the recording moves at all, each (N,) in SI."""
+    """The axes along which the recording varies, each (N,) in SI."""
     order = list(ChannelName)
     columns = {axis: recording.steady.values[:, order.index(axis)] for axis in AXES}
     return {axis: values for axis, values in columns.items() if moves(axis, values)}
 
 
 def scaled_axes(recording: Recording) -> Array:
-    """(N, 4), each axis scaled to [-1, 1], speed by its logarithm; 0 for an axis that does not move."""
+    """(N, 4), each axis scaled to [-1, 1], speed by its logarithm; 0 for a constant axis."""
     moving = axis_values(recording)
     scaled = np.zeros((len(recording.steady.values), len(AXES)))
     for at, axis in enumerate(AXES):

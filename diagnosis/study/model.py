@@ -45,7 +45,7 @@ SUBJECTS: Mapping[EffectId, str] = {
 
 
 class PumpSimulator(Simulator, Protocol):
-    """A simulator of a pump's bench map that laws of the catalogue can be switched on in."""
+    """A simulator of a pump's bench map in which laws of the catalogue can be switched on."""
 
     def elsewhere(self, points: BenchPoints) -> PumpSimulator:
         """The same pump with the same parameters and laws at other points, steady readings alone."""
@@ -64,7 +64,7 @@ class PumpSimulator(Simulator, Protocol):
         ...
 
     def traces(self, values: Array, points: tuple[int, ...], angles: Array) -> Array:
-        """Chamber pressure (len(points), K) in Pa gauge at shaft angles (K,) in rad as an encoder reads them."""
+        """Chamber pressure (len(points), K) in Pa gauge at shaft angles (K,) in rad as read by an encoder."""
         ...
 
     def components(self, values: Array) -> Mapping[Component, Array]:
@@ -114,7 +114,7 @@ class TraceMisfit:
 
 @dataclass(frozen=True)
 class Study:
-    """All that detecting, locating and naming start from.
+    """All data for detecting, locating and naming.
 
     base: linear posterior about the prior mean, or about standard numbers by name where `about` has some; candidates
     and components are those there. components: contribution (N, C) of each to the readings, in SI.
@@ -169,7 +169,7 @@ def study_of(
     """The study of readings with their simulator.
 
     All slopes are at the prior mean unless standard numbers are given by name: a null model fitted to readings that it
-    cannot explain moves its parameters by tens of sigma, where slopes are of no use.
+    cannot explain moves its parameters by tens of sigma, where slopes are useless.
     """
     place = place_of(simulator, about or {})
     base = linear_posterior(simulator, observations, place)
@@ -181,7 +181,7 @@ def study_of(
 
 
 def place_of(simulator: PumpSimulator, about: Mapping[str, float]) -> Array:
-    """Standard numbers (k,) of a simulator's parameters by name, 0 where there is none."""
+    """Standard numbers (k,) of a simulator's parameters by name, 0 for others."""
     return np.array([about.get(parameter.name, 0.0) for parameter in simulator.parameters])
 
 
@@ -193,7 +193,7 @@ def entry_candidates(
 
 
 def concerned(effect: EffectId, parameters: Iterable[Parameter]) -> tuple[str, ...]:
-    """Names of the base and sensor parameters that an effect without a law of its own is about."""
+    """Names of the base and sensor parameters of an effect without a law of its own."""
     subject = SUBJECTS.get(effect)
     names = (parameter.name for parameter in parameters)
     return tuple(name for name in names if subject and (name == subject or name.startswith(subject + ".")))

@@ -1,4 +1,4 @@
-"""Noise beyond what is stated: errors that persist in the order of recording, scatter about a smooth mismatch."""
+"""Noise beyond the stated one: errors that persist in the order of recording, scatter about a smooth mismatch."""
 
 from __future__ import annotations
 
@@ -14,10 +14,10 @@ from reynolds.numerics.arrays import Array
 def noise_correlation(study: Study, limits: MismatchLimits) -> tuple[float, ...]:
     """Lag-1 correlation of the residual along the order, (rho,); () if it is not `memory` sigma above 0.
 
-    Score test of an autoregressive noise (Rao 1948): with r ~ N(0, P) where noise is white and M half on every
-    pair of consecutive readings of a channel, s^2 = 2 tr M P M P, z = (r.M r - tr M P)/s and rho = z/s, r in units
-    of its own scatter where that exceeds the noise. A smooth mismatch over the map is taken out, and only pairs
-    apart on the map count: in sweeps, which have none, correlation cannot be separated from mismatch.
+    Score test of an autoregressive noise (Rao 1948): with r ~ N(0, P) where noise is white and M half on every pair of
+    consecutive readings of a channel, s^2 = 2 tr M P M P, z = (r.M r - tr M P)/s and rho = z/s, r in units of its own
+    scatter where that exceeds the noise. A smooth mismatch over the map is removed, and only pairs apart on the map
+    count: in sweeps, which have none, correlation cannot be separated from mismatch.
     """
     pairs = _pairs(study, limits.memory_apart)
     if len(pairs) < limits.memory_pairs:
@@ -38,9 +38,8 @@ def noise_correlation(study: Study, limits: MismatchLimits) -> tuple[float, ...]
 def noise_excess(study: Study, limits: MismatchLimits) -> Array:
     """Scatter (C,) of each channel's readings in units of their noise, 1 at least; 1 where it is more than `excess`.
 
-    A smooth mismatch of every channel over the map is taken out: what is left is noise, whatever the physics, unless
-    it is so much that a mismatch is not smooth. Of the residual r = P y with P of trace n - m the mean square is
-    r.r/tr P.
+    A smooth mismatch of every channel over the map is removed: the remainder is noise for any physics, unless it is so
+    large that the mismatch is not smooth. Of the residual r = P y with P of trace n - m the mean square is r.r/tr P.
     """
     residual, left = _without_smooth_mismatch(study, limits)
     channel, count = study.base.whitening.rows[:, 1], study.observations.values.shape[1]

@@ -41,8 +41,8 @@ from system.inputs.units import TURN
 from system.points.table.film_physics import FilmModel
 
 LEAST_ACROSS = 1e6  # Pa
-LAG = 1.0  # s, one sigma of a flow meter's lag where none is stated
-UNTOLD, TOLD = 20.0, 0.3  # one sigma of the thermometer's lag where none is stated (s), and over one that is
+LAG = 1.0  # s, one sigma of a flow meter's lag if not stated
+UNTOLD, TOLD = 20.0, 0.3  # one sigma of the thermometer's lag if not stated (s), and over a stated one
 
 
 def prepare(
@@ -56,8 +56,8 @@ def prepare(
 ) -> Study:
     """The study of a recording of a pump, by the lumped fidelity, with the whole catalogue as candidates.
 
-    films: solved ones in place of the lumped law's; what they leave out are candidates of the catalogue, and the
-    error of their tables is noise of the readings.
+    films: solved ones in place of the lumped law's; physics that they leave out are candidates of the catalogue, and
+    the error of their tables is noise of the readings.
 
     Chamber traces are readings like the steady ones, some tens of numbers each (`TracedBench`). Inputs that the
     recording lacks are assumed, with notes in the study's recording. Raises InputError for a recording without
@@ -110,7 +110,7 @@ def prepare(
 def _of_points(
     bare: Study, bench: LumpedBench, found: Observations, catalogue: tuple[Entry, ...], thresholds: Thresholds
 ) -> Study:
-    """The study of a recording without traces: drifts with courses of their own, and the parameters that are felt."""
+    """The study of a recording without traces: drifts with courses of their own, and the parameters with influence."""
     courses = drift_courses(bare, thresholds)
     shapes = {channel: course / np.abs(course).max() for channel, course in courses.items()}
     bench = bench.only(felt(bare, thresholds)).with_drifts(shapes, drift_parameters(bare, courses))
@@ -125,7 +125,7 @@ def _of_points(
 def uncertain_parameters(
     pump: PumpDescription, tolerances: Tolerances, films: FilmModel | None = None
 ) -> tuple[Parameter, ...]:
-    """The pump's uncertain parameters; of films that balance forces, those that are no results."""
+    """The pump's uncertain parameters; of films in balance of forces, those that are no results."""
     found = base_parameters(pump, tolerances)
     return found if films is None else tuple(one for one in found if one.name not in BALANCED_NAMES)
 
@@ -139,7 +139,7 @@ def _unused_notes(recording: Recording) -> Iterator[DataNote]:
 
 
 def _excess_notes(channels: tuple[ChannelName, ...], excess: Array, least: float) -> Iterator[DataNote]:
-    """A note on each channel whose means scatter clearly more than their samples' noise tells."""
+    """A note on each channel whose means scatter clearly more than their samples' noise predicts."""
     for channel, factor in zip(channels, excess, strict=True):
         if factor > least:
             text = f"the points scatter {factor:.2g} times as much as the samples' noise allows: this scatter is used"
@@ -157,10 +157,10 @@ def _drift_notes(courses: Mapping[ChannelName, Array], recording: Recording) -> 
 def _of_another_make(bench: LumpedBench, axes: Array, sigma: Array, form: FormLimits) -> LumpedBench:
     """The bench with departures of its leakage and friction from the simulation's laws.
 
-    Leakage departs by smooth factors and a power of the pressure. While ports change, chambers leak into the case what
-    delivery does not lack: a share of the drain by itself, and one that the chamber's peaks add. Ports give back more
-    or less of the energy that oil in the dead volumes holds, and films shear over areas that leakage does not
-    determine: both change torque alone.
+    Leakage departs by smooth factors and a power of the pressure. While ports change, chambers leak into the case oil
+    that delivery does not lack: a share of the drain by itself, and one from the chamber's peaks. Ports return more or
+    less of the energy that oil in the dead volumes holds, and films shear over areas that leakage does not determine:
+    both change torque alone.
     """
     centre = values_at(bench.parameters, np.zeros(len(bench.parameters)))
     across = np.maximum(bench.points.p_out - bench.points.p_case, LEAST_ACROSS)
@@ -194,7 +194,7 @@ def meter_parameters(recording: Recording, channels: tuple[ChannelName, ...]) ->
     if drain is not None and drain.name in channels and drain.zero_sigma > 0:
         found.append(drift_parameter(drain.name, drain.zero_sigma))
     delivery, steady = recording.channel(ChannelName.Q_OUT), recording.steady
-    in_time = np.all(np.isfinite(steady.hours)) and np.isnan(steady.errors).all()  # lag is out of quasi-steady points
+    in_time = np.all(np.isfinite(steady.hours)) and np.isnan(steady.errors).all()  # quasi-steady points have no lag
     if delivery is not None and delivery.name in channels and in_time:
         found.append(lag_parameter(delivery.name, delivery.lag or LAG))
     case = recording.channel(ChannelName.T_CASE)

@@ -16,10 +16,10 @@ from system.effects.effect import Kind
 def doubted(explanations: Sequence[Explanation], share: float, rest: Collection[Kind]) -> tuple[Explanation, ...]:
     """The explanations in their order with probabilities P' = share P + (1 - share) P0.
 
-    P0: priors of the explanations of the kinds `rest`, normalised; 0 where there is none of these. Evidences hold
-    where one of the explanations is true; the residual contradicts that, and with the chance 1 - share the prior is
-    all that is known (contamination of a posterior; Berger and Berliner 1986, doi:10.1214/aos/1176349933). share: of
-    such findings, the right ones.
+    P0: priors of the explanations of the kinds `rest`, normalised; 0 without any of these. Evidences are valid if one
+    of the explanations is true; the residual contradicts that, and with the chance 1 - share only the prior is known
+    (contamination of a posterior; Berger and Berliner 1986, doi:10.1214/aos/1176349933). share: of such findings, the
+    right ones.
     """
     prior = _prior(explanations, rest)
     return tuple(
@@ -32,7 +32,7 @@ def no_surer(explanations: Sequence[Explanation], chance: float) -> tuple[Explan
     """The explanations with a least probability of "no mismatch", and all others in their proportions.
 
     A p-value `chance` (0 to 1) changes the prior odds of "no mismatch" by the factor of `sellke_bayarri_berger` at
-    most. Evidences may say more, since the laws behind them differ from those of the pump; the readings do not.
+    most. Evidences may exceed that, since their laws differ from those of the pump; the readings do not support it.
     """
     null = next(each for each in explanations if each.hypothesis.kind is Kind.NO_MISMATCH)
     others = np.exp([each.hypothesis.log_prior for each in explanations if each is not null]).sum()

@@ -17,8 +17,8 @@ def equivalents(
 
     Equal: ln evidence within the gap (nats), within `place_gap` for the same effects at other gaps; or the same
     predicted readings (difference of the refitted predictions below the gap, delta^2 / 2 nats) with all other
-    parameters as near to their stated values: then only the prior widths of the free parameters separate them.
-    Alike slopes make no class: laws of one slope differ by their curvature.
+    parameters as near to their stated values: then only the prior widths of the free parameters separate them. Equal
+    slopes make no class: laws of one slope differ by their curvature.
     """
     rivals = [each for each in explanations if each is not best and _comparable(each, best)]
     alike = [
@@ -39,7 +39,7 @@ def parting(one: Explanation, other: Explanation) -> float:
 
 
 def _strain(explanation: Explanation) -> float:
-    """Nats of a refit's objective, (r^2 + xi^2) / 2, without the prior cost of the parameters it sets free."""
+    """Nats of a refit's objective, (r^2 + xi^2) / 2, without the prior cost of its free parameters."""
     posterior = explanation.posterior
     if posterior is None:
         return float("inf")

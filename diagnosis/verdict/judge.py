@@ -29,7 +29,7 @@ from system.estimation.fit import is_peak
 from system.estimation.posterior import Posterior
 
 MISMATCHES = frozenset(Kind) - {Kind.NO_MISMATCH}
-"""Kinds of explanation where there is a mismatch."""
+"""Kinds of explanation of a mismatch."""
 
 
 @dataclass(frozen=True)
@@ -58,12 +58,12 @@ def judge(
 
     along: coordinates (N,) by name, with which an effect may grow (`diagnosis.verdict.trend`).
 
-    A mismatch needs an improbable null and a candidate (or a departure) as striking as chance hardly makes one; one
-    of the two alone is a suspicion of the likeliest kind, and claims nothing. So is a null that is less likely than
-    not, however ordinary the candidates. A name needs probability, odds to all that claim something else, sizes above
-    zero, and no veto of held-out regions; it is incomplete if a part of the mismatch remains. Unknown physics as likely
-    as a name is in the class of each claim; so it is where a law of the catalogue in another form may be what was left
-    out (`chance_of_form`).
+    A mismatch needs an improbable null and a candidate (or a departure) of a significance that chance hardly produces;
+    one of the two alone is a suspicion of the likeliest kind, without a claim. So is a null that is less likely than
+    not, with any candidates. A name needs probability, odds to all with other claims, sizes above zero, and no veto of
+    held-out regions; it is incomplete if a part of the mismatch remains. Unknown physics as likely as a name is in the
+    class of each claim; so it is where the missing physics may be a law of the catalogue in another form
+    (`chance_of_form`).
     """
     limits = thresholds.mismatch
     null = next(each for each in explanations if each.hypothesis.kind is Kind.NO_MISMATCH)
@@ -102,7 +102,7 @@ def judge(
 
 
 def _record_of_scant(study: Study, thresholds: Thresholds) -> tuple[str, ...]:
-    """Share of right findings on pumps of which little is known, as text; nothing for another pump."""
+    """Share of right findings on pumps of which little is known, as text; empty for another pump."""
     if not study.scant:
         return ()
     share = f"{thresholds.record.type_plate:.0%}"
@@ -122,9 +122,9 @@ def _weight(each: Explanation) -> float:
 
 
 def _likeliest(explanations: Sequence[Explanation], thresholds: Thresholds) -> Explanation | None:
-    """The likeliest explanation that can be named; None where unknown physics is sure beside it.
+    """The likeliest explanation that can be named; None where unknown physics is certain beside it.
 
-    Sure: ahead by more than the gap of a class, and by the chance of the known law in another form.
+    Certain: ahead by more than the gap of a class, and by the chance of the known law in another form.
     """
     known = [each for each in explanations if each.hypothesis.kind not in NOT_NAMED]
     if not known:
@@ -139,7 +139,7 @@ def _likeliest(explanations: Sequence[Explanation], thresholds: Thresholds) -> E
 def _beside(
     members: Sequence[Explanation], explanations: Sequence[Explanation], thresholds: Thresholds
 ) -> tuple[Explanation, ...]:
-    """Unknown physics, if all of it together is within the gap of a class behind the members; else nothing."""
+    """Unknown physics, if all of it together is within the gap of a class behind the members; else none."""
     unknown = tuple(each for each in explanations if each.hypothesis.kind is Kind.UNKNOWN_PHYSICS)
     is_near = unknown and _together(members) - _together(unknown) <= class_gap(explanations, thresholds)
     return unknown if is_near else ()
@@ -170,10 +170,10 @@ def _one_of_two(detection: Detection, null: Explanation) -> str:
 
 
 def _left_open(null: Explanation, explanations: Sequence[Explanation], thresholds: Thresholds) -> Collection[Kind]:
-    """Kinds among which a suspicion is open where both tests tell a mismatch.
+    """Kinds among which a suspicion is open where both tests indicate a mismatch.
 
     They include "nothing" only if it is less than the odds of a name behind the likeliest explanation. Beyond that the
-    mismatch is sure, and the doubt concerns its cause alone.
+    mismatch is certain, and the doubt concerns its cause alone.
     """
     ahead = max(map(_weight, explanations)) - null.log_weight
     return MISMATCHES if ahead >= thresholds.name.odds else frozenset(Kind)
@@ -188,7 +188,7 @@ def _suspicion(
 ) -> Judgement:
     """A suspicion of the likeliest kind of mismatch, its probabilities by the record of suspicions.
 
-    rest: the kinds among which it is open (`doubted`). That there is a mismatch is no surer than the readings tell.
+    rest: the kinds among which it is open (`doubted`). The certainty of a mismatch is no larger than by the readings.
     """
     kinds = {each.hypothesis.kind for each in explanations} - {Kind.NO_MISMATCH}
     likeliest = max(kinds, key=lambda kind: _probability(explanations, kind))
@@ -201,9 +201,9 @@ def _suspicion(
 def _less_sure(
     explanations: Sequence[Explanation], members: Sequence[Explanation], share: float, rest: Collection[Kind]
 ) -> tuple[tuple[Explanation, ...], tuple[Explanation, ...]]:
-    """The explanations and the members of the claimed class, as sure as the record of such findings (`doubted`).
+    """The explanations and the members of the claimed class, as certain as the record of such findings (`doubted`).
 
-    rest: what else may be true. Where a part of the mismatch remains, that part is unknown physics.
+    rest: kinds of other possible explanations. Where a part of the mismatch remains, that part is unknown physics.
     """
     ranked = doubted(explanations, share, rest)
     fresh = {id(old): new for old, new in zip(explanations, ranked, strict=True)}
@@ -224,8 +224,8 @@ def _unknown(
 ) -> Judgement:
     """Unknown physics, without an effect, if its hypotheses together are probable and striking.
 
-    Nothing is left to name beside it, so the record of the pump's kind counts before: where forms of the known laws are
-    not known, a catalogue that does not serve is no proof of an effect beyond it.
+    No other explanation remains, so the record of the pump's kind counts before: where forms of the known laws are
+    uncertain, a catalogue without an explanation is no proof of an effect beyond it.
     """
     record = _record_of_scant(study, thresholds)
     told = tuple(explanations)
@@ -256,7 +256,7 @@ def _objections(
 ) -> tuple[str, ...]:
     """Reasons against naming the class. Its members count together: the gaps of one id share its prior.
 
-    beside: unknown physics, where the class holds it too.
+    beside: unknown physics, where the class contains it too.
     """
     best, limits = members[0], thresholds.name
     own = [each for each in explanations if each in members or each in beside or agrees(each, members)]
@@ -285,7 +285,7 @@ def _objections(
 
 
 def _sure(best: Explanation, explanations: Sequence[Explanation], thresholds: Thresholds) -> bool:
-    """Each law with sizes more than some sigma from nothing; each wrong parameter beyond its stated tolerance."""
+    """Each law with sizes more than some sigma from zero; each wrong parameter beyond its stated tolerance."""
     posterior, hypothesis = best.posterior, best.hypothesis
     if posterior is None:
         return False
@@ -300,11 +300,11 @@ def _sure(best: Explanation, explanations: Sequence[Explanation], thresholds: Th
 
 
 def _chance_of_none(best: Explanation, law: Extension, explanations: Sequence[Explanation]) -> float:
-    """The chance that all sizes of a law are nothing: of what the fit without it leaves more, chi2 (Wilks 1938).
+    """The chance that all sizes of a law are zero: by the increase of the objective without it, chi2 (Wilks 1938).
 
-    Several sizes of one law together: none may be sure alone if the readings determine their sum. A law that levels off
-    (oil that heats itself thins and heats less) has a wide covariance at its peak, and yet its absence fits far worse.
-    Where no fit without the law is there, xi^T C^-1 xi about the peak, the same for linear readings.
+    Several sizes of one law together: none may be certain alone if the readings determine their sum. A law that levels
+    off (oil that heats itself thins and heats less) has a wide covariance at its peak, and yet its absence fits far
+    worse. Without such a fit, xi^T C^-1 xi about the peak, the same for linear readings.
     """
     names = {one.name for one in law.parameters}
     rest = set(best.hypothesis.open_names) - names
@@ -333,7 +333,7 @@ def _claims(
 ) -> tuple[ClaimedEffect, ...]:
     """One claim for each effect of the best member; its probability is the sum over all that claim it.
 
-    beside: unknown physics that cannot be told from any of them.
+    beside: unknown physics inseparable from any of them.
     """
     best = members[0]
     own = best.hypothesis
@@ -358,7 +358,7 @@ def _claims(
 
 
 def _elsewhere(at: int, members: Sequence[Explanation], thresholds: Thresholds) -> tuple[tuple[Gap, float], ...]:
-    """Other gaps for one effect of the first member, each with its share; none if its own gap is sure."""
+    """Other gaps for one effect of the first member, each with its share; none if its own gap is certain."""
     own = members[0].hypothesis
     same = [each for each in members if each.hypothesis.effects == own.effects]
     total = sum(each.probability for each in same)

@@ -36,9 +36,9 @@ _Box = Callable[[ChannelName, Contrasts, Array, Mapping[ChannelName, Array]], Ma
 class Location:
     """Channels of the mismatch, largest share first, and the region of the first (None: everywhere).
 
-    components, groups: ln evidence of each, best first; tie: components that cannot be separated from the best;
-    inputs: those with which the best departs. If no component is ahead of nothing, there are no channels, no region,
-    no tie and no inputs.
+    components, groups: ln evidence of each, best first; tie: components that cannot be separated from the best; inputs:
+    those with which the best departs. If no component is ahead of the null, there are no channels, no region, no tie
+    and no inputs.
     """
 
     channels: tuple[ChannelName, ...]
@@ -52,7 +52,7 @@ class Location:
 
 
 def locate(study: Study, thresholds: Thresholds) -> Location:
-    """Place of the difference between readings and simulation. Of use only where `detect` finds a mismatch."""
+    """Place of the difference between readings and simulation. Useful only where `detect` finds a mismatch."""
     limits = thresholds.locate
     ranking = component_evidences(study, thresholds)
     tie = tied(ranking, thresholds.name.odds)
@@ -72,7 +72,7 @@ def locate(study: Study, thresholds: Thresholds) -> Location:
 
 
 def of_explanation(study: Study, location: Location, added: Array, thresholds: Thresholds) -> Location:
-    """The same with channels and strongest region of what an explanation adds to the readings, (N, C) in SI.
+    """The same with channels and strongest region of an explanation's addition to the readings, (N, C) in SI.
 
     The level of a law's free multiplier is known only up to the fitted films and zeros: only an explanation
     decides between too much leakage at low pressure and too little at high. Components follow from steady

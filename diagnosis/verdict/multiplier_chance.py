@@ -32,10 +32,10 @@ def multiplier_chance(
 ) -> MultiplierChance:
     """Upper bound of the chance that unknown physics is so far ahead of the null without a mismatch.
 
-    A ratio of evidence to the null's has a mean of 1 under the null: K or more has a chance of 1/K at most
-    (Markov). K is the ratio without the point that contributes most: free shapes can follow one reading that is far
-    off, and noise with tails has such. About the prior mean, and about the null's fit where that
-    holds: the larger chance counts, as for candidates (`detect.confirmed`).
+    A ratio of evidence to the null's has a mean of 1 under the null: K or more has a chance of 1/K at most (Markov). K
+    is the ratio without the point that contributes most: free shapes can follow one outlying reading, and noise with
+    tails has such. About the prior mean, and about the null's fit where that holds: the larger chance counts, as for
+    candidates (`detect.confirmed`).
     """
     if not unknown:
         return MultiplierChance(1.0, 0)
@@ -46,7 +46,7 @@ def multiplier_chance(
 
 
 def _ahead(study: Study, fit: Posterior, unknown: Sequence[Hypothesis], thresholds: Thresholds) -> Array:
-    """ln evidence of unknown physics over nothing, each point left out in turn.
+    """ln evidence of unknown physics over the null, each point left out in turn.
 
     Of each component by one family of shapes, the likeliest with all points, with its prior share: an average of many
     is no less than one of its terms.

@@ -36,9 +36,9 @@ def residue_notes(
 ) -> tuple[str, ...]:
     """Parts of the mismatch that the best explanation leaves, as text; () if it is complete.
 
-    A part of the map or a candidate that stands out of the residual counts where chance hardly makes it and its square
-    exceeds the share `material` of what is explained in its channel: a law of another form than the pump's leaves a
-    little at any size. along: coordinates (N,) with which an effect may grow, by name.
+    A significant part of the map or candidate in the residual counts where chance hardly produces it and its square
+    exceeds the share `material` of the explained part in its channel: a law of another form than the pump's leaves a
+    small residual at any size. along: coordinates (N,) with which an effect may grow, by name.
     """
     after, before = best.posterior, null.posterior
     if after is None or before is None:
@@ -97,7 +97,7 @@ def _shares(study: Study, best: Explanation, thresholds: Thresholds) -> Array:
 
 
 def _regions(study: Study, after: Posterior, least: Array, thresholds: Thresholds) -> Iterator[str]:
-    """The first two parts of the map that stand out of the residual."""
+    """The first two significant parts of the map in the residual."""
     by_channel = {name: contrasts(after, at) for at, name in enumerate(study.channels)}
     flags = flagged(by_channel, axis_values(study.recording), thresholds)
     for flag in flags[:2]:
@@ -108,7 +108,7 @@ def _regions(study: Study, after: Posterior, least: Array, thresholds: Threshold
 def _striking(
     study: Study, after: Posterior, hypothesis: Hypothesis, least: Array, thresholds: Thresholds
 ) -> Iterator[str]:
-    """The candidate that stands out of the residual."""
+    """The significant candidate in the residual."""
     others = [each for each in study.candidates if each.entry.id not in hypothesis.effects]
     chance, strongest = most_striking(settled(after), others, thresholds)
     if chance >= thresholds.mismatch.chance:
@@ -122,7 +122,7 @@ def _striking(
 
 
 def _pulls(posterior: Posterior, hypothesis: Hypothesis) -> float:
-    """Sum of xi^2 over the parameters of the null that the hypothesis does not set free."""
+    """Sum of xi^2 over the parameters of the null that are not free in the hypothesis."""
     kept = np.array(
         [each.role is not Role.EXTENSION and each.name not in hypothesis.widened for each in posterior.parameters]
     )

@@ -1,4 +1,4 @@
-"""Row numbers of a recording's own table, in which some rows may take no part in the diagnosis."""
+"""Row numbers of a recording's own table, of which some rows may not be used in the diagnosis."""
 
 from __future__ import annotations
 

@@ -33,13 +33,13 @@ def without_stand_ins(
 ) -> tuple[Explanation, ...]:
     """Explanations of one and more effects, without effects that are stand-ins.
 
-    In A + B, where A has a law and a refit, B is a stand-in if A that departs has the same evidence
-    within the odds of a name, and B explains no more than the share `second` of what A explains. Then A remains,
-    of another form, with the lesser evidence of A + B and of A that departs. B is a stand-in too if in each
-    channel it explains less than `slight` of what A explains there: then A has the evidence of both. Unknown
-    physics, a component whose law departs, is a stand-in if one law that departs has the same evidence and the
-    departure takes up no more than the share `material` of what both do: an explanation of nine tenths is complete. A
-    law that takes up `own` times as much as its departure stands beside unknown physics.
+    In A + B, where A has a law and a refit, B is a stand-in if A with a departure has the same evidence within the odds
+    of a name, and B explains no more than the share `second` of A's part. Then A remains, of another form, with the
+    lesser evidence of A + B and of A with a departure. B is a stand-in too if in each channel it explains less than
+    `slight` of A's part there: then A has the evidence of both. Unknown physics, a component whose law departs, is a
+    stand-in if one law with a departure has the same evidence and the departure absorbs no more than the share
+    `material` of both: an explanation of nine tenths is complete. A law that absorbs `own` times as much as its
+    departure stays beside unknown physics.
     """
     departing: Departing = cache(lambda each: departure_of(study, each, thresholds))
     null = next((each for each in explanations if each.hypothesis.kind is Kind.NO_MISMATCH), None)
@@ -52,7 +52,7 @@ def without_stand_ins(
 
 
 def departure_of(study: Study, explanation: Explanation, thresholds: Thresholds) -> DepartureEvidence | None:
-    """Departure of what an explanation adds to the readings, linear about its refit.
+    """Departure of an explanation's addition to the readings, linear about its refit.
 
     None without a refit, and without a law.
     """
@@ -98,8 +98,8 @@ def _cut(
 def _is_slight(study: Study, whole: Explanation, part: Explanation, null: Explanation, form: FormLimits) -> bool:
     """True if the rest of an explanation explains no more of any channel than the form of its part may leave.
 
-    Sum r^2 falls by G_c from nothing to the part, by D_c from the part to the whole: D_c < slight G_c + slack.
-    The same holds for the objectives, which include the moved parameters.
+    Sum r^2 falls by G_c from the null to the part, by D_c from the part to the whole: D_c < slight G_c + slack. The
+    same holds for the objectives, which include the moved parameters.
     """
     fits = [each.posterior for each in (null, part, whole)]
     if any(fit is None for fit in fits):
@@ -129,9 +129,9 @@ def _known_after_all(
     departing: Departing,
     thresholds: Thresholds,
 ) -> tuple[Explanation, ...]:
-    """Unknown physics, and laws that depart beside it; what such a law equals is gathered into one explanation by it.
+    """Unknown physics, and laws with a departure beside it; explanations equal to such a law are merged into one by it.
 
-    It is gathered where the law is complete but for its form, else the law that departs stands beside it.
+    They are merged if the law is complete except for its form, else the law with its departure stays beside it.
     """
     ahead = max((each.log_weight for each in known), default=-inf)
     if max((each.log_weight for each in unknown), default=-inf) < ahead - thresholds.name.odds:
@@ -159,7 +159,7 @@ def _known_after_all(
 
 
 def _share_left(law: Explanation, null: Explanation, departure: DepartureEvidence) -> float:
-    """Share of a departure in the objective that it takes up together with its law; 1 without refits."""
+    """Share of a departure in the objective that it absorbs together with its law; 1 without refits."""
     if law.posterior is None or null.posterior is None:
         return 1.0
     own = max(0.5 * (null.posterior.objective - law.posterior.objective), 0.0)

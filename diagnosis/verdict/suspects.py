@@ -40,10 +40,10 @@ def suspects(study: Study) -> tuple[Suspect, ...]:
 
 
 def unexplained(study: Study, explanations: Sequence[Explanation], thresholds: Thresholds) -> tuple[DataNote, ...]:
-    """Notes that put aside the suspects which no likely explanation explains; points by rows of the table, from 0.
+    """Notes that put aside the suspects that no likely explanation explains; points by rows of the table, from 0.
 
     A suspect stays where a likely explanation leaves less than `outlier` sigma of it, or less than `explained` of the
-    square that nothing leaves, and where readings beside it in its channel are off as well (`checks.outliers`).
+    square without an explanation, and where readings beside it in its channel deviate too (`checks.outliers`).
     """
     asked, limits = suspects(study), thresholds.data
     if not asked:
@@ -77,7 +77,7 @@ def remaining(study: Study, explanation: Explanation, thresholds: Thresholds) ->
 
 
 def deviations(study: Study, explanation: Explanation) -> Array:
-    """(N, C), each reading's deviation from an explanation in sigma, left out of the fit; 0 where none was measured.
+    """(N, C), each reading's deviation from an explanation in sigma, left out of the fit; 0 without a reading.
 
     The score of a shift of this reading alone, z: without the reading the objective falls by z^2 (mean-shift model;
     Cook and Weisberg 1982, section 2.2.2). About the prior mean where the explanation has no fit.

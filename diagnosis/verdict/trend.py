@@ -50,10 +50,10 @@ def power_errors(
 ) -> tuple[PowerError, ...]:
     """Powers by which the growth of a refitted explanation differs from that of the readings; usually none.
 
-    Its addition to the readings, d, becomes d x^b: to first order b d ln x, whose score (Rao 1948) is taken about
-    the refit, one coordinate x at a time. At most one in twenty explanations of the right form is reported (rate
-    of false flags; Holm 1979), and no power below `flat`. One direction at a time finds errors that a free
-    multiplier, with its prior cost in all directions, does not. Empty without a refit.
+    Its addition to the readings, d, becomes d x^b: to first order b d ln x, whose score (Rao 1948) is computed about
+    the refit, one coordinate x at a time. At most one in twenty explanations of the right form is reported (rate of
+    false flags; Holm 1979), and no power below `flat`. One direction at a time finds errors that a free multiplier,
+    with its prior cost in all directions, does not. Empty without a refit.
     """
     posterior, form = explanation.posterior, thresholds.form
     logs = {name: np.log(x / np.median(x)) for name, x in along.items() if x.min() > 0 and moves(x, form.least_range)}

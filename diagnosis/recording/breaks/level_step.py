@@ -21,7 +21,7 @@ Mask = NDArray[np.bool_]
 PER_TERM = 4  # points a term of the law
 LEAST_PART = 5  # points before and behind a step
 WIDE = 2.0  # largest over least reading of a channel whose logarithm is a term
-HELD = 0.8  # of the points at which a channel has to be read, to take part
+HELD = 0.8  # of the points: least share of readings of a channel in use
 CERTAIN = 10.0  # standard errors of a step
 LEFT = 0.4  # of the sum of squares that a step leaves
 TINY = 1e-9  # of |h|^2, below which a step is a combination of the other channels
@@ -71,8 +71,8 @@ def level_step(values: Array, law: Array) -> LevelStep | None:
 
 
 def law_of(readings: Array, columns: NDArray[np.int64]) -> Array:
-    """Terms (N, m) of a smooth law of some columns of readings (N, C): first degree, logarithms of what varies widely,
-    second degree as far as the points suffice. Columns that are mostly gaps or constant are left out.
+    """Terms (N, m) of a smooth law of some columns of readings (N, C): first degree, logarithms of channels that vary
+    widely, second degree as far as the points suffice. Columns that are mostly gaps or constant are left out.
     """
     scaled, logarithms = [], []
     for k in columns:

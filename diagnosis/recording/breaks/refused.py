@@ -22,7 +22,7 @@ def refuse_breaks(
 ) -> None:
     """Add the faults of a table, [`section`], of readings (N, C) in SI as `channels`: a unit that changes, two pumps.
 
-    A flow that jumps by a change of its unit, or since the pump rests, is no other pump.
+    A flow that jumps by a change of its unit, or because the pump rests, does not indicate another pump.
     """
     for column, rows in pumps_named(columns, {channel.column for channel in channels}):
         reader.fault(f"{section}.file", f"several pumps in the column {column!r}: {rows}", SPLIT)

@@ -1,4 +1,4 @@
-"""Tables of steady points whose rows are samples of a series: one hardly differs from the row before."""
+"""Tables of steady points whose rows are samples of a series: each hardly differs from the row before."""
 
 from __future__ import annotations
 
@@ -14,11 +14,11 @@ SET = (ChannelName.SPEED, ChannelName.P_OUT, ChannelName.DISPLACEMENT_RATIO)
 FEWEST = 300  # rows: more than any map of which no input jumps
 MOVED = 0.05  # of the largest reading that such an input moves at least
 JUMP = 0.05  # of the range of an input, beyond which a step between two rows is a jump
-JUMPS = 0.02  # of the rows: of stairs that are sampled, one row in fifty begins another stair at most
+JUMPS = 0.02  # of the rows: in sampled stairs one row in fifty at most begins another stair
 
 
 def rows_are_samples(readings: Array, names: Sequence[ChannelName]) -> bool:
-    """True where set inputs move, and hardly ever from one row to the next; readings (N, C) in SI, columns as `names`.
+    """True where set inputs change, but hardly ever from row to row; readings (N, C) in SI, columns as `names`.
 
     Points of a map, repeated or not, differ from one to the next in one input at least.
     """

@@ -14,7 +14,7 @@ from system.inputs.channels import INPUTS, ChannelName
 
 JUMP = np.log(1.1)  # of the flow a turn that torque confirms: more than any two states of one pump
 JUMP_ALONE = np.log(1.15)  # of the flow alone
-LIKE = 0.5  # of the flow's jump, to which torque jumps alike
+LIKE = 0.5  # of the flow's jump, to which the torque's jump is equal
 LEAST_ROWS = 2  # of each name
 NAMED = 4  # names that a text lists
 _PUMP = r"(pump|pumpe|specimen|uut|dut|pr(ü|ue)fling)([ _.-]*(id|no|nr|number|nummer|name))?"
@@ -24,7 +24,7 @@ IDENTITY = re.compile(rf"({_PUMP}|{_SERIAL})\.?", re.IGNORECASE)
 
 
 def pumps_named(columns: TableColumns, used: Collection[str]) -> Iterator[tuple[str, str]]:
-    """Yield (column, rows of each name as text) of columns, none of the used ones, that name more than one pump."""
+    """Yield (column, rows of each name as text) of columns not in use that name more than one pump."""
     numbers = {name: tuple("" if np.isnan(v) else f"{v:g}" for v in column) for name, column in columns.values.items()}
     for name, cells in {**numbers, **columns.words}.items():
         if name not in used and IDENTITY.fullmatch(name.strip()):
@@ -45,8 +45,8 @@ def _listed(rows: Mapping[str, Sequence[int]]) -> str:
 def pump_changes(readings: Array, names: Sequence[ChannelName]) -> Iterator[str]:
     """Yield the row from which on the flow a turn is another while the inputs do not jump; readings (N, C) in SI.
 
-    Certain beside a smooth law of the inputs (`LevelStep.is_certain`), more than `JUMP` where torque jumps alike, more
-    than `JUMP_ALONE` where no torque is measured; a flow that jumps without the torque is its meter's.
+    Certain beside a smooth law of the inputs (`LevelStep.is_certain`), more than `JUMP` with an equal jump of torque,
+    more than `JUMP_ALONE` where no torque is measured; a flow that jumps without the torque is its meter's.
     """
     if ChannelName.Q_OUT not in names:
         return

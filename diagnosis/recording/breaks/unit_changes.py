@@ -14,7 +14,7 @@ from reynolds.numerics.arrays import Array
 from system.inputs.sections.values import PURE_UNITS
 from system.inputs.units import Dimension, unit_scale
 
-AGREES = 1.5  # times what a free step leaves
+AGREES = 1.5  # times the residual of a free step
 POSITIVE = 0.98  # of readings whose logarithm is taken
 
 
@@ -40,7 +40,7 @@ def unit_changes(readings: Array, channels: Sequence[ChannelForm]) -> Iterator[U
     """Yield the channel whose unit changes: readings (N, C) in SI as stated, rows in the order of their table.
 
     The step of its logarithm (of a temperature the step itself) is certain, and conversion of one part from another
-    unit (`OTHER_UNITS`) takes it away. Of several the one whose law is mended most: the others follow it.
+    unit (`OTHER_UNITS`) removes it. Of several the one whose law improves most: the others follow it.
     """
     found = [change for k in range(len(channels)) for change in _changes(k, readings, channels)]
     if found:
@@ -48,7 +48,7 @@ def unit_changes(readings: Array, channels: Sequence[ChannelForm]) -> Iterator[U
 
 
 def _changes(k: int, readings: Array, channels: Sequence[ChannelForm]) -> Iterator[tuple[float, UnitChange]]:
-    """(share of squares that is left, change) of the units that mend a channel."""
+    """(remaining share of squares, change) of the units that correct a channel."""
     form = channels[k]
     dimension = form.name.dimension
     law = law_of(readings, np.flatnonzero(np.arange(len(channels)) != k))
@@ -93,7 +93,7 @@ def _level(values: Array, dimension: Dimension | None) -> Array:
 
 
 def _left(values: Array, law: Array, step: LevelStep) -> float | None:
-    """Sum of squares of mended values about the law alone; None where a certain step remains at the same row."""
+    """Sum of squares of corrected values about the law alone; None where a certain step remains at the same row."""
     again = level_step(values, law)
     if again is None:
         return None

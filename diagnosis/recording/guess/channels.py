@@ -1,4 +1,4 @@
-"""Columns of a table as channels: by their heads, and by their sizes where heads do not tell."""
+"""Columns of a table as channels: by their heads, else by their sizes."""
 
 from __future__ import annotations
 
@@ -31,15 +31,15 @@ _BY_SIZE: Mapping[Quantity, tuple[ChannelName, ...]] = {
     Quantity.FLOW: (ChannelName.Q_OUT,),
     Quantity.TEMPERATURE: (ChannelName.T_IN,),
 }
-"""Channels that columns without a place are taken for, the largest first."""
+"""Channels assigned to columns without a place, the largest first."""
 _USUAL = {Dimension.PRESSURE: 30e6, Dimension.ANGULAR_SPEED: 2000 * RPM, Dimension.VOLUME_FLOW: 150 / LPM}
-"""Largest reading of a usual bench, SI: a unit that nothing tells is the one that comes nearest."""
-_WARMEST = 200.0  # degC: a larger number is of kelvin
+"""Largest reading of a usual bench, SI: an unknown unit is assumed to be the one nearest to it."""
+_WARMEST = 200.0  # degC: a larger number is in kelvin
 
 
 @dataclass(frozen=True)
 class GuessedChannel:
-    """A channel with its column and unit; doubts: what is guessed beyond what the head tells, in words."""
+    """A channel with its column and unit; doubts: guesses beyond the content of the head, in words."""
 
     name: ChannelName
     column: str
@@ -50,7 +50,7 @@ class GuessedChannel:
 
 @dataclass(frozen=True)
 class GuessedColumns:
-    """Channels of a table, its column of time with its unit if there is one, and the columns that are neither."""
+    """Channels of a table, its column of time with its unit, if any, and the other columns."""
 
     channels: tuple[GuessedChannel, ...]
     time: tuple[str, str] | None
@@ -58,7 +58,7 @@ class GuessedColumns:
 
 
 def guessed_columns(table: TableColumns) -> GuessedColumns:
-    """Return the channels of a table's columns; each channel once, that of the first head which tells it."""
+    """Return the channels of a table's columns; each channel once, that of the first head with it."""
     heads = [read_head(name, table.units.get(name, "")) for name in table.values]
     time = next((head for head in heads if head.quantity is Quantity.TIME), None)
     taken: dict[ChannelName, tuple[Head, tuple[str, ...]]] = {}
@@ -74,7 +74,7 @@ def guessed_columns(table: TableColumns) -> GuessedColumns:
 
 
 def _told(head: Head) -> ChannelName | None:
-    """Return the channel that a head tells by its words."""
+    """Return the channel that the words of a head name."""
     if head.quantity is None:
         return None
     if head.quantity is Quantity.POWER:
@@ -87,7 +87,7 @@ def _told(head: Head) -> ChannelName | None:
 def _by_size(
     heads: Iterable[Head], values: Mapping[str, Array], taken: dict[ChannelName, tuple[Head, tuple[str, ...]]]
 ) -> None:
-    """Take columns that tell a quantity but no place for the channels that are left, the largest first."""
+    """Assign columns with a quantity but no place to the remaining channels, the largest first."""
     for quantity, names in _BY_SIZE.items():
         bare = [head for head in heads if head.quantity is quantity and head.place is None]
         bare.sort(key=lambda head: -_largest(values[head.column]))
@@ -112,7 +112,7 @@ def _with_units(
 
 
 def _unit(name: ChannelName, readings: Array, before: Iterable[GuessedChannel]) -> str:
-    """Return the unit of a channel whose head tells none: that of a channel of its kind, else by size."""
+    """Return the unit of a channel whose head has none: that of a channel of its kind, else by size."""
     dimension, largest = name.dimension, _largest(readings)
     if dimension is None:
         return "%" if largest > 2.0 else "1"
@@ -136,6 +136,6 @@ def _time_unit(head: Head) -> str:
 
 
 def _largest(readings: Array) -> float:
-    """Return the largest reading, 0 of none."""
+    """Return the largest reading, 0 without readings."""
     known = np.abs(readings[np.isfinite(readings)])
     return float(known.max()) if len(known) else 0.0

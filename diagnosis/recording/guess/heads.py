@@ -52,7 +52,7 @@ class Place(Enum):
 
 @dataclass(frozen=True)
 class Head:
-    """A column's head as read: quantity and place (None: not told), unit, and the zero of a pressure."""
+    """A column's head as read: quantity and place (None: not stated), unit, and the zero of a pressure."""
 
     column: str
     quantity: Quantity | None
@@ -62,7 +62,7 @@ class Head:
 
     @property
     def reference(self) -> PressureReference | None:
-        """Zero of a pressure, where the head tells it."""
+        """Zero of a pressure, if the head states it."""
         return self.unit.reference if self.unit else None
 
 
@@ -78,9 +78,9 @@ _PART = 4  # letters from which a word counts inside of another
 
 
 def read_head(column: str, in_table: str = "") -> Head:
-    """Return what the head of a column tells; in_table: the unit that the table states beside it.
+    """Return the content of a column's head; in_table: the unit that the table states beside it.
 
-    A unit that the table states decides the quantity; one at the end of the head ("p_out_bar") has to fit the words.
+    A unit that the table states determines the quantity; one at the end of the head ("p_out_bar") has to fit the words.
     """
     if _NUMBERED.fullmatch(column):
         return Head(column, None, None, None, False)
@@ -99,7 +99,7 @@ def read_head(column: str, in_table: str = "") -> Head:
 
 
 def _quantity(bare: str, words: list[str], unit: ReadUnit | None) -> Quantity | None:
-    """Return the quantity of a unit, or of the first words that tell one; a symbol's case counts (T, t)."""
+    """Return the quantity of a unit, or of the first words with one; a symbol's case counts (T, t)."""
     able = [one for one in Quantity if unit is None or one.dimension is unit.dimension]
     if unit is not None and unit.dimension is not None:
         return able[0] if able else None

@@ -19,7 +19,7 @@ _GAUGE = ("g", "gauge", "rel", "ü")
 
 @dataclass(frozen=True)
 class ReadUnit:
-    """A unit of a table: what it measures (None: a pure number), its name in files, the zero of a pressure if told."""
+    """A unit of a table: its quantity (None: a pure number), its name in files, the zero of a pressure if stated."""
 
     dimension: Dimension | None
     unit: str
@@ -27,7 +27,7 @@ class ReadUnit:
 
 
 def read_unit(text: str) -> ReadUnit | None:
-    """Return the unit that a text means, as a bench writes it; None for a text that is no unit of a channel."""
+    """Return the unit of a text as a bench writes it; None for a text that is no unit of a channel."""
     bare = text.strip()
     if bare in PURE_UNITS or bare == "-":
         return ReadUnit(None, "1" if bare == "-" else bare)

@@ -1,4 +1,4 @@
-"""A `recording.toml` for a bare table: channels as guessed, each guess marked, and what is missing named."""
+"""A `recording.toml` for a bare table: guessed channels, each guess marked, and missing data listed."""
 
 from __future__ import annotations
 
@@ -18,18 +18,18 @@ from system.inputs.toml_table import quoted
 from system.inputs.units import LPM, Dimension, unit_scale
 
 SERIES_ROWS, SERIES_STEP = 100, 10.0
-"""Rows at least, and s between them at most (median), of a table with a time that is taken as a time series."""
+"""Rows at least, and s between them at most (median), of a table with a time that counts as a time series."""
 CHARGED = 5e5
-"""Pa gauge: inlet pressure from which a circuit is taken as closed."""
+"""Pa gauge: inlet pressure from which a circuit counts as closed."""
 SIGMA_SHARE = 0.002
 SIGMAS = {Dimension.TEMPERATURE: 0.3, Dimension.PRESSURE: 1e3, Dimension.VOLUME_FLOW: 0.01 / LPM}
-"""One sigma of repeatability where nothing tells it: share of the median reading, and at least this, SI."""
+"""One sigma of an unknown repeatability: share of the median reading, and at least this, SI."""
 _COLUMN = 60  # of the comments
 
 
 @dataclass(frozen=True)
 class GuessedRecording:
-    """A recording of a bare table: its text, its channels, what was guessed and what is missing, in words."""
+    """A recording of a bare table: its text, its channels, guesses and missing data, in words."""
 
     text: str
     channels: tuple[GuessedChannel, ...]
@@ -39,7 +39,7 @@ class GuessedRecording:
 def guessed_recording(source: TableSource, table: TableColumns, circuit: Circuit | None) -> GuessedRecording:
     """Return the recording of a table; its text is that of a `recording.toml` beside it.
 
-    circuit: None is guessed from the inlet pressure.
+    circuit: None: guessed from the inlet pressure.
     """
     columns = guessed_columns(table)
     series = _is_series(columns, table)
@@ -132,7 +132,7 @@ def _channel_rows(
 
 
 def _sigma(channel: GuessedChannel, readings: Array) -> float | None:
-    """Return an assumed repeatability in the channel's unit; None of a setting, which has none."""
+    """Return an assumed repeatability in the channel's unit; None for a setting, which has none."""
     dimension = channel.name.dimension
     if dimension is None:
         return None
@@ -146,14 +146,14 @@ def _median(readings: Array) -> float:
 
 
 def _missing(columns: GuessedColumns) -> list[str]:
-    """Return what a diagnosis would use and the table does not have."""
+    """Return data for a diagnosis that the table lacks."""
     names = {one.name for one in columns.channels}
     lines = [f"{name.value}, taken from the pump file" for name in INPUTS if name not in names]
     return lines + [f"{name.value}, not compared" for name in OUTPUTS if name not in names]
 
 
 def _told(columns: GuessedColumns, absent: Sequence[str]) -> tuple[str, ...]:
-    """Return what the guess is, in lines for the terminal."""
+    """Return the guess in lines for the terminal."""
     shown = [
         f"  {one.name.value}: column {one.column!r} in {one.unit}" + "".join(f"; {words}" for words in one.doubts)
         for one in columns.channels

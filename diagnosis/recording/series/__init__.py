@@ -1,1 +1,1 @@
-"""Points out of a time series: steady stretches, or quasi-steady means with the response of each meter."""
+"""Points from a time series: steady stretches, or quasi-steady means with the response of each meter."""

@@ -1,4 +1,4 @@
-"""Clock of a series: a time that rises, out of stamps that are missing, repeat, fall or leap."""
+"""Clock of a series: a rising time from stamps that are missing, repeat, fall or jump."""
 
 from __future__ import annotations
 
@@ -13,10 +13,10 @@ from diagnosis.recording.tables.table import TableFault
 from reynolds.numerics.arrays import Array
 
 PAUSE = 5.0  # usual steps without a row from which a pause is reported, and that are left where the clock jumps
-LEAP = 3.0  # times what is recorded: a longer pause is a clock that was set forward
+LEAP = 3.0  # times the recorded duration: a longer pause is a clock that was set forward
 FALLS, FALL_SHARE = 3, 0.01  # of a clock that was set back; rows in no order fall more often
-FEW = 8  # steps either side of a jump from which the usual one is known
-NAMED = 3  # places of one kind that a note names
+FEW = 8  # steps on either side of a jump for the usual one
+NAMED = 3  # places of one kind listed in a note
 UNITS = (60.0, 1e3, 3600.0)  # of two units of time, one over the other
 SERIAL, SHORT = (3e4, 6e4), 1e-2  # of days since 1900: those of 1982 to 2064; steps of a quarter of an hour, as days
 SAME = 0.05  # of such a ratio, to which a change of the usual step agrees
@@ -35,8 +35,8 @@ def clocked(time: Array, readings: Array) -> ClockedSeries:
     """The rows of a series in a time that rises: stamps (R,) in s, readings (R, C).
 
     Rows without a stamp are left out, rows of one stamp are averaged. Where the clock is set back, or forward by more
-    than `LEAP` times what is recorded, the rows behind follow after `PAUSE` usual steps. Raises TableFault for a column
-    without times, for times in no order, and for a clock that jumps and then counts in another unit.
+    than `LEAP` times the recorded duration, the rows behind follow after `PAUSE` usual steps. Raises TableFault for a
+    column without times, for times in no order, and for a clock that jumps and then counts in another unit.
     """
     expected = "times that rise from row to row: numbers, or stamps such as '2024-05-02 08:15:30' and '08:15:30'"
     known = np.flatnonzero(np.isfinite(time))

@@ -1,9 +1,9 @@
-"""Meters that hold: a reading that stays the same while all else says that it moves.
+"""Meters that hold: a reading that stays constant while other channels indicate a change.
 
-A run of equal readings is suspect if chance does not give it: m of T readings repeat each other T a^(m-1) times, a
-being the share of pairs alike elsewhere. It is a hold if the channel would have moved there, by a smooth law of the
-other channels and time, fitted to its other readings, beyond that law's own scatter and the step of the readings. At
-the least or largest reading of a channel a hold is an end of its range.
+A run of equal readings is suspect if it is improbable: m of T readings repeat each other T a^(m-1) times, a being the
+share of equal pairs elsewhere. It is a hold if the channel would have moved there, by a smooth law of the other
+channels and time, fitted to its other readings, beyond that law's own scatter and the step of the readings. At the
+least or largest reading of a channel a hold is an end of its range.
 """
 
 from __future__ import annotations
@@ -21,21 +21,21 @@ from system.inputs.channels import INPUTS, ChannelName
 from system.inputs.units import Dimension
 
 LEAST = 8  # readings of a hold
-CHANCE = 1e-3  # of a run so long anywhere in the series
-ALIVE = 0.9  # share of pairs alike elsewhere, above which a channel is set rather than measured
-ELSEWHERE = 0.2  # of the readings that are no suspects, at least, to show how a channel moves
+CHANCE = 1e-3  # probability of a run of that length anywhere in the series
+ALIVE = 0.9  # share of equal pairs elsewhere, above which a channel is set rather than measured
+ELSEWHERE = 0.2  # of the readings: least share of those that are no suspects
 CLEAR = 5.0  # spreads of the law by which a channel would have moved
 STEPS = 2.0  # of the readings, which a law need not follow
 MOST = 0.8  # quantile of the departures in a run that decides
-HELD = 0.5  # of its readings that a channel needs to take part
+HELD = 0.5  # of its readings: least share of a channel in use
 PER_TERM = 3  # samples a term of the law
-SHOWN = 0.1  # of its range that an input moves meanwhile, to be named
+SHOWN = 0.1  # of its range: least change of an input meanwhile to be listed
 
 
 @dataclass(frozen=True)
 class HeldReadings:
-    """A column of a series that holds `level` (SI) in some stretches; departure: median of what the law gives there
-    less the level, SI; is_end: the level is the least or largest reading of the column.
+    """A column of a series that holds `level` (SI) in some stretches; departure: median of the law there less the
+    level, SI; is_end: the level is the least or largest reading of the column.
     """
 
     column: int
@@ -48,7 +48,7 @@ class HeldReadings:
 def without_holds(time: Array, readings: Array, names: Sequence[ChannelName]) -> tuple[Array, tuple[str, ...]]:
     """Readings (T, C) in SI without those that a meter or the whole logger holds, and notes; even times (T,) in s.
 
-    The least readings of a flow meter that the flow falls below are its dead band and remain (`meter_response`).
+    The least readings of a flow meter below which the flow falls are its dead band and remain (`meter_response`).
     """
     notes, kept = [], readings.copy()
     frozen = suspects(equal_runs(readings)) if readings.shape[1] > 1 else ()
@@ -67,7 +67,7 @@ def without_holds(time: Array, readings: Array, names: Sequence[ChannelName]) ->
 
 
 def held_readings(time: Array, readings: Array, names: Sequence[ChannelName]) -> Iterator[HeldReadings]:
-    """Yield what is held in a series (T, C), SI, by column and level."""
+    """Yield the holds in a series (T, C), SI, by column and level."""
     for k in range(len(names)):
         column = readings[:, k]
         found = suspects(equal_runs(column))
@@ -76,7 +76,7 @@ def held_readings(time: Array, readings: Array, names: Sequence[ChannelName]) ->
 
 
 def suspects(runs: Sequence[slice]) -> tuple[slice, ...]:
-    """Runs of equal readings that are longer than chance gives; none of a channel that is set, not measured."""
+    """Runs of equal readings that are longer than probable; none for a channel that is set, not measured."""
     lengths = np.array([run.stop - run.start for run in runs])
     total, long = int(lengths.sum()), np.zeros(len(lengths), dtype=bool)
     while True:
@@ -148,7 +148,7 @@ def _note(one: HeldReadings, time: Array, readings: Array, names: Sequence[Chann
 
 
 def _mover(column: int, marks: Mask, readings: Array, names: Sequence[ChannelName]) -> str:
-    """The channel that moves most of its range meanwhile, an input before an output, as text."""
+    """The channel that changes by most of its range meanwhile, an input before an output, as text."""
 
     def moved(j: int, within: Mask) -> float:
         known = readings[within & np.isfinite(readings[:, j]), j]

@@ -1,7 +1,7 @@
 """Response of a meter to a series that never rests: dead band, lag, storage, noise.
 
-A reading at time t is that of steady state at inputs that the meter follows with a lag, less what line and chambers
-hold back in proportion to the pressure's rate:
+A reading at time t is that of steady state at inputs that the meter follows with a lag, less the oil that line and
+chambers store in proportion to the pressure's rate:
 
     y(t) = g(u_tau(t), t) - s dp/dt + e(t),   tau du_tau/dt = u - u_tau
 
@@ -9,10 +9,10 @@ g: a smooth function of the moving inputs u and, slowly, of time; e: noise with 
 Least squares with Huber's (1964) weights at the lag that fits best. The steady reading is y + g(u, t) - g(u_tau, t)
 + s dp/dt.
 
-A lag and a storage of -tau dg/dp do the same to first order. Both together change a swing of frequency w by tau^2 w^2,
-which looks like physics: the one that fits better is taken. Law, lag and storage are estimates, so that the noise of a
-mean of steady readings is (a + a M B) e. Here a are its shares of the samples, B e is the error of the estimates by the
-noise e, and M B e the error that this makes in the steady readings.
+A lag and a storage of -tau dg/dp have the same effect to first order. Both together change an oscillation of frequency
+w by tau^2 w^2, which looks like physics: the better fit is used. Law, lag and storage are estimates, so that the noise
+of a mean of steady readings is (a + a M B) e. Here a are its shares of the samples, B e is the error of the estimates
+by the noise e, and M B e the resulting error of the steady readings.
 """
 
 from __future__ import annotations
@@ -30,7 +30,7 @@ from reynolds.numerics.arrays import Array
 
 Mask = NDArray[np.bool_]
 ROUNDS = 6
-REFINED = 3  # Gauss-Newton steps of a lag, which a search by misfit leaves off by more than its sigma
+REFINED = 3  # Gauss-Newton steps of a lag, whose error after a search by misfit exceeds its sigma
 HUBER = 1.5
 NORMAL = 1.4826  # standard deviation of a normal distribution per median magnitude
 LAGS = (0.5, 1.0, 2.0, 4.0, 8.0, 16.0, 32.0, 64.0, 128.0)  # samples
@@ -43,8 +43,8 @@ CLEAR = 2.0  # sigma above the dead band from which a reading counts
 
 @dataclass(frozen=True)
 class MeterResponse:
-    """Response of a channel. steady: (T,), readings of steady state, SI, nan within the dead band; band: SI, nan where
-    there is none; lag: s; storage: s of the equation, SI; noise: of single samples; law: coefficients of
+    """Response of a channel. steady: (T,), readings of steady state, SI, nan within the dead band; band: SI, nan
+    without one; lag: s; storage: s of the equation, SI; noise: of single samples; law: coefficients of
     `smooth_columns`, SI; moves: (T, m), M of the noise of means; by: (m, T), its B.
     """
 
@@ -65,9 +65,9 @@ class MeterResponse:
 def meter_response(
     values: Array, time: Array, moving: Array, rate: Array | None, usable: Mask, may_be_dead: bool
 ) -> MeterResponse:
-    """Response of readings (T,) in SI at even times (T,) s to inputs (T, m) scaled to [-1, 1] and the pressure's
-    rate (T,) in Pa/s, None where nothing is stored before the meter; `usable` (T,): samples that count. may_be_dead: a
-    flow meter, which may have a dead band.
+    """Response of readings (T,) in SI at even times (T,) s to inputs (T, m) scaled to [-1, 1] and the pressure's rate
+    (T,) in Pa/s, None without storage before the meter; `usable` (T,): samples that count. may_be_dead: a flow meter,
+    which may have a dead band.
     """
     known, past = values[usable], past_share(time)
 
@@ -104,7 +104,7 @@ def _refined(lag: float, columns: Callable[[float], Array], values: Array) -> fl
 
 
 def _storage(values: Array, columns: Array, held: Array, least: float) -> float:
-    """Storage by its column `held` (n,) beside a law's (n, m); 0 where values (n,) are met to `least` without it."""
+    """Storage by its column `held` (n,) beside a law's (n, m); 0 where values (n,) agree to `least` without it."""
     if not np.any(held):
         return 0.0
     both = np.column_stack([columns, held])
@@ -118,7 +118,7 @@ def _by_each_reading(columns: Array) -> Array:
 
 
 def best_lag(score: Callable[[float], float], tried: Sequence[float] = LAGS) -> float:
-    """Lag of the least score, refined between its neighbours of those tried; 0 where no lag betters that of none."""
+    """Lag of the least score, refined between its neighbours of those tried; 0 where no lag improves on none."""
     scores = [score(lag) for lag in tried]
     if not scores or min(scores) > NEARER * score(0.0):
         return 0.0
@@ -173,8 +173,8 @@ def robust(columns: Array, values: Array) -> tuple[Array, Array]:
 
 
 def smooth_columns(moving: Array, past: Array) -> Array:
-    """Polynomials of third degree of the inputs (T, m) with products, and slow cosines of the past share (T,) of time,
-    0 to 1.
+    """Polynomials of third degree of the inputs (T, m) with products, and slow cosines of the elapsed share (T,) of
+    time, 0 to 1.
     """
     columns = [np.ones(len(past))]
     count = moving.shape[1]
@@ -187,7 +187,7 @@ def smooth_columns(moving: Array, past: Array) -> Array:
 
 
 def past_share(time: Array) -> Array:
-    """Share (T,) of a series that is past, 0 to 1."""
+    """Elapsed share (T,) of a series, 0 to 1."""
     return np.asarray((time - time[0]) / max(float(time[-1] - time[0]), 1e-300))
 
 

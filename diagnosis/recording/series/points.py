@@ -1,4 +1,4 @@
-"""Points out of a time series: means over steady stretches, or quasi-steady means where there are too few."""
+"""Points from a time series: means over steady stretches, or quasi-steady means if these are too few."""
 
 from __future__ import annotations
 
@@ -20,10 +20,10 @@ from reynolds.numerics.arrays import Array
 from system.inputs.channels import INPUTS, ChannelName
 
 LEAST_STEADY = 0.5  # of a series in steady stretches: below it, all of the series is read as quasi-steady
-MOST_POINTS = 160  # steady stretches: more are repeats of each other, and a fit takes minutes
+MOST_POINTS = 160  # steady stretches: more are repeats of each other, and a fit needs minutes
 MISSTATED = 2.0  # times the scatter, or one over this: a repeatability that the data contradict
 ZERO_OF_BAND = 0.1  # of a dead band: a low-flow cut-off is set at some five times the limit of a meter's zero
-SETTLING = 3.0  # lags of a channel left out at the beginning of a stretch
+SETTLING = 3.0  # lags of a channel omitted at the beginning of a stretch
 
 
 @dataclass(frozen=True)
@@ -32,7 +32,7 @@ class SeriesPoints:
 
     directions: (N, C, K), of quasi-steady points, whose errors correlate by the products of theirs; hours: (N,), middle
     of the samples, h from the first; zeros: (C,), one sigma of a zero that the series shows at least, SI; quasi:
-    quasi-steady points, whose noise is `errors`; warming: (N,), K/s of T_case, None of steady points; notes: the
+    quasi-steady points, whose noise is `errors`; warming: (N,), K/s of T_case, None for steady points; notes: the
     procedure as text.
     """
 
@@ -49,10 +49,10 @@ class SeriesPoints:
 def series_points(form: SeriesSection, time: Array, readings: Array, channels: Sequence[ChannelForm]) -> SeriesPoints:
     """Points of a series: time (T,) in s, readings (T, C) in SI, columns as `channels`.
 
-    `SteadyRule` of the measured inputs decides which stretches are steady. The first `SETTLING` times the largest
-    lag of a stretch are left out. Where these hold less than `LEAST_STEADY` of the series, or are more than
-    `MOST_POINTS`, points are quasi-steady means (`quasi_steady`). Raises TableFault for times in no
-    order, a pump that never turns, and for a series of fewer than `FEWEST` samples.
+    `SteadyRule` of the measured inputs determines the steady stretches. The first `SETTLING` times the largest lag of a
+    stretch are omitted. Where the stretches hold less than `LEAST_STEADY` of the series, or are more than
+    `MOST_POINTS`, points are quasi-steady means (`quasi_steady`). Raises TableFault for times in no order, a pump that
+    never turns, and for a series of fewer than `FEWEST` samples.
     """
     clock = clocked(time, readings)
     time, readings, raster = on_raster(clock.time, clock.readings, form.raster or 0.0)
@@ -86,7 +86,7 @@ def without_what_is_no_reading(
 def _steady_stretches(
     form: SeriesSection, raster: float, readings: Array, channels: Sequence[ChannelForm]
 ) -> list[slice]:
-    """Stretches in which all inputs rest, without their first part where outputs lag behind."""
+    """Stretches in which all inputs rest, without their first part with lagging outputs."""
     rule = SteadyRule(round(form.steady.window / raster), form.steady.slope)
     if rule.samples < FEWEST and form.steady.window != SteadinessSection().window:
         found = f"a window of {rule.samples} samples of {raster:g} s"
@@ -160,7 +160,7 @@ def on_raster(time: Array, readings: Array, raster: float) -> tuple[Array, Array
 
 
 def _mean(stretch: Array) -> tuple[Array, Array]:
-    """Means (C,) of a stretch (T, C) over the readings that are there, and their standard errors; nan without two."""
+    """Means (C,) of a stretch (T, C) over its readings, and their standard errors; nan without two."""
     means, errors = np.full((2, stretch.shape[1]), np.nan)
     for k, column in enumerate(stretch.T):
         known = column[np.isfinite(column)]

@@ -1,9 +1,9 @@
 """Quasi-steady points of a series that never rests: ramps, stairs, sweeps, warm-up.
 
-Each output's response is estimated and taken out (`meter_response`). Samples near each other in inputs and time are one
-point; its standard error follows from the noise of single samples and its correlation (`sample_noise`). Inputs stay
-as read. The case's thermometer lags the oil: outputs follow T + tau dT/dt. A smooth law of all inputs fits as well with
-any tau, for pressure warms the oil; so tau is assumed here, and fitted with the pump.
+Each output's response is estimated and removed (`meter_response`). Samples near each other in inputs and time are one
+point; its standard error follows from the noise of single samples and its correlation (`sample_noise`). Inputs stay as
+read. The case's thermometer lags the oil: outputs follow T + tau dT/dt. A smooth law of all inputs fits equally well
+with any tau, since pressure warms the oil; so tau is assumed here, and fitted with the pump.
 """
 
 from __future__ import annotations
@@ -41,7 +41,7 @@ SEED = 20
 
 @dataclass(frozen=True)
 class QuasiSteady:
-    """N points out of a series of C channels.
+    """N points from a series of C channels.
 
     means, errors: (N, C), SI, of steady state, and their standard errors; nan where a channel does not follow;
     directions: (N, C, N), errors of two points correlate by the product of theirs; time: (N,), s; meters: response of

@@ -2,8 +2,8 @@
 
     S(f) = w + sum_k a_k (1 - r_k^2)/(1 - 2 r_k cos(2 pi f) + r_k^2)
 
-fitted to the periodogram of the residuals of a law by Whittle's (1953) likelihood. The law has taken up a share h(f) of
-the noise at each frequency, most where it varies slowly itself: what is left is S (1 - h).
+fitted to the periodogram of the residuals of a law by Whittle's (1953) likelihood. The law has absorbed a share h(f) of
+the noise at each frequency, most where it varies slowly itself: S (1 - h) remains.
 """
 
 from __future__ import annotations
@@ -20,9 +20,9 @@ from reynolds.numerics.arrays import Array
 
 MEMORIES = (3.0, 100.0, 20.0)  # samples, at the beginning of the fit
 SHORTEST = 0.3  # samples
-LONGEST = 0.05  # of the series: slower noise is the law's
-MOST_TAKEN = 0.9  # share of a frequency that a law has taken up: what is left of more tells nothing
-FORGOTTEN = 1e-3  # correlation that counts as none
+LONGEST = 0.05  # of the series: slower noise is part of the law
+MOST_TAKEN = 0.9  # absorbed share of a frequency above which the remainder has no information
+FORGOTTEN = 1e-3  # correlation that counts as zero
 
 
 @dataclass(frozen=True)
@@ -60,7 +60,7 @@ def sample_noise(residual: Array, columns: Array, place: NDArray[np.int64], coun
 
 @dataclass(frozen=True)
 class _Periodogram:
-    """Power by the cosine of the angle a sample, and the share of the noise that is left in it; (F,) each."""
+    """Power by the cosine of the angle a sample, and the remaining share of the noise in it; (F,) each."""
 
     waves: Array
     power: Array

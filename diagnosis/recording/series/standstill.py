@@ -16,7 +16,7 @@ REST = 0.05  # of the usual reading of a pump at work: below it the pump rests
 WORKING = 0.8  # quantile of the magnitudes that is the usual reading
 MARGIN = 3  # samples beside a rest in which the pump runs up or down
 _OF_REST = (ChannelName.SPEED, ChannelName.Q_OUT, ChannelName.Q_IN)
-"""Channels that show a rest; the first of them that is measured decides."""
+"""Channels that indicate a rest; the first measured one decides."""
 
 
 def without_standstill(time: Array, readings: Array, names: Sequence[ChannelName]) -> tuple[Array, tuple[str, ...]]:
@@ -58,7 +58,7 @@ def _of_rest(names: Sequence[ChannelName]) -> ChannelName | None:
 
 
 def _limit(column: Array) -> float:
-    """Magnitude up to which the pump rests: a share of the usual reading at work; 0 where nothing but 0 is read."""
+    """Magnitude up to which the pump rests: a share of the usual reading at work; 0 if all readings are 0."""
     size = np.abs(column[np.isfinite(column)])
     working = size[size > 0.0]
     return REST * float(np.quantile(working, WORKING)) if len(working) else 0.0

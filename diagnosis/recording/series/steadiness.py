@@ -16,7 +16,7 @@ LONGEST_MEMORY = 0.99  # lag-one correlation beyond which a window counts as one
 PARTS = 10
 LEAST_PARTS = 4  # one more than the shapes that are fitted to their means
 ROUNDING = 1e-12
-MOST_MEMORY = 0.9  # that a tenth of a window can show
+MOST_MEMORY = 0.9  # resolution of a tenth of a window
 BLOCK = 1_000_000
 """Samples of the windows that are judged at once."""
 
@@ -36,8 +36,8 @@ class SteadyRule:
 def steady_stretches(inputs: Array, sigma: Array, rule: SteadyRule) -> tuple[slice, ...]:
     """Return the stretches of a series (T, M) that are steady in every input, longest possible, in order.
 
-    Windows of rule.samples slide by a tenth; a stretch is the union of overlapping steady windows. One that drifts
-    as a whole is halved until its parts are steady, down to single windows. sigma: (M,), 0 where none is known.
+    Windows of rule.samples slide by a tenth; a stretch is the union of overlapping steady windows. One that drifts as a
+    whole is halved until its parts are steady, down to single windows. sigma: (M,), 0 where unknown.
     """
     length = rule.samples
     if length < 8 or len(inputs) < length:
@@ -114,7 +114,7 @@ def _parts(columns: Array, borders: NDArray[np.int64]) -> tuple[Array, Array]:
 
 
 def effective_number(noise: Array) -> float:
-    """Return how many independent samples a stretch of noise is worth: T (1 - r)/(1 + r), from 1 to T.
+    """Return the number of independent samples of a stretch of noise: T (1 - r)/(1 + r), from 1 to T.
 
     r is the lag-one correlation (noise of first order, AR(1)), not below zero; constant noise counts in full.
     """

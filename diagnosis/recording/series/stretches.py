@@ -24,7 +24,7 @@ def stretches(marks: Mask) -> tuple[slice, ...]:
 
 
 def equal_runs(values: Array) -> tuple[slice, ...]:
-    """Stretches (T,) or of rows (T, C) in which every reading repeats the one before; gaps are left out."""
+    """Stretches (T,) or of rows (T, C) in which every reading repeats the one before; without gaps."""
     columns = values.reshape(len(values), -1)
     known = np.where(np.isfinite(columns), np.abs(columns), 0.0)
     same = np.all(np.abs(np.diff(columns, axis=0)) <= ROUNDING * known.max(axis=0), axis=1)

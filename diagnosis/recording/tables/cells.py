@@ -15,13 +15,13 @@ from diagnosis.recording.tables.table import TableColumns, TableFault
 from reynolds.numerics.arrays import Array
 
 GAPS = frozenset({"", "-", "--", "nan", "na", "n/a", "null", "none", "#n/a", "inf", "-inf"})
-"""Cells, in small letters, that say that there is no reading."""
+"""Cells, in small letters, that mean no reading."""
 SUMMARIES = frozenset({
     "mean", "average", "avg", "median", "min", "minimum", "max", "maximum", "std", "stdev", "std dev", "sigma",
     "rms", "sum", "total", "count", "range", "mittel", "mittelwert", "summe", "streuung", "moyenne", "media",
     "promedio",
 })  # fmt: skip
-"""Names of the rows below a table that sum it up and are no readings, in small letters."""
+"""Names of summary rows below a table, which are no readings, in small letters."""
 _POINT = re.compile(r"\s*[+-]?(\d+\.?\d*|\.\d+|\d{1,3}(,\d{3})+\.\d*)(e[+-]?\d+)?\s*", re.IGNORECASE)
 _IN_BRACKETS = re.compile(r"[\[(]([^\])]+)[\])]\s*$")
 _COMMA = re.compile(r"\s*[+-]?(\d+,?\d*|,\d+|\d{1,3}(\.\d{3})+,\d*)(e[+-]?\d+)?\s*", re.IGNORECASE)
@@ -79,7 +79,7 @@ def _summaries(body: Sequence[Sequence[object]]) -> int:
 
 
 def is_number(cell: str, decimal: str) -> bool:
-    """True for the text of a number with this decimal sign; the other one may part its thousands: 1.499,8."""
+    """True for the text of a number with this decimal sign; the other one may separate its thousands: 1.499,8."""
     return (_COMMA if decimal == "," else _POINT).fullmatch(cell) is not None
 
 

@@ -24,8 +24,8 @@ def read_tdms(source: TableSource) -> TableColumns:
     """Return the channels of the stated group of a TDMS file, or of its only group, scaled.
 
     A channel's own time base is the column `time`. Channels of another length than most are left out, with a note.
-    Raises TableFault where npTDMS is not installed, for a group that is not there, and for a channel with a scale
-    that npTDMS does not apply (it returns raw counts: npTDMS issue 91).
+    Raises TableFault where npTDMS is not installed, for an unknown group, and for a channel with a scale that npTDMS
+    does not apply (it returns raw counts: npTDMS issue 91).
     """
     try:
         from nptdms import TdmsFile
@@ -89,7 +89,7 @@ def read_mdf(source: TableSource) -> TableColumns:
 
 
 def _expect_arithmetic(channels: Iterable[Any]) -> None:
-    """Raise TableFault for a conversion whose formula is more than arithmetic: a library evaluates it."""
+    """Raise TableFault for a conversion whose formula is more than arithmetic, since a library evaluates it."""
     for channel in channels:
         formula = getattr(channel.conversion, "formula", "")
         if formula and ("__" in formula or not _ARITHMETIC.fullmatch(formula)):

@@ -18,8 +18,8 @@ def read_matlab(source: TableSource) -> TableColumns:
     """Return the columns of a MAT file: its vectors of numbers, or the fields of the struct named by `variable`.
 
     The columns of a matrix M are `M:1`, `M:2`, ... Vectors of another length than most are left out, with a note.
-    Raises TableFault for a file that is no MAT file, a variable that is not there, and for MATLAB's table and
-    timeseries objects, whose content is not documented outside MATLAB.
+    Raises TableFault for a file that is no MAT file, an unknown variable, and for MATLAB's table and timeseries
+    objects, whose content is not documented outside MATLAB.
     """
     with source.path.open("rb") as file:
         signature = file.read(128)
@@ -75,7 +75,7 @@ def _hdf5_value(item: Any) -> Any:
 
 
 def _vectors(name: str, value: Any) -> Mapping[str, np.ndarray]:
-    """The columns of a variable: one for a vector, `name:k` for a matrix, none if it holds no numbers."""
+    """The columns of a variable: one for a vector, `name:k` for a matrix, none without numbers."""
     array = np.atleast_1d(np.asarray(value))
     if array.dtype.kind not in "fiub":
         return {}

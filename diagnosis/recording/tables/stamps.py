@@ -22,9 +22,9 @@ _DAY = 86400.0
 def seconds_of(cells: Sequence[object]) -> tuple[Array, str] | None:
     """Seconds from the first stamp, nan for other cells, and the kind of the stamps in words; None without a stamp.
 
-    A date has a four-digit year. Where it begins with the year, the month follows; where points part it, the day is
-    first. Else the order is the one in which all cells are dates; of both the one in which the recording is shorter.
-    A time of day that falls by more than half a day is of the next day.
+    A date has a four-digit year. If it begins with the year, the month follows; if it has points, the day is first.
+    Else the order is the one in which all cells are dates; of both the one in which the recording is shorter. A time of
+    day that falls by more than half a day is of the next day.
     """
     if any(isinstance(cell, datetime) for cell in cells):
         times = pd.to_datetime(pd.Series([cell if isinstance(cell, datetime) else None for cell in cells]))
@@ -48,8 +48,8 @@ def _forms(text: str) -> Iterator[str]:
     orders = (False,) if _YEAR_FIRST.match(text) else (True,) if text.count(".") > 1 else (True, False)
     for day_first in orders:
         with warnings.catch_warnings():
-            warnings.simplefilter("ignore")  # the other order is tried where the text tells one
-            form = guess_datetime_format(text.replace("PM", "AM"), dayfirst=day_first)  # of PM pandas tells none
+            warnings.simplefilter("ignore")  # the other order is tried for an ambiguous text
+            form = guess_datetime_format(text.replace("PM", "AM"), dayfirst=day_first)  # pandas has none for PM
         if form:
             yield form.replace("%B", "%b")
 

@@ -55,7 +55,7 @@ class TableColumns:
 
 @contextmanager
 def foreign(source: TableSource, kind: str) -> Iterator[None]:
-    """Convert whatever the library of a format raises on a broken file to a TableFault; kind: the file it should be."""
+    """Convert any exception of a format's library on a broken file to a TableFault; kind: the file it should be."""
     try:
         yield
     except TableFault:

@@ -22,9 +22,9 @@ LOOKED_AT = 200  # lines from which the form is found
 def read_text(source: TableSource) -> TableColumns:
     """Return the columns of a text table; lines that begin with # are left out.
 
-    The separator is the one that parts most lines into the same number of cells, at least two (else the table has
-    one column); the decimal sign the one with which more cells are numbers, a comma only if it is no separator.
-    Raises TableFault for text that cannot be decoded or a sign that is neither point nor comma.
+    The separator is the one that splits most lines into the same number of cells, at least two (else the table has one
+    column); the decimal sign the one with which more cells are numbers, a comma only if it is no separator. Raises
+    TableFault for text that cannot be decoded or a sign that is neither point nor comma.
     """
     text, encoding = _decoded(source)
     lines = [line for line in text.splitlines() if line.strip() and not line.lstrip().startswith("#")]
@@ -73,7 +73,7 @@ def _decoded(source: TableSource) -> tuple[str, str]:
 
 
 def _separator(lines: list[str]) -> str:
-    """The sign that parts most lines alike; of equal ones the first of SEPARATORS."""
+    """The sign that splits most lines equally; of equal ones the first of SEPARATORS."""
 
     def agreement(sign: str) -> int:
         counts = Counter(len(row) for row in csv.reader(lines, delimiter=sign))

@@ -18,8 +18,8 @@ INSTALL = "pip install '.[recordings]' in the checkout"
 def read_workbook(source: TableSource) -> TableColumns:
     """Return the columns of the stated sheet of an .xlsx workbook, or of its only sheet.
 
-    Formulas have the value that the last program saved. Raises TableFault where openpyxl is not
-    installed, for a sheet that is not there, and for several sheets none of which is stated.
+    Formulas have the value that the last program saved. Raises TableFault where openpyxl is not installed, for an
+    unknown sheet, and for several sheets without a stated one.
     """
     try:
         from openpyxl import load_workbook

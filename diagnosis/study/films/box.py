@@ -49,7 +49,7 @@ class FilmBox:
 def film_box(pump: PumpDescription, recording: Recording) -> FilmBox:
     """The box around a recording's points; inlet and case pressure are the pump file's.
 
-    Raises InputError where the box is void, as `table_axes`.
+    Raises InputError for an empty box, as `table_axes`.
     """
     usable = complete(recording)
     moving, points = axis_values(usable), bench_points(usable, pump)[0]

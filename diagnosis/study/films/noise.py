@@ -16,7 +16,7 @@ BALANCED_NAMES = frozenset({"film_thickness.slipper", "film_thickness.valve_plat
 
 
 def table_noise(bench: LumpedBench, films: FilmModel) -> Array:
-    """One sigma (N, C) of the readings, SI, that comes from the tables of the films.
+    """One sigma (N, C) of the readings, SI, from the errors of the tables of the films.
 
     Root of the sum of squares over the tables' outputs: the change of the readings by each output's error.
     """

@@ -12,10 +12,10 @@ from system.description.tolerances import Tolerances
 from system.inputs.units import Dimension, format_quantity
 
 OF_DISPLACEMENT = 0.03
-"""Share by which a plate may be off: makers round by less."""
+"""Largest relative error of a plate: makers round by less."""
 OF_LEVELS = 4.0
 """Factor on the film that is widest for its gap, or on friction: two sigma of pumps of one size. One film alone may be
-far less: its gap then leaks nothing, and the others what the drain has."""
+far thinner: its gap then has no leakage, and the others have all of the drain."""
 
 
 def far_levels(stated: PumpDescription, fitted: PumpDescription, allowed: Tolerances) -> Iterator[DataNote]:

@@ -1,14 +1,14 @@
-"""Levels of a scaled pump from its recording: displacement, films and friction before any hypothesis is asked.
+"""Levels of a scaled pump from its recording: displacement, films and friction before any hypothesis.
 
-A pump of which little is known is REF90 scaled: its leakage and friction may be off by several times, where slopes at
-the prior mean say nothing of the pump on the bench. A robust fit of a few common factors moves the mean:
+A pump of which little is known is REF90 scaled: its leakage and friction may be wrong by a factor of several, where
+slopes at the prior mean are not valid for the pump on the bench. A robust fit of a few common factors moves the mean:
 
     min over x, b of sum rho((y - f(x) - B b)/s) + |x|^2 + |b|^2,
     x = ln of factors on displacement, films, friction in their spreads
 
-rho: soft l1 (scipy), s: share of a channel's median. B b: what a drain flow may have beside the leakage of films, so
-that these are not at a level which is not theirs: a zero of its meter and an orifice, which grows with the root of
-the pressure. It takes no part in a verdict: priors stay as wide as before.
+rho: soft l1 (scipy), s: share of a channel's median. B b: parts of a drain flow besides the leakage of films, so that
+these do not take a wrong level: a zero of its meter and an orifice, which grows with the root of the pressure. It has
+no part in a verdict: priors stay as wide as before.
 """
 
 from __future__ import annotations
@@ -54,7 +54,7 @@ _FLOWS = {ChannelName.Q_OUT, ChannelName.Q_IN, ChannelName.Q_CASE}
 def levelled(known: KnownPump, recording: Recording, tolerances: Tolerances) -> KnownPump:
     """A scant pump with displacement, films and friction at the level of its recording, and these as assumptions.
 
-    A pump that is stated in full is returned as it is.
+    A pump that is stated in full is returned unchanged.
     """
     usable = complete(recording)
     channels = measured(usable, SIMULATED)

@@ -22,7 +22,7 @@ from system.inputs.channels import ChannelName
 
 @dataclass(frozen=True, eq=False)
 class TracedBench:
-    """A bench of C channels whose readings (N, C + F) go on with F numbers of the traces at their points.
+    """A bench of C channels whose readings (N, C + F) include F numbers of the traces at their points.
 
     rows: of each trace; fine: the bench at their points, in their order. Elsewhere the F numbers are 0, and not
     measured.
@@ -72,11 +72,11 @@ class TracedBench:
         return self.bench.elsewhere(points)
 
     def traces(self, values: Array, points: tuple[int, ...], angles: Array) -> Array:
-        """Chamber pressure (len(points), K) in Pa gauge at shaft angles (K,) rad, as it is read."""
+        """Chamber pressure (len(points), K) in Pa gauge at shaft angles (K,) rad, as read."""
         return self.bench.traces(values, points, angles)
 
     def components(self, values: Array) -> Mapping[Component, Array]:
-        """Contribution (N, C + F) of each component; a multiple of one says nothing of the traces."""
+        """Contribution (N, C + F) of each component; a multiple of one has no meaning for the traces."""
         nothing = np.zeros_like(self._numbers(self.fine, values))
         return {part: self._beside(added, nothing) for part, added in self.bench.components(values).items()}
 
@@ -148,7 +148,7 @@ class TracedBench:
 
 
 def traced_bench(bench: LumpedBench, traces: tuple[TraceBlock, ...], channel: RecordedChannel) -> TracedBench:
-    """A bench with its traces, windows as its own turn at the prior mean has them."""
+    """A bench with its traces, windows by its own turn at the prior mean."""
     fine = bench.finely(tuple(block.point for block in traces))
     centre = values_at(fine.parameters, np.zeros(len(fine.parameters)))
     rows = tuple(trace_rows(block, channel, fine.turns(centre, block.angle)[at]) for at, block in enumerate(traces))

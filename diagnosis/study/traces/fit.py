@@ -42,7 +42,7 @@ class ChamberBench:
         return self.traced.number_slopes(self._all(values), names)
 
     def input_slopes(self, values: Array) -> Array:
-        """(T, F, 0): set values are exact, but for the parameter p_out.zero."""
+        """(T, F, 0): set values are exact, except for the parameter p_out.zero."""
         return np.zeros((*self.traced.recorded.shape, 0))
 
     def with_parameters(self, parameters: tuple[Parameter, ...]) -> ChamberBench:
@@ -58,9 +58,9 @@ class ChamberBench:
 def settled_traces(traced: TracedBench, reach: float) -> Array:
     """xi (k,) of the bench's parameters at which its traces fit best, none farther than `reach` from its mean.
 
-    A flank is no linear function of the parameters that move it: slopes at the prior mean do not remove the effect
-    of tolerances. `reach` keeps the fit from following what tolerances cannot explain. If a simulation fails, the
-    mean is returned.
+    A flank is no linear function of the parameters that move it: slopes at the prior mean do not remove the effect of
+    tolerances. `reach` keeps the fit from following a mismatch that tolerances cannot explain. If a simulation fails,
+    the mean is returned.
     """
     moving = [one for one in traced.parameters if one.name in MOVING]
     chamber = ChamberBench(traced, tuple(_within(one, reach) for one in moving))

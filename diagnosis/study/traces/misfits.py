@@ -1,4 +1,4 @@
-"""Recorded chamber pressures against simulated ones, and the events of the ports they are read by."""
+"""Recorded chamber pressures against simulated ones, and the events of the ports that explain them."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ NO_ENCODER = 1e-6  # rad: one sigma of an encoder that is stated to be without o
 def trace_parameters(recording: Recording) -> tuple[Parameter, ...]:
     """Parameters of traces with hardly any effect on steady readings: encoder, transducer, relief grooves.
 
-    None where the recording has no traces.
+    None for a recording without traces.
     """
     transducer, encoder = recording.channel(ChannelName.P_CHAMBER), recording.channel(ChannelName.ANGLE)
     if transducer is None or not recording.traces:

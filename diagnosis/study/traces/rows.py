@@ -1,4 +1,4 @@
-"""A recorded trace as some tens of numbers with white noise: rows of the fit that steady readings are in too."""
+"""A recorded trace as some tens of numbers with white noise: rows of the fit beside the steady readings."""
 
 from __future__ import annotations
 
@@ -58,8 +58,8 @@ def windows(simulated: Array) -> NDArray[np.int64]:
 def shrunk_covariance(factor: Array, least: Array) -> Array:
     """Covariance (F, F) of a mean by its factor (F, c), c deviations of single cycles over sqrt(c (c - 1)).
 
-    Correlations of few cycles are shrunk towards none by as much as they are noise themselves (Ledoit and Wolf
-    2004); a number of which the cycles agree to less than `least` (F,) scatters by this.
+    Correlations of few cycles are shrunk towards zero by their own share of noise (Ledoit and Wolf 2004); a number on
+    which the cycles agree to less than `least` (F,) has this scatter.
     """
     cycles = factor.shape[1]
     scatter = np.maximum(np.sqrt((factor**2).sum(axis=1)), least)
