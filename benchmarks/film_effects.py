@@ -1,4 +1,4 @@
-"""[physics] by closed laws and by films that solve it: by what factor leakage and shear of a gap change.
+"""[physics] by closed laws and by films that solve it: factors on leakage and shear of a gap.
 
     python benchmarks/film_effects.py
 
@@ -57,7 +57,7 @@ def coarse_films(pump: PumpDescription, at: OperatingPoint[float]) -> PumpPoint:
 
 
 def main() -> None:
-    """Print the table, gaps that an effect leaves as they are left out."""
+    """Print the table, without gaps that an effect does not change."""
     pump = load_pump("ref90")
     at = operating_point(pump)
     plain = numbers(lumped_point(pump, at)), numbers(coarse_films(pump, at))

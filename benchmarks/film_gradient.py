@@ -69,7 +69,7 @@ def time_gradients(name: str, problem: FilmProblem, boundary: str) -> Timing:
     def gradients(count: int) -> Callable[[], object]:
         return lambda: film_gradients(solver, solution, outputs[:count])
 
-    for made in (gradients(4), gradients(1)):  # compiled, and the factor at hand
+    for made in (gradients(4), gradients(1)):  # compiled, and the factor available
         made()
     first, all_four = least(gradients(1), REPEATS), least(gradients(4), REPEATS)
     cold = least(lambda: loads(FilmSolver(problem.space).solve(problem)), REPEATS)

@@ -50,7 +50,7 @@ class Run:
 
 
 def cases() -> dict[str, tuple[Callable[[], object], int]]:
-    """Each case by its name: what it does, and how often in a round."""
+    """Each case by its name: its function, and its repeats in a round."""
     from film import journal, journal_mesh
 
     from reynolds.fem.space import film_space

@@ -19,7 +19,7 @@ TERMS = 400
 def force() -> tuple[float, float]:
     """Force of the positive pressures on the whole bearing, towards the largest film and along x there.
 
-    The terms fall as 1/m^4: what lies beyond the last is below 1e-8 of the force.
+    The terms fall as 1/m^4: the remainder beyond the last is below 1e-8 of the force.
     """
     x, slope = _chebyshev(math.pi)
     film, wedge = 1.0 + ECCENTRICITY * np.cos(x), -ECCENTRICITY * np.sin(x)

@@ -32,7 +32,7 @@ GOALS = {"112 lumped": 30.0, "112 films by table": 600.0}
 
 
 def main() -> None:
-    """Run what is asked for and print a table."""
+    """Run the requested maps and print a table."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--films", action="store_true")
     parser.add_argument("--cluster", action="store_true")

@@ -95,7 +95,7 @@ def grid(peer: Peer, size: int) -> tuple[int, int] | None:
 
 
 def installed(peer: Peer) -> bool:
-    """Whether the peer's program is there, and the module that it needs."""
+    """Whether the peer's program and the module that it needs are installed."""
     if shutil.which(peer.program) is None:
         return False
     probe = f"import importlib.util, sys; sys.exit(importlib.util.find_spec({peer.module!r}) is None)"
@@ -103,7 +103,7 @@ def installed(peer: Peer) -> bool:
 
 
 def measure(peer: Peer, size: int) -> Measured | str:
-    """The peer's line for one mesh, or in words why there is none."""
+    """The peer's line for one mesh, or the reason of its absence in words."""
     mesh = grid(peer, size)
     if mesh is None:
         return "its matrix is dense: 80 GB"
@@ -262,7 +262,7 @@ def page(
 
 
 def run_all(console: Console, sizes: Sequence[int]) -> tuple[list[Measured], list[str]]:
-    """Every peer on every mesh, and what was left out and why."""
+    """Every peer on every mesh, and those left out with the reason."""
     measured: list[Measured] = []
     left_out: list[str] = []
     for peer in _peers():

@@ -57,9 +57,9 @@ def cells_by_gap(finer: float) -> dict[str, Cells]:
 
 
 CELLS, COARSE, FINE = (cells_by_gap(times * FINER) for times in (1.0, 0.5, 2.0))
-"""Meshes of floating gaps where nothing else is stated, half and twice as fine."""
-FEW_ANGLES = 72  # a turn: for what is timed on several meshes
-REPEATS = {"slipper": 1, "piston": 1, "block": 9}  # a turn: with chambers alike the block's film does every pitch
+"""Default meshes of floating gaps, half and twice as fine."""
+FEW_ANGLES = 72  # a turn: for timing on several meshes
+REPEATS = {"slipper": 1, "piston": 1, "block": 9}  # a turn: with equal chambers the block's film repeats every pitch
 HEADS = ("gap", "cells", "held", "angles", "turns", "steps", "films", "film / ms", "process / s")
 PARTS = {
     "linear solves": ("linear.py", "carried", "multigrid", "band", "qdldl", "superlu", "line_kernels", "coars"),
@@ -115,7 +115,7 @@ def timed(work: Callable[[], GapRevolution[GapReport]]) -> tuple[GapRevolution[G
 
 
 def shares(work: Callable[[], object]) -> dict[str, float]:
-    """Share of the time by parts of the program; of what is not ours, by who called it."""
+    """Share of the time by parts of the program; of other libraries, by their caller."""
     profile = cProfile.Profile()
     profile.runcall(work)
     spent: Counter[str] = Counter()

@@ -1,14 +1,12 @@
-"""Set up `.venv` in this checkout, with nothing on the machine but Python and its standard library.
+"""Set up `.venv` in this checkout, with only Python and its standard library on the machine.
 
-Debian's `python3` carries neither pip nor ensurepip, so a pip wheel travels in this folder. pip knows its
-package index from its own configuration, which keeps addresses out of this repository, and fetches uv;
-uv puts `requirements.lock` into `.venv` in seconds and removes what the lock does not name. Where uv
-cannot reach the packages (its index and certificates are configured apart from pip's), pip does the same
-work in about a minute. Every file fetched is checked against a hash of a lock, and nothing is compiled
-from source: no compiler is needed.
+Debian's `python3` has neither pip nor ensurepip, so a pip wheel is in this folder. pip has its package index from its
+own configuration, so that this repository has no addresses, and fetches uv; uv puts `requirements.lock` into `.venv` in
+seconds and removes packages that the lock does not name. Where uv cannot reach the packages (its index and certificates
+are configured apart from pip's), pip does the same work in about a minute. Every file fetched is checked against a hash
+of a lock, and nothing is compiled from source: no compiler is needed.
 
-A stamp inside `.venv` says for which locks and in which folder it was made; while it holds, a second call
-does nothing.
+A stamp inside `.venv` states its locks and its folder; while it is valid, a second call does nothing.
 """
 
 from __future__ import annotations
@@ -30,11 +28,11 @@ OLDEST_PYTHON = (3, 11)
 
 
 class SetupError(Exception):
-    """`.venv` cannot be set up; the message says why and what to do."""
+    """`.venv` cannot be set up; the message states the reason and the remedy."""
 
 
 def main() -> int:
-    """Leave a `.venv` that matches the locks, or say on stderr what stood in the way and return 1."""
+    """Leave a `.venv` that matches the locks, or print the obstacle to stderr and return 1."""
     try:
         check_python()
         set_up()
@@ -55,7 +53,7 @@ def check_python() -> None:
 
 
 def set_up() -> None:
-    """Make `.venv`, or bring it up to date, unless its stamp says that it already is."""
+    """Make `.venv`, or bring it up to date, unless its stamp states that it already is."""
     if PYTHON.exists() and read_stamp() == (str(ROOT), fingerprint()):
         print(".venv is up to date.")
         return
@@ -68,7 +66,7 @@ def set_up() -> None:
 
 
 def fingerprint() -> str:
-    """SHA-256 over every file that decides what `.venv` holds."""
+    """SHA-256 over every file that determines the content of `.venv`."""
     deciding = (LOCK, UV_LOCK, PIP_WHEEL, ROOT / "pyproject.toml")
     return hashlib.sha256(b"".join(path.read_bytes() for path in deciding)).hexdigest()
 
@@ -95,7 +93,7 @@ def make_environment() -> None:
     print(f"Making .venv with {sys.executable} ...", flush=True)
     venv.create(VENV, with_pip=False, symlinks=True, clear=moved or not PYTHON.exists())
     STAMP.unlink(missing_ok=True)
-    pip = str(PIP_WHEEL / "pip")  # a wheel of pip runs as it lies
+    pip = str(PIP_WHEEL / "pip")  # a wheel of pip runs without installation
     if not succeeds(str(PYTHON), pip, "install", "--quiet", "--no-index", str(PIP_WHEEL)):
         raise SetupError(f"{PIP_WHEEL.name} could not be installed into .venv; see above.")
 

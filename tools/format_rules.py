@@ -1,4 +1,4 @@
-"""Rules of formats that run folders alone do not show. Paths: file, then keys by `/`; `*` stands for anything."""
+"""Rules of formats that run folders alone do not show. Paths: file, then keys by `/`; `*` matches anything."""
 
 FREE = (
     "summary.json/*numbers",

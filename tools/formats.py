@@ -5,8 +5,8 @@
     python tools/formats.py --release 0.2.0 the versions so far are those of a release: none of them changes any more
 
 A schema describes one version of a kind of run folder: the header (`headers.py`) of each of its files. A key that some
-folders lack is optional. `format_rules.py` says which keys are the user's and what
-may be null. The version that is written stands in `swashfilm.formats.versions`.
+folders lack is optional. `format_rules.py` states which keys are the user's and which entries may be null. The written
+version is that of `swashfilm.formats.versions`.
 """
 
 from __future__ import annotations
@@ -138,9 +138,9 @@ def schema_text(schema: Schema) -> str:
 
 
 def widened(schema: Schema | None, value: Any, path: str = "", *, of_input: bool = False) -> Schema:
-    """Return the schema that takes what `schema` takes, and the value; None takes nothing.
+    """Return the schema that accepts all values of `schema`, and this value; None accepts nothing.
 
-    of_input: the value lies in an object of FREE, where nothing is part of the format but the types.
+    of_input: the value lies in an object of FREE, where only the types are part of the format.
     """
     found = dict(schema or {"type": []})
     types = {"object" if isinstance(value, Mapping) else _TYPES[type(value)], *_types(found)}

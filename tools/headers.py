@@ -1,4 +1,4 @@
-"""Headers of the files of a run folder as plain values: what other programs find files by, without the numbers."""
+"""Headers of the files of a run folder as plain values: the names and types for other programs, without the numbers."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ _PLACEHOLDERS = {
     re.compile(r"^sensitivity_.+"): "sensitivity_OUTPUT",
     re.compile(r"^data/.+\.csv"): "data/FIGURE.csv",
 }
-"""Names of files and variables that depend on the input, and what stands for them."""
+"""Names of files and variables that depend on the input, and their placeholders."""
 
 
 def folder_header(folder: Path) -> dict[str, Any]:

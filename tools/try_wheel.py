@@ -55,7 +55,7 @@ def main(words: Sequence[str]) -> int:
 
 
 def installed(place: Path, python: str, lowest: bool) -> Path:
-    """Return the folder of the programs of a new environment that has the wheel and what it needs."""
+    """Return the folder of the programs of a new environment with the wheel and its requirements."""
     uv = ROOT / ".venv" / "bin" / "uv"
     tool = str(uv) if uv.is_file() else shutil.which("uv") or "uv"
     wheels, venv = place / "wheels", place / "venv"
@@ -70,7 +70,7 @@ def installed(place: Path, python: str, lowest: bool) -> Path:
 
 
 def failed(work: Path, programs: Path) -> list[str]:
-    """Run every command and the README's Python, each from the empty folder `work`; return what failed."""
+    """Run every command and the README's Python, each from the empty folder `work`; return the failures."""
     shutil.rmtree(work, ignore_errors=True)
     work.mkdir(parents=True)
     faults = []
@@ -86,7 +86,7 @@ def failed(work: Path, programs: Path) -> list[str]:
 
 
 def call(words: list[str], work: Path, programs: Path, told: bool = False) -> tuple[int, str]:
-    """Return exit code and output of a program of the environment, which knows no other folder of Python modules."""
+    """Return exit code and output of a program of the environment, without any other folder of Python modules."""
     kept = {key: value for key, value in os.environ.items() if not key.startswith("PYTHON")}
     work.mkdir(parents=True, exist_ok=True)
     done = subprocess.run(

@@ -1,4 +1,4 @@
-"""An answer: what a tool says of one recording, as a JSON file; every fault of it with its place."""
+"""An answer of a tool on one recording, as a JSON file; every fault of it with its place."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ VERDICTS = tuple(one.value for one in Kind)
 STATUSES = ("named", "suspicion", "failed")
 IDS = tuple(one.value for one in EffectId if one is not EffectId.UNKNOWN_PHYSICS)
 GAPS = (*(one.value for one in Gap), "piston_slipper_socket", "ball_guide_retainer", "front_bearing", "rear_bearing")
-"""Places that a name may have: a gap, or of friction_coefficient a joint."""
+"""Places of a name: a gap, or of friction_coefficient a joint."""
 KEYS = {"format": int, "recording": str, "verdict": str, "status": str, "names": list, "ranking": list, "cpu_s": float}
 NAME_KEYS = {"id": str, "gap": str, "probability": float, "or": list}
 RANKED_KEYS = {"ids": list, "gaps": list, "probability": float}
@@ -27,7 +27,7 @@ _WORDS = {int: "a whole number", str: "a text", list: "a list", float: "a number
 
 @dataclass(frozen=True)
 class Name:
-    """One thing that is named: its id, its gap ("": none is told), its probability, ids that cannot be told from it."""
+    """One named cause: its id, its gap ("": not stated), its probability, ids inseparable from it."""
 
     id: str
     gap: str
@@ -37,7 +37,7 @@ class Name:
 
 @dataclass(frozen=True)
 class Ranked:
-    """An explanation that was weighed: ids with their gaps, "" for none, and its probability."""
+    """An explanation in the comparison: ids with their gaps, "" for no gap, and its probability."""
 
     ids: tuple[str, ...]
     gaps: tuple[str, ...]

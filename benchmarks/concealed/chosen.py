@@ -47,7 +47,7 @@ def most(seed: int) -> int:
 
 
 def _in_turn(seed: int) -> Iterator[Case | WideCase]:
-    """Yield each case once; a part that is used up is passed over."""
+    """Yield each case once; a part without further cases is skipped."""
     taken: Counter[Part] = Counter()
     known = {part: cases(part, seed) for parts in PARTS.values() for part in parts}
     for turn in count():

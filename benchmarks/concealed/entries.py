@@ -27,7 +27,7 @@ SLUGS = {
 def enter(recordings: Path, answers: Path, names: Sequence[str], *, with_rivals: bool) -> Iterator[str]:
     """Write the answers to each recording that has none yet; yield a line for each of ours.
 
-    with_rivals: also those of SLUGS and of `rivals`, of recordings with steady points: they know no series.
+    with_rivals: also those of SLUGS and of `rivals`, of recordings with steady points: they do not support series.
     """
     for name in names:
         folder = recordings / name
@@ -60,7 +60,7 @@ def our_answer(recording: str, found: Outcome) -> Answer:
 
 
 def rival_answer(recording: str, found: Rival) -> Answer:
-    """Return what a rival sees as an answer; one that names nothing has a suspicion. Rivals have no probabilities."""
+    """Return the finding of a rival as an answer; one without a name is a suspicion. Rivals have no probabilities."""
     if not found.alarm:
         return Answer(recording, Kind.NO_MISMATCH.value, "named", (), (), float("nan"))
     if not found.named:

@@ -25,7 +25,7 @@ from .truth import Truth, truth_of, write_truths
 
 MANIFEST, TRUTHS, RECORDINGS, PUMP = "manifest.json", "truths.json", "recordings", "pump.toml"
 SEALED = "sealed"
-"""Folder of the truths of the test split, to keep from who answers."""
+"""Folder of the truths of the test split, to withhold from participants."""
 LICENCE = "CC-BY-4.0"
 _NAMED = re.compile(r'^(title|name) = ".*"$', re.MULTILINE)
 
@@ -55,7 +55,7 @@ def make_benchmark(folder: Path, recordings: int, seeds: dict[Split, int] | None
 
 
 def _write_split(place: Path, split: Split, seed: int, recordings: int) -> list[Truth]:
-    """Write the recordings of a split, in an order that tells nothing, and return their truths by name."""
+    """Write the recordings of a split, in a neutral order, and return their truths by name."""
     found = chosen(seed, recordings)
     numbers = list(range(1, len(found) + 1))
     Random(seed).shuffle(numbers)
@@ -69,7 +69,7 @@ def _write_split(place: Path, split: Split, seed: int, recordings: int) -> list[
 
 
 def write_case(case: Case | WideCase, name: str, folder: Path) -> Outcome:
-    """Write the recording of a case under a name that tells nothing, with the pump's file; return what is true."""
+    """Write the recording of a case under a neutral name, with the pump's file; return the truth."""
     folder.mkdir(parents=True)
     if isinstance(case, WideCase):
         made = made_wide(case)

@@ -1,4 +1,4 @@
-"""Page of the benchmark: the score table of all entries, how it is read, what is concealed where."""
+"""Page of the benchmark: the score table of all entries, its explanation, the concealed causes."""
 
 from __future__ import annotations
 
@@ -72,7 +72,7 @@ def plant_table(scores: Sequence[Score]) -> str:
 
 
 def case_table(truths: Sequence[Truth], entries: Mapping[str, Mapping[str, Answer]]) -> str:
-    """Return what is concealed in each recording and what each entry names there, as Markdown."""
+    """Return the concealed causes of each recording and the names by each entry, as Markdown."""
     rows = [
         (truth.recording, truth.plant, _concealed(truth), f"{truth.score:.1f}",
          *(_told(truth, answers.get(truth.recording)) for answers in entries.values()))
@@ -101,7 +101,7 @@ def write_page(
     path: Path | None, split: str, truths: Sequence[Truth], entries: Mapping[str, Mapping[str, Answer]],
     scores: Sequence[Score],
 ) -> str:  # fmt: skip
-    """Return the score tables, and write them into a page; what is concealed is told of the development split alone."""
+    """Return the score tables, and write them into a page; concealed causes are listed for the development split."""
     tables = f"{score_table(scores)}\n{plant_table(scores)}"
     if path is not None:
         told = CASES + case_table(truths, entries) if split == Split.DEVELOPMENT.value else ""

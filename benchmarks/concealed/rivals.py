@@ -57,7 +57,7 @@ def kennedy_ohagan(study: Study) -> Rival:
 
 
 def _smooth(study: Study, white: Array) -> float:
-    """What discrepancies of the steady channels add to ln likelihood, less Schwarz' penalty; 0 where none pays."""
+    """Gain of ln likelihood by discrepancies of the steady channels, less Schwarz' penalty; 0 where none gains."""
     whitening, measured = study.base.whitening, study.observations.measured
     residual = whitening.unwhiten(white) / whitening.sigma
     whole = 0.0
@@ -77,7 +77,7 @@ def _smooth(study: Study, white: Array) -> float:
 def localise_and_test(study: Study) -> Rival:
     """One half of the points proposes effects, the other tests them: the strongest of its discoveries, if any.
 
-    Halves are drawn at random, so that no reading is looked at twice; false discoveries by Benjamini and Hochberg 1995.
+    Halves are drawn at random, so that no reading is used twice; false discoveries by Benjamini and Hochberg 1995.
     """
     points = study.base.whitening.rows[:, 0]
     first = np.random.default_rng(SEED).permutation(int(points.max()) + 1) % 2 == 0

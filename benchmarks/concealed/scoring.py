@@ -40,10 +40,10 @@ class Score:
     """Score of one entry over the recordings of a split; a recording without an answer counts as not detected.
 
     false_positive: of nulls, alarms; false_negative: of the others, no alarm; detected: both right, of all; right: of
-    recordings with something concealed, all of it named and nothing else; right_at: the same by plant; wrong: of all,
-    something named that is not there; sure_and_wrong: at a probability of .9 or more; in_set: of rankings given,
-    the truth among the explanations that hold 95 %. errors: of classification, per recording: ids named that are not
-    there, and ids there that are not named. cpu_s: median.
+    recordings with concealed causes, exactly these named; right_at: the same by plant; wrong: of all, a wrong cause
+    named; sure_and_wrong: at a probability of .9 or more; in_set: of rankings given, the truth among the explanations
+    that hold 95 %. errors: of classification, per recording: ids named wrongly, and concealed ids not named. cpu_s:
+    median.
     """
 
     entry: str
@@ -75,21 +75,21 @@ class Judged:
 
     @property
     def alarm(self) -> bool:
-        """True where the answer says that something is off."""
+        """True where the answer reports a mismatch."""
         if self.answer is None or self.answer.status == "failed":
             return False
         return self.answer.verdict != NOTHING or self.answer.status == "suspicion"
 
     @property
     def sure_and_wrong(self) -> bool:
-        """True where something is named that is not there, at a probability of .9 or more."""
+        """True where a wrong cause is named, at a probability of .9 or more."""
         return is_wrong_name(self.outcome) and any(one.probability >= SURE for one in self.outcome.claims)
 
     @property
     def errors(self) -> int:
-        """Ids named that are not there, and ids there that are not named; an id of a class stands for the class.
+        """Ids named wrongly, and concealed ids not named; an id of a class represents the class.
 
-        Unknown physics that is not told as such is one that is not named.
+        Unknown physics that is not reported as such is not named.
         """
         names = () if self.answer is None or self.answer.status != "named" else self.answer.names
         left, errors = [*self.truth.ids], 0
@@ -129,7 +129,7 @@ def score(entry: str, truths: Sequence[Truth], answers: Mapping[str, Answer]) ->
 
 
 def judged(truth: Truth, answer: Answer | None) -> Judged:
-    """Return an answer beside the truth; without one, or where the tool failed, as nothing told."""
+    """Return an answer beside the truth; without one, or where the tool failed, an empty one."""
     gaps = tuple(gap or None for gap in truth.gaps)
     known = Outcome(
         name=truth.recording, part=truth.part, campaign="", seed=0, asked=0.0, score=truth.score, sizes={},

@@ -1,4 +1,4 @@
-"""Truths of a split: what is concealed in each recording, as a file, and its seal."""
+"""Truths of a split: the concealed causes of each recording, as a file, and its seal."""
 
 from __future__ import annotations
 
@@ -15,8 +15,8 @@ from proof.outcome import Outcome
 class Truth:
     """The concealed cause in a recording.
 
-    verdict: as an answer has it; ids, gaps: what a right answer names, "" a gap for none; beside: ids of faults
-    beside it, which may be named too. score: detectability z; sizes: of what is concealed, SI.
+    verdict: as an answer has it; ids, gaps: those of a right answer, "" for no gap; beside: ids of faults beside it,
+    which may be named too. score: detectability z; sizes: of the concealed causes, SI.
     """
 
     recording: str

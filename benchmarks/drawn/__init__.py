@@ -1,1 +1,1 @@
-"""Films and pumps drawn at random: geometry, oil, operating point, and what became of each."""
+"""Films and pumps drawn at random: geometry, oil, operating point, and the outcome of each."""

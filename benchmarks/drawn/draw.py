@@ -1,4 +1,4 @@
-"""Draws of one case: the same for the same kind and number, whatever else changes."""
+"""Draws of one case: the same for the same kind and number, independent of other changes."""
 
 from __future__ import annotations
 

@@ -165,7 +165,7 @@ def _walls(draw: Draw, case: Tables) -> None:
 
 
 def _thermal(draw: Draw) -> Tables:
-    """At least one wall takes heat."""
+    """At least one wall absorbs heat."""
     held: Tables = {"temperature": f"{draw.even(20, 80)} degC"}
     cooled = {"heat_transfer_coefficient": f"{draw.wide(100, 1e4)} W/(m2 K)", "outer_temperature": "40 degC"}
     return {

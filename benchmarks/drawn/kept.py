@@ -14,7 +14,7 @@ KEPT = Path(__file__).with_name("outcomes.jsonl")
 
 
 def read_outcomes(path: Path) -> list[Outcome]:
-    """Return the outcomes of a file, none where there is no file."""
+    """Return the outcomes of a file, none without a file."""
     found = {(one["kind"], one["number"]): one for one in json_lines(path)}
     return [Outcome(**one | {"fate": Fate(one["fate"])}) for one in found.values()]
 

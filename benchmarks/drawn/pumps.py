@@ -78,7 +78,7 @@ def pump_case(number: int) -> Tables:
 
 
 def _usual(displacement: str, pistons: int, grade: str) -> Tables:
-    """The tables of a pump of which no more is known."""
+    """The tables of a pump with few known values."""
     from system.pump_file.scaled.completed import completed
 
     stated = {"pump": {"displacement": displacement, "pistons": pistons}, "oil": {"grade": grade}}

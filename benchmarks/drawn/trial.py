@@ -1,4 +1,4 @@
-"""One drawn case: solved as a user solves it, and what became of it."""
+"""One drawn case: solved as a user solves it, and its outcome."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ MASS, ENERGY, PUMP_ENERGY = 1e-9, 1e-6, 5e-3
 """Largest relative errors: of oil, in films and pumps; of power or heat in a film; of a pump's power, by the torque of
 its forces at sampled angles against the sum of all sinks (beyond, a run warns)."""
 Balances = tuple[float, float, Mapping[str, Any]]
-"""Relative errors of mass and energy (NaN where the balance leaves out a work by its theory), and the summary."""
+"""Relative errors of mass and energy (NaN where the balance omits a work by its theory), and the summary."""
 
 
 class Fate(StrEnum):
@@ -40,13 +40,13 @@ class Fate(StrEnum):
 
     @property
     def good(self) -> bool:
-        """True for what is promised."""
+        """True for an outcome as promised."""
         return self in (Fate.BALANCED, Fate.REFUSED, Fate.NOT_CONVERGED)
 
 
 @dataclass(frozen=True)
 class Outcome:
-    """A case, its fate, its relative errors of mass and energy, what was told, and processor time in seconds."""
+    """A case, its outcome, its relative errors of mass and energy, its message, and processor time in seconds."""
 
     kind: str
     number: int
@@ -87,7 +87,7 @@ def pump(number: int, fidelity: str) -> Balances:
 
 @dataclass(frozen=True)
 class Kind:
-    """A kind of case: number of cases, how one is solved, and the largest errors of mass and energy."""
+    """A kind of case: number of cases, its solver, and the largest errors of mass and energy."""
 
     count: int
     solve: Callable[[int], Balances]
@@ -104,7 +104,7 @@ KINDS = {
 
 
 def tried(kind: str, number: int) -> Outcome:
-    """Solve a case and judge what comes back; a warning of numpy counts as an error of the program."""
+    """Solve a case and judge the result; a warning of numpy counts as an error of the program."""
     began = time.process_time()
     mass = energy = math.nan
     told = ""

@@ -1,1 +1,1 @@
-"""Hostile input: mutated files of every kind that the program reads, and what each comes to."""
+"""Hostile input: mutated files of every kind that the program reads, and the outcome of each."""

@@ -1,4 +1,4 @@
-"""Doors of the program: each kind of file with the command that reads it, and how it is mutated."""
+"""Doors of the program: each kind of file with the command that reads it, and its mutations."""
 
 from __future__ import annotations
 
@@ -20,8 +20,8 @@ TABLE_POINT = ("--speed", "1500rpm", "--pressure", "20MPa")
 class Door:
     """A file of a sample, and the command line that reads it in the sample's folder.
 
-    kind: of the file, a row of the table; cases: how many; every: of them, one in so many gets another thing than a
-    file in its place; whole: one in so many runs as a process of its own.
+    kind: of the file, a row of the table; cases: number; every: one in so many has another object than a file in its
+    place; whole: one in so many runs as a process of its own.
     """
 
     name: str
@@ -35,7 +35,7 @@ class Door:
     whole: int = 0
 
     def mutate(self, path: Path, number: int, secret: Path) -> str:
-        """Mutate the file in place; return in words how. The same number gives the same file, GOOD leaves it."""
+        """Mutate the file in place; return how, in words. The same number gives the same file, GOOD leaves it."""
         if number == GOOD:
             return "nothing"
         draw = Random(f"{self.name} {number}")

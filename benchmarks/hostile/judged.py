@@ -15,7 +15,7 @@ from .mutations import CANARY, MARK
 RAISED = 70
 """Exit code of a child in which an exception was not caught."""
 MEMORY = 1_500_000_000
-"""Bytes beyond which the memory of a command counts as not bounded."""
+"""Bytes beyond which the memory of a command counts as unbounded."""
 _PLACE = re.compile(
     r"swashfilm: (not converged: .|.+: \d+ faults?\n {2}\S|.+: found .+, expected |.+: .+; expected )", re.DOTALL
 )
@@ -41,13 +41,13 @@ class Outcome(Enum):
 
     @property
     def good(self) -> bool:
-        """True for what is promised: a refusal in words, or a whole result."""
+        """True for an outcome as promised: a refusal in words, or a complete result."""
         return self in (Outcome.REFUSED, Outcome.ACCEPTED)
 
 
 @dataclass(frozen=True)
 class Ended:
-    """End of a command: its exit code or the signal, whether it had to be ended, its memory, what it said."""
+    """End of a command: its exit code or the signal, whether it had to be ended, its memory, its output."""
 
     code: int | None
     signal: int
@@ -57,7 +57,7 @@ class Ended:
 
 
 def judged(folder: Path, ended: Ended, untouched: bool) -> tuple[Outcome, str]:
-    """Return the outcome of a command in a folder, and what shows it."""
+    """Return the outcome of a command in a folder, and its evidence."""
     last = ended.said.strip()[-300:]
     if any(folder.rglob(CANARY)):
         return Outcome.RUN, "the file was run"
@@ -86,7 +86,7 @@ def judged(folder: Path, ended: Ended, untouched: bool) -> tuple[Outcome, str]:
 
 
 def injected(page: Path) -> str:
-    """Return what of a page comes from a mutated file as more than text; empty where nothing does."""
+    """Return the parts of a page from a mutated file that are more than text; empty without any."""
     found = _Elements()
     if page.is_symlink() or not page.is_file() or MARK.encode() not in (content := page.read_bytes()):
         return ""
@@ -112,7 +112,7 @@ class _Elements(HTMLParser):
 
 
 def _half(folder: Path, code: int) -> str:
-    """Return what of the files written is not whole, or not finite; empty where all is well."""
+    """Return the incomplete or not finite parts of the written files; empty without any."""
     if left := [path.name for path in folder.rglob("*") if path.name.endswith(_LEFT)]:
         return f"left behind: {', '.join(left)}"
     out = folder / "out"

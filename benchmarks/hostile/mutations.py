@@ -9,7 +9,7 @@ from pathlib import Path
 from random import Random
 
 MARK = "swashfilm-hostile"
-"""Word by which a page or a terminal shows that a file's text is taken for more than text."""
+"""Word by which a page or a terminal shows that a file's text is interpreted as more than text."""
 CANARY = "canary"
 """File that exists only where text or objects of a file have been run."""
 MARKUP = (
@@ -183,7 +183,7 @@ TEXT: tuple[Mutation, ...] = (
 
 
 def placed(path: Path, draw: Random, secret: Path) -> str:
-    """Put something else than a file in its place, or a link; return what.
+    """Replace the file by another object or a link; return its name.
 
     secret: a file outside, which a link points to.
     """

@@ -13,7 +13,7 @@ from .judged import Outcome
 from .trial import Told
 
 FIRST = Path(__file__).with_name("first.json")
-"""Outcomes by kind of the cases whose first trial was kept, before what it broke was mended."""
+"""Outcomes by kind of the cases whose first trial was kept, before the faults that it found were corrected."""
 Counts = Mapping[str, Mapping[str, int]]
 ORDER = list(Outcome)
 HEAD = """# Hostile input
@@ -66,7 +66,7 @@ def page_text(now: Counts, memory: float, seconds: float) -> str:
 
 
 def _broken(counts: Counts) -> str:
-    """Words for how many cases break the promise."""
+    """Words for the number of cases that break the promise."""
     good = [one.value for one in Outcome if one.good]
     cases = sum(sum(row.values()) for row in counts.values())
     broken = cases - sum(row.get(name, 0) for row in counts.values() for name in good)

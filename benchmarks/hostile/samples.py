@@ -36,7 +36,7 @@ WORN = '\n[bore]\nprofile = "worn.csv"\n'
 
 
 def make_samples(folder: Path) -> None:
-    """Fill a folder with one folder of files for each kind; those that are there are left."""
+    """Fill a folder with one folder of files for each kind; existing ones are kept."""
     sys.path.insert(0, str(ROOT / "tests" / "support"))
     makers: dict[str, Callable[[Path], None]] = {
         "plain": _plain,

@@ -1,4 +1,4 @@
-"""One case: a mutated copy of a sample, the command in a child with limits, and what became of it."""
+"""One case: a mutated copy of a sample, the command in a child with limits, and its outcome."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from .judged import RAISED, Ended, Outcome, judged
 from .mutations import MARK
 
 PROCESSOR, WALL, STILL = 60, 300, 10
-"""Seconds of processor time and of the clock that a case may take, and for which it may wait for something."""
+"""Seconds of processor time and of the clock that a case may take, and for which it may wait."""
 MORE_MEMORY = 3_000_000_000
 """Bytes that a case may take beyond those of its parent."""
 SECRET = f"precious {MARK} secret\n"
@@ -27,7 +27,7 @@ SECRET = f"precious {MARK} secret\n"
 
 @dataclass(frozen=True)
 class Told:
-    """A case and its outcome; how: the mutation in words; told: end of what the command said."""
+    """A case and its outcome; how: the mutation in words; told: end of the command's output."""
 
     door: str
     kind: str
@@ -40,7 +40,7 @@ class Told:
 
 
 def tried(door: Door, number: int, samples: Path, place: Path) -> Told:
-    """Return the outcome of a case; its folder is left where it is no good one."""
+    """Return the outcome of a case; its folder is kept if the outcome is bad."""
     shutil.rmtree(place, ignore_errors=True)
     place.mkdir(parents=True)
     secret = place / "secret.txt"

@@ -1,4 +1,4 @@
-"""Compiled code during a mutation: kernels that may hold the edited line are compiled anew, and put back."""
+"""Compiled code during a mutation: kernels that may contain the edited line are compiled anew, and restored."""
 
 from __future__ import annotations
 

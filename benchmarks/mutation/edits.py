@@ -88,7 +88,7 @@ def is_program(edit: Edit, text: bytes) -> bool:
 
 
 def _expressions(node: ast.AST, function: str) -> Iterator[tuple[ast.expr | ast.AugAssign, str]]:
-    """Expressions that compute; not annotations, decorators, messages, defaults or what is raised."""
+    """Expressions that compute; not annotations, decorators, messages, defaults or exceptions."""
     for field, value in ast.iter_fields(node):
         if field in ("annotation", "returns", "decorator_list", "type_params", "args") and not isinstance(
             node, ast.Call

@@ -1,4 +1,4 @@
-"""The order of test files for an edit: those first that import the edited module, or what imports it."""
+"""The order of test files for an edit: those first that import the edited module, or an importer of it."""
 
 from __future__ import annotations
 
@@ -42,7 +42,7 @@ class Nearness:
 
 
 def _weights(module: str) -> Mapping[str, float]:
-    """1 for the module, `FARTHER` for what imports it, its square for what imports that, and so on."""
+    """1 for the module, `FARTHER` for its importers, the square for theirs, and so on."""
     weights, last, weight = {module: 1.0}, {module}, 1.0
     while last:
         weight *= FARTHER

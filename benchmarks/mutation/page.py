@@ -1,4 +1,4 @@
-"""Page of the mutations: how many the default tests notice, and each one that they do not."""
+"""Page of the mutations: number that the default tests notice, and each one that they do not."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ Written by `python benchmarks/mutation.py`.
 
 
 def page_text(trials: Sequence[Trial], near: int) -> str:
-    """Counts by package and by kind, then what survived, with reasons."""
+    """Counts by package and by kind, then the survivors, with reasons."""
     same = equivalents()
     decided = [trial for trial in trials if trial.fate is not Fate.UNDECIDED or trial.name in same]
     parts = [HEAD.format(near=near), _whole(trials, decided, same)]

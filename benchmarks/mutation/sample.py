@@ -1,4 +1,4 @@
-"""The mutations that are tried: a random sample of all edits of the physics, the same whatever else changes."""
+"""The mutations that are tried: a random sample of all edits of the physics, independent of other changes."""
 
 from __future__ import annotations
 

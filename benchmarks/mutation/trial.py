@@ -35,9 +35,9 @@ class Fate(StrEnum):
 
 @dataclass(frozen=True)
 class Trial:
-    """An edit, its fate, the test that noticed it, the number of test files that ran at most, and seconds.
+    """An edit, its outcome, the test that noticed it, the largest number of test files that ran, and seconds.
 
-    at_first: its fate when it was tried for the first time, before a test was written for it.
+    at_first: its outcome at the first trial, before a test was written for it.
     """
 
     name: str
@@ -54,7 +54,7 @@ class Trial:
 
 
 class Copy:
-    """A copy of the checkout as it is now, with its compiled code; what a mutation changed is undone after each."""
+    """A copy of the present checkout, with its compiled code; each mutation is undone afterwards."""
 
     def __init__(self, root: Path, place: Path):
         self.place = place
@@ -85,7 +85,7 @@ class Copy:
                 os.utime(path, ns=(stamp.st_atime_ns, stamp.st_mtime_ns))
 
     def _is_sound(self, test: str, limit: float) -> bool:
-        """Whether a test passes without any mutation; one that does not has noticed nothing."""
+        """Whether a test passes without any mutation; a failing one has not noticed the mutation."""
         if test.startswith(CRASH):
             return True
         if test not in self._sound:

@@ -1,13 +1,13 @@
-"""Common parts of peers in Python: their arguments, what it keeps, the line it prints.
+"""Common parts of peers in Python: their arguments, kept data, the line that they print.
 
 `peers.py` starts each peer once per mesh, with `benchmarks` on the path of modules:
 
     -degree 1 -cells 160 -rows 64 -repeats 5 -eccentricity 0.6 -method direct
 
 A peer may keep, per mesh, all that its users would: mesh, unknowns, sparsity pattern, compiled code, symbolic
-factorisation. What it is timed for is what a changed film needs: assembly from the formula of the film (no
-stored values of it) to the pressure. The first film, which compiles, is not timed. The clock is processor time,
-which other work on the machine disturbs less than wall time; on one thread the two are otherwise the same.
+factorisation. The time is that of a changed film: from the assembly by the formula of the film (no stored values of it)
+to the pressure. The first film, which compiles, is not timed. The clock is processor time, which other work on the
+machine disturbs less than wall time; on one thread the two are otherwise the same.
 """
 
 from __future__ import annotations

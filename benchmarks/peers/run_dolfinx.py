@@ -29,7 +29,7 @@ plane = mesh.create_rectangle(
 space = fem.FunctionSpace(plane, ("Lagrange", case.degree))
 x = ufl.SpatialCoordinate(plane)
 thickness = 1.0 + case.eccentricity * ufl.cos(x[0])
-# Left to itself, UFL takes 49 points in a Q1 cell (degree 13, for the cosines) instead of four.
+# By default UFL uses 49 points in a Q1 cell (degree 13, for the cosines) instead of four.
 area = ufl.dx(metadata={"quadrature_degree": 2 * case.degree + 1})
 p, f = ufl.TrialFunction(space), ufl.TestFunction(space)
 conductance = fem.form(thickness**3 / 12.0 * ufl.dot(ufl.grad(p), ufl.grad(f)) * area)

@@ -1,1 +1,1 @@
-"""The proof of the diagnosis: a plant of another make, its bench, the cases, and how the verdicts are judged."""
+"""The proof of the diagnosis: a plant of another make, its bench, the cases, and the judgement of the verdicts."""

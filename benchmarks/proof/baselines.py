@@ -1,4 +1,4 @@
-"""Two baselines that know no pump: a Gaussian process on the residual, and sparse regression on textbook terms."""
+"""Two baselines without a pump model: a Gaussian process on the residual, and sparse regression on textbook terms."""
 
 from __future__ import annotations
 

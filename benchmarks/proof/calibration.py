@@ -1,4 +1,4 @@
-"""Whether probabilities mean what they say, on the mix of cases that the priors declare."""
+"""Calibration of the stated probabilities, on the mix of cases that the priors declare."""
 
 from __future__ import annotations
 
@@ -40,7 +40,7 @@ def calibration_error(outcomes: Sequence[Outcome]) -> float:
 
 @dataclass(frozen=True)
 class Bin:
-    """Cases of like probability: its mean, the share in which it is true, weight in the mix, number."""
+    """Cases of similar probability: its mean, the share in which it is true, weight in the mix, number."""
 
     told: float
     true: float

@@ -1,4 +1,4 @@
-"""Campaigns of the bench: set points of five campaigns, how steadily they are held, and what is measured."""
+"""Campaigns of the bench: set points of five campaigns, their control accuracy, and the measured channels."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ INPUTS = ("speed", "ratio", "p_out", "p_in", "p_case", "T_in", "T_case")
 
 @dataclass(frozen=True)
 class Campaign:
-    """Set points in the order in which they are taken; outputs and inputs with a sensor; points with traces.
+    """Set points in the order of measurement; outputs and inputs with a sensor; points with traces.
 
     uncoupled: points beside which the torque meter is read without the pump.
     """
@@ -49,7 +49,7 @@ def campaigns() -> dict[str, Campaign]:
 
 
 def held(campaign: Campaign, rng: np.random.Generator) -> Settings:
-    """The points as they were in truth: near the set points, as near as a bench holds them."""
+    """The true points: near the set points, as accurately as a bench holds them."""
     points, count = campaign.points, campaign.points.speed.size
     spread: Mapping[str, float | Array] = {
         "speed": 1.0 * RPM,
@@ -120,7 +120,7 @@ def _drawing(points: Settings) -> Settings:
 
 
 def _settings(rows: Iterator[tuple[float, float, float, float]]) -> Settings:
-    """Settings of rows of stroke, rpm, bar, degC; the case is the warmer, the more is lost."""
+    """Settings of rows of stroke, rpm, bar, degC; the case is warmer with larger losses."""
     stroke, rpm, bar, celsius = np.array(list(rows), dtype=float).T
     speed, p_out = rpm * RPM, bar * BAR
     load = speed / RATED_SPEED * (1.0 + p_out / 20.0e6)

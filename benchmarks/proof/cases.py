@@ -1,4 +1,4 @@
-"""The cases: what is concealed, in which campaign, how large, and what a right verdict says."""
+"""The cases: concealed causes, their campaigns, their sizes, and the right verdicts."""
 
 from __future__ import annotations
 
@@ -31,8 +31,8 @@ VERDICTS = {
 class Concealed:
     """One thing at a small size, and the id (with its gap) by which a verdict is to name it; "": in no catalogue.
 
-    wrong: (part of the machine, sign of its change), by e where the size is 1. most: the largest factor on the
-    size that such a machine could have; a score that would need more stays below what was asked.
+    wrong: (part of the machine, sign of its change), by e where the size is 1. most: the largest factor on the size
+    that such a machine could have; a score that would need more stays below the requested one.
     """
 
     label: str
@@ -45,7 +45,7 @@ class Concealed:
 
     @property
     def definition(self) -> tuple[object, ...]:
-        """All that defines it, as plain values."""
+        """Its definition, as plain values."""
         sizes = [(name, size) for name, size in vars(self.hidden).items() if size != 0.0]
         fault = None if self.fault is None else tuple(vars(self.fault).items())
         return self.label, self.id, self.pair, sizes, fault, self.wrong, self.most
@@ -53,7 +53,7 @@ class Concealed:
 
 @dataclass(frozen=True)
 class Case:
-    """One recording: what is concealed, each at the score asked for. Seeds are the recording's draws."""
+    """One recording: its concealed causes, each at the requested score. Seeds are the recording's draws."""
 
     part: Part
     campaign: str
@@ -70,7 +70,7 @@ class Case:
 
     @property
     def definition(self) -> tuple[object, ...]:
-        """All that defines the case, as plain values."""
+        """The definition of the case, as plain values."""
         return self.part.value, self.campaign, self.seed, self.score, [one.definition for one in self.concealed]
 
 
@@ -139,9 +139,9 @@ NEEDS = {
     "cold_seal": ("ovens", "scattered"),
     "mixed_friction": ("ovens", "scattered", "map"),
 }  # fmt: skip
-"""Campaigns that can show what the others cannot."""
+"""Campaigns that show effects hidden in the others."""
 GROSS = {"suction": (5e4, 4e4, 6e4, 2.5e4, 8e4)}
-"""Sizes, SI, of what begins at a knee and is gross at once: scores of 3 to 30 would be one point beyond it."""
+"""Sizes, SI, of effects that begin at a knee and are large at once: scores of 3 to 30 would be one point beyond it."""
 USUAL = ("map", "ovens", "scattered")
 
 

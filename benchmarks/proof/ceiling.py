@@ -1,10 +1,10 @@
 """The ceiling of the proof's names: each plant as its own simulator.
 
-A recording is the white shift of what is concealed, as the score z has it, and noise of unit size. It is explained by
-as many of the plant's own laws, faults and wrong parts as are concealed, each by its shift at z = 8 and of free size,
-an effect's not negative. The truth is right where no other set of ids gains more by over 3 nats, the gap of a class,
-and where each cause adds more than its odds before any reading. Physics in no catalogue is recognised where no law
-of the plant comes within 3 nats of it.
+A recording is the white shift of the concealed causes, as in the score z, and noise of unit size. It is explained by as
+many of the plant's own laws, faults and wrong parts as are concealed, each by its shift at z = 8 and of free size, an
+effect's not negative. The truth is right where no other set of ids gains more by over 3 nats, the gap of a class, and
+where each cause adds more than its odds before any reading. Physics in no catalogue is recognised where no law of the
+plant comes within 3 nats of it.
 """
 
 from __future__ import annotations
@@ -57,7 +57,7 @@ CASES = 30  # of each part, from its first
 DRAWS = 200
 SIZE = 8.0
 TINY = 1e-9
-SEEN = 1.0  # score below which a rival shows nothing
+SEEN = 1.0  # score below which a rival is not visible
 Shift = Callable[[float], Array]
 
 
@@ -88,7 +88,7 @@ def ceiling() -> Told:
 
 
 def right(posed: Posed, rng: np.random.Generator) -> float:
-    """Share of DRAWS recordings in which the truth is told, by the number of its causes."""
+    """Share of DRAWS recordings in which the truth is named, by the number of its causes."""
     readings = _readings(posed, rng)
     truth = {one.id for one in posed.causes}
     own = _gain(posed.causes, readings)
@@ -102,7 +102,7 @@ def right(posed: Posed, rng: np.random.Generator) -> float:
 
 
 def recognised(posed: Posed, rng: np.random.Generator) -> float:
-    """Share of DRAWS recordings in which no rival comes near what is concealed."""
+    """Share of DRAWS recordings in which no rival comes near the concealed cause."""
     readings = _readings(posed, rng)
     nearest = np.max([_gain((one,), readings) for one in posed.rivals], axis=0)
     return float(np.mean(_gain(posed.causes, readings) > nearest + load_thresholds().name.odds))
@@ -114,7 +114,7 @@ def _readings(posed: Posed, rng: np.random.Generator) -> Array:
 
 
 def _gain(laws: Sequence[Law], readings: Array) -> Array:
-    """Gain (M,) in log likelihood by the best sizes; where one is negative that may not be, by the best alone."""
+    """Gain (M,) in log likelihood by the best sizes; by the best alone if one is negative and must not be."""
     if not laws:
         return np.zeros(len(readings))
     columns = np.stack([one.shift / np.linalg.norm(one.shift) for one in laws], axis=1)

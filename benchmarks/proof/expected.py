@@ -25,7 +25,7 @@ def of_case(case: Case, made: Made) -> Outcome:
 
 
 def of_folder(folder: Path) -> Outcome:
-    """The answer in answers.json beside the folder; its score is not known: 0."""
+    """The answer in answers.json beside the folder; its score is unknown: 0."""
     answer = json.loads((folder.parent / "answers.json").read_text("utf-8"))[folder.name]
     effects, channels = tuple(answer.get("effects", ())), answer.get("channels", ())
     pairs = (answer.get("pair"), *(None for _ in effects[1:]))[: len(effects)]

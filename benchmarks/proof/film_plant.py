@@ -46,7 +46,7 @@ SEED = 7
 
 
 class FilmCase(Enum):
-    """Physics of the plant's films beyond rigid walls and oil at the case's temperature, whatever its pressure."""
+    """Physics of the plant's films beyond rigid walls and oil at the case's temperature and any pressure."""
 
     RIGID = "rigid"
     VISCOSITY_PRESSURE = "viscosity_pressure"
@@ -57,7 +57,7 @@ class FilmCase(Enum):
 
 @dataclass(frozen=True)
 class FilmPlant:
-    """One of them: what a verdict is to say, id and gap if it acts in one; physics; mesh; points."""
+    """One of them: the right verdict, id and gap if it acts in one; physics; mesh; points."""
 
     case: FilmCase
     concealed: tuple[tuple[str, str | None], ...]
@@ -67,7 +67,7 @@ class FilmPlant:
 
 
 def cases() -> tuple[FilmPlant, ...]:
-    """All plants, the one with nothing beyond first."""
+    """All plants, the one without additional physics first."""
     stiff, warm = SMOOTH.including(Effect.PRESSURE_VISCOSITY), SMOOTH.including(Effect.HEAT)
     soft, both = SMOOTH.including(Effect.ELASTIC_WALLS), warm.including(Effect.ELASTIC_WALLS)
     opens, heats = ("elastic_opening", "slipper"), ("film_heating", None)
@@ -81,7 +81,7 @@ def cases() -> tuple[FilmPlant, ...]:
 
 
 def set_points(count: int) -> Array:
-    """Rows (count, 4) of rpm, stroke, MPa, degC at full stroke: evenly out of a grid, as a bench holds it."""
+    """Rows (count, 4) of rpm, stroke, MPa, degC at full stroke: evenly from a grid, as accurate as a bench."""
     rng = np.random.default_rng(SEED)
     grid = list(product(WARMTHS, SPEEDS, PRESSURES))
     rows = []
@@ -110,7 +110,7 @@ def solved(plant: FilmPlant, row: Array) -> tuple[float, float, float, float]:
 
 
 def made(plant: FilmPlant) -> Iterator[tuple[float, ...]]:
-    """The rows of a plant's file, point by point; one at which a film has no solution is left out, and said."""
+    """The rows of a plant's file, point by point; one without a solution of a film is left out and reported."""
     for row in set_points(plant.points):
         try:
             yield *map(float, row), *solved(plant, row)

@@ -1,4 +1,4 @@
-"""A recording of the film simulation put to the diagnosis, whose simulation is the lumped one."""
+"""Diagnosis of a recording of the film simulation, whose simulation is the lumped one."""
 
 from __future__ import annotations
 
@@ -20,14 +20,14 @@ SEED = 3  # of calibrations and noise
 
 
 def write_film_recording(plant: FilmPlant, folder: Path, seed: int) -> None:
-    """Write a plant's recording into a folder, made where it is not there."""
+    """Write a plant's recording into a folder, created if absent."""
     folder.mkdir(parents=True, exist_ok=True)
     campaign, read = readings(plant, seed)
     write_recording(folder, f"film plant {plant.case.value}", read, campaign.circuit)
 
 
 def diagnosed(plant: FilmPlant, seed: int = SEED, film_tables: bool = False) -> tuple[str, ...]:
-    """A row of HEAD: what `swashfilm diagnose` says of a plant's recording."""
+    """A row of HEAD: the verdict of `swashfilm diagnose` on a plant's recording."""
     known, begun = load_known_pump(BENCH), process_time()
     with tempfile.TemporaryDirectory() as folder:
         write_film_recording(plant, Path(folder), seed)
@@ -42,7 +42,7 @@ def _effects(listed: Iterable[tuple[str, str | None]]) -> str:
 
 
 def _gaps(claim: ClaimedEffect) -> str | None:
-    """The likeliest gap, and those that cannot be told from it."""
+    """The likeliest gap, and those inseparable from it."""
     if claim.pair is None:
         return None
     return " or ".join([claim.pair.value, *(gap.value for gap, _ in claim.elsewhere)])

@@ -1,4 +1,4 @@
-"""One gate of the proof, and how it is made of cases: a share, a median, a number."""
+"""One gate of the proof, and its computation from cases: a share, a median, a number."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ T = TypeVar("T")
 
 @dataclass(frozen=True)
 class Gate:
-    """One line: what is asked in words, what was found, how many cases it rests on; None: no case yet."""
+    """One line: the requirement in words, the result, the number of its cases; None: no case yet."""
 
     name: str
     asked: str
@@ -62,7 +62,7 @@ def median(
 
 
 def beside(gate: Gate, text: str) -> Gate:
-    """The gate with something told beside what was found."""
+    """The gate with a remark beside its result."""
     return replace(gate, found=f"{gate.found}; {text}") if gate.cases else gate
 
 

@@ -1,4 +1,4 @@
-"""The gates of the proof (docs/proof.md): what is asked, what was found, on how many cases."""
+"""The gates of the proof (docs/proof.md): requirements, results, numbers of cases."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from .outcome import Outcome, Worth
 from .removed import LEAST, excess, left_by_nothing, removed, removed_of_all
 
 PHYSICS, SENSOR, UNKNOWN, NULL = "missing_physics", "sensor_fault", "unknown_physics", "no_mismatch"
-FAILED = "none"  # the verdict where no diagnosis came about
+FAILED = "none"  # the verdict without a diagnosis
 KNOWN = ("graded", "pair", "parameter", "sensor")
 CLEAR = 7.5  # score from which a case counts as z >= 8: sizes are found to 2 %
 TRACED = "map"  # the campaign with chamber traces
@@ -60,7 +60,7 @@ def _names(outcomes: Outcomes) -> tuple[Gate, ...]:
 
 
 def _kinds(outcomes: Outcomes) -> tuple[Gate, ...]:
-    """Kinds of explanation that are taken for each other, and what is in no catalogue."""
+    """Kinds of explanation that are confused with each other, and physics in no catalogue."""
     known = [one for one in outcomes if one.part in KNOWN]
     unknown = [one for one in outcomes if one.truth == UNKNOWN and one.score >= CLEAR]
     sensor, physics = (_seen([one for one in known if one.truth == kind]) for kind in (SENSOR, PHYSICS))
@@ -108,7 +108,7 @@ def _fits(outcomes: Outcomes) -> tuple[Gate, ...]:
 
 
 def recognised(unknown: Outcomes) -> Gate:
-    """Unknown physics told as such, or in the class of every claim."""
+    """Unknown physics reported as such, or in the class of every claim."""
     gate = share("unknown physics recognised at z >= 8", unknown, is_right, at_least=0.85)
     return beside(gate, f"{sum(is_open(one) and is_right(one) for one in unknown)} of them in the class of a name")
 
@@ -118,9 +118,9 @@ def _clear(outcomes: Outcomes) -> list[Outcome]:
 
 
 def _asked(outcomes: Outcomes) -> tuple[Gate, ...]:
-    """Of two explanations that the recording leaves open: whether what the verdict asks for settles them.
+    """Of two explanations that the recording leaves open: whether the next test of the verdict decides between them.
 
-    By up to three points or one meter, by as many points drawn at random; and where the verdict says that it will.
+    By up to three points or one meter, by as many points drawn at random; and where the verdict predicts it.
     """
     open_pairs = left_open(outcomes)
     promised = [worth for worth in open_pairs if worth.promised >= LIMITS.promised]
@@ -137,7 +137,7 @@ def left_open(outcomes: Outcomes) -> list[Worth]:
 
 
 def by_asked(worth: Worth) -> bool:
-    """Whether the point asked for settles a pair."""
+    """Whether the proposed point decides a pair."""
     return _settles(worth, worth.asked)
 
 
@@ -176,7 +176,7 @@ def _seen(cases: Outcomes) -> list[Outcome]:
 
 
 def is_failed(one: Outcome) -> bool:
-    """Whether no diagnosis came about."""
+    """Whether there is no diagnosis."""
     return one.verdict == FAILED
 
 
@@ -194,7 +194,7 @@ def _sure_name(one: Outcome) -> bool:
 
 
 def _channel(one: Outcome) -> bool:
-    """The first located channel is one that carries a fifth of the shift at least."""
+    """The first located channel has a fifth of the shift at least."""
     return bool(one.channels) and one.shares.get(one.channels[0], 0.0) >= 0.2
 
 
@@ -207,14 +207,14 @@ def _turned(one: Outcome) -> bool:
 
 
 def left(one: Outcome) -> float:
-    """RMS over the channels of what is left on points held out, in its noise; nan where nothing was held out."""
+    """RMS over the channels of the residual at points held out, in its noise; nan without such points."""
     if not one.heldout:
         return float("nan")
     return float(np.sqrt(np.mean([(after / noise) ** 2 for _, after, noise in one.heldout.values()])))
 
 
 def _over_oracle(one: Outcome) -> float:
-    """Mean square of what is left in the fit shown over that left by the truth's own fit, in noise, as a root."""
+    """Root of the mean square residual of the fit shown over that of the truth's own fit, in noise."""
     if not one.oracle:
         return float("nan")
     left = [(after / noise) ** 2 for _, after, noise in one.heldout.values()]
@@ -223,5 +223,5 @@ def _over_oracle(one: Outcome) -> float:
 
 
 def _is_own(one: Outcome) -> bool:
-    """Whether the fit shown is that of the truth's own law: what a right name shows is."""
+    """Whether the fit shown is that of the truth's own law, as for a right name."""
     return is_right(one) and bool(one.oracle)

@@ -1,4 +1,4 @@
-"""An outcome judged: right or wrong, sure or not, which explanations stood where."""
+"""An outcome judged: right or wrong, certain or not, ranks of explanations."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ def _is_whole_truth(ids: frozenset[str], outcome: Outcome) -> bool:
 
 
 def is_right(outcome: Outcome) -> bool:
-    """Whether the verdict is the truth, by its effects or the classes they are in; no gap told is not wrong.
+    """Whether the verdict is the truth, by its effects or their classes; a missing gap is not wrong.
 
     A fault beside the truth may be named too. Unknown physics counts as a verdict, or in the class of every claim.
     """
@@ -45,24 +45,24 @@ def is_right(outcome: Outcome) -> bool:
 
 
 def is_open(outcome: Outcome) -> bool:
-    """Whether the truth is unknown physics and no claim stands without it."""
+    """Whether the truth is unknown physics and every claim includes it."""
     of_claims = [UNKNOWN in one.equivalent for one in outcome.claims]
     return outcome.truth == UNKNOWN and bool(of_claims) and all(of_claims)
 
 
 def _at_gap(claim: Claimed, pair: str | None) -> bool:
-    """Whether a claim is at a gap: told, in its class, or at none; in a plant without gaps (None) no gap is wrong."""
+    """Whether a claim is at a gap: stated, in its class, or at none; in a plant without gaps (None) no gap is wrong."""
     return claim.pair is None or pair in (None, claim.pair, *claim.elsewhere)
 
 
 def is_named(outcome: Outcome) -> bool:
-    """Whether anything is claimed: an effect, or that it is something unknown."""
+    """Whether anything is claimed: an effect, or unknown physics."""
     unknown = outcome.verdict == UNKNOWN and outcome.status == "named"
     return bool(outcome.claims) or unknown
 
 
 def is_wrong_name(outcome: Outcome) -> bool:
-    """Whether something is claimed that is not the truth; part of the truth alone is not wrong."""
+    """Whether a claim is not the truth; a part of the truth alone is not wrong."""
     if not outcome.claims:
         return is_named(outcome) and outcome.truth != UNKNOWN
     known = {*truth_of(outcome), *outcome.beside}
@@ -76,7 +76,7 @@ def is_wrong_name(outcome: Outcome) -> bool:
 
 
 def is_grave(outcome: Outcome) -> bool:
-    """Wrong, sure and unflagged: the error that must not happen."""
+    """Wrong, certain and unflagged: the error that must not occur."""
     return is_sure_and_wrong(outcome) and outcome.status not in FLAGGED
 
 
@@ -89,7 +89,7 @@ def is_sure_and_wrong(outcome: Outcome) -> bool:
 
 
 def of_class(outcome: Outcome, claim: Claimed) -> float:
-    """The probability of a claim and of what is in its class, together."""
+    """The probability of a claim and of its class, together."""
     members = {claim.effect, *claim.equivalent}
     return sum(one.probability for one in outcome.ranked if members & set(one.effects))
 
@@ -110,7 +110,7 @@ def groups(outcome: Outcome) -> list[tuple[frozenset[str], float]]:
 def rank(outcome: Outcome) -> int | None:
     """The place of the truth among the explanations, from 1; 1 too where it is in the class that is claimed.
 
-    Not the first where something else is claimed: its effect at another gap.
+    Not the first for another claim: its effect at another gap.
     """
     if is_right(outcome):
         return 1

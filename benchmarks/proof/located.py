@@ -8,7 +8,7 @@ import numpy as np
 
 from .outcome import Outcome
 
-HALF = 0.5  # of the largest shift: what moves less does not belong to a region
+HALF = 0.5  # of the largest shift: points with less do not belong to a region
 TURN = 2.0 * pi
 WIDEST = pi / 3.0  # rad, of a stated window: thresholds.toml
 
@@ -16,8 +16,8 @@ WIDEST = pi / 3.0  # rad, of a stated window: thresholds.toml
 def region_overlap(outcome: Outcome) -> float:
     """Points that are in both regions over points that are in one: stated, and true in the first stated channel.
 
-    True are points at which that channel is moved by at least HALF of what it is moved at most. nan where nothing
-    is stated, or the channel is not moved at all.
+    True are points at which the shift of that channel is at least HALF of its largest. nan if nothing is stated, or
+    without a shift of the channel.
     """
     moved = np.abs(outcome.shift.get(outcome.channels[0], ())) if outcome.channels else np.zeros(0)
     if outcome.region is None or moved.size == 0 or moved.max() == 0.0:
@@ -28,10 +28,10 @@ def region_overlap(outcome: Outcome) -> float:
 
 
 def turn_error(outcome: Outcome) -> float:
-    """Degrees from the middle of the window told to the middle of the true one; nan where either is not there.
+    """Degrees from the middle of the stated window to the middle of the true one; nan if either is missing.
 
-    A true window wider than WIDEST, which no told one is, spans two places, as both transitions are that a worn
-    groove moves: to the nearer of its ends.
+    A true window wider than WIDEST, the limit of stated ones, spans two places, such as both transitions with a worn
+    groove: to the nearer of its ends.
     """
     if outcome.turn is None or outcome.true_turn is None:
         return float("nan")

@@ -1,4 +1,4 @@
-"""The finding of one who knows the law: the truth's own fit, and its residual on points held out."""
+"""The finding with the known law: the truth's own fit, and its residual at points held out."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ def is_of_truth(weighed: Explanation, expected: Outcome) -> bool:
 
 
 def oracle(study: Study, found: Diagnosis, expected: Outcome, thresholds: Thresholds) -> dict[str, float]:
-    """Channel -> rms held out, SI, by the fit of the truth's law; nothing where no law of ours is the truth."""
+    """Channel -> rms held out, SI, by the fit of the truth's law; empty where no law of this program is the truth."""
     fitted = _truth(study, found, expected, thresholds)
     if fitted is None or fitted.posterior is None:
         return {}

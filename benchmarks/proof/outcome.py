@@ -8,7 +8,7 @@ from typing import Any
 
 @dataclass(frozen=True)
 class Ranked:
-    """One explanation that was weighed."""
+    """One explanation in the comparison."""
 
     effects: tuple[str, ...]
     pairs: tuple[str | None, ...]
@@ -18,7 +18,7 @@ class Ranked:
 
 @dataclass(frozen=True)
 class Claimed:
-    """One effect that was claimed, ids that cannot be told from it, and gaps that cannot be told from `pair`."""
+    """One effect that was claimed, ids inseparable from it, and gaps inseparable from `pair`."""
 
     effect: str
     pair: str | None
@@ -29,7 +29,7 @@ class Claimed:
 
 @dataclass(frozen=True)
 class Rival:
-    """Finding of another method on the same recording: whether it sees a mismatch, and its name."""
+    """Finding of another method on the same recording: whether it finds a mismatch, and its name."""
 
     alarm: bool
     named: tuple[str, ...]
@@ -39,9 +39,9 @@ class Rival:
 class Worth:
     """Evidence of readings recorded after the diagnosis for two explanations, one of them the truth, in nats for it.
 
-    before: by the recording; asked: three more readings at each of the points that were asked for; other: at as many
-    points drawn from the same box; foretold: what the test asked for was to bring. promised: the chance of odds of
-    20 to 1 that was told with the test. points: those asked for; meter: channel that was to be added, empty for none.
+    before: by the recording; asked: three more readings at each of the proposed points; other: at as many points drawn
+    from the same box; foretold: predicted gain of the proposed test. promised: the chance of odds of 20 to 1 stated
+    with the test. points: the proposed ones; meter: channel of the proposed meter, empty without one.
     """
 
     before: float
@@ -59,10 +59,10 @@ class Outcome:
 
     score: reached; effects, pairs: of the truth; beside: ids of faults beside it, which may be named too; shares: of
     the channels in the square of the truth's shift, which is in sigma of a reading. true_turn, turn: shaft angles in
-    rad between which pressure differs, in truth and as told; region: points told, all of them where it is everywhere,
-    None where no channel is; oracle: channel -> rms held out by the fit of the truth's own law.
-    heldout: channel -> (before, after, noise), SI; covered: parameter -> whether its 90 % interval holds the
-    truth; program: digest of what diagnosed; failed: why there is no verdict.
+    rad between which pressure differs, in truth and as stated; region: stated points, all of them for the whole map,
+    None without a channel; oracle: channel -> rms held out by the fit of the truth's own law. heldout: channel ->
+    (before, after, noise), SI; covered: parameter -> whether its 90 % interval holds the truth; program: digest of the
+    diagnosing program; failed: reason of a missing verdict.
     """
 
     name: str

@@ -1,4 +1,4 @@
-"""docs/proof.md: gates, pictures, rivals and every case, what failed first."""
+"""docs/proof.md: gates, pictures, rivals and every case, failures first."""
 
 from __future__ import annotations
 
@@ -139,7 +139,7 @@ def _calibration() -> str:
 
 
 def _grades(outcomes: Sequence[Outcome]) -> str:
-    """Shares of mismatches seen, named right and named wrong, by part and score."""
+    """Shares of mismatches detected, named right and named wrong, by part and score."""
     rows = []
     for part in Part:
         own = [one for one in outcomes if one.part == part.value]
@@ -218,7 +218,7 @@ def _section(each: Told) -> str:
 
 
 def _given(bench: Sequence[Outcome]) -> str:
-    """Verdict and answer side by side, and what is left on points held out."""
+    """Verdict and answer side by side, and the residual at points held out."""
     rows = [
         (
             one.name, f"{one.truth}: {_answer(one)}" if one.effects else one.truth, _mark(one), _told(one),

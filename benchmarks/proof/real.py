@@ -88,7 +88,7 @@ def rig() -> Told:
 
 
 def cycles() -> Told:
-    """The ZeMA rig in every state: what is found, by the number of its causes."""
+    """The ZeMA rig in every state: findings by the number of its causes."""
     rows = []
     with _example("uci_hydraulic", "cycle") as cycle:
         data = cycle.recorded(RECORDINGS / "uci_hydraulic")
@@ -147,7 +147,7 @@ def hst() -> Told:
 
 
 def tanks() -> Told:
-    """Cascaded tanks: what one addition after the other brings."""
+    """Cascaded tanks: gain of one addition after the other."""
     with _example("cascaded_tanks", "overflow") as overflow:
         record = overflow.read_record(RECORDINGS / "cascaded_tanks" / "dataBenchmark.csv")
         steps = overflow.steps(record, overflow.found(record))

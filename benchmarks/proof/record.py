@@ -1,4 +1,4 @@
-"""The track record that a diagnosis tells of itself: answers of each kind and certainty, right ones and all."""
+"""The track record stated by a diagnosis: answers of each kind and certainty, right ones and all."""
 
 from __future__ import annotations
 
@@ -17,11 +17,11 @@ COMMAND = "python benchmarks/proof.py --record"
 
 
 def write_record(outcomes: Sequence[Outcome], path: Path) -> None:
-    """Write the counts of all parts as JSON; recordings that were at hand in development do not count.
+    """Write the counts of all parts as JSON; recordings that were available in development do not count.
 
     A row: answer (name; part, a name that leaves a part of the mismatch; unknown; suspicion; nothing), pump (stated in
-    a file, or by its type_plate), band of the stated probability, right ones, cases. A name is right if all that it
-    claims is concealed, a suspicion if anything is, nothing if nothing is.
+    a file, or by its type_plate), band of the stated probability, right ones, cases. A name is right if all its claims
+    are concealed, a suspicion if anything is, "nothing" if nothing is.
     """
     known = {part.value for part in Part}
     counted = [one for one in outcomes if one.part in known and not one.failed]
@@ -51,7 +51,7 @@ def _pump(outcome: Outcome) -> str:
 
 
 def _stated(outcome: Outcome) -> float:
-    """The probability of an answer as stated: of a name that of its least sure class."""
+    """The probability of an answer as stated: of a name that of its least certain class."""
     if outcome.claims:
         return min(of_class(outcome, one) for one in outcome.claims)
     if is_named(outcome):

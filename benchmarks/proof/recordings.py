@@ -25,9 +25,9 @@ BULK = 0.8  # of a square, by which a window is stated
 class Made:
     """A recording with the truth behind it.
 
-    score: reached; sizes: of what is concealed; shift: of each channel's readings at the set points, in sigma of a
-    reading; turn: shaft angles in rad between which the chamber's pressure is moved, None where no trace is.
-    machine, hidden, faults, setting (share by which strokes are off): the rig, for further points.
+    score: reached; sizes: of the concealed causes; shift: of each channel's readings at the set points, in sigma of a
+    reading; turn: shaft angles in rad between which the chamber's pressure is shifted, None without a trace. machine,
+    hidden, faults, setting (relative error of strokes): the rig, for further points.
     """
 
     readings: Readings
@@ -75,7 +75,7 @@ def make(case: Case) -> Made:
 def moved_turn(truth: Truth | Readout, sound: Truth | Readout, points: tuple[int, ...]) -> tuple[float, float] | None:
     """The narrowest window of shaft angle, rad, that holds BULK of the square by which pressures differ.
 
-    Of the trace that is moved the most; None where none is moved by a sensor's noise.
+    Of the trace with the largest shift; None where all shifts are below a sensor's noise.
     """
     apart = (truth.pressure - sound.pressure)[list(points)]
     most = apart[int(np.argmax(np.abs(apart).max(axis=1)))]
@@ -89,7 +89,7 @@ def moved_turn(truth: Truth | Readout, sound: Truth | Readout, points: tuple[int
 
 
 def sized(case: Case) -> tuple[list[float], list[float]]:
-    """Factors by which each concealed thing has the score asked for (0: its own size), and scores reached."""
+    """Factors at which each concealed cause has the requested score (0: its own size), and scores reached."""
 
     def score(one: Concealed, factor: float) -> float:
         return float(np.linalg.norm(white_shift(case.campaign, one, factor)))
@@ -101,7 +101,7 @@ def sized(case: Case) -> tuple[list[float], list[float]]:
 
 
 def white_shift(campaign: str, one: Concealed, factor: float) -> Array:
-    """By how much one concealed thing moves the readings of a campaign, in units of all that is uncertain, (N C,)."""
+    """Shift of the readings of a campaign by one concealed cause, in units of the total uncertainty, (N C,)."""
     hidden, faults = _together((one,), [factor])
     return white(campaign, shift(campaign, hidden, faults, _worn(typical(), (one,), [factor])))
 
@@ -121,7 +121,7 @@ def _together(concealed: tuple[Concealed, ...], factors: list[float]) -> tuple[H
 
 
 def _worn(machine: Machine, concealed: tuple[Concealed, ...], factors: list[float]) -> Machine:
-    """The machine with its wrong parts: exp(factor) times what the drawing says."""
+    """The machine with its wrong parts: exp(factor) times the value of the drawing."""
     for one, factor in zip(concealed, factors, strict=True):
         if one.wrong is not None:
             part, sign = one.wrong

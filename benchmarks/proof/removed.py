@@ -9,7 +9,7 @@ import numpy as np
 
 from .outcome import Outcome
 
-LEAST = 0.2  # of the noise's square, over the channels: below it there is nothing to remove from one case
+LEAST = 0.2  # of the noise's square, over the channels: below it one case has nothing to remove
 DRAWS = 2000
 Floor = Mapping[tuple[str, str], float]
 
@@ -26,7 +26,7 @@ def removed(one: Outcome) -> float:
 
 
 def left_by_nothing(nulls: Sequence[Outcome]) -> Floor:
-    """Mean square, in the noise stated, that nulls of a campaign leave in a channel: what no law can remove."""
+    """Mean square, in the noise stated, that nulls of a campaign leave in a channel: no law can remove it."""
     found = defaultdict(list)
     for one in nulls:
         for channel, (_, after, noise) in one.heldout.items():

@@ -1,4 +1,4 @@
-"""The bench as a campaign leaves it: the machine still mounted, its sensors as they are, for further points."""
+"""The bench after a campaign: the machine still mounted, its sensors unchanged, for further points."""
 
 from __future__ import annotations
 
@@ -12,8 +12,8 @@ from .sensors import Calibration, Fault
 
 @dataclass(frozen=True)
 class Rig:
-    """run: flows and torque of the mounted machine at set points; setting: share by which strokes are off; seed: of
-    further draws.
+    """run: flows and torque of the mounted machine at set points; setting: relative error of strokes; seed: of further
+    draws.
     """
 
     campaign: str

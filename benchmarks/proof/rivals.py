@@ -1,4 +1,4 @@
-"""Other methods on the same study: usual practice, and this diagnosis with one of its parts taken out.
+"""Other methods on the same study: usual practice, and this diagnosis without one of its parts.
 
 All are linear, at the prior mean, so that they are judged alike; "screen" is this diagnosis as linear as they.
 """
@@ -30,8 +30,8 @@ from .outcome import Rival
 USUAL_NAME = {
     "Q_case": "film_thickness", "torque": "friction_coefficient", "Q_out": "displacement", "Q_in": "Q_in_gain",
 }  # fmt: skip
-"""The usual first suspect of a channel that is off."""
-SURE = 0.01  # p below which the usual ways see a mismatch
+"""The usual first suspect of a channel with a mismatch."""
+SURE = 0.01  # p below which the usual methods report a mismatch
 DRAWS = 1999
 LEAST = 1e-6  # share of a column's square that must be its own to be judged
 STEPS = 3  # effects that are added one after the other at most
@@ -68,14 +68,14 @@ def _screened(study: Study, thresholds: Thresholds, single: list[Hypothesis] | N
 
 
 def _chance(study: Study, thresholds: Thresholds) -> float:
-    """As `diagnosis.detect.mismatch` has it, with fewer draws."""
+    """As in `diagnosis.detect.mismatch`, with fewer draws."""
     found = np.array([score(study.base, each.column).z for each in study.candidates])
     strongest = log_chances(found, study.candidates)
     return family_chance(study.base, study.candidates, strongest, DRAWS, thresholds.seeds.detect)
 
 
 def _without_inputs(study: Study) -> Whitening:
-    """The whitening of readings whose inputs were known for certain."""
+    """The whitening of readings with exactly known inputs."""
     exact = replace(study.observations, input_sigma=np.zeros_like(study.observations.input_sigma))
     count, channels = study.observations.values.shape
     return whitener(exact, np.zeros((count, channels, exact.input_sigma.shape[1])))
@@ -114,7 +114,7 @@ def _posterior(old: Posterior, offset: Array, slopes: Array, whitening: Whitenin
 
 
 def _largest(study: Study, residual: Array) -> Rival:
-    """The channel that is farthest off after a fit, and what is usually blamed for it."""
+    """The channel with the largest mismatch after a fit, and its usual suspect."""
     squares = np.where(study.observations.measured, residual**2, 0.0)
     alarm = bool(chi2.sf(squares.sum(), int(study.observations.measured.sum())) < SURE)
     worst = study.channels[int(np.argmax(squares.mean(axis=0)[: len(study.channels)]))].value
@@ -124,8 +124,7 @@ def _largest(study: Study, residual: Array) -> Rival:
 def _stepwise(study: Study) -> Rival:
     """Columns of the catalogue added while Schwarz' criterion (1978) falls, of either sign, without priors.
 
-    With g = V^T r and G = V^T P V of all columns (`diagnosis.explain.screen`), a column's score beside those
-    taken.
+    With g = V^T r and G = V^T P V of all columns (`diagnosis.explain.screen`), a column's score beside the chosen ones.
     """
     base = study.base
     columns = np.stack([each.column for each in study.candidates], axis=1)

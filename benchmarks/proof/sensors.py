@@ -137,7 +137,7 @@ def stated_sigma(meter: Meter, value: Array) -> Array:
 
 
 def set_in_truth(at: Settings, rng: np.random.Generator) -> Settings:
-    """The strokes that the swash plate really stands at where they were set: off by its stop's calibration."""
+    """The true strokes of the swash plate at their settings: with the error of its stop's calibration."""
     return at.moved("ratio", METERS["ratio"].zero * rng.normal())
 
 
@@ -167,7 +167,7 @@ def _channel(
 
 
 def _noise(count: int, rng: np.random.Generator) -> Array:
-    """Of unit variance but for the tails: first-order memory, and some readings from Student's t."""
+    """Of unit variance except for the tails: first-order memory, and some readings from Student's t."""
     fresh = rng.normal(size=count)
     found = np.empty(count)
     found[0] = fresh[0]

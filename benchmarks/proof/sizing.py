@@ -18,7 +18,7 @@ from .sensors import METERS, Fault, stated_sigma
 STEPS = 240  # of a turn: sizes need no more
 SHARE = 0.5  # of the sealing length, and its spread
 ROUNDS = 12
-NEAR = 0.02  # of the asked z
+NEAR = 0.02  # of the requested z
 
 
 def typical() -> Machine:
@@ -27,7 +27,7 @@ def typical() -> Machine:
 
 
 def shift(name: str, hidden: Hidden, faults: tuple[Fault, ...], machine: Machine) -> Array:
-    """By how much the readings of a campaign move, (N, C) SI."""
+    """Shift of the readings of a campaign, (N, C) SI."""
     campaign = campaigns()[name]
     at = campaign.points
     for fault in faults:
@@ -44,12 +44,12 @@ def shift(name: str, hidden: Hidden, faults: tuple[Fault, ...], machine: Machine
 
 
 def z_of(name: str, moved: Array) -> float:
-    """sqrt(d^T (S + A A^T)^-1 d) of a shift d: its length in sigma once all that is uncertain has had its part."""
+    """sqrt(d^T (S + A A^T)^-1 d) of a shift d: its length in sigma beyond the part of the uncertain parameters."""
     return float(np.linalg.norm(white(name, moved)))
 
 
 def white(name: str, moved: Array) -> Array:
-    """A shift (N, C) in units of all that is uncertain, (N C,)."""
+    """A shift (N, C) in units of the total uncertainty, (N C,)."""
     weights, whitened = _whitening(name)
     return np.asarray(np.linalg.solve(whitened, weights * moved.ravel()))
 

@@ -1,4 +1,4 @@
-"""Outcomes in a folder, one file a case, named by what the case is: an interrupted proof goes on where it was."""
+"""Outcomes in a folder, one file a case, named by the case's content: an interrupted proof continues where it was."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ ASKED = (
     "system.pump_file.file",
     "system.description.tolerances",
 )
-"""Modules that a diagnosis is made of; all that they import counts, too."""
+"""Modules of a diagnosis; all their imports count, too."""
 TRIERS = (
     "trial.py", "wide/trial.py", "expected.py", "oracle.py", "worth.py", "rivals.py", "baselines.py", "film_trial.py",
     "real.py",
@@ -46,7 +46,7 @@ VERSIONS = {Plant.FIRST: FIRST_VERSION, Plant.OTHER: OTHER_VERSION, Plant.ROUGH:
 
 
 def name_of(case: Case | WideCase) -> str:
-    """The file of a case, by all that defines it and the version of its plant: no place or form of a source counts."""
+    """The file of a case, by its definition and the version of its plant: no place or form of a source counts."""
     made = sha256(repr((case.definition, VERSIONS[case.part.plant])).encode()).hexdigest()[:16]
     return f"{case.part.value}-{case.seed}-{made}.json"
 
@@ -66,7 +66,7 @@ def counted() -> frozenset[str]:
 
 @cache
 def program() -> str:
-    """Of all on which an outcome depends, thresholds and pump with it; an outcome of another program is marked."""
+    """Digest of all inputs of an outcome, with thresholds and pump; an outcome of another program is marked."""
     root = HERE.parents[1]
     modules = [root.joinpath(*name.split(".")).with_suffix(".py") for name in sorted(counted())]
     data = [path for name in PACKAGES for path in sorted((root / name).rglob("*.toml"))]
@@ -75,7 +75,7 @@ def program() -> str:
 
 
 def load(folder: Path, name: str) -> Outcome | None:
-    """The outcome kept under a name, None where there is none yet."""
+    """The outcome kept under a name, or None."""
     path = folder / name
     return from_plain(json.loads(path.read_text("utf-8"))) if path.exists() else None
 
@@ -123,4 +123,4 @@ def _values(text: str) -> str:
 
 
 MEANING: Mapping[str, Callable[[str], str]] = {".py": _code, ".toml": _values}
-"""What counts of a file, by its suffix: words about it do not."""
+"""The relevant content of a file, by its suffix, without comments."""

@@ -30,7 +30,7 @@ def keep_told(folder: Path, name: str, told: Told) -> None:
 
 
 def load_told(folder: Path, name: str) -> Told | None:
-    """The section kept under a name, None where there is none yet."""
+    """The section kept under a name, or None."""
     path = folder / f"{name}.json"
     if not path.exists():
         return None
@@ -39,5 +39,5 @@ def load_told(folder: Path, name: str) -> Told | None:
 
 
 def told(title: str, text: str, head: tuple[str, ...], rows: tuple[tuple[str, ...], ...]) -> Told:
-    """A section made by the program as it is."""
+    """A section made by the present program."""
     return Told(title, text, head, rows, program())

@@ -1,4 +1,4 @@
-"""One case put to the diagnosis as a user would: a folder with a recording, the pump's name, and the verdict."""
+"""Diagnosis of one case as by a user: a folder with a recording, the pump's name, and the verdict."""
 
 from __future__ import annotations
 
@@ -56,7 +56,7 @@ SAME = {
     "friction.front_bearing": "friction_front", "friction.rear_bearing": "friction_rear",
     "dead_volume": "dead_volume", "displacement": "stroke", "viscosity": "viscosity",
 }  # fmt: skip
-"""Parameters that mean the same to the simulation and to the plant."""
+"""Parameters with the same meaning in the simulation and in the plant."""
 
 
 @dataclass(frozen=True)
@@ -132,7 +132,7 @@ def study_of_folder(folder: Path, pump: str | Path = BENCH) -> Study:
 
 
 def _posed(folder: Path, pump: str | Path) -> tuple[KnownPump, Recording, Callable[[Recording], Study]]:
-    """The pump at the level of its recording, the recording, and how its study is made."""
+    """The pump at the level of its recording, the recording, and the maker of its study."""
     known, thresholds = load_known_pump(pump), load_thresholds()
     recording, allowed = checked_recording(folder, known), tolerances(known.pump)[0]
     known = levelled(known, recording, allowed)
@@ -198,7 +198,7 @@ def _ranked(each: Explanation) -> Ranked:
 
 
 def _covered(case: Case, found: Diagnosis, machine: Machine) -> dict[str, bool]:
-    """Whether 90 % intervals of what both know alike hold the truth; only where the explanation is right."""
+    """Whether 90 % intervals of common parameters hold the truth; only where the explanation is right."""
     told = {one.effect.value for one in found.effects}
     if told != {one.id for one in case.concealed} or case.part in (Part.UNKNOWN, Part.PAIR):
         return {}

@@ -1,5 +1,5 @@
-"""Value of the next test: the rig run as it asks, and at as many points drawn at random, and what the readings say
-of the two explanations that the test was to separate."""
+"""Value of the next test: the rig run at its points, and at as many points drawn at random, and the evidence of the
+readings for the two explanations that the test was to separate."""
 
 from __future__ import annotations
 
@@ -40,7 +40,7 @@ NAMES = {"ratio": "displacement_ratio"}  # of the plant's settings, where the si
 def worth(
     study: Study, pump: PumpDescription, found: Diagnosis, rig: Rig, expected: Outcome, thresholds: Thresholds
 ) -> Worth | None:
-    """Nats for the truth by the recording, by the test asked for, by random points; None where nothing is asked.
+    """Nats for the truth by the recording, by the proposed test, by random points; None without a proposal.
 
     None too where neither of the two explanations is the truth.
     """
@@ -91,7 +91,7 @@ def _recorded(
     rng: np.random.Generator,
     further: tuple[RecordedChannel, ...],
 ) -> tuple[BenchPoints, Array]:
-    """`count` readings at each place of the box as the bench takes them: inputs as read, outputs (n, C) in SI."""
+    """`count` readings at each place of the box, as by the bench: inputs as read, outputs (n, C) in SI."""
     wanted = _points(box, places)
     wanted = replace(wanted, **{name: np.repeat(value, count) for name, value in vars(wanted).items()})
     known = campaigns()[rig.campaign]
@@ -110,7 +110,7 @@ def _recorded(
 
 
 def settings_of(points: BenchPoints) -> Settings:
-    """The points as the plant has them: pressures absolute."""
+    """The points for the plant: pressures absolute."""
     return Settings(
         points.speed, points.displacement_ratio, points.p_out + STANDARD_ATMOSPHERE,
         points.p_in + STANDARD_ATMOSPHERE, points.p_case + STANDARD_ATMOSPHERE, points.T_in, points.T_case,
@@ -118,7 +118,7 @@ def settings_of(points: BenchPoints) -> Settings:
 
 
 def _as_read(points: BenchPoints, campaign: Campaign, columns: dict[str, Array]) -> BenchPoints:
-    """The points with what is measured of them in the place of what was wanted."""
+    """The points with their measured values in place of the requested ones."""
     read = {NAMES.get(name, name): _si(name, columns[name]) for name in campaign.inputs}
     return replace(points, **read)
 

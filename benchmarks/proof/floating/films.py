@@ -1,4 +1,4 @@
-"""Films of plant and simulations: the pump, the box of its tables, and what each simulation leaves out."""
+"""Films of plant and simulations: the pump, the box of its tables, and the physics that each simulation leaves out."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ OFF: tuple[tuple[Effect, ...], ...] = (
 
 
 def off_text(off: tuple[Effect, ...]) -> str:
-    """Name of what a simulation leaves out."""
+    """Name of the physics that a simulation leaves out."""
     return "-".join(one.value for one in off) or "nothing"
 
 

@@ -1,4 +1,4 @@
-"""A recording of the plant put to the diagnosis, whose simulation leaves a part of the film physics out."""
+"""Diagnosis of a recording of the plant, by a simulation without a part of the film physics."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ from .plant import readings
 SEEDS = (61, 62, 63, 64, 65)
 SURE = 0.9
 VISIBLE = 8.0
-"""Sigma from which a case is counted: what is concealed, less what the pump's own tolerances make of it."""
+"""Sigma from which a case counts: of the concealed physics, less the part that the pump's own tolerances absorb."""
 
 
 @dataclass(frozen=True)
@@ -56,8 +56,8 @@ class Case:
 class Outcome:
     """The finding of a case.
 
-    claims: effect, probability, share with its sigma (none of effects outside the films); score: sigma of what is
-    concealed; chi2: per reading, before and after; held_out: rms over noise by channel, before and after.
+    claims: effect, probability, share with its sigma (none of effects outside the films); score: sigma of the concealed
+    physics; chi2: per reading, before and after; held_out: rms over noise by channel, before and after.
     """
 
     name: str
@@ -96,7 +96,7 @@ class Outcome:
 
 
 def all_cases() -> list[Case]:
-    """Forty: eight simulations, five draws each; and five of a simulation that lacks nothing."""
+    """Forty: eight simulations, five draws each; and five of a complete simulation."""
     return [Case(off, seed) for off in OFF for seed in SEEDS]
 
 
@@ -116,14 +116,14 @@ def try_case(case: Case, films: FilmModel) -> Outcome:
 
 
 def write_case(case: Case, folder: Path) -> None:
-    """Write the recording of a case into a folder, made where it is not there."""
+    """Write the recording of a case into a folder, created if absent."""
     folder.mkdir(parents=True, exist_ok=True)
     campaign, read = readings(case.seed)
     write_recording(folder, case.name, read, campaign.circuit)
 
 
 def score(study: Study, films: FilmModel, thresholds: Thresholds) -> float:
-    """Sigma of all concealed parts together, at their whole size, beyond what the parameters can take up."""
+    """Sigma of all concealed parts together, at their whole size, beyond the part that the parameters absorb."""
     extended = study.simulator.with_extensions(tuple(entry.extensions[0] for entry in films.entries))
     names = [parameter.name for parameter in extended.parameters]
     off = values_at(extended.parameters, np.zeros(len(names)))

@@ -48,9 +48,9 @@ EFFECTS = (
     _effect("lift", "slipper_lift", 2e-5, 1e-4),
 )
 STARVED = tuple(_effect("suction", "incomplete_filling", size, 1e5) for size in (5e4, 4e4, 6e4, 3e4, 8e4))
-"""Sizes of their own: what begins at a knee moves a single point by tens of sigma."""
+"""Sizes of their own: effects beginning at a knee move a single point by tens of sigma."""
 WORN = tuple(_effect("erosion", "notch_erosion", size, 0.2) for size in (0.04, 0.08, 0.12, 0.16))
-"""The same: what shows in traces alone."""
+"""The same: effects visible in traces alone."""
 UNLISTED = (
     _effect("weeping", "", 2e-6, 5e-5), _effect("belt", "", 0.5, 10.0), _effect("hot_leak", "", 2e-7, 1e-5),
     _effect("shuttle", "", 2e-6, 1e-4), _effect("pocketing", "", 0.5, 20.0),
@@ -81,7 +81,7 @@ NEEDS = {
     "thermal_slipper": ("ovens", "scattered"), "charge_pump": ("scattered",), "air": ("scattered",),
     "resonance": ("scattered",), "lift": ("open circuit",), "hot_leak": ("ovens", "scattered"),
 }  # fmt: skip
-"""Campaigns that can show what the others cannot."""
+"""Campaigns that show effects hidden in the others."""
 
 
 def nulls(seed: int) -> Iterator[WideCase]:
@@ -92,7 +92,7 @@ def nulls(seed: int) -> Iterator[WideCase]:
 
 
 def graded(seed: int) -> Iterator[WideCase]:
-    """Effect by effect at its next grade, in five rounds; then what has sizes of its own."""
+    """Effect by effect at its next grade, in five rounds; then those with sizes of their own."""
     for turn, (k, one) in product(range(len(GRADES)), enumerate(EFFECTS)):
         grade = GRADES[(turn + k) % len(GRADES)]
         yield _single(Part.OTHER_GRADED, one, grade, turn + k, seed * 1000 + 200 + len(EFFECTS) * turn + k)

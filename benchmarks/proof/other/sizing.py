@@ -1,4 +1,4 @@
-"""Score of what is concealed in the second plant, by that plant alone: beside noise, tolerances, calibrations."""
+"""Score of the concealed causes in the second plant, by that plant alone: beside noise, tolerances, calibrations."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ def concealed(secrets: Sequence[Secret], factors: Sequence[float]) -> tuple[Hidd
 
 
 def sized(case: WideCase) -> tuple[list[float], list[float]]:
-    """Factors by which each secret, beside the others, has the score asked for (0: its own size); scores reached."""
+    """Factors by which each secret, beside the others, has the requested score (0: its own size); scores reached."""
 
     def white(k: int, factor: float) -> Array:
         return white_shift(case.campaign, case.secrets[k], factor)
@@ -47,12 +47,12 @@ def sized(case: WideCase) -> tuple[list[float], list[float]]:
 
 
 def white_shift(campaign: str, one: Secret, factor: float) -> Array:
-    """By how much one secret moves the readings of a campaign, in units of all that is uncertain, (N C,)."""
+    """Shift of the readings of a campaign by one secret, in units of the total uncertainty, (N C,)."""
     return _whitening(campaign).white(shift(campaign, (one,), (factor,)))
 
 
 def shift(name: str, secrets: Sequence[Secret], factors: Sequence[float]) -> Array:
-    """By how much the readings of a campaign move, (N, C) SI."""
+    """Shift of the readings of a campaign, (N, C) SI."""
     campaign = campaigns()[name]
     hidden, faults, pump = concealed(secrets, factors)
     at = _points(name)

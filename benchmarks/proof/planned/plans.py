@@ -1,4 +1,4 @@
-"""The plan of a case: its suspects, the bench's limits and meters, the campaign to begin with."""
+"""The plan of a case: its suspects, the bench's limits and meters, the initial campaign."""
 
 from __future__ import annotations
 
@@ -30,12 +30,12 @@ from ..writing import BENCH
 
 GRID = "grid"
 SCORE = 8.0
-"""z of what is concealed, by the grid: it is seen, and seldom named."""
+"""z of the concealed cause, by the grid: it is detected, and seldom named."""
 CORNERS, ADDED = 8, 28
 AIM = 7.0
 """Sigma of every pair that the plan aims at, so that it spends as many readings as the grid."""
 FAR = 50.0
-"""Sigma that the best campaign for a pair alone aims at: more than any reaches."""
+"""Target sigma of the best campaign for a pair alone: more than any reaches."""
 LEVELS = (4, 4, 2, 3, 2)
 CHARGE = (15e5 - STANDARD_ATMOSPHERE, 30e5 - STANDARD_ATMOSPHERE)
 """Pa gauge, ends of the charge pressure that the bench can set."""
@@ -44,10 +44,10 @@ MIDDLE = 328.15  # K, of the case at the corners
 
 @dataclass(frozen=True)
 class CasePlan:
-    """The plan of a case, and beside it what is foreseen of the first suspect against each other one.
+    """The plan of a case, and the predictions for the first suspect against each other one.
 
-    grid, best: (S,), sigma, by the grid, and by the best campaign of as many readings for that pair alone: any points,
-    each read as often as it likes; best_told: (S,), true where that campaign tells the two apart.
+    grid, best: (S,), sigma, by the grid, and by the best campaign of as many readings for that pair alone: any points
+    with any number of readings; best_told: (S,), true where that campaign separates the two.
     """
 
     plan: Plan
@@ -59,9 +59,9 @@ class CasePlan:
 def planned(names: list[str], thresholds: Thresholds) -> CasePlan:
     """The plan for some suspects, the truth first.
 
-    It begins with the corners of the box and may add as many readings as make the grid's number, at levels over the
-    box or at the grid's own points, and ask for one meter more. All suspects cost as much as makes the truth stand out
-    by SCORE on the grid.
+    It begins with the corners of the box and may add as many readings as make the grid's number, at levels over the box
+    or at the grid's own points, and propose one additional meter. The cost of all suspects is the one at which the
+    truth has SCORE on the grid.
     """
     pump = load_known_pump(BENCH).pump
     asked, count = _asked()
@@ -83,7 +83,7 @@ def planned(names: list[str], thresholds: Thresholds) -> CasePlan:
 
 
 def _alone(contest: Contest, wanted: float, thresholds: Thresholds) -> tuple[Array, NDArray[np.bool_]]:
-    """Distances of the first suspect by the best campaign for each pair alone, found by exchange; whether it tells."""
+    """Distances of the first suspect by the best campaign for each pair alone, by exchange; whether it separates it."""
     readings, count = CORNERS + ADDED, len(contest.white.columns)
     none, often = np.zeros(count, dtype=np.int64), np.full(count, readings)
     distances, told = np.zeros(len(contest.suspects)), np.zeros(len(contest.suspects), dtype=bool)
@@ -96,7 +96,7 @@ def _alone(contest: Contest, wanted: float, thresholds: Thresholds) -> tuple[Arr
 
 
 def _asked() -> tuple[Asked, int]:
-    """The campaign to begin with and what may be added, the grid's points last; their number."""
+    """The initial campaign and the possible additions, the grid's points last; their number."""
     campaign = campaigns()[GRID]
     box = pump_box(load_known_pump(BENCH).pump)
     *ends, warm = box.ends
@@ -116,7 +116,7 @@ def _asked() -> tuple[Asked, int]:
 
 
 def _grid_points() -> BenchPoints:
-    """The set points of the grid as the simulation has them: pressures gauge."""
+    """The set points of the grid for the simulation: pressures gauge."""
     at = campaigns()[GRID].points
     gauge = {name: getattr(at, name) - STANDARD_ATMOSPHERE for name in GAUGE}
     none = np.full(at.speed.size, np.nan)

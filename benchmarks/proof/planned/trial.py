@@ -1,4 +1,4 @@
-"""One thing concealed on the plant, recorded on a grid and by planned campaigns of the same size, all diagnosed."""
+"""One cause concealed in the plant, recorded on a grid and by planned campaigns of the same size, all diagnosed."""
 
 from __future__ import annotations
 
@@ -46,7 +46,7 @@ ODDS = 20.0
 
 @dataclass(frozen=True)
 class ByGrid:
-    """The grid's diagnosis of a case: what is concealed, probability of each explanation by one thing, the verdict."""
+    """The grid's diagnosis of a case: concealed cause, probability of each explanation by one cause, verdict."""
 
     name: str
     truth: str
@@ -65,9 +65,9 @@ class ByGrid:
 
 @dataclass(frozen=True)
 class Told:
-    """Result of a planned campaign for a pair: distance that is foreseen in sigma, odds for the truth.
+    """Result of a planned campaign for a pair: predicted distance in sigma, odds for the truth.
 
-    told: it is foreseen that its readings tell the two apart.
+    told: its readings are predicted to separate the two.
     """
 
     distance: float
@@ -82,10 +82,11 @@ class Told:
 
 @dataclass(frozen=True)
 class Pair:
-    """A pair that the grid leaves open: the rival, odds for the truth by the grid, distance foreseen for the grid.
+    """A pair that the grid leaves open: the rival, odds for the truth by the grid, distance predicted for the grid.
 
-    points: by the meters at hand; meter: with the one that the plan asks for; never: no point tells the two apart;
-    best, best_told: distance by the best campaign of as many readings for this pair alone, and whether it tells.
+    points: by the available meters; meter: with the one that the plan proposes; never: no point separates the two;
+    best, best_told: distance by the best campaign of as many readings for this pair alone, and whether it separates the
+    two.
     """
 
     rival: str
@@ -100,7 +101,7 @@ class Pair:
 
 @dataclass(frozen=True)
 class Trial:
-    """The planned campaigns of a case: its pairs, the meter asked for, verdicts, readings, process time in s."""
+    """The planned campaigns of a case: its pairs, the proposed meter, verdicts, readings, process time in s."""
 
     name: str
     truth: str
@@ -112,7 +113,7 @@ class Trial:
 
     @property
     def settled(self) -> tuple[int, int]:
-        """Pairs that are settled by points alone, and with the meter."""
+        """Pairs that are decided by points alone, and with the meter."""
         return sum(one.points.is_settled for one in self.pairs), sum(one.meter.is_settled for one in self.pairs)
 
 

@@ -1,4 +1,4 @@
-"""The plant run at its points: what flows, what the shaft takes, what the chamber's pressure does."""
+"""The plant run at its points: flows, shaft torque, chamber pressure."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ WARM_ROUNDS = 3  # rounds between a film's loss and its warmth
 @dataclass(frozen=True)
 class Truth:
     """Flows at their own port's pressure (m3/s), torque (N m), (N,); angle (M,) and chamber pressure (N, M) Pa
-    absolute, from wide-open suction on; losses of the pairs. drains: (N, 3), what leaves through the gaps of pistons,
+    absolute, from wide-open suction on; losses of the pairs. drains: (N, 3), outflow through the gaps of pistons,
     slippers and plate alone.
     """
 
@@ -66,7 +66,7 @@ class Truth:
 
 
 def run(machine: Machine, at: Settings, hidden: Hidden = NOTHING, steps: int = STEPS) -> Truth:
-    """The steady state of the machine with what is concealed in it."""
+    """The steady state of the machine with its concealed effects."""
     at = replace(at, ratio=_drooped(hidden, at))
     angle = BEGIN + np.linspace(0.0, 2.0 * np.pi, steps + 1)
     stages = np.concatenate([[angle[0]], np.stack([angle[:-1] + GAMMA * np.diff(angle), angle[1:]], axis=1).ravel()])
@@ -83,14 +83,14 @@ def run(machine: Machine, at: Settings, hidden: Hidden = NOTHING, steps: int = S
 
 
 def _drooped(hidden: Hidden, at: Settings) -> Array:
-    """The stroke that the plate's moment leaves: its stop deflects by the same angle at every stroke."""
+    """The stroke under the plate's moment: its stop deflects by the same angle at every stroke."""
     return at.ratio - hidden.droop * at.p_out * (1.0 + 0.15 * at.speed / RATED_SPEED)
 
 
 def _chambers(
     machine: Machine, hidden: Hidden, at: Settings, angle: Array, moves: list[Motion], gaps: Films
 ) -> tuple[Array, Array]:
-    """Chamber pressure (N, M), mean of the pistons, and what leaves a chamber in a turn (N, 5): kg by way, J."""
+    """Chamber pressure (N, M), mean of the pistons, and the outflow of a chamber in a turn (N, 5): kg by path, J."""
     kinds, points = len(machine.clearance), len(moves)
     courses = np.stack([_courses(machine, move, gaps.film[0][k]) for k, move in enumerate(moves)])
     states = np.stack([at.p_case, at.p_in, at.p_out, gaps.viscosity[1], gaps.top], axis=1)
@@ -103,7 +103,7 @@ def _chambers(
 
 
 def _behind_its_line(machine: Machine, hidden: Hidden, at: Settings, angle: Array, moves: list[Motion]) -> Settings:
-    """The points with what the inlet line leaves of the pressure at the port."""
+    """The points with the pressure at the port behind the inlet line."""
     if hidden.suction == 0.0:
         return at
 

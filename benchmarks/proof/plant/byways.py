@@ -1,4 +1,4 @@
-"""Flows and torques outside the gaps: what runs past the pump, drags on its shaft, or bends the reading."""
+"""Flows and torques outside the gaps: bypass flows, drag on the shaft, errors of the reading."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ def byways(machine: Machine, hidden: Hidden, at: Settings, flow: Array) -> Byway
 
 
 def meter(hidden: Hidden, at: Settings) -> Array:
-    """Factor on the delivery meter: a resonance of the line, a bell over speed that moves as sound does."""
+    """Factor on the delivery meter: a resonance of the line, a bell over speed that moves with the speed of sound."""
     centre = 1500.0 * RPM * (1.0 - 0.0025 * (at.T_case - WARM))
     return 1.0 + hidden.resonance * np.exp(-(((at.speed - centre) / (110.0 * RPM)) ** 2))
 
@@ -68,7 +68,7 @@ def _control(machine: Machine, hidden: Hidden, at: Settings, viscosity: Array) -
 
 
 def _squeezed(machine: Machine, hidden: Hidden, at: Settings) -> Array:
-    """Slippers that rise and sit down once a turn, less under load."""
+    """Slippers that rise and settle once a turn, less under load."""
     area = machine.pistons * np.pi * machine.slipper_radii[1] ** 2
     return np.asarray(area * hidden.squeeze * at.speed / (2.0 * np.pi) / (1.0 + at.p_out / 120.0e6))
 
@@ -94,7 +94,7 @@ def _lifted(machine: Machine, hidden: Hidden, at: Settings, viscosity: Array) ->
 
 
 def _decompressed(machine: Machine, hidden: Hidden, at: Settings) -> Array:
-    """Work that the dead volumes do not give back (N m): oil stiffer under pressure, faster ports lose more."""
+    """Work that the dead volumes do not return (N m): oil stiffer under pressure, faster ports lose more."""
     stroke = full_stroke(machine, machine.swash)
     dead = machine.pistons * (machine.dead_volume + machine.area * stroke * (1.0 - at.ratio) / 2.0)
     held = dead * (at.p_out - at.p_in) ** 2 / (2.0 * (machine.bulk_modulus + 5.0 * at.p_out))
@@ -112,7 +112,7 @@ def _drag(machine: Machine, hidden: Hidden, at: Settings, viscosity: Array, flow
 
 
 def _strange(machine: Machine, hidden: Hidden, at: Settings, viscosity: Array) -> Array:
-    """Torque of what no catalogue has: N m at 2100 rpm, 20 MPa, 50 degC in the case."""
+    """Torque of effects in no catalogue: N m at 2100 rpm, 20 MPa, 50 degC in the case."""
     turned, thick = at.speed / RATED_SPEED, viscosity / 0.0258
     root = hidden.root_drag * np.sqrt(at.p_out / 20.0e6) * thick * turned
     foam = hidden.foam * turned**3 * 0.15e6 / at.p_case

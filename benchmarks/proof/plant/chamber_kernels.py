@@ -13,11 +13,11 @@ from numba import njit
 
 GAMMA = 1.0 - 1.0 / np.sqrt(2.0)
 ATMOSPHERE = 101325.0
-VAPOUR = 3.0e3  # Pa absolute below which the oil parts
-SOFTNESS = 2.0e3  # Pa by which a parting chamber's density falls by e
+VAPOUR = 3.0e3  # Pa absolute below which the oil cavitates
+SOFTNESS = 2.0e3  # Pa by which a cavitating chamber's density falls by e
 TURN = 2.0 * np.pi
 MOST_TURNS = 60
-CLOSED = 1.0e-8  # of the chamber's mass: how far a turn may end from where it began
+CLOSED = 1.0e-8  # of the chamber's mass: largest difference between the end and the start of a turn
 SUCTION, DELIVERY, PISTON, PLATE = 0, 1, 2, 3
 
 
@@ -26,7 +26,7 @@ def density(pressure, oil):
     """kg/m3 at Pa absolute; oil = (density, modulus, its rise with pressure, air share, pressure of solution).
 
     Murnaghan's law (exponential where the modulus does not rise); air follows a polytrope of 1.2 and, after Henry,
-    is the less the nearer the pressure is to that at which all is dissolved.
+    decreases towards the pressure at which all is dissolved.
     """
     base, modulus, rise, air, dissolved = oil
     above = max(pressure, VAPOUR)
@@ -118,9 +118,9 @@ def settle(start, held, step, volume, angle, length, dragged, state, ports, tabl
 def turn(angle, course, speed, state, ports, tables, oil, pressures, out):
     """March turns until one closes: pressures (M,) at the ends of its steps, out (5,) kg by four ways, work in J.
 
-    angle (M + 1,) from wide-open suction on, where the chamber begins at its port's pressure: there it is again
-    after one turn, unless it did not fill. course (2 M + 1, 4): volume (m3), its slope (m3/rad), sealing length
-    (m), dragged flow (m3/rad) at angle[0] and at the two stages of each step.
+    angle (M + 1,) from wide-open suction on, where the chamber begins at its port's pressure: it returns there after
+    one turn, unless it did not fill. course (2 M + 1, 4): volume (m3), its slope (m3/rad), sealing length (m), dragged
+    flow (m3/rad) at angle[0] and at the two stages of each step.
     """
     found = np.zeros(4)
     taken = density(state[1], oil) * (course[0, 1] - course[0, 3]) * speed
@@ -160,7 +160,7 @@ def march(pressure, mass, angle, course, speed, state, ports, tables, oil, press
 
 @njit(cache=True, error_model="numpy")
 def turns(angle, courses, speeds, states, ports, tables, oil, pressures, out):
-    """`turn` of each point and unlike piston: courses (N, P, 2 M + 1, 4), tables (N, P, 2, S), out (N, P, 5)."""
+    """`turn` of each point and distinct piston: courses (N, P, 2 M + 1, 4), tables (N, P, 2, S), out (N, P, 5)."""
     for i in range(courses.shape[0]):
         for j in range(courses.shape[1]):
             turn(angle, courses[i, j], speeds[i], states[i], ports, tables[i, j], oil, pressures[i, j], out[i, j])

@@ -1,4 +1,4 @@
-"""Flow through the three gaps as tables over pressure, integrated along the film with what oil and walls do."""
+"""Flow through the three gaps as tables over pressure, integrated along the film with the laws of oil and walls."""
 
 from __future__ import annotations
 
@@ -68,7 +68,7 @@ def roelands(hidden: Hidden, viscosity: Array, pressure: Array) -> Array:
 
 
 def sealing_length(machine: Machine, travel: Array, stand_out: float) -> Array:
-    """Engaged length of the film in m: the bushing's share of what the piston has moved out."""
+    """Engaged length of the film in m: the bushing less the piston's travel out of it."""
     return machine.engaged - travel - machine.stand_out_share * stand_out
 
 
@@ -94,7 +94,7 @@ def _mean(values: Array, pressure: Array) -> Array:
 
 
 def _bore(machine: Machine, clearance: Array, own: float) -> Array:
-    """pi d h^3/12 of a piston askew in its bore, its slices in series: (N,)."""
+    """pi d h^3/12 of a piston tilted in its bore, its slices in series: (N,)."""
     place = (np.arange(ALONG) + 0.5) / ALONG
     off = machine.eccentricity * (1.0 + machine.askew * (2.0 * place - 1.0))
     turned = 2.0 * np.pi * (np.arange(ROUND) + 0.5) / ROUND
@@ -103,7 +103,7 @@ def _bore(machine: Machine, clearance: Array, own: float) -> Array:
 
 
 def _slipper(machine: Machine, film: Array, viscosity: Array, carried: Array, pressure: Array) -> Array:
-    """Mass flow of one slipper (N, S): what its orifice, with entry loss, leaves to drive the land."""
+    """Mass flow of one slipper (N, S): driven through the land by the pressure behind its orifice with entry loss."""
     inner, outer = machine.slipper_radii
     land = 2.0 * np.pi * film**3 / (12.0 * np.log(outer / inner))
     bore, length = machine.orifice

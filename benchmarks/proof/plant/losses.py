@@ -1,4 +1,4 @@
-"""Losses of the pump's pairs over a turn: rubbing, shear, and what is concealed in them."""
+"""Losses of the pump's pairs over a turn: friction, shear, and concealed effects in them."""
 
 from __future__ import annotations
 
@@ -12,14 +12,14 @@ from .machine import Array, Machine
 from .motion import Motion
 from .settings import Settings
 
-HERSEY = 1.5e-7  # mu v b/N at which contact carries half of what it carries at rest
+HERSEY = 1.5e-7  # mu v b/N at which contact bears half of its load at rest
 CARREAU = 5.0e-6  # s
 THINNING = 0.6  # Carreau's exponent
 
 
 @dataclass(frozen=True)
 class Losses:
-    """Mean power in W, (N,): of all pistons, all slippers, the plate; and of what has no film."""
+    """Mean power in W, (N,): of all pistons, all slippers, the plate; and of parts without a film."""
 
     piston: Array
     slipper: Array
@@ -105,7 +105,7 @@ def _others(machine: Machine, move: Motion, side: Array, pressed: Array, omega: 
 
 
 def _shear(hidden: Hidden, gaps: Films, gap: int, k: int, above: Array, speed: Array) -> Array:
-    """Factor on the shear of a film: thickened under pressure, thinned by rate as Carreau (1972) has it."""
+    """Factor on the shear of a film: thickened under pressure, thinned by rate after Carreau (1972)."""
     grid = np.linspace(0.0, gaps.top[k], gaps.drag.shape[2])
     rate = speed / gaps.film[gap][k]
     kept = (1.0 + (CARREAU * rate) ** 2) ** (0.5 * (THINNING - 1.0))

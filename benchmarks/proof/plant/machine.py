@@ -1,4 +1,4 @@
-"""The machine on the bench: its lengths, its oil, and how much of each may differ from the drawing."""
+"""The machine on the bench: its lengths, its oil, and the scatter of each about the drawing."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ FILE = Path(__file__).with_name("ref90.toml")
 
 @dataclass(frozen=True)
 class Machine:
-    """A pump with its oil, SI. Lengths follow ref90.toml; scale_* are factors on what the drawing says.
+    """A pump with its oil, SI. Lengths follow ref90.toml; scale_* are factors on values of the drawing.
 
     clearance: (z,) factor of each piston's clearance; viscosity, slope: factor, and 1/K about 50 degC, on Vogel's
     law; stroke: factor on the displacement.
@@ -81,9 +81,9 @@ TOLERANCE = {
     "friction_guide": 0.06, "friction_front": 0.10, "friction_rear": 0.10, "dead_volume": 0.02,
     "flow_coefficient": 0.05, "stroke": 0.001,
 }  # fmt: skip
-"""One sigma, of the logarithm, of what the drawing states; what [tolerance] of the pump file says and takes."""
+"""One sigma, of the logarithm, of values of the drawing; as stated and assumed by [tolerance] of the pump file."""
 ABSOLUTE = {"eccentricity": 0.08, "slope": 0.0005}
-"""One sigma of what varies by an amount."""
+"""One sigma of quantities that vary by an amount."""
 UNLIKE = 0.03
 """One sigma by which the clearances of one pump's pistons differ."""
 NUISANCES = (*TOLERANCE, *ABSOLUTE, "stand_out_share")
@@ -120,7 +120,7 @@ def ref90() -> Machine:
 
 
 def drawn(machine: Machine, rng: np.random.Generator) -> Machine:
-    """A machine of the series: everything within its tolerance, pistons unlike, sealing length as it comes."""
+    """A machine of the series: everything within its tolerance, different pistons, any sealing length."""
     relative = {name: getattr(machine, name) * np.exp(sigma * rng.normal()) for name, sigma in TOLERANCE.items()}
     absolute = {name: getattr(machine, name) + sigma * rng.normal() for name, sigma in ABSOLUTE.items()}
     absolute["eccentricity"] = float(np.clip(absolute["eccentricity"], 0.3, 0.8))

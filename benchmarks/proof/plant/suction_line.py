@@ -1,4 +1,4 @@
-"""The inlet line: what it leaves of the tank's pressure at the port, where the flow that comes is drawn."""
+"""The inlet line: the pressure at the port behind its loss, at the actual inflow."""
 
 from __future__ import annotations
 
@@ -19,9 +19,9 @@ CLOSE = 2.0  # Pa
 def port_pressure(loss: float, at: Settings, drawn: Callable[[NDArray[np.int64], Array], Array]) -> Array:
     """Pa absolute (N,) at the inlet port: p + loss (Q(p)/Q rated)^2 = p_in, Q the flow that the chambers draw.
 
-    `drawn(points, pressure)` is that flow, m3/s, of some points by their numbers, at pressures of their ports: it
-    grows with pressure, little where chambers fill, much where they do not. The line loses by the flow that comes,
-    not by the swept volume, so that filling fails by degrees.
+    `drawn(points, pressure)` is that flow, m3/s, of some points by their numbers, at pressures of their ports: it grows
+    with pressure, little where chambers fill, much where they do not. The line's loss depends on the actual inflow, not
+    on the swept volume, so that filling fails gradually.
     """
 
     def excess(pressure: Array, points: NDArray[np.int64]) -> Array:

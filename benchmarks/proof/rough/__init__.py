@@ -1,4 +1,4 @@
 """The proof's third plant, rough campaigns on pumps known by their type plate: cases, sizes and recordings."""
 
 VERSION = 3
-"""Of plant, cases and meters: raised with every change that moves a reading or conceals something else."""
+"""Of plant, cases and meters: raised with every change of a reading or of a concealed cause."""

@@ -50,7 +50,7 @@ FAULTS = tuple(
 )  # fmt: skip
 """Zero and drift of a flow or a torque: over its median; gain: relative; of p_out and T_case: Pa and K."""
 TORQUE = ("mixed", "compression", "droop", "churning", "creeping", "torque.zero", "torque.gain")
-"""Secrets of which a recording without a torque meter shows nothing, or not enough."""
+"""Secrets that a recording without a torque meter does not show, or not enough."""
 SPEEDS = ("squeeze", "churning")
 """Secrets that one speed cannot show."""
 
@@ -95,7 +95,7 @@ def unknowns(seed: int) -> Iterator[WideCase]:
 
 
 def needs_torque(case: WideCase) -> bool:
-    """Whether the case shows only where torque is measured."""
+    """Whether the case is visible only with measured torque."""
     return any(one.label in TORQUE for one in case.secrets)
 
 

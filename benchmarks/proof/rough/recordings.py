@@ -25,7 +25,7 @@ TORQUE, COMMAS = 0.5, 0.4  # shares of recordings with a torque meter, with deci
 
 @dataclass(frozen=True)
 class RoughRecording:
-    """Columns of a recording with what its folder says of pump and meters."""
+    """Columns of a recording with its folder's statements on pump and meters."""
 
     pump: Pump
     meters: Meters

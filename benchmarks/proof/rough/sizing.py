@@ -1,7 +1,7 @@
-"""Score of what is concealed in a rough recording: the plant's own model fitted to its own quasi-steady means.
+"""Score of the concealed causes in a rough recording: the plant's own model fitted to its own quasi-steady means.
 
-Samples of like pressure, speed and time are one mean; its noise has the memory of its meter. All that is not known of a
-pump by its type plate is uncertain, and what meters of such a bench may be off.
+Samples of similar pressure, speed and time are one mean; its noise has the memory of its meter. Uncertain are all
+unknowns of a pump with a type plate, and the errors of meters of such a bench.
 """
 
 from __future__ import annotations
@@ -24,8 +24,8 @@ PARTS = 10  # of the pressure's range, and of the time
 GAIN, ZERO = 0.003, 0.003  # one sigma of a meter: relative, and over its median
 P_OUT, T_CASE = 1e4, 0.5  # Pa, K: the same of the zeros of inputs
 WARMTH, BETWEEN = 3.0, 0.5  # K at 20 MPa by which films are warmer, share of the inlet in their oil: one sigma
-OF_PORTS = 0.05  # of the drain: what leaks while ports change, and delivery does not lack
-UNREAD = 1e3  # times its noise: sigma of a mean that a dead band swallows
+OF_PORTS = 0.05  # of the drain: leakage while ports change that delivery does not lack
+UNREAD = 1e3  # times its noise: sigma of a mean within a dead band
 NAMES = ("Q_out", "Q_case", "torque")
 
 
@@ -78,7 +78,7 @@ def concealed(bench: Bench, secrets: Sequence[Secret], factors: Sequence[float])
 
 
 def sized(case: WideCase, bench: Bench) -> tuple[list[float], list[float], dict[str, float]]:
-    """Factors of the score asked for beside the others, scores reached, each channel's square of the shift in sigma."""
+    """Factors of the requested score beside the others, scores reached, each channel's square of the shift in sigma."""
     sigma = noise(bench)
     white = whitening_of(bench, sigma)
 
@@ -92,12 +92,12 @@ def sized(case: WideCase, bench: Bench) -> tuple[list[float], list[float], dict[
 
 
 def white_shift(bench: Bench, white: Whitening, one: Secret, factor: float) -> Array:
-    """By how much one secret moves the means, in units of all that is uncertain, (N C,)."""
+    """Shift of the means by one secret, in units of the total uncertainty, (N C,)."""
     return white.white(_shift(bench, (one,), (factor,)))
 
 
 def _shift(bench: Bench, secrets: Sequence[Secret], factors: Sequence[float]) -> Array:
-    """By how much the means move (N, C)."""
+    """Shift (N, C) of the means."""
     hidden, meters = concealed(bench, secrets, factors)
     state = bench.course.state
     off = {name: meters[name].zero - bench.meters[name].zero for name in ("p_out", "T_case")}
@@ -113,7 +113,7 @@ def _shift(bench: Bench, secrets: Sequence[Secret], factors: Sequence[float]) ->
 
 
 def noise(bench: Bench) -> Array:
-    """Noise (N, C) of the means; that of readings in a dead band is without bound."""
+    """Noise (N, C) of the means; that of readings in a dead band is infinite."""
     _, count = bench.places
     nominal = bench.means(bench.pump, bench.course.state)
     columns = []
@@ -129,7 +129,7 @@ def noise(bench: Bench) -> Array:
 
 
 def whitening_of(bench: Bench, sigma: Array) -> Whitening:
-    """Of means with noise sigma (N, C), beside all that is uncertain of pump and meters."""
+    """Of means with noise sigma (N, C), beside the uncertainty of pump and meters."""
     pump, state = bench.pump, bench.course.state
     base = bench.means(pump, state)
     near = [replace(pump, **{name: getattr(pump, name) * (1.0 + 0.01 * s)}) for name, s in UNCERTAIN.items()]

@@ -1,4 +1,4 @@
-"""A case of the second or third plant: what is concealed, at which score, and what a right verdict says."""
+"""A case of the second or third plant: concealed causes, their score, and the right verdict."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ class What(Enum):
 
 @dataclass(frozen=True)
 class Secret:
-    """One concealed thing.
+    """One concealed cause.
 
     label: of an effect its field of the plant's Hidden, of a fault "channel.error", of a part its field of the
     plant's pump; id, pair: by which a verdict is to name it, "" for physics in no catalogue; size: SI, at factor 1;
@@ -63,7 +63,7 @@ class WideCase:
 
     @property
     def main(self) -> tuple[Secret, ...]:
-        """Secrets that a right verdict names: all that is listed, without faults beside physics."""
+        """Secrets that a right verdict names: all listed ones, without faults beside physics."""
         own = [one for one in self.secrets if one.id and one.what.value == self.truth]
         return tuple(own) if self.truth != UNKNOWN else ()
 
@@ -75,6 +75,6 @@ class WideCase:
 
     @property
     def definition(self) -> tuple[object, ...]:
-        """All that defines the case, as plain values."""
+        """The definition of the case, as plain values."""
         secrets = [(one.label, one.id, one.pair, one.size, one.most) for one in self.secrets]
         return self.part.value, self.campaign, self.seed, self.score, secrets

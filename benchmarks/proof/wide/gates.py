@@ -1,4 +1,4 @@
-"""Gates on all three plants: what is asked of each alike, and what was found on each."""
+"""Gates on all three plants: common requirements, and the results on each."""
 
 from __future__ import annotations
 

@@ -14,7 +14,7 @@ from .case import Secret, WideCase
 @dataclass(frozen=True)
 class WideMade:
     """expected: the outcome before a verdict; write: puts the recording into a folder; pump: a built-in pump, or the
-    file in that folder; rig: for further points, None where there is none.
+    file in that folder; rig: for further points, or None.
     """
 
     expected: Outcome
@@ -26,7 +26,7 @@ class WideMade:
 def expected(
     case: WideCase, factors: Sequence[float], scores: Sequence[float], strength: Mapping[str, float]
 ) -> Outcome:
-    """The truth of a case; the score is the least of what a right verdict names.
+    """The truth of a case; the score is the least of those that a right verdict names.
 
     strength: channel -> square of its shift in sigma.
     """

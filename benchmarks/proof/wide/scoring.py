@@ -1,4 +1,4 @@
-"""Score z of a shift: its length in sigma that remains once all that is uncertain has been fitted."""
+"""Score z of a shift: its length in sigma that remains after a fit of all uncertain parameters."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from ..sizing import NEAR, size_for
 
 Array = NDArray[np.float64]
 ROUNDS = 6  # of sizes that several need beside each other
-LEAST = 0.2  # of the score asked for: a smaller one is taken as this in a round
+LEAST = 0.2  # of the requested score: a smaller one counts as this in a round
 
 
 @dataclass(frozen=True)
@@ -23,7 +23,7 @@ class Whitening:
     factor: Array
 
     def white(self, moved: Array) -> Array:
-        """A shift (N, C) in units of all that is uncertain, (N C,)."""
+        """A shift (N, C) in units of the total uncertainty, (N C,)."""
         return np.asarray(np.linalg.solve(self.factor, self.weights * moved.ravel()))
 
     def z(self, moved: Array) -> float:
@@ -32,8 +32,8 @@ class Whitening:
 
 
 def whitening(sigma: Array, shared: Array, own: Array | None = None) -> Whitening:
-    """Of readings with noise sigma (N, C); shared (k, N, C): one sigma of what all points have in common; own
-    (m, N, C): of what each point has by itself.
+    """Of readings with noise sigma (N, C); shared (k, N, C): one sigma of errors common to all points; own (m, N, C):
+    of those of each point.
     """
     weights = 1.0 / sigma.ravel()
     columns = weights[:, None] * shared.reshape(len(shared), -1).T

@@ -1,4 +1,4 @@
-"""One case of the second or third plant put to the diagnosis as a user would: a folder, a pump, and the verdict."""
+"""Diagnosis of one case of the second or third plant as by a user: a folder, a pump, and the verdict."""
 
 from __future__ import annotations
 

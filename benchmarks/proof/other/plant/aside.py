@@ -61,7 +61,7 @@ def _control(hidden: Hidden, at: Points, viscosity: Array) -> Array:
 
 
 def _squeezed(pump: Pump, hidden: Hidden, turned: Array) -> Array:
-    """Slippers that rise and sit down once a turn, less high the faster."""
+    """Slippers that rise and settle once a turn, less at higher speed."""
     area = pump.pistons * np.pi * pump.pad**2
     return np.asarray(area * hidden.squeeze * turned * RATED_SPEED / (2.0 * np.pi) * 1.3 / (1.0 + 0.3 * turned))
 

@@ -1,7 +1,7 @@
 """Chamber pressure over a turn: balance of mass, one implicit step of closed form at each angle.
 
-With one port open at most, s V/dt x + a sgn(x) sqrt|x| = r for x = p - p_port has a closed solution; s, the secant
-of the density, is renewed. A chamber that would fall below vapour pressure parts and keeps its mass.
+With one port open at most, s V/dt x + a sgn(x) sqrt|x| = r for x = p - p_port has a closed solution; s, the secant of
+the density, is renewed. A chamber that would fall below vapour pressure cavitates and keeps its mass.
 """
 
 from __future__ import annotations

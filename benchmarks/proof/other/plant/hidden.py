@@ -1,4 +1,4 @@
-"""Sizes of all that may be concealed in the second plant, 0 where it is absent."""
+"""Sizes of all possible concealed effects in the second plant, 0 where absent."""
 
 from __future__ import annotations
 

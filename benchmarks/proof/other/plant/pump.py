@@ -1,4 +1,4 @@
-"""The drawing of the bench pump as the second plant has it, and machines of the series."""
+"""The drawing of the bench pump in the second plant, and machines of the series."""
 
 from __future__ import annotations
 
@@ -76,9 +76,9 @@ TOLERANCE = {
     "friction_guide": 0.06, "friction_front": 0.10, "friction_rear": 0.10, "dead_volume": 0.02,
     "flow_coefficient": 0.05, "stroke": 0.001,
 }  # fmt: skip
-"""One sigma of the logarithm, as the pump file states it or leaves it to be taken."""
+"""One sigma of the logarithm, as stated in the pump file or assumed."""
 SPREAD = {"eccentricity": 0.08, "slope": 0.0005, "held_out": 0.5}
-"""One sigma of what varies by an amount."""
+"""One sigma of quantities that vary by an amount."""
 
 
 def drawn(rng: np.random.Generator) -> Pump:
@@ -91,7 +91,7 @@ def drawn(rng: np.random.Generator) -> Pump:
 
 
 def varied(pump: Pump, name: str, sigmas: float) -> Pump:
-    """The machine with one of its uncertain parts off by some sigma of its tolerance."""
+    """The machine with one of its uncertain parts wrong by some sigma of its tolerance."""
     value = getattr(pump, name)
     if name in TOLERANCE:
         return replace(pump, **{name: value * float(np.exp(sigmas * TOLERANCE[name]))})

@@ -24,7 +24,7 @@ DRAWS = 12  # rounds between an inlet's pressure and its flow
 @dataclass(frozen=True)
 class Readout:
     """Flows at their own port's pressure (m3/s) and torque (N m), (N,); angle (M,) rad and chamber pressure (N, M) Pa
-    absolute. Q_piston, Q_slipper, Q_valve_plate: what leaves through each gap alone.
+    absolute. Q_piston, Q_slipper, Q_valve_plate: outflow through each gap alone.
     """
 
     Q_out: Array
@@ -39,7 +39,7 @@ class Readout:
 
 
 def run(pump: Pump, at: Points, hidden: Hidden = NOTHING) -> Readout:
-    """The steady state of a machine with what is concealed in it."""
+    """The steady state of a machine with its concealed effects."""
     yielded = hidden.droop * (np.maximum(at.p_out - at.p_in, 0.0) / FULL) ** HERTZ
     at = replace(at, ratio=np.maximum(at.ratio - yielded, 1e-3))
     edges = grid()
@@ -74,7 +74,7 @@ def _shares(pump: Pump, at: Points, move: Motion, films: Gaps, turn: Turn) -> Ar
 
 
 def _behind_its_line(pump: Pump, hidden: Hidden, at: Points, ends: Motion) -> tuple[Points, Gaps, Turn]:
-    """The points at the pressure of the inlet port behind its line, by the flow that comes: damped rounds.
+    """The points at the pressure of the inlet port behind its line, by the actual flow: damped rounds.
 
     Loss of the line: .7 of it with the square of the flow, .3 of it with the flow and the oil's viscosity.
     """

@@ -1,4 +1,4 @@
-"""Losses of the pairs: Coulomb shares and Newtonian shear, and what is concealed in them.
+"""Losses of the pairs: Coulomb shares and Newtonian shear, and concealed effects in them.
 
 Contact beside the films after Bo and Pavelescu (1982), f exp(-(v/v_s)^d), the speed scaled by the oil's viscosity;
 oil sheared fast after Eyring (1936), asinh(x)/x.

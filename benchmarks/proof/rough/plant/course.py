@@ -25,7 +25,7 @@ class Course:
 
 
 def course(pump: Pump, kind: str, rng: np.random.Generator) -> Course:
-    """4,000 to 8,000 s; the oil warms from 15..25 by 20..35 K, slower and slower."""
+    """4,000 to 8,000 s; the oil warms from 15..25 by 20..35 K, ever more slowly."""
     count = int(rng.integers(4000, 8001))
     time = np.arange(count, dtype=float)
     top = float(rng.uniform(20.0e6, 32.0e6))
@@ -75,7 +75,7 @@ def _follow(values: Array, lag: float) -> Array:
 
 
 def _slow(count: int, sigma: float, memory: float, rng: np.random.Generator) -> Array:
-    """Noise of a bench that wanders: first order, in samples."""
+    """Drifting noise of a bench: first order, in samples."""
     left = float(np.exp(-1.0 / memory))
     fresh = sigma * np.sqrt(1.0 - left**2) * rng.normal(size=count)
     return np.asarray(lfilter([1.0], [1.0, -left], fresh))

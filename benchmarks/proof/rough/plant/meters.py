@@ -12,7 +12,7 @@ from .model import Flows
 from .pump import RPM, Array, Pump
 
 LITRES = 1e-3 / 60.0
-WANDER = 0.4  # of a flow or torque meter's noise, that which wanders slowly
+WANDER = 0.4  # of a flow or torque meter's noise, the slow part
 MEMORIES = (0.5, 3.0, 10.0)  # samples
 SLOW = 60.0, 200.0
 MISSTATED = (0.3, 0.5, 2.0, 3.0)
@@ -21,11 +21,11 @@ TAIL, FREEDOM = 0.01, 3  # share of samples from Student's t
 
 @dataclass(frozen=True)
 class Meter:
-    """One channel, SI but for the digits.
+    """One channel, SI except for the digits.
 
     column, unit: of the file, scale: SI of one unit; noise: one sigma of a sample, memory: its own in samples, slow:
-    that of WANDER of it, 0 for none; digits written; lag in s; gain, zero, drift over the course; band: least reading;
-    storage: m3/Pa of the line before it; stated: what recording.toml says of its noise, "" for nothing.
+    that of WANDER of it, 0 without; digits written; lag in s; gain, zero, drift over the course; band: least reading;
+    storage: m3/Pa of the line before it; stated: its noise in recording.toml, "" if not stated.
     """
 
     column: str
@@ -116,7 +116,7 @@ def _behind(values: Array, lag: float) -> Array:
 
 
 def _noise(count: int, meter: Meter, rng: np.random.Generator) -> Array:
-    """Of unit variance but for what wanders and for the tails."""
+    """Of unit variance except for the slow part and the tails."""
     found = _first_order(count, meter.memory, rng)
     tails = np.where(rng.uniform(size=count) < TAIL, rng.standard_t(FREEDOM, size=count), found)
     return tails + (WANDER * _first_order(count, meter.slow, rng) if meter.slow else 0.0)

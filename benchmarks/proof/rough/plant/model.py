@@ -1,9 +1,9 @@
 """Flows and torque of a pump in closed forms without scale, after Wilson (1950), with laws of their own.
 
 Leakage V dp/(2 pi mu) into the case, in powers of pressure and viscosity that differ a little from make to make;
-chambers that fill draw from the case; delivery w V/(2 pi) less what compression and leakage take; torque V p/(2 pi)
-with a Coulomb, a viscous and a fixed share. Opened gaps: (1 + c p)^3 of the whole film; oil that thickens: its
-viscosity at half of the pressure; an edge: Blasius' 1.75th power; a bleed: p^.6; contact: 1/(1 + H/H0).
+chambers that fill draw from the case; delivery w V/(2 pi) less compression and leakage; torque V p/(2 pi) with a
+Coulomb, a viscous and a fixed share. Opened gaps: (1 + c p)^3 of the whole film; oil that thickens: its viscosity at
+half of the pressure; an edge: Blasius' 1.75th power; a bleed: p^.6; contact: 1/(1 + H/H0).
 """
 
 from __future__ import annotations
@@ -52,7 +52,7 @@ def flows(pump: Pump, at: State, hidden: Hidden = NOTHING) -> Flows:
     modulus = pump.modulus * (1.0 - hidden.softening * (at.case - 40.0))
     squeezed = (1.0 + pump.dead) * p / modulus
     lost = leaks - _from_inlet(pump, at, hidden) + _across(pump, at, hidden, mu)
-    delivered = swept * (1.0 - squeezed) - lost * (1.0 - p / modulus)  # what is lost was squeezed before
+    delivered = swept * (1.0 - squeezed) - lost * (1.0 - p / modulus)  # the lost oil was compressed before
     return Flows(Q_out=delivered, Q_case=leaks - drawn, torque=_torque(pump, at, hidden, mu))
 
 

@@ -1,4 +1,4 @@
-"""A pump of any size with its oil: what its type plate says, and what nobody knows."""
+"""A pump of any size with its oil: values of its type plate, and unknown ones."""
 
 from __future__ import annotations
 
@@ -17,12 +17,12 @@ GRADES = {32: (32.0, 5.4), 46: (46.0, 6.8), 68: (68.0, 8.7)}  # mm2/s at 40 and 
 
 @dataclass(frozen=True)
 class Pump:
-    """SI. plate: displacement as stated; displacement: as it is; dead: dead volume of all chambers over it.
+    """SI. plate: displacement as stated; displacement: the true one; dead: dead volume of all chambers over it.
 
-    leak: flow into the case over V p/(2 pi mu); coulomb: torque over V p/(2 pi); viscous: torque over mu w V; fixed:
-    N m; unrecovered: share of the compression work that the ports give back; grade: ISO VG; viscosity: factor on it,
-    slope: 1/K on that about 40 degC. Of one make and another: leakage grows with the power 1 + bend of pressure and
-    -1 + slack of viscosity, Coulomb torque with 1 + rub of pressure.
+    leak: flow into the case over V p/(2 pi mu); coulomb: torque over V p/(2 pi); viscous: torque over mu w V; fixed: N
+    m; unrecovered: share of the compression work that the ports return; grade: ISO VG; viscosity: factor on it, slope:
+    1/K on that about 40 degC. Of one make and another: leakage grows with the power 1 + bend of pressure and -1 + slack
+    of viscosity, Coulomb torque with 1 + rub of pressure.
     """
 
     pistons: int
@@ -54,7 +54,7 @@ class Pump:
 
 
 MAKE = {"slope": 0.0007, "bend": 0.03, "slack": 0.03, "rub": 0.05}
-"""One sigma of what differs, by an amount, from make to make."""
+"""One sigma of quantities that differ by an amount from make to make."""
 
 
 def drawn(rng: np.random.Generator) -> Pump:
@@ -81,4 +81,4 @@ UNCERTAIN = {
     "displacement": 0.01, "dead": 0.3, "leak": 0.7, "coulomb": 0.6, "viscous": 0.6, "fixed": 1.0, "recovered": 0.5,
     "modulus": 0.1, "viscosity": 0.05,
 }  # fmt: skip
-"""One sigma, of the logarithm, of what is not known of such a pump."""
+"""One sigma, of the logarithm, of the unknowns of such a pump."""
