@@ -72,11 +72,12 @@ def settled_deformation(meeting: Meeting, given: Array, alone: Array, start: Arr
         closing = change > ROOM * beyond
         share = float(np.min(ROOM * beyond[closing] / change[closing], initial=1.0))
         for _ in range(MOST_HALVINGS):
-            new, after = left(found - share * change)
+            tried = found - share * change
+            new, after = left(tried)
             if norm(after) < (1.0 - LEAST_GAIN * share) * norm(rest):
                 break
             share *= 0.5
-        found, touch, rest = found - share * change, new, after
+        found, touch, rest = tried, new, after
     raise FilmNotConverged(
         f"the deformation of walls in contact not converged after {MAX_STEPS} steps", "a thicker film, or stiffer walls"
     )
