@@ -206,5 +206,5 @@ def test_a_step_that_gains_nothing_goes_on_from_the_place_last_tried():
     meeting = SimpleNamespace(asperities=TOUCHING, compliance=np.zeros((1, 1)), at=at)
     with pytest.raises(FilmNotConverged):
         settled_deformation(meeting, np.array([1e-5]), np.zeros(1), np.array([1e-6]))
-    first_tries = tried[1 :: MOST_HALVINGS]
+    first_tries = tried[1::MOST_HALVINGS]
     np.testing.assert_allclose(first_tries, np.array(begun) + 1e-6, rtol=1e-12)
