@@ -31,7 +31,7 @@ _NAMED = {
         "designs_refused energy_not_balanced fidelities_differ film_hot film_not_thin "
         "film_pressure_beyond_oil film_runs_dry motion_unstable no_3d_picture no_delivery nothing_feasible "
         "pareto_still_grows points_failed port_pressure_follows_line profile_not_resolved pumps_refused "
-        "start_outside_bounds steps_too_long table_guesses piston.radial_clearance"
+        "search_not_settled start_outside_bounds steps_too_long table_guesses piston.radial_clearance"
     ),
     Grade.DESIGN: (
         "actuator_cavitates block_tips chamber_cavitates chamber_overpressure retainer_gives_way "
