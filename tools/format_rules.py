@@ -41,6 +41,8 @@ FREE = (
 """Objects whose keys depend on the input."""
 NULL = {
     "summary.json/efficiency/*/overall": "number",
+    "summary.json/*efficiency/*/value": "number",
+    "summary.json/*efficiency/*/error": "number",
     "summary.json/efficiency/*/volumetric": "number",
     "summary.json/efficiency/*/hydromechanical": "number",
     "summary.json/ripple/delivery_orifice_area_m2": "number",

@@ -129,7 +129,8 @@ def at_levels(interpolant: MapInterpolant, axes: tuple[MapAxis, ...]) -> MapData
 def _differences(one: MapData, other: MapData, errors: list[MapError]) -> Iterator[Difference]:
     both = (one, other)
     balance = sum(np.abs(data.values["energy_balance_error"]) for data in both)
-    power = np.minimum(*(data.values["shaft_power"] for data in both))
+    least = np.minimum(*(data.values["shaft_power"] for data in both))
+    power = np.where(least > 0.0, least, np.nan)  # elsewhere no efficiency, which has no error
     for definition in EfficiencyDefinition:
         pair = one.efficiency(definition).overall, other.efficiency(definition).overall
         if all(np.isfinite(values).any() for values in pair):

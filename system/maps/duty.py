@@ -52,8 +52,8 @@ class Duty:
     """Energies and losses of a pump over a cycle.
 
     energies: shaft, hydraulic, loss and every sink of the loss, by name; efficiency: mean overall one by
-    definition, energy over energy, with its error; marked: part of the time between points with a warning, by its
-    name; volume: delivered, m3; shown_by: source of the measured error.
+    definition, energy over energy, with its error, empty unless both energies are positive; marked: part of the time
+    between points with a warning, by its name; volume: delivered, m3; shown_by: source of the measured error.
     """
 
     duration: float
@@ -82,10 +82,11 @@ def duty(interpolant: MapInterpolant, cycle: Cycle, error: MapError) -> Duty:
     largest["loss"] = largest["shaft_power"] + largest["hydraulic_power"]
     names = {"shaft_power": "shaft", "hydraulic_power": "hydraulic", "loss": "loss", **LOSSES}
     energies = {words: Energy(over_time(interpolated[name]), time * largest[name]) for name, words in names.items()}
+    absent = {words for words in LOSSES.values() if energies[words] == Energy(0.0, 0.0)}
     return Duty(
         duration=time,
         volume=Energy(over_time(interpolated["delivery_flow"]), time * largest["delivery_flow"]),
-        energies={words: energy for words, energy in energies.items() if energy.value != 0.0 or energy.error != 0.0},
+        energies={words: energy for words, energy in energies.items() if words not in absent},
         efficiency=_efficiencies(interpolated, share, energies),
         marked=_marked(interpolant.data, places, share / time),
         shown_by=f"{error.count} {error.shown_by}",
@@ -139,10 +140,15 @@ def _stretches(cycle: Cycle) -> tuple[dict[MapInput, Array], Array]:
 def _efficiencies(
     interpolated: Mapping[str, Array], share: Array, energies: Mapping[str, Energy]
 ) -> dict[EfficiencyDefinition, Energy]:
-    """Mean overall efficiency of each definition: useful energy over that of the shaft."""
+    """Mean overall efficiency of each definition: useful energy over that of the shaft.
+
+    None of a cycle that does not take energy at the shaft or gives none to the oil: it stands still, or motors.
+    """
+    shaft, hydraulic = energies["shaft"], energies["hydraulic"]
+    if not (shaft.value > 0.0 and hydraulic.value > 0.0):
+        return {}
     delivered = interpolated["port_delivery_pressure"] * interpolated["delivery_flow"]
     ports = float(share @ (delivered - interpolated["port_inlet_pressure"] * interpolated["inlet_flow"]))
-    shaft, hydraulic = energies["shaft"], energies["hydraulic"]
     kept = float(share @ interpolated["compression_power"])
     useful: dict[EfficiencyDefinition, float] = {
         EfficiencyDefinition.PAPER: ports,
@@ -151,7 +157,7 @@ def _efficiencies(
         EfficiencyDefinition.ENERGY_RETURNED: hydraulic.value + kept,
         EfficiencyDefinition.ENERGY_NOT_RETURNED: hydraulic.value,
     }
-    relative = hydraulic.error / abs(hydraulic.value) + shaft.error / shaft.value
+    relative = hydraulic.error / hydraulic.value + shaft.error / shaft.value
     return {
         definition: Energy(value / shaft.value, abs(value) / shaft.value * relative)
         for definition, value in useful.items()

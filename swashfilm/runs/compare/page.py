@@ -115,11 +115,11 @@ def _duty_words(summary: Row) -> Iterator[str]:
     if abs(lost) <= sum(one["error"] for one in losses):
         yield "Over the cycle there is no difference of the energy lost."
         return
-    one, other = (percent(side["efficiency"][HEADLINE.value]["value"]) for side in summary["duty"])
+    means = [side["efficiency"][HEADLINE.value]["value"] for side in summary["duty"]]
+    known = "" if None in means else f"; its mean efficiency is {percent(means[1])} against {percent(means[0])}"
     yield (
         f"Over the cycle B loses {energy_text(abs(lost), 3)} {'more' if lost > 0.0 else 'less'} than A "
-        f"({energy_text(losses[1]['value'])} against {energy_text(losses[0]['value'])}); its mean efficiency is "
-        f"{other} against {one}."
+        f"({energy_text(losses[1]['value'])} against {energy_text(losses[0]['value'])}){known}."
     )
 
 
@@ -187,7 +187,7 @@ def _difference_cells(row: Row, summary: Row, unit: str) -> tuple[str, ...]:
 
 
 def duty_rows(summary: Row) -> Iterator[tuple[str, ...]]:
-    """Yield (energy, of A, of B, difference, error of both)."""
+    """Yield (energy, of A, of B, difference, error of both), and so the mean efficiency where both have one."""
     one, other = (side["energy_J"] for side in summary["duty"])
     for words in dict.fromkeys([*one, *other]):
         nothing = {"value": 0.0, "error": 0.0}
@@ -200,6 +200,8 @@ def duty_rows(summary: Row) -> Iterator[tuple[str, ...]]:
             energy_text(error, 2),
         )
     efficiency = [side["efficiency"][HEADLINE.value] for side in summary["duty"]]
+    if any(one["value"] is None for one in efficiency):  # of a cycle at standstill, or one that motors
+        return
     apart, error = efficiency[1]["value"] - efficiency[0]["value"], sum(one["error"] for one in efficiency)
     yield (
         "mean overall efficiency (ISO 4409)",

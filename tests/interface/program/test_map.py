@@ -3,6 +3,7 @@
 import csv
 import json
 import re
+import shutil
 from dataclasses import replace
 from pathlib import Path
 
@@ -256,6 +257,17 @@ def test_contours_of_efficiencies_are_close_by_the_best(least, most):
     assert steps[0] >= steps[-1] > 0.0
 
 
+def _has_a_page_at_standstill(folder, summary):
+    """A cycle without energy in, out and lost has a page that says why it has no mean efficiency."""
+    still = folder.parent / "still"
+    shutil.copytree(folder, still)
+    energies = {words: {"value": 0.0, "error": 0.0} for words in summary["energy_J"]}
+    void = {name: one | {"value": None, "error": None} for name, one in summary["efficiency"].items()}
+    (still / "summary.json").write_text(json.dumps(summary | {"energy_J": energies, "efficiency": void}))
+    assert main(["report", str(still)]) == 0
+    assert "It has no mean efficiency: the pump stands still or motors" in (still / "report.html").read_text()
+
+
 def test_duty_and_compare_leave_their_pages(run, tmp_path, capsys):
     cycle = tmp_path / "cycle.csv"
     cycle.write_text(
@@ -275,6 +287,7 @@ def test_duty_and_compare_leave_their_pages(run, tmp_path, capsys):
     assert step == pytest.approx([28.0, 15.0])
     assert summary["energy_J"]["loss"]["error"] < 0.05 * summary["energy_J"]["loss"]["value"]
     assert main(["report", str(tmp_path / "duty")]) == 0
+    _has_a_page_at_standstill(tmp_path / "duty", summary)
     other = tmp_path / "worn.toml"
     other.write_text(
         (run / "resolved.toml").read_text().replace('radial_clearance = "15 um"', 'radial_clearance = "25 um"')

@@ -16,9 +16,10 @@ from swashfilm.runs.map.duty.page import COURSE, write_duty_page
 from swashfilm.runs.map.duty.plots import RATIO
 from system.inputs.faults import Fault, InputFaults
 from system.maps.data import MapData
-from system.maps.duty import Cycle, Duty, duty
+from system.maps.duty import Cycle, Duty, Energy, duty
 from system.maps.interpolation import MapError, MapInterpolant, left_out_error
 from system.maps.plan import MapInput
+from system.pump.efficiency import EfficiencyDefinition
 
 FINE = 400
 """Number of instants in the written and drawn time series."""
@@ -64,11 +65,17 @@ def duty_summary(data: MapData, found: Duty) -> dict[str, Any]:
         "volume_m3": asdict(found.volume),
         "energy_J": {words: asdict(energy) for words, energy in found.energies.items()},
         "efficiency": {
-            definition.value: asdict(energy) | {"label": definition.label, "formula": definition.formula}
-            for definition, energy in found.efficiency.items()
+            definition.value: _ratio(found.efficiency.get(definition))
+            | {"label": definition.label, "formula": definition.formula}
+            for definition in EfficiencyDefinition
         },
         "marked": dict(found.marked),
     }
+
+
+def _ratio(energy: Energy | None) -> dict[str, float | None]:
+    """Return a mean efficiency and its error, None of a cycle without one."""
+    return {"value": None, "error": None} if energy is None else asdict(energy)
 
 
 def held_inputs(data: MapData) -> str:
@@ -87,13 +94,14 @@ def _write_course(path: Path, interpolant: MapInterpolant, cycle: Cycle) -> None
     }
     numbers = interpolant.at(inputs)
     shaft, hydraulic = numbers["shaft_power"], numbers["hydraulic_power"]
+    ratio = np.divide(hydraulic, shaft, out=np.full_like(shaft, np.nan), where=shaft > 0.0)
     columns = {
         "time": (time, "s"),
         **{given.words: (values, given.unit) for given, values in inputs.items()},
         "shaft power": (shaft, "W"),
         "hydraulic power": (hydraulic, "W"),
         "loss": (shaft - hydraulic, "W"),
-        RATIO: (hydraulic / shaft, "1"),
+        RATIO: (ratio, "1"),
         "delivery flow": (numbers["delivery_flow"], "m3/s"),
     }
     write_columns(

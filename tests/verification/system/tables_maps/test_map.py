@@ -233,6 +233,34 @@ def test_a_cycle_with_steps_and_ramps_is_within_its_error():
         cycle_of([0], [150], [20e6], [0.6])
 
 
+def _scaled(data, **factors):
+    """The map with some of its columns times a factor."""
+    return replace(data, values={**data.values, **{name: by * data.values[name] for name, by in factors.items()}})
+
+
+@pytest.mark.parametrize("factors", [{"shaft_power": 0.0}, {"shaft_power": -1.0}, {"hydraulic_power": -1.0}])
+def test_a_cycle_that_does_not_pump_has_no_efficiency(factors):
+    """At standstill and while it motors energies are what they are; a ratio of them means nothing."""
+    error = replace(left_out_error(solved()), largest=dict.fromkeys(solved().values, 1.0))
+    cycle = cycle_of([0, 10], [1800 * RPM] * 2, [20e6] * 2, [1.0] * 2)
+    usual, found = (duty(MapInterpolant(data), cycle, error) for data in (solved(), _scaled(solved(), **factors)))
+    assert len(usual.efficiency) == len(EfficiencyDefinition)
+    assert found.efficiency == {}
+    assert {"shaft", "hydraulic", "loss"} <= set(found.energies)
+
+
+def test_points_without_power_at_the_shaft_leave_the_error_of_an_efficiency():
+    """Both maps at other levels, one with points that motor: their error is that of the points that pump."""
+    data, error = solved(), left_out_error(solved())
+    power = data.values["shaft_power"].copy()
+    power[0, 0] *= -1e-9
+    motoring = replace(data, values={**data.values, "shaft_power": power})
+    axes = (MapAxis(MapInput.SPEED, AXES[0].values[:-1]), *AXES[1:])
+    found = compare(motoring, solved(axes), (error, error)).differences[0]
+    assert found.words.startswith("overall efficiency")
+    assert 0.0 < found.error < 0.1
+
+
 def test_a_map_beside_itself_has_no_difference():
     found = compare(solved(), solved(), (None, None))
     assert not any(one.significant for one in found.differences)
