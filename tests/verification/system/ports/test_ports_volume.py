@@ -22,7 +22,7 @@ from system import (
     piston_velocity,
 )
 from system.pump.chamber.port_coupling import SETTLED, PortedCycle, ported_cycle
-from system.pump.chamber.port_volume import Supply, line_power, port_balance
+from system.pump.chamber.port_volume import Supply, line_flow, line_power, port_balance
 from system.pump.chamber.problem import ChamberProblem, LeakTable
 from system.pump.laws.kinematics import drive_at_ratio, stand_out
 from system.pump.ports.lines import HeldPressure, Impedance, Line, Lines, OrificeLine, volume_impedance
@@ -275,6 +275,9 @@ def test_what_cannot_be_is_refused(tmp_path):
         OrificeLine(0.0, 0.0)
     with pytest.raises(NotConverged, match="expected both of one sign"):
         ported_cycle((pump(),), Lines(OrificeLine(1e-3, 40e6)), PISTONS, SAMPLES)
+    level = np.full(40, 40e6)  # of the tank: no area passes anything
+    with pytest.raises(NotConverged, match="to pass at 0 MPa over the tank"):
+        line_flow(OrificeLine(1e-3, 40e6), level, Supply(PERIOD, 1e-3, np.zeros(40), np.zeros(40), 0.0), pump())
     with pytest.raises(NotConverged, match="suction port: its pressure falls"):
         ported_cycle((pump(),), Lines(suction=OrificeLine(1e-3, 0.0, 60e-6)), PISTONS, SAMPLES)
     narrow = Impedance(np.array([300.0, 400.0]), np.ones(2) * 1e9j)
