@@ -41,6 +41,8 @@ FREE = (
 """Objects whose keys depend on the input."""
 NULL = {
     "summary.json/efficiency/*/overall": "number",
+    "summary.json/energy_balance_error_max": "number",
+    "summary.json/mass_balance_error_max": "number",
     "summary.json/*efficiency/*/value": "number",
     "summary.json/*efficiency/*/error": "number",
     "summary.json/efficiency/*/volumetric": "number",

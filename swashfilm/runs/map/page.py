@@ -100,7 +100,8 @@ def axis_rows(summary: Mapping[str, Any]) -> Iterator[tuple[str, str]]:
     if summary["loss"]:
         loss = summary["loss"]
         yield "loss (shaft power minus p Q)", f"{loss['least_W'] * 1e-3:.3g} .. {loss['largest_W'] * 1e-3:.4g} kW"
-    yield "largest energy balance error", f"{100.0 * summary['energy_balance_error_max']:.2g} % of the shaft power"
+    if summary["energy_balance_error_max"] is not None:
+        yield "largest energy balance error", f"{100.0 * summary['energy_balance_error_max']:.2g} % of the shaft power"
     if summary["seconds_a_point"] is not None:
         one = f"{summary['seconds_a_point']:.2g} s of processor time per point"
         yield "computing time", f"{one}, {summary['wall_s']:.3g} s in total with {summary['workers']} at a time"

@@ -119,7 +119,7 @@ def solve_map(asked: MapCase, folder: Path, executor: Executor, report: Report) 
     report(len(kept.outcomes), len(kept.outcomes), "writing the map and its pictures")
     data = map_data(plan, solver.words, kept.outcomes[:size])
     error = _error(data, fresh, kept.outcomes[size:])
-    summary = map_summary(plan, work, data, kept, error) | {
+    summary = map_summary(plan, work, data, kept, error, fresh) | {
         "workers": executor.workers,
         "wall_s": time.monotonic() - began,
     }

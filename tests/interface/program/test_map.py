@@ -176,6 +176,24 @@ def test_a_point_that_fails_stops_no_other(tmp_path, monkeypatch, capsys):
     assert main(["duty", str(tmp_path / "run"), str(tmp_path / "cycle.csv"), "-o", str(tmp_path / "d")]) == 2
     assert "points without a result" in capsys.readouterr().err
     assert main(["map", str(BENCH), *SMALL[:4], "--pressures", "20MPa", "-o", str(tmp_path / "none")]) == 3
+    assert json.loads((tmp_path / "none" / "summary.json").read_text())["energy_balance_error_max"] is None
+
+
+def test_fresh_points_that_fail_are_told(tmp_path, monkeypatch):
+    """The error between levels says nothing of them: number, the first with its reason, and the remedy."""
+    solve = map_point.LumpedSolver.solve
+
+    def stalls(self, pump, point):
+        if point.delivery_pressure not in (10e6, 20e6, 30e6):
+            raise NotConverged("made to fail")
+        return solve(self, pump, point)
+
+    monkeypatch.setattr(map_point.LumpedSolver, "solve", stalls)
+    assert main(["map", str(BENCH), *SMALL, "-o", str(tmp_path / "run")]) == 0
+    summary = json.loads((tmp_path / "run" / "summary.json").read_text())
+    (warning,) = (one for one in summary["warnings"] if one.startswith("points_failed"))
+    assert "3 of 4 fresh points have no result and are left out of the error between levels, such as " in warning
+    assert "made to fail; add levels on both sides of it" in warning
 
 
 @pytest.mark.parametrize(
