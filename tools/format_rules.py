@@ -23,6 +23,7 @@ FREE = (
     "*/sensitivity/outputs",
     "*/sensitivity/outputs/*",
     "*/sensitivity/parameters",
+    "*/sensitivity/left_out",
     "diagnosis.json/fit/heldout",
     "*/other_pairs",
     "diagnosis.json/scaling/*",

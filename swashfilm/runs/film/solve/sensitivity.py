@@ -14,7 +14,7 @@ from reynolds.solve.solver import FilmSolver
 from swashfilm.case.file import FilmCase
 from swashfilm.case.gap.instant import GapCase
 from swashfilm.runs.film.solve.gap import GapStudy, case_gap
-from swashfilm.runs.film.solve.growth import Growth, case_growth, gap_growth, tilts, uniform_growth
+from swashfilm.runs.film.solve.growth import Growth, Growths, case_growth, gap_growth, tilts, uniform_growth
 from system.description.gap import Gap
 from system.inputs.faults import Fault, InputFaults, nearest_choice
 
@@ -23,11 +23,12 @@ OPTION = "--sensitivity"
 
 @dataclass(frozen=True)
 class Sensitivities:
-    """Gradients by the outputs' names, growth of the film with the parameters of its shape, what is kept in the
-    derivatives, and unknowns at which the cavity may open or close with the slightest change."""
+    """Gradients by the outputs' names, growth of the film with the parameters of its shape and why others have none,
+    what is kept in the derivatives, and unknowns at which the cavity may open or close with the slightest change."""
 
     gradients: Mapping[str, FilmGradient]
     growth: Sequence[Growth]
+    left_out: Mapping[str, str]
     kept: str
     weak: int
 
@@ -104,12 +105,13 @@ def sensitivities(
 
 
 def _found(
-    solution: FilmSolution, solver: FilmSolver, names: Sequence[str], growth: Sequence[Growth], weight: Array | None
+    solution: FilmSolution, solver: FilmSolver, names: Sequence[str], growth: Growths, weight: Array | None
 ) -> Sensitivities:
     known = output_names(solution.problem)
     gradients = film_gradients(solver, solution, [known[name] for name in names], weight)
     weak = int(weakly_active(solution).sum())
-    return Sensitivities(dict(zip(names, gradients, strict=True)), growth, "position", weak)
+    by_name = dict(zip(names, gradients, strict=True))
+    return Sensitivities(by_name, growth.found, growth.left_out, "position", weak)
 
 
 def _at_held_load(case: FilmCase, solution: FilmSolution, found: Sensitivities) -> Sensitivities:
