@@ -6,6 +6,7 @@ from dataclasses import dataclass, replace
 from typing import Annotated
 
 from reynolds.errors import InputError
+from reynolds.solve.transient import equal_steps
 from system.inputs.sections.fields import Limits, Positive
 from system.inputs.sections.reader import table_section
 from system.inputs.toml_table import Table
@@ -30,8 +31,8 @@ class TimeStepsSection:
 
     @property
     def steps(self) -> int:
-        """Number of steps; the last one ends at `end`."""
-        return max(1, round(self.end / self.step))
+        """Number of steps, none longer than stated; the last one ends at `end`."""
+        return equal_steps(self.end, self.step)
 
     @property
     def step_taken(self) -> float:
