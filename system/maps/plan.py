@@ -13,15 +13,10 @@ from reynolds.errors import InputError
 from system.description.pump import PumpDescription
 from system.inputs.faults import Fault
 from system.inputs.shown import Shown, shown_in
-from system.inputs.units import RPM, Dimension
+from system.inputs.units import Dimension
 from system.pump.operating import OperatingPoint, operating_point
 from system.pump_file.check import CheckWarning
 from system.pump_file.operating import check_operating_point
-
-PAPER_SPEEDS = tuple(RPM * speed for speed in (1000.0, 1300.0, 1700.0, 2100.0))
-PAPER_PRESSURES = tuple(1e6 * pressure for pressure in (5.0, 10.0, 15.0, 20.0, 25.0, 30.0, 35.0))
-PAPER_RATIOS = (0.28, 0.51, 0.77, 1.0)
-"""The paper's 112 test points: rad/s, Pa gauge at the delivery port, share of the full displacement."""
 
 
 class MapInput(Enum):
@@ -125,15 +120,6 @@ def map_plan(pump: PumpDescription, axes: Sequence[MapAxis]) -> MapPlan:
     stated, point = {axis.input: axis for axis in axes}, operating_point(pump)
     held = {given: MapAxis(given, (getattr(point, given.value),)) for given in MapInput}
     return MapPlan(pump, tuple((held | stated).values()))
-
-
-def paper_axes() -> tuple[MapAxis, ...]:
-    """The paper's 112 points: four speeds, seven delivery pressures, four displacements."""
-    return (
-        MapAxis(MapInput.SPEED, PAPER_SPEEDS),
-        MapAxis(MapInput.PRESSURE, PAPER_PRESSURES),
-        MapAxis(MapInput.RATIO, PAPER_RATIOS),
-    )
 
 
 def point_words(point: OperatingPoint) -> str:

@@ -18,6 +18,7 @@ from system.inputs.faults import Fault, InputFaults, nearest_choice
 
 if TYPE_CHECKING:
     from swashfilm.runs.map.run import MapCase
+    from system.description.pump import PumpDescription
     from system.maps.plan import MapAxis, MapPlan
     from system.work.tasks import Executor
 
@@ -54,7 +55,8 @@ def add_map_options(command: argparse.ArgumentParser) -> None:
     add_set_option(command)
     command.add_argument(
         "--plan", metavar=f"{{{','.join(PLANS)}}}", default="paper",
-        help="levels of axes that are not stated: the paper's 112 points (paper), or the pump's own point (point)",
+        help="levels of axes that are not stated: the paper's 112 points in shares of the rated speed and pressure "
+        "(paper), or the pump's own point (point)",
     )  # fmt: skip
     command.add_argument(
         "--fidelity", metavar=f"{{{','.join(one.value for one in FIDELITIES)}}}", default=Fidelity.FLOATING.value,
@@ -127,13 +129,13 @@ def map_case(options: argparse.Namespace, axes: Sequence[MapAxis] | None = None)
 
     faults = _word_faults(options)
     stated = set_values(options.set, faults)
-    axes = stated_axes(options, faults) if axes is None else axes
+    own_axes = stated_axes(options, faults)
     expect(options.pump, "pump", "film")
     try:
         pump = load_pump(options.pump, stated)
     except InputFaults as reason:
         raise InputFaults(reason.source, [*faults, *reason.faults], reason.lines) from None
-    plan = map_plan(pump, axes)
+    plan = map_plan(pump, with_usual(options.plan, pump, own_axes) if axes is None else axes)
     faults += [*by_option(plan.checked().faults), *_solver_faults(options, plan)]
     if faults:
         raise InputFaults(COMMAND_LINE, faults)
@@ -145,11 +147,11 @@ def map_case(options: argparse.Namespace, axes: Sequence[MapAxis] | None = None)
 
 
 def stated_axes(options: argparse.Namespace, faults: list[Fault]) -> list[MapAxis]:
-    """Return the axes of --plan, replaced by the stated ones; add faults to `faults`."""
+    """Return the axes that the command line states; add faults to `faults`."""
     from swashfilm.console.levels import map_axis
-    from system.maps.plan import MapInput, paper_axes
+    from system.maps.plan import MapInput
 
-    axes = {axis.input: axis for axis in paper_axes()} if options.plan == "paper" else {}
+    axes = []
     for option, (name, example, _) in LEVELS.items():
         text = option_value(options, option)
         if text is None:
@@ -158,8 +160,16 @@ def stated_axes(options: argparse.Namespace, faults: list[Fault]) -> list[MapAxi
         if isinstance(found, Fault):
             faults.append(found)
         else:
-            axes[found.input] = found
-    return list(axes.values())
+            axes.append(found)
+    return axes
+
+
+def with_usual(plan: str, pump: PumpDescription, stated: Sequence[MapAxis]) -> list[MapAxis]:
+    """Return the axes of --plan for a pump, replaced by the stated ones."""
+    from system.maps.usual_levels import usual_axes
+
+    usual = {axis.input: axis for axis in usual_axes(pump)} if plan == "paper" else {}
+    return list((usual | {axis.input: axis for axis in stated}).values())
 
 
 def by_option(found: Sequence[Fault]) -> Iterator[Fault]:

@@ -16,8 +16,9 @@ from system.maps.compare import compare
 from system.maps.data import LOSSES, best_points, map_data
 from system.maps.duty import Cycle, duty
 from system.maps.interpolation import MapInterpolant, axis_spline, check_points, fresh_error, left_out_error, weights
-from system.maps.plan import MapAxis, MapInput, paper_axes
+from system.maps.plan import MapAxis, MapInput
 from system.maps.point import LumpedSolver, MapWork, point_numbers
+from system.maps.usual_levels import usual_axes
 from system.pump.efficiency import EfficiencyDefinition
 from system.work.tasks import PartStatus, done_part
 
@@ -45,12 +46,32 @@ def fresh(first, count):
 
 
 def test_the_papers_plan_has_112_points():
-    plan = map_plan(PUMP, paper_axes())
+    plan = map_plan(PUMP, usual_axes(PUMP))
     assert plan.shape == (4, 7, 4, 1, 1)
     assert len(plan.points) == 112
     assert plan.points[0].inlet_pressure == PUMP.operating.inlet_pressure
     assert plan.points[1].displacement_ratio == 0.51
     assert plan.checked().faults == ()
+
+
+@pytest.mark.parametrize(
+    ("speed", "pressure", "speeds", "pressures"),
+    [
+        ("2100 rpm", "35 MPa", [1000, 1300, 1700, 2100], [5, 10, 15, 20, 25, 30, 35]),
+        ("2600 rpm", "28 MPa", [1250, 1600, 2100, 2600], [4, 8, 12, 16, 20, 24, 28]),
+        ("3333 rpm", "25 MPa", [1600, 2050, 2700, 3333], [3.5, 7, 10.5, 14.5, 18, 21.5, 25]),
+        ("600 rpm", "6 MPa", [285, 370, 485, 600], [2.55, 3.45, 4.3, 5.15, 6]),  # above the inlet's 2.5 MPa
+    ],
+)
+def test_usual_levels_are_the_papers_shares_of_the_rating(speed, pressure, speeds, pressures):
+    stated = {"pump.rated_speed": speed, "pump.rated_pressure": pressure}
+    pump = load_pump("ref90", stated | {"operating.speed": speed, "operating.pressure": pressure})
+    axes = usual_axes(pump)
+    np.testing.assert_allclose(np.array(axes[0].values) / RPM, speeds, rtol=1e-12)
+    np.testing.assert_allclose(np.array(axes[1].values) / 1e6, pressures, rtol=1e-12)
+    report = map_plan(pump, axes).checked()
+    assert not report.faults
+    assert not {"operating.speed", "operating.pressure"} & set(report.warnings)
 
 
 def test_faults_of_points_are_told_once_before_any_is_solved():
