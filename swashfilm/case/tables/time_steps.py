@@ -39,6 +39,11 @@ class TimeStepsSection:
         """The step that divides the duration evenly, s."""
         return self.end / self.steps
 
+    @property
+    def output_times(self) -> list[float]:
+        """Times (s) of the start and of the written films."""
+        return [self.end * number / self.outputs for number in range(self.outputs + 1)]
+
     def number(self, time: float) -> int:
         """Return number of whole steps up to a time (s)."""
         return int(time / self.step_taken + 1e-6)

@@ -369,6 +369,14 @@ def test_a_warm_body_takes_the_heat_and_grows_into_the_film(read):
         ),
         (GIVEN.replace('"10 um"', '"1e-5*(1 + t)"'), "film.thickness", ["needs a table [time]"]),
         (GIVEN.replace('"1 bar"', '"1e5*x"') + TIME, "boundary.left.pressure", ["a formula of t"]),
+        (
+            GIVEN.replace('"1 bar"', '"1e5*(1 - 1000*t)"') + TIME, "boundary.left.pressure",
+            ["-100 kPa at 0.002 s", "at least the cavitation pressure"],
+        ),
+        (
+            GIVEN.replace('"1 bar"', '"1e7*t", film_fraction = 0.5') + TIME, "boundary.left.pressure",
+            ["10 kPa at 0.001 s", "full film"],
+        ),
         (GIVEN + "[contact]\n", "contact", ["no table [roughness]"]),
         (GIVEN + ROUGH.replace('"0.3 um"', '"-1 um"'), "roughness.moving", ["at least 0 mm"]),
         (GIVEN + ROUGH + "peklenik = 20\n", "roughness.peklenik", ["20"]),
