@@ -118,7 +118,7 @@ class Aerated:
     The free air follows V ~ P^(-1/n), n = 1 isothermal (small bubbles), 1.4 adiabatic. The mass of the air is
     left out (0.1 % of the oil's). The slope jumps where the last bubble dissolves.
     Source: Nykanen, Esque and Ellman 2000; Kim and Murrenhoff 2012; Gholizadeh, Burton and Schoenau 2011.
-    Raises FilmInputError at and below 1 % of the absolute `atmosphere` (Pa at zero gauge): vapour, not this law.
+    Raises FilmInputError below 1 % of the absolute `atmosphere` (Pa at zero gauge): vapour, not this law.
     """
 
     liquid: DensityLaw
