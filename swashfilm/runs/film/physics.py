@@ -38,7 +38,16 @@ def physics_summary(study: FilmStudy) -> dict[str, Any]:
             "mass_balance_error_of_time": max(step.loads.mass_balance_error for step in steps),
         }
         if study.heat:
-            found["temperature_of_time_max_K"] = max(step.temperature_max or 0.0 for step in steps)
+            found["temperature_of_time_max_K"] = max(_hottest(steps))
+    return found
+
+
+def _hottest(history: Sequence[Moment]) -> list[float]:
+    """Return the highest temperature (K) of a warm film at each step."""
+    found = []
+    for step in history:
+        assert step.temperature_max is not None
+        found.append(step.temperature_max)
     return found
 
 
@@ -97,7 +106,7 @@ def history_columns(history: Sequence[Moment]) -> dict[str, list[float]]:
     ):
         columns[key] = [of(step.loads) for step in history]
     if history[0].temperature_max is not None:
-        columns["temperature_max_K"] = [float(step.temperature_max or 0.0) for step in history]
+        columns["temperature_max_K"] = _hottest(history)
     for name in history[0].loads.flow:
         columns[f"flow_m3_per_s.{name}"] = [step.loads.flow[name] for step in history]
     return columns
