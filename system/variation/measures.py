@@ -87,6 +87,11 @@ class Measure:
         return self.reading.unit
 
     @property
+    def within_one(self) -> bool:
+        """True for a share that no pump has above 1: an efficiency, a part of the turn."""
+        return self.name == CAVITY or self.name.startswith("efficiency.")
+
+    @property
     def scale(self) -> float:
         """Number of units that people read in one SI unit."""
         return self.reading.factor

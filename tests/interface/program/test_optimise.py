@@ -330,7 +330,13 @@ FAULTS = [
         "a least value below",
         "",
     ),
-    (("<= 50 MPa", "<= 50"), "constraints.chamber_pressure_peak", "a value with its unit", "50 MPa"),
+    (("<= 50 MPa", "<= 50"), "constraints.chamber_pressure_peak", "a value with its unit", "<= 50 MPa"),
+    (
+        ('loss = "<= 1.05 start"', '"efficiency.overall" = ">= 86"'),
+        "constraints.efficiency.overall",
+        "a share of at most 100 %",
+        ">= 86 %",
+    ),
     (
         ("<= 50 MPa", "<= 0.5 start"),
         "constraints.chamber_pressure_peak",
