@@ -23,6 +23,11 @@ class Fault:
     expected: str
     nearest: str = ""
 
+    @property
+    def line(self) -> str:
+        """Where, what was found and what was expected, in a line."""
+        return f"{self.path}: {self.found}, expected {self.expected}"
+
 
 class InputFaults(Exception):
     """All faults of one input at once. `source` is the file, the built-in name or the command line.

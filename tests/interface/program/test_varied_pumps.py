@@ -354,6 +354,46 @@ def test_a_table_of_dimensions_serves_the_pump_with_others_in_its_box(wide_table
         sf.run("ref90", set={"slipper.orifice_diameter": "1 mm"}, **asked)
 
 
+NORMAL_FILM = """
+[[tolerance.dimension]]
+key = "slipper.film_thickness"
+shape = "normal"
+sigma = "{sigma} %"
+"""
+
+
+@pytest.mark.parametrize(
+    ("sigma", "words", "told"),
+    [
+        (100, [], ["pumps drawn are refused by the geometry", "by slipper.film_thickness, such as -", "10 % at most",
+                   "try:      a narrower tolerance of slipper.film_thickness"]),
+        (45, ["--pumps", "315"], ["--pumps", "at least for 13 dimensions", "try:      3"]),
+    ],
+)  # fmt: skip
+def test_a_series_of_which_the_geometry_refuses_many_ends_early(sigma, words, told, tmp_path, capsys):
+    """Before a pump is solved: what is left of it is no sample of the series, or too few for the shares."""
+    wide = tmp_path / "wide.toml"
+    wide.write_text((BUILT_IN / "ref90.toml").read_text("utf-8") + NORMAL_FILM.format(sigma=sigma))
+    assert main(["tolerance", str(wide), *words, "-o", str(tmp_path / "run")]) == 2
+    error = capsys.readouterr().err
+    for word in told:
+        assert word in error
+    assert not list(tmp_path.glob("run*"))
+
+
+def test_refused_pumps_are_one_warning():
+    """With how many, the commonest keys, an example of each and its limit."""
+    refused = {"slipper.film_thickness: -1 um, expected at least 0.01 um": 30, "a.b: 2, expected at most 1": 9,
+               "c.d: 3, expected at most 2": 2, "e.f: 4, expected at most 3": 1}  # fmt: skip
+    found = SimpleNamespace(
+        pumps=500, refused=refused, failed={}, measures=(), scatters=(), surface=SimpleNamespace(held_out=())
+    )
+    (warning,) = warnings_of(found)
+    assert warning.startswith("pumps_refused: 42 of 500 pumps are refused by the geometry")
+    assert "30 by slipper.film_thickness, such as -1 um, expected at least 0.01 um, 9 by a.b" in warning
+    assert "1 by others; narrow the tolerances" in warning
+
+
 def test_shares_of_numbers_that_do_not_scatter_are_no_warning():
     """A number that is the same for all pumps, up to round-off, has no variance that a surface could miss."""
     rough, same = SimpleNamespace(words="loss"), SimpleNamespace(words="hottest oil")
