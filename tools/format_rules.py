@@ -29,6 +29,7 @@ FREE = (
     "diagnosis.json/scaling/*",
     "diagnosis.json/mismatch/channels",
     "study.nc/variables",
+    "history.csv",
     "study.csv",
     "designs.csv",
     "pareto.csv",

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -31,8 +32,8 @@ def physics_summary(study: FilmStudy) -> dict[str, Any]:
         found |= {
             "time_s": steps[-1].time,
             "time_steps": len(steps),
-            "load_of_time_max_N": max(step.loads.load + step.loads.contact_load for step in steps),
-            "load_of_time_min_N": min(step.loads.load + step.loads.contact_load for step in steps),
+            "load_of_time_max_N": max(step.supported for step in steps),
+            "load_of_time_min_N": min(step.supported for step in steps),
             "pressure_of_time_max_Pa": max(step.loads.pressure_max for step in steps),
             "film_thickness_of_time_min_m": min(step.loads.film_thickness_min for step in steps),
             "mass_balance_error_of_time": max(step.loads.mass_balance_error for step in steps),
@@ -105,6 +106,10 @@ def history_columns(history: Sequence[Moment]) -> dict[str, list[float]]:
         ("mass_balance_error", lambda loads: loads.mass_balance_error),
     ):
         columns[key] = [of(step.loads) for step in history]
+    bearings = [step.bearing for step in history if step.bearing]
+    if bearings:
+        columns["bearing_load_N"] = [one.size for one in bearings]
+        columns["attitude_angle_deg"] = [math.degrees(one.attitude) for one in bearings]
     if history[0].temperature_max is not None:
         columns["temperature_max_K"] = _hottest(history)
     for name in history[0].loads.flow:
