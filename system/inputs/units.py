@@ -27,6 +27,8 @@ LPM = 6e4  # L/min in a m3/s
 LARGEST = Fraction(10) ** 30  # in SI; with its inverse the range of sizes that machines have
 
 
+ZERO_DIGITS = 9
+"""Decimals of a number in a unit with a zero of its own, degC, that a float in K still holds."""
 MOST_DIGITS = 60
 """Characters of a number in a text; more are no number of a machine."""
 
@@ -183,7 +185,9 @@ def format_quantity(value: float, dimension: Dimension, digits: int | None = Non
     name = reading_unit(value, dimension)
     shown = in_unit(value, name, dimension)
     if digits is not None:
-        return f"{_rounded(shown, digits)} {name}"
+        # 0 degC is 273.15 K, which no float is: what is left of it is no temperature
+        significant = round(shown, ZERO_DIGITS) + 0.0 if _unit_of(name).offset else shown
+        return f"{_rounded(significant, digits)} {name}"
     for precision in range(1, 18):
         number = _rounded(shown, precision)
         if float(_in_si(number, _unit_of(name), dimension)) == value:

@@ -103,7 +103,11 @@ class MapPlan:
             faults.update(report.faults)
             for warning in report.warnings:
                 warnings.setdefault(warning.path, []).append(warning)
-        listed = {path: f"at {len(found)} points; at the first: {found[0]}" for path, found in warnings.items()}
+        size = len(self.points)
+        listed = {
+            path: f"{path}: at {len(found)} of {size} points; at the first: {found[0].text}"
+            for path, found in warnings.items()
+        }
         return MapCheck(tuple(faults), listed)
 
 

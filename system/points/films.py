@@ -22,6 +22,7 @@ from system.films.rotor import Rotor, rotor
 from system.inputs.units import TURN
 from system.points.effects import affected_problem, at_the_ports, mean_outside
 from system.points.film_effects import closed_laws, film_effects
+from system.points.friction_range import with_friction_range
 from system.points.lumped import point_and_effects
 from system.pump.assembly import PumpPoint, assemble, met_point
 from system.pump.chamber.cycle import ChamberCycle, solve_cycle
@@ -154,7 +155,8 @@ def films_point(
             f"films and chamber pressure: after {ROUND_LIMIT} rounds the pressure still changes by {change:.3g} "
             f"Pa, expected at most {limit:.3g} Pa; try the lumped fidelity, more film angles, stiffer walls"
         )
-    sampled, whole = _sampling_error(work, ported, leaks), _pump_point(work, point, gaps, ported)
+    sampled = _sampling_error(work, ported, leaks)
+    whole = with_friction_range(pump, _pump_point(work, point, gaps, ported))
     kinds_found = [FilmsKind(one.chambers, one.rotor, one.parts, films) for one, films in zip(group, gaps, strict=True)]
     return FilmsPoint(tuple(kinds_found), work.physics, whole, rounds, change, sampled)
 

@@ -12,6 +12,7 @@ from system.effects.effect import Effects
 from system.effects.friction import rubbed
 from system.inputs.units import TURN
 from system.points.effects import affected_problem, at_the_ports, mean_outside, point_effects
+from system.points.friction_range import with_friction_range
 from system.pump.assembly import PumpPoint, assemble, met_point
 from system.pump.chamber.cycle import TOLERANCE, ChamberCycle
 from system.pump.chamber.port_coupling import PortedCycle, ported_cycle
@@ -47,9 +48,8 @@ def lumped_point(pump: PumpDescription, point: OperatingPoint, tolerance: float 
     found = kinds(pump)
     expansion(pump, point.temperature)
     plain = _solved(found, pump, point, (), tolerance)
-    if not pump.physics.on:
-        return plain
-    return _solved(found, pump, point, _effects(found, plain), tolerance)
+    affected = _solved(found, pump, point, _effects(found, plain), tolerance) if pump.physics.on else plain
+    return with_friction_range(pump, affected)
 
 
 def point_and_effects(pump: PumpDescription, point: OperatingPoint) -> tuple[PumpPoint, tuple[Effects[float], ...]]:

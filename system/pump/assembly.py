@@ -38,6 +38,7 @@ class PointWarning(Enum):
     CHAMBER_CAVITATES = "chamber_cavitates"
     CHAMBER_OVERPRESSURE = "chamber_overpressure"
     ENERGY_NOT_BALANCED = "energy_not_balanced"
+    FRICTION_AT_LOW_SPEED = "friction_at_low_speed"
     NO_DELIVERY = "no_delivery"
     PORT_PRESSURE_FOLLOWS_LINE = "port_pressure_follows_line"
     START_REFUSED = "start_refused"

@@ -9,6 +9,7 @@ from system.effects.friction import rubbed
 from system.inputs.units import TURN
 from system.points.effects import affected_problem, at_the_ports, mean_outside
 from system.points.film_effects import closed_laws
+from system.points.friction_range import with_friction_range
 from system.points.lumped import point_and_effects
 from system.points.table.gap_numbers import gap_leaks, gap_losses, port_draws
 from system.points.table.means import FILM_RISE, GAP_PAIRS, given_films
@@ -88,6 +89,8 @@ def table_point(pump: PumpDescription, point: OperatingPoint, table: ResponseTab
     derived, masses = swept_displacement(pump, motion.drive), group_masses(pump)
     outside = mean_outside(own, met_point(point, ported), effects)
     found = assemble(point, ported, (losses,), pistons, derived, exchange, (masses,), outside)
+    if table.origin.source is Source.FIXED:
+        found = with_friction_range(pump, found)
     given = given_films(pump)
     return TablePoint(
         pump_point=found,

@@ -71,6 +71,11 @@ def test_examples_measure_what_they_show(dimension):
     assert parse_quantity(dimension.example, dimension) > 0.0
 
 
+@pytest.mark.parametrize(("text", "shown"), [("0 degC", "0 degC"), ("-40 degC", "-40 degC"), ("273 K", "-0.15 degC")])
+def test_temperatures_about_zero_are_shown_without_what_rounding_leaves(text, shown):
+    assert format_quantity(parse_quantity(text, Dimension.TEMPERATURE), Dimension.TEMPERATURE, digits=4) == shown
+
+
 @settings(deadline=None)
 @given(st.sampled_from(Dimension), SIZES)
 def test_quantities_come_back_to_the_last_bit(dimension, value):

@@ -10,10 +10,11 @@ from bench_pump import BENCH
 from scipy.interpolate import NdBSpline
 
 from reynolds import InputError
+from swashfilm.output.warnings import causes
 from system import InputFaults, load_pump, lumped_point, map_plan, operating_point
 from system.inputs.sections.fields import fields_of
 from system.maps.compare import compare
-from system.maps.data import LOSSES, best_points, map_data
+from system.maps.data import LOSSES, best_points, map_data, warning_counts
 from system.maps.duty import Cycle, duty
 from system.maps.interpolation import MapInterpolant, axis_spline, check_points, fresh_error, left_out_error, weights
 from system.maps.plan import MapAxis, MapInput
@@ -78,10 +79,20 @@ def test_faults_of_points_are_told_once_before_any_is_solved():
     axes = (MapAxis(MapInput.PRESSURE, (1e6, 20e6)), MapAxis(MapInput.SPEED, (100.0, 150.0, 900.0)))
     found = map_plan(PUMP, axes).checked()
     assert [fault.path for fault in found.faults] == ["operating.pressure"]
-    assert any("at 2 points" in text and "rated_speed" in text for text in found.warnings.values())
+    told = next(one for one in causes(found.warnings.values()) if one.name == "operating.speed")
+    assert told.title == "Above the rated speed"
+    assert told.texts[0].startswith("at 2 of 6 points; at the first: 8594 rpm, limit rated_speed, 2100 rpm")
+    assert told.remedies == ("stay below it, or state a higher rated_speed where the pump is made for it",)
     for values in ((), (2.0, 1.0), (1.0, 1.0)):
         with pytest.raises(InputError, match="rise"):
             MapAxis(MapInput.RATIO, values)
+
+
+def test_a_map_counts_the_points_far_below_the_speeds_of_the_coefficients():
+    speeds = MapAxis(MapInput.SPEED, tuple(RPM * speed for speed in (20.0, 500.0, 2100.0)))
+    count, text = warning_counts(solved((speeds,)))["friction_at_low_speed"]
+    assert count == 1
+    assert "turns at 20 rpm (limit 500 rpm: half of 1000 rpm" in text
 
 
 def numbers_of(model, path=()):
