@@ -9,8 +9,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from reynolds.laws.contact import boundary_shear, contact_area, contact_pressure, lambda_ratio
+from reynolds.laws.contact import contact_area, lambda_ratio
 from reynolds.laws.roughness import beyond_range
+from reynolds.solve.rubbing import rubbing
 from swashfilm.output.data.files import column_of, write_columns
 from swashfilm.runs.film.solve.transient import Moment
 
@@ -76,18 +77,15 @@ def _rough_summary(study: FilmStudy) -> dict[str, Any]:
         "beyond_flow_factors_area_fraction": beyond_range(film.thickness, problem.surface).fraction,
     }
     if problem.asperities is not None:
-        area = problem.space.area
-        pressed = contact_pressure(problem.asperities, film.thickness).value
-        sheared = boundary_shear(problem.asperities, pressed).value
+        area, gap = problem.space.area, study.solution.gap
+        contact = rubbing(film, problem.asperities, gap, area.shape)
         found["contact_load_N"] = study.loads.contact_load
         both = study.loads.contact_load + study.loads.load
         found["carried_load_N"] = both
         found["contact_load_fraction"] = study.loads.contact_load / both if both > 0.0 else None
-        found["contact_pressure_max_Pa"] = float(np.max(pressed))
-        found["contact_friction_N"] = float(np.sum(sheared * area))
-        found["contact_area_fraction"] = float(
-            np.sum(contact_area(problem.asperities, film.thickness).value * area) / area.sum()
-        )
+        found["contact_pressure_max_Pa"] = float(np.max(contact.pressure))
+        found["contact_friction_N"] = float(np.sum(contact.friction * area))
+        found["contact_area_fraction"] = float(np.sum(contact_area(problem.asperities, gap).value * area) / area.sum())
     return found
 
 
