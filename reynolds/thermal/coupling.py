@@ -17,7 +17,7 @@ from reynolds.errors import FilmInputError, FilmNotConverged, InputError
 from reynolds.laws.fluid import Fluid, ViscosityLaw, isoviscous
 from reynolds.numerics.anderson import History
 from reynolds.numerics.arrays import Array
-from reynolds.problem import FilmProblem, FilmSolution
+from reynolds.problem import FilmProblem, FilmSolution, widened
 from reynolds.solve.solver import FilmSolver
 from reynolds.thermal.energy import FilmTemperature, Heat, solve_energy
 from reynolds.thermal.film_profile import FilmLevels, FlowProfile, dowson, film_with, scaled, shear_rate
@@ -158,7 +158,9 @@ def _film(work: _Work, guess: _Guess, warm: FilmSolution | None, solved: _Guess 
     problem = work.posed.problem
     fault: InputError | FilmNotConverged | None = None
     for _ in range(MOST_HALVINGS):
-        posed = _with_growth(with_profile(problem, dowson(work.across, guess.share)), guess.opened * work.yardstick)
+        posed = with_profile(problem, dowson(work.across, guess.share))
+        if guess.opened.any():
+            posed = replace(posed, film=widened(posed.space, posed.film, guess.opened * work.yardstick))
         try:
             return work.solver.solve(posed, warm), guess
         except (InputError, FilmNotConverged) as reason:
@@ -201,19 +203,6 @@ def with_profile(problem: FilmProblem, shape: FlowProfile) -> FilmProblem:
     if problem.fluid.viscosity is isoviscous:
         return replace(problem, film=film)
     return replace(problem, film=film, fluid=Fluid(_Shared(problem.fluid.viscosity, share), problem.fluid.density))
-
-
-def _with_growth(problem: FilmProblem, growth: Array) -> FilmProblem:
-    """The problem with its film grown by (vertices,) m."""
-    if not growth.any():
-        return problem
-    film, known = problem.film, problem.film.thickness_at_vertices
-    film = replace(
-        film,
-        thickness=film.thickness + problem.space.sample_vertices(growth),
-        thickness_at_vertices=None if known is None else known + growth,
-    )
-    return replace(problem, film=film)
 
 
 def _yardstick(problem: FilmProblem) -> Array:
