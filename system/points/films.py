@@ -27,7 +27,7 @@ from system.points.lumped import point_and_effects
 from system.pump.assembly import PumpPoint, assemble, met_point
 from system.pump.chamber.cycle import ChamberCycle, solve_cycle
 from system.pump.chamber.port_coupling import PortedCycle, ported_cycle
-from system.pump.chamber.problem import LeakTable
+from system.pump.chamber.problem import LeakTable, pressure_span
 from system.pump.chamber_kinds import Kinds, kinds
 from system.pump.film_thickness import at_temperature, unpressed
 from system.pump.land_losses import creeping_film_leaks, land_losses, with_inertia
@@ -133,7 +133,7 @@ def films_point(
         )
     every, work = SAMPLES_PER_PITCH // positions_per_pitch, _work(pump, point, physics)
     group, cycles, rounds = work.group, work.cycles, 0
-    limit = tolerance * (abs(point.delivery_pressure - point.inlet_pressure) + 1e5)
+    limit = tolerance * pressure_span(point.delivery_pressure, point.inlet_pressure)
     while rounds < ROUND_LIMIT:
         rounds += 1
         try:

@@ -16,7 +16,7 @@ from system.pump.chamber.port_coupling import Port, PortedCycle
 from system.pump.chamber.problem import LeakTable
 from system.pump.chamber.turn import Gaps
 from system.pump.laws.friction_pairs import FrictionPairs, Pair, over_chambers
-from system.pump.laws.kinematics import stroke
+from system.pump.laws.kinematics import displacement, stroke
 from system.pump.operating import OperatingPoint
 from system.pump.ports.areas import opening_area
 from system.pump.power import (
@@ -195,7 +195,7 @@ def put_together(
         exchange=exchange,
         bench=metered(reading, outside),
         power=power,
-        geometric_displacement=pistons * problem.piston_area * stroke(problem.drive),
+        geometric_displacement=displacement(pistons, problem.piston_area, stroke(problem.drive)),
         derived_displacement=derived_displacement,
         checks=PointChecks(
             mass_balance_error=cycle.checks.mass_balance_error,

@@ -14,6 +14,7 @@ import numpy as np
 
 from system.pump.chamber import layout as col
 from system.pump.chamber.layout import CAVITY_PRESSURE, INTEGRALS, PATHS, WAYS
+from system.pump.chamber.problem import pressure_span
 from system.pump.chamber.state_kernels import (
     cubics,
     f8,
@@ -252,7 +253,7 @@ def revolution(chamber, table, ports, nodes, pressure, tolerance, pressures, pat
     below `tolerance` times the port pressure difference.
     """
     c = chamber[0]
-    scale = tolerance * (abs(c.delivery_pressure - c.inlet_pressure) + 1e5)
+    scale = tolerance * pressure_span(c.delivery_pressure, c.inlet_pressure)
     work_scale = scale * c.piston_area * 2.0 * c.stroke_scale
     stages, ways, flows = np.empty((STAGES, COLUMNS)), np.empty(WAYS), np.empty(PATHS)
     content, swell = volume(chamber, table, nodes[0])

@@ -7,6 +7,7 @@ import numpy as np
 
 from system.pump.chamber.kernels import OK, TRAIL, revolution, slaved_pressure
 from system.pump.chamber.layout import INTEGRALS, PATHS
+from system.pump.chamber.problem import pressure_span
 from system.pump.chamber.state_kernels import oil_change, oil_of
 from system.pump.chamber.trail_kernels import NOT_PERIODIC, RUN_IN, follow_turn, sample
 
@@ -75,7 +76,7 @@ def beside_map(constants, tables, ports, nodes, firsts, control, trail, begins, 
 @numba.njit(cache=True, error_model="numpy")
 def turn_limit(chamber, periodicity):
     """`oil_change` over a turn (Pa) of one that is periodic."""
-    return periodicity * (abs(chamber.delivery_pressure - chamber.inlet_pressure) + 1e5)
+    return periodicity * pressure_span(chamber.delivery_pressure, chamber.inlet_pressure)
 
 
 @numba.njit(cache=True, error_model="numpy")
