@@ -65,6 +65,17 @@ def test_folder_holds_what_the_docs_say(folder):
     assert "swash_plate.damping" in page
 
 
+@pytest.mark.parametrize(("area", "told"), [("70 cm2", True), ("18 cm2", False)])
+def test_an_actuator_wider_than_the_circle_of_the_pistons_is_told(area, told, tmp_path):
+    short = SHORT.replace("18 cm2", area).replace("20 ms", "1 ms").replace('"0.6 MPa"', '"1 bar"')
+    (tmp_path / "wide.toml").write_text(short, "utf-8")
+    assert run_command(["transient", str(tmp_path / "wide.toml"), "-o", str(tmp_path / "out")]) == 0
+    warnings = json.loads((tmp_path / "out" / "summary.json").read_text("utf-8"))["warnings"]
+    found = [one for one in warnings if one.startswith("actuator_oversized: ")]
+    assert bool(found) is told
+    assert all("94.4 mm (limit 90 mm, the pistons' pitch circle)" in one for one in found)
+
+
 def test_a_contact_tells_when_it_is_and_how_often_the_plate_lifts():
     """Ten instants a turn of 1 s: the upper stop for a turn with a lift; after two turns the lower one to the end."""
     time = np.arange(61) * 0.1
