@@ -157,9 +157,3 @@ class Aerated:
         if self.bunsen == 0.0:
             return np.inf if self.free_air > 0.0 else 0.0
         return self.atmosphere * self.free_air / (self.bunsen * (1.0 - self.free_air))
-
-
-def effective_bulk_modulus(law: DensityLaw, pressure: ArrayLike) -> Array:
-    """K = rho dp/drho (Pa) of any density law at a gauge pressure (Pa)."""
-    ratio, slope = law(np.asarray(pressure, dtype=float))
-    return np.asarray(ratio / slope)
