@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from reynolds.errors import FilmInputError
+from reynolds.errors import BeyondBarus, FilmInputError
 from reynolds.laws.law import Tangent, require_positive, within
 from reynolds.laws.oil import HIGHEST_TEMPERATURE, LOWEST_TEMPERATURE, WALTHER_SHIFT, Oil, walther, walther_coefficients
 
@@ -20,10 +20,10 @@ ROELANDS_HIGHEST_PRESSURE = 1.0e9  # Pa; above, most oils are near their glass t
 def barus(pressure: ArrayLike, viscosity: ArrayLike, coefficient: float) -> Tangent:
     """mu = mu0 exp(alpha p) and dmu/dp; p Pa gauge, mu0 Pa s, alpha 1/Pa; arrays broadcast.
 
-    Source: Barus 1893. Validity: moderate pressure; raises FilmInputError beyond +-0.3 GPa.
+    Source: Barus 1893. Validity: moderate pressure; raises BeyondBarus beyond +-0.3 GPa.
     """
     remedy = "Roelands' law holds to 1 GPa"
-    p = within("Barus, pressure", pressure, -BARUS_HIGHEST_PRESSURE, BARUS_HIGHEST_PRESSURE, "Pa", remedy)
+    p = within("Barus, pressure", pressure, -BARUS_HIGHEST_PRESSURE, BARUS_HIGHEST_PRESSURE, "Pa", remedy, BeyondBarus)
     mu = np.asarray(viscosity, dtype=float) * np.exp(coefficient * p)
     return Tangent(mu, coefficient * mu)
 

@@ -10,7 +10,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from reynolds.errors import InputError, NotConverged, WallsOverlap
+from reynolds.errors import BeyondBarus, InputError, NotConverged, WallsOverlap
 from reynolds.numerics.arrays import Array
 from system.description.pump import PumpDescription
 from system.effects.applied import affected_leaks
@@ -22,7 +22,6 @@ from system.films.rotor import Rotor, rotor
 from system.inputs.units import TURN
 from system.points.effects import affected_problem, at_the_ports, mean_outside
 from system.points.film_effects import closed_laws, film_effects
-from system.points.friction_range import with_friction_range
 from system.points.lumped import point_and_effects
 from system.pump.assembly import PumpPoint, assemble, met_point
 from system.pump.chamber.cycle import ChamberCycle, solve_cycle
@@ -30,6 +29,7 @@ from system.pump.chamber.port_coupling import PortedCycle, ported_cycle
 from system.pump.chamber.problem import LeakTable, pressure_span
 from system.pump.chamber_kinds import Kinds, kinds
 from system.pump.film_thickness import at_temperature, unpressed
+from system.pump.friction_range import with_friction_range
 from system.pump.land_losses import creeping_film_leaks, land_losses, with_inertia
 from system.pump.laws.friction_pairs import FrictionPairs
 from system.pump.lumped import (
@@ -167,10 +167,10 @@ def _of_pump(pump: PumpDescription, reason: InputError) -> InputError | NotConve
     Beyond Barus' law, where plain oil would come to 1/a, (1 - exp(-a p))/a of the stiffening oil does at no pressure.
     """
     if isinstance(reason, WallsOverlap):
-        path, with_it = GIVEN_BY[reason.where.partition(" ")[0]]
+        path, with_it = GIVEN_BY[reason.part]
         return InputError(path, f"{reason.found} at the given position", f"walls apart: more of it, or less {with_it}")
     stated = pump.physics.viscosity_pressure
-    if stated is None or not reason.where.startswith("Barus"):
+    if stated is None or not isinstance(reason, BeyondBarus):
         return reason
     return NotConverged(
         "physics.viscosity_pressure: between rigid walls a film has no solution where plain oil would come to "

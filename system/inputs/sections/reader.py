@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from reynolds.errors import InputError
-from system.inputs.faults import Fault, InputFaults, nearest_choice, stated
+from system.inputs.faults import Fault, InputFaults, UnknownKey, nearest_choice, stated
 from system.inputs.sections.fields import AnySection, FieldType, FormulaOf, FromTable, fields_of
 from system.inputs.sections.values import HERE, broken_limit, names_of, read_value, wanted
 from system.inputs.toml_table import Table
@@ -41,9 +41,9 @@ class Reading:
 
     def unknown(self, section: str, key: str, known: Sequence[str]) -> None:
         """Note an unknown key; the known one that it is spelt like gets no fault of its own."""
-        near = nearest_choice(key, known)
-        self.fault(f"{section}{key}", "unknown key", f"one of {', '.join(known)}", near)
-        self.faulty.add(f"{section}{near}")
+        fault = UnknownKey.among(f"{section}{key}", key, known)
+        self.faults.append(fault)
+        self.faulty |= {fault.path, f"{section}{fault.nearest}"}
 
     def keys(self, path: str, model: type[Any]) -> list[str]:
         """Keys that a table may have."""
