@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -17,6 +18,11 @@ from system.inputs.units import Dimension
 from system.pump.operating import OperatingPoint, operating_point
 from system.pump_file.check import CheckWarning
 from system.pump_file.operating import check_operating_point
+
+MOST_POINTS = 100_000
+"""Largest number of points of a map: each keeps some 60 numbers by name, about 10 kB with its file's text."""
+LUMPED_SECONDS = 0.006
+"""Processor time (s) of a lumped point, about."""
 
 
 class MapInput(Enum):
@@ -87,6 +93,11 @@ class MapPlan:
         """Number of levels of each axis."""
         return tuple(len(axis.values) for axis in self.axes)
 
+    @property
+    def size(self) -> int:
+        """Number of points."""
+        return math.prod(self.shape)
+
     @cached_property
     def points(self) -> tuple[OperatingPoint, ...]:
         """All points, the last axis' level changing first; raises InputError where the oil's law is void."""
@@ -95,7 +106,13 @@ class MapPlan:
         return tuple(operating_point(self.pump, **dict(zip(names, level, strict=True))) for level in levels)
 
     def checked(self) -> MapCheck:
-        """Faults and warnings of all points, each listed once."""
+        """Faults and warnings of all points, each listed once; a fault of more than MOST_POINTS alone."""
+        return self._checked
+
+    @cached_property
+    def _checked(self) -> MapCheck:
+        if self.size > MOST_POINTS:
+            return MapCheck((self._too_many(),), {})
         faults: Counter[Fault] = Counter()
         warnings: dict[str, list[CheckWarning]] = {}
         for point in self.points:
@@ -103,12 +120,21 @@ class MapPlan:
             faults.update(report.faults)
             for warning in report.warnings:
                 warnings.setdefault(warning.path, []).append(warning)
-        size = len(self.points)
         listed = {
-            path: f"{path}: at {len(found)} of {size} points; at the first: {found[0].text}"
+            path: f"{path}: at {len(found)} of {self.size} points; at the first: {found[0].text}"
             for path, found in warnings.items()
         }
         return MapCheck(tuple(faults), listed)
+
+    def _too_many(self) -> Fault:
+        """The fault of a plan of more than MOST_POINTS."""
+        levels = " x ".join(f"{len(axis.values)} of {axis.input.words}" for axis in self.axes if len(axis.values) > 1)
+        most = (
+            f"at most {MOST_POINTS} points, which take {LUMPED_SECONDS * MOST_POINTS / 60.0:.0f} min at the lumped "
+            "fidelity and 1 GB of memory"
+        )
+        fewer = "fewer levels: numbers between them are interpolated (the map's error is measured)"
+        return Fault("points", f"{self.size}, levels {levels}", most, fewer)
 
 
 @dataclass(frozen=True)

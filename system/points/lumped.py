@@ -12,13 +12,13 @@ from system.effects.effect import Effects
 from system.effects.friction import rubbed
 from system.inputs.units import TURN
 from system.points.effects import affected_problem, at_the_ports, mean_outside, point_effects
-from system.points.friction_range import with_friction_range
 from system.pump.assembly import PumpPoint, assemble, met_point
 from system.pump.chamber.cycle import TOLERANCE, ChamberCycle
 from system.pump.chamber.port_coupling import PortedCycle, ported_cycle
 from system.pump.chamber.problem import LeakTable
 from system.pump.chamber_kinds import Kinds, kinds
 from system.pump.film_thickness import expansion
+from system.pump.friction_range import with_friction_range
 from system.pump.land_losses import land_losses, with_inertia
 from system.pump.lumped import (
     PistonMotion,

@@ -13,7 +13,7 @@ from swashfilm.console.command import Command
 from swashfilm.console.fidelity import Fidelity
 from swashfilm.console.inputs import COMMAND_LINE, expect, given_text, option_value, whole
 from swashfilm.console.settings import add_set_option, set_values
-from swashfilm.console.terminal import show, show_result
+from swashfilm.console.terminal import show, show_at_once, show_result
 from system.inputs.faults import Fault, InputFaults, nearest_choice
 
 if TYPE_CHECKING:
@@ -44,6 +44,8 @@ SOLVED = (Fidelity.FIXED.value, Fidelity.FLOATING.value)
 """Fidelities that solve films."""
 WORTH_TELLING = 120.0
 """Seconds of processor time above which the command says what it will take."""
+MANY = 5000
+"""Points whose check alone takes more than a second."""
 PLANS = ("paper", "point")
 
 
@@ -92,12 +94,28 @@ def run_map_command(options: argparse.Namespace) -> int:
     with (
         map_executor(options, asked) as executor,
         run_folder(f"map-{name}", options.output, workbook=options.excel) as folder,
-        progress(len(asked.plan.points), f"map {name}") as report,
+        progress(asked.plan.size, f"map {name}") as report,
     ):
-        run_map(asked, folder, executor, report)
+        try:
+            run_map(asked, folder, executor, report)
+        except KeyboardInterrupt:
+            raise _stopped(asked, folder) from None
         found = MapRun.opened(folder)
     show_result(found, folder, before=early)
     return ended(found.summary)
+
+
+def _stopped(asked: MapCase, folder: Path) -> KeyboardInterrupt:
+    """Return the interruption of a map: of one without a finished point it says so, and how long a point takes."""
+    from swashfilm.output.run_folder import Interrupted
+    from system.work.kept_results import POINTS
+
+    if any((folder / POINTS).glob("*.json")):
+        return KeyboardInterrupt()
+    if asked.by_table:
+        return Interrupted(None, "solved points of the response table are kept; the same command continues from them")
+    takes = f"one takes about {asked.point_seconds:.3g} s of processor time"
+    return Interrupted(None, f"no point is finished, {takes}; nothing was kept, and the same command starts again")
 
 
 @contextmanager
@@ -124,7 +142,7 @@ def map_case(options: argparse.Namespace, axes: Sequence[MapAxis] | None = None)
     """
     from swashfilm.console.floating_options import floating_options
     from swashfilm.runs.map.run import MapCase
-    from system.maps.plan import map_plan
+    from system.maps.plan import MOST_POINTS, map_plan
     from system.pump_file.file import load_pump
 
     faults = _word_faults(options)
@@ -136,6 +154,8 @@ def map_case(options: argparse.Namespace, axes: Sequence[MapAxis] | None = None)
     except InputFaults as reason:
         raise InputFaults(reason.source, [*faults, *reason.faults], reason.lines) from None
     plan = map_plan(pump, with_usual(options.plan, pump, own_axes) if axes is None else axes)
+    if MANY < plan.size <= MOST_POINTS:
+        show_at_once(f"{plan.size} points: each is checked before the first is solved")
     faults += [*by_option(plan.checked().faults), *_solver_faults(options, plan)]
     if faults:
         raise InputFaults(COMMAND_LINE, faults)
@@ -238,7 +258,7 @@ def _solver_faults(options: argparse.Namespace, plan: MapPlan) -> Iterator[Fault
     asked = MapCase(plan, fidelity, direct=options.direct)
     levels = len(plan.axes[list(MapInput).index(MapInput.INLET_PRESSURE)].values)
     if levels > 1 and (asked.by_table or fidelity is Fidelity.TABLE):
-        seconds = POINT_COST.get(fidelity, POINT_COST[Fidelity.FLOATING]) * len(plan.points)
+        seconds = POINT_COST.get(fidelity, POINT_COST[Fidelity.FLOATING]) * plan.size
         yield Fault(
             "--inlet-pressures", f"{levels} levels; a response table holds one",
             "one inlet pressure per map, --fidelity lumped, or --direct",

@@ -9,7 +9,6 @@ from system.effects.friction import rubbed
 from system.inputs.units import TURN
 from system.points.effects import affected_problem, at_the_ports, mean_outside
 from system.points.film_effects import closed_laws
-from system.points.friction_range import with_friction_range
 from system.points.lumped import point_and_effects
 from system.points.table.gap_numbers import gap_leaks, gap_losses, port_draws
 from system.points.table.means import FILM_RISE, GAP_PAIRS, given_films
@@ -21,6 +20,7 @@ from system.pump.chamber.port_coupling import ported_cycle
 from system.pump.chamber.problem import LeakTable
 from system.pump.chamber.turn import Gaps
 from system.pump.chamber_kinds import kinds
+from system.pump.friction_range import with_friction_range
 from system.pump.lumped import (
     PistonMotion,
     chamber_problem,

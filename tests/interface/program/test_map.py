@@ -158,6 +158,32 @@ def test_an_interrupted_map_goes_on(run, tmp_path, monkeypatch, capsys):
     assert (summary["kept"], summary["solved"]) == (35, 54)
 
 
+@pytest.mark.parametrize(
+    ("words", "told"),
+    [
+        (["--fidelity", "lumped"], "no point is finished, one takes about 0.006 s of processor time"),
+        (["--fidelity", "fixed", "--direct"], "no point is finished, one takes about 2 s of processor time"),
+    ],
+)
+def test_a_map_stopped_before_its_first_point_says_so(words, told, tmp_path, monkeypatch, capsys):
+    def stopped(*_, **__):
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr("swashfilm.runs.map.run.run_kept", stopped)
+    assert main(["map", str(BENCH), *words, "--workers", "1", "-o", str(tmp_path / "stopped")]) == 130
+    assert told in capsys.readouterr().err
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_a_grid_too_large_is_refused_before_its_points_are_made(tmp_path, monkeypatch, capsys):
+    monkeypatch.setattr("system.maps.plan.check_operating_point", lambda *_: pytest.fail("a point is checked"))
+    words = ["--speeds", "500..2100rpm:400", "--pressures", "5..35MPa:400", "--fidelity", "lumped"]
+    assert main(["map", str(BENCH), *words, "-o", str(tmp_path / "large")]) == 2
+    told = capsys.readouterr().err
+    assert "640000, levels 400 of shaft speed x 400 of delivery pressure x 4 of displacement ratio" in told
+    assert "at most 100000 points" in told
+
+
 def test_a_point_that_fails_stops_no_other(tmp_path, monkeypatch, capsys):
     solve = map_point.LumpedSolver.solve
 
