@@ -2,7 +2,7 @@
 
 Eqs. (1)-(5) of Xu, Hu, Zhang and Mao (2017), ISO 4391/4409, and an energy-exact split."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from typing import Generic
 
 import numpy as np
@@ -70,6 +70,10 @@ class Efficiency:
     overall: float
     volumetric: float
     hydromechanical: float
+
+
+EFFICIENCIES = tuple(part.name for part in fields(Efficiency))
+"""Names of the three efficiencies."""
 
 
 @dataclass(frozen=True)

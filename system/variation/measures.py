@@ -14,6 +14,7 @@ from system.inputs.shown import PERCENT, Shown, shown_in
 from system.inputs.units import TURN
 from system.maps.point import GAPS
 from system.points.table.means import SolvedPoint
+from system.pump.bench import EFFICIENCIES
 from system.variation.chamber_numbers import OF_FLOW, OF_PRESSURE, flow_numbers, pressure_numbers
 
 _BENCH = (
@@ -162,7 +163,7 @@ MEASURES = {
     one.name: one
     for one in (
         Measure(LOSS, "total loss", "W", _mean("loss")),
-        *(_efficiency(place, part) for place, part in enumerate(("overall", "volumetric", "hydromechanical"))),
+        *(_efficiency(place, part) for place, part in enumerate(EFFICIENCIES)),
         Measure(DRAIN, "case drain", "m3/s", _mean(DRAIN)),
         *_gaps("leakage", "leakage", "m3/s", _mean, Needs.PRESSURE),
         Measure("delivery_flow", "delivery flow", "m3/s", _mean("delivery_flow")),

@@ -11,7 +11,7 @@ from gaps.films.physics import Effect
 from gaps.revolution.march import GapRevolution, Leg
 from swashfilm.case.gap.physics import PHYSICS_HEAD, effect_rows
 from swashfilm.console.fidelity import Fidelity
-from swashfilm.output.data.files import add_group, read_netcdf
+from swashfilm.output.data.files import RESULTS, add_group, read_netcdf
 from swashfilm.output.data.gap_names import TITLES, kind_folder
 from swashfilm.output.page import inlined
 from swashfilm.output.run_folder import FAILED, write_json
@@ -38,7 +38,6 @@ from system.points.floating import FloatingKind, FloatingPoint
 from system.points.floating_gaps import FloatingOptions
 from system.points.floating_solved import GapsOfKind, Round, Solved, SolvedGap
 
-RESULTS = "results.nc"
 _OF_PUMP = ("format", "kind", "name", "gap", "physics_left_out", "physics_seconds", "assumptions", "warnings")
 
 
