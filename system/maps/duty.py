@@ -9,7 +9,7 @@ from reynolds.errors import InputError
 from reynolds.numerics.arrays import Array
 from system.inputs.faults import Fault, InputFaults
 from system.maps.data import LOSSES, MapData
-from system.maps.interpolation import MapError, MapInterpolant, inside, weights
+from system.maps.interpolation import MapError, MapInterpolant, box_text, outside, weights
 from system.maps.plan import MapAxis, MapInput
 from system.pump.efficiency import EfficiencyDefinition
 
@@ -110,20 +110,14 @@ def node_weights(axes: Sequence[MapAxis], cycle: Cycle) -> Array:
 
 def _hold_inside(axes: Sequence[MapAxis], cycle: Cycle) -> None:
     """Raise InputFaults with each input's first row outside the box; between rows a cycle cannot leave it."""
-    out = [
-        (int(np.argmin(good)), axis)
-        for axis in axes
-        if axis.input in cycle.inputs and not np.all(good := inside(axis, cycle.inputs[axis.input]))
-    ]
-    if out:
-        raise InputFaults("cycle", [_beyond(axis, cycle, row) for row, axis in out])
+    if out := outside(axes, cycle.inputs):
+        raise InputFaults("cycle", [_beyond(axis, cycle, row) for axis, row in out])
 
 
 def _beyond(axis: MapAxis, cycle: Cycle, row: int) -> Fault:
-    given, ends = axis.input, (axis.values[0], axis.values[-1])
+    given = axis.input
     found = f"{given.text(float(cycle.inputs[given][row]))} at {cycle.time[row]:.6g} s"
-    box = " .. ".join(dict.fromkeys(map(given.text, ends)))
-    return Fault(given.words, found, f"{box}, the map's box: nothing is extrapolated")
+    return Fault(given.words, found, box_text([axis]))
 
 
 def _stretches(cycle: Cycle) -> tuple[dict[MapInput, Array], Array]:
