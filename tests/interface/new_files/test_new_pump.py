@@ -91,7 +91,7 @@ def test_two_viscosities_in_place_of_a_grade(tmp_path):
     assert (oil.kinematic_viscosity_40C, oil.kinematic_viscosity_100C) == (46e-6, 6.8e-6)
 
 
-@pytest.mark.parametrize("short", ["VG 46", "iso vg 46", "VG46", "46"])
+@pytest.mark.parametrize("short", ["VG 46", "iso vg 46", "VG46", "46", "HLP 46", "HLP46", "hm 46", "HLPD 46"])
 def test_short_names_of_a_grade(tmp_path, short):
     assert 'grade = "ISO VG 46"' in _written(tmp_path, oil=short).read_text("utf-8")
 

@@ -53,6 +53,10 @@ def no_pictures(run, monkeypatch):
         ("60 rpm, 1..3rpm:2", MapInput.SPEED, [1, 3, 60]),
         ("0.28,1,.5", MapInput.RATIO, [0.28, 0.5, 1.0]),
         ("0.2..1:5", MapInput.RATIO, [0.2, 0.4, 0.6, 0.8, 1.0]),
+        ("28,51,100%", MapInput.RATIO, [0.28, 0.51, 1.0]),
+        ("20..100%:3", MapInput.RATIO, [0.2, 0.6, 1.0]),
+        ("1000,1300 1/min", MapInput.SPEED, [1000, 1300]),
+        ("20,35Hz", MapInput.SPEED, [1200, 2100]),
     ],
 )
 def test_levels_are_read(text, given, levels):
@@ -66,7 +70,6 @@ def test_levels_are_read(text, given, levels):
         ("5-35MPa", MapInput.PRESSURE, "5..35MPa:7"),
         ("5..35MPa", MapInput.PRESSURE, "5MPa..35MPa:7"),
         ("5..35", MapInput.PRESSURE, ""),
-        ("80%", MapInput.RATIO, "0.8"),
     ],
 )
 def test_habits_get_a_remedy(text, given, remedy):

@@ -94,9 +94,10 @@ def test_a_description_cannot_be_changed():
         pump.piston.radial_clearance = 1.0
 
 
-def test_absolute_pressure_becomes_gauge(tmp_path):
+@pytest.mark.parametrize("text", ["26 bar", "26 bara", "26 bar abs", "2.6 MPa absolute"])
+def test_absolute_pressure_becomes_gauge(tmp_path, text):
     file = tmp_path / "pump.toml"
-    file.write_text(_with_line(REF90, "operating.inlet_pressure", 'inlet_pressure_abs = "26 bar"'))
+    file.write_text(_with_line(REF90, "operating.inlet_pressure", f'inlet_pressure_abs = "{text}"'))
     assert load_pump(file).operating.inlet_pressure == 26e5 - STANDARD_ATMOSPHERE
 
 
