@@ -112,7 +112,7 @@ def varied_case(
 def cycle_axes(pump: PumpDescription, axes: Sequence[MapAxis], cycle: Path) -> list[MapAxis]:
     """Return the stated axes, and levels over the range of the cycle for the others that it varies."""
     stated = {axis.input for axis in axes}
-    inputs = read_cycle(cycle, map_plan(pump, ()).axes).inputs
+    inputs = read_cycle(cycle, map_plan(pump, ()).axes, within=False).inputs
     return [*axes, *(_over(given, inputs[given]) for given in inputs if given not in stated)]
 
 

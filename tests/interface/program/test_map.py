@@ -402,9 +402,9 @@ def test_a_cycle_may_have_semicolons_and_decimal_commas(run, tmp_path):
         ),
         (
             "time [s], speed [rpm], pressure [bar], displacement ratio [1]\n0,-5,200,1\n1,1500,500,1\n",
-            "cycle: 2 faults",
+            "cycle.csv: 2 faults",
         ),
-        ("time [s], speed [rpm], pressure [bar], displacement ratio [1]\n0,nan,1,1\n1,1,inf,1\n", "2 faults"),
+        ("time [s], speed [rpm], pressure [bar], displacement ratio [1]\n0,nan,200,1\n1,1500,inf,1\n", "2 faults"),
         ("time [s];speed [rpm];pressure [bar];displacement ratio [1]\n0;1;1;0,5\n1;1.5;1;1\n", "try:      0.5"),
         ("time [s], speed [rpm], pressure [bar], displacement ratio [1]\n0,1,1,0,5\n1,1,1,0,5\n", "5 cells"),
         ("time [s], speed [rpm], speed [rpm], displacement ratio [1]\n0,1,1,1\n1,1,1,1\n", "twice"),
@@ -417,3 +417,16 @@ def test_what_is_wrong_with_a_cycle_is_told(run, text, told, tmp_path, capsys):
     assert main(["duty", str(run), str(tmp_path / "cycle.csv"), "-o", str(tmp_path / "d")]) == 2
     assert told in capsys.readouterr().err
     assert not Path(tmp_path / "d").exists()
+def test_all_faults_of_a_cycle_come_at_once_with_their_lines(run, tmp_path, capsys):
+    """Cells that are no numbers, a time that falls, and inputs beyond the map."""
+    rows = "0,1500,200,1\n2,x,200,1\n1,-1500,200,1\n3,1500,0,1\n4,0,200,1,9\n5,0,200,1\n"
+    (tmp_path / "cycle.csv").write_text("time [s],speed [rpm],pressure [bar],displacement ratio [1]\n" + rows)
+    assert main(["duty", str(run), str(tmp_path / "cycle.csv"), "-o", str(tmp_path / "d")]) == 2
+    error = capsys.readouterr().err
+    for told in ("5 faults", "line 6", "speed, line 3", "time, line 4", "1 s after 2 s in line 3",
+                 "speed, lines 4, 7", "pressure, line 5", "the map's box"):  # fmt: skip
+        assert told in error
+
+
+        ("time [s], speed [rpm], pressure [bar], displacement ratio [1]\n1,1,1,1\n\n0,1,1,1\n", "time, line 4"),
+        ("time [s], speed [rpm], pressure [bar], displacement ratio [1]\n1,1,1,1\n1,1,1,1\n", "1 s in all 2 rows"),
