@@ -83,12 +83,17 @@ def pump_raises_pressure(pump: PumpDescription) -> Iterator[Finding]:
 def pressure_is_within_rating(pump: PumpDescription) -> Iterator[Finding]:
     """The delivery pressure does not exceed the rated one."""
     if pump.operating.pressure > pump.pump.rated_pressure:
-        yield CheckWarning(
-            "operating.pressure",
-            f"{pressure(pump.operating.pressure)} gauge",
-            f"rated_pressure, {pressure(pump.pump.rated_pressure)} (films and coefficients are extrapolated)",
-            "stay below it, or state a higher rated_pressure where the pump is made for it",
-        )
+        yield beyond_rated_pressure(pump.operating.pressure, pump.pump.rated_pressure)
+
+
+def beyond_rated_pressure(delivery: float, rated: float) -> CheckWarning:
+    """Return the warning of a delivery pressure above the rated one, Pa."""
+    return CheckWarning(
+        "operating.pressure",
+        f"{pressure(delivery)} gauge",
+        f"rated_pressure, {pressure(rated)} (films and coefficients are extrapolated)",
+        "stay below it, or state a higher rated_pressure where the pump is made for it",
+    )
 
 
 @needs("operating.pressure", "oil.bulk_modulus")
@@ -109,17 +114,21 @@ def oil_is_little_compressed(pump: PumpDescription) -> Iterator[Finding]:
 def speed_is_within_rating(pump: PumpDescription) -> Iterator[Finding]:
     """The shaft turns, and not faster than rated."""
     speed, rated = pump.operating.speed, pump.pump.rated_speed
-    shown = format_quantity(speed, Dimension.ANGULAR_SPEED, digits=4)
     if not speed > 0.0:
-        yield Fault("operating.speed", shown, "more than 0 rpm")
+        yield Fault("operating.speed", format_quantity(speed, Dimension.ANGULAR_SPEED, digits=4), "more than 0 rpm")
     elif speed > rated:
-        limit = format_quantity(rated, Dimension.ANGULAR_SPEED, digits=4)
-        yield CheckWarning(
-            "operating.speed",
-            shown,
-            f"rated_speed, {limit} (films and coefficients are extrapolated)",
-            "stay below it, or state a higher rated_speed where the pump is made for it",
-        )
+        yield beyond_rated_speed(speed, rated)
+
+
+def beyond_rated_speed(speed: float, rated: float) -> CheckWarning:
+    """Return the warning of a shaft speed above the rated one, rad/s."""
+    shown, limit = (format_quantity(one, Dimension.ANGULAR_SPEED, digits=4) for one in (speed, rated))
+    return CheckWarning(
+        "operating.speed",
+        shown,
+        f"rated_speed, {limit} (films and coefficients are extrapolated)",
+        "stay below it, or state a higher rated_speed where the pump is made for it",
+    )
 
 
 @needs("operating.displacement_ratio")

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterator, Mapping
-from itertools import groupby
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from swashfilm.output.page import keep_pictures, kept_text, read_summary, write_page
 from swashfilm.runs.map.answer import map_answer, overall_formula
+from swashfilm.runs.map.definitions import BY_NAME, agreeing, definition_words
 from swashfilm.runs.map.explorer import map_explorer
 from swashfilm.runs.map.files import MAP, read_map
 from swashfilm.runs.map.film_plots import film_pictures
@@ -110,13 +110,11 @@ def axis_rows(summary: Mapping[str, Any]) -> Iterator[tuple[str, str]]:
 def best_rows(summary: Mapping[str, Any]) -> Iterator[tuple[str, ...]]:
     """Yield (definitions, efficiency, point, formulas) of each best point; equal ones together."""
 
-    def shown(best: Mapping[str, Any]) -> tuple[str, str]:
-        return f"{100.0 * best['overall']:.2f} %", best["at"]
-
-    for (overall, at), alike in groupby(sorted(summary["best"], key=shown), shown):
-        listed = list(alike)
-        formulas = dict.fromkeys(overall_formula(one["formula"]) for one in listed)
-        yield "; ".join(one["label"] for one in listed), overall, at, "; ".join(formulas)
+    best = {BY_NAME[one["definition"]]: one for one in summary["best"]}
+    shown = {name: (f"{100.0 * one['overall']:.2f} %", one["at"]) for name, one in best.items()}
+    for alike, cells in agreeing(shown):
+        formulas = dict.fromkeys(overall_formula(best[one]["formula"]) for one in alike)
+        yield definition_words(alike), *cells, "; ".join(formulas)
 
 
 def displacement_rows(summary: Mapping[str, Any]) -> Iterator[tuple[str, ...]]:

@@ -66,7 +66,7 @@ def map_data() -> MapData:
     }  # fmt: skip
     text = [np.full(speed.shape, word) for word in ("solved", "")]
     remarks = objects([()] * speed.size, speed.shape)
-    return MapData("toy", "closed form", 1.6e9, axes, values, *text, remarks)
+    return MapData("toy", "closed form", 1.6e9, axes, values, *text, remarks, {})
 
 
 def film_explorer() -> Explorer:

@@ -13,6 +13,7 @@ import pytest
 import xarray
 from bench_pump import BENCH
 
+import swashfilm as sf
 from reynolds import NotConverged
 from swashfilm.__main__ import main
 from swashfilm.console.levels import map_axis
@@ -21,6 +22,7 @@ from swashfilm.runs.compare.run import Side, fidelity_warnings
 from swashfilm.runs.map.contour_levels import efficiency_levels
 from swashfilm.runs.map.duty.cycle_file import read_cycle
 from swashfilm.runs.map.files import read_map
+from swashfilm.runs.map.page import best_rows
 from system import Fault
 from system.maps import point as map_point
 from system.maps.plan import MapInput
@@ -379,6 +381,82 @@ def test_maps_of_unlike_fidelities_get_a_named_warning(run):
     assert not [*fidelity_warnings((both[0], both[0]))]
 
 
+def test_points_beyond_the_rating_are_told_by_all_three_in_the_same_words(tmp_path, capsys):
+    """A map, a cycle by it, and a comparison with a pump of a lower rating."""
+    place, other = tmp_path / "map", tmp_path / "other.toml"
+    levels = [
+        "--fidelity",
+        "lumped",
+        "--speeds",
+        "1000..2000rpm:3",
+        "--pressures",
+        "20,30,40MPa",
+        "--displacements",
+        "1",
+    ]
+    assert main(["map", str(BENCH), *levels, "-o", str(place)]) == 0
+    rated = "limit rated_pressure, 35 MPa (films and coefficients are extrapolated); stay below it"
+    assert f"operating.pressure: at 3 of 9 points; at the first: 40 MPa gauge, {rated}" in capsys.readouterr().out
+    cycle = tmp_path / "cycle.csv"
+    cycle.write_text("time [s],speed [rpm],pressure [bar],displacement ratio [1]\n0,1500,250,1\n9,1500,380,1\n10,1500,390,1\n")
+    assert main(["duty", str(place), str(cycle), "-o", str(tmp_path / "duty")]) == 0
+    told = f"operating.pressure: at 2 of 3 rows of the cycle; at the first: 38 MPa gauge, {rated}"
+    assert told in capsys.readouterr().out
+    text = (place / "resolved.toml").read_text()
+    other.write_text(re.sub('rated_pressure = ".*"', 'rated_pressure = "25 MPa"', text))
+    assert main(["compare", str(place), str(other), "--cycle", str(cycle), "-o", str(tmp_path / "cmp")]) == 0
+    out = capsys.readouterr().out
+    assert f", at 3 of 9 points; at the first: 40 MPa gauge, {rated}" in out
+    assert ", at 6 of 9 points; at the first: 30 MPa gauge, limit rated_pressure, 25 MPa" in out
+    assert "at 2 of 3 rows of the cycle; at the first: 38 MPa gauge, limit rated_pressure, 25 MPa" in out
+
+
+def test_rows_of_efficiency_begin_with_iso_4409_and_are_short(run, capsys):
+    summary = json.loads((run / "summary.json").read_text())
+    first, *others = (row[0] for row in best_rows(summary))
+    assert first.startswith("overall efficiency (ISO 4409)")
+    assert all(len(one) < 70 and one.startswith("overall efficiency (") for one in (first, *others))
+    titles = dict(sf.open(run).tables())
+    assert titles["Displacement"][0] == ("displacement ratio", "geometric", "swept", "by Toet (ISO 8426-1)")
+
+
+def test_the_error_of_a_duty_cycle_is_named(run, tmp_path, capsys):
+    """In the table, the tiles and the words: of interpolation, not of the pump's model."""
+    cycle = tmp_path / "cycle.csv"
+    cycle.write_text("time [s],speed [rpm],pressure [bar],displacement ratio [1]\n0,1500,250,1\n9,1500,300,1\n")
+    assert main(["duty", str(run), str(cycle), "-o", str(tmp_path / "duty")]) == 0
+    out = capsys.readouterr().out
+    assert "interpolation error  mean power" in out
+    assert "interpolation error [percentage points]" in out
+    page = (tmp_path / "duty" / "report.html").read_text().replace("\u00a0", " ")
+    assert re.search(r"interpolation error [\d.e-]+ percentage points", page)
+
+
+def test_pumps_of_two_sizes_are_compared_free_of_size(run, tmp_path, capsys):
+    """A pump beside itself has no such rows; one of another stroke has shares, torque and flow over displacement."""
+    assert main(["compare", str(run), str(run), "-o", str(tmp_path / "same")]) == 0
+    assert json.loads((tmp_path / "same" / "summary.json").read_text())["specific"] == []
+    assert "two sizes" not in capsys.readouterr().out
+    other = tmp_path / "other.toml"
+    text = (run / "resolved.toml").read_text()
+    text = re.sub('(?m)^displacement = "[^"]*".*\n', "", text)
+    other.write_text(re.sub('swash_angle_max = "[^"]*"', 'swash_angle_max = "12 deg"', text))
+    assert main(["compare", str(run), str(other), "-o", str(tmp_path / "cmp")]) == 0
+    assert "Pumps of two sizes: losses as shares of the shaft power at the same point" in capsys.readouterr().out
+    summary = json.loads((tmp_path / "cmp" / "summary.json").read_text())
+    one, two = summary["displacement_m3_per_rev"]
+    assert two < 0.9 * one
+    rows = {row["words"]: row for row in summary["specific"]}
+    torque = rows["shaft torque over displacement"]
+    assert torque["other"] / torque["one"] == pytest.approx(1.0, abs=0.1)
+    whole = rows["total loss, share of the shaft power"]
+    parts = sum(row["other"] for words, row in rows.items() if words.endswith("power") and row is not whole)
+    assert parts == pytest.approx(whole["other"], rel=2e-3)
+    page = (tmp_path / "cmp" / "report.html").read_text().replace("\u00a0", " ")
+    assert "Differences free of size" in page
+    assert "points of the shaft power" in page
+
+
 def test_a_cycle_may_have_semicolons_and_decimal_commas(run, tmp_path):
     rows = "time [s];speed [rpm];pressure [bar];displacement ratio [1]\n0;1500;200;0,5\n1,5;1500;200,5;1\n"
     (tmp_path / "cycle.csv").write_text(rows)
@@ -386,6 +464,17 @@ def test_a_cycle_may_have_semicolons_and_decimal_commas(run, tmp_path):
     assert found.time.tolist() == [0.0, 1.5]
     assert found.inputs[MapInput.RATIO].tolist() == [0.5, 1.0]
     assert found.inputs[MapInput.PRESSURE] == pytest.approx([20e6, 20.05e6])
+
+
+def test_all_faults_of_a_cycle_come_at_once_with_their_lines(run, tmp_path, capsys):
+    """Cells that are no numbers, a time that falls, and inputs beyond the map."""
+    rows = "0,1500,200,1\n2,x,200,1\n1,-1500,200,1\n3,1500,0,1\n4,0,200,1,9\n5,0,200,1\n"
+    (tmp_path / "cycle.csv").write_text("time [s],speed [rpm],pressure [bar],displacement ratio [1]\n" + rows)
+    assert main(["duty", str(run), str(tmp_path / "cycle.csv"), "-o", str(tmp_path / "d")]) == 2
+    error = capsys.readouterr().err
+    for told in ("5 faults", "line 6", "speed, line 3", "time, line 4", "1 s after 2 s in line 3",
+                 "speed, lines 4, 7", "pressure, line 5", "the map's box"):  # fmt: skip
+        assert told in error
 
 
 @pytest.mark.parametrize(
@@ -396,6 +485,8 @@ def test_a_cycle_may_have_semicolons_and_decimal_commas(run, tmp_path):
         ("time [s], speed [bar], pressure [bar], displacement ratio [1]\n0,1,1,1\n1,1,1,1\n", "rotational speed"),
         ("time [s], speed [rpm], pressure [bar], displacement ratio [1]\n0,x,1,1\n1,1,1,1\n", "speed, line 2"),
         ("time [s], speed [rpm], pressure [bar], displacement ratio [1]\n1,1,1,1\n0,1,1,1\n", "order of their time"),
+        ("time [s], speed [rpm], pressure [bar], displacement ratio [1]\n1,1,1,1\n\n0,1,1,1\n", "time, line 4"),
+        ("time [s], speed [rpm], pressure [bar], displacement ratio [1]\n1,1,1,1\n1,1,1,1\n", "1 s in all 2 rows"),
         (
             "time [s], speed [rpm], pressure [bar], displacement ratio [1]\n0,1500,200,1\n1,1500,500,1\n",
             "50 MPa at 1 s",
@@ -417,16 +508,3 @@ def test_what_is_wrong_with_a_cycle_is_told(run, text, told, tmp_path, capsys):
     assert main(["duty", str(run), str(tmp_path / "cycle.csv"), "-o", str(tmp_path / "d")]) == 2
     assert told in capsys.readouterr().err
     assert not Path(tmp_path / "d").exists()
-def test_all_faults_of_a_cycle_come_at_once_with_their_lines(run, tmp_path, capsys):
-    """Cells that are no numbers, a time that falls, and inputs beyond the map."""
-    rows = "0,1500,200,1\n2,x,200,1\n1,-1500,200,1\n3,1500,0,1\n4,0,200,1,9\n5,0,200,1\n"
-    (tmp_path / "cycle.csv").write_text("time [s],speed [rpm],pressure [bar],displacement ratio [1]\n" + rows)
-    assert main(["duty", str(run), str(tmp_path / "cycle.csv"), "-o", str(tmp_path / "d")]) == 2
-    error = capsys.readouterr().err
-    for told in ("5 faults", "line 6", "speed, line 3", "time, line 4", "1 s after 2 s in line 3",
-                 "speed, lines 4, 7", "pressure, line 5", "the map's box"):  # fmt: skip
-        assert told in error
-
-
-        ("time [s], speed [rpm], pressure [bar], displacement ratio [1]\n1,1,1,1\n\n0,1,1,1\n", "time, line 4"),
-        ("time [s], speed [rpm], pressure [bar], displacement ratio [1]\n1,1,1,1\n1,1,1,1\n", "1 s in all 2 rows"),

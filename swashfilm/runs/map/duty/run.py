@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import shutil
+from collections.abc import Iterator
 from dataclasses import asdict
 from pathlib import Path
 from typing import Any
@@ -19,6 +20,7 @@ from system.maps.data import MapData
 from system.maps.duty import Cycle, Duty, Energy, duty
 from system.maps.interpolation import MapError, MapInterpolant, left_out_error
 from system.maps.plan import MapInput
+from system.maps.rating import rating_warnings
 from system.pump.efficiency import EfficiencyDefinition
 
 FINE = 400
@@ -35,7 +37,7 @@ def run_duty(data: MapData, error: MapError | None, cycle: Cycle, given: Path, f
     found = duty(interpolant, cycle, known_error(data, error))
     shutil.copy(given, folder / "cycle.csv")
     _write_course(folder / COURSE, interpolant, cycle)
-    summary = duty_summary(data, found)
+    summary = duty_summary(data, found) | {"warnings": list(cycle_warnings(data, cycle))}
     write_json(folder / "summary.json", summary)
     write_duty_page(folder)
     return summary
@@ -71,6 +73,12 @@ def duty_summary(data: MapData, found: Duty) -> dict[str, Any]:
         },
         "marked": dict(found.marked),
     }
+
+
+def cycle_warnings(data: MapData, cycle: Cycle, prefix: str = "") -> Iterator[str]:
+    """Yield the warnings of a cycle whose rows exceed the pump's rating, as those of a map."""
+    held = {axis.input: np.full(cycle.time.shape, axis.values[0]) for axis in data.axes}
+    yield from rating_warnings(data, held | dict(cycle.inputs), "rows of the cycle", prefix)
 
 
 def _ratio(energy: Energy | None) -> dict[str, float | None]:
