@@ -420,6 +420,21 @@ def test_rows_of_efficiency_begin_with_iso_4409_and_are_short(run, capsys):
     assert titles["Displacement"][0] == ("displacement ratio", "geometric", "swept", "by Toet (ISO 8426-1)")
 
 
+def test_a_cycle_tells_the_points_with_a_warning_that_it_passes(tmp_path, capsys):
+    """A friction law below its speeds at 3 of 9 points, beside which the cycle is half of its time."""
+    levels = ["--fidelity", "lumped", "--speeds", "300,1000,2000rpm", "--pressures", "10,20,30MPa"]
+    assert main(["map", str(BENCH), *levels, "--displacements", "1", "-o", str(tmp_path / "map")]) == 0
+    cycle = tmp_path / "cycle.csv"
+    rows = "0,600,200,1\n5,600,200,1\n5,1500,200,1\n10,1500,200,1\n"
+    cycle.write_text("time [s],speed [rpm],pressure [bar],displacement ratio [1]\n" + rows)
+    capsys.readouterr()
+    assert main(["duty", str(tmp_path / "map"), str(cycle), "-o", str(tmp_path / "duty")]) == 0
+    told = "friction_at_low_speed: at 3 of 9 points of the map, beside which the cycle spends 50.0% of its time"
+    out = capsys.readouterr().out
+    assert told in out
+    assert "the shaft turns at 300 rpm (limit 500 rpm" in out
+
+
 def test_the_error_of_a_duty_cycle_is_named(run, tmp_path, capsys):
     """In the table, the tiles and the words: of interpolation, not of the pump's model."""
     cycle = tmp_path / "cycle.csv"

@@ -16,7 +16,7 @@ from swashfilm.output.run_folder import write_json
 from swashfilm.runs.map.duty.page import COURSE, write_duty_page
 from swashfilm.runs.map.duty.plots import RATIO
 from system.inputs.faults import Fault, InputFaults
-from system.maps.data import MapData
+from system.maps.data import MapData, warning_counts
 from system.maps.duty import Cycle, Duty, Energy, duty
 from system.maps.interpolation import MapError, MapInterpolant, left_out_error
 from system.maps.plan import MapInput
@@ -37,7 +37,8 @@ def run_duty(data: MapData, error: MapError | None, cycle: Cycle, given: Path, f
     found = duty(interpolant, cycle, known_error(data, error))
     shutil.copy(given, folder / "cycle.csv")
     _write_course(folder / COURSE, interpolant, cycle)
-    summary = duty_summary(data, found) | {"warnings": list(cycle_warnings(data, cycle))}
+    told = [*cycle_warnings(data, cycle), *point_warnings(data, found)]
+    summary = duty_summary(data, found) | {"warnings": told}
     write_json(folder / "summary.json", summary)
     write_duty_page(folder)
     return summary
@@ -79,6 +80,17 @@ def cycle_warnings(data: MapData, cycle: Cycle, prefix: str = "") -> Iterator[st
     """Yield the warnings of a cycle whose rows exceed the pump's rating, as those of a map."""
     held = {axis.input: np.full(cycle.time.shape, axis.values[0]) for axis in data.axes}
     yield from rating_warnings(data, held | dict(cycle.inputs), "rows of the cycle", prefix)
+
+
+def point_warnings(data: MapData, found: Duty) -> Iterator[str]:
+    """Yield each warning of the map's points that the cycle passes by, with their number and the time beside them."""
+    counts, solved = warning_counts(data), int(np.sum(data.solved))
+    for name, part in found.marked.items():
+        count, text = counts[name]
+        yield (
+            f"{name}: at {count} of {solved} points of the map, beside which the cycle spends {part:.1%} of its time; "
+            f"at the first: {text}"
+        )
 
 
 def _ratio(energy: Energy | None) -> dict[str, float | None]:
