@@ -398,7 +398,8 @@ def test_points_beyond_the_rating_are_told_by_all_three_in_the_same_words(tmp_pa
     rated = "limit rated_pressure, 35 MPa (films and coefficients are extrapolated); stay below it"
     assert f"operating.pressure: at 3 of 9 points; at the first: 40 MPa gauge, {rated}" in capsys.readouterr().out
     cycle = tmp_path / "cycle.csv"
-    cycle.write_text("time [s],speed [rpm],pressure [bar],displacement ratio [1]\n0,1500,250,1\n9,1500,380,1\n10,1500,390,1\n")
+    head = "time [s],speed [rpm],pressure [bar],displacement ratio [1]\n"
+    cycle.write_text(head + "0,1500,250,1\n9,1500,380,1\n10,1500,390,1\n")
     assert main(["duty", str(place), str(cycle), "-o", str(tmp_path / "duty")]) == 0
     told = f"operating.pressure: at 2 of 3 rows of the cycle; at the first: 38 MPa gauge, {rated}"
     assert told in capsys.readouterr().out
