@@ -12,6 +12,7 @@ import swashfilm as sf
 from swashfilm.__main__ import main
 from swashfilm.runs.variation import case
 from swashfilm.runs.variation.limits import limit_of
+from swashfilm.runs.variation.sensitivity.rows import cost_rows
 from swashfilm.runs.variation.tolerance.summary import table_warnings, warnings_of
 from system import load_pump, operating_point
 from system.maps.point import LumpedSolver, TableSolver
@@ -67,7 +68,16 @@ def test_files_of_a_sensitivity(costs):
     assert rows["slipper.film_thickness"]["change_text"] == "1 um"
     assert rows["ports.groove_start"]["change"] == pytest.approx(np.radians(1.0))
     assert rows["slipper.film_thickness"]["sigma"] == pytest.approx(0.8e-6)
-    assert [one["key"] for one in summary["refused"]] == ["bearings.front_share"]
+    (refused,) = summary["refused"]
+    assert refused["key"] == "bearings.front_share"
+    below, above = refused["reason"].removeprefix("the geometry refuses both sides: ").split("; ")
+    assert below.startswith("at 0.6138 bearings.rear_share: 0.38: front_share + rear_share = 0.9938")
+    assert above.startswith("at 0.6262 bearings.rear_share: 0.38: front_share + rear_share = 1.0062")
+    assert rows["slipper.film_thickness"]["percent"] == pytest.approx(1e-7)
+    assert rows["ports.groove_start"]["percent"] is None
+    (shown,) = (row for row in cost_rows(summary) if row[0] == "ports.groove_start")
+    assert shown[1:3] == ("0 deg", "+1 deg")
+    assert shown[5:] == ("", "", "", "")
     page = (costs / "report.html").read_text()
     assert "dearest by +1 um" in page
     assert "Dimensions without a derivative" in page
