@@ -11,12 +11,11 @@ from swashfilm.output.page import kept_pictures, read_summary, write_page
 from swashfilm.output.touch.picture import Picture
 from swashfilm.runs.compare.plots import FIRST
 from swashfilm.runs.map.answer import percent
-from swashfilm.runs.map.definitions import agreeing, definition_words
 from swashfilm.runs.map.duty.page import energy_text
-from swashfilm.runs.map.plots import HEADLINE
 from swashfilm.runs.map.slices import place_words
 from system.inputs.shown import ROUND_OFF
 from system.maps.data import LOSSES
+from system.maps.definitions import HEADLINE, agreeing, definition_words
 from system.maps.plan import MapInput
 from system.maps.specific import OF_POWER
 from system.pump.efficiency import EfficiencyDefinition

@@ -15,9 +15,10 @@ from swashfilm.output.touch.explorer import Control, Explorer
 from swashfilm.output.touch.packing import short
 from swashfilm.output.touch.traces import scale_of
 from swashfilm.runs.map.files import PARTS
-from swashfilm.runs.map.plots import HEADLINE, shared_fields
+from swashfilm.runs.map.plots import shared_fields
 from system.inputs.shown import shown_in, title_in, titled
 from system.maps.data import MapData
+from system.maps.definitions import HEADLINE
 from system.maps.interpolation import weights
 from system.maps.plan import MapAxis, MapInput, reading_levels
 from system.pump.efficiency import EfficiencyDefinition

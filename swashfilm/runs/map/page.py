@@ -9,13 +9,13 @@ from typing import TYPE_CHECKING, Any
 
 from swashfilm.output.page import keep_pictures, kept_text, read_summary, write_page
 from swashfilm.runs.map.answer import map_answer, overall_formula
-from swashfilm.runs.map.definitions import BY_NAME, agreeing, definition_words
 from swashfilm.runs.map.explorer import map_explorer
 from swashfilm.runs.map.files import MAP, read_map
 from swashfilm.runs.map.film_plots import film_pictures
 from swashfilm.runs.map.plots import definition_pictures, further_pictures, loss_pictures, main_picture
 from swashfilm.runs.map.slices import MOST_PANELS, held_levels, third_input, varied
 from system.maps.data import MapData
+from system.maps.definitions import BY_NAME, agreeing, definition_words
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

@@ -12,9 +12,8 @@ from swashfilm.output.data.files import read_columns
 from swashfilm.output.page import keep_pictures, read_summary, write_page
 from swashfilm.output.touch.picture import Picture
 from swashfilm.runs.map.answer import overall_formula, points_text
-from swashfilm.runs.map.definitions import BY_NAME, agreeing, definition_words
 from swashfilm.runs.map.duty.plots import BALANCE, course_plot, share_text, sinks_of, sinks_plot
-from swashfilm.runs.map.plots import HEADLINE
+from system.maps.definitions import BY_NAME, HEADLINE, agreeing, definition_words
 
 COURSE = "course.csv"
 ENERGY_HEAD = ("", "energy", "interpolation error", "mean power", "share of the loss")

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
-from swashfilm.runs.map.plots import HEADLINE
 from system.pump.efficiency import EfficiencyDefinition
 
+HEADLINE = EfficiencyDefinition.ISO_SWEPT
+"""Definition of the efficiency that a page shows first."""
 _SHORT = {
     EfficiencyDefinition.PAPER: "paper",
     HEADLINE: "ISO 4409",
@@ -14,8 +15,6 @@ _SHORT = {
     EfficiencyDefinition.ENERGY_RETURNED: "energy with compression",
     EfficiencyDefinition.ENERGY_NOT_RETURNED: "energy",
 }
-
-
 BY_NAME = {one.value: one for one in EfficiencyDefinition}
 """Definitions by their name in files."""
 
