@@ -92,12 +92,13 @@ def run_map_command(options: argparse.Namespace) -> int:
         show(f"{asked.points_words}: about {asked.cost / 60.0:.0f} min of processor time; --resume continues")
     name = asked.plan.pump.name
     with (
-        map_executor(options, asked) as executor,
         run_folder(f"map-{name}", options.output, workbook=options.excel) as folder,
         progress(asked.plan.size, f"map {name}") as report,
     ):
         try:
-            run_map(asked, folder, executor, report)
+            # Within the folder: after Ctrl-C the processes end the points they are at, and keep them there.
+            with map_executor(options, asked) as executor:
+                run_map(asked, folder, executor, report)
         except KeyboardInterrupt:
             raise _stopped(asked, folder) from None
         found = MapRun.opened(folder)
